@@ -1,0 +1,23 @@
+//! How can this mechanism move, and why?
+//!
+//! Data flows one way; each module uses only those above it in this list:
+//!
+//! 1. [`number`]: exact numbers beside their floating-point values, with the precision a file states.
+//! 2. [`matrix`]: rank decisions with margins: dense, sparse, in many digits, over a prime field.
+//! 3. [`mechanism`]: what a mechanism is; always valid.
+//! 4. [`format`](mod@format): file text to [`mechanism::Mechanism`] and back.
+//! 5. [`group`]: SE(3), twists, power series; the displacement subgroups.
+//! 6. [`graph`]: the spatial constraint graph, its blocks, spanning tree and cycles.
+//! 7. [`closure`]: the equations of the cycles: residual, Jacobian, assembly.
+//! 8. [`mobility`]: engines and the verdict.
+//! 9. [`report`]: what a person or a program reads.
+
+pub mod closure;
+pub mod format;
+pub mod graph;
+pub mod group;
+pub mod matrix;
+pub mod mechanism;
+pub mod mobility;
+pub mod number;
+pub mod report;

@@ -1,0 +1,3 @@
+//! The `kutzbach` command line.
+
+fn main() {}
