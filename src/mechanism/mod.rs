@@ -1,1 +1,35 @@
-//! (module essay)
+//! What a mechanism is.
+//!
+//! A [`Mechanism`] is rigid links held together by joints of Hervé's classes, plus linear couplings between joint variables.
+//! It is made by [`MechanismBuilder::build`] only, which checks everything once; what exists is valid, and nothing
+//! downstream checks again:
+//!
+//! - names are unique, every reference resolves, no joint connects a link with itself;
+//! - every link has exactly one [`Placement`]: the ground of the file's tree, or a home pose relative to another link,
+//!   without circles;
+//! - directions are not zero, numbers are finite, limits are ordered, couplings relate joints of one freedom.
+//!
+//! Geometry stays as the file wrote it: exact [`Number`](crate::number::Number)s in frames relative to links. Floating-point
+//! poses, in as many digits as a question needs, are computed from it by [`crate::closure`].
+
+mod builder;
+mod configuration;
+mod coupling;
+mod error;
+mod frame;
+mod joint;
+mod kind;
+mod link;
+mod model;
+mod scene;
+
+pub use builder::{JointBuilder, MechanismBuilder};
+pub use configuration::Configuration;
+pub use coupling::{Coupling, CouplingOrigin, CouplingTerm};
+pub use error::{Entity, MechanismError};
+pub use frame::{Direction, Frame};
+pub use joint::{Dynamics, Joint, Limit, Side};
+pub use kind::{FreedomPart, JointKind};
+pub use link::{Geometry, Inertial, Link, Placement, Shape};
+pub use model::{JointId, LinkId, Mechanism, Precision};
+pub use scene::{Drive, Expectation, Scene};
