@@ -1,1 +1,32 @@
-//! (module essay)
+//! How a mechanism can move: engines, and the one file that decides the verdict.
+//!
+//! The question is answered part by part ([`Structure`]): bridges are free, blocks that share no joint and no coupling
+//! cannot influence each other. Each part is counted ([`kutzbach_count`], [`generic_count`]), closed
+//! ([`crate::closure::assemble`]) and ranked at its pose ([`rank_part`]); from the kernel come the joints' roles
+//! ([`roles_of_part`]), from the left kernel the redundant constraints ([`SelfStresses`]) and what to relax
+//! ([`advice_for_part`]). [`judge`] intersects the bounds.
+//!
+//! Cost: near-linear in the mechanism where its loops are short and hang together like a chain; fronts of the sparse
+//! elimination grow with the width of a lattice.
+
+mod advice;
+mod analysis;
+mod cycles;
+mod generic;
+mod kutzbach;
+mod pose_rank;
+mod redundancy;
+mod roles;
+mod structure;
+mod verdict;
+
+pub use advice::{Advice, advice_for_part};
+pub use analysis::{Analysis, AnalysisError, AnalysisOptions, HomeFreedom, analyse};
+pub use cycles::{CycleFacts, cycle_facts};
+pub use generic::{GenericCount, generic_count};
+pub use kutzbach::kutzbach_count;
+pub use pose_rank::{LADDER, PartRank, Pose, rank_part};
+pub use redundancy::SelfStresses;
+pub use roles::{JointRole, freedom_groups, roles_of_part};
+pub use structure::{Structure, constraint_graph};
+pub use verdict::{Mobility, Verdict, judge};

@@ -1,0 +1,156 @@
+//! One cycle of the constraint graph, walked joint by joint.
+//!
+//! The walk starts in the frame of the cycle's first link, so nothing depends on where the mechanism stands in the world,
+//! nor on how far the cycle is from the ground: a chain of ten thousand loops keeps the digits of a single one.
+
+use super::displacement::JointState;
+use super::geometry::Geometry;
+use super::rigid::{PlacedScrew, Rigid, Vector};
+use crate::matrix::Real;
+
+/// A cycle as the closure module sees it: joints in order, and whether each is passed from predecessor to successor.
+pub type Walk = [(usize, bool)];
+
+/// The screws of one joint of a cycle, in the frame of the cycle's first link.
+#[derive(Clone, Debug)]
+pub struct WalkedJoint<R> {
+    /// Index of the joint.
+    pub joint: usize,
+    /// Whether the walk passes from predecessor to successor; the screws count negative otherwise.
+    pub forward: bool,
+    /// One screw per variable.
+    pub screws: Vec<PlacedScrew<R>>,
+    /// The predecessor's joint frame.
+    pub frame: Rigid<R>,
+}
+
+/// What a walk around a cycle finds.
+#[derive(Clone, Debug)]
+pub struct WalkedCycle<R> {
+    /// The joints in order.
+    pub joints: Vec<WalkedJoint<R>>,
+    /// What is left after going round: identity when the cycle closes.
+    pub closure: Rigid<R>,
+    /// A point near the cycle's axes (m, in the frame of its first link): the least-squares point of the axes.
+    pub centre: [f64; 3],
+    /// The cycle's own length scale (m): RMS distance of its axes to the centre; see [`characteristic_length`].
+    pub length: f64,
+    /// Largest coordinate met (m): rounding errors of positions are proportional to it.
+    pub reach: f64,
+}
+
+impl<R: Real> WalkedCycle<R> {
+    /// Walks around a cycle at given joint states.
+    pub fn walk(geometry: &Geometry<R>, states: &[JointState<R>], cycle: &Walk) -> Self {
+        let mut pose = Rigid::identity(&geometry.one);
+        let mut joints = Vec::with_capacity(cycle.len());
+        let mut reach = 0.0f64;
+        let far = |p: &Vector<R>| p.iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
+        for &(joint, forward) in cycle {
+            let [predecessor, successor] = &geometry.sides[joint];
+            let displacement = geometry.displacements[joint].displacement(&states[joint]);
+            reach = reach.max(far(&predecessor.translation)).max(far(&successor.translation));
+            let joint_frame = if forward {
+                let frame = pose.compose(predecessor);
+                pose = frame.compose(&displacement).compose(&successor.inverse());
+                frame
+            } else {
+                let frame = pose.compose(successor).compose(&displacement.inverse());
+                pose = frame.compose(&predecessor.inverse());
+                frame
+            };
+            reach = reach.max(far(&joint_frame.translation));
+            let screws = geometry.displacements[joint]
+                .screws(&states[joint])
+                .iter()
+                .map(|screw| screw.moved(&joint_frame))
+                .collect();
+            joints.push(WalkedJoint {
+                joint,
+                forward,
+                screws,
+                frame: joint_frame,
+            });
+        }
+        let (centre, length) = characteristic_length(joints.iter().flat_map(|j| &j.screws));
+        Self {
+            joints,
+            closure: pose,
+            centre,
+            length,
+            reach,
+        }
+    }
+
+    /// The six closure equations' value, about the centre: rotation vector (rad), then displacement of the centre in
+    /// units of the cycle's length.
+    pub fn residual(&self) -> [R; 6] {
+        let like = &self.closure.translation[0];
+        let centre = self.centre.map(|x| like.constant(x));
+        let inverse = like.one_like() / like.constant(self.length);
+        let rotation = self.closure.rotation_vector();
+        let moved = self.closure.apply(&centre);
+        let [a, b, c] = rotation;
+        let [x, y, z] = [0, 1, 2].map(|i| (moved[i].clone() - centre[i].clone()) * inverse.clone());
+        [a, b, c, x, y, z]
+    }
+
+    /// The column of one variable in the cycle's six rows: the screw about the centre, lengths in units of the cycle's
+    /// own, negative where the joint is passed backward.
+    pub fn column(&self, joint: &WalkedJoint<R>, screw: &PlacedScrew<R>) -> [R; 6] {
+        let like = &self.closure.translation[0];
+        let centre = self.centre.map(|x| like.constant(x));
+        let inverse = like.one_like() / like.constant(self.length);
+        let (angular, linear) = screw.about(&centre);
+        let [x, y, z] = linear.map(|v| v * inverse.clone());
+        let [a, b, c] = angular;
+        let column = [a, b, c, x, y, z];
+        if joint.forward { column } else { column.map(|v| -v) }
+    }
+}
+
+/// The least-squares point of a set of axes and the RMS distance of the axes to it (m).
+///
+/// The point minimises `Σ |(I − u uᵀ)(c − p)|²`. Where that leaves a direction open (all axes parallel) it stays at the
+/// mean of the axis points along that direction. Where no length is left (all axes meet in a point, or there are only
+/// translations), the length is the RMS distance of the axis points, or that of the pitches; finally 1 m.
+pub fn characteristic_length<'a, R: Real + 'a>(screws: impl Iterator<Item = &'a PlacedScrew<R>>) -> ([f64; 3], f64) {
+    use nalgebra::{Matrix3, Vector3};
+    let axes: Vec<(Vector3<f64>, Vector3<f64>, f64)> = screws
+        .filter_map(|screw| {
+            let u = Vector3::from(screw.angular.clone().map(|x| x.to_f64()));
+            let p = Vector3::from(screw.point.clone().map(|x| x.to_f64()));
+            let l = Vector3::from(screw.linear.clone().map(|x| x.to_f64()));
+            (u.norm() > 0.5 && p.iter().all(|x| x.is_finite())).then(|| (u.normalize(), p, l.norm()))
+        })
+        .collect();
+    if axes.is_empty() {
+        return ([0.0; 3], 1.0);
+    }
+    let count = axes.len() as f64;
+    let mean = axes.iter().map(|(_, p, _)| p).sum::<Vector3<f64>>() / count;
+    let mut normal = Matrix3::zeros();
+    let mut right = Vector3::zeros();
+    for (u, p, _) in &axes {
+        let across = Matrix3::identity() - u * u.transpose();
+        normal += across;
+        right += across * (p - mean);
+    }
+    // Directions the axes leave open have an eigenvalue of zero; 1e-6 of the count is far above rounding and far below
+    // what two axes that differ visibly in direction contribute, and a small shift of the centre does no harm.
+    let damped = normal + Matrix3::identity() * (1e-6 * count);
+    let centre = damped.try_inverse().map_or(mean, |inverse| mean + inverse * right);
+    let rms = |distances: &mut dyn Iterator<Item = f64>| (distances.map(|d| d * d).sum::<f64>() / count).sqrt();
+    let size = axes.iter().map(|(_, p, _)| (p - centre).norm()).fold(0.0, f64::max);
+    let mut length = rms(&mut axes.iter().map(|(u, p, _)| (p - centre).cross(u).norm()));
+    if !(length > 1e-9 * size) {
+        length = size;
+    }
+    if !(length > 0.0) {
+        length = rms(&mut axes.iter().map(|(_, _, pitch)| *pitch));
+    }
+    if !(length > 0.0 && length.is_finite()) {
+        length = 1.0;
+    }
+    (centre.into(), length)
+}

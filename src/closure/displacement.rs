@@ -1,0 +1,386 @@
+//! What a joint can do, as a product of elementary displacements.
+//!
+//! Every joint kind is a product of constant displacements and *factors*; a factor carries one to three variables and is
+//! advanced by right multiplication with an exponential, `F ← F exp(Σ ξᵢ dxᵢ)`. A ball is one factor with three
+//! generators, so there is no gimbal lock at any pose; at every state the derivative with respect to a variable is a
+//! screw fixed in the frame behind its factor.
+
+use super::rigid::{PlacedScrew, Rigid, Vector, cross, dot, length, perpendicular, subtract, unit};
+use crate::matrix::Real;
+use crate::mechanism::JointKind;
+
+/// A generator through the origin of its factor's frame: (angular; linear).
+#[derive(Clone, Debug)]
+struct Generator<R> {
+    angular: Vector<R>,
+    linear: Vector<R>,
+}
+
+#[derive(Clone, Debug)]
+struct Factor<R> {
+    /// Constant displacement before the factor.
+    before: Rigid<R>,
+    generators: Vec<Generator<R>>,
+}
+
+/// The displacement set of one joint, in the arithmetic `R`: directions are unit vectors, the pitch is in metres per
+/// radian.
+#[derive(Clone, Debug)]
+pub struct JointDisplacement<R> {
+    kind: JointKind,
+    axis: Vector<R>,
+    axis2: Vector<R>,
+    pitch: R,
+    distance: R,
+    factors: Vec<Factor<R>>,
+}
+
+/// Where a joint stands: one displacement per factor, and the accumulated value of every variable.
+#[derive(Clone, Debug)]
+pub struct JointState<R> {
+    factors: Vec<Rigid<R>>,
+    /// Value of every variable (rad, m). For balls, the accumulated increments, of use near the home pose only.
+    pub values: Vec<R>,
+}
+
+impl<R: Real> JointDisplacement<R> {
+    /// The displacement set of a kind. `axis` in the predecessor's frame and `axis2` in the successor's must not be zero
+    /// where the kind uses them; `pitch` is metres per radian; `distance` is in metres.
+    pub fn new(kind: JointKind, axis: &Vector<R>, axis2: &Vector<R>, pitch: &R, distance: &R) -> Self {
+        let like = pitch;
+        let zero = || [0, 1, 2].map(|_| like.zero_like());
+        let axis = if kind.uses_axis() { unit(axis) } else { zero() };
+        let axis2 = if kind.uses_second_axis() { unit(axis2) } else { zero() };
+        let here = || Rigid::identity(like);
+        let base = |i: usize| {
+            let mut v = zero();
+            v[i] = like.one_like();
+            v
+        };
+        let turn = |a: &Vector<R>| Generator {
+            angular: a.clone(),
+            linear: zero(),
+        };
+        let slide = |a: &Vector<R>| Generator {
+            angular: zero(),
+            linear: a.clone(),
+        };
+        let helix = |a: &Vector<R>| Generator {
+            angular: a.clone(),
+            linear: a.clone().map(|x| x * pitch.clone()),
+        };
+        let single = |generator: Generator<R>| Factor {
+            before: here(),
+            generators: vec![generator],
+        };
+        let ball = |before: Rigid<R>| Factor {
+            before,
+            generators: (0..3).map(|i| turn(&base(i))).collect(),
+        };
+        let factors = match kind {
+            JointKind::Fixed => vec![],
+            JointKind::Revolute => vec![single(turn(&axis))],
+            JointKind::Prismatic => vec![single(slide(&axis))],
+            JointKind::Screw => vec![single(helix(&axis))],
+            JointKind::Cylindrical => vec![single(slide(&axis)), single(turn(&axis))],
+            JointKind::Universal => vec![single(turn(&axis)), single(turn(&axis2))],
+            JointKind::PlanarTranslation => {
+                let (e1, e2) = perpendicular(&axis);
+                vec![single(slide(&e1)), single(slide(&e2))]
+            }
+            JointKind::Planar => {
+                let (e1, e2) = perpendicular(&axis);
+                vec![single(slide(&e1)), single(slide(&e2)), single(turn(&axis))]
+            }
+            JointKind::Spherical => vec![ball(here())],
+            JointKind::Translational => (0..3).map(|i| single(slide(&base(i)))).collect(),
+            JointKind::TranslatingScrew => {
+                let (e1, e2) = perpendicular(&axis);
+                vec![single(slide(&e1)), single(slide(&e2)), single(helix(&axis))]
+            }
+            JointKind::Schoenflies => {
+                let mut factors: Vec<Factor<R>> = (0..3).map(|i| single(slide(&base(i)))).collect();
+                factors.push(single(turn(&axis)));
+                factors
+            }
+            JointKind::PointOnLine => vec![ball(here()), single(slide(&axis2))],
+            JointKind::PointOnPlane => {
+                let (e1, e2) = perpendicular(&axis2);
+                vec![ball(here()), single(slide(&e1)), single(slide(&e2))]
+            }
+            JointKind::LineOnPlane => {
+                let (e1, e2) = perpendicular(&axis2);
+                let mut first = single(slide(&e1));
+                first.before = into_plane(&axis, &axis2);
+                vec![single(turn(&axis)), first, single(slide(&e2)), single(turn(&axis2))]
+            }
+            JointKind::Distance => {
+                let rod = base(0).map(|x| x * distance.clone());
+                vec![
+                    Factor {
+                        before: here(),
+                        generators: vec![turn(&base(1)), turn(&base(2))],
+                    },
+                    ball(Rigid::translation(rod)),
+                ]
+            }
+        };
+        Self {
+            kind,
+            axis,
+            axis2,
+            pitch: pitch.clone(),
+            distance: distance.clone(),
+            factors,
+        }
+    }
+
+    /// The joint's kind.
+    pub fn kind(&self) -> JointKind {
+        self.kind
+    }
+
+    /// Number of variables.
+    pub fn freedom(&self) -> usize {
+        self.kind.freedom()
+    }
+
+    /// The state with all variables zero.
+    pub fn home(&self) -> JointState<R> {
+        JointState {
+            factors: self.factors.iter().map(|_| Rigid::identity(&self.pitch)).collect(),
+            values: vec![self.pitch.zero_like(); self.freedom()],
+        }
+    }
+
+    /// The state with given values; a ball takes them as a rotation vector. Missing values count as zero.
+    pub fn at(&self, values: &[R]) -> JointState<R> {
+        let mut state = self.home();
+        let mut increments = values.to_vec();
+        increments.resize(self.freedom(), self.pitch.zero_like());
+        self.advance(&mut state, &increments);
+        state
+    }
+
+    /// The displacement `predecessor_frame -> successor_frame` of a state.
+    pub fn displacement(&self, state: &JointState<R>) -> Rigid<R> {
+        let mut total = Rigid::identity(&self.pitch);
+        for (factor, value) in self.factors.iter().zip(&state.factors) {
+            total = total.compose(&factor.before).compose(value);
+        }
+        total
+    }
+
+    /// One screw per variable, in the predecessor's joint frame, at a state: the successor's twist relative to the
+    /// predecessor is their sum weighted by the rates.
+    pub fn screws(&self, state: &JointState<R>) -> Vec<PlacedScrew<R>> {
+        let mut screws = Vec::with_capacity(self.freedom());
+        let mut total = Rigid::identity(&self.pitch);
+        for (factor, value) in self.factors.iter().zip(&state.factors) {
+            total = total.compose(&factor.before).compose(value);
+            for generator in &factor.generators {
+                screws.push(PlacedScrew {
+                    angular: total.rotate(&generator.angular),
+                    point: total.translation.clone(),
+                    linear: total.rotate(&generator.linear),
+                });
+            }
+        }
+        screws
+    }
+
+    /// A state found in double precision, taken over into this arithmetic: variables of fixed axes are applied anew, so
+    /// that the displacement is one the joint can make to the last bit; the rotations of balls are made orthonormal.
+    pub fn adopt(&self, state: &JointState<f64>) -> JointState<R> {
+        let like = &self.pitch;
+        let values: Vec<R> = state.values.iter().map(|v| like.constant(*v)).collect();
+        let mut adopted = self.at(&values);
+        for (index, factor) in self.factors.iter().enumerate() {
+            if factor.generators.len() == 1 {
+                continue;
+            }
+            let rows = &state.factors[index].rotation;
+            let row = |i: usize| [0, 1, 2].map(|j| like.constant(rows[i][j]));
+            let x = unit(&row(0));
+            let y = row(1);
+            let y = unit(&subtract(&y, &super::rigid::scale(&x, &dot(&x, &y))));
+            let z = cross(&x, &y);
+            adopted.factors[index].rotation = [x, y, z];
+        }
+        adopted
+    }
+
+    /// Advances every variable by an increment (rad, m).
+    pub fn advance(&self, state: &mut JointState<R>, increments: &[R]) {
+        let mut next = 0;
+        for (factor, value) in self.factors.iter().zip(&mut state.factors) {
+            let zero = self.pitch.zero_like();
+            let mut angular = [0, 1, 2].map(|_| zero.clone());
+            let mut linear = angular.clone();
+            for generator in &factor.generators {
+                let Some(increment) = increments.get(next) else { return };
+                for i in 0..3 {
+                    angular[i] = angular[i].clone() + generator.angular[i].clone() * increment.clone();
+                    linear[i] = linear[i].clone() + generator.linear[i].clone() * increment.clone();
+                }
+                state.values[next] = state.values[next].clone() + increment.clone();
+                next += 1;
+            }
+            *value = value.compose(&Rigid::exponential(&angular, &linear));
+        }
+    }
+
+    /// The state whose displacement is a given one, or comes near it where the joint cannot reach it: rotations about
+    /// fixed axes are chosen to turn as far as the given rotation does, translations are projected.
+    pub fn fit(&self, wanted: &Rigid<R>) -> JointState<R> {
+        let zero = self.pitch.zero_like();
+        let turn_about = |axis: &Vector<R>, displacement: &Rigid<R>| {
+            let r = &displacement.rotation;
+            let antisymmetric = [
+                r[2][1].clone() - r[1][2].clone(),
+                r[0][2].clone() - r[2][0].clone(),
+                r[1][0].clone() - r[0][1].clone(),
+            ];
+            let trace = r[0][0].clone() + r[1][1].clone() + r[2][2].clone();
+            dot(axis, &antisymmetric).atan2(&(trace - dot(axis, &displacement.rotate(axis))))
+        };
+        let angle_between = |axis: &Vector<R>, from: &Vector<R>, to: &Vector<R>| {
+            dot(axis, &cross(from, to)).atan2(&(dot(from, to) - dot(axis, from) * dot(axis, to)))
+        };
+        let rotated_by = |axis: &Vector<R>, angle: &R| {
+            let (sine, cosine) = angle.sin_cos();
+            Rigid::rotation(axis, &cosine, &sine)
+        };
+        let t = &wanted.translation;
+        match self.kind {
+            JointKind::Fixed => self.home(),
+            JointKind::Revolute => self.at(&[turn_about(&self.axis, wanted)]),
+            JointKind::Prismatic => self.at(&[dot(&self.axis, t)]),
+            JointKind::Screw => self.at(&[self.whole_turns(turn_about(&self.axis, wanted), t)]),
+            JointKind::Cylindrical => self.at(&[dot(&self.axis, t), turn_about(&self.axis, wanted)]),
+            JointKind::Universal => {
+                let first = angle_between(&self.axis, &self.axis2, &wanted.rotate(&self.axis2));
+                let rest = rotated_by(&self.axis, &first).inverse().compose(wanted);
+                self.at(&[first, turn_about(&self.axis2, &rest)])
+            }
+            JointKind::PlanarTranslation | JointKind::Planar | JointKind::TranslatingScrew => {
+                let (e1, e2) = perpendicular(&self.axis);
+                let angle = self.whole_turns(turn_about(&self.axis, wanted), t);
+                let mut values = vec![dot(&e1, t), dot(&e2, t), angle];
+                values.truncate(self.freedom());
+                self.at(&values)
+            }
+            JointKind::Translational | JointKind::Schoenflies => {
+                let mut values = t.to_vec();
+                if self.kind == JointKind::Schoenflies {
+                    values.push(turn_about(&self.axis, wanted));
+                }
+                self.at(&values)
+            }
+            JointKind::Spherical => self.at(&wanted.rotation_vector()),
+            JointKind::PointOnLine | JointKind::PointOnPlane => {
+                let behind = wanted.rotate_back(t);
+                let mut values = wanted.rotation_vector().to_vec();
+                if self.kind == JointKind::PointOnLine {
+                    values.push(dot(&self.axis2, &behind));
+                } else {
+                    let (e1, e2) = perpendicular(&self.axis2);
+                    values.extend([dot(&e1, &behind), dot(&e2, &behind)]);
+                }
+                self.at(&values)
+            }
+            JointKind::LineOnPlane => {
+                let start = into_plane(&self.axis, &self.axis2);
+                let normal = start.rotate(&self.axis2);
+                let first = angle_between(&self.axis, &normal, &wanted.rotate(&self.axis2));
+                let turned = rotated_by(&self.axis, &first).compose(&start);
+                let rest = turned.inverse().compose(wanted);
+                let (e1, e2) = perpendicular(&self.axis2);
+                let values = [
+                    first,
+                    dot(&e1, &rest.translation),
+                    dot(&e2, &rest.translation),
+                    turn_about(&self.axis2, &rest),
+                ];
+                self.at(&values)
+            }
+            JointKind::Distance => {
+                let reach = length(t);
+                let mut state = self.home();
+                if reach.to_f64() > 0.0 {
+                    let mut x = [0, 1, 2].map(|_| zero.clone());
+                    x[0] = zero.one_like();
+                    state.factors[0] = shortest_rotation(&x, &unit(t));
+                }
+                state.factors[1] = state.factors[0].inverse().compose(wanted);
+                state.factors[1].translation = [0, 1, 2].map(|_| zero.clone());
+                state
+            }
+        }
+    }
+
+    /// The turn of a screw that agrees best with how far it has travelled.
+    fn whole_turns(&self, angle: R, travelled: &Vector<R>) -> R {
+        if !self.kind.uses_lead() || !(self.pitch.abs().to_f64() > 0.0) {
+            return angle;
+        }
+        let wanted = (dot(&self.axis, travelled) / self.pitch.clone()).to_f64();
+        let turns = ((wanted - angle.to_f64()) / std::f64::consts::TAU).round();
+        if !turns.is_finite() || turns == 0.0 {
+            return angle;
+        }
+        // Whole turns in the arithmetic at hand: π = atan2(0, −1).
+        let pi = angle.zero_like().atan2(&-angle.one_like());
+        let two_turns = angle.constant(2.0 * turns);
+        angle + pi * two_turns
+    }
+
+    /// The unit axis in the predecessor's frame; zero where the kind has none.
+    pub fn axis(&self) -> &Vector<R> {
+        &self.axis
+    }
+
+    /// The unit second axis in the successor's frame; zero where the kind has none.
+    pub fn second_axis(&self) -> &Vector<R> {
+        &self.axis2
+    }
+
+    /// Two unit vectors across the axis, the in-plane directions of planar kinds. Not finite without an axis.
+    pub fn across(&self) -> (Vector<R>, Vector<R>) {
+        perpendicular(&self.axis)
+    }
+
+    /// The fixed distance of a distance joint, in metres.
+    pub fn distance(&self) -> &R {
+        &self.distance
+    }
+}
+
+/// The smallest rotation that makes a plane's normal perpendicular to a line's direction; identity where it is already.
+fn into_plane<R: Real>(line: &Vector<R>, normal: &Vector<R>) -> Rigid<R> {
+    let along = dot(line, normal);
+    if along.is_zero() {
+        return Rigid::identity(&line[0]);
+    }
+    let across = subtract(normal, &super::rigid::scale(line, &along));
+    let target = if length(&across).to_f64() > 0.0 {
+        unit(&across)
+    } else {
+        perpendicular(line).0
+    };
+    shortest_rotation(normal, &target)
+}
+
+/// The rotation between two unit vectors by the smallest angle; about any perpendicular axis where they are opposite.
+fn shortest_rotation<R: Real>(from: &Vector<R>, to: &Vector<R>) -> Rigid<R> {
+    let axis = cross(from, to);
+    let sine = length(&axis);
+    let cosine = dot(from, to);
+    if sine.to_f64() > 0.0 {
+        return Rigid::rotation(&axis.map(|x| x / sine.clone()), &cosine, &sine);
+    }
+    if cosine > cosine.zero_like() {
+        return Rigid::identity(&cosine);
+    }
+    Rigid::rotation(&perpendicular(from).0, &cosine, &sine)
+}

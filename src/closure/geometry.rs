@@ -1,0 +1,207 @@
+//! From the exact numbers of a mechanism to frames in an arithmetic of choice.
+
+use super::displacement::{JointDisplacement, JointState};
+use super::rigid::{Rigid, Vector};
+use crate::matrix::Real;
+use crate::mechanism::{Configuration, Direction, Frame, Joint, JointKind, Mechanism, Placement};
+use crate::number::Number;
+
+/// How to turn an exact number into the arithmetic `R`: rounding to double, or evaluating to some number of bits.
+pub struct Arithmetic<R> {
+    convert: Box<dyn Fn(&Number) -> R>,
+    one: R,
+}
+
+impl Arithmetic<f64> {
+    /// Double precision.
+    #[must_use]
+    pub fn double() -> Self {
+        Self {
+            convert: Box::new(Number::value),
+            one: 1.0,
+        }
+    }
+}
+
+impl Arithmetic<crate::matrix::Big> {
+    /// As many bits as asked for.
+    #[must_use]
+    pub fn bits(bits: u32) -> Self {
+        Self {
+            // A few bits more than the working precision, so that conversion rounds once.
+            convert: Box::new(move |number| crate::matrix::Big::from_float(number.evaluate(bits as usize + 8), bits)),
+            one: crate::matrix::Big::new(1.0, bits),
+        }
+    }
+}
+
+impl<R: Real> Arithmetic<R> {
+    /// A number in this arithmetic.
+    pub fn number(&self, number: &Number) -> R {
+        (self.convert)(number)
+    }
+
+    /// One, from which other constants are made.
+    pub fn one(&self) -> &R {
+        &self.one
+    }
+
+    fn vector(&self, components: &[Number; 3]) -> Vector<R> {
+        [0, 1, 2].map(|i| self.number(&components[i]))
+    }
+
+    /// A direction, not normalised.
+    fn direction(&self, direction: &Direction) -> Vector<R> {
+        self.vector(&direction.0)
+    }
+
+    /// URDF's fixed-axis convention: `R = Rz(yaw) Ry(pitch) Rx(roll)`.
+    fn frame(&self, frame: &Frame) -> Rigid<R> {
+        let mut pose = Rigid::translation(self.vector(&frame.position));
+        for axis in [2, 1, 0] {
+            let angle = &frame.roll_pitch_yaw[axis];
+            if angle.is_zero() {
+                continue;
+            }
+            let (sine, cosine) = self.number(angle).sin_cos();
+            let mut direction = [0, 1, 2].map(|_| self.one.zero_like());
+            direction[axis] = self.one.clone();
+            pose = pose.compose(&Rigid::rotation(&direction, &cosine, &sine));
+        }
+        pose
+    }
+}
+
+/// A mechanism in an arithmetic: joint frames, displacement sets, and the pose that the file gives.
+#[derive(Clone, Debug)]
+pub struct Geometry<R> {
+    /// `link_from_joint` of the predecessor and of the successor, for every joint.
+    pub sides: Vec<[Rigid<R>; 2]>,
+    /// What every joint allows.
+    pub displacements: Vec<JointDisplacement<R>>,
+    /// `world_from_link` of every link as the file places it.
+    pub home: Vec<Rigid<R>>,
+    /// Every joint's state at the file pose: exact for tree joints, fitted for loops.
+    pub states: Vec<JointState<R>>,
+    /// Couplings as rows `Σ factor · variable = offset`; variables by joint, each of one freedom.
+    pub couplings: Vec<(Vec<(usize, R)>, R)>,
+    /// One, in the arithmetic.
+    pub one: R,
+}
+
+impl<R: Real> Geometry<R> {
+    /// Evaluates a mechanism at the home pose or at a configuration. Cost: linear in the mechanism.
+    pub fn new(mechanism: &Mechanism, configuration: Option<&Configuration>, arithmetic: &Arithmetic<R>) -> Self {
+        let one = arithmetic.one().clone();
+        let values_of = |joint: usize| -> Option<Vec<R>> {
+            let (_, values) = configuration?.positions.iter().find(|(id, _)| id.0 == joint)?;
+            Some(values.iter().map(|v| arithmetic.number(v)).collect())
+        };
+        let configured: Vec<Option<Vec<R>>> = if configuration.is_some() {
+            (0..mechanism.joints().len()).map(values_of).collect()
+        } else {
+            vec![None; mechanism.joints().len()]
+        };
+        let sides: Vec<[Rigid<R>; 2]> = mechanism
+            .joints()
+            .iter()
+            .map(|joint| [&joint.predecessor, &joint.successor].map(|side| arithmetic.frame(&side.frame)))
+            .collect();
+        let mut displacements: Vec<Option<JointDisplacement<R>>> = vec![None; sides.len()];
+        let mut states: Vec<Option<JointState<R>>> = vec![None; sides.len()];
+        let mut home = vec![Rigid::identity(&one); mechanism.links().len()];
+        for &link in mechanism.placement_order() {
+            match &mechanism.link(link).placement {
+                Placement::World => {}
+                Placement::Floating { parent, origin, .. } => {
+                    home[link.0] = home[parent.0].compose(&arithmetic.frame(origin));
+                }
+                Placement::Joint(id) => {
+                    let joint = mechanism.joint(*id);
+                    let displacement = joint_displacement(joint, arithmetic, &one);
+                    let state = match &configured[id.0] {
+                        Some(values) => displacement.at(values),
+                        None => displacement.home(),
+                    };
+                    home[link.0] = home[joint.predecessor.link.0]
+                        .compose(&sides[id.0][0])
+                        .compose(&displacement.displacement(&state))
+                        .compose(&sides[id.0][1].inverse());
+                    displacements[id.0] = Some(displacement);
+                    states[id.0] = Some(state);
+                }
+            }
+        }
+        for (index, joint) in mechanism.joints().iter().enumerate() {
+            if displacements[index].is_some() {
+                continue;
+            }
+            let relative = relative(&home, joint, &sides[index]);
+            let reach = super::rigid::length(&relative.translation);
+            let displacement = joint_displacement(joint, arithmetic, &reach);
+            states[index] = Some(match &configured[index] {
+                Some(values) => displacement.at(values),
+                None => displacement.fit(&relative),
+            });
+            displacements[index] = Some(displacement);
+        }
+        let couplings = mechanism
+            .couplings()
+            .iter()
+            .map(|coupling| {
+                let terms = coupling
+                    .terms
+                    .iter()
+                    .map(|term| (term.joint.0, arithmetic.number(&term.factor)))
+                    .collect();
+                (terms, arithmetic.number(&coupling.offset))
+            })
+            .collect();
+        Self {
+            sides,
+            displacements: displacements.into_iter().flatten().collect(),
+            home,
+            states: states.into_iter().flatten().collect(),
+            couplings,
+            one,
+        }
+    }
+
+    /// A distance joint without length: its two points coincide where the distance was to be read off.
+    pub fn degenerate_distance(&self) -> Option<usize> {
+        self.displacements
+            .iter()
+            .position(|d| d.kind() == JointKind::Distance && !(d.distance().to_f64() > 0.0))
+    }
+}
+
+/// `predecessor_joint_frame_from_successor_joint_frame` as two link poses have it.
+pub(super) fn relative<R: Real>(poses: &[Rigid<R>], joint: &Joint, sides: &[Rigid<R>; 2]) -> Rigid<R> {
+    let predecessor = poses[joint.predecessor.link.0].compose(&sides[0]);
+    let successor = poses[joint.successor.link.0].compose(&sides[1]);
+    predecessor.inverse().compose(&successor)
+}
+
+fn joint_displacement<R: Real>(joint: &Joint, arithmetic: &Arithmetic<R>, reach: &R) -> JointDisplacement<R> {
+    let pitch = match &joint.lead {
+        Some(lead) => {
+            let one = arithmetic.one();
+            // A turn is 2π = 2 atan2(0, −1) in the arithmetic at hand.
+            let turn = one.zero_like().atan2(&-one.clone()) * one.constant(2.0);
+            arithmetic.number(lead) / turn
+        }
+        None => arithmetic.one().zero_like(),
+    };
+    let distance = match (&joint.distance, joint.kind) {
+        (Some(distance), _) => arithmetic.number(distance),
+        (None, JointKind::Distance) => reach.clone(),
+        (None, _) => arithmetic.one().zero_like(),
+    };
+    JointDisplacement::new(
+        joint.kind,
+        &arithmetic.direction(&joint.axis),
+        &arithmetic.direction(&joint.axis2),
+        &pitch,
+        &distance,
+    )
+}

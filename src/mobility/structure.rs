@@ -1,0 +1,121 @@
+//! The topology of a mechanism, split into parts whose equations stand alone.
+
+use crate::closure::Part;
+use crate::graph::{ConstraintGraph, Cycle, CycleBasis, EdgeSpec, ExtraRelation, NodeSpec, SpanningTree, fundamental_cycle};
+use crate::mechanism::Mechanism;
+
+/// Up to this total length the tree's fundamental cycles are listed one by one; their total grows with the square of a
+/// chain's length, that of the short cycles does not.
+const LISTED_TREE_CYCLES: usize = 20_000;
+
+/// The constraint graph of a mechanism, its tree, its cycles and its parts.
+#[derive(Clone, Debug)]
+pub struct Structure {
+    /// Links as nodes, joints as edges, couplings as extra relations.
+    pub graph: ConstraintGraph,
+    /// The low-depth spanning tree (Ruiz 1994, section 5.4.2).
+    pub tree: SpanningTree,
+    /// The cycles shown to people: the tree's fundamental cycles, or the short ones where those would be too long.
+    pub cycles: Vec<Cycle>,
+    /// Whether [`cycles`](Self::cycles) are the tree's.
+    pub cycles_are_fundamental: bool,
+    /// Parts with loops or couplings.
+    pub parts: Vec<Part>,
+    /// Joints in no loop and no coupling: free to move on their own.
+    pub free_joints: Vec<usize>,
+    /// Connected pieces beside the ground's own: bodies that nothing holds.
+    pub loose_pieces: usize,
+}
+
+impl Structure {
+    /// Analyses the topology. Near-linear for mechanisms whose loops are short.
+    #[must_use]
+    pub fn new(mechanism: &Mechanism) -> Self {
+        let graph = constraint_graph(mechanism);
+        let tree = SpanningTree::low_depth(&graph);
+        let basis = CycleBasis::minimum(&graph, &tree);
+        let blocks = graph.coupled_blocks();
+        let mut part_of_edge = vec![usize::MAX; graph.edge_count()];
+        let mut parts = Vec::new();
+        let mut free_joints = Vec::new();
+        for block in &blocks {
+            // A block of one edge without coupling is a bridge: its joint closes nothing.
+            if block.couplings.is_empty() && block.edges.len() == 1 {
+                free_joints.extend(&block.edges);
+                continue;
+            }
+            let mut joints = block.edges.clone();
+            // By name, so that columns do not depend on the order of the file.
+            joints.sort_by_key(|&edge| graph.edge_rank(edge));
+            for &edge in &joints {
+                part_of_edge[edge] = parts.len();
+            }
+            parts.push(Part {
+                joints,
+                cycles: Vec::new(),
+                couplings: block.couplings.clone(),
+            });
+        }
+        for cycle in &basis.cycles {
+            let part = cycle.edges.first().map_or(usize::MAX, |(edge, _)| part_of_edge[*edge]);
+            if let Some(part) = parts.get_mut(part) {
+                part.cycles.push(cycle.edges.clone());
+            }
+        }
+        let total: usize = tree
+            .chords()
+            .iter()
+            .map(|&chord| tree.fundamental_length(&graph, chord))
+            .fold(0, usize::saturating_add);
+        let cycles_are_fundamental = total <= LISTED_TREE_CYCLES;
+        let cycles = if cycles_are_fundamental {
+            tree.chords()
+                .iter()
+                .filter_map(|&chord| fundamental_cycle(&graph, &tree, chord))
+                .collect()
+        } else {
+            basis.cycles
+        };
+        let loose_pieces = graph.components().len().saturating_sub(1);
+        Self {
+            graph,
+            tree,
+            cycles,
+            cycles_are_fundamental,
+            parts,
+            free_joints,
+            loose_pieces,
+        }
+    }
+}
+
+/// The spatial constraint graph of a mechanism; node and edge indices are link and joint indices.
+#[must_use]
+pub fn constraint_graph(mechanism: &Mechanism) -> ConstraintGraph {
+    let nodes = mechanism
+        .links()
+        .iter()
+        .map(|link| NodeSpec {
+            name: link.name.clone(),
+        })
+        .collect();
+    let edges = mechanism
+        .joints()
+        .iter()
+        .map(|joint| EdgeSpec {
+            name: joint.name.clone(),
+            ends: [joint.predecessor.link.0, joint.successor.link.0],
+            freedom: joint.freedom(),
+            class: joint.kind.class().to_owned(),
+        })
+        .collect();
+    let couplings = mechanism
+        .couplings()
+        .iter()
+        .map(|coupling| ExtraRelation {
+            name: coupling.name.clone(),
+            edges: coupling.terms.iter().map(|term| term.joint.0).collect(),
+        })
+        .collect();
+    ConstraintGraph::new(mechanism.ground().0, nodes, edges, couplings)
+}
