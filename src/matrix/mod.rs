@@ -1,1 +1,6 @@
 //! (module essay)
+pub mod big;
+pub mod error;
+pub mod random;
+pub mod real;
+pub mod sparse;
