@@ -28,6 +28,22 @@ pub trait Ring:
 
     /// Whether the number is exactly zero. False for NaN.
     fn is_zero(&self) -> bool;
+
+    /// Σ aᵢ bᵢ over the common length; `self` only tells the arithmetic.
+    fn dot(&self, a: &[Self], b: &[Self]) -> Self {
+        let mut sum = self.zero_like();
+        for (x, y) in a.iter().zip(b) {
+            sum = sum + x.clone() * y.clone();
+        }
+        sum
+    }
+
+    /// `y ← y + self · x` over the common length.
+    fn add_scaled(&self, x: &[Self], y: &mut [Self]) {
+        for (yi, xi) in y.iter_mut().zip(x) {
+            *yi = yi.clone() + self.clone() * xi.clone();
+        }
+    }
 }
 
 /// Real numbers with rounding: `f64`, or [`super::big::Big`] with any number of bits.
@@ -67,20 +83,12 @@ pub trait Real: Ring + PartialOrd + Div<Output = Self> {
         2f64.powi(-(self.bits().min(1022) as i32))
     }
 
-    /// Σ aᵢ bᵢ over the common length; `self` only tells the arithmetic.
-    fn dot(&self, a: &[Self], b: &[Self]) -> Self {
-        let mut sum = self.zero_like();
-        for (x, y) in a.iter().zip(b) {
-            sum = sum + x.clone() * y.clone();
-        }
-        sum
-    }
-
-    /// `y ← y + self · x` over the common length.
-    fn add_scaled(&self, x: &[Self], y: &mut [Self]) {
-        for (yi, xi) in y.iter_mut().zip(x) {
-            *yi = yi.clone() + self.clone() * xi.clone();
-        }
+    /// Euclidean length of a vector; zero for none.
+    ///
+    /// Doubles are guarded against overflow and underflow of the squares; `self` only tells the
+    /// arithmetic.
+    fn norm(&self, vector: &[Self]) -> Self {
+        self.dot(vector, vector).sqrt()
     }
 }
 
@@ -95,6 +103,31 @@ impl Ring for f64 {
 
     fn is_zero(&self) -> bool {
         *self == 0.0
+    }
+
+    fn dot(&self, a: &[Self], b: &[Self]) -> Self {
+        // Four running sums in a fixed order: the same digits on every machine, and no wait for
+        // one addition before the next can start.
+        let length = a.len().min(b.len());
+        let (a, b) = (&a[..length], &b[..length]);
+        let whole = length - length % 4;
+        let mut sums = [0.0f64; 4];
+        for (x, y) in a[..whole].chunks_exact(4).zip(b[..whole].chunks_exact(4)) {
+            for lane in 0..4 {
+                sums[lane] += x[lane] * y[lane];
+            }
+        }
+        let mut rest = 0.0;
+        for (x, y) in a[whole..].iter().zip(&b[whole..]) {
+            rest += x * y;
+        }
+        (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+    }
+
+    fn add_scaled(&self, x: &[Self], y: &mut [Self]) {
+        for (yi, xi) in y.iter_mut().zip(x) {
+            *yi += self * xi;
+        }
     }
 }
 
@@ -135,59 +168,21 @@ impl Real for f64 {
         53
     }
 
-    fn dot(&self, a: &[Self], b: &[Self]) -> Self {
-        // Four running sums in a fixed order: the same digits on every machine, and no wait for
-        // one addition before the next can start.
-        let length = a.len().min(b.len());
-        let (a, b) = (&a[..length], &b[..length]);
-        let whole = length - length % 4;
-        let mut sums = [0.0f64; 4];
-        for (x, y) in a[..whole].chunks_exact(4).zip(b[..whole].chunks_exact(4)) {
-            for lane in 0..4 {
-                sums[lane] += x[lane] * y[lane];
-            }
+    fn norm(&self, vector: &[Self]) -> Self {
+        let square = self.dot(vector, vector);
+        // Outside this range some square may have overflowed or lost digits to underflow.
+        if (1e-200..=1e200).contains(&square) {
+            return square.sqrt();
         }
-        let mut rest = 0.0;
-        for (x, y) in a[whole..].iter().zip(&b[whole..]) {
-            rest += x * y;
+        let largest = vector.iter().fold(0.0f64, |top, x| {
+            if x.is_nan() || top.is_nan() { f64::NAN } else { top.max(x.abs()) }
+        });
+        if largest == 0.0 || !largest.is_finite() {
+            return largest;
         }
-        (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+        let scaled: Vec<f64> = vector.iter().map(|x| x / largest).collect();
+        self.dot(&scaled, &scaled).sqrt() * largest
     }
-
-    fn add_scaled(&self, x: &[Self], y: &mut [Self]) {
-        for (yi, xi) in y.iter_mut().zip(x) {
-            *yi += self * xi;
-        }
-    }
-}
-
-/// Euclidean length of a vector, free of overflow and underflow for any finite entries.
-///
-/// `like` tells the arithmetic for an empty vector, whose length is zero.
-pub fn norm<R: Real>(like: &R, vector: &[R]) -> R {
-    let largest = vector
-        .iter()
-        .map(|x| Real::to_f64(&x.abs()))
-        .fold(0.0, f64::max);
-    // Squares of numbers in this range neither overflow nor lose digits to underflow.
-    if (1e-100..=1e100).contains(&largest) {
-        return like.dot(vector, vector).sqrt();
-    }
-    let mut top = like.zero_like();
-    for x in vector {
-        let size = x.abs();
-        if !size.is_finite() {
-            return size;
-        }
-        if size > top {
-            top = size;
-        }
-    }
-    if top.is_zero() {
-        return top;
-    }
-    let scaled: Vec<R> = vector.iter().map(|x| x.clone() / top.clone()).collect();
-    like.dot(&scaled, &scaled).sqrt() * top
 }
 
 #[cfg(test)]
@@ -207,12 +202,12 @@ mod tests {
 
     #[test]
     fn norm_survives_extreme_entries() {
-        assert_eq!(norm(&0.0, &[]), 0.0);
-        assert_eq!(norm(&0.0, &[3.0, 4.0]), 5.0);
-        assert!((norm(&0.0, &[3e200, 4e200]) / 5e200 - 1.0).abs() < 1e-15);
-        assert!((norm(&0.0, &[3e-200, 4e-200]) / 5e-200 - 1.0).abs() < 1e-15);
-        assert!(norm(&0.0, &[1.0, f64::NAN]).is_nan());
-        assert!(norm(&0.0, &[1e200, f64::NAN]).is_nan());
+        assert_eq!(0.0f64.norm(&[]), 0.0);
+        assert_eq!(0.0f64.norm(&[3.0, 4.0]), 5.0);
+        assert!((0.0f64.norm(&[3e200, 4e200]) / 5e200 - 1.0).abs() < 1e-15);
+        assert!((0.0f64.norm(&[3e-200, 4e-200]) / 5e-200 - 1.0).abs() < 1e-15);
+        assert!(0.0f64.norm(&[1.0, f64::NAN]).is_nan());
+        assert!(0.0f64.norm(&[1e200, f64::NAN]).is_nan());
     }
 
     #[test]

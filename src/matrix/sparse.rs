@@ -1,7 +1,7 @@
 //! Sparse matrices with rows in blocks, as the loops of a mechanism give them.
 
 use super::error::MatrixError;
-use super::real::{Real, Ring, norm};
+use super::real::{Real, Ring};
 
 /// A sparse matrix stored by rows, its rows grouped in consecutive blocks.
 ///
@@ -269,7 +269,7 @@ impl<R: Real> SparseMatrix<R> {
         }
         let lengths: Vec<R> = by_column
             .iter()
-            .map(|column| norm(&self.zero, column))
+            .map(|column| self.zero.norm(column))
             .collect();
         for (column, value) in &mut self.entries {
             *value = value.clone() / lengths[*column].clone();
