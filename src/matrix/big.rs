@@ -85,7 +85,10 @@ impl Big {
         }
     }
 
-    fn keep<E>(result: Option<dashu::base::Approximation<FBig<HalfEven, 2>, E>>, bits: usize) -> Self {
+    fn keep<E>(
+        result: Option<dashu::base::Approximation<FBig<HalfEven, 2>, E>>,
+        bits: usize,
+    ) -> Self {
         match result {
             Some(number) => Self::from_repr(number.value().into_repr(), bits),
             None => Self::nan(bits),
@@ -247,10 +250,7 @@ impl Real for Big {
         if self.is_zero() && !x.value.is_none() {
             let bits = self.bits.max(x.bits);
             return if x < &x.zero_like() {
-                Self::keep(
-                    Some(Context::<HalfEven>::new(bits).pi::<2>(None)),
-                    bits,
-                )
+                Self::keep(Some(Context::<HalfEven>::new(bits).pi::<2>(None)), bits)
             } else {
                 self.zero_like().with_bits(bits as u32)
             };
@@ -287,7 +287,10 @@ mod tests {
         assert!(Real::to_f64(&defect) < 1e-62);
         let coarse = Big::from_fraction(&IBig::from(1), &IBig::from(3), 20);
         let error = Real::to_f64(&(coarse.with_bits(212) * big(3.0) - big(1.0))).abs();
-        assert!(error > 1e-8 && error < 2e-6, "20 bits keep six digits: {error:e}");
+        assert!(
+            error > 1e-8 && error < 2e-6,
+            "20 bits keep six digits: {error:e}"
+        );
     }
 
     #[test]

@@ -36,7 +36,9 @@ pub enum MatrixError {
         found: usize,
     },
     /// Row block boundaries must start at 0, increase, and stay below the number of rows.
-    #[error("row block {block} starts at row {start}, which is not after the block before it and inside {rows} rows")]
+    #[error(
+        "row block {block} starts at row {start}, which is not after the block before it and inside {rows} rows"
+    )]
     RowBlocks {
         /// Index of the offending block.
         block: usize,

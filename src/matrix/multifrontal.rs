@@ -309,7 +309,11 @@ impl<T: Ring + Div<Output = T>> Triangle<T> {
         let mut right = Vec::new();
         for front in self.fronts.iter().rev() {
             right.clear();
-            right.extend(front.columns[..front.kept].iter().map(|&name| x[name].clone()));
+            right.extend(
+                front.columns[..front.kept]
+                    .iter()
+                    .map(|&name| x[name].clone()),
+            );
             for position in front.kept..front.columns.len() {
                 let known = &x[front.columns[position]];
                 if !known.is_zero() {

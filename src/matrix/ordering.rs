@@ -96,11 +96,7 @@ struct QuotientGraph {
 }
 
 impl QuotientGraph {
-    fn new(
-        units: Vec<Vec<usize>>,
-        elements_of_unit: Vec<Vec<usize>>,
-        block_count: usize,
-    ) -> Self {
+    fn new(units: Vec<Vec<usize>>, elements_of_unit: Vec<Vec<usize>>, block_count: usize) -> Self {
         let mut units_of_element = vec![Vec::new(); block_count];
         let mut weight_of_element = vec![0; block_count];
         for (unit, elements) in elements_of_unit.iter().enumerate() {

@@ -175,7 +175,11 @@ impl Real for f64 {
             return square.sqrt();
         }
         let largest = vector.iter().fold(0.0f64, |top, x| {
-            if x.is_nan() || top.is_nan() { f64::NAN } else { top.max(x.abs()) }
+            if x.is_nan() || top.is_nan() {
+                f64::NAN
+            } else {
+                top.max(x.abs())
+            }
         });
         if largest == 0.0 || !largest.is_finite() {
             return largest;

@@ -156,7 +156,11 @@ impl<T: Ring> SparseMatrix<T> {
 
     /// All entries as (row, column, value), row by row.
     pub fn triplets(&self) -> impl Iterator<Item = (usize, usize, &T)> {
-        (0..self.rows).flat_map(|row| self.row(row).iter().map(move |(column, value)| (row, *column, value)))
+        (0..self.rows).flat_map(|row| {
+            self.row(row)
+                .iter()
+                .map(move |(column, value)| (row, *column, value))
+        })
     }
 
     /// The transpose. Each of its rows is a block of its own.
@@ -329,7 +333,10 @@ mod tests {
     #[test]
     fn products_with_the_matrix_and_its_transpose() {
         let matrix = example();
-        assert_eq!(matrix.multiply(&[1.0, 7.0, 2.0]).unwrap(), [5.0, 0.0, 6.0, 4.0]);
+        assert_eq!(
+            matrix.multiply(&[1.0, 7.0, 2.0]).unwrap(),
+            [5.0, 0.0, 6.0, 4.0]
+        );
         let y = [1.0, 1.0, 2.0, 3.0];
         let expected = [13.0, 0.0, 8.0];
         assert_eq!(matrix.multiply_transposed(&y).unwrap(), expected);
@@ -365,7 +372,10 @@ mod tests {
     #[test]
     fn entries_outside_the_shape_are_refused() {
         let outside = SparseMatrix::from_triplets(2, 2, 0.0, vec![(0, 2, 1.0)]);
-        assert!(matches!(outside, Err(MatrixError::OutOfShape { column: 2, .. })));
+        assert!(matches!(
+            outside,
+            Err(MatrixError::OutOfShape { column: 2, .. })
+        ));
         let empty = SparseMatrix::<f64>::from_triplets(0, 0, 0.0, vec![]).unwrap();
         assert_eq!(empty.multiply(&[]).unwrap(), Vec::<f64>::new());
         assert_eq!(empty.transpose(), empty);
