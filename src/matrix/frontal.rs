@@ -23,7 +23,8 @@
 //! Cost: Σ (rows · pivots · columns) over the fronts; linear for chains. Memory: the rows of R.
 
 use super::error::{MatrixError, check_tolerance};
-use super::multifrontal::{Dense, Kernel, Triangle, eliminate};
+use super::multifrontal::{Dense, Kernel, Triangle, eliminate, prepare};
+use super::ordering::EliminationPlan;
 use super::real::Real;
 use super::sparse::SparseMatrix;
 
@@ -116,6 +117,15 @@ pub fn factor<R: Real>(
     matrix: &SparseMatrix<R>,
     tolerance: f64,
 ) -> Result<Factorization<R>, MatrixError> {
+    factor_as_planned(matrix, &prepare(matrix), tolerance)
+}
+
+/// [`factor`] with the plan of the same matrix at hand.
+pub(crate) fn factor_as_planned<R: Real>(
+    matrix: &SparseMatrix<R>,
+    plan: &EliminationPlan,
+    tolerance: f64,
+) -> Result<Factorization<R>, MatrixError> {
     check_tolerance(tolerance)?;
     let exponent = scaling_exponent(matrix.largest_entry()?);
     let mut kernel = Householder {
@@ -125,13 +135,13 @@ pub fn factor<R: Real>(
         dropped_squared: 0.0,
     };
     let triangle = if exponent == 0 {
-        eliminate(matrix, &mut kernel)
+        eliminate(matrix, plan, &mut kernel)
     } else {
         let zero = matrix.zero();
         let half = zero.constant(2f64.powi(-exponent / 2));
         let rest = zero.constant(2f64.powi(-(exponent - exponent / 2)));
         let scaled = matrix.map(zero, |value| value.clone() * half.clone() * rest.clone());
-        eliminate(&scaled, &mut kernel)
+        eliminate(&scaled, plan, &mut kernel)
     };
     let unscaled = |length| times_power_of_two(length, exponent);
     Ok(Factorization {

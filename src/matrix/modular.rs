@@ -9,7 +9,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::multifrontal::{Dense, Kernel, Triangle, eliminate};
+use super::multifrontal::{Dense, Kernel, Triangle, eliminate, prepare};
 use super::random::SplitMix64;
 use super::real::Ring;
 use super::sparse::SparseMatrix;
@@ -194,7 +194,7 @@ impl ModularFactorization {
 #[must_use]
 pub fn factor_modular(matrix: &SparseMatrix<Field61>) -> ModularFactorization {
     ModularFactorization {
-        triangle: eliminate(matrix, &mut Gauss),
+        triangle: eliminate(matrix, &prepare(matrix), &mut Gauss),
     }
 }
 

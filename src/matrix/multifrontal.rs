@@ -7,7 +7,7 @@
 use std::ops::Div;
 
 use super::error::MatrixError;
-use super::ordering::{Front, plan};
+use super::ordering::{EliminationPlan, Front, plan};
 use super::random::SplitMix64;
 use super::real::Ring;
 use super::sparse::SparseMatrix;
@@ -80,11 +80,8 @@ pub(crate) struct Triangle<T> {
     rank: usize,
 }
 
-/// Eliminates a whole matrix. Columns without entries are dropped last.
-pub(crate) fn eliminate<T: Ring>(
-    matrix: &SparseMatrix<T>,
-    kernel: &mut impl Kernel<T>,
-) -> Triangle<T> {
+/// The plan for a matrix by its row blocks.
+pub(crate) fn prepare<T: Ring>(matrix: &SparseMatrix<T>) -> EliminationPlan {
     let blocks: Vec<Vec<usize>> = (0..matrix.block_count())
         .map(|block| {
             let mut members: Vec<usize> = matrix
@@ -96,7 +93,36 @@ pub(crate) fn eliminate<T: Ring>(
             members
         })
         .collect();
-    let plan = plan(matrix.columns(), &blocks);
+    plan(matrix.columns(), &blocks)
+}
+
+/// Through how many rows a column passes: the rows of a front, summed over the fronts that contain
+/// the column, largest over the columns. At least 1. Bounds the growth of rounding errors.
+pub(crate) fn longest_passage<T: Ring>(matrix: &SparseMatrix<T>, plan: &EliminationPlan) -> usize {
+    let mut passage = vec![0usize; matrix.columns()];
+    let mut left_rows: Vec<usize> = Vec::with_capacity(plan.fronts.len());
+    for front in &plan.fronts {
+        let own: usize = front
+            .blocks
+            .iter()
+            .map(|&b| matrix.block_rows(b).len())
+            .sum();
+        let inherited: usize = front.children.iter().map(|&child| left_rows[child]).sum();
+        let rows = own + inherited;
+        for &column in front.pivots.iter().chain(&front.border) {
+            passage[column] += rows;
+        }
+        left_rows.push(rows.min(front.border.len()));
+    }
+    passage.into_iter().max().unwrap_or(0).max(1)
+}
+
+/// Eliminates a whole matrix as planned. Columns without entries are dropped last.
+pub(crate) fn eliminate<T: Ring>(
+    matrix: &SparseMatrix<T>,
+    plan: &EliminationPlan,
+    kernel: &mut impl Kernel<T>,
+) -> Triangle<T> {
     let mut progress = Progress {
         matrix,
         position: vec![0; matrix.columns()],
@@ -244,6 +270,24 @@ impl<T> Triangle<T> {
 
     pub fn dropped(&self) -> &[usize] {
         &self.dropped
+    }
+
+    /// The entries of \[R₁₁ R₁₂\] as (row, global column, value); rows in the order of elimination.
+    pub fn entries(&self) -> impl Iterator<Item = (usize, usize, &T)> {
+        self.fronts
+            .iter()
+            .scan(0, |top, front| {
+                let first = *top;
+                *top += front.kept;
+                Some((first, front))
+            })
+            .flat_map(|(first, front)| {
+                let columns = front.columns.iter().enumerate();
+                columns.flat_map(move |(position, &name)| {
+                    let values = front.column(position).iter().enumerate();
+                    values.map(move |(row, value)| (first + row, name, value))
+                })
+            })
     }
 
     /// The kept columns in the order of elimination.

@@ -15,10 +15,18 @@
 //! [`ROUNDINGS`] covers that multiple together with the operations that computed each entry, a screw
 //! coordinate being some ten products and sums away from the data. So
 //! τ = max([`ROUNDINGS`] · u · max(m, n), a).
+//!
+//! In a sparse elimination a column meets few of the rows. There max(m, n) is replaced, if that is
+//! less, by the number of rows that the reflections applied to any one column have in total. A
+//! tolerance that is too tight can only leave a rank undecided (a rounding error is then kept and
+//! found to be small); one that is too loose would take small singular values for zero.
 
 use super::error::{MatrixError, check_tolerance};
-use super::estimate::{largest_singular_value, smallest_kept_singular_values};
-use super::frontal::{Factorization, factor};
+use super::estimate::{
+    largest_singular_value, smallest_kept_singular_values, smallest_singular_values,
+};
+use super::frontal::{Factorization, factor_as_planned};
+use super::multifrontal::{longest_passage, prepare};
 use super::real::Real;
 use super::sparse::SparseMatrix;
 use super::svd;
@@ -73,7 +81,8 @@ pub struct RankDecision {
     pub tolerance: f64,
     /// The accuracy of the entries as the caller gave it, but not below that of rounding each.
     pub accuracy: f64,
-    /// The largest singular value, absolute; an estimate for [`Method::SparseQr`].
+    /// The largest singular value, absolute; an estimate for [`Method::SparseQr`]. Cut off at the
+    /// largest double.
     pub largest: f64,
     /// The decomposition used.
     pub method: Method,
@@ -163,15 +172,16 @@ pub fn decide_by_singular_values<R: Real>(
         Some(values) => values,
         None => {
             decision.method = Method::Jacobi;
-            svd::jacobi_values(matrix).ok_or(MatrixError::Decomposition {
+            svd::jacobi_values(matrix, scale).ok_or(MatrixError::Decomposition {
                 rows: matrix.rows(),
                 columns: matrix.columns(),
                 reason: "the rotations did not converge",
             })?
         }
     };
-    decision.largest = values.first().copied().unwrap_or(0.0);
-    let relative: Vec<f64> = values.iter().map(|v| v / decision.largest).collect();
+    let first = values.first().copied().unwrap_or(0.0);
+    decision.largest = (first * scale).min(f64::MAX);
+    let relative: Vec<f64> = values.iter().map(|value| value / first).collect();
     decision.settle(&relative);
     Ok(decision)
 }
@@ -187,11 +197,18 @@ pub fn decide_by_qr<R: Real>(
     let (mut decision, _) = undecided(matrix, accuracy)?;
     decision.method = Method::SparseQr;
     decision.largest = largest_singular_value(matrix)?;
-    let factorization = factor(matrix, decision.tolerance * decision.largest)?;
-    let rank = factorization.rank();
-    if rank > 0 {
+    let plan = prepare(matrix);
+    let passage = longest_passage(matrix, &plan).min(matrix.rows().max(matrix.columns()).max(1));
+    let rounding = ROUNDINGS * matrix.zero().unit_roundoff() * passage as f64;
+    decision.tolerance = accuracy.max(rounding);
+    let factorization = factor_as_planned(matrix, &plan, decision.tolerance * decision.largest)?;
+    if factorization.rank() > 0 {
         let estimates = smallest_kept_singular_values(&factorization, 2);
-        decision.settle_by_bounds(rank, &estimates, &factorization);
+        decision.settle_by_bounds(&factorization, &estimates);
+        if decision.rank.is_none() {
+            let estimates = smallest_singular_values(&factorization, 2)?;
+            decision.settle_by_bounds(&factorization, &estimates);
+        }
     }
     Ok((decision, factorization))
 }
@@ -240,34 +257,25 @@ impl RankDecision {
         self.conclude(clear, most);
     }
 
-    /// Applies the rule to what a QR gives: rank, estimates of the smallest kept singular values
-    /// (smallest first) and a bound of the dropped ones.
-    fn settle_by_bounds<R: Real>(
-        &mut self,
-        rank: usize,
-        estimates: &[f64],
-        factorization: &Factorization<R>,
-    ) {
-        let smallest = estimates
-            .first()
-            .copied()
-            .unwrap_or(f64::INFINITY)
-            .min(factorization.smallest_kept());
+    /// Applies the rule to what a QR gives: rank, a bound of the dropped singular values, and
+    /// estimates of the smallest kept ones, smallest first.
+    fn settle_by_bounds<R: Real>(&mut self, factorization: &Factorization<R>, estimates: &[f64]) {
+        let rank = factorization.rank();
+        let relative: Vec<f64> = estimates.iter().map(|x| x / self.largest).collect();
         let dropped = factorization.backward_error() / self.largest;
-        self.set_margins(smallest / self.largest, dropped);
+        self.set_margins(relative.first().copied().unwrap_or(1.0), dropped);
         let clear = CLEARANCE * self.tolerance;
-        let doubtful = estimates
-            .iter()
-            .filter(|&&value| value / self.largest < clear)
-            .count()
-            .max(usize::from(self.kept < clear));
-        let separated = dropped <= self.tolerance && self.gap >= SMALLEST_GAP;
-        let most = if separated || doubtful > 0 {
+        let doubtful = relative.iter().filter(|&&value| value < clear).count();
+        // What was dropped must be separated from the smallest value that stands clear.
+        let least_clear = relative.iter().copied().find(|&value| value >= clear);
+        let least_clear = least_clear.unwrap_or(clear);
+        let separated = dropped <= self.tolerance && least_clear >= SMALLEST_GAP * dropped;
+        let most = if separated {
             rank
         } else {
             (rank + 1).min(self.rows).min(self.columns)
         };
-        self.conclude(rank - doubtful.min(rank), most);
+        self.conclude(rank - doubtful, most);
     }
 
     fn set_margins(&mut self, kept: f64, dropped: f64) {

@@ -7,16 +7,18 @@
 use faer::linalg::solvers::Svd;
 use faer::{Mat, MatRef};
 
+use super::frontal::factor;
 use super::jacobi;
 use super::real::{Real, Ring};
 use super::sparse::SparseMatrix;
 
-/// Singular values, largest first, min(rows, columns) of them; `None` if a check failed.
+/// Singular values of the matrix divided by `scale`, largest first, min(rows, columns) of them;
+/// `None` if a check failed.
 ///
 /// `scale` is the largest entry, not zero.
 pub(crate) fn singular_values<R: Real>(matrix: &SparseMatrix<R>, scale: f64) -> Option<Vec<f64>> {
     let dense = dense(matrix, scale);
-    let mut values = dense.singular_values().ok()?;
+    let values = dense.singular_values().ok()?;
     let squares: Vec<f64> = matrix
         .triplets()
         .map(|(_, _, value)| Real::to_f64(value) / scale)
@@ -30,28 +32,28 @@ pub(crate) fn singular_values<R: Real>(matrix: &SparseMatrix<R>, scale: f64) -> 
     if !agrees || !ordered {
         return None;
     }
-    values.iter_mut().for_each(|value| *value *= scale);
     Some(values)
 }
 
-/// Singular values by Jacobi rotations in the arithmetic of the matrix, rounded to doubles.
-pub(crate) fn jacobi_values<R: Real>(matrix: &SparseMatrix<R>) -> Option<Vec<f64>> {
-    // Columns of the taller of A and Aᵀ, so that no spurious zeros appear.
-    let tall = matrix.rows() >= matrix.columns();
-    let (count, length) = if tall {
-        (matrix.columns(), matrix.rows())
-    } else {
-        (matrix.rows(), matrix.columns())
-    };
+/// The same by Jacobi rotations in the arithmetic of the matrix, rounded to doubles at the end.
+///
+/// Applied to the rows of the triangular factor of a pivoted QR, where few sweeps are needed
+/// (Drmač and Veselić 2008, §2).
+pub(crate) fn jacobi_values<R: Real>(matrix: &SparseMatrix<R>, scale: f64) -> Option<Vec<f64>> {
     let zero = matrix.zero();
-    let mut columns = vec![vec![zero.clone(); length]; count];
-    for (row, column, value) in matrix.triplets() {
-        let (outer, inner) = if tall { (column, row) } else { (row, column) };
-        columns[outer][inner] = value.clone();
+    let unit = zero.constant(scale);
+    let scaled = matrix
+        .map(zero, |value| value.clone() / unit.clone())
+        .with_row_blocks_of(matrix.rows());
+    let triangle = factor(&scaled, 0.0).ok()?.triangle;
+    let mut rows = vec![vec![zero.clone(); matrix.columns()]; triangle.rank()];
+    for (row, column, value) in triangle.entries() {
+        rows[row][column] = value.clone();
     }
-    let values = jacobi::singular_values(zero, columns)?;
+    let values = jacobi::singular_values(zero, rows)?;
     let mut values: Vec<f64> = values.iter().map(Real::to_f64).collect();
     values.sort_by(|a, b| b.total_cmp(a));
+    values.resize(matrix.rows().min(matrix.columns()), 0.0);
     Some(values)
 }
 
