@@ -137,7 +137,7 @@ pub struct Overlap {
 /// edges.
 ///
 /// # Complexity
-/// Σ k² log over the edges, with k the number of cycles through an edge; see [`overlap_work`].
+/// Σ k² log over the edges, with k the number of cycles through an edge: at worst the square of the number of cycles.
 #[must_use]
 pub fn overlaps(graph: &ConstraintGraph, cycles: &[Cycle]) -> Vec<Overlap> {
     let mut through: Vec<Vec<usize>> = vec![Vec::new(); graph.edge_count()];

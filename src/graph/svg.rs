@@ -10,16 +10,19 @@ use super::spanning_tree::SpanningTree;
 
 /// Sizes in pixels.
 const FONT: f64 = 12.0;
+const NAME_FONT: f64 = 10.5;
 /// Width of a character of the usual monospace faces, in parts of the font size.
 const CHARACTER: f64 = 0.61;
 const BOX_HEIGHT: f64 = 26.0;
 const ROW: f64 = 110.0;
-const GAP: f64 = 28.0;
+const GAP: f64 = 40.0;
 const MARGIN: f64 = 24.0;
 const LEGEND_HEIGHT: f64 = 30.0;
-/// From this number of edges on, their names appear only when pointed at: placed labels would cover the picture, and
-/// finding room for them takes quadratic time.
-const LABELLED_EDGES: usize = 400;
+/// Smallest width of the picture: that of the legend.
+const WIDTH: f64 = 480.0;
+/// Beyond this number of edges, chords may pass behind links and the names of joints appear only when pointed at: there
+/// would be no room for them, and finding it takes quadratic time.
+const PLACED_EDGES: usize = 400;
 
 #[derive(Clone, Copy)]
 struct Point {
@@ -74,7 +77,7 @@ pub fn to_svg(graph: &ConstraintGraph, tree: &SpanningTree) -> String {
                 "\n<title>Constraint graph: {n} links, {e} joints, {l} independent loops</title>\n",
                 "<style>text{{font:{f}px ui-monospace,Menlo,Consolas,monospace;text-anchor:middle;dominant-baseline:central}}",
                 ".edge{{fill:none;stroke:#345;stroke-width:1.6}}.chord{{stroke:#b5482a;stroke-dasharray:6 4}}",
-                ".name{{font-size:10.5px;fill:#345;stroke:#fff;stroke-width:3px;paint-order:stroke}}.chord-name{{fill:#b5482a}}",
+                ".name{{font-size:{g}px;fill:#345;stroke:#fff;stroke-width:3px;paint-order:stroke}}.chord-name{{fill:#b5482a}}",
                 ".link{{fill:#f4f7fa;stroke:#345;stroke-width:1.4}}.ground{{fill:#345}}.ground-name{{fill:#fff}}</style>\n",
                 r##"<rect width="100%" height="100%" fill="#fff"/>"##,
                 "\n"
@@ -85,6 +88,7 @@ pub fn to_svg(graph: &ConstraintGraph, tree: &SpanningTree) -> String {
             e = graph.edge_count(),
             l = tree.chords().len(),
             f = FONT,
+            g = NAME_FONT,
         ),
     );
     let curves = layout.curves(graph, tree);
@@ -94,10 +98,10 @@ pub fn to_svg(graph: &ConstraintGraph, tree: &SpanningTree) -> String {
     for &node in graph.nodes_by_name() {
         write_node(&mut svg, graph, node, layout.boxes[node]);
     }
-    if graph.edge_count() <= LABELLED_EDGES {
+    if graph.edge_count() <= PLACED_EDGES {
         write_edge_names(&mut svg, graph, tree, &layout, &curves);
     }
-    write_legend(&mut svg, height - LEGEND_HEIGHT / 2.0);
+    write_legend(&mut svg, width, height - LEGEND_HEIGHT / 2.0);
     svg.push_str("</svg>\n");
     svg
 }
@@ -105,6 +109,7 @@ pub fn to_svg(graph: &ConstraintGraph, tree: &SpanningTree) -> String {
 struct Layout {
     /// By node.
     boxes: Vec<Rectangle>,
+    width: f64,
 }
 
 impl Layout {
@@ -113,8 +118,15 @@ impl Layout {
         let own: Vec<f64> = (0..graph.node_count())
             .map(|node| text_width(graph.node_name(node), FONT) + 20.0)
             .collect();
+        // The name of the joint above needs room as well.
+        let needed = |node: usize| {
+            let joint = tree.parent(node).map_or(0.0, |up| {
+                text_width(graph.edge_name(up.edge), NAME_FONT) + 4.0
+            });
+            own[node].max(joint) + GAP
+        };
         let mut children = vec![0.0; own.len()];
-        let strip = |node: usize, children: &[f64]| f64::max(own[node] + GAP, children[node]);
+        let strip = |node: usize, children: &[f64]| f64::max(needed(node), children[node]);
         // Parents come before their children in the order of the tree.
         for &node in tree.order().iter().rev() {
             if let Some(up) = tree.parent(node) {
@@ -148,17 +160,23 @@ impl Layout {
             };
             boxes[node].half_width = own[node] / 2.0;
         }
-        Self { boxes }
+        // A narrow graph goes to the middle.
+        let width = next_root + MARGIN;
+        for place in &mut boxes {
+            place.centre.x += (WIDTH - width).max(0.0) / 2.0;
+        }
+        Self {
+            boxes,
+            width: width.max(WIDTH),
+        }
     }
 
     fn size(&self, tree: &SpanningTree) -> (f64, f64) {
-        let right = |b: &Rectangle| b.centre.x + b.half_width;
-        let width = self.boxes.iter().map(right).fold(0.0, f64::max) + MARGIN + GAP;
         #[allow(clippy::cast_precision_loss)]
         let rows = tree.height() as f64;
         // Chords within the lowest row hang below it.
         let height = 2.0 * MARGIN + BOX_HEIGHT + ROW * rows + 70.0 + LEGEND_HEIGHT;
-        (width.max(520.0), height)
+        (self.width, height)
     }
 
     /// One curve for each edge, by edge.
@@ -184,15 +202,40 @@ impl Layout {
             .map(|edge| {
                 let [a, b] = graph.edge(edge).ends;
                 let (from, to) = (self.boxes[a].centre, self.boxes[b].centre);
-                let control = control_point(from, to, place[edge]);
-                Curve { from, control, to }
+                let bend = |factor: f64| Curve {
+                    from,
+                    control: control_point(from, to, place[edge], factor),
+                    to,
+                };
+                if graph.edge_count() > PLACED_EDGES {
+                    return bend(1.0);
+                }
+                // The first bend that passes no link, or the plain one.
+                let clear = |curve: &Curve| !self.passes_a_link(curve, [a, b]);
+                let tried = BENDS.into_iter().map(bend).find(clear);
+                tried.unwrap_or_else(|| bend(1.0))
             })
             .collect()
     }
+
+    fn passes_a_link(&self, curve: &Curve, ends: [usize; 2]) -> bool {
+        (1..40).map(|step| f64::from(step) / 40.0).any(|t| {
+            let point = Rectangle {
+                centre: curve.at(t),
+                half_width: 5.0,
+                half_height: 5.0,
+            };
+            let mut others = (0..self.boxes.len()).filter(|node| !ends.contains(node));
+            others.any(|node| self.boxes[node].touches(&point))
+        })
+    }
 }
 
+/// How much to bend a chord, in parts of the usual, and to which side: in the order of preference.
+const BENDS: [f64; 9] = [1.0, -1.0, 0.5, -0.5, 1.6, -1.6, 0.2, 2.4, -2.4];
+
 /// `place` 0: straight. Chords within a row hang down between the rows; others bend to alternating sides.
-fn control_point(from: Point, to: Point, place: u32) -> Point {
+fn control_point(from: Point, to: Point, place: u32, factor: f64) -> Point {
     let middle = Point {
         x: (from.x + to.x) / 2.0,
         y: (from.y + to.y) / 2.0,
@@ -208,11 +251,11 @@ fn control_point(from: Point, to: Point, place: u32) -> Point {
         let sag = (0.12 * length + 34.0).min(100.0) + 26.0 * (step - 1.0);
         return Point {
             x: middle.x,
-            y: middle.y + sag.min(145.0),
+            y: middle.y + factor * sag.min(145.0),
         };
     }
     let side = if place % 2 == 1 { 1.0 } else { -1.0 };
-    let bend = side * (0.10 * length + 26.0) * ((step + 1.0) / 2.0).floor();
+    let bend = side * (0.10 * length + 26.0) * ((step + 1.0) / 2.0).floor() * factor;
     // The normal is taken from the upper end, so that the order of the ends does not matter.
     let down = if dy > 0.0 { 1.0 } else { -1.0 };
     Point {
@@ -281,7 +324,6 @@ fn write_edge_names(
     layout: &Layout,
     curves: &[Curve],
 ) {
-    const SIZE: f64 = 10.5;
     const PLACES: [f64; 11] = [
         0.5, 0.44, 0.56, 0.38, 0.62, 0.32, 0.68, 0.26, 0.74, 0.2, 0.8,
     ];
@@ -290,8 +332,8 @@ fn write_edge_names(
         let name = graph.edge_name(edge);
         let label = |t: f64| Rectangle {
             centre: curves[edge].at(t),
-            half_width: text_width(name, SIZE) / 2.0 + 2.0,
-            half_height: SIZE / 2.0 + 2.0,
+            half_width: text_width(name, NAME_FONT) / 2.0 + 2.0,
+            half_height: NAME_FONT / 2.0 + 2.0,
         };
         let free = PLACES
             .iter()
@@ -316,17 +358,17 @@ fn write_edge_names(
     }
 }
 
-fn write_legend(svg: &mut String, y: f64) {
+fn write_legend(svg: &mut String, width: f64, y: f64) {
     put(
         svg,
         format_args!(
             concat!(
-                "<path class=\"edge\" d=\"M24 {y:.1}H64\"/><text x=\"122\" y=\"{y:.1}\">spanning tree</text>",
-                "<path class=\"edge chord\" d=\"M196 {y:.1}H236\"/><text x=\"292\" y=\"{y:.1}\">closes a loop</text>",
-                "<rect class=\"link ground\" x=\"366\" y=\"{top:.1}\" width=\"40\" height=\"14\" rx=\"3\"/><text x=\"436\" y=\"{y:.1}\">ground</text>\n"
+                "<g transform=\"translate({left:.1} {y:.1})\"><path class=\"edge\" d=\"M0 0H36\"/><text x=\"92\" y=\"0\">spanning tree</text>",
+                "<path class=\"edge chord\" d=\"M160 0H196\"/><text x=\"252\" y=\"0\">closes a loop</text>",
+                "<rect class=\"link ground\" x=\"322\" y=\"-7\" width=\"36\" height=\"14\" rx=\"3\"/><text x=\"386\" y=\"0\">ground</text></g>\n"
             ),
+            left = (width - 410.0) / 2.0,
             y = y,
-            top = y - 7.0
         ),
     );
 }
