@@ -1,198 +1,12 @@
 //! The twelve classes of connected displacement subgroups, with their geometry.
 
-use std::fmt;
-
 use nalgebra::{Matrix3, Vector3};
 
 use super::GroupError;
+use super::axis::{Axis, normalised_direction};
+use super::kind::SubgroupKind;
 use super::pose::Pose;
 use super::twist::Twist;
-
-/// A line in space, in a form that depends on the line only.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Axis {
-    /// The point of the line nearest the world's origin (m).
-    pub point: Vector3<f64>,
-    /// Unit direction, signed as by [`normalised_direction`].
-    pub direction: Vector3<f64>,
-}
-
-impl Axis {
-    /// The line through `point` (m) along `direction`; `None` where the direction is zero or not finite.
-    pub fn through(point: Vector3<f64>, direction: Vector3<f64>) -> Option<Self> {
-        let direction = normalised_direction(direction)?;
-        Some(Self {
-            point: point - direction * direction.dot(&point),
-            direction,
-        })
-    }
-}
-
-/// The unit vector along `direction`, with the sign that makes its first component positive that is not
-/// negligible (above 10⁻⁹, so that rounding in a zero component decides nothing). `None` where the direction is
-/// zero or not finite.
-pub fn normalised_direction(direction: Vector3<f64>) -> Option<Vector3<f64>> {
-    let largest = direction.amax();
-    if !(largest > 0.0 && largest.is_finite()) {
-        return None;
-    }
-    let unit = (direction / largest).normalize();
-    let first = unit.iter().find(|x| x.abs() > 1e-9)?;
-    // Adding zero turns −0 into 0.
-    Some((unit * first.signum()).map(|x| x + 0.0))
-}
-
-/// The class of a connected subgroup of SE(3), without its geometry (Hervé 1978).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum SubgroupKind {
-    /// E: no displacement.
-    Identity,
-    /// R: rotations about an axis.
-    Rotation,
-    /// T: translations along a direction.
-    Translation,
-    /// H: screws about an axis with one pitch.
-    Helical,
-    /// C: rotations about and translations along an axis.
-    Cylindrical,
-    /// T2: translations parallel to a plane.
-    PlanarTranslation,
-    /// S: rotations about a point.
-    Spherical,
-    /// G: motions of a plane in itself.
-    Planar,
-    /// T3: all translations.
-    SpatialTranslation,
-    /// Y: translations parallel to a plane and screws of one pitch normal to it.
-    TranslatingScrew,
-    /// X: all translations and rotations about one direction (Schoenflies).
-    Schoenflies,
-    /// D: all displacements.
-    General,
-}
-
-impl SubgroupKind {
-    /// All classes, by dimension.
-    pub const ALL: [Self; 12] = [
-        Self::Identity,
-        Self::Rotation,
-        Self::Translation,
-        Self::Helical,
-        Self::Cylindrical,
-        Self::PlanarTranslation,
-        Self::Spherical,
-        Self::Planar,
-        Self::SpatialTranslation,
-        Self::TranslatingScrew,
-        Self::Schoenflies,
-        Self::General,
-    ];
-
-    /// Hervé's letter: E R T H C T2 S G T3 Y X D.
-    pub fn short_name(self) -> &'static str {
-        match self {
-            Self::Identity => "E",
-            Self::Rotation => "R",
-            Self::Translation => "T",
-            Self::Helical => "H",
-            Self::Cylindrical => "C",
-            Self::PlanarTranslation => "T2",
-            Self::Spherical => "S",
-            Self::Planar => "G",
-            Self::SpatialTranslation => "T3",
-            Self::TranslatingScrew => "Y",
-            Self::Schoenflies => "X",
-            Self::General => "D",
-        }
-    }
-
-    /// Dimension of the subgroups of this class.
-    pub fn dimension(self) -> usize {
-        self.rotations() + self.translations()
-    }
-
-    /// Dimension of the rotational part: of the image in SO(3).
-    pub fn rotations(self) -> usize {
-        match self {
-            Self::Identity
-            | Self::Translation
-            | Self::PlanarTranslation
-            | Self::SpatialTranslation => 0,
-            Self::Spherical | Self::General => 3,
-            _ => 1,
-        }
-    }
-
-    /// Dimension of the subgroup of pure translations.
-    pub fn translations(self) -> usize {
-        match self {
-            Self::Identity | Self::Rotation | Self::Helical | Self::Spherical => 0,
-            Self::Translation | Self::Cylindrical => 1,
-            Self::PlanarTranslation | Self::Planar | Self::TranslatingScrew => 2,
-            Self::SpatialTranslation | Self::Schoenflies | Self::General => 3,
-        }
-    }
-
-    /// Displacement of the canonical subgroup of this class: x along the axis, direction or plane normal,
-    /// origin on the axis or at the centre.
-    ///
-    /// With p the pitch (m per radian; only H and Y use it), lengths in m, angles in rad:
-    ///
-    /// | class | coordinates | displacement |
-    /// |---|---|---|
-    /// | E | – | identity |
-    /// | R | θ | twix(θ) |
-    /// | T | x | trans(x, 0, 0) |
-    /// | H | θ | trans(pθ, 0, 0) twix(θ) |
-    /// | C | x, θ | trans(x, 0, 0) twix(θ) |
-    /// | T2 | y, z | trans(0, y, z) |
-    /// | S | a, b, c | exp of the rotation vector (a, b, c) |
-    /// | G | y, z, θ | trans(0, y, z) twix(θ) |
-    /// | T3 | x, y, z | trans(x, y, z) |
-    /// | Y | y, z, θ | trans(pθ, y, z) twix(θ) |
-    /// | X | x, y, z, θ | trans(x, y, z) twix(θ) |
-    /// | D | x, y, z, a, b, c | trans(x, y, z) exp of the rotation vector (a, b, c) |
-    ///
-    /// Hervé gives S by three successive rotations; a rotation vector covers the same group and is regular at
-    /// the identity. Some authors count pitch in radians per metre, writing trans(x, 0, 0) twix(px) for H.
-    ///
-    /// # Errors
-    /// [`GroupError::WrongCoordinateCount`].
-    pub fn canonical_displacement(
-        self,
-        coordinates: &[f64],
-        pitch: f64,
-    ) -> Result<Pose, GroupError> {
-        let turned = |x: f64, y: f64, z: f64, angle: f64| Pose {
-            translation: Vector3::new(x, y, z),
-            ..Pose::rotation_about(Vector3::x(), angle)
-        };
-        let ball = |v: Vector3<f64>| Pose::exp(&Twist::new(v, Vector3::zeros()));
-        Ok(match (self, coordinates) {
-            (Self::Identity, []) => Pose::identity(),
-            (Self::Rotation, &[angle]) => turned(0.0, 0.0, 0.0, angle),
-            (Self::Translation, &[x]) => turned(x, 0.0, 0.0, 0.0),
-            (Self::Helical, &[angle]) => turned(pitch * angle, 0.0, 0.0, angle),
-            (Self::Cylindrical, &[x, angle]) => turned(x, 0.0, 0.0, angle),
-            (Self::PlanarTranslation, &[y, z]) => turned(0.0, y, z, 0.0),
-            (Self::Spherical, &[a, b, c]) => ball(Vector3::new(a, b, c)),
-            (Self::Planar, &[y, z, angle]) => turned(0.0, y, z, angle),
-            (Self::SpatialTranslation, &[x, y, z]) => turned(x, y, z, 0.0),
-            (Self::TranslatingScrew, &[y, z, angle]) => turned(pitch * angle, y, z, angle),
-            (Self::Schoenflies, &[x, y, z, angle]) => turned(x, y, z, angle),
-            (Self::General, &[x, y, z, a, b, c]) => {
-                Pose::translation(Vector3::new(x, y, z)) * ball(Vector3::new(a, b, c))
-            }
-            _ => {
-                return Err(GroupError::WrongCoordinateCount {
-                    class: self.short_name(),
-                    needed: self.dimension(),
-                    found: coordinates.len(),
-                });
-            }
-        })
-    }
-}
 
 /// A connected subgroup of SE(3): its class with its geometry in world coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -411,85 +225,6 @@ fn frame_along(x: Vector3<f64>) -> Matrix3<f64> {
     Matrix3::from_columns(&[x, y, x.cross(&y)])
 }
 
-/// In words for engineers, such as `planar motion normal to (0, 0, 1)`. Six significant digits.
-impl fmt::Display for DisplacementSubgroup {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Identity => write!(f, "no motion"),
-            Self::Rotation { axis } => write!(f, "rotation about {}", line(axis)),
-            Self::Translation { direction } => {
-                write!(f, "translation along {}", figures(direction))
-            }
-            Self::Helical { axis, pitch } => write!(
-                f,
-                "screw motion with pitch {} m/rad about {}",
-                figure(*pitch),
-                line(axis)
-            ),
-            Self::Cylindrical { axis } => {
-                write!(f, "rotation about and translation along {}", line(axis))
-            }
-            Self::PlanarTranslation { normal } => {
-                write!(f, "translation in the plane normal to {}", figures(normal))
-            }
-            Self::Spherical { centre } => {
-                write!(f, "rotation about the point {}", figures(centre))
-            }
-            Self::Planar { normal } => write!(f, "planar motion normal to {}", figures(normal)),
-            Self::SpatialTranslation => write!(f, "translation in every direction"),
-            Self::TranslatingScrew { direction, pitch } => write!(
-                f,
-                "translation in the plane normal to {} with screw motion of pitch {} m/rad along it",
-                figures(direction),
-                figure(*pitch)
-            ),
-            Self::Schoenflies { direction } => write!(
-                f,
-                "translation in every direction and rotation about {}",
-                figures(direction)
-            ),
-            Self::General => write!(f, "unrestricted motion"),
-        }
-    }
-}
-
-fn line(axis: &Axis) -> String {
-    let (direction, point) = (figures(&axis.direction), figures(&axis.point));
-    format!("the axis along {direction} through {point}")
-}
-
-/// A vector to six significant digits of its largest component.
-fn figures(v: &Vector3<f64>) -> String {
-    let digits = decimals(v.amax());
-    let [x, y, z] = [v.x, v.y, v.z].map(|x| rounded(x, digits));
-    format!("({x}, {y}, {z})")
-}
-
-fn figure(x: f64) -> String {
-    rounded(x, decimals(x.abs()))
-}
-
-/// Decimals that show six significant digits of a number of this size.
-fn decimals(size: f64) -> usize {
-    if size > 0.0 && size.is_finite() {
-        // Clamped to what f64 can hold anyway.
-        (5 - size.log10().floor() as i32).clamp(0, 300) as usize
-    } else {
-        0
-    }
-}
-
-fn rounded(x: f64, digits: usize) -> String {
-    let text = format!("{x:.digits$}");
-    let text = if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        &text
-    };
-    let is_zero = text.chars().all(|c| matches!(c, '-' | '0' | '.'));
-    if is_zero { "0" } else { text }.to_string()
-}
-
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
@@ -507,14 +242,6 @@ mod tests {
             assert_eq!(g.kind(), kind);
             assert_eq!(g.algebra().len(), kind.dimension());
         }
-    }
-
-    #[test]
-    fn directions_get_one_sign() {
-        let d = normalised_direction(Vector3::new(1e-12, -2.0, 0.0)).unwrap();
-        assert!((d - Vector3::y()).norm() < 1e-11);
-        assert_eq!(normalised_direction(Vector3::zeros()), None);
-        assert_eq!(normalised_direction(Vector3::new(f64::NAN, 1.0, 0.0)), None);
     }
 
     #[test]
@@ -554,26 +281,5 @@ mod tests {
         let error = SubgroupKind::Planar.canonical_displacement(&[1.0], 0.0);
         let expected = "class G takes 3 coordinates, found 1";
         assert_eq!(error.unwrap_err().to_string(), expected);
-    }
-
-    #[test]
-    fn words_for_engineers() {
-        let words: Vec<_> = one_of_each().iter().map(|g| g.to_string()).collect();
-        assert_eq!(words[0], "no motion");
-        assert_eq!(
-            words[1],
-            "rotation about the axis along (0, 0, 1) through (1, 2, 0)"
-        );
-        assert_eq!(words[7], "planar motion normal to (0, 0, 1)");
-        assert_eq!(
-            words[9],
-            "translation in the plane normal to (0, 0, 1) with screw motion of pitch 0.5 m/rad along it"
-        );
-        let centre = Vector3::new(1.0 / 3.0, -1e-17, 1200.5);
-        let sphere = DisplacementSubgroup::Spherical { centre };
-        assert_eq!(
-            sphere.to_string(),
-            "rotation about the point (0.33, 0, 1200.5)"
-        );
     }
 }

@@ -3,7 +3,8 @@
 use nalgebra::{Matrix3, Vector3, Vector6};
 
 use super::GroupError;
-use super::class::{Axis, DisplacementSubgroup, normalised_direction};
+use super::axis::{Axis, normalised_direction};
+use super::class::DisplacementSubgroup;
 use super::decomposition::{Decomposition, Margin, ROUNDING};
 use super::system::ScrewSystem;
 
@@ -178,4 +179,117 @@ impl Parts<'_> {
 fn direction(v: Vector3<f64>) -> Option<Vector3<f64>> {
     let noise = ROUNDING * v.norm();
     normalised_direction(v.map(|x| if x.abs() <= noise { 0.0 } else { x }))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::group::herve_tables::one_of_each;
+    use crate::group::{Gauge, Pose, Twist};
+    use proptest::prelude::*;
+
+    fn close(a: &DisplacementSubgroup, b: &DisplacementSubgroup, within: f64) -> bool {
+        let (a, b) = (a.algebra(), b.algebra());
+        let pairs = a.iter().zip(&b);
+        a.len() == b.len()
+            && pairs
+                .into_iter()
+                .all(|(a, b)| (*a - *b).to_vector().norm() < within)
+    }
+
+    #[test]
+    fn geometry_is_read_back_exactly() {
+        let gauge = Gauge::new(Vector3::new(0.3, -1.0, 2.0), 1.5, 1e-9).unwrap();
+        for group in one_of_each() {
+            let system = ScrewSystem::span(&group.algebra(), &gauge).unwrap();
+            let found = classify(&system).unwrap();
+            let read = found.subgroup.unwrap();
+            assert!(close(&read, &group, 1e-13), "{read} for {group}");
+            assert_eq!(found.rotations, group.kind().rotations());
+            assert_eq!(found.translations, group.kind().translations());
+            assert!(found.margin.is_clear(), "{group}");
+        }
+    }
+
+    /// The joint classes of the file format that are no subgroups: chains of R, T, T2, S, G.
+    #[test]
+    fn spans_that_are_not_closed_have_no_class() {
+        let o = Vector3::new(1.0, 2.0, 3.0);
+        let r = |u: Vector3<f64>| Twist::revolute(u, o);
+        let t = |u: Vector3<f64>| Twist::prismatic(u);
+        let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
+        let beside = Twist::revolute(z, Vector3::zeros());
+        let gauge = Gauge::new(Vector3::zeros(), 1.0, 1e-9).unwrap();
+        for (name, twists, rotations) in [
+            ("universal", vec![r(x), r(y)], 2),
+            ("parallel revolutes", vec![r(z), beside], 1),
+            ("revolute and oblique prismatic", vec![r(z), t(x + z)], 1),
+            ("revolute and plane through it", vec![r(z), t(z), t(x)], 1),
+            ("point on line", vec![t(x), r(x), r(y), r(z)], 3),
+            ("line on plane", vec![r(x), r(z), t(x), t(y)], 2),
+            ("point on plane", vec![t(x), t(y), r(x), r(y), r(z)], 3),
+            ("distance", vec![beside, r(x), r(y), r(z), t(x)], 3),
+        ] {
+            let system = ScrewSystem::span(&twists, &gauge).unwrap();
+            let found = classify(&system).unwrap();
+            assert_eq!(system.dimension(), twists.len(), "{name}");
+            assert_eq!(found.subgroup, None, "{name}");
+            assert_eq!(found.rotations, rotations, "{name}");
+            assert!(found.margin.is_clear(), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_small_pitch_counts_against_the_accuracy() {
+        let helix = |pitch| {
+            [Twist::helical(
+                Vector3::z(),
+                Vector3::new(5.0, 0.0, 0.0),
+                pitch,
+            )]
+        };
+        let read = |pitch, tolerance| {
+            let gauge = Gauge::new(Vector3::zeros(), 1.0, tolerance).unwrap();
+            let system = ScrewSystem::span(&helix(pitch), &gauge).unwrap();
+            let found = classify(&system).unwrap();
+            (found.subgroup.unwrap(), found.margin.is_clear())
+        };
+        let (exact, clear) = read(1e-6, 1e-12);
+        assert!(clear && (exact.pitch() - 1e-6).abs() < 1e-14, "{exact}");
+        assert_eq!(read(1e-6, 1e-4).0.short_name(), "R");
+        // A little above the tolerance, which is 6e-4 for this axis five lengths away, the pitch is kept
+        // but the margin says how weakly.
+        let (weak, clear) = read(2e-3, 1e-5);
+        assert!(weak.short_name() == "H" && !clear, "{weak}");
+    }
+
+    proptest! {
+        #[test]
+        fn classes_and_geometry_follow_a_rigid_motion_and_the_unit(
+            turn in [-2.0..2.0_f64, -2.0..2.0_f64, -2.0..2.0_f64],
+            shift in [-1e3..1e3_f64, -1e3..1e3_f64, -1e3..1e3_f64],
+            exponent in -6.0..6.0_f64,
+        ) {
+            let unit = 10.0_f64.powf(exponent);
+            let pose = Pose::translation(Vector3::from(shift))
+                * Pose::exp(&Twist::new(Vector3::from(turn), Vector3::zeros()));
+            for group in one_of_each() {
+                let moved = group.conjugated_by(&pose);
+                let scaled = |t: &Twist| Twist::new(t.angular, t.linear * unit);
+                let twists: Vec<_> = moved.algebra().iter().map(scaled).collect();
+                // No hint where the mechanism is: the centre comes from the axes alone.
+                let gauge = Gauge::from_axes(&twists, unit, 1e-9).unwrap();
+                let found = classify(&ScrewSystem::span(&twists, &gauge).unwrap()).unwrap();
+                let read = found.subgroup.unwrap();
+                prop_assert_eq!(read.kind(), group.kind());
+                prop_assert!(found.margin.is_clear());
+                prop_assert!((read.pitch() - group.pitch() * unit).abs() < 1e-9 * unit);
+                let system = ScrewSystem::span(&read.algebra(), &gauge).unwrap();
+                for twist in &twists {
+                    prop_assert!(system.contains(twist), "{} for {}", read, moved);
+                }
+            }
+        }
+    }
 }

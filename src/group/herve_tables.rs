@@ -375,8 +375,8 @@ fn parallel_cylinders_compose_like_cylinder_and_rotation() -> Result<(), GroupEr
 }
 
 /// Table 4.2 of the thesis gives for two planar translations the intersection T along the common line and
-/// the product T3, with no condition. Both need planes that are not parallel: for parallel planes the
-/// intersection is T2, of dimension 2, and the product T2 again.
+/// the product T3, and leaves the column for the condition empty. Planes that are not parallel are
+/// meant: for parallel ones the intersection is T2, of dimension 2, and the product T2 again.
 #[test]
 fn planar_translations_need_the_unprinted_condition() -> Result<(), GroupError> {
     let view = View::PLAIN();

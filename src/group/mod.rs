@@ -28,11 +28,13 @@
 //! Cost: every subgroup operation is a handful of singular value decompositions of matrices with six
 //! rows; a displacement series of m variables and degree K costs C(2m+K, K) small matrix products per joint.
 
+mod axis;
 mod class;
 mod classify;
 mod decomposition;
 mod displacement_series;
 mod gauge;
+mod kind;
 mod monomials;
 mod pose;
 mod series;
@@ -40,15 +42,18 @@ mod span;
 mod subalgebra;
 mod system;
 mod twist;
+mod words;
 
 #[cfg(test)]
 mod herve_tables;
 
-pub use class::{Axis, DisplacementSubgroup, SubgroupKind, normalised_direction};
+pub use axis::{Axis, normalised_direction};
+pub use class::DisplacementSubgroup;
 pub use classify::{Classification, classify};
 pub use decomposition::Margin;
 pub use displacement_series::DisplacementSeries;
 pub use gauge::Gauge;
+pub use kind::SubgroupKind;
 pub use monomials::Monomials;
 pub use pose::Pose;
 pub use series::Series;

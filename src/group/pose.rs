@@ -130,7 +130,7 @@ impl Pose {
 
     /// The displacement reached by moving with the constant `twist` for one unit of time.
     ///
-    /// With W = [ω]×, θ = |ω|: R = I + a W + b W², t = (I + b W + c W²) v, where
+    /// With W = \[ω\]×, θ = |ω|: R = I + a W + b W², t = (I + b W + c W²) v, where
     /// a = sin θ/θ, b = (1 − cos θ)/θ², c = (θ − sin θ)/θ³ (Murray, Li, Sastry 1994, §2.3.2). The three
     /// quotients are entire functions of θ²; near zero their power series are summed instead, so that
     /// no digit is lost there.

@@ -7,7 +7,7 @@ use super::monomials::Monomials;
 
 /// A power series Σ c_α y^α in the variables of a [`Monomials`] table, truncated after its degree K.
 ///
-/// Sums and products are those of the ring R[y]/(monomials of degree > K): exact up to rounding in every
+/// Sums and products are those of the ring R\[y\]/(monomials of degree > K): exact up to rounding in every
 /// coefficient that is kept. Two series can be combined only if they have as many variables and the same
 /// K; mixing others is a programming error and panics.
 #[derive(Clone, Debug, PartialEq)]

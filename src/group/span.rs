@@ -67,3 +67,26 @@ pub fn describe_span(twists: &[Twist], gauge: &Gauge) -> Result<SpanDescription,
         margin,
     })
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use nalgebra::Vector3;
+
+    #[test]
+    fn a_planar_chain_is_described_with_its_group() {
+        let gauge = Gauge::new(Vector3::zeros(), 1.0, 1e-9).unwrap();
+        let pin = |x: f64| Twist::revolute(Vector3::z(), Vector3::new(x, 0.0, 0.0));
+        let two = describe_span(&[pin(0.0), pin(1.0)], &gauge).unwrap();
+        assert_eq!((two.freedom, two.rotations, two.translations), (2, 1, 1));
+        assert_eq!(two.subgroup, None);
+        assert_eq!(two.enclosing.unwrap().short_name(), "G");
+        let apart = Twist::revolute(Vector3::z(), Vector3::new(0.0, 1.0, 0.0));
+        let three = describe_span(&[pin(0.0), pin(1.0), apart], &gauge).unwrap();
+        assert_eq!(three.subgroup, three.enclosing);
+        let words = three.subgroup.unwrap().to_string();
+        assert_eq!(words, "planar motion normal to (0, 0, 1)");
+        assert!(three.margin.is_clear());
+    }
+}

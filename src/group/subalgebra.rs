@@ -132,3 +132,155 @@ impl Subalgebra {
 pub fn product_is_subgroup(a: &Subalgebra, b: &Subalgebra) -> Result<(bool, Margin), GroupError> {
     a.sum(b)?.is_closed()
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use nalgebra::Vector3;
+    use proptest::prelude::*;
+
+    const O: [f64; 3] = [0.0; 3];
+
+    fn r(u: [f64; 3], p: [f64; 3]) -> Twist {
+        Twist::revolute(u.into(), p.into())
+    }
+
+    fn h(u: [f64; 3], p: [f64; 3], pitch: f64) -> Twist {
+        Twist::helical(u.into(), p.into(), pitch)
+    }
+
+    fn t(u: [f64; 3]) -> Twist {
+        Twist::prismatic(u.into())
+    }
+
+    fn gauge(tolerance: f64) -> Gauge {
+        Gauge::new(Vector3::zeros(), 1.0, tolerance).unwrap()
+    }
+
+    #[test]
+    fn chains_generate_the_known_groups() {
+        let (x, y, z) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+        for (name, twists, class) in [
+            ("no joint", vec![], "E"),
+            ("parallel revolutes", vec![r(z, O), r(z, x)], "G"),
+            ("revolute and slide across", vec![r(z, O), t(x)], "G"),
+            (
+                "revolute and oblique slide",
+                vec![r(z, O), t([1.0, 0.0, 1.0])],
+                "X",
+            ),
+            ("Hooke joint", vec![r(x, O), r(y, O)], "S"),
+            ("skew revolutes", vec![r(x, O), r(y, z)], "D"),
+            (
+                "parallel screws of one pitch",
+                vec![h(z, O, 0.3), h(z, x, 0.3)],
+                "Y",
+            ),
+            (
+                "parallel screws of two pitches",
+                vec![h(z, O, 0.3), h(z, x, 0.2)],
+                "X",
+            ),
+            (
+                "revolute and parallel screw",
+                vec![r(z, O), h(z, x, 0.2)],
+                "X",
+            ),
+            (
+                "coaxial screws of two pitches",
+                vec![h(z, O, 0.3), h(z, O, 0.2)],
+                "C",
+            ),
+            ("meeting screws", vec![h(z, O, 0.3), h(x, O, 0.3)], "D"),
+            (
+                "screws of opposite pitch, meeting",
+                vec![h(z, O, 0.3), h(x, O, -0.3)],
+                "D",
+            ),
+            ("slides", vec![t(x), t(y), t([1.0, 2.0, 0.0])], "T2"),
+            ("screw and slide across", vec![h(z, O, 0.3), t(y)], "Y"),
+            (
+                "point on plane",
+                vec![t(x), t(y), r(x, O), r(y, O), r(z, O)],
+                "D",
+            ),
+        ] {
+            let algebra = Subalgebra::generated_by(&twists, &gauge(1e-9)).unwrap();
+            let group = algebra.subgroup().unwrap().unwrap();
+            assert_eq!(group.short_name(), class, "{name}");
+            assert!(
+                algebra.margin().is_clear(),
+                "{name}: {:?}",
+                algebra.margin()
+            );
+            for twist in &twists {
+                assert!(algebra.contains(twist), "{name}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_visible_tilt_is_not_planar() {
+        for tilt in [1e-1, 1e-2, 1e-3] {
+            let joints = [
+                r([0.0, 0.0, 1.0], O),
+                r([0.0, 0.0, 1.0], [1.0, 0.0, 0.0]),
+                r([0.0, tilt, 1.0], [0.0, 1.0, 0.0]),
+            ];
+            let exact = Subalgebra::generated_by(&joints, &gauge(1e-12)).unwrap();
+            assert_eq!(exact.dimension(), 6, "{tilt}");
+            assert!(exact.margin().is_clear(), "{tilt}: {:?}", exact.margin());
+        }
+    }
+
+    #[test]
+    fn a_tilt_a_little_above_the_tolerance_is_called_unclear() {
+        let joints = [
+            r([0.0, 0.0, 1.0], O),
+            r([0.0, 0.0, 1.0], [1.0, 0.0, 0.0]),
+            r([0.0, 2e-4, 1.0], [0.0, 1.0, 0.0]),
+        ];
+        let algebra = Subalgebra::generated_by(&joints, &gauge(1e-6)).unwrap();
+        assert!(!algebra.margin().is_clear(), "{:?}", algebra.margin());
+    }
+
+    #[test]
+    fn systems_that_are_not_closed_are_refused() {
+        let hooke = [r([1.0, 0.0, 0.0], O), r([0.0, 1.0, 0.0], O)];
+        let system = ScrewSystem::span(&hooke, &gauge(1e-9)).unwrap();
+        assert!(Subalgebra::from_system(&system).unwrap().is_none());
+    }
+
+    fn vector() -> impl Strategy<Value = Vector3<f64>> {
+        [-1.0..1.0_f64, -1.0..1.0_f64, -1.0..1.0_f64].prop_map(Vector3::from)
+    }
+
+    proptest! {
+        /// The tolerance is a bound: geometry wrong by as much as the gauge says never
+        /// breaks a planar or a spherical group.
+        #[test]
+        fn errors_within_the_stated_accuracy_change_nothing(
+            points in proptest::collection::vec(vector(), 3..7),
+            errors in proptest::collection::vec((vector(), vector()), 7),
+            exponent in -12.0..-4.0_f64,
+        ) {
+            // Vectors of the cube scaled into the unit ball.
+            let accuracy = 10.0_f64.powf(exponent);
+            let wrong = |v: &Vector3<f64>| v * (accuracy / 3.0_f64.sqrt());
+            let joint = |u: Vector3<f64>, p: Vector3<f64>, e: &(Vector3<f64>, Vector3<f64>)| {
+                Twist::revolute(u.normalize() + wrong(&e.0), p + wrong(&e.1))
+            };
+            let pairs = points.iter().zip(&errors);
+            let planar: Vec<_> = pairs.clone().map(|(p, e)| joint(Vector3::z(), *p, e)).collect();
+            let spherical: Vec<_> = pairs
+                .map(|(p, e)| joint(p + Vector3::z() * 1e-3, Vector3::zeros(), e))
+                .collect();
+            let closed = |twists: &[Twist]| {
+                Subalgebra::generated_by(twists, &gauge(accuracy)).unwrap().dimension()
+            };
+            prop_assert!(closed(&planar) <= 3);
+            prop_assert!(closed(&spherical) <= 3);
+        }
+    }
+}

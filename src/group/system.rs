@@ -315,3 +315,111 @@ fn twist_over(twist: &Twist, divisor: f64) -> Twist {
     // Division, not multiplication by the inverse: 1/divisor overflows for subnormal divisors.
     Twist::new(twist.angular / divisor, twist.linear / divisor)
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use nalgebra::Vector3;
+    use proptest::prelude::*;
+
+    fn gauge() -> Gauge {
+        Gauge::new(Vector3::new(0.2, 0.1, -0.4), 0.5, 1e-9).unwrap()
+    }
+
+    #[test]
+    fn the_length_of_a_twist_is_irrelevant() {
+        let hinge = Twist::revolute(Vector3::x(), Vector3::new(0.0, 1.0, 0.0));
+        let slide = Twist::prismatic(Vector3::y());
+        for (a, b) in [(1e-200, 1e200), (1e12, -1e-12), (5e-324, 1.0)] {
+            let twists = [hinge * a, slide * b, Twist::zero(), hinge + slide];
+            let system = ScrewSystem::span(&twists, &gauge()).unwrap();
+            assert_eq!(system.dimension(), 2);
+            assert!(system.margin().is_clear());
+            assert!(system.contains(&(hinge - slide * 2.0)));
+            assert!(system.contains(&Twist::zero()));
+            assert!(!system.contains(&Twist::prismatic(Vector3::z())));
+        }
+    }
+
+    #[test]
+    fn infinite_twists_are_refused() {
+        let bad = Twist::new(Vector3::x(), Vector3::new(0.0, f64::NAN, 0.0));
+        let error = ScrewSystem::span(&[bad], &gauge()).unwrap_err();
+        assert!(matches!(error, GroupError::NotFinite(_)));
+    }
+
+    #[test]
+    fn empty_and_full_spaces_are_neutral() {
+        let some = ScrewSystem::span(&[Twist::prismatic(Vector3::z())], &gauge()).unwrap();
+        let (none, all) = (ScrewSystem::empty(&gauge()), ScrewSystem::full(&gauge()));
+        assert!(some.sum(&none).unwrap().same_as(&some).unwrap());
+        assert!(some.intersection(&all).unwrap().same_as(&some).unwrap());
+        assert_eq!(some.intersection(&none).unwrap().dimension(), 0);
+        assert_eq!(some.sum(&all).unwrap().dimension(), 6);
+        assert!(none.is_closed().unwrap().0 && all.is_closed().unwrap().0);
+        assert!(none.is_within(&some).unwrap() && !some.is_within(&none).unwrap());
+    }
+
+    #[test]
+    fn spaces_in_different_gauges_can_be_compared() {
+        let other = Gauge::new(Vector3::new(3.0, -2.0, 1.0), 2.0, 1e-9).unwrap();
+        let twists = [
+            Twist::helical(Vector3::x(), Vector3::z(), 0.4),
+            Twist::revolute(Vector3::y(), Vector3::new(1.0, 0.0, 2.0)),
+            Twist::prismatic(Vector3::new(1.0, 1.0, 1.0)),
+        ];
+        let here = ScrewSystem::span(&twists, &gauge()).unwrap();
+        let there = ScrewSystem::span(&twists, &other).unwrap();
+        assert!(here.same_as(&there).unwrap() && there.same_as(&here).unwrap());
+        let common = here
+            .intersection(&ScrewSystem::span(&twists[1..2], &other).unwrap())
+            .unwrap();
+        assert_eq!(common.dimension(), 1);
+        assert!(common.contains(&twists[1]));
+    }
+
+    #[test]
+    fn uncertainty_grows_as_the_twists_become_alike() {
+        let pair = |d: f64| {
+            let p = Vector3::new(d, 0.0, 0.0);
+            let twists = [Vector3::zeros(), p].map(|p| Twist::revolute(Vector3::z(), p));
+            ScrewSystem::span(&twists, &gauge()).unwrap()
+        };
+        let (far, near) = (pair(0.5), pair(5e-4));
+        assert!(near.uncertainty() > 500.0 * far.uncertainty());
+        assert!(near.margin().kept < far.margin().kept / 500.0);
+        assert_eq!(pair(1e-12).dimension(), 1);
+    }
+
+    fn twist() -> impl Strategy<Value = Twist> {
+        proptest::collection::vec(-1.0..1.0_f64, 6)
+            .prop_map(|x| Twist::from(Vector6::from_row_slice(&x)))
+    }
+
+    proptest! {
+        #[test]
+        fn dimension_formula_and_inclusions(
+            common in proptest::collection::vec(twist(), 0..3),
+            a in proptest::collection::vec(twist(), 0..3),
+            b in proptest::collection::vec(twist(), 0..3),
+        ) {
+            let span = |more: &[Twist]| {
+                let all: Vec<_> = common.iter().chain(more).copied().collect();
+                ScrewSystem::span(&all, &gauge()).unwrap()
+            };
+            let (first, second) = (span(&a), span(&b));
+            let (meet, sum) = (first.intersection(&second).unwrap(), first.sum(&second).unwrap());
+            prop_assume!(meet.margin().and(sum.margin()).is_clear());
+            prop_assert_eq!(
+                meet.dimension() + sum.dimension(),
+                first.dimension() + second.dimension()
+            );
+            prop_assert!(meet.is_within(&first).unwrap() && meet.is_within(&second).unwrap());
+            prop_assert!(first.is_within(&sum).unwrap() && second.is_within(&sum).unwrap());
+            for shared in &common {
+                prop_assert!(meet.contains(shared));
+            }
+        }
+    }
+}
