@@ -72,7 +72,10 @@ pub fn assemble(
         states: geometry.states.clone(),
         gaps: Vec::new(),
     };
-    for part in parts.iter().filter(|part| !part.cycles.is_empty() || !part.couplings.is_empty()) {
+    for part in parts
+        .iter()
+        .filter(|part| !part.cycles.is_empty() || !part.couplings.is_empty())
+    {
         let (states, outcome) = close(mechanism, geometry, assembly.states, part, held)?;
         assembly.states = states;
         assembly.closed &= outcome.residual <= outcome.tolerance;
@@ -100,7 +103,9 @@ fn closing_tolerance(mechanism: &Mechanism, jacobian: &CycleJacobian<f64>) -> f6
 
 fn largest(values: &[f64]) -> f64 {
     // NaN must not pass for small.
-    values.iter().fold(0.0, |m: f64, x| if x.abs() <= m { m } else { x.abs() })
+    values
+        .iter()
+        .fold(0.0, |m: f64, x| if x.abs() <= m { m } else { x.abs() })
 }
 
 fn close(
@@ -121,9 +126,18 @@ fn close(
     while residual > rounding && steps < STEP_LIMIT {
         let square = sum(&here.residual);
         let columns = movable_columns(&here, held);
-        let Some(increments) = step(&here, &columns, caution * square.min(1.0))? else { break };
+        let Some(increments) = step(&here, &columns, caution * square.min(1.0))? else {
+            break;
+        };
         let mut trial = states.clone();
-        advance(mechanism, geometry, &here, &columns, &increments, &mut trial);
+        advance(
+            mechanism,
+            geometry,
+            &here,
+            &columns,
+            &increments,
+            &mut trial,
+        );
         let there = jacobian(mechanism, geometry, &trial, part)?;
         let reached = sum(&there.residual);
         steps += 1;
@@ -154,11 +168,19 @@ fn close(
 }
 
 fn movable_columns<R>(jacobian: &CycleJacobian<R>, held: &BTreeSet<usize>) -> Vec<bool> {
-    jacobian.variables.iter().map(|(joint, _)| !held.contains(joint)).collect()
+    jacobian
+        .variables
+        .iter()
+        .map(|(joint, _)| !held.contains(joint))
+        .collect()
 }
 
 /// The damped step `min |J x + r|² + damping |x|²`, held columns left out; `None` where nothing may move.
-fn step(jacobian: &CycleJacobian<f64>, movable: &[bool], damping: f64) -> Result<Option<Vec<f64>>, MatrixError> {
+fn step(
+    jacobian: &CycleJacobian<f64>,
+    movable: &[bool],
+    damping: f64,
+) -> Result<Option<Vec<f64>>, MatrixError> {
     if !movable.iter().any(|m| *m) {
         return Ok(None);
     }
@@ -226,14 +248,25 @@ pub fn refine<R: Real>(
         let movable = movable_columns(&here, held);
         let double = here.matrix.map(&0.0, Real::to_f64);
         // The residual is brought to order one before it is rounded to double, and the step back after.
-        let right: Vec<f64> = here.residual.iter().map(|r| -(r.clone() / geometry.one.constant(residual)).to_f64()).collect();
+        let right: Vec<f64> = here
+            .residual
+            .iter()
+            .map(|r| -(r.clone() / geometry.one.constant(residual)).to_f64())
+            .collect();
         let solution = LeastSquares::damped(&double, &right, 1e-24, Some(&movable))?;
         let increments: Vec<R> = solution
             .iter()
             .map(|x| geometry.one.constant(*x) * geometry.one.constant(residual))
             .collect();
         let mut trial = states.clone();
-        advance(mechanism, geometry, &here, &movable, &increments, &mut trial);
+        advance(
+            mechanism,
+            geometry,
+            &here,
+            &movable,
+            &increments,
+            &mut trial,
+        );
         let there = jacobian(mechanism, geometry, &trial, part)?;
         let reached = size(&there.residual);
         if !(reached < 0.5 * residual) {
@@ -263,7 +296,11 @@ pub fn spanning_poses<R: Real>(
     }
     let mut in_tree = vec![false; joints.len()];
     for closing in [false, true] {
-        for (index, joint) in joints.iter().enumerate().filter(|(_, j)| j.closes_loop == closing) {
+        for (index, joint) in joints
+            .iter()
+            .enumerate()
+            .filter(|(_, j)| j.closes_loop == closing)
+        {
             let (a, b) = (
                 root(&mut piece, joint.predecessor.link.0),
                 root(&mut piece, joint.successor.link.0),
@@ -275,7 +312,11 @@ pub fn spanning_poses<R: Real>(
         }
     }
     let mut incident = vec![Vec::new(); mechanism.links().len()];
-    for (index, joint) in joints.iter().enumerate().filter(|(index, _)| in_tree[*index]) {
+    for (index, joint) in joints
+        .iter()
+        .enumerate()
+        .filter(|(index, _)| in_tree[*index])
+    {
         incident[joint.predecessor.link.0].push(index);
         incident[joint.successor.link.0].push(index);
     }
@@ -312,10 +353,17 @@ pub fn spanning_poses<R: Real>(
     (poses, in_tree)
 }
 
-fn moved(mechanism: &Mechanism, geometry: &Geometry<f64>, poses: &(Vec<Rigid<f64>>, Vec<bool>)) -> f64 {
+fn moved(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    poses: &(Vec<Rigid<f64>>, Vec<bool>),
+) -> f64 {
     let mut farthest = 0.0f64;
     for (index, joint) in mechanism.joints().iter().enumerate() {
-        for (side, frame) in [&joint.predecessor, &joint.successor].into_iter().zip(&geometry.sides[index]) {
+        for (side, frame) in [&joint.predecessor, &joint.successor]
+            .into_iter()
+            .zip(&geometry.sides[index])
+        {
             let before = geometry.home[side.link.0].apply(&frame.translation);
             let after = poses.0[side.link.0].apply(&frame.translation);
             farthest = farthest.max(length(&subtract(&after, &before)));
@@ -332,7 +380,10 @@ fn gaps(
 ) -> Vec<LoopGap> {
     let miss = |poses: &[Rigid<f64>], index: usize, state: &JointState<f64>| {
         let wanted = relative(poses, &mechanism.joints()[index], &geometry.sides[index]);
-        let off = geometry.displacements[index].displacement(state).inverse().compose(&wanted);
+        let off = geometry.displacements[index]
+            .displacement(state)
+            .inverse()
+            .compose(&wanted);
         (length(&off.translation), length(&off.rotation_vector()))
     };
     mechanism
@@ -352,9 +403,4 @@ fn gaps(
             }
         })
         .collect()
-}
-
-/// The residual of one cycle, for tests and evidence: largest of its six components.
-pub fn cycle_residual(geometry: &Geometry<f64>, states: &[JointState<f64>], cycle: &[(usize, bool)]) -> f64 {
-    largest(&WalkedCycle::walk(geometry, states, cycle).residual())
 }

@@ -49,7 +49,9 @@ impl<R: Real> WalkedCycle<R> {
         for &(joint, forward) in cycle {
             let [predecessor, successor] = &geometry.sides[joint];
             let displacement = geometry.displacements[joint].displacement(&states[joint]);
-            reach = reach.max(far(&predecessor.translation)).max(far(&successor.translation));
+            reach = reach
+                .max(far(&predecessor.translation))
+                .max(far(&successor.translation));
             let joint_frame = if forward {
                 let frame = pose.compose(predecessor);
                 pose = frame.compose(&displacement).compose(&successor.inverse());
@@ -105,7 +107,11 @@ impl<R: Real> WalkedCycle<R> {
         let [x, y, z] = linear.map(|v| v * inverse.clone());
         let [a, b, c] = angular;
         let column = [a, b, c, x, y, z];
-        if joint.forward { column } else { column.map(|v| -v) }
+        if joint.forward {
+            column
+        } else {
+            column.map(|v| -v)
+        }
     }
 }
 
@@ -114,14 +120,17 @@ impl<R: Real> WalkedCycle<R> {
 /// The point minimises `Σ |(I − u uᵀ)(c − p)|²`. Where that leaves a direction open (all axes parallel) it stays at the
 /// mean of the axis points along that direction. Where no length is left (all axes meet in a point, or there are only
 /// translations), the length is the RMS distance of the axis points, or that of the pitches; finally 1 m.
-pub fn characteristic_length<'a, R: Real + 'a>(screws: impl Iterator<Item = &'a PlacedScrew<R>>) -> ([f64; 3], f64) {
+pub fn characteristic_length<'a, R: Real + 'a>(
+    screws: impl Iterator<Item = &'a PlacedScrew<R>>,
+) -> ([f64; 3], f64) {
     use nalgebra::{Matrix3, Vector3};
     let axes: Vec<(Vector3<f64>, Vector3<f64>, f64)> = screws
         .filter_map(|screw| {
             let u = Vector3::from(screw.angular.clone().map(|x| x.to_f64()));
             let p = Vector3::from(screw.point.clone().map(|x| x.to_f64()));
             let l = Vector3::from(screw.linear.clone().map(|x| x.to_f64()));
-            (u.norm() > 0.5 && p.iter().all(|x| x.is_finite())).then(|| (u.normalize(), p, l.norm()))
+            (u.norm() > 0.5 && p.iter().all(|x| x.is_finite()))
+                .then(|| (u.normalize(), p, l.norm()))
         })
         .collect();
     if axes.is_empty() {
@@ -139,9 +148,16 @@ pub fn characteristic_length<'a, R: Real + 'a>(screws: impl Iterator<Item = &'a 
     // Directions the axes leave open have an eigenvalue of zero; 1e-6 of the count is far above rounding and far below
     // what two axes that differ visibly in direction contribute, and a small shift of the centre does no harm.
     let damped = normal + Matrix3::identity() * (1e-6 * count);
-    let centre = damped.try_inverse().map_or(mean, |inverse| mean + inverse * right);
-    let rms = |distances: &mut dyn Iterator<Item = f64>| (distances.map(|d| d * d).sum::<f64>() / count).sqrt();
-    let size = axes.iter().map(|(_, p, _)| (p - centre).norm()).fold(0.0, f64::max);
+    let centre = damped
+        .try_inverse()
+        .map_or(mean, |inverse| mean + inverse * right);
+    let rms = |distances: &mut dyn Iterator<Item = f64>| {
+        (distances.map(|d| d * d).sum::<f64>() / count).sqrt()
+    };
+    let size = axes
+        .iter()
+        .map(|(_, p, _)| (p - centre).norm())
+        .fold(0.0, f64::max);
     let mut length = rms(&mut axes.iter().map(|(u, p, _)| (p - centre).cross(u).norm()));
     if !(length > 1e-9 * size) {
         length = size;

@@ -46,11 +46,21 @@ pub struct JointState<R> {
 impl<R: Real> JointDisplacement<R> {
     /// The displacement set of a kind. `axis` in the predecessor's frame and `axis2` in the successor's must not be zero
     /// where the kind uses them; `pitch` is metres per radian; `distance` is in metres.
-    pub fn new(kind: JointKind, axis: &Vector<R>, axis2: &Vector<R>, pitch: &R, distance: &R) -> Self {
+    pub fn new(
+        kind: JointKind,
+        axis: &Vector<R>,
+        axis2: &Vector<R>,
+        pitch: &R,
+        distance: &R,
+    ) -> Self {
         let like = pitch;
         let zero = || [0, 1, 2].map(|_| like.zero_like());
         let axis = if kind.uses_axis() { unit(axis) } else { zero() };
-        let axis2 = if kind.uses_second_axis() { unit(axis2) } else { zero() };
+        let axis2 = if kind.uses_second_axis() {
+            unit(axis2)
+        } else {
+            zero()
+        };
         let here = || Rigid::identity(like);
         let base = |i: usize| {
             let mut v = zero();
@@ -112,7 +122,12 @@ impl<R: Real> JointDisplacement<R> {
                 let (e1, e2) = perpendicular(&axis2);
                 let mut first = single(slide(&e1));
                 first.before = into_plane(&axis, &axis2);
-                vec![single(turn(&axis)), first, single(slide(&e2)), single(turn(&axis2))]
+                vec![
+                    single(turn(&axis)),
+                    first,
+                    single(slide(&e2)),
+                    single(turn(&axis2)),
+                ]
             }
             JointKind::Distance => {
                 let rod = base(0).map(|x| x * distance.clone());
@@ -148,7 +163,11 @@ impl<R: Real> JointDisplacement<R> {
     /// The state with all variables zero.
     pub fn home(&self) -> JointState<R> {
         JointState {
-            factors: self.factors.iter().map(|_| Rigid::identity(&self.pitch)).collect(),
+            factors: self
+                .factors
+                .iter()
+                .map(|_| Rigid::identity(&self.pitch))
+                .collect(),
             values: vec![self.pitch.zero_like(); self.freedom()],
         }
     }
@@ -218,9 +237,12 @@ impl<R: Real> JointDisplacement<R> {
             let mut angular = [0, 1, 2].map(|_| zero.clone());
             let mut linear = angular.clone();
             for generator in &factor.generators {
-                let Some(increment) = increments.get(next) else { return };
+                let Some(increment) = increments.get(next) else {
+                    return;
+                };
                 for i in 0..3 {
-                    angular[i] = angular[i].clone() + generator.angular[i].clone() * increment.clone();
+                    angular[i] =
+                        angular[i].clone() + generator.angular[i].clone() * increment.clone();
                     linear[i] = linear[i].clone() + generator.linear[i].clone() * increment.clone();
                 }
                 state.values[next] = state.values[next].clone() + increment.clone();
@@ -257,7 +279,9 @@ impl<R: Real> JointDisplacement<R> {
             JointKind::Revolute => self.at(&[turn_about(&self.axis, wanted)]),
             JointKind::Prismatic => self.at(&[dot(&self.axis, t)]),
             JointKind::Screw => self.at(&[self.whole_turns(turn_about(&self.axis, wanted), t)]),
-            JointKind::Cylindrical => self.at(&[dot(&self.axis, t), turn_about(&self.axis, wanted)]),
+            JointKind::Cylindrical => {
+                self.at(&[dot(&self.axis, t), turn_about(&self.axis, wanted)])
+            }
             JointKind::Universal => {
                 let first = angle_between(&self.axis, &self.axis2, &wanted.rotate(&self.axis2));
                 let rest = rotated_by(&self.axis, &first).inverse().compose(wanted);

@@ -29,7 +29,9 @@ impl Arithmetic<crate::matrix::Big> {
     pub fn bits(bits: u32) -> Self {
         Self {
             // A few bits more than the working precision, so that conversion rounds once.
-            convert: Box::new(move |number| crate::matrix::Big::from_float(number.evaluate(bits as usize + 8), bits)),
+            convert: Box::new(move |number| {
+                crate::matrix::Big::from_float(&number.evaluate(bits as usize + 8), bits)
+            }),
             one: crate::matrix::Big::new(1.0, bits),
         }
     }
@@ -91,10 +93,17 @@ pub struct Geometry<R> {
 
 impl<R: Real> Geometry<R> {
     /// Evaluates a mechanism at the home pose or at a configuration. Cost: linear in the mechanism.
-    pub fn new(mechanism: &Mechanism, configuration: Option<&Configuration>, arithmetic: &Arithmetic<R>) -> Self {
+    pub fn new(
+        mechanism: &Mechanism,
+        configuration: Option<&Configuration>,
+        arithmetic: &Arithmetic<R>,
+    ) -> Self {
         let one = arithmetic.one().clone();
         let values_of = |joint: usize| -> Option<Vec<R>> {
-            let (_, values) = configuration?.positions.iter().find(|(id, _)| id.0 == joint)?;
+            let (_, values) = configuration?
+                .positions
+                .iter()
+                .find(|(id, _)| id.0 == joint)?;
             Some(values.iter().map(|v| arithmetic.number(v)).collect())
         };
         let configured: Vec<Option<Vec<R>>> = if configuration.is_some() {
@@ -105,7 +114,9 @@ impl<R: Real> Geometry<R> {
         let sides: Vec<[Rigid<R>; 2]> = mechanism
             .joints()
             .iter()
-            .map(|joint| [&joint.predecessor, &joint.successor].map(|side| arithmetic.frame(&side.frame)))
+            .map(|joint| {
+                [&joint.predecessor, &joint.successor].map(|side| arithmetic.frame(&side.frame))
+            })
             .collect();
         let mut displacements: Vec<Option<JointDisplacement<R>>> = vec![None; sides.len()];
         let mut states: Vec<Option<JointState<R>>> = vec![None; sides.len()];
@@ -176,13 +187,21 @@ impl<R: Real> Geometry<R> {
 }
 
 /// `predecessor_joint_frame_from_successor_joint_frame` as two link poses have it.
-pub(super) fn relative<R: Real>(poses: &[Rigid<R>], joint: &Joint, sides: &[Rigid<R>; 2]) -> Rigid<R> {
+pub(super) fn relative<R: Real>(
+    poses: &[Rigid<R>],
+    joint: &Joint,
+    sides: &[Rigid<R>; 2],
+) -> Rigid<R> {
     let predecessor = poses[joint.predecessor.link.0].compose(&sides[0]);
     let successor = poses[joint.successor.link.0].compose(&sides[1]);
     predecessor.inverse().compose(&successor)
 }
 
-fn joint_displacement<R: Real>(joint: &Joint, arithmetic: &Arithmetic<R>, reach: &R) -> JointDisplacement<R> {
+fn joint_displacement<R: Real>(
+    joint: &Joint,
+    arithmetic: &Arithmetic<R>,
+    reach: &R,
+) -> JointDisplacement<R> {
     let pitch = match &joint.lead {
         Some(lead) => {
             let one = arithmetic.one();

@@ -76,18 +76,30 @@ pub fn jacobian<R: Real>(
     let mut variables = Vec::new();
     for &joint in &part.joints {
         first_column.insert(joint, variables.len());
-        variables.extend((0..geometry.displacements[joint].freedom()).map(|variable| (joint, variable)));
+        variables
+            .extend((0..geometry.displacements[joint].freedom()).map(|variable| (joint, variable)));
     }
     let mut triplets = Vec::new();
     let mut residual = Vec::new();
     for (index, walk) in walks.iter().enumerate() {
         for joint in &walk.joints {
-            let Some(&first) = first_column.get(&joint.joint) else { continue };
+            let Some(&first) = first_column.get(&joint.joint) else {
+                continue;
+            };
             for (variable, screw) in joint.screws.iter().enumerate() {
-                let unit = one.constant(variable_unit(&mechanism.joints()[joint.joint], variable, length));
-                let translation = mechanism.joints()[joint.joint].kind.freedoms()[variable] == FreedomPart::Translation;
+                let unit = one.constant(variable_unit(
+                    &mechanism.joints()[joint.joint],
+                    variable,
+                    length,
+                ));
+                let translation = mechanism.joints()[joint.joint].kind.freedoms()[variable]
+                    == FreedomPart::Translation;
                 for (row, entry) in walk.column(joint, screw).into_iter().enumerate() {
-                    let entry = if translation { entry * unit.clone() } else { entry };
+                    let entry = if translation {
+                        entry * unit.clone()
+                    } else {
+                        entry
+                    };
                     triplets.push((6 * index + row, first + variable, entry));
                 }
             }
@@ -109,7 +121,9 @@ pub fn jacobian<R: Real>(
         // The row is brought to unit length, so that a gear of ratio 1000 weighs as much as one of ratio 1.
         let norm = weights
             .iter()
-            .fold(one.zero_like(), |sum, (_, _, w)| sum + w.clone() * w.clone())
+            .fold(one.zero_like(), |sum, (_, _, w)| {
+                sum + w.clone() * w.clone()
+            })
             .sqrt();
         let mut value = -offset.clone();
         for (joint, factor, weight) in weights {
@@ -120,8 +134,9 @@ pub fn jacobian<R: Real>(
         }
         residual.push(value / norm);
     }
-    let matrix = SparseMatrix::from_triplets(residual.len(), variables.len(), one.zero_like(), triplets)?
-        .with_row_blocks(block_starts)?;
+    let matrix =
+        SparseMatrix::from_triplets(residual.len(), variables.len(), one.zero_like(), triplets)?
+            .with_row_blocks(block_starts)?;
     Ok(CycleJacobian {
         matrix,
         variables,
@@ -169,7 +184,11 @@ pub fn entry_accuracy<R: Real>(mechanism: &Mechanism, jacobian: &CycleJacobian<R
 fn joint_uncertainty(mechanism: &Mechanism, joint: &Joint, length: f64) -> f64 {
     let precision = mechanism.precision();
     let norm = |numbers: &[crate::number::Number; 3]| {
-        numbers.iter().map(|n| precision.uncertainty(n).powi(2)).sum::<f64>().sqrt()
+        numbers
+            .iter()
+            .map(|n| precision.uncertainty(n).powi(2))
+            .sum::<f64>()
+            .sqrt()
     };
     let mut sum = 0.0;
     for side in [&joint.predecessor, &joint.successor] {

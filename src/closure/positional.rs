@@ -27,10 +27,13 @@ pub fn positional_jacobian<R: Real>(
     let one = &geometry.one;
     let (poses, held) = part_poses(mechanism, geometry, states, part);
     // World screws of every joint, and the point of every joint.
-    let mut placed: Vec<(usize, Rigid<R>, Vec<PlacedScrew<R>>)> = Vec::with_capacity(part.joints.len());
+    let mut placed: Vec<(usize, Rigid<R>, Vec<PlacedScrew<R>>)> =
+        Vec::with_capacity(part.joints.len());
     for &joint in &part.joints {
         let link = mechanism.joints()[joint].predecessor.link.0;
-        let Some(pose) = poses.get(&link) else { continue };
+        let Some(pose) = poses.get(&link) else {
+            continue;
+        };
         let frame = pose.compose(&geometry.sides[joint][0]);
         let screws = geometry.displacements[joint]
             .screws(&states[joint])
@@ -39,14 +42,17 @@ pub fn positional_jacobian<R: Real>(
             .collect();
         placed.push((joint, frame, screws));
     }
-    let (_, length) = super::cycle::characteristic_length(placed.iter().flat_map(|(_, _, screws)| screws));
+    let (_, length) =
+        super::cycle::characteristic_length(placed.iter().flat_map(|(_, _, screws)| screws));
     let inverse_length = one.constant(1.0 / length);
     // The reference point of a link is one of its joints, so that arms stay short.
     let mut reference: BTreeMap<usize, Vector<R>> = BTreeMap::new();
     for (joint, frame, _) in &placed {
         let joint = &mechanism.joints()[*joint];
         for link in [joint.predecessor.link.0, joint.successor.link.0] {
-            reference.entry(link).or_insert_with(|| frame.translation.clone());
+            reference
+                .entry(link)
+                .or_insert_with(|| frame.translation.clone());
         }
     }
     let first_column: BTreeMap<usize, usize> = poses
@@ -60,13 +66,26 @@ pub fn positional_jacobian<R: Real>(
     let mut blocks = Vec::new();
     for (joint, frame, screws) in &placed {
         let point = &frame.translation;
-        let twists: Vec<[R; 6]> = screws.iter().map(|s| twist_about(s, point, &inverse_length)).collect();
+        let twists: Vec<[R; 6]> = screws
+            .iter()
+            .map(|s| twist_about(s, point, &inverse_length))
+            .collect();
         let wrenches = complement(&twists, one);
         if !wrenches.is_empty() {
             blocks.push(rows);
         }
         for wrench in wrenches {
-            push_row(&mut triplets, rows, &wrench, point, mechanism, *joint, &reference, &first_column, &inverse_length);
+            push_row(
+                &mut triplets,
+                rows,
+                &wrench,
+                point,
+                mechanism,
+                *joint,
+                &reference,
+                &first_column,
+                &inverse_length,
+            );
             rows += 1;
         }
     }
@@ -74,8 +93,12 @@ pub fn positional_jacobian<R: Real>(
         blocks.push(rows);
         let (terms, _) = &geometry.couplings[coupling];
         for (joint, factor) in terms {
-            let Some((_, frame, screws)) = placed.iter().find(|(j, _, _)| j == joint) else { continue };
-            let Some(screw) = screws.first() else { continue };
+            let Some((_, frame, screws)) = placed.iter().find(|(j, _, _)| j == joint) else {
+                continue;
+            };
+            let Some(screw) = screws.first() else {
+                continue;
+            };
             // The rate of a joint of one freedom is its relative twist times the dual vector S / (S·S).
             let twist = twist_about(screw, &frame.translation, &inverse_length);
             let square = one.dot(&twist, &twist);
@@ -94,7 +117,8 @@ pub fn positional_jacobian<R: Real>(
         }
         rows += 1;
     }
-    SparseMatrix::from_triplets(rows, 6 * first_column.len(), one.zero_like(), triplets)?.with_row_blocks(blocks)
+    SparseMatrix::from_triplets(rows, 6 * first_column.len(), one.zero_like(), triplets)?
+        .with_row_blocks(blocks)
 }
 
 /// Poses of the part's links relative to the first of their connected piece, along a breadth-first tree of the joints,
@@ -108,8 +132,14 @@ fn part_poses<R: Real>(
     let mut incident: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for &index in &part.joints {
         let joint = &mechanism.joints()[index];
-        incident.entry(joint.predecessor.link.0).or_default().push(index);
-        incident.entry(joint.successor.link.0).or_default().push(index);
+        incident
+            .entry(joint.predecessor.link.0)
+            .or_default()
+            .push(index);
+        incident
+            .entry(joint.successor.link.0)
+            .or_default()
+            .push(index);
     }
     let mut poses = BTreeMap::new();
     let mut held = BTreeSet::new();
@@ -126,7 +156,9 @@ fn part_poses<R: Real>(
                 let joint = &mechanism.joints()[index];
                 let [predecessor, successor] = &geometry.sides[index];
                 let displacement = geometry.displacements[index].displacement(&states[index]);
-                let across = predecessor.compose(&displacement).compose(&successor.inverse());
+                let across = predecessor
+                    .compose(&displacement)
+                    .compose(&successor.inverse());
                 let (other, step) = if joint.predecessor.link.0 == link {
                     (joint.successor.link.0, across)
                 } else {
@@ -135,7 +167,9 @@ fn part_poses<R: Real>(
                 if poses.contains_key(&other) {
                     continue;
                 }
-                let Some(pose) = poses.get(&link).map(|pose: &Rigid<R>| pose.compose(&step)) else { continue };
+                let Some(pose) = poses.get(&link).map(|pose: &Rigid<R>| pose.compose(&step)) else {
+                    continue;
+                };
                 poses.insert(other, pose);
                 queue.push_back(other);
             }
@@ -167,7 +201,10 @@ fn push_row<R: Real>(
     let joint = &mechanism.joints()[joint];
     let moment = [wrench[0].clone(), wrench[1].clone(), wrench[2].clone()];
     let force = [wrench[3].clone(), wrench[4].clone(), wrench[5].clone()];
-    for (link, negative) in [(joint.successor.link.0, false), (joint.predecessor.link.0, true)] {
+    for (link, negative) in [
+        (joint.successor.link.0, false),
+        (joint.predecessor.link.0, true),
+    ] {
         let (Some(&column), Some(origin)) = (first_column.get(&link), reference.get(&link)) else {
             continue;
         };

@@ -42,7 +42,10 @@ pub fn length<R: Real>(a: &Vector<R>) -> R {
 /// a / |a|; not finite for the zero vector.
 pub fn unit<R: Real>(a: &Vector<R>) -> Vector<R> {
     // Dividing by the largest component first keeps squares of tiny or huge directions in range.
-    let largest = a.iter().map(Real::abs).fold(a[0].zero_like(), |m, x| if x > m { x } else { m });
+    let largest = a
+        .iter()
+        .map(Real::abs)
+        .fold(a[0].zero_like(), |m, x| if x > m { x } else { m });
     let a = [0, 1, 2].map(|i| a[i].clone() / largest.clone());
     let length = length(&a);
     a.map(|x| x / length.clone())
@@ -168,7 +171,9 @@ impl<R: Real> Rigid<R> {
     /// Rotates a free vector back.
     pub fn rotate_back(&self, v: &Vector<R>) -> Vector<R> {
         [0, 1, 2].map(|j| {
-            (0..3).fold(v[0].zero_like(), |sum, i| sum + self.rotation[i][j].clone() * v[i].clone())
+            (0..3).fold(v[0].zero_like(), |sum, i| {
+                sum + self.rotation[i][j].clone() * v[i].clone()
+            })
         })
     }
 
@@ -262,7 +267,10 @@ impl<R: Real> PlacedScrew<R> {
     /// The twist (angular; linear velocity of the point of the body at `centre`).
     pub fn about(&self, centre: &Vector<R>) -> (Vector<R>, Vector<R>) {
         let arm = subtract(&self.point, centre);
-        (self.angular.clone(), add(&cross(&arm, &self.angular), &self.linear))
+        (
+            self.angular.clone(),
+            add(&cross(&arm, &self.angular), &self.linear),
+        )
     }
 
     /// The same screw in another frame.

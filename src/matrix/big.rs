@@ -47,6 +47,16 @@ impl Big {
         Self::keep(Context::new(bits).div(&top, &bottom).ok(), bits)
     }
 
+    /// A number of arbitrary precision rounded to `bits` bits; NaN for an infinity.
+    #[must_use]
+    pub fn from_float(value: &crate::number::Float, bits: u32) -> Self {
+        let bits = bits.max(Self::MIN_BITS) as usize;
+        if value.repr().is_infinite() {
+            return Self::nan(bits);
+        }
+        Self::rounded(value.repr().clone(), bits)
+    }
+
     /// The same number with another precision, rounded if that is smaller.
     #[must_use]
     pub fn with_bits(&self, bits: u32) -> Self {

@@ -49,7 +49,9 @@ impl LeastSquares {
             return Err(MatrixError::NotFinite { row: 0, column: 0 });
         }
         let damping = damping.max(1e-20);
-        let kept: Vec<usize> = (0..matrix.columns()).filter(|c| movable.is_none_or(|m| m[*c])).collect();
+        let kept: Vec<usize> = (0..matrix.columns())
+            .filter(|c| movable.is_none_or(|m| m[*c]))
+            .collect();
         if kept.is_empty() {
             return Ok(vec![0.0; matrix.columns()]);
         }
@@ -76,7 +78,9 @@ fn dense(matrix: &SparseMatrix<f64>, right: &[f64], damping: f64, kept: &[usize]
     for index in 0..kept.len() {
         augmented[(rows + index, index)] = damping.sqrt();
     }
-    let target = faer::Mat::<f64>::from_fn(rows + kept.len(), 1, |i, _| right.get(i).copied().unwrap_or(0.0));
+    let target = faer::Mat::<f64>::from_fn(rows + kept.len(), 1, |i, _| {
+        right.get(i).copied().unwrap_or(0.0)
+    });
     let solution = augmented.qr().solve_lstsq(&target);
     let mut x = vec![0.0; matrix.columns()];
     for (index, &column) in kept.iter().enumerate() {

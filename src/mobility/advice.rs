@@ -43,7 +43,12 @@ pub fn advice_for_part(
     let coupled: std::collections::BTreeSet<usize> = part
         .couplings
         .iter()
-        .flat_map(|&c| mechanism.couplings()[c].terms.iter().map(|term| term.joint.0))
+        .flat_map(|&c| {
+            mechanism.couplings()[c]
+                .terms
+                .iter()
+                .map(|term| term.joint.0)
+        })
         .collect();
     let large = rank.unknowns() > THOROUGH_UNKNOWNS;
     for &joint in &part.joints {
@@ -54,14 +59,30 @@ pub fn advice_for_part(
         if coupled.contains(&joint) {
             continue;
         }
-        for relaxation in relaxations(mechanism.joints()[joint].kind, &geometry.displacements[joint], &states[joint]) {
-            let Some(second_axis) = pick_second_axis(&relaxation, rank, stresses, joint) else { continue };
+        for relaxation in relaxations(
+            mechanism.joints()[joint].kind,
+            &geometry.displacements[joint],
+            &states[joint],
+        ) {
+            let Some(second_axis) = pick_second_axis(&relaxation, rank, stresses, joint) else {
+                continue;
+            };
             let screws = relaxation.screws(&second_axis);
             let freed = screws.len();
             if stresses.rank(&stresses.loads(rank, joint, &screws)) < freed {
                 continue;
             }
-            if !verified(mechanism, geometry, states, part, rank, joint, &relaxation, &second_axis, freed)? {
+            if !verified(
+                mechanism,
+                geometry,
+                states,
+                part,
+                rank,
+                joint,
+                &relaxation,
+                &second_axis,
+                freed,
+            )? {
                 continue;
             }
             advice.push(Advice {
@@ -96,7 +117,11 @@ impl Relaxation {
     }
 }
 
-fn relaxations(kind: JointKind, displacement: &JointDisplacement<f64>, state: &JointState<f64>) -> Vec<Relaxation> {
+fn relaxations(
+    kind: JointKind,
+    displacement: &JointDisplacement<f64>,
+    state: &JointState<f64>,
+) -> Vec<Relaxation> {
     let axis = *displacement.axis();
     let zero = [0.0; 3];
     let base = |i: usize| {
@@ -139,7 +164,9 @@ fn relaxations(kind: JointKind, displacement: &JointDisplacement<f64>, state: &J
         JointKind::Universal => {
             // Where the second axis points now, seen from the predecessor.
             let screws = displacement.screws(state);
-            let Some(second) = screws.get(1) else { return Vec::new() };
+            let Some(second) = screws.get(1) else {
+                return Vec::new();
+            };
             let third = crate::closure::cross_product(&axis, &second.angular);
             if third.iter().all(|x| x.abs() < 1e-12) {
                 return Vec::new();
@@ -193,13 +220,20 @@ fn verified(
     second_axis: &Vector<f64>,
     freed: usize,
 ) -> Result<bool, MatrixError> {
-    let Some(freedom) = rank.instantaneous else { return Ok(false) };
+    let Some(freedom) = rank.instantaneous else {
+        return Ok(false);
+    };
     let relaxed = mechanism.with_kind(joint, relaxation.to);
     let mut geometry = geometry.clone();
     let mut states = states.to_vec();
     let displacement = geometry.displacements[joint].displacement(&states[joint]);
-    geometry.displacements[joint] =
-        JointDisplacement::new(relaxation.to, &relaxation.axis, &geometry_second_axis(&geometry, joint, relaxation, second_axis), &0.0, &0.0);
+    geometry.displacements[joint] = JointDisplacement::new(
+        relaxation.to,
+        &relaxation.axis,
+        &geometry_second_axis(&geometry, joint, relaxation, second_axis),
+        &0.0,
+        &0.0,
+    );
     states[joint] = geometry.displacements[joint].fit(&displacement);
     let changed = jacobian(&relaxed, &geometry, &states, part)?;
     let mut matrix = changed.matrix;

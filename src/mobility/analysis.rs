@@ -34,7 +34,9 @@ pub enum AnalysisError {
         known: String,
     },
     /// A distance joint whose two points coincide where its distance is to be read off.
-    #[error("joint `{joint}`: its two points coincide at home, and no <distance> is stated; two coinciding points are a `spherical` joint")]
+    #[error(
+        "joint `{joint}`: its two points coincide at home, and no <distance> is stated; two coinciding points are a `spherical` joint"
+    )]
     NoDistance {
         /// The joint's name.
         joint: String,
@@ -88,12 +90,17 @@ pub struct Analysis {
 ///
 /// # Errors
 /// [`AnalysisError`]; see there.
-pub fn analyse(mechanism: &Mechanism, options: &AnalysisOptions) -> Result<Analysis, AnalysisError> {
+pub fn analyse(
+    mechanism: &Mechanism,
+    options: &AnalysisOptions,
+) -> Result<Analysis, AnalysisError> {
     let configuration = match &options.configuration {
         None => None,
-        Some(name) => Some(mechanism.configuration(name).ok_or_else(|| AnalysisError::UnknownConfiguration {
-            name: name.clone(),
-            known: known_configurations(mechanism),
+        Some(name) => Some(mechanism.configuration(name).ok_or_else(|| {
+            AnalysisError::UnknownConfiguration {
+                name: name.clone(),
+                known: known_configurations(mechanism),
+            }
         })?),
     };
     let held: BTreeSet<usize> = configuration
@@ -130,7 +137,11 @@ pub fn analyse(mechanism: &Mechanism, options: &AnalysisOptions) -> Result<Analy
 }
 
 fn known_configurations(mechanism: &Mechanism) -> String {
-    let names: Vec<String> = mechanism.configurations().iter().map(|c| format!("`{}`", c.name)).collect();
+    let names: Vec<String> = mechanism
+        .configurations()
+        .iter()
+        .map(|c| format!("`{}`", c.name))
+        .collect();
     if names.is_empty() {
         "none".to_owned()
     } else {
@@ -166,23 +177,32 @@ impl Analysis {
             self.redundant_wrenches[joint] = Some(0);
         }
         for (part, rank) in self.structure.parts.iter().zip(&parts) {
-            for (joint, role) in part.joints.iter().zip(roles_of_part(mechanism, part, rank)?) {
+            for (joint, role) in part
+                .joints
+                .iter()
+                .zip(roles_of_part(mechanism, part, rank)?)
+            {
                 self.roles[*joint] = role;
             }
-            let Some(stresses) = SelfStresses::new(part, rank)? else { continue };
+            let Some(stresses) = SelfStresses::new(part, rank)? else {
+                continue;
+            };
             for &joint in &part.joints {
                 self.redundant_wrenches[joint] = Some(stresses.indeterminate_wrenches(rank, joint));
             }
             if let Some(redundant) = home.redundant.filter(|r| *r > 0) {
-                self.advice
-                    .extend(advice_for_part(mechanism, geometry, states, part, rank, &stresses, redundant)?);
+                self.advice.extend(advice_for_part(
+                    mechanism, geometry, states, part, rank, &stresses, redundant,
+                )?);
             }
         }
         let graph = &self.structure.graph;
-        self.advice.sort_by_key(|a| (a.redundant_after, graph.edge_rank(a.joint), a.to));
+        self.advice
+            .sort_by_key(|a| (a.redundant_after, graph.edge_rank(a.joint), a.to));
         let (poses, _) = spanning_poses(mechanism, geometry, states);
         for cycle in &self.structure.cycles {
-            self.cycles.push(cycle_facts(mechanism, geometry, states, &poses, cycle)?);
+            self.cycles
+                .push(cycle_facts(mechanism, geometry, states, &poses, cycle)?);
         }
         self.mobility = judge(mechanism, &self.structure, &self.assembly, &parts);
         self.home = Some(home);
@@ -199,10 +219,15 @@ impl Analysis {
             .sum();
         let base = free + 6 * self.structure.loose_pieces;
         let sum = |value: &dyn Fn(&PartRank) -> Option<usize>| -> Option<usize> {
-            parts.iter().map(value).sum::<Option<usize>>().map(|total| total + base)
+            parts
+                .iter()
+                .map(value)
+                .sum::<Option<usize>>()
+                .map(|total| total + base)
         };
         let instantaneous = sum(&|part| part.instantaneous);
-        let as_written = sum(&|part| part.as_written).filter(|literal| Some(*literal) != instantaneous);
+        let as_written =
+            sum(&|part| part.as_written).filter(|literal| Some(*literal) != instantaneous);
         HomeFreedom {
             instantaneous,
             candidates: (

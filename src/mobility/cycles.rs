@@ -58,7 +58,9 @@ pub fn cycle_facts(
         let mut first = 0;
         for &joint in &part.joints {
             let joint = &mechanism.joints()[joint];
-            let zero: Vec<bool> = (first..first + joint.freedom()).map(|c| found.zero.contains(&c)).collect();
+            let zero: Vec<bool> = (first..first + joint.freedom())
+                .map(|c| found.zero.contains(&c))
+                .collect();
             first += joint.freedom();
             if zero.is_empty() {
                 continue;
@@ -75,11 +77,19 @@ pub fn cycle_facts(
             }
         }
     }
-    let space = alone.walks.first().zip(cycle.edges.first()).and_then(|(walk, (edge, forward))| {
-        let joint = &mechanism.joints()[*edge];
-        let first = if *forward { &joint.predecessor } else { &joint.successor };
-        generated_subgroup(walk, &poses[first.link.0], accuracy)
-    });
+    let space = alone
+        .walks
+        .first()
+        .zip(cycle.edges.first())
+        .and_then(|(walk, (edge, forward))| {
+            let joint = &mechanism.joints()[*edge];
+            let first = if *forward {
+                &joint.predecessor
+            } else {
+                &joint.successor
+            };
+            generated_subgroup(walk, &poses[first.link.0], accuracy)
+        });
     Ok(CycleFacts {
         joints: cycle.edges.clone(),
         space_dimension: space.as_ref().map(DisplacementSubgroup::dimension),

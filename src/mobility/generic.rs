@@ -24,7 +24,10 @@ pub struct GenericCount {
 ///
 /// # Errors
 /// Only if the structure does not belong to the mechanism.
-pub fn generic_count(mechanism: &Mechanism, structure: &Structure) -> Result<GenericCount, MatrixError> {
+pub fn generic_count(
+    mechanism: &Mechanism,
+    structure: &Structure,
+) -> Result<GenericCount, MatrixError> {
     let zero = Field61::new(0);
     let mut mobility = 6 * structure.loose_pieces as i64;
     let mut redundant = 0;
@@ -48,7 +51,8 @@ pub fn generic_count(mechanism: &Mechanism, structure: &Structure) -> Result<Gen
         let mut triplets = Vec::new();
         for (index, cycle) in part.cycles.iter().enumerate() {
             for (joint, forward) in cycle {
-                let (Some(&first), Some(screws)) = (first_column.get(joint), screws.get(joint)) else {
+                let (Some(&first), Some(screws)) = (first_column.get(joint), screws.get(joint))
+                else {
                     continue;
                 };
                 for (variable, (angular, linear)) in screws.iter().enumerate() {
@@ -72,12 +76,16 @@ pub fn generic_count(mechanism: &Mechanism, structure: &Structure) -> Result<Gen
             }
             rows += 1;
         }
-        let matrix = SparseMatrix::from_triplets(rows, columns, zero, triplets)?.with_row_blocks(blocks)?;
+        let matrix =
+            SparseMatrix::from_triplets(rows, columns, zero, triplets)?.with_row_blocks(blocks)?;
         let rank = modular_rank(&matrix);
         mobility += columns as i64 - rank as i64;
         redundant += rows as i64 - rank as i64;
     }
-    Ok(GenericCount { mobility, redundant })
+    Ok(GenericCount {
+        mobility,
+        redundant,
+    })
 }
 
 /// Screws of a joint of the same class in a random place (FORMAT's table, over the prime field; lengths and the sine of
@@ -92,7 +100,8 @@ fn random_screws(joint: &Joint) -> Vec<Screw> {
     let other = vector();
     let helper = vector();
     let pitch = vector()[0];
-    let turn = |direction: &Vector, point: &Vector| -> Screw { (*direction, cross(point, direction)) };
+    let turn =
+        |direction: &Vector, point: &Vector| -> Screw { (*direction, cross(point, direction)) };
     let slide = |direction: &Vector| -> Screw { (nothing, *direction) };
     let helix = || -> Screw {
         let moment = cross(&point, &axis);
@@ -105,7 +114,10 @@ fn random_screws(joint: &Joint) -> Vec<Screw> {
     };
     let ball = |point: &Vector| -> Vec<Screw> { (0..3).map(|i| turn(&unit(i), point)).collect() };
     let in_plane = |normal: &Vector| -> [Screw; 2] {
-        [slide(&cross(normal, &other)), slide(&cross(normal, &helper))]
+        [
+            slide(&cross(normal, &other)),
+            slide(&cross(normal, &helper)),
+        ]
     };
     match joint.kind {
         JointKind::Fixed => vec![],
@@ -137,7 +149,11 @@ fn random_screws(joint: &Joint) -> Vec<Screw> {
             ]
         }
         // Two swings about one end, three rotations about the other; a fourth about the first end would repeat the spin.
-        JointKind::Distance => [vec![turn(&axis, &point), turn(&helper, &point)], ball(&other)].concat(),
+        JointKind::Distance => [
+            vec![turn(&axis, &point), turn(&helper, &point)],
+            ball(&other),
+        ]
+        .concat(),
     }
 }
 
@@ -151,6 +167,7 @@ fn cross(a: &Vector, b: &Vector) -> Vector {
 
 /// FNV-1a, so that a name alone fixes the random numbers drawn for it.
 fn seed(name: &str) -> u64 {
-    name.bytes()
-        .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+    name.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
 }

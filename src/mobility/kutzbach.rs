@@ -8,6 +8,10 @@ use crate::mechanism::Mechanism;
 #[must_use]
 pub fn kutzbach_count(mechanism: &Mechanism) -> i64 {
     let moving = mechanism.links().len() as i64 - 1;
-    let constraints: i64 = mechanism.joints().iter().map(|joint| 6 - joint.freedom() as i64).sum();
+    let constraints: i64 = mechanism
+        .joints()
+        .iter()
+        .map(|joint| 6 - joint.freedom() as i64)
+        .sum();
     6 * moving - constraints - mechanism.couplings().len() as i64
 }

@@ -9,8 +9,10 @@
 //! 3. Where double precision leaves the first or the second open, the geometry is evaluated again from the file's own
 //!    digits with 106, 212 and more bits: true zeros fall with the arithmetic, small values stay.
 
-use crate::closure::{Arithmetic, CycleJacobian, Geometry, JointState, Part, entry_accuracy, jacobian, refine};
-use crate::matrix::{Big, MatrixError, RankDecision, Real, SparseMatrix, decide};
+use crate::closure::{
+    Arithmetic, CycleJacobian, Geometry, JointState, Part, entry_accuracy, jacobian, refine,
+};
+use crate::matrix::{Big, MatrixError, RankDecision, SparseMatrix, decide};
 use crate::mechanism::{Configuration, Mechanism};
 use std::collections::BTreeSet;
 
@@ -136,7 +138,12 @@ pub fn rank_part(pose: &Pose<'_>, part: &Part) -> Result<PartRank, MatrixError> 
             let note = format!(
                 "undecided between {} and {}: singular values {:.1e} and {:.1e} of the largest are not separated from \
                  the uncertainty {:.1e}, with {} bits",
-                candidates.0, candidates.1, nominal.kept, nominal.dropped, nominal.tolerance, nominal.bits
+                candidates.0,
+                candidates.1,
+                nominal.kept,
+                nominal.dropped,
+                nominal.tolerance,
+                nominal.bits
             );
             (None, nominal, Some(note))
         }
@@ -155,7 +162,11 @@ pub fn rank_part(pose: &Pose<'_>, part: &Part) -> Result<PartRank, MatrixError> 
 }
 
 /// The part's Jacobian with unit columns from geometry evaluated in more bits, at states polished in those bits.
-fn matrix_in_bits(pose: &Pose<'_>, part: &Part, bits: u32) -> Result<(SparseMatrix<Big>, f64), MatrixError> {
+fn matrix_in_bits(
+    pose: &Pose<'_>,
+    part: &Part,
+    bits: u32,
+) -> Result<(SparseMatrix<Big>, f64), MatrixError> {
     let geometry = Geometry::new(pose.mechanism, pose.configuration, &Arithmetic::bits(bits));
     let mut states = geometry.states.clone();
     if !pose.as_drawn {
@@ -171,4 +182,3 @@ fn matrix_in_bits(pose: &Pose<'_>, part: &Part, bits: u32) -> Result<(SparseMatr
     // A pose that misses closing by `residual` has screws off by as much.
     Ok((matrix, rounding + residual))
 }
-

@@ -30,8 +30,15 @@ impl SelfStresses {
     /// # Errors
     /// [`MatrixError`] where the null vectors cannot be computed.
     pub fn new(part: &Part, rank: &PartRank) -> Result<Option<Self>, MatrixError> {
-        let Some(decision) = rank.settled() else { return Ok(None) };
-        let vectors = null_vectors(&rank.matrix.transpose(), &decision.transposed(), SELF_STRESSES, 2)?;
+        let Some(decision) = rank.settled() else {
+            return Ok(None);
+        };
+        let vectors = null_vectors(
+            &rank.matrix.transpose(),
+            &decision.transposed(),
+            SELF_STRESSES,
+            2,
+        )?;
         let kept = decision.kept.max(f64::MIN_POSITIVE);
         // A null vector of unit length is off by up to the accuracy of the matrix over the smallest kept singular value,
         // and a joint's share of it is of the order of 1/√rows. In a large part the smallest singular value belongs to a
@@ -39,7 +46,8 @@ impl SelfStresses {
         let share = 1.0 / (rank.equations().max(1) as f64).sqrt();
         let error = 10.0 * (vectors.residual + decision.accuracy) / kept;
         let threshold = share * error.clamp(1e-9, 0.1);
-        let mut met: BTreeMap<usize, Vec<(usize, usize)>> = part.joints.iter().map(|j| (*j, Vec::new())).collect();
+        let mut met: BTreeMap<usize, Vec<(usize, usize)>> =
+            part.joints.iter().map(|j| (*j, Vec::new())).collect();
         for (cycle, walk) in rank.jacobian.walks.iter().enumerate() {
             for (position, joint) in walk.joints.iter().enumerate() {
                 met.entry(joint.joint).or_default().push((cycle, position));
@@ -53,14 +61,21 @@ impl SelfStresses {
     }
 
     /// What the self-stresses do to a screw in a joint: one number per self-stress, `Σ_l ± ⟨λ_l, T⟩`.
-    fn load(&self, rank: &PartRank, joint: usize, screw: &dyn Fn(&WalkedJoint<f64>) -> PlacedScrew<f64>) -> Vec<f64> {
+    fn load(
+        &self,
+        rank: &PartRank,
+        joint: usize,
+        screw: &dyn Fn(&WalkedJoint<f64>) -> PlacedScrew<f64>,
+    ) -> Vec<f64> {
         let mut loads = vec![0.0; self.vectors.vectors.len()];
         for &(cycle, position) in self.met.get(&joint).into_iter().flatten() {
             let walk = &rank.jacobian.walks[cycle];
             let walked = &walk.joints[position];
             let column = walk.column(walked, &screw(walked));
             for (load, stress) in loads.iter_mut().zip(&self.vectors.vectors) {
-                *load += (0..6).map(|row| stress[6 * cycle + row] * column[row]).sum::<f64>();
+                *load += (0..6)
+                    .map(|row| stress[6 * cycle + row] * column[row])
+                    .sum::<f64>();
             }
         }
         loads
@@ -68,7 +83,12 @@ impl SelfStresses {
 
     /// The loads of several screws given in the joint's own frame, one row each: (angular; linear in units of the part's
     /// length).
-    pub fn loads(&self, rank: &PartRank, joint: usize, screws: &[(Vector<f64>, Vector<f64>)]) -> DMatrix<f64> {
+    pub fn loads(
+        &self,
+        rank: &PartRank,
+        joint: usize,
+        screws: &[(Vector<f64>, Vector<f64>)],
+    ) -> DMatrix<f64> {
         let length = rank.jacobian.length;
         let rows: Vec<Vec<f64>> = screws
             .iter()
@@ -111,10 +131,15 @@ impl SelfStresses {
 
 /// Row-pivoted orthogonalisation; rows shorter than `threshold` after reduction count as dependent. At most six rows.
 fn independent_rows(loads: &DMatrix<f64>, threshold: f64) -> usize {
-    let mut rows: Vec<Vec<f64>> = loads.row_iter().map(|row| row.iter().copied().collect()).collect();
+    let mut rows: Vec<Vec<f64>> = loads
+        .row_iter()
+        .map(|row| row.iter().copied().collect())
+        .collect();
     let norm = |row: &Vec<f64>| row.iter().map(|x| x * x).sum::<f64>().sqrt();
     let mut rank = 0;
-    while let Some(best) = (0..rows.len()).max_by(|a, b| norm(&rows[*a]).total_cmp(&norm(&rows[*b]))) {
+    while let Some(best) =
+        (0..rows.len()).max_by(|a, b| norm(&rows[*a]).total_cmp(&norm(&rows[*b])))
+    {
         let size = norm(&rows[best]);
         if size <= threshold {
             break;

@@ -23,7 +23,11 @@ pub struct JointRole {
 ///
 /// # Errors
 /// [`MatrixError`] where the null vectors cannot be computed.
-pub fn roles_of_part(mechanism: &Mechanism, part: &Part, rank: &PartRank) -> Result<Vec<JointRole>, MatrixError> {
+pub fn roles_of_part(
+    mechanism: &Mechanism,
+    part: &Part,
+    rank: &PartRank,
+) -> Result<Vec<JointRole>, MatrixError> {
     let Some(decision) = rank.settled() else {
         return Ok(vec![JointRole::default(); part.joints.len()]);
     };
@@ -76,12 +80,18 @@ fn role(joint: &Joint, zero: &[bool], doubtful: &[bool]) -> JointRole {
 #[must_use]
 pub fn freedom_groups(kind: JointKind) -> Vec<(String, Vec<usize>)> {
     let parts = kind.freedoms();
-    let of = |wanted: FreedomPart| -> Vec<usize> { (0..parts.len()).filter(|v| parts[*v] == wanted).collect() };
+    let of = |wanted: FreedomPart| -> Vec<usize> {
+        (0..parts.len()).filter(|v| parts[*v] == wanted).collect()
+    };
     let mut groups = Vec::new();
-    for part in [FreedomPart::Rotation, FreedomPart::Translation, FreedomPart::Screw] {
+    for part in [
+        FreedomPart::Rotation,
+        FreedomPart::Translation,
+        FreedomPart::Screw,
+    ] {
         let variables = of(part);
-        let one_by_one =
-            matches!(kind, JointKind::Universal | JointKind::LineOnPlane) && part == FreedomPart::Rotation;
+        let one_by_one = matches!(kind, JointKind::Universal | JointKind::LineOnPlane)
+            && part == FreedomPart::Rotation;
         if one_by_one {
             for (index, variable) in variables.into_iter().enumerate() {
                 groups.push((format!("{}{}", part.suffix(), index + 1), vec![variable]));

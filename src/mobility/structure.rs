@@ -1,7 +1,10 @@
 //! The topology of a mechanism, split into parts whose equations stand alone.
 
 use crate::closure::Part;
-use crate::graph::{ConstraintGraph, Cycle, CycleBasis, EdgeSpec, ExtraRelation, NodeSpec, SpanningTree, fundamental_cycle};
+use crate::graph::{
+    ConstraintGraph, Cycle, CycleBasis, EdgeSpec, ExtraRelation, NodeSpec, SpanningTree,
+    fundamental_cycle,
+};
 use crate::mechanism::Mechanism;
 
 /// Up to this total length the tree's fundamental cycles are listed one by one; their total grows with the square of a
@@ -57,7 +60,10 @@ impl Structure {
             });
         }
         for cycle in &basis.cycles {
-            let part = cycle.edges.first().map_or(usize::MAX, |(edge, _)| part_of_edge[*edge]);
+            let part = cycle
+                .edges
+                .first()
+                .map_or(usize::MAX, |(edge, _)| part_of_edge[*edge]);
             if let Some(part) = parts.get_mut(part) {
                 part.cycles.push(cycle.edges.clone());
             }

@@ -51,7 +51,9 @@ impl Mobility {
     #[must_use]
     pub fn finite(&self) -> Option<usize> {
         match (self.verdict, self.bounds) {
-            (Verdict::Mobile | Verdict::Rigid, (Some(low), Some(high))) if low == high => Some(high),
+            (Verdict::Mobile | Verdict::Rigid, (Some(low), Some(high))) if low == high => {
+                Some(high)
+            }
             _ => None,
         }
     }
@@ -64,7 +66,12 @@ impl Mobility {
 /// - Lower bound: where the equations of a part are independent (full row rank), the implicit function theorem makes its
 ///   configurations a manifold of exactly the instantaneous dimension. Elsewhere nothing is known yet: 0.
 #[must_use]
-pub fn judge(mechanism: &Mechanism, structure: &Structure, assembly: &Assembly, parts: &[PartRank]) -> Mobility {
+pub fn judge(
+    mechanism: &Mechanism,
+    structure: &Structure,
+    assembly: &Assembly,
+    parts: &[PartRank],
+) -> Mobility {
     if !assembly.closed {
         return Mobility {
             verdict: Verdict::Unassembled,
@@ -77,7 +84,11 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, assembly: &Assembly, 
             why: vec!["a mechanism that does not close has no motions to count".to_owned()],
         };
     }
-    let free: usize = structure.free_joints.iter().map(|&j| mechanism.joints()[j].freedom()).sum();
+    let free: usize = structure
+        .free_joints
+        .iter()
+        .map(|&j| mechanism.joints()[j].freedom())
+        .sum();
     let base = free + 6 * structure.loose_pieces;
     let mut low = base;
     let mut high = base;
@@ -87,7 +98,9 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, assembly: &Assembly, 
     for part in parts {
         let decided = part.instantaneous.filter(|_| part.note.is_none());
         doubtful |= decided.is_none();
-        high += part.instantaneous.map_or(part.candidates.1, |i| i.max(part.candidates.1));
+        high += part
+            .instantaneous
+            .map_or(part.candidates.1, |i| i.max(part.candidates.1));
         match decided {
             Some(freedom) if freedom + part.equations() == part.unknowns() => low += freedom,
             Some(0) => dependent += part.equations() - part.unknowns(),
@@ -107,7 +120,11 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, assembly: &Assembly, 
              manifold of exactly this dimension (implicit function theorem)"
                 .to_owned()
         };
-        let verdict = if high == 0 { Verdict::Rigid } else { Verdict::Mobile };
+        let verdict = if high == 0 {
+            Verdict::Rigid
+        } else {
+            Verdict::Mobile
+        };
         (verdict, sentence)
     } else {
         if doubtful {
@@ -119,7 +136,11 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, assembly: &Assembly, 
                  here, is not settled by a rank at one pose"
             ));
         }
-        (Verdict::Undecided, "the rank of the closure equations at this pose bounds the freedom from above".to_owned())
+        (
+            Verdict::Undecided,
+            "the rank of the closure equations at this pose bounds the freedom from above"
+                .to_owned(),
+        )
     };
     Mobility {
         verdict,
