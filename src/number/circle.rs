@@ -133,8 +133,8 @@ mod tests {
         for k in -5..490 {
             let (cos, sin) = table(&fraction(k, 240)).unwrap();
             let angle = k as f64 * std::f64::consts::PI / 240.0;
-            // Two roundings of an angle below 6.5 (half an ulp is 2^-51) and one of the result.
-            let tolerance = 2.0 * 2f64.powi(-51) + f64::EPSILON;
+            // pi, the product and the quotient are each off by 2^-53 of at most 6.5, the result by one rounding.
+            let tolerance = 3.0 * 6.5 * 2f64.powi(-53) + f64::EPSILON;
             assert!((cos.value() - angle.cos()).abs() < tolerance, "{k}");
             assert!((sin.value() - angle.sin()).abs() < tolerance, "{k}");
         }

@@ -295,6 +295,10 @@ fn apply(
     right: &Number,
     offsets: [usize; 2],
 ) -> Result<Number, NumberError> {
+    // Before the operators replace it by its digits.
+    if left.nodes().saturating_add(right.nodes()) >= MAX_NODES {
+        return Err(too_long(offsets[0]));
+    }
     match binary {
         Binary::Add => Ok(left + right),
         Binary::Subtract => Ok(left - right),
@@ -327,32 +331,40 @@ fn call(function: Function, arguments: &[Number]) -> Result<Number, NumberError>
     }
 }
 
+fn too_long(offset: usize) -> NumberError {
+    Reason::TooLarge {
+        needed: "at most 10000 operations",
+        found: "more".to_owned(),
+    }
+    .at(offset)
+}
+
 /// Refuses what is too long or too large to be worked with.
 fn check_size(value: &Number, offset: usize) -> Result<(), NumberError> {
-    let too_large = |needed, found: String| Err(Reason::TooLarge { needed, found }.at(offset));
     let Some(tree) = value.tree() else {
         return Ok(());
     };
     if matches!(tree.operation, Operation::Stored(_)) || tree.nodes() > MAX_NODES {
-        return too_large("at most 10000 operations", "more".to_owned());
+        return Err(too_long(offset));
     }
+    let too_large = |found: String| {
+        Err(Reason::TooLarge {
+            needed: "a value between 2^-20000 and 2^20000 in size",
+            found,
+        }
+        .at(offset))
+    };
     match value.ball(super::evaluate::COARSE) {
         Ok(ball) => {
             let repr = ball.middle.repr();
             let exponent = repr.exponent() as i64 + repr.significand().bit_len() as i64;
             let known = ball.sign().is_some();
             if known && exponent.abs() > MAX_EXPONENT || ball.most().log2() > MAX_EXPONENT {
-                return too_large(
-                    "a value between 2^-20000 and 2^20000 in size",
-                    format!("about 2^{exponent}"),
-                );
+                return too_large(format!("about 2^{exponent}"));
             }
             Ok(())
         }
-        Err(super::ball::Unclear::Range) => too_large(
-            "a value between 2^-20000 and 2^20000 in size",
-            "one far beyond".to_owned(),
-        ),
+        Err(super::ball::Unclear::Range) => too_large("one far beyond".to_owned()),
         Err(super::ball::Unclear::Precision) => Ok(()),
     }
 }

@@ -140,20 +140,24 @@ impl Number {
     }
 
     fn from_tree(operation: Operation, operands: Vec<Number>) -> Self {
+        let number = Self::from_tree_of_any_size(operation, operands);
+        if number.nodes() <= MAX_NODES {
+            return number;
+        }
+        let stored = Operation::Stored(number.evaluate(STORED_BITS));
+        let tree = Tree::new(stored, Vec::new());
+        Self::build(Form::Symbolic(tree), number.0.coarsest)
+    }
+
+    fn from_tree_of_any_size(operation: Operation, operands: Vec<Number>) -> Self {
         let coarsest = operands.iter().filter_map(|x| x.0.coarsest).min();
         let tree = Tree::new(operation, operands);
-        let oversized = tree.nodes() > MAX_NODES;
         let form = if tree.is_algebraic() {
             Form::Exact(Exact::Algebraic(tree))
         } else {
             Form::Symbolic(tree)
         };
-        let number = Self::build(form, coarsest);
-        if !oversized {
-            return number;
-        }
-        let stored = Operation::Stored(number.evaluate(STORED_BITS));
-        Self::build(Form::Symbolic(Tree::new(stored, Vec::new())), coarsest)
+        Self::build(form, coarsest)
     }
 
     /// The same number as computed from literals with at least so few decimals.
@@ -309,7 +313,11 @@ impl PartialEq for Number {
         }
         match (self.rational(), other.rational()) {
             (Some(a), Some(b)) => a == b,
-            _ => (self - other).is_zero(),
+            _ if self.nodes().saturating_add(other.nodes()) < MAX_NODES - 1 => {
+                (self - other).is_zero()
+            }
+            // The difference is only asked for its sign, so that there is no need to shorten it.
+            _ => Self::from_tree_of_any_size(Operation::Add, vec![self.clone(), -other]).is_zero(),
         }
     }
 }

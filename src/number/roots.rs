@@ -53,7 +53,7 @@ fn small_primes() -> impl Iterator<Item = u32> {
     const fn is_prime(n: u32) -> bool {
         let mut divisor = 2;
         while divisor * divisor <= n {
-            if n % divisor == 0 {
+            if n.is_multiple_of(divisor) {
                 return false;
             }
             divisor += 1;
