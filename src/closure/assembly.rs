@@ -7,12 +7,11 @@
 //! mechanism's own motions, so an assembled mechanism stays where it was drawn. At a singular pose that bound fails and
 //! convergence is linear; the iteration goes on until nothing improves.
 
-use super::cycle::WalkedCycle;
 use super::displacement::JointState;
 use super::geometry::{Geometry, relative};
 use super::jacobian::{CycleJacobian, Part, entry_accuracy, jacobian};
 use super::rigid::{Rigid, length, subtract};
-use crate::matrix::{LeastSquares, MatrixError, Real};
+use crate::matrix::{LeastSquares, MatrixError, Real, SplitMix64};
 use crate::mechanism::Mechanism;
 use std::collections::BTreeSet;
 
@@ -49,6 +48,9 @@ pub struct Assembly {
     /// The loops of the file.
     pub gaps: Vec<LoopGap>,
 }
+
+/// However coarsely the numbers are stated, a cycle that misses by more than this (rad, or cycle lengths) is not closed.
+const COARSEST_CLOSING: f64 = 0.02;
 
 /// Steps after which a part that does not close is given up.
 const STEP_LIMIT: usize = 200;
@@ -95,12 +97,6 @@ struct PartOutcome {
     steps: usize,
 }
 
-/// What residual still counts as closed: the uncertainty of a walk around the cycle, which is that of a Jacobian entry.
-fn closing_tolerance(mechanism: &Mechanism, jacobian: &CycleJacobian<f64>) -> f64 {
-    let (stated, rounding) = entry_accuracy(mechanism, jacobian);
-    stated + rounding
-}
-
 fn largest(values: &[f64]) -> f64 {
     // NaN must not pass for small.
     values
@@ -108,7 +104,99 @@ fn largest(values: &[f64]) -> f64 {
         .fold(0.0, |m: f64, x| if x.abs() <= m { m } else { x.abs() })
 }
 
+/// Tries in turn: the pose as drawn, then poses beside it, farther away each time. A pose can be stuck: drawn stretched
+/// or folded flat, a loop's gap may lie exactly across everything its joints can do to first order.
+const NUDGES: [f64; 8] = [0.0, 0.01, 0.03, 0.1, 0.2, 0.4, 0.7, 1.0];
+
 fn close(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    states: Vec<JointState<f64>>,
+    part: &Part,
+    held: &BTreeSet<usize>,
+) -> Result<(Vec<JointState<f64>>, PartOutcome), MatrixError> {
+    let mut steps = 0;
+    let mut best: Option<(Vec<JointState<f64>>, PartOutcome)> = None;
+    for (attempt, size) in NUDGES.into_iter().enumerate() {
+        let mut start = states.clone();
+        if attempt > 0 {
+            nudge(mechanism, geometry, part, held, size, &mut start)?;
+        }
+        let (reached, mut outcome) = descend(mechanism, geometry, start, part, held)?;
+        steps += outcome.steps;
+        outcome.steps = steps;
+        let closed = outcome.residual <= outcome.tolerance;
+        if best
+            .as_ref()
+            .is_none_or(|(_, b)| !(b.residual <= outcome.residual))
+        {
+            best = Some((reached, outcome));
+        }
+        if closed {
+            break;
+        }
+    }
+    let (states, mut outcome) = best.unwrap_or((
+        states,
+        PartOutcome {
+            residual: f64::INFINITY,
+            tolerance: 0.0,
+            steps: 0,
+        },
+    ));
+    outcome.steps = steps;
+    Ok((states, outcome))
+}
+
+/// Follows a motion of a part for a short finite way: all variables move along `direction` (in the Jacobian's units), then
+/// the cycles are closed again. `None` where they do not close from there.
+///
+/// # Errors
+/// [`MatrixError`] where numbers overflow.
+pub fn follow(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    states: &[JointState<f64>],
+    part: &Part,
+    direction: &[f64],
+) -> Result<Option<Vec<JointState<f64>>>, MatrixError> {
+    let here = jacobian(mechanism, geometry, states, part)?;
+    let movable = vec![true; here.variables.len()];
+    let mut start = states.to_vec();
+    advance(mechanism, geometry, &here, &movable, direction, &mut start);
+    let (reached, outcome) = descend(mechanism, geometry, start, part, &BTreeSet::new())?;
+    Ok((outcome.residual <= outcome.tolerance).then_some(reached))
+}
+
+/// Moves the joints of a part by up to `size` (rad, or part lengths), by numbers that depend on joint names only.
+fn nudge(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    part: &Part,
+    held: &BTreeSet<usize>,
+    size: f64,
+    states: &mut [JointState<f64>],
+) -> Result<(), MatrixError> {
+    let here = jacobian(mechanism, geometry, states, part)?;
+    let movable = movable_columns(&here, held);
+    let increments: Vec<f64> = here
+        .variables
+        .iter()
+        .map(|(joint, variable)| {
+            let mut random = SplitMix64::named(&mechanism.joints()[*joint].name);
+            (0..=*variable)
+                .map(|_| random.symmetric())
+                .last()
+                .unwrap_or(0.0)
+                * size
+        })
+        .collect();
+    advance(mechanism, geometry, &here, &movable, &increments, states);
+    Ok(())
+}
+
+/// Damped Gauss–Newton from one start until the cycles close to rounding, or nothing improves.
+fn descend(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
     mut states: Vec<JointState<f64>>,
@@ -116,8 +204,7 @@ fn close(
     held: &BTreeSet<usize>,
 ) -> Result<(Vec<JointState<f64>>, PartOutcome), MatrixError> {
     let mut here = jacobian(mechanism, geometry, &states, part)?;
-    let tolerance = closing_tolerance(mechanism, &here);
-    let rounding = entry_accuracy(mechanism, &here).1;
+    let (stated, rounding) = entry_accuracy(mechanism, &here);
     let mut residual = largest(&here.residual);
     let mut steps = 0;
     let mut caution = 1.0;
@@ -157,14 +244,13 @@ fn close(
             }
         }
     }
-    Ok((
-        states,
-        PartOutcome {
-            residual,
-            tolerance,
-            steps,
-        },
-    ))
+    // What still counts as closed is the uncertainty of a walk around the cycle, which is that of a Jacobian entry.
+    let outcome = PartOutcome {
+        residual,
+        tolerance: stated.min(COARSEST_CLOSING) + rounding,
+        steps,
+    };
+    Ok((states, outcome))
 }
 
 fn movable_columns<R>(jacobian: &CycleJacobian<R>, held: &BTreeSet<usize>) -> Vec<bool> {

@@ -74,7 +74,7 @@ impl<R: Real> WalkedCycle<R> {
                 frame: joint_frame,
             });
         }
-        let (centre, length) = characteristic_length(joints.iter().flat_map(|j| &j.screws));
+        let (centre, length) = characteristic_length(joints.iter().flat_map(|j| &j.screws), reach);
         Self {
             joints,
             closure: pose,
@@ -118,10 +118,11 @@ impl<R: Real> WalkedCycle<R> {
 /// The least-squares point of a set of axes and the RMS distance of the axes to it (m).
 ///
 /// The point minimises `Σ |(I − u uᵀ)(c − p)|²`. Where that leaves a direction open (all axes parallel) it stays at the
-/// mean of the axis points along that direction. Where no length is left (all axes meet in a point, or there are only
-/// translations), the length is the RMS distance of the axis points, or that of the pitches; finally 1 m.
+/// mean of the axis points along that direction. Where no length is left because all axes meet in a point, the size of
+/// the set of axis points serves, then the RMS pitch, then `reach`, the largest coordinate met (m); finally 1 m.
 pub fn characteristic_length<'a, R: Real + 'a>(
     screws: impl Iterator<Item = &'a PlacedScrew<R>>,
+    reach: f64,
 ) -> ([f64; 3], f64) {
     use nalgebra::{Matrix3, Vector3};
     let axes: Vec<(Vector3<f64>, Vector3<f64>, f64)> = screws
@@ -134,7 +135,13 @@ pub fn characteristic_length<'a, R: Real + 'a>(
         })
         .collect();
     if axes.is_empty() {
-        return ([0.0; 3], 1.0);
+        // Translations only: the rank has no length in it, and any positive one will do.
+        let length = if reach > 0.0 && reach.is_finite() {
+            reach
+        } else {
+            1.0
+        };
+        return ([0.0; 3], length);
     }
     let count = axes.len() as f64;
     let mean = axes.iter().map(|(_, p, _)| p).sum::<Vector3<f64>>() / count;
@@ -158,15 +165,18 @@ pub fn characteristic_length<'a, R: Real + 'a>(
         .iter()
         .map(|(_, p, _)| (p - centre).norm())
         .fold(0.0, f64::max);
-    let mut length = rms(&mut axes.iter().map(|(u, p, _)| (p - centre).cross(u).norm()));
-    if !(length > 1e-9 * size) {
-        length = size;
-    }
-    if !(length > 0.0) {
-        length = rms(&mut axes.iter().map(|(_, _, pitch)| *pitch));
-    }
-    if !(length > 0.0 && length.is_finite()) {
-        length = 1.0;
-    }
+    let spread = rms(&mut axes.iter().map(|(u, p, _)| (p - centre).cross(u).norm()));
+    let pitch = rms(&mut axes.iter().map(|(_, _, pitch)| *pitch));
+    // The damping moves the centre by up to a millionth of the size, and rounding moves points by 1e-16 of the reach:
+    // what is not far above that is no length of the mechanism.
+    let length = [
+        (spread, 1e-3 * size),
+        (size, 0.0),
+        (pitch, 0.0),
+        (reach, 0.0),
+    ]
+    .into_iter()
+    .find(|(length, least)| *length > *least && *length > 1e-9 * reach && length.is_finite())
+    .map_or(1.0, |(length, _)| length);
     (centre.into(), length)
 }

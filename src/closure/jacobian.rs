@@ -151,10 +151,10 @@ pub fn jacobian<R: Real>(
 ///
 /// A cycle's entries depend on the frames passed before them. To first order, an uncertainty `u` of a position moves
 /// every screw of the cycle by up to `u` (relative: `u / L`), one of a direction or an angle turns every screw by as much
-/// and moves it by up to that angle times the cycle's extent, which is of the order of `L`. Summed over the frames and
-/// axes of the cycle this bounds each column; a cycle of `n` columns is then off by at most `√n` times that, and since a
-/// variable stands in a few cycles only, the largest cycle bounds the matrix up to a factor of `√2`. Rounding is the same
-/// with `u` = unit roundoff times the largest coordinate met.
+/// and moves it by up to that angle times the cycle's extent, which is of the order of `L`. Rounding errors of different
+/// numbers are independent and uniform in ±u: their root sum of squares is 1.7 standard deviations of the total, and twice
+/// that is used. A cycle of `n` columns is then off by at most `√n` times as much. Rounding in the arithmetic is bounded
+/// the same way, with `u` = unit roundoff times the largest coordinate met, summed, since it is not random.
 pub fn entry_accuracy<R: Real>(mechanism: &Mechanism, jacobian: &CycleJacobian<R>) -> (f64, f64) {
     let precision = mechanism.precision();
     let exact = precision.is_exact();
@@ -165,12 +165,12 @@ pub fn entry_accuracy<R: Real>(mechanism: &Mechanism, jacobian: &CycleJacobian<R
         let columns: usize = walk.joints.iter().map(|j| j.screws.len()).sum();
         let spread = (2.0 * columns as f64).sqrt();
         if !exact {
-            let sum: f64 = walk
+            let square: f64 = walk
                 .joints
                 .iter()
-                .map(|j| joint_uncertainty(mechanism, &mechanism.joints()[j.joint], walk.length))
+                .map(|j| squared_uncertainty(mechanism, &mechanism.joints()[j.joint], walk.length))
                 .sum();
-            stated = stated.max(spread * sum);
+            stated = stated.max(2.0 * (columns as f64).sqrt() * square.sqrt());
         }
         // Each joint composes three displacements; a dozen roundings of coordinates up to the reach, in units of length.
         let steps = 12.0 * walk.joints.len() as f64;
@@ -180,31 +180,30 @@ pub fn entry_accuracy<R: Real>(mechanism: &Mechanism, jacobian: &CycleJacobian<R
     (stated, rounding.max(4.0 * roundoff))
 }
 
-/// Uncertainty that one joint brings into its cycle, in units of the cycle's length (angles in rad).
-fn joint_uncertainty(mechanism: &Mechanism, joint: &Joint, length: f64) -> f64 {
+/// Sum of the squared uncertainties that one joint brings into its cycle, in units of the cycle's length (angles in rad).
+fn squared_uncertainty(mechanism: &Mechanism, joint: &Joint, length: f64) -> f64 {
     let precision = mechanism.precision();
-    let norm = |numbers: &[crate::number::Number; 3]| {
+    let square = |numbers: &[crate::number::Number; 3]| -> f64 {
         numbers
             .iter()
             .map(|n| precision.uncertainty(n).powi(2))
-            .sum::<f64>()
-            .sqrt()
+            .sum()
     };
     let mut sum = 0.0;
     for side in [&joint.predecessor, &joint.successor] {
-        sum += norm(&side.frame.position) / length + norm(&side.frame.roll_pitch_yaw);
+        sum += square(&side.frame.position) / length.powi(2) + square(&side.frame.roll_pitch_yaw);
     }
     for (axis, used) in [
         (&joint.axis, joint.kind.uses_axis()),
         (&joint.axis2, joint.kind.uses_second_axis()),
     ] {
         if used {
-            let size = axis.0.iter().map(|n| n.value().powi(2)).sum::<f64>().sqrt();
-            sum += norm(&axis.0) / size;
+            let size: f64 = axis.0.iter().map(|n| n.value().powi(2)).sum();
+            sum += square(&axis.0) / size;
         }
     }
     for scalar in joint.lead.iter().chain(&joint.distance) {
-        sum += precision.uncertainty(scalar) / length;
+        sum += (precision.uncertainty(scalar) / length).powi(2);
     }
     sum
 }

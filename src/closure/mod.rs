@@ -20,7 +20,7 @@ mod jacobian;
 mod positional;
 mod rigid;
 
-pub use assembly::{Assembly, LoopGap, assemble, refine, spanning_poses};
+pub use assembly::{Assembly, LoopGap, assemble, follow, refine, spanning_poses};
 pub use cycle::{Walk, WalkedCycle, WalkedJoint, characteristic_length};
 pub use displacement::{JointDisplacement, JointState};
 pub use geometry::{Arithmetic, Geometry};

@@ -42,8 +42,12 @@ pub fn positional_jacobian<R: Real>(
             .collect();
         placed.push((joint, frame, screws));
     }
+    let reach = placed
+        .iter()
+        .flat_map(|(_, frame, _)| &frame.translation)
+        .fold(0.0, |far: f64, x| far.max(x.to_f64().abs()));
     let (_, length) =
-        super::cycle::characteristic_length(placed.iter().flat_map(|(_, _, screws)| screws));
+        super::cycle::characteristic_length(placed.iter().flat_map(|(_, _, screws)| screws), reach);
     let inverse_length = one.constant(1.0 / length);
     // The reference point of a link is one of its joints, so that arms stay short.
     let mut reference: BTreeMap<usize, Vector<R>> = BTreeMap::new();

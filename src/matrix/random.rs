@@ -15,6 +15,15 @@ impl SplitMix64 {
         Self { state: seed }
     }
 
+    /// A generator whose numbers depend on a name only (FNV-1a hash as the seed), never on where it stands in a file.
+    #[must_use]
+    pub fn named(name: &str) -> Self {
+        let hash = name.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+            (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+        });
+        Self::new(hash)
+    }
+
     /// The next 64 random bits.
     pub fn next_u64(&mut self) -> u64 {
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);

@@ -180,7 +180,7 @@ impl Analysis {
             for (joint, role) in part
                 .joints
                 .iter()
-                .zip(roles_of_part(mechanism, part, rank)?)
+                .zip(roles_of_part(mechanism, geometry, states, part, rank)?)
             {
                 self.roles[*joint] = role;
             }

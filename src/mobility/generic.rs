@@ -67,7 +67,7 @@ pub fn generic_count(
         let mut blocks: Vec<usize> = (0..part.cycles.len()).map(|i| 6 * i).collect();
         for &coupling in &part.couplings {
             let coupling = &mechanism.couplings()[coupling];
-            let mut random = SplitMix64::new(seed(&coupling.name));
+            let mut random = SplitMix64::named(&coupling.name);
             blocks.push(rows);
             for term in &coupling.terms {
                 if let Some(&first) = first_column.get(&term.joint.0) {
@@ -91,7 +91,7 @@ pub fn generic_count(
 /// Screws of a joint of the same class in a random place (FORMAT's table, over the prime field; lengths and the sine of
 /// angles have no meaning there and none is needed, a span does not change when its vectors are scaled).
 fn random_screws(joint: &Joint) -> Vec<Screw> {
-    let mut random = SplitMix64::new(seed(&joint.name));
+    let mut random = SplitMix64::named(&joint.name);
     let zero = Field61::new(0);
     let nothing: Vector = [zero; 3];
     let mut vector = || -> Vector { [0, 1, 2].map(|_| Field61::random(&mut random)) };
@@ -163,11 +163,4 @@ fn cross(a: &Vector, b: &Vector) -> Vector {
         a[2] * b[0] - a[0] * b[2],
         a[0] * b[1] - a[1] * b[0],
     ]
-}
-
-/// FNV-1a, so that a name alone fixes the random numbers drawn for it.
-fn seed(name: &str) -> u64 {
-    name.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    })
 }

@@ -19,6 +19,10 @@ use std::collections::BTreeSet;
 /// The bits tried in turn after double precision.
 pub const LADDER: [u32; 4] = [106, 212, 424, 848];
 
+/// A stated precision that makes the Jacobian uncertain by more than this separates nothing: a kept singular value would
+/// have to be ten times as large. The numbers are then taken literally, which the report says.
+const COARSEST_STATED: f64 = 0.05;
+
 /// The rank of a part at a pose.
 #[derive(Clone, Debug)]
 pub struct PartRank {
@@ -30,6 +34,8 @@ pub struct PartRank {
     pub instantaneous: Option<usize>,
     /// Smallest and largest instantaneous freedom that remain possible within the stated precision.
     pub candidates: (usize, usize),
+    /// Whether the stated precision was too coarse to be used, so that the numbers were taken literally.
+    pub taken_literally: bool,
     /// Relative uncertainty of the Jacobian by the file's stated precision; zero where the numbers are exact.
     pub stated: f64,
     /// Bits of the arithmetic that decided.
@@ -38,6 +44,8 @@ pub struct PartRank {
     pub note: Option<String>,
     /// The Jacobian in double precision, columns of unit length, for everything that needs vectors.
     pub matrix: SparseMatrix<f64>,
+    /// Norms by which the columns were divided.
+    pub column_scales: Vec<f64>,
     /// The linearised equations the matrix was made from.
     pub jacobian: CycleJacobian<f64>,
 }
@@ -90,8 +98,11 @@ pub struct Pose<'a> {
 pub fn rank_part(pose: &Pose<'_>, part: &Part) -> Result<PartRank, MatrixError> {
     let double = jacobian(pose.mechanism, pose.geometry, pose.states, part)?;
     let (stated, rounding) = entry_accuracy(pose.mechanism, &double);
+    // Numbers so coarse that they would leave every rank open were chosen, not rounded.
+    let coarse = stated > COARSEST_STATED;
+    let stated = if coarse { 0.0 } else { stated };
     let mut matrix = double.matrix.clone();
-    matrix.scale_columns();
+    let column_scales = matrix.scale_columns();
     let columns = matrix.columns();
     let mut bits = 53;
     let mut nominal = decide(&matrix, stated + rounding)?;
@@ -152,10 +163,12 @@ pub fn rank_part(pose: &Pose<'_>, part: &Part) -> Result<PartRank, MatrixError> 
         as_written: literal,
         instantaneous,
         candidates,
+        taken_literally: coarse,
         stated,
         bits,
         note,
         matrix,
+        column_scales,
         jacobian: double,
         decision,
     })

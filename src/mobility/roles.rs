@@ -1,14 +1,19 @@
 //! What each joint does at the pose: which of its freedoms move in some motion, which in none.
 //!
-//! A variable is locked at the pose when its component vanishes in every vector of ker J (a coloop of the column matroid).
+//! A variable is locked when its component vanishes in every vector of ker J (a coloop of the column matroid), at the pose
+//! and at poses nearby.
 
 use super::pose_rank::PartRank;
-use crate::closure::Part;
-use crate::matrix::{MatrixError, coloops, null_vectors};
+use crate::closure::{Geometry, JointState, Part, entry_accuracy, follow, jacobian};
+use crate::matrix::{MatrixError, NullVectors, SplitMix64, coloops, decide, null_vectors};
 use crate::mechanism::{FreedomPart, Joint, JointKind, Mechanism};
 
 /// Above this nullity random null vectors stand for a basis. A variable that moves is missed with probability zero.
 const NULL_VECTORS: usize = 24;
+
+/// Finite ways of the moved check, in radians or part lengths of the fastest variable: two, so that a joint that pauses
+/// again at the first is seen at the second.
+const STEPS: [f64; 2] = [0.05, -0.13];
 
 /// The role of one joint at the pose.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -19,12 +24,18 @@ pub struct JointRole {
     pub locked_parts: Vec<String>,
 }
 
-/// Roles of the joints of a part, in the part's order.
+/// Roles of the joints of a part at its pose, in the part's order.
+///
+/// A joint can pause: at a dead centre its rate is zero for an instant. So where some joint seems locked, the part is
+/// moved a finite way along a random motion and asked again; what moves there is not locked. (Where the rank changes on
+/// the way the pose is singular, and the roles are those of the pose itself.)
 ///
 /// # Errors
 /// [`MatrixError`] where the null vectors cannot be computed.
 pub fn roles_of_part(
     mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    states: &[JointState<f64>],
     part: &Part,
     rank: &PartRank,
 ) -> Result<Vec<JointRole>, MatrixError> {
@@ -41,6 +52,16 @@ pub fn roles_of_part(
     for column in found.undecided {
         doubtful[column] = true;
     }
+    let freedom = decision.nullity().unwrap_or(0);
+    if freedom > 0 && zero.iter().any(|z| *z) {
+        for size in STEPS {
+            for (paused, moves) in zero.iter_mut().zip(moving(
+                mechanism, geometry, states, part, rank, &null, size,
+            )?) {
+                *paused &= !moves;
+            }
+        }
+    }
     let mut first = 0;
     let mut roles = Vec::with_capacity(part.joints.len());
     for &joint in &part.joints {
@@ -50,6 +71,56 @@ pub fn roles_of_part(
         roles.push(role(joint, &zero[columns.clone()], &doubtful[columns]));
     }
     Ok(roles)
+}
+
+/// Which variables move at a pose a finite step away; none where the step fails or the rank is another there.
+fn moving(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    states: &[JointState<f64>],
+    part: &Part,
+    rank: &PartRank,
+    null: &NullVectors<f64>,
+    size: f64,
+) -> Result<Vec<bool>, MatrixError> {
+    let still = vec![false; rank.matrix.columns()];
+    // A fixed combination of the null vectors, in the Jacobian's own units: unit columns were divided by their norms.
+    let mut random = SplitMix64::new(7);
+    let mut direction = vec![0.0; still.len()];
+    for vector in &null.vectors {
+        let weight = random.symmetric();
+        for (d, x) in direction.iter_mut().zip(vector) {
+            *d += weight * x;
+        }
+    }
+    for (d, scale) in direction.iter_mut().zip(&rank.column_scales) {
+        if *scale > 0.0 {
+            *d /= scale;
+        }
+    }
+    let largest = direction.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+    if !(largest > 0.0 && largest.is_finite()) {
+        return Ok(still);
+    }
+    direction.iter_mut().for_each(|x| *x *= size / largest);
+    let Some(there) = follow(mechanism, geometry, states, part, &direction)? else {
+        return Ok(still);
+    };
+    let moved = jacobian(mechanism, geometry, &there, part)?;
+    let (stated, rounding) = entry_accuracy(mechanism, &moved);
+    let mut matrix = moved.matrix;
+    matrix.scale_columns();
+    let decision = decide(&matrix, stated + rounding)?;
+    if decision.nullity() != rank.instantaneous {
+        return Ok(still);
+    }
+    let null = null_vectors(&matrix, &decision, NULL_VECTORS, 1)?;
+    let found = coloops(&null, &decision);
+    let mut moves = vec![true; still.len()];
+    for column in found.zero.into_iter().chain(found.undecided) {
+        moves[column] = false;
+    }
+    Ok(moves)
 }
 
 fn role(joint: &Joint, zero: &[bool], doubtful: &[bool]) -> JointRole {
