@@ -15,7 +15,7 @@ use super::error::MatrixError;
 use super::frontal::{Factorization, factor, times_power_of_two};
 use super::jacobi;
 use super::random::SplitMix64;
-use super::real::{Real, Ring};
+use super::real::Real;
 use super::sparse::SparseMatrix;
 
 /// Steps of power iteration: a random start has a component of about 1/√n along the wanted vector,
@@ -192,6 +192,7 @@ pub(crate) fn orthonormalise<R: Real>(zero: &R, vectors: &mut [Vec<R>]) -> bool 
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::super::frontal::factor;
+    use super::super::real::Ring;
     use super::*;
 
     #[test]
