@@ -257,7 +257,7 @@ impl Real for Big {
     }
 
     fn atan2(&self, x: &Self) -> Self {
-        if self.is_zero() && !x.value.is_none() {
+        if self.is_zero() && x.value.is_some() {
             let bits = self.bits.max(x.bits);
             return if x < &x.zero_like() {
                 Self::keep(Some(Context::<HalfEven>::new(bits).pi::<2>(None)), bits)

@@ -192,6 +192,7 @@ pub(crate) fn orthonormalise<R: Real>(zero: &R, vectors: &mut [Vec<R>]) -> bool 
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::super::frontal::factor;
+    use super::super::real::Ring;
     use super::*;
 
     #[test]

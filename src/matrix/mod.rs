@@ -23,7 +23,7 @@
 //! - [`rank`]: the decision. Small matrices by singular values (faer, checked; [`jacobi`] for many
 //!   digits), large ones by sparse QR ([`frontal`], in the order of [`ordering`]) with the smallest
 //!   kept singular value from inverse iteration ([`estimate`]).
-//! - [`null_space`] and [`coloops`]: what the rank leaves free, and what it locks.
+//! - [`null_space`] and [`mod@coloops`]: what the rank leaves free, and what it locks.
 //! - [`modular`]: the same elimination over a prime field: generic rank without rounding.
 //!
 //! # Cost

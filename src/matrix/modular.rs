@@ -9,6 +9,8 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use dashu::integer::IBig;
+
 use super::multifrontal::{Dense, Kernel, Triangle, eliminate, prepare};
 use super::random::SplitMix64;
 use super::real::Ring;
@@ -31,6 +33,13 @@ impl Field61 {
     pub fn new(value: i128) -> Self {
         // The remainder lies in 0..PRIME, so it fits.
         Self(value.rem_euclid(i128::from(Self::PRIME)) as u64)
+    }
+
+    /// The residue of an integer of any size.
+    #[must_use]
+    pub fn from_integer(value: &IBig) -> Self {
+        // The remainder is smaller than the prime in magnitude, so the conversion cannot fail.
+        i128::try_from(value % IBig::from(Self::PRIME)).map_or(Self::ZERO, Self::new)
     }
 
     /// The residue of numerator / denominator; `None` if the prime divides the denominator.
@@ -128,6 +137,8 @@ impl Mul for Field61 {
 impl Div for Field61 {
     type Output = Self;
     /// The quotient. Division by zero, which no elimination does, gives zero.
+    // Division in a field is multiplication by the inverse.
+    #[allow(clippy::suspicious_arithmetic_impl)]
     fn div(self, other: Self) -> Self {
         match other.inverse() {
             Some(inverse) => self * inverse,
@@ -277,6 +288,11 @@ mod tests {
         assert_eq!(last + Field61::ONE, Field61::ZERO);
         assert_eq!(Field61::new(i128::from(Field61::PRIME)), Field61::ZERO);
         assert_eq!(Field61::new(i128::MIN) + Field61::new(i128::MAX), last);
+        assert_eq!(Field61::from_integer(&(IBig::from(-1) << 61)), last);
+        assert_eq!(
+            Field61::from_integer(&(IBig::from(3) << 183)),
+            Field61::new(3)
+        );
         assert_eq!(-Field61::ZERO, Field61::ZERO);
         assert_eq!(Field61::ZERO.inverse(), None);
         assert_eq!(Field61::from_fraction(1, 0), None);

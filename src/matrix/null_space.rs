@@ -10,7 +10,8 @@
 
 use super::error::MatrixError;
 use super::estimate::orthonormalise;
-use super::frontal::{Factorization, factor};
+use super::frontal::{Factorization, factor_as_planned};
+use super::multifrontal::prepare;
 use super::rank::RankDecision;
 use super::real::Real;
 use super::sparse::SparseMatrix;
@@ -88,8 +89,14 @@ pub fn null_vectors<R: Real>(
             return finish(matrix, decision, nullity, vectors, true);
         }
     }
-    let factorization = factor(matrix, separating_tolerance(decision))?;
-    null_vectors_by_qr(matrix, decision, &factorization, limit, seed)
+    let plan = prepare(matrix);
+    for tolerance in separating_tolerances(decision) {
+        let factorization = factor_as_planned(matrix, &plan, tolerance)?;
+        if factorization.rank() == rank {
+            return null_vectors_by_qr(matrix, decision, &factorization, limit, seed);
+        }
+    }
+    Err(failure(matrix, NOT_SEPARATED))
 }
 
 /// [`null_vectors`] from a factorization at hand, such as the one of
@@ -107,10 +114,7 @@ pub fn null_vectors_by_qr<R: Real>(
 ) -> Result<NullVectors<R>, MatrixError> {
     let rank = checked_rank(matrix, decision)?;
     if factorization.rank() != rank {
-        return Err(failure(
-            matrix,
-            "the pivots do not separate at the decided rank",
-        ));
+        return Err(failure(matrix, NOT_SEPARATED));
     }
     let nullity = matrix.columns() - rank;
     let zero = matrix.zero();
@@ -143,11 +147,19 @@ pub fn null_vectors_by_qr<R: Real>(
     finish(matrix, decision, nullity, vectors, complete)
 }
 
-/// A drop tolerance (absolute) between the kept and the dropped values, in the middle of the gap.
-fn separating_tolerance(decision: &RankDecision) -> f64 {
-    let roundoff = decision.tolerance.min(decision.accuracy);
-    let middle = (decision.kept * decision.dropped.max(roundoff)).sqrt();
-    middle.min(0.5 * decision.kept) * decision.largest
+const NOT_SEPARATED: &str = "the pivots do not separate at the decided rank";
+
+/// Drop tolerances (absolute) to try in turn, from the tolerance of the decision to the middle of
+/// the gap between kept and dropped singular values.
+///
+/// Pivots and remainders are not singular values: with many dropped columns remainders can be larger
+/// than σ_{k+1} and pivots smaller than σ_k by the growth of R₁₁⁻¹R₁₂, so that no one tolerance
+/// always serves. The rank that comes out is compared with the decided one.
+fn separating_tolerances(decision: &RankDecision) -> [f64; 4] {
+    let floor = decision.dropped.max(decision.accuracy);
+    let middle = (decision.kept * floor).sqrt().min(0.5 * decision.kept);
+    let tolerance = decision.tolerance;
+    [tolerance, middle, 10.0 * tolerance, 100.0 * tolerance].map(|t| t * decision.largest)
 }
 
 fn checked_rank<R: Real>(

@@ -129,7 +129,9 @@ impl RankDecision {
 /// Decides the rank of a matrix whose entries are uncertain by `accuracy`: ‖ΔA‖_F ≤ accuracy · σ₁.
 ///
 /// Doubles up to 300 columns and 1500 rows: singular values. Larger ones, and many digits beyond a
-/// side of 12: sparse QR. Scale columns to unit length first ([`SparseMatrix::scale_columns`]) if
+/// side of 12: sparse QR of the matrix or its transpose, the one with fewer columns first, as fewer
+/// dropped columns leave clearer margins; the other is asked where the first leaves doubt. Scale
+/// columns to unit length first ([`SparseMatrix::scale_columns`]) if
 /// their lengths mean nothing; the rank is decided relative to the largest singular value of the
 /// matrix as given. A matrix without nonzero entries has rank 0, decided.
 ///
@@ -145,10 +147,29 @@ pub fn decide<R: Real>(
     if side <= JACOBI_SIDE
         || (doubles && matrix.columns() <= DENSE_COLUMNS && matrix.rows() <= DENSE_ROWS)
     {
-        decide_by_singular_values(matrix, accuracy)
-    } else {
-        decide_by_qr(matrix, accuracy).map(|(decision, _)| decision)
+        return decide_by_singular_values(matrix, accuracy);
     }
+    let upright =
+        |matrix| -> Result<RankDecision, MatrixError> { Ok(decide_by_qr(matrix, accuracy)?.0) };
+    let lying = |matrix: &SparseMatrix<R>| -> Result<RankDecision, MatrixError> {
+        let (decision, _) = decide_by_qr(&matrix.transpose(), accuracy)?;
+        Ok(decision.transposed())
+    };
+    let tall = matrix.rows() >= matrix.columns();
+    let first = if tall {
+        upright(matrix)?
+    } else {
+        lying(matrix)?
+    };
+    if first.rank.is_some() {
+        return Ok(first);
+    }
+    let second = if tall {
+        lying(matrix)?
+    } else {
+        upright(matrix)?
+    };
+    Ok(if second.rank.is_some() { second } else { first })
 }
 
 /// [`decide`] by singular values whatever the size.
@@ -202,7 +223,10 @@ pub fn decide_by_qr<R: Real>(
     let rounding = ROUNDINGS * matrix.zero().unit_roundoff() * passage as f64;
     decision.tolerance = accuracy.max(rounding);
     let factorization = factor_as_planned(matrix, &plan, decision.tolerance * decision.largest)?;
-    if factorization.rank() > 0 {
+    if factorization.rank() == 0 && decision.largest > 0.0 {
+        // Only where the accuracy is no better than the matrix itself.
+        decision.conclude(0, 1);
+    } else if factorization.rank() > 0 {
         let estimates = smallest_kept_singular_values(&factorization, 2);
         decision.settle_by_bounds(&factorization, &estimates);
         if decision.rank.is_none() {
@@ -289,6 +313,12 @@ impl RankDecision {
     }
 
     fn conclude(&mut self, least: usize, most: usize) {
+        // Not even σ₁ stands clear of so poor an accuracy.
+        let least = if CLEARANCE * self.tolerance > 1.0 {
+            0
+        } else {
+            least
+        };
         self.candidates = (least, most);
         self.rank = (least == most).then_some(most);
     }

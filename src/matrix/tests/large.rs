@@ -6,7 +6,7 @@ use super::super::{
     Big, Field61, Method, SparseMatrix, coloops, decide, decide_by_qr, decide_by_singular_values,
     factor_modular, modular_rank, null_vectors, null_vectors_by_qr,
 };
-use super::{Geometry, Loops, integer_screws};
+use super::{Geometry, Loops, integer_screws, regular_lattice_screws};
 
 fn real(loops: &Loops, screws: &[[i64; 6]]) -> SparseMatrix<f64> {
     let screws: Vec<[f64; 6]> = screws.iter().map(|s| s.map(|x| x as f64)).collect();
@@ -23,29 +23,62 @@ fn modular(loops: &Loops, screws: &[[i64; 6]]) -> SparseMatrix<Field61> {
     loops.jacobian(Field61::ZERO, &screws)
 }
 
+/// Real ranks by both routes, of the matrix and of its transpose, against the exact one.
+fn check_ranks(loops: &Loops, screws: &[[i64; 6]], what: &str) -> usize {
+    let (matrix, field) = (real(loops, screws), modular(loops, screws));
+    let exact = modular_rank(&field);
+    assert_eq!(modular_rank(&field.transpose()), exact);
+    let by_values = decide_by_singular_values(&matrix, 0.0).unwrap();
+    let (by_qr, _) = decide_by_qr(&matrix, 0.0).unwrap();
+    let (left, _) = decide_by_qr(&matrix.transpose(), 0.0).unwrap();
+    for decision in [by_values, by_qr, left] {
+        assert_eq!(decision.rank, Some(exact), "{what} {decision:?}");
+    }
+    loops.joints - exact
+}
+
 #[test]
 fn real_and_modular_ranks_agree_on_integer_geometry() {
     for loops in [
         Loops::chain(1),
         Loops::chain(40),
+        Loops::chain(10).with_freedom(2),
         Loops::lattice(4),
         Loops::lattice(9),
+        Loops::lattice(5).with_freedom(2),
+        Loops::lattice(5).with_freedom(3),
     ] {
         for geometry in [Geometry::Planar, Geometry::Spherical, Geometry::Spatial] {
             for seed in 0..3 {
                 let screws = integer_screws(loops.joints, geometry, seed);
-                let matrix = real(&loops, &screws);
-                let exact = modular_rank(&modular(&loops, &screws));
-                let by_values = decide_by_singular_values(&matrix, 0.0).unwrap();
-                let (by_qr, _) = decide_by_qr(&matrix, 0.0).unwrap();
-                assert_eq!(by_values.rank, Some(exact), "{geometry:?} {by_values:?}");
-                assert_eq!(by_qr.rank, Some(exact), "{geometry:?} {by_qr:?}");
-                let (left, _) = decide_by_qr(&matrix.transpose(), 0.0).unwrap();
-                assert_eq!(left.rank, Some(exact), "{geometry:?} {left:?}");
-                assert_eq!(modular_rank(&modular(&loops, &screws).transpose()), exact);
+                check_ranks(&loops, &screws, &format!("{geometry:?} {seed}"));
             }
         }
     }
+}
+
+#[test]
+fn lattices_of_parallelograms_have_one_freedom() {
+    // Links on the nodes, hinged to their neighbours halfway: all turn together, neighbours in
+    // opposite senses.
+    for side in [2, 3, 5, 10] {
+        let screws = regular_lattice_screws(side);
+        let freedoms = check_ranks(&Loops::lattice(side), &screws, &format!("side {side}"));
+        assert_eq!(freedoms, 1);
+    }
+    // A large one, whose transpose alone would leave doubt: thousands of dropped columns amplify
+    // rounding errors.
+    let lattice = Loops::lattice(30);
+    let matrix = real(&lattice, &regular_lattice_screws(30));
+    let decision = decide(&matrix, 0.0).unwrap();
+    assert_eq!(decision.nullity(), Some(1), "{decision:?}");
+    let transposed = matrix.transpose();
+    let left = decide(&transposed, 0.0).unwrap();
+    assert_eq!(left.rank, decision.rank, "{left:?}");
+    let null = null_vectors(&matrix, &decision, 1, 0).unwrap();
+    assert!(null.residual < 1e-12);
+    let stresses = null_vectors(&transposed, &left, 3, 0).unwrap();
+    assert!(stresses.residual < 1e-10 && stresses.nullity == 6 * 841 - 1739);
 }
 
 #[test]
@@ -135,7 +168,6 @@ fn random_chains_are_decided_rightly_or_left_open() {
         let screws = integer_screws(loops.joints, Geometry::Planar, seed);
         let exact = modular_rank(&modular(&loops, &screws));
         let (decision, _) = decide_by_qr(&real(&loops, &screws), 0.0).unwrap();
-        println!("{decision:?} exact {exact}");
         assert!(
             decision.rank.is_none_or(|rank| rank == exact),
             "{decision:?} {exact}"
@@ -159,51 +191,63 @@ fn coloops_of_a_lattice_agree_with_the_field() {
     }
 }
 
-/// Prints times of the large cases; run it in a release build with `--nocapture`.
+/// The large cases of the module's goals; in a release build with `--nocapture` it tells the times.
 #[test]
-fn timings() {
-    let time = |name: &str, work: &mut dyn FnMut() -> String| {
+fn large_cases_agree_with_the_field() {
+    fn time<T: std::fmt::Debug>(name: &str, work: impl FnOnce() -> T) -> T {
         let start = Instant::now();
         let result = work();
-        println!("{name:<48} {:>10.3?}  {result}", start.elapsed());
-    };
+        println!("{name:<34} {:>10.3?}  {result:?}", start.elapsed());
+        result
+    }
     let chain = Loops::chain(10_000);
-    let (matrix, field) = (real_scissor(&chain), modular_scissor(&chain));
-    time("chain 60000 x 30001, QR", &mut || {
-        format!("{:?}", decide_by_qr(&matrix, 0.0).unwrap().0)
-    });
-    let transposed = matrix.transpose();
-    time("chain transposed, QR", &mut || {
-        format!("{:?}", decide_by_qr(&transposed, 0.0).unwrap().0.candidates)
-    });
-    time("chain 60000 x 30001, field", &mut || {
-        format!("{}", modular_rank(&field))
-    });
-    for geometry in [Geometry::Planar, Geometry::Spatial] {
-        let lattice = Loops::lattice(30);
-        let screws = integer_screws(lattice.joints, geometry, 12);
-        let (matrix, field) = (real(&lattice, &screws), modular(&lattice, &screws));
-        time("lattice 5046 x 1740, QR", &mut || {
-            let (decision, factorization) = decide_by_qr(&matrix, 0.0).unwrap();
-            format!("{decision:?}, {} stored", factorization.stored())
+    let lattice = Loops::lattice(30);
+    let spatial = lattice.with_freedom(3);
+    let regular = regular_lattice_screws(30);
+    let random = integer_screws(lattice.joints, Geometry::Spatial, 12);
+    let many = integer_screws(spatial.joints, Geometry::Spatial, 12);
+    for (name, matrix, field) in [
+        ("scissor", real_scissor(&chain), modular_scissor(&chain)),
+        (
+            "regular lattice",
+            real(&lattice, &regular),
+            modular(&lattice, &regular),
+        ),
+        (
+            "random lattice",
+            real(&lattice, &random),
+            modular(&lattice, &random),
+        ),
+        (
+            "lattice of 3 freedoms per joint",
+            real(&spatial, &many),
+            modular(&spatial, &many),
+        ),
+    ] {
+        println!("{name}: {} x {}", matrix.rows(), matrix.columns());
+        let exact = time("  field", || modular_rank(&field));
+        let decision = time("  decide", || decide(&matrix, 0.0).unwrap());
+        assert_eq!(decision.rank, Some(exact));
+        let null = time("  two null vectors", || {
+            let null = null_vectors(&matrix, &decision, 2, 0).unwrap();
+            (null.vectors.len(), null.residual)
         });
-        let transposed = matrix.transpose();
-        time("lattice transposed, QR", &mut || {
-            format!("{:?}", decide_by_qr(&transposed, 0.0).unwrap().0.candidates)
-        });
-        time("lattice, field", &mut || {
-            format!("{}", modular_rank(&field))
-        });
+        assert!(null.1 < 1e-10 && null.0 == 2.min(matrix.columns() - exact));
     }
     let single = Loops::chain(1);
     let small = real(&single, &integer_screws(4, Geometry::Planar, 2));
-    time("6 x 4, doubles, 1000 times", &mut || {
-        let ranks = (0..1000).map(|_| decide(&small, 0.0).unwrap().rank.unwrap());
-        format!("{}", ranks.sum::<usize>())
-    });
     let big = small.map(&Big::new(0.0, 106), |&x| Big::new(x, 106));
-    time("6 x 4, 106 bits, 100 times", &mut || {
-        let ranks = (0..100).map(|_| decide(&big, 1e-15).unwrap().rank.unwrap());
-        format!("{}", ranks.sum::<usize>())
+    let ranks = time("6 x 4, doubles, 1000 times", || {
+        (0..1000)
+            .map(|_| decide(&small, 0.0).unwrap().rank.unwrap())
+            .sum::<usize>()
     });
+    assert_eq!(ranks, 3000);
+    // Rounded columns: the accuracy of the entries is that of doubles.
+    let ranks = time("6 x 4, 106 bits, 100 times", || {
+        (0..100)
+            .map(|_| decide(&big, 1e-15).unwrap().rank.unwrap())
+            .sum::<usize>()
+    });
+    assert_eq!(ranks, 300);
 }

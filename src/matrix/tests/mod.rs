@@ -83,6 +83,18 @@ impl Loops {
         }
     }
 
+    /// The same with `freedom` columns in place of each joint.
+    fn with_freedom(&self, freedom: usize) -> Self {
+        let copies = |&(l, joint, sign): &(usize, usize, i64)| {
+            (0..freedom).map(move |copy| (l, freedom * joint + copy, sign))
+        };
+        Self {
+            loops: self.loops,
+            joints: freedom * self.joints,
+            members: self.members.iter().flat_map(copies).collect(),
+        }
+    }
+
     /// The Jacobian with a given screw per joint, six rows per loop.
     fn jacobian<T: Ring>(&self, zero: T, screw: &[[T; 6]]) -> SparseMatrix<T> {
         self.jacobian_by(zero, |_, joint| screw[joint].clone())
@@ -104,6 +116,14 @@ impl Loops {
             .unwrap()
             .with_row_blocks_of(6)
     }
+}
+
+/// Parallel axes in the middles of the edges of a square lattice: every loop is a parallelogram.
+fn regular_lattice_screws(side: usize) -> Vec<[i64; 6]> {
+    let planar = |x: usize, y: usize| [0, 0, 1, y as i64, -(x as i64), 0];
+    let across = (0..side).flat_map(|row| (0..side - 1).map(move |c| planar(2 * c + 1, 2 * row)));
+    let down = (0..side - 1).flat_map(|row| (0..side).map(move |c| planar(2 * c, 2 * row + 1)));
+    across.chain(down).collect()
 }
 
 /// Kinds of geometry, with small integer coordinates that every arithmetic holds exactly.

@@ -279,6 +279,11 @@ fn degenerate_shapes_and_bad_numbers() {
             Err(MatrixError::Tolerance(_))
         ));
     }
+    // An accuracy no better than the matrix itself decides nothing.
+    for poor in [0.2, 1.0, 50.0] {
+        assert_eq!(decide(&one, poor).unwrap().rank, None);
+        assert_eq!(decide_by_qr(&one, poor).unwrap().0.candidates, (0, 1));
+    }
     // Largest and smallest doubles there are.
     for extreme in [f64::MAX, f64::MIN_POSITIVE, 5e-324] {
         let entries = vec![(0, 0, extreme), (1, 1, extreme), (2, 0, -extreme)];
