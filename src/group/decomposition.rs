@@ -50,7 +50,7 @@ impl Margin {
     /// This guards what was *kept*. What was dropped is zero within the stated accuracy and no better: the
     /// tolerances are worst-case bounds, some 10 to 50 times the error to be expected, so a
     /// `dropped` between 0.01 and 1 means "zero if the geometry is no more accurate than stated". Exact
-    /// geometry leaves 10⁻⁴ and less; a caller that knows it to be exact should state a smaller tolerance.
+    /// geometry under a tolerance of 10⁻⁹ leaves 10⁻⁴ and less; a caller that knows it to be exact should state a smaller tolerance.
     pub fn is_clear(&self) -> bool {
         self.kept >= 10.0 && self.gap() >= 1e3
     }
