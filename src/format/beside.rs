@@ -3,7 +3,7 @@
 use super::element::{Attribute, Element};
 use super::error::Outcome;
 use super::reader::{Dialect, Named, Reader};
-use super::words::{alternatives, counted, did_you_mean, quoted};
+use super::words::{alternatives, did_you_mean, quoted};
 use crate::mechanism::{Expectation, Scene};
 use std::str::FromStr;
 
@@ -38,7 +38,8 @@ impl<'a> Reader<'a> {
                 _ => successor = Some(link),
             }
         }
-        let needs = |what: &str| coupling.fault(format!("coupling {} needs <{what}>", quoted(name)));
+        let needs =
+            |what: &str| coupling.fault(format!("coupling {} needs <{what}>", quoted(name)));
         let predecessor =
             predecessor.ok_or_else(|| needs("predecessor").help("<predecessor link=\"...\"/>"))?;
         let successor =
@@ -153,15 +154,6 @@ impl<'a> Reader<'a> {
             branches: integer(expect, "branches")?,
             branch_dimensions: dimensions.transpose()?,
         };
-        if let (Some(branches), Some(dimensions)) = (read.branches, &read.branch_dimensions)
-            && branches != dimensions.len()
-        {
-            return Err(expect.fault(format!(
-                "expected {} of branches, found {}",
-                counted(branches, "dimension"),
-                dimensions.len()
-            )));
-        }
         self.builder.expect(read);
         Ok(())
     }
@@ -194,5 +186,9 @@ fn one_of(element: Element<'_>, name: &str, words: &[&str]) -> Outcome<Option<St
             alternatives(words),
             quoted(attribute.value)
         ))
-        .maybe_help(did_you_mean(attribute.value, words.iter().copied(), ("`", "`"))))
+        .maybe_help(did_you_mean(
+            attribute.value,
+            words.iter().copied(),
+            ("`", "`"),
+        )))
 }
