@@ -196,6 +196,8 @@ fn evaluate(text: &str, names: &mut dyn Names) -> Result<Number, Trouble> {
         (Reason::UnknownName(_), Some((name, is_argument))) => {
             let what = if is_argument { "argument" } else { "property" };
             let known = names.suggestions();
+            let end = text[range.start..].find(')').filter(|_| is_argument);
+            let range = range.start..end.map_or(range.end, |end| range.start + end + 1);
             Fault::new(range, format!("there is no {what} named {}", quoted(&name)))
                 .maybe_help(hint)
                 .maybe_help(did_you_mean(&name, known, ("`", "`")))

@@ -84,7 +84,7 @@ fn fault(text: &str, error: &Error, unclosed: Option<Range<usize>>) -> Fault {
             Fault::new(position, "found `&` that starts no entity")
                 .help("write &amp; for the character &")
         }
-        Error::InvalidAttributeValue(_) => {
+        Error::InvalidAttributeValue(_) | Error::InvalidChar(b'"' | b'\'', b'<', _) => {
             Fault::new(position, "found `<` inside an attribute's value")
                 .help("is a quote missing? the character < is written &lt;")
         }
