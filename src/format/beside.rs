@@ -3,7 +3,7 @@
 use super::element::{Attribute, Element};
 use super::error::Outcome;
 use super::reader::{Dialect, Named, Reader};
-use super::words::{alternatives, counted, did_you_mean, quoted};
+use super::words::{alternatives, did_you_mean, quoted};
 use crate::mechanism::{Expectation, Scene};
 use std::str::FromStr;
 
@@ -154,15 +154,6 @@ impl<'a> Reader<'a> {
             branches: integer(expect, "branches")?,
             branch_dimensions: dimensions.transpose()?,
         };
-        if let (Some(branches), Some(dimensions)) = (read.branches, &read.branch_dimensions)
-            && branches != dimensions.len()
-        {
-            return Err(expect.fault(format!(
-                "expected {} of branches, found {}",
-                counted(branches, "dimension"),
-                dimensions.len()
-            )));
-        }
         self.builder.expect(read);
         Ok(())
     }

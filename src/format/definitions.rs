@@ -42,7 +42,6 @@ enum Text<'a> {
 }
 
 struct Definition<'a> {
-    sort: Sort,
     name: &'a str,
     element: Range<usize>,
     text: Text<'a>,
@@ -107,7 +106,6 @@ impl<'a> Definitions<'a> {
         }
         self.by_name.insert((sort, name.value), self.all.len());
         self.all.push(Definition {
-            sort,
             name: name.value,
             element: element.range(),
             text,

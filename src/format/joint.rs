@@ -259,9 +259,7 @@ impl<'a> Reader<'a> {
                 }
                 "axis2" | "screw" | "distance" => return Err(useless(part, word)),
                 "limit" if kind.freedom() == 1 => {
-                    if let Some(limit) = self.read_limit(part, word)? {
-                        builder = builder.limit(limit);
-                    }
+                    builder = builder.limit(self.read_limit(part, word)?);
                 }
                 "limit" => self.ignore(part, word),
                 "dynamics" | "joint_properties" => {
@@ -295,8 +293,8 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// `<limit lower upper effort velocity/>`; `None` where nothing of it holds.
-    fn read_limit(&mut self, limit: Element<'a>, word: &str) -> Outcome<Option<Limit>> {
+    /// `<limit lower upper effort velocity/>`, each optional.
+    fn read_limit(&mut self, limit: Element<'a>, word: &str) -> Outcome<Limit> {
         const RATES: [&str; 3] = ["acceleration", "deceleration", "jerk"];
         self.leaf(
             limit,
@@ -332,7 +330,7 @@ impl<'a> Reader<'a> {
                 upper.value()
             )));
         }
-        Ok((read != Limit::default()).then_some(read))
+        Ok(read)
     }
 
     fn read_dynamics(&mut self, dynamics: Element<'a>) -> Outcome<Dynamics> {

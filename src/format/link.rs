@@ -1,9 +1,10 @@
 //! `<link>`: mass properties and shapes.
 
-use super::element::Element;
+use super::element::{Attribute, Element};
 use super::error::Outcome;
 use super::reader::{Named, Reader, SKIPPED};
 use crate::mechanism::{Frame, Geometry, Inertial, Shape};
+use crate::number::Number;
 
 impl<'a> Reader<'a> {
     /// `<link name>` with `<inertial>`, any number of `<collision>` and `<visual>`.
@@ -115,12 +116,13 @@ impl<'a> Reader<'a> {
             "box" => {
                 self.leaf(solid, &["size"])?;
                 let size = solid.required("size")?;
-                Ok(Geometry::Box(self.numbers(size)?))
+                Ok(Geometry::Box(self.lengths(size)?))
             }
             "sphere" => {
                 self.leaf(solid, &["radius"])?;
                 let radius = solid.required("radius")?;
-                Ok(Geometry::Sphere(self.number(radius)?))
+                let [radius] = self.lengths(radius)?;
+                Ok(Geometry::Sphere(radius))
             }
             "mesh" => {
                 self.leaf(solid, &["filename", "scale"])?;
@@ -133,7 +135,7 @@ impl<'a> Reader<'a> {
             round => {
                 self.leaf(solid, &["radius", "length"])?;
                 let (radius, length) = (solid.required("radius")?, solid.required("length")?);
-                let (radius, length) = (self.number(radius)?, self.number(length)?);
+                let ([radius], [length]) = (self.lengths(radius)?, self.lengths(length)?);
                 Ok(if round == "cylinder" {
                     Geometry::Cylinder { radius, length }
                 } else {
@@ -141,5 +143,14 @@ impl<'a> Reader<'a> {
                 })
             }
         }
+    }
+
+    /// Lengths of a solid in metres, none negative.
+    fn lengths<const N: usize>(&mut self, attribute: Attribute<'a>) -> Outcome<[Number; N]> {
+        let lengths = self.numbers(attribute)?;
+        if lengths.iter().any(|length: &Number| length.value() < 0.0) {
+            return Err(attribute.fault("a length of a solid is negative"));
+        }
+        Ok(lengths)
     }
 }

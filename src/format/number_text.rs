@@ -6,7 +6,7 @@
 
 use super::error::{Fault, Outcome};
 use super::words::{did_you_mean, quoted};
-use crate::number::Number;
+use crate::number::{Number, Reason};
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -119,7 +119,7 @@ pub(super) fn number(token: &str, names: &mut dyn Names) -> Result<Number, Troub
         let message = format!("{error} in {}", quoted(token));
         Trouble::Here(
             Fault::new(range, message)
-                .help("digits with a decimal point, such as 0.866 or 1.5e-3; not nan, inf or hexadecimal")
+                .maybe_help(error.hint().map(str::to_owned))
                 .maybe_help(help),
         )
     })
@@ -191,34 +191,20 @@ fn evaluate(text: &str, names: &mut dyn Names) -> Result<Number, Trouble> {
         }
         None => {}
     }
-    let message = error.to_string();
-    if let Some((name, is_argument)) = unknown
-        && message.contains(&if is_argument {
-            disguised(&name)
-        } else {
-            name.clone()
-        })
-    {
-        let known = names.suggestions();
-        let what = if is_argument { "argument" } else { "property" };
-        let start = range.start;
-        let end = if is_argument {
-            text[start..]
-                .find(')')
-                .map_or(text.len(), |end| start + end)
-        } else {
-            range.end
-        };
-        return Err(Trouble::Here(
-            Fault::new(
-                start..end,
-                format!("there is no {what} named {}", quoted(&name)),
-            )
-            .help("define it with <xacro:property name value/> or <xacro:arg name default/>")
-            .maybe_help(did_you_mean(&name, known, ("`", "`"))),
-        ));
-    }
-    Err(Trouble::Here(Fault::new(range, message)))
+    let hint = error.hint().map(str::to_owned);
+    let fault = match (&error.reason, unknown) {
+        (Reason::UnknownName(_), Some((name, is_argument))) => {
+            let what = if is_argument { "argument" } else { "property" };
+            let known = names.suggestions();
+            let end = text[range.start..].find(')').filter(|_| is_argument);
+            let range = range.start..end.map_or(range.end, |end| range.start + end + 1);
+            Fault::new(range, format!("there is no {what} named {}", quoted(&name)))
+                .maybe_help(hint)
+                .maybe_help(did_you_mean(&name, known, ("`", "`")))
+        }
+        _ => Fault::new(range, error.to_string()).maybe_help(hint),
+    };
+    Err(Trouble::Here(fault))
 }
 
 /// The identifier that stands for `$(arg name)` in an expression: as long as what it replaces. Properties cannot have it,

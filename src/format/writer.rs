@@ -367,14 +367,10 @@ fn numbers(values: &[Number]) -> String {
     words.join(" ")
 }
 
-/// A number so that it reads back with the same value and the same stated precision: exact ones as expressions.
+/// A number so that it reads back with the same value and the same stated precision: literals as they were read, exact
+/// ones as `${...}`.
 fn number(number: &Number) -> String {
-    let source = number.source();
-    if number.stated().is_some() {
-        source
-    } else {
-        format!("${{{source}}}")
-    }
+    number.source()
 }
 
 /// ` name="value"`.

@@ -84,7 +84,7 @@ fn fault(text: &str, error: &Error, unclosed: Option<Range<usize>>) -> Fault {
             Fault::new(position, "found `&` that starts no entity")
                 .help("write &amp; for the character &")
         }
-        Error::InvalidAttributeValue(_) => {
+        Error::InvalidAttributeValue(_) | Error::InvalidChar(b'"' | b'\'', b'<', _) => {
             Fault::new(position, "found `<` inside an attribute's value")
                 .help("is a quote missing? the character < is written &lt;")
         }
@@ -173,7 +173,7 @@ mod tests {
     #[test]
     fn the_place_of_a_parser_error_is_a_byte_range() {
         let fault = parse("<robot>\n <é a='1' a='2'/>\n</robot>").unwrap_err();
-        assert_eq!(fault.range, 18..19);
+        assert_eq!(fault.range, 19..20);
         let fault = parse("<robot>\n<link>\n</robot>").unwrap_err();
         assert!(fault.message.contains("needed </link>, found </robot>"));
     }
