@@ -15,7 +15,7 @@ pub mod words;
 
 pub use escape::{clipped, columns, visible};
 pub use page::Page;
-pub use style::{Layout, Tint};
+pub use style::{Layout, NARROWEST_PAGE, Tint};
 pub use table::{ABRIDGED_ROWS, Cell, Column, Table};
 
 use super::schema::Report;

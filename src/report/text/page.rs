@@ -1,7 +1,7 @@
 //! A page under construction: headings, wrapped paragraphs and tables.
 
 use super::escape::{columns, visible};
-use super::style::{Layout, Tint};
+use super::style::{Layout, NARROWEST_PAGE, Tint};
 use super::table::Table;
 
 /// A page of text.
@@ -45,7 +45,7 @@ impl Page {
     /// A paragraph, wrapped to the page; the first line is indented by `first`, all others by `rest`.
     pub fn paragraph(&mut self, text: &str, tint: Tint, first: &str, rest: &str) {
         let text = visible(text);
-        let width = self.layout.width.max(60);
+        let width = self.layout.width.max(NARROWEST_PAGE);
         let mut lead = first;
         for line in wrapped(
             &text,

@@ -1,11 +1,14 @@
 //! Colour, on terminals only.
 
+/// Pages are never narrower than this, whatever the terminal says.
+pub const NARROWEST_PAGE: usize = 72;
+
 /// How a page is laid out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {
     /// Whether to colour; the caller knows whether a terminal reads and whether `NO_COLOR` is set.
     pub color: bool,
-    /// Columns of the page; at least 60 are used.
+    /// Columns of the page; at least [`NARROWEST_PAGE`] are used.
     pub width: usize,
     /// Whether to show every row and every detail.
     pub verbose: bool,

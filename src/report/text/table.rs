@@ -1,7 +1,7 @@
 //! Aligned tables that fit a page.
 
 use super::escape::{clipped, columns, visible};
-use super::style::{Layout, Tint};
+use super::style::{Layout, NARROWEST_PAGE, Tint};
 
 /// Tables longer than this are abridged unless everything is asked for.
 pub const ABRIDGED_ROWS: usize = 60;
@@ -84,7 +84,7 @@ impl Table {
             ABRIDGED_ROWS
         };
         let rows = &self.rows[..shown];
-        let widths = self.widths(rows, layout.width.max(60));
+        let widths = self.widths(rows, layout.width.max(NARROWEST_PAGE));
         let titles: Vec<Cell> = self
             .columns
             .iter()

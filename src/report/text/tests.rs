@@ -100,7 +100,7 @@ fn no_line_is_wider_than_the_page_and_colour_adds_nothing_else() {
         samples::large(),
         samples::unassembled(),
     ] {
-        for width in [60, 80, 100, 160] {
+        for width in [72, 80, 100, 160] {
             let layout = Layout {
                 width,
                 ..Layout::default()
