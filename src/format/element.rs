@@ -1,0 +1,262 @@
+//! Elements and attributes with strictness built in: what is not asked for by name is an error, not a loss.
+
+use super::error::{Fault, Outcome};
+use super::words::{alternatives, did_you_mean, quoted};
+use roxmltree::Node;
+use std::ops::Range;
+
+/// Whose an element is, by its namespace.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Owner {
+    /// The format's own: no namespace, or the one that the root element has.
+    Format,
+    /// `xacro:`.
+    Xacro,
+    /// Another tool's.
+    Foreign,
+}
+
+/// An element and the text that it was parsed from.
+#[derive(Clone, Copy)]
+pub(super) struct Element<'a> {
+    node: Node<'a, 'a>,
+    text: &'a str,
+}
+
+impl<'a> Element<'a> {
+    pub(super) fn root(document: &'a roxmltree::Document<'a>) -> Self {
+        Self {
+            node: document.root_element(),
+            text: document.input_text(),
+        }
+    }
+
+    /// The name without its prefix.
+    pub(super) fn name(&self) -> &'a str {
+        self.node.tag_name().name()
+    }
+
+    /// The namespace's address.
+    pub(super) fn namespace(&self) -> Option<&'a str> {
+        self.node.tag_name().namespace()
+    }
+
+    /// Whose element this is, in a file whose root element has that namespace.
+    pub(super) fn owner(&self, root_namespace: Option<&str>) -> Owner {
+        match self.namespace() {
+            None => Owner::Format,
+            Some(address) if Some(address) == root_namespace => Owner::Format,
+            Some(address) if address.contains("xacro") => Owner::Xacro,
+            Some(_) => Owner::Foreign,
+        }
+    }
+
+    /// The range of `<name`.
+    pub(super) fn range(&self) -> Range<usize> {
+        let whole = self.node.range();
+        let tag = self.text.get(whole.clone()).unwrap_or_default();
+        let ends_name = |c: char| c.is_ascii_whitespace() || c == '/' || c == '>';
+        let length = tag.find(ends_name).unwrap_or(tag.len());
+        whole.start..whole.start + length
+    }
+
+    /// The start of the element in the text.
+    pub(super) fn start(&self) -> usize {
+        self.node.range().start
+    }
+
+    /// The name as written, prefix included.
+    pub(super) fn written_name(&self) -> &'a str {
+        self.text.get(self.range()).map_or("", |tag| &tag[1..])
+    }
+
+    /// A fault about this element.
+    pub(super) fn fault(&self, message: impl Into<String>) -> Fault {
+        Fault::new(self.range(), message)
+    }
+
+    /// All child elements, after checking that there is no text between them.
+    pub(super) fn children(&self) -> Outcome<Vec<Element<'a>>> {
+        let mut children = Vec::new();
+        for node in self.node.children() {
+            if node.is_element() {
+                children.push(Element {
+                    node,
+                    text: self.text,
+                });
+            } else if let Some(text) = node.text().filter(|_| node.is_text()) {
+                let stray = text.trim();
+                if !stray.is_empty() {
+                    let range = node.range();
+                    let written = self.text.get(range.clone()).unwrap_or_default();
+                    let start = range.start + (written.len() - written.trim_start().len());
+                    return Err(Fault::new(
+                        start..range.end.max(start),
+                        format!(
+                            "needed elements inside <{}>, found the text {}",
+                            self.written_name(),
+                            quoted(stray)
+                        ),
+                    )
+                    .help("values are written as attributes; notes as <!-- comments -->"));
+                }
+            }
+        }
+        Ok(children)
+    }
+
+    /// An attribute without prefix.
+    pub(super) fn attribute(&self, name: &str) -> Option<Attribute<'a>> {
+        self.node
+            .attributes()
+            .find(|a| a.namespace().is_none() && a.name() == name)
+            .map(|a| self.own(&a))
+    }
+
+    /// An attribute that must be there.
+    pub(super) fn required(&self, name: &str) -> Outcome<Attribute<'a>> {
+        self.attribute(name).ok_or_else(|| {
+            self.fault(format!("<{}> needs the attribute `{name}`", self.written_name()))
+                .help(format!("<{} {name}=\"...\">", self.written_name()))
+        })
+    }
+
+    /// Checks that no attribute but these is there; returns the starts of those with a prefix, which are other tools'.
+    pub(super) fn only_attributes(&self, known: &[&str]) -> Outcome<Vec<(usize, &'a str)>> {
+        let mut foreign = Vec::new();
+        for attribute in self.node.attributes() {
+            if attribute.namespace().is_some() {
+                foreign.push((attribute.range().start, attribute.name()));
+            } else if !known.contains(&attribute.name()) {
+                let needed = match known {
+                    [] => "it has none".to_owned(),
+                    _ => format!("it has {}", alternatives(known)),
+                };
+                let range = attribute.range();
+                let name = attribute.name();
+                return Err(Fault::new(
+                    range.start..range.start + name.len(),
+                    format!(
+                        "<{}> has no attribute {}; {needed}",
+                        self.written_name(),
+                        quoted(name)
+                    ),
+                )
+                .maybe_help(did_you_mean(name, known.iter().copied(), ("`", "`"))));
+            }
+        }
+        Ok(foreign)
+    }
+
+    fn own(&self, attribute: &roxmltree::Attribute<'a, 'a>) -> Attribute<'a> {
+        // The parser stores lengths up to the value in small integers, which overflow on hostile input: look for the quote.
+        let whole = attribute.range();
+        let written = self.text.get(whole.clone()).unwrap_or_default();
+        let last = written.len().saturating_sub(1);
+        let quote = written.get(last..).unwrap_or_default();
+        let start = written.find(quote).map_or(0, |at| at + 1).min(last);
+        Attribute {
+            value: attribute.value(),
+            start: whole.start + start,
+            written: written.get(start..last).unwrap_or_default(),
+        }
+    }
+}
+
+/// An attribute's value and where each part of it is written.
+#[derive(Clone, Copy)]
+pub(super) struct Attribute<'a> {
+    /// The value, with entities and line ends resolved.
+    pub(super) value: &'a str,
+    /// Where it starts in the text.
+    start: usize,
+    /// The value as written.
+    written: &'a str,
+}
+
+impl<'a> Attribute<'a> {
+    /// The range of the value.
+    pub(super) fn range(&self) -> Range<usize> {
+        self.start..self.start + self.written.len()
+    }
+
+    /// A fault about the value.
+    pub(super) fn fault(&self, message: impl Into<String>) -> Fault {
+        Fault::new(self.range(), message)
+    }
+
+    /// Where a part of the value, in bytes of the value, is written.
+    pub(super) fn part(&self, part: Range<usize>) -> Range<usize> {
+        let end = self.written_offset(part.end);
+        self.start + self.written_offset(part.start).min(end)..self.start + end
+    }
+
+    /// Entities (`&amp;`) and two-byte line ends are one character of the value, and always shorter there than written.
+    fn written_offset(&self, offset: usize) -> usize {
+        if self.written.len() == self.value.len() {
+            return offset.min(self.written.len());
+        }
+        let mut written = self.written.char_indices();
+        for (at, _) in self.value.char_indices() {
+            if at >= offset {
+                break;
+            }
+            match written.next() {
+                Some((_, '&')) => {
+                    let _ = written.find(|(_, c)| *c == ';');
+                }
+                Some((_, '\r')) if written.as_str().starts_with('\n') => {
+                    let _ = written.next();
+                }
+                _ => {}
+            }
+        }
+        self.written.len() - written.as_str().len()
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_of_a_value_are_found_behind_entities_and_line_ends() {
+        let text = "<a b = 'x&lt;y\r\nzé&#233;w'/>";
+        let document = roxmltree::Document::parse(text).unwrap();
+        let attribute = Element::root(&document).required("b").unwrap();
+        assert_eq!(attribute.value, "x<y zééw");
+        assert_eq!(&text[attribute.range()], "x&lt;y\r\nzé&#233;w");
+        for (value, written) in [("x", "x"), ("<", "&lt;"), ("y", "y"), (" ", "\r\n"), ("z", "z"), ("w", "w")] {
+            let at = attribute.value.find(value).unwrap();
+            assert_eq!(&text[attribute.part(at..at + value.len())], written);
+        }
+    }
+
+    #[test]
+    fn hostile_white_space_does_not_shift_a_value() {
+        let text = format!("<a b{}='1'/>", " ".repeat(1000));
+        let document = roxmltree::Document::parse(&text).unwrap();
+        let attribute = Element::root(&document).required("b").unwrap();
+        assert_eq!(&text[attribute.range()], "1");
+    }
+
+    #[test]
+    fn stray_text_is_an_error_at_its_first_letter() {
+        let text = "<a> \n x <b/></a>";
+        let document = roxmltree::Document::parse(text).unwrap();
+        let fault = Element::root(&document).children().map(|_| ()).unwrap_err();
+        assert_eq!(fault.range.start, 6);
+    }
+
+    #[test]
+    fn unknown_attributes_name_the_nearest_one() {
+        let text = "<a nmae='1' x:y='2' xmlns:x='u'/>";
+        let document = roxmltree::Document::parse(text).unwrap();
+        let root = Element::root(&document);
+        let fault = root.only_attributes(&["name"]).unwrap_err();
+        assert_eq!(&text[fault.range], "nmae");
+        assert_eq!(fault.help.unwrap(), "did you mean `name`?");
+        assert_eq!(root.only_attributes(&["nmae"]).unwrap(), [(12, "y")]);
+    }
+}
