@@ -1,1 +1,50 @@
-//! (module essay)
+//! What a person or a program reads.
+//!
+//! # The problem
+//! An analysis ends in numbers, names and proofs. Three readers want them: an engineer who looks at one screen and acts, a
+//! program that looks up one field, and a test that compares them with what is known. They must never be told different
+//! things, and none of them should have to know how the numbers were found.
+//!
+//! # What holds
+//! * [`Report`] is the only source. Text is rendered from a report and from nothing else, so a report read back from JSON
+//!   gives the same page, and no fact exists in one form only.
+//! * A field that has not been decided is absent (`null`), never zero. "Not decided yet" and "none" differ everywhere:
+//!   a mechanism without branches is an isolated assembly, one whose branches are `null` has not been looked at.
+//! * Lists are in natural order of names ([`natural_order`]), not in file order; numbers of a run (times) are left out
+//!   unless asked for. The same mechanism gives the same bytes.
+//! * Names come from files and may hold anything: text makes control characters visible instead of obeying them.
+//!
+//! # What it costs
+//! Everything here is linear in the size of the report, except sorting names.
+//!
+//! # Where to look
+//! | file | what it answers |
+//! |---|---|
+//! | `schema`, `vocabulary` | which fields there are, and which words their values come from |
+//! | `assemble` | how a mechanism and its analysis become a report |
+//! | `text` | how a report becomes a page |
+//! | `expectation`, `expected_file` | whether a report agrees with what is known |
+//! | `definitions` | what a word means |
+
+mod assemble;
+pub mod definitions;
+mod expectation;
+mod expected_file;
+mod natural;
+#[cfg(test)]
+#[allow(clippy::wildcard_imports)]
+pub(crate) mod samples;
+mod schema;
+pub mod text;
+mod vocabulary;
+
+pub use assemble::{Input, Options, ReportError, kutzbach_count, report};
+pub use expectation::{Comparison, Disagreement, compare};
+pub use expected_file::{ExpectedFile, ExpectedFileError};
+pub use natural::natural_order;
+pub use schema::{
+    Advice, Assembly, Block, Branch, Certificate, CouplingRow, Cycle, Gap, GenericCount, Home,
+    Idle, JointRow, Mobility, Motion, Nominal, Report, SCHEMA, Size, Source, Stage, Timing, Tree,
+    TreeLink,
+};
+pub use vocabulary::{CertificateLevel, MobilityClass, Pose, SingularKind, Verdict};

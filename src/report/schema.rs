@@ -1,0 +1,369 @@
+//! The fields of a report. Their names and order are the JSON schema `kutzbach-report-1`: fields may be added, none may
+//! change its meaning.
+//!
+//! Units: metres and radians. Dimensions, ranks and freedoms are plain counts. `null` means "not decided" or "does not
+//! apply", as the field says; it never means zero. Every number is finite.
+
+use super::vocabulary::{CertificateLevel, MobilityClass, Pose, SingularKind, Verdict};
+use serde::{Deserialize, Serialize};
+
+/// The value of [`Report::schema`].
+pub const SCHEMA: &str = "kutzbach-report-1";
+
+/// Everything that is known of one mechanism at one pose.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Report {
+    /// Always [`SCHEMA`].
+    pub schema: String,
+    /// The mechanism's name.
+    pub mechanism: String,
+    /// Where it was read.
+    pub source: Source,
+    /// How large it is.
+    pub size: Size,
+    /// Kutzbach's count 6 (links − 1) − Σ (6 − freedom) − couplings (D2).
+    pub kutzbach: i64,
+    /// The count at random geometry of the same topology (D16); `null` where it was not made.
+    pub generic: Option<GenericCount>,
+    /// Whether and how the loops close (D17).
+    pub assembly: Assembly,
+    /// What holds at the pose.
+    pub home: Home,
+    /// The verdict.
+    pub mobility: Mobility,
+    /// Branches through the pose (D8): empty for an isolated assembly, `null` while not decided.
+    pub branches: Option<Vec<Branch>>,
+    /// One row per joint, loops included, in natural order of names.
+    pub joints: Vec<JointRow>,
+    /// One row per coupling, in natural order of names.
+    pub couplings: Vec<CouplingRow>,
+    /// The basic cycles of the spanning tree (D14).
+    pub cycles: Vec<Cycle>,
+    /// The spanning tree the cycles come from (D15); `null` where it was not made.
+    pub tree: Option<Tree>,
+    /// How links move relative to one another.
+    pub motions: Vec<Motion>,
+    /// Single joints whose relaxation removes redundancy without adding freedom.
+    pub advice: Vec<Advice>,
+    /// What a careful reader should know: oddities of the file, short margins.
+    pub warnings: Vec<String>,
+    /// How long the stages took; only where asked for, so that reports can be compared byte by byte.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub timing: Option<Timing>,
+}
+
+/// Where a mechanism was read, and how precisely its geometry is stated.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Source {
+    /// The file as named by the caller.
+    pub file: String,
+    /// Its format, such as `urdf`.
+    pub format: String,
+    /// The most decimals of any literal in the geometry; `null` where there is no literal to round.
+    pub digits: Option<i32>,
+    /// Whether every number is taken as exact (D13).
+    pub exact: bool,
+}
+
+/// How large a mechanism is.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Size {
+    /// Links, the ground included.
+    pub links: usize,
+    /// Joints, those that close loops included.
+    pub joints: usize,
+    /// Independent loops: joints − links + connected parts.
+    pub loops: usize,
+    /// Couplings, `mimic` included.
+    pub couplings: usize,
+    /// Sum of the joint freedoms.
+    pub freedoms: usize,
+}
+
+/// What remains of the count when the geometry is arbitrary.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct GenericCount {
+    /// Freedoms at random geometry.
+    pub mobility: usize,
+    /// Dependent equations at random geometry.
+    pub redundant: i64,
+}
+
+/// How the loops close.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Assembly {
+    /// Whether all loops close within [`tolerance`](Self::tolerance); `null` where it was not tried.
+    pub closed: Option<bool>,
+    /// The largest gap left, as a length: angles count by the mechanism's characteristic length. Metres.
+    pub residual: Option<f64>,
+    /// How far the pose had to move from the file's to close; the largest shift of a joint, in metres.
+    pub moved: Option<f64>,
+    /// The gap below which a loop counts as closed, in metres.
+    pub tolerance: Option<f64>,
+    /// The gap of each loop that stays open.
+    pub gaps: Vec<Gap>,
+}
+
+/// The gap of one loop.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Gap {
+    /// The cycle's name.
+    #[serde(rename = "loop")]
+    pub cycle: String,
+    /// Distance between the two frames that should coincide, in metres.
+    pub position: f64,
+    /// Angle between them, in radians.
+    pub angle: f64,
+}
+
+/// What holds at the pose that was analysed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Home {
+    /// Name of the configuration, `home` for all joint variables zero.
+    pub configuration: String,
+    /// Regular or singular (D6); `null` while not decided.
+    pub pose: Option<Pose>,
+    /// The kind of singularity (D7); `null` at regular poses and while not decided.
+    pub kind: Option<SingularKind>,
+    /// Instantaneous freedom (D3); `null` where the margin did not suffice or the mechanism does not assemble.
+    pub instantaneous: Option<usize>,
+    /// Smallest and largest instantaneous freedom that the margins leave possible.
+    pub candidates: [usize; 2],
+    /// The instantaneous freedom of the numbers taken literally, where it differs from that within stated precision.
+    pub as_written: Option<usize>,
+    /// Dependent constraint equations (D5): instantaneous − Kutzbach.
+    pub redundant: Option<i64>,
+    /// Rank of the constraint equations.
+    pub rank: Option<usize>,
+    /// Constraint equations: six per independent loop, one per coupling.
+    pub equations: usize,
+    /// Joint variables.
+    pub unknowns: usize,
+    /// Smallest singular value kept over largest one dropped; `null` where none was dropped or dropped ones are zero.
+    pub gap: Option<f64>,
+    /// Smallest singular value kept, relative to the largest.
+    pub kept: Option<f64>,
+    /// Largest singular value dropped, relative to the largest.
+    pub dropped: Option<f64>,
+    /// The relative size below which a singular value counts as zero.
+    pub tolerance: Option<f64>,
+    /// How precisely the entries of the equations are known, relative to the largest.
+    pub accuracy: Option<f64>,
+    /// How the rank was found, in a few words; empty where it was not.
+    pub method: String,
+    /// Bits of the arithmetic that decided; 53 is double precision.
+    pub bits: Option<u32>,
+    /// The biconnected blocks, each with its own rank.
+    pub blocks: Vec<Block>,
+    /// A sentence on the margin, where it matters.
+    pub note: Option<String>,
+}
+
+/// One biconnected block of the constraint graph: what can be analysed apart.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Block {
+    /// A name made of one of its joints.
+    pub name: String,
+    /// Number of joints.
+    pub joints: usize,
+    /// Number of joint variables.
+    pub unknowns: usize,
+    /// Rank of the block's equations; `null` where undecided.
+    pub rank: Option<usize>,
+    /// Its share of the instantaneous freedom; `null` where undecided.
+    pub instantaneous: Option<usize>,
+}
+
+/// The verdict on finite mobility.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Mobility {
+    /// The answer in one word.
+    pub verdict: Verdict,
+    /// Finite mobility (D4); `null` while not decided.
+    pub finite: Option<usize>,
+    /// Proven bounds on it; `null` for a side without one.
+    pub bounds: [Option<usize>; 2],
+    /// Dimension over the complex numbers, where it was found.
+    pub complex_dimension: Option<usize>,
+    /// Hervé's class (D11).
+    pub class: Option<MobilityClass>,
+    /// What the answer rests on (D12); `null` while there is none.
+    pub certificate: Option<Certificate>,
+    /// A mobile mechanism within the stated precision of a rigid file (D13).
+    pub nominal: Option<Nominal>,
+    /// The reasons, one sentence each, weightiest first.
+    pub why: Vec<String>,
+}
+
+/// What an answer rests on.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Certificate {
+    /// How strong it is.
+    pub level: CertificateLevel,
+    /// What it proves, in one sentence.
+    pub text: String,
+}
+
+/// A mechanism close to the one in the file that moves.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Nominal {
+    /// Its finite mobility.
+    pub finite: usize,
+    /// How far its geometry is from the file's, in metres.
+    pub tolerance: f64,
+}
+
+/// A branch of the configuration space through the pose, described at a generic pose of its own.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Branch {
+    /// Its name in this report.
+    pub name: String,
+    /// Its dimension: the freedoms a mechanism has while on it.
+    pub dimension: usize,
+    /// Instantaneous freedom on it.
+    pub instantaneous: usize,
+    /// Redundant equations on it.
+    pub redundant: i64,
+    /// In how many directions it leaves the pose, for branches of dimension one.
+    pub half_branches: Option<usize>,
+    /// Joints that move nowhere on it (D9).
+    pub locked: Vec<String>,
+    /// Idle freedoms on it (D10).
+    pub idle: Vec<Idle>,
+}
+
+/// Links that can move while every other link stays.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Idle {
+    /// The links that move together.
+    pub links: Vec<String>,
+    /// In how many ways.
+    pub freedom: usize,
+}
+
+/// One joint.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct JointRow {
+    /// Its name.
+    pub name: String,
+    /// Its class in short, such as `R`.
+    pub class: String,
+    /// Its kind in words, such as `revolute`.
+    pub kind: String,
+    /// The links it connects, predecessor first.
+    pub links: [String; 2],
+    /// Its freedoms.
+    pub freedom: usize,
+    /// Whether none of its freedoms moves (D9): at the pose, and on the whole branch where the pose is regular.
+    pub locked: Option<bool>,
+    /// The single freedoms that do not move, such as `slider.rot`.
+    pub locked_parts: Vec<String>,
+    /// Directions in which its reaction is statically undetermined.
+    pub redundant_wrenches: Option<usize>,
+    /// Whether the file writes it as the closure of a loop.
+    pub closes_loop: bool,
+}
+
+/// One coupling.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct CouplingRow {
+    /// Its name.
+    pub name: String,
+    /// Its equation.
+    pub text: String,
+}
+
+/// One basic cycle.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Cycle {
+    /// Its name: that of the joint outside the tree that closes it.
+    pub name: String,
+    /// Its joints in order.
+    pub joints: Vec<String>,
+    /// The subgroup its displacements generate, in short (such as `G`); `null` where that is all of SE(3).
+    pub space: Option<String>,
+    /// The same in words, with its axis, plane or point; empty where not found.
+    pub space_text: String,
+    /// The subgroup's dimension; `null` where not found.
+    pub dimension: Option<usize>,
+    /// Rank of its six equations when taken alone; `null` where not decided.
+    pub rank: Option<usize>,
+    /// Its dependent equations when taken alone.
+    pub redundant: Option<i64>,
+    /// Its instantaneous freedom when taken alone.
+    pub mobility: Option<usize>,
+    /// Joints that this cycle locks by itself.
+    pub locks: Vec<String>,
+}
+
+/// The spanning tree.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Tree {
+    /// The root link.
+    pub root: String,
+    /// The most joints between the root and any link.
+    pub depth: usize,
+    /// How each other link hangs on the tree.
+    pub links: Vec<TreeLink>,
+}
+
+/// How one link hangs on the spanning tree.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TreeLink {
+    /// The link.
+    pub link: String,
+    /// The link next to it on the way to the root.
+    pub parent: String,
+    /// The joint between the two.
+    pub joint: String,
+    /// Joints between it and the root.
+    pub depth: usize,
+}
+
+/// How one link moves relative to another.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Motion {
+    /// The link.
+    pub link: String,
+    /// The link it is seen from.
+    pub relative_to: String,
+    /// In how many ways it moves.
+    pub freedom: usize,
+    /// The displacements it makes, such as `R` or `motion in a plane`.
+    pub class: String,
+}
+
+/// A joint to relax.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Advice {
+    /// The advice as a sentence.
+    pub text: String,
+    /// The joint.
+    pub joint: String,
+    /// Its class now.
+    pub from: String,
+    /// The class it should get.
+    pub to: String,
+    /// Redundant equations now.
+    pub redundant_before: i64,
+    /// Redundant equations afterwards.
+    pub redundant_after: i64,
+}
+
+/// How long an analysis took.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Timing {
+    /// All of it, in milliseconds.
+    pub total_ms: f64,
+    /// Its stages, in the order they ran.
+    pub stages: Vec<Stage>,
+}
+
+/// How long one stage took.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Stage {
+    /// The stage.
+    pub name: String,
+    /// Milliseconds.
+    pub ms: f64,
+}

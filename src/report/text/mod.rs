@@ -1,0 +1,43 @@
+//! A person's first screen.
+//!
+//! The order is that of the questions: does it move; how many ways, and why not as many as the count says; which joints
+//! take part; which loops hold it; what to change; what to beware of. Everything shown stands in the [`Report`], nothing
+//! is computed here but sums and words.
+
+mod counts;
+mod escape;
+mod page;
+mod sections;
+mod style;
+mod table;
+mod verdict;
+pub mod words;
+
+pub use escape::{clipped, columns, visible};
+pub use page::Page;
+pub use style::{Layout, NARROWEST_PAGE, Tint};
+pub use table::{ABRIDGED_ROWS, Cell, Column, Table};
+
+use super::schema::Report;
+
+/// The report as a page of text, ending in a line break.
+#[must_use]
+pub fn render(report: &Report, layout: Layout) -> String {
+    let mut page = Page::new(layout);
+    verdict::write(report, &mut page);
+    counts::write(report, &mut page);
+    sections::assembly(report, &mut page);
+    sections::branches(report, &mut page);
+    sections::joints(report, &mut page);
+    sections::couplings(report, &mut page);
+    sections::cycles(report, &mut page);
+    sections::motions(report, &mut page);
+    sections::advice(report, &mut page);
+    sections::warnings(report, &mut page);
+    sections::details(report, &mut page);
+    page.into_text()
+}
+
+#[cfg(test)]
+#[path = "tests.rs"]
+mod tests;
