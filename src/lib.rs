@@ -10,9 +10,11 @@
 //! 6. [`graph`]: the spatial constraint graph, its blocks, spanning tree and cycles.
 //! 7. [`closure`]: the equations of the cycles: residual, Jacobian, assembly.
 //! 8. [`mobility`]: engines and the verdict.
-//! 9. [`report`]: what a person or a program reads.
+//! 9. [`families`]: mechanisms of any size for examples, benches and tests.
+//! 10. [`report`]: what a person or a program reads.
 
 pub mod closure;
+pub mod families;
 pub mod format;
 pub mod graph;
 pub mod group;
