@@ -5,7 +5,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
-const BAR: &str = r#"<robot name="bar">
+const BAR: &str = r#"<robot name="bar" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <link name="ground"/> <link name="crank"/> <link name="coupler"/> <link name="rocker"/>
   <xacro:property name="length" value="2"/>
   <joint name="A" type="revolute"><parent link="ground"/><child link="crank"/><axis xyz="0 0 1"/></joint>

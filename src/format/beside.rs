@@ -38,8 +38,7 @@ impl<'a> Reader<'a> {
                 _ => successor = Some(link),
             }
         }
-        let needs =
-            |what: &str| coupling.fault(format!("coupling {} needs <{what}>", quoted(name)));
+        let needs = |what: &str| coupling.fault(format!("coupling {} needs <{what}>", quoted(name)));
         let predecessor =
             predecessor.ok_or_else(|| needs("predecessor").help("<predecessor link=\"...\"/>"))?;
         let successor =
@@ -195,9 +194,5 @@ fn one_of(element: Element<'_>, name: &str, words: &[&str]) -> Outcome<Option<St
             alternatives(words),
             quoted(attribute.value)
         ))
-        .maybe_help(did_you_mean(
-            attribute.value,
-            words.iter().copied(),
-            ("`", "`"),
-        )))
+        .maybe_help(did_you_mean(attribute.value, words.iter().copied(), ("`", "`"))))
 }

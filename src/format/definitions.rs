@@ -95,10 +95,7 @@ impl<'a> Definitions<'a> {
                 .help("names are letters, digits and underscores, start with a letter, and not with two underscores"));
         }
         if sort == Sort::Property && BUILT_IN.contains(&name.value) {
-            return Err(name.fault(format!(
-                "{} is built in and cannot be defined",
-                quoted(name.value)
-            )));
+            return Err(name.fault(format!("{} is built in and cannot be defined", quoted(name.value))));
         }
         if self.by_name.contains_key(&(sort, name.value)) {
             return Err(name
@@ -132,10 +129,7 @@ impl<'a> Definitions<'a> {
         let help = did_you_mean(name, names, ("`", "`"));
         Err(Fault::new(
             root,
-            format!(
-                "cannot set {}: the file defines no property or argument of that name",
-                quoted(name)
-            ),
+            format!("cannot set {}: the file defines no property or argument of that name", quoted(name)),
         )
         .help("define it with <xacro:arg name default/>")
         .maybe_help(help))
@@ -188,14 +182,9 @@ impl<'a> Definitions<'a> {
             }),
             Text::None => Err(Fault::new(
                 element,
-                format!(
-                    "the argument {} has no default and was not set",
-                    quoted(name)
-                ),
+                format!("the argument {} has no default and was not set", quoted(name)),
             )
-            .help(format!(
-                "give it with --set {name}=value, or add default=\"...\""
-            ))),
+            .help(format!("give it with --set {name}=value, or add default=\"...\""))),
         }
     }
 
@@ -205,28 +194,17 @@ impl<'a> Definitions<'a> {
         };
         let here = |message: String| Trouble::Here(Fault::new(0..0, message));
         if matches!(self.all[index].state, State::Evaluating) {
-            let from = self
-                .evaluating
-                .iter()
-                .position(|i| *i == index)
-                .unwrap_or(0);
+            let from = self.evaluating.iter().position(|i| *i == index).unwrap_or(0);
             let mut circle: Vec<&str> = self.evaluating[from..]
                 .iter()
                 .take(8)
                 .map(|i| self.all[*i].name)
                 .collect();
             circle.push(name);
-            return Err(here(format!(
-                "{} is defined by itself: {}",
-                quoted(name),
-                circle.join(" -> ")
-            )));
+            return Err(here(format!("{} is defined by itself: {}", quoted(name), circle.join(" -> "))));
         }
-        if self.evaluating.len() >= MOST_WAITING && matches!(self.all[index].state, State::Waiting)
-        {
-            return Err(here(format!(
-                "more than {MOST_WAITING} definitions wait for later ones"
-            )));
+        if self.evaluating.len() >= MOST_WAITING && matches!(self.all[index].state, State::Waiting) {
+            return Err(here(format!("more than {MOST_WAITING} definitions wait for later ones")));
         }
         self.evaluate(index).map(Some).map_err(Trouble::Elsewhere)
     }

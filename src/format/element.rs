@@ -116,11 +116,8 @@ impl<'a> Element<'a> {
     /// An attribute that must be there.
     pub(super) fn required(&self, name: &str) -> Outcome<Attribute<'a>> {
         self.attribute(name).ok_or_else(|| {
-            self.fault(format!(
-                "<{}> needs the attribute `{name}`",
-                self.written_name()
-            ))
-            .help(format!("<{} {name}=\"...\">", self.written_name()))
+            self.fault(format!("<{}> needs the attribute `{name}`", self.written_name()))
+                .help(format!("<{} {name}=\"...\">", self.written_name()))
         })
     }
 
@@ -230,14 +227,7 @@ mod tests {
         let attribute = Element::root(&document).required("b").unwrap();
         assert_eq!(attribute.value, "x<y zééw");
         assert_eq!(&text[attribute.range()], "x&lt;y\r\nzé&#233;w");
-        for (value, written) in [
-            ("x", "x"),
-            ("<", "&lt;"),
-            ("y", "y"),
-            (" ", "\r\n"),
-            ("z", "z"),
-            ("w", "w"),
-        ] {
+        for (value, written) in [("x", "x"), ("<", "&lt;"), ("y", "y"), (" ", "\r\n"), ("z", "z"), ("w", "w")] {
             let at = attribute.value.find(value).unwrap();
             assert_eq!(&text[attribute.part(at..at + value.len())], written);
         }

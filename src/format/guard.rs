@@ -199,12 +199,6 @@ mod tests {
         let (valid, fault) = text_of(b"ab\xffc").unwrap_err();
         assert_eq!((valid, fault.range), ("ab", 2..3));
         assert!(fault.message.contains("0xff"));
-        assert!(
-            text_of(&[0xff, 0xfe, b'<', 0])
-                .unwrap_err()
-                .1
-                .message
-                .contains("UTF-16")
-        );
+        assert!(text_of(&[0xff, 0xfe, b'<', 0]).unwrap_err().1.message.contains("UTF-16"));
     }
 }

@@ -36,11 +36,7 @@ impl<'a> Reader<'a> {
         self.note_foreign_attributes(joint, &["name", "type", "independent"])?;
         let name = self.new_name(Named::Joint, joint)?;
         let joint_type = self.joint_type(joint)?;
-        let once: Vec<&str> = ["parent", "child", "origin"]
-            .iter()
-            .chain(&BODY)
-            .copied()
-            .collect();
+        let once: Vec<&str> = ["parent", "child", "origin"].iter().chain(&BODY).copied().collect();
         let parts = self.parts(joint, &once, &[], &skipped())?;
         let (mut parent, mut child, mut origin) = (None, None, Frame::identity());
         let mut body = Vec::with_capacity(parts.len());
@@ -53,10 +49,8 @@ impl<'a> Reader<'a> {
             }
         }
         let needs = |what: &str| {
-            joint.fault(format!(
-                "joint {} needs <{what} link=\"...\"/>",
-                quoted(name)
-            ))
+            joint
+                .fault(format!("joint {} needs <{what} link=\"...\"/>", quoted(name)))
         };
         let parent = parent.ok_or_else(|| needs("parent"))?;
         let child = child.ok_or_else(|| needs("child"))?;
@@ -93,11 +87,7 @@ impl<'a> Reader<'a> {
                 .fault("a floating joint constrains nothing, so it closes no loop")
                 .help("remove the loop"));
         };
-        let once: Vec<&str> = ["predecessor", "successor"]
-            .iter()
-            .chain(&BODY)
-            .copied()
-            .collect();
+        let once: Vec<&str> = ["predecessor", "successor"].iter().chain(&BODY).copied().collect();
         let parts = self.parts(element, &once, &[], &skipped())?;
         let (mut predecessor, mut successor) = (None, None);
         let mut body = Vec::with_capacity(parts.len());
@@ -111,9 +101,7 @@ impl<'a> Reader<'a> {
         let needs = |what: &str| {
             element
                 .fault(format!("loop {} needs <{what} link=\"...\">", quoted(name)))
-                .help(format!(
-                    "<{what} link=\"...\"><origin xyz=\"...\" rpy=\"...\"/></{what}>"
-                ))
+                .help(format!("<{what} link=\"...\"><origin xyz=\"...\" rpy=\"...\"/></{what}>"))
         };
         let (predecessor, predecessor_frame) = predecessor.ok_or_else(|| needs("predecessor"))?;
         let (successor, successor_frame) = successor.ok_or_else(|| needs("successor"))?;
@@ -124,14 +112,7 @@ impl<'a> Reader<'a> {
     }
 
     fn joint_type(&mut self, joint: Element<'a>) -> Outcome<Type<'a>> {
-        const URDF: [&str; 6] = [
-            "revolute",
-            "continuous",
-            "prismatic",
-            "fixed",
-            "floating",
-            "planar",
-        ];
+        const URDF: [&str; 6] = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar"];
         const SYNONYMS: [&str; 5] = [
             "continuous",
             "line_on_line",
@@ -149,16 +130,8 @@ impl<'a> Reader<'a> {
             let known = JointKind::ALL.map(JointKind::word);
             return Err(attribute
                 .fault(format!("there is no joint type {}", quoted(word)))
-                .help(format!(
-                    "the types are {} and {}",
-                    known.join(", "),
-                    SYNONYMS.join(", ")
-                ))
-                .maybe_help(did_you_mean(
-                    word,
-                    known.into_iter().chain(SYNONYMS),
-                    ("`", "`"),
-                )));
+                .help(format!("the types are {} and {}", known.join(", "), SYNONYMS.join(", ")))
+                .maybe_help(did_you_mean(word, known.into_iter().chain(SYNONYMS), ("`", "`"))));
         }
         Ok(Type { word, kind })
     }
@@ -203,10 +176,7 @@ impl<'a> Reader<'a> {
             }
         }
         if joint.attribute("independent").is_some() {
-            self.warn(
-                joint.start(),
-                "`independent` means nothing for a floating joint and is ignored",
-            );
+            self.warn(joint.start(), "`independent` means nothing for a floating joint and is ignored");
         }
         self.builder.floating(name, parent, child, origin);
         Ok(())
@@ -241,13 +211,12 @@ impl<'a> Reader<'a> {
                     self.ignore(part, word);
                 }
                 "axis" => {
-                    return Err(useless(part, word).maybe_help(kind.uses_second_axis().then(
-                        || format!("a {word} joint has its direction in <axis2 xyz=\"...\"/>"),
-                    )));
+                    return Err(useless(part, word).maybe_help(
+                        kind.uses_second_axis()
+                            .then(|| format!("a {word} joint has its direction in <axis2 xyz=\"...\"/>")),
+                    ));
                 }
-                "axis2" if kind.uses_second_axis() => {
-                    builder = builder.axis2(self.direction(part)?)
-                }
+                "axis2" if kind.uses_second_axis() => builder = builder.axis2(self.direction(part)?),
                 "screw" if kind.uses_lead() => {
                     self.leaf(part, &["lead"])?;
                     builder = builder.lead(self.number(part.required("lead")?)?);
@@ -270,10 +239,7 @@ impl<'a> Reader<'a> {
                     }
                     has_dynamics = true;
                     if part.name() == "joint_properties" {
-                        self.warn(
-                            part.start(),
-                            "<joint_properties> is the old name of <dynamics> and read as such",
-                        );
+                        self.warn(part.start(), "<joint_properties> is the old name of <dynamics> and read as such");
                     }
                     builder = builder.dynamics(self.read_dynamics(part)?);
                 }
@@ -282,10 +248,7 @@ impl<'a> Reader<'a> {
         }
         if kind.uses_lead() && !has_lead {
             return Err(joint
-                .fault(format!(
-                    "joint {} is a {word} joint and needs its lead",
-                    quoted(name)
-                ))
+                .fault(format!("joint {} is a {word} joint and needs its lead", quoted(name)))
                 .help("<screw lead=\"metres per turn\"/>"));
         }
         self.builder.joint(builder);
@@ -300,15 +263,10 @@ impl<'a> Reader<'a> {
         const RATES: [&str; 3] = ["acceleration", "deceleration", "jerk"];
         self.leaf(
             limit,
-            &[
-                "lower", "upper", "effort", "velocity", RATES[0], RATES[1], RATES[2],
-            ],
+            &["lower", "upper", "effort", "velocity", RATES[0], RATES[1], RATES[2]],
         )?;
         if RATES.iter().any(|rate| limit.attribute(rate).is_some()) {
-            self.warn(
-                limit.start(),
-                "limits of acceleration and jerk are not read",
-            );
+            self.warn(limit.start(), "limits of acceleration and jerk are not read");
         }
         let mut read = Limit {
             lower: self.optional_number(limit, "lower")?,
@@ -317,10 +275,7 @@ impl<'a> Reader<'a> {
             velocity: self.optional_number(limit, "velocity")?,
         };
         if word == "continuous" && (read.lower.is_some() || read.upper.is_some()) {
-            self.warn(
-                limit.start(),
-                "a continuous joint turns without end: `lower` and `upper` are ignored",
-            );
+            self.warn(limit.start(), "a continuous joint turns without end: `lower` and `upper` are ignored");
             (read.lower, read.upper) = (None, None);
         }
         if let (Some(lower), Some(upper)) = (&read.lower, &read.upper)
@@ -359,10 +314,7 @@ impl<'a> Reader<'a> {
     fn ignore(&mut self, part: Element<'a>, word: &str) {
         self.warn(
             part.start(),
-            format!(
-                "<{}> means nothing for a {word} joint and is ignored",
-                part.name()
-            ),
+            format!("<{}> means nothing for a {word} joint and is ignored", part.name()),
         );
         self.skip(part);
     }

@@ -67,9 +67,9 @@ impl<'a> Reader<'a> {
             }
         }
         let needs = |what: &str| {
-            inertial.fault(format!("<inertial> needs <{what}>")).help(
-                "<inertial><mass value=\"...\"/><inertia ixx ixy ixz iyy iyz izz/></inertial>",
-            )
+            inertial
+                .fault(format!("<inertial> needs <{what}>"))
+                .help("<inertial><mass value=\"...\"/><inertia ixx ixy ixz iyy iyz izz/></inertial>")
         };
         Ok(Inertial {
             origin,
@@ -93,8 +93,9 @@ impl<'a> Reader<'a> {
         Ok(Shape {
             name: shape.attribute("name").map(|name| name.value.to_owned()),
             origin,
-            geometry: geometry
-                .ok_or_else(|| shape.fault(format!("<{}> needs <geometry>", shape.name())))?,
+            geometry: geometry.ok_or_else(|| {
+                shape.fault(format!("<{}> needs <geometry>", shape.name()))
+            })?,
         })
     }
 

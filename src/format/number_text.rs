@@ -193,29 +193,20 @@ fn evaluate(text: &str, names: &mut dyn Names) -> Result<Number, Trouble> {
     }
     let message = error.to_string();
     if let Some((name, is_argument)) = unknown
-        && message.contains(&if is_argument {
-            disguised(&name)
-        } else {
-            name.clone()
-        })
+        && message.contains(&if is_argument { disguised(&name) } else { name.clone() })
     {
         let known = names.suggestions();
         let what = if is_argument { "argument" } else { "property" };
         let start = range.start;
         let end = if is_argument {
-            text[start..]
-                .find(')')
-                .map_or(text.len(), |end| start + end)
+            text[start..].find(')').map_or(text.len(), |end| start + end)
         } else {
             range.end
         };
         return Err(Trouble::Here(
-            Fault::new(
-                start..end,
-                format!("there is no {what} named {}", quoted(&name)),
-            )
-            .help("define it with <xacro:property name value/> or <xacro:arg name default/>")
-            .maybe_help(did_you_mean(&name, known, ("`", "`"))),
+            Fault::new(start..end, format!("there is no {what} named {}", quoted(&name)))
+                .help("define it with <xacro:property name value/> or <xacro:arg name default/>")
+                .maybe_help(did_you_mean(&name, known, ("`", "`"))),
         ));
     }
     Err(Trouble::Here(Fault::new(range, message)))
@@ -263,17 +254,11 @@ fn without_marks(text: &str) -> Outcome<(Cow<'_, str>, Vec<&str>)> {
             taken = end + 1;
             let identifier = disguised(name);
             // `$(arg x)` with anything but white space between is at least as long as its identifier.
-            plain.extend(std::iter::repeat_n(
-                ' ',
-                taken.saturating_sub(identifier.len()),
-            ));
+            plain.extend(std::iter::repeat_n(' ', taken.saturating_sub(identifier.len())));
             plain.push_str(&identifier);
             arguments.push(name);
         } else if character == '$' {
-            return Err(Fault::new(
-                at..at + 1,
-                "found `$` that starts neither ${...} nor $(arg ...)",
-            ));
+            return Err(Fault::new(at..at + 1, "found `$` that starts neither ${...} nor $(arg ...)"));
         } else if character == '}' && depth > 0 {
             plain.push(')');
             depth -= 1;
@@ -340,11 +325,7 @@ mod tests {
     #[test]
     fn white_space_separates_only_outside_of_expressions() {
         let value = " 1 ${ a + {b} } \n-${c} $(arg d) ";
-        let parts: Vec<&str> = split(value)
-            .unwrap()
-            .into_iter()
-            .map(|r| &value[r])
-            .collect();
+        let parts: Vec<&str> = split(value).unwrap().into_iter().map(|r| &value[r]).collect();
         assert_eq!(parts, ["1", "${ a + {b} }", "-${c}", "$(arg d)"]);
         assert_eq!(split("1 ${2").unwrap_err().range, 2..4);
         assert_eq!(split("1 $(arg 2").unwrap_err().range, 2..4);
@@ -371,11 +352,7 @@ mod tests {
         assert_eq!(fault.range, 6..11);
         assert_eq!(fault.help.unwrap(), "did you mean `width`?");
         let fault = here(definition("  1/(a - 2)", &mut Two).unwrap_err());
-        assert!(
-            fault.range.start >= 3 && fault.range.end <= 11,
-            "{:?}",
-            fault.range
-        );
+        assert!(fault.range.start >= 3 && fault.range.end <= 11, "{:?}", fault.range);
         assert!(number("$(find x)", &mut Two).is_err());
         assert!(number("$", &mut Two).is_err());
         assert!(number("${1}}", &mut Two).is_err());

@@ -62,9 +62,7 @@ pub(super) fn read(text: &str, settings: &[(String, String)]) -> Result<Reading,
     let name = robot_name(root).map_err(|fault| vec![fault])?;
     let mut reader = Reader::new(root, name.value);
     let children = root.children().map_err(|fault| vec![fault])?;
-    reader
-        .note_foreign_attributes(root, &["name", "version"])
-        .map_err(|fault| vec![fault])?;
+    reader.note_foreign_attributes(root, &["name", "version"]).map_err(|fault| vec![fault])?;
     reader.read_definitions(root, &children, settings)?;
 
     let mut faults = Vec::new();
@@ -142,11 +140,7 @@ impl<'a> Reader<'a> {
         if !self.definitions.is_empty() {
             self.uses(Dialect::Own);
         }
-        if faults.is_empty() {
-            Ok(())
-        } else {
-            Err(faults)
-        }
+        if faults.is_empty() { Ok(()) } else { Err(faults) }
     }
 
     fn read_child(&mut self, child: Element<'a>) -> Outcome<()> {
@@ -197,11 +191,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn only_one(
-        &self,
-        element: Element<'a>,
-        earlier: Option<Range<usize>>,
-    ) -> Outcome<Range<usize>> {
+    fn only_one(&self, element: Element<'a>, earlier: Option<Range<usize>>) -> Outcome<Range<usize>> {
         match earlier {
             None => Ok(element.range()),
             Some(_) => Err(element
@@ -228,22 +218,15 @@ impl<'a> Reader<'a> {
     /// Records an element that is not read because of a fault in it.
     pub(super) fn skip_faulty(&mut self, element: Element<'a>, fault: &Fault) {
         let name = super::words::cut(element.written_name());
-        self.skipped
-            .push((element.start(), format!("<{name}>: {}", fault.message)));
+        self.skipped.push((element.start(), format!("<{name}>: {}", fault.message)));
     }
 
     /// Checks the attributes of an element; those of other tools are recorded as skipped.
-    pub(super) fn note_foreign_attributes(
-        &mut self,
-        element: Element<'a>,
-        known: &[&str],
-    ) -> Outcome<()> {
+    pub(super) fn note_foreign_attributes(&mut self, element: Element<'a>, known: &[&str]) -> Outcome<()> {
         for (start, name) in element.only_attributes(known)? {
             let element = super::words::cut(element.written_name());
-            self.skipped.push((
-                start,
-                format!("attribute `{}` of <{element}>", super::words::cut(name)),
-            ));
+            self.skipped
+                .push((start, format!("attribute `{}` of <{element}>", super::words::cut(name))));
         }
         Ok(())
     }
@@ -330,14 +313,9 @@ impl<'a> Reader<'a> {
                 Named::Configuration => "another configuration",
             };
             return Err(name
-                .fault(format!(
-                    "the name {} is taken by {what}",
-                    quoted(name.value)
-                ))
+                .fault(format!("the name {} is taken by {what}", quoted(name.value)))
                 .help(match sort {
-                    Named::Joint | Named::Coupling => {
-                        "joints, loops and couplings share one set of names"
-                    }
+                    Named::Joint | Named::Coupling => "joints, loops and couplings share one set of names",
                     Named::Link => "every link has a name of its own",
                     Named::Configuration => "every configuration has a name of its own",
                 }));
@@ -348,12 +326,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The value of an attribute that names a link or a joint, which is looked up when everything is read.
-    pub(super) fn reference(
-        &mut self,
-        sort: Named,
-        element: Element<'a>,
-        attribute: &str,
-    ) -> Outcome<&'a str> {
+    pub(super) fn reference(&mut self, sort: Named, element: Element<'a>, attribute: &str) -> Outcome<&'a str> {
         let attribute = element.required(attribute)?;
         check_name(attribute)?;
         self.references.push((sort, attribute));
@@ -374,11 +347,7 @@ impl<'a> Reader<'a> {
             })
             .take(MOST_FAULTS)
             .map(|(sort, attribute)| {
-                let what = if *sort == Named::Link {
-                    "link"
-                } else {
-                    "joint"
-                };
+                let what = if *sort == Named::Link { "link" } else { "joint" };
                 let known = self
                     .places
                     .iter()
@@ -399,11 +368,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A number that may be left out.
-    pub(super) fn optional_number(
-        &mut self,
-        element: Element<'a>,
-        name: &str,
-    ) -> Outcome<Option<Number>> {
+    pub(super) fn optional_number(&mut self, element: Element<'a>, name: &str) -> Outcome<Option<Number>> {
         element
             .attribute(name)
             .map(|attribute| self.number(attribute))
@@ -411,18 +376,11 @@ impl<'a> Reader<'a> {
     }
 
     /// Exactly so many numbers.
-    pub(super) fn numbers<const N: usize>(
-        &mut self,
-        attribute: Attribute<'a>,
-    ) -> Outcome<[Number; N]> {
+    pub(super) fn numbers<const N: usize>(&mut self, attribute: Attribute<'a>) -> Outcome<[Number; N]> {
         let parts = self.split(attribute)?;
         if parts.len() != N {
             return Err(attribute
-                .fault(format!(
-                    "expected {}, found {}",
-                    counted(N, "number"),
-                    parts.len()
-                ))
+                .fault(format!("expected {}, found {}", counted(N, "number"), parts.len()))
                 .help("numbers are separated by spaces"));
         }
         let numbers = self.evaluate(attribute, parts)?;
@@ -437,10 +395,7 @@ impl<'a> Reader<'a> {
         const MOST: usize = 5;
         let parts = self.split(attribute)?;
         if parts.is_empty() || parts.len() > MOST {
-            return Err(attribute.fault(format!(
-                "expected 1 to {MOST} numbers, found {}",
-                parts.len()
-            )));
+            return Err(attribute.fault(format!("expected 1 to {MOST} numbers, found {}", parts.len())));
         }
         self.evaluate(attribute, parts)
     }
@@ -452,11 +407,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    fn evaluate(
-        &mut self,
-        attribute: Attribute<'a>,
-        parts: Vec<Range<usize>>,
-    ) -> Outcome<Vec<Number>> {
+    fn evaluate(&mut self, attribute: Attribute<'a>, parts: Vec<Range<usize>>) -> Outcome<Vec<Number>> {
         if attribute.value.contains('$') {
             self.uses(Dialect::Own);
         }
@@ -464,18 +415,14 @@ impl<'a> Reader<'a> {
             .into_iter()
             .map(|part| {
                 let start = part.start;
-                let place =
-                    |range: Range<usize>| attribute.part(start + range.start..start + range.end);
+                let place = |range: Range<usize>| attribute.part(start + range.start..start + range.end);
                 let length = part.len();
                 let number = number_text::number(&attribute.value[part], &mut self.definitions)
                     .map_err(|trouble| trouble.placed(place))?;
                 if number.value().abs() <= LARGEST {
                     return Ok(number);
                 }
-                Err(Fault::new(
-                    place(0..length),
-                    "the number is too large; the largest accepted is 1e100",
-                ))
+                Err(Fault::new(place(0..length), "the number is too large; the largest accepted is 1e100"))
             })
             .collect()
     }
@@ -536,11 +483,7 @@ impl<'a> Reader<'a> {
         Ok(Reading {
             mechanism,
             warnings: with_places(text, self.warnings)
-                .map(|(line, column, message)| Warning {
-                    line,
-                    column,
-                    message,
-                })
+                .map(|(line, column, message)| Warning { line, column, message })
                 .collect(),
             skipped: with_places(text, self.skipped)
                 .map(|(line, column, what)| Skipped { line, column, what })
@@ -574,10 +517,7 @@ fn check_name(name: Attribute<'_>) -> Outcome<()> {
     }
     if name.value.contains("${") || name.value.contains("$(") {
         return Err(name
-            .fault(format!(
-                "expressions stand for numbers, not for names such as {}",
-                quoted(name.value)
-            ))
+            .fault(format!("expressions stand for numbers, not for names such as {}", quoted(name.value)))
             .help("expand the file with xacro first"));
     }
     Ok(())
@@ -594,9 +534,5 @@ fn unknown_element(element: Element<'_>, parent: &str, known: &[&str]) -> Fault 
             super::words::cut(element.written_name()),
             super::words::cut(parent)
         ))
-        .maybe_help(did_you_mean(
-            element.name(),
-            known.iter().copied(),
-            ("<", ">"),
-        ))
+        .maybe_help(did_you_mean(element.name(), known.iter().copied(), ("<", ">")))
 }

@@ -38,7 +38,10 @@ pub(super) fn counted(count: usize, what: &str) -> String {
 /// A hint with the known word nearest to an unknown one, if any is near.
 ///
 /// Looks at no more than 2000 known words, so that a message costs no more than a short moment.
-pub(super) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub(super) fn nearest<'a>(
+    word: &str,
+    known: impl IntoIterator<Item = &'a str>,
+) -> Option<&'a str> {
     let (distance, best) = known
         .into_iter()
         .take(2000)

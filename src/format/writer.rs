@@ -75,10 +75,7 @@ impl Writer {
         if let Some(inertial) = &link.inertial {
             self.line(2, "<inertial>");
             self.origin(3, &inertial.origin);
-            self.line(
-                3,
-                &format!("<mass{}/>", pair("value", &number(&inertial.mass))),
-            );
+            self.line(3, &format!("<mass{}/>", pair("value", &number(&inertial.mass))));
             let names = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
             let components: String = names
                 .iter()
@@ -150,10 +147,7 @@ impl Writer {
             self.line(2, &format!("<screw{}/>", pair("lead", &number(lead))));
         }
         if let Some(distance) = &joint.distance {
-            self.line(
-                2,
-                &format!("<distance{}/>", pair("value", &number(distance))),
-            );
+            self.line(2, &format!("<distance{}/>", pair("value", &number(distance))));
         }
         if let Some(limit) = joint.limit.as_ref().filter(|_| joint.freedom() == 1) {
             let attributes = optional("lower", limit.lower.as_ref())
@@ -167,12 +161,8 @@ impl Writer {
                 + &optional("friction", dynamics.friction.as_ref());
             self.line(2, &format!("<dynamics{attributes}/>"));
         }
-        if let Some(CouplingOrigin::Mimic {
-            leader,
-            multiplier,
-            offset,
-            ..
-        }) = mimic.map(|coupling| &coupling.origin)
+        if let Some(CouplingOrigin::Mimic { leader, multiplier, offset, .. }) =
+            mimic.map(|coupling| &coupling.origin)
         {
             let leader = pair("joint", &mechanism.joint(*leader).name);
             let multiplier = pair("multiplier", &number(multiplier));
@@ -192,20 +182,9 @@ impl Writer {
 
     fn floating(&mut self, mechanism: &Mechanism) {
         for link in mechanism.links() {
-            if let Placement::Floating {
-                name,
-                parent,
-                origin,
-            } = &link.placement
-            {
-                self.line(
-                    1,
-                    &format!("<joint{} type=\"floating\">", pair("name", name)),
-                );
-                self.line(
-                    2,
-                    &format!("<parent{}/>", pair("link", &mechanism.link(*parent).name)),
-                );
+            if let Placement::Floating { name, parent, origin } = &link.placement {
+                self.line(1, &format!("<joint{} type=\"floating\">", pair("name", name)));
+                self.line(2, &format!("<parent{}/>", pair("link", &mechanism.link(*parent).name)));
                 self.line(2, &format!("<child{}/>", pair("link", &link.name)));
                 self.origin(2, origin);
                 self.line(1, "</joint>");
@@ -215,18 +194,10 @@ impl Writer {
 
     fn couplings(&mut self, mechanism: &Mechanism) {
         for coupling in mechanism.couplings() {
-            if let CouplingOrigin::Ratio {
-                predecessor,
-                successor,
-                ratio,
-            } = &coupling.origin
-            {
+            if let CouplingOrigin::Ratio { predecessor, successor, ratio } = &coupling.origin {
                 self.line(1, &format!("<coupling{}>", pair("name", &coupling.name)));
                 for (element, link) in [("predecessor", predecessor), ("successor", successor)] {
-                    self.line(
-                        2,
-                        &format!("<{element}{}/>", pair("link", &mechanism.link(*link).name)),
-                    );
+                    self.line(2, &format!("<{element}{}/>", pair("link", &mechanism.link(*link).name)));
                 }
                 self.line(2, &format!("<ratio{}/>", pair("value", &number(ratio))));
                 self.line(1, "</coupling>");
@@ -236,18 +207,12 @@ impl Writer {
 
     fn configurations(&mut self, mechanism: &Mechanism) {
         for configuration in mechanism.configurations() {
-            self.line(
-                1,
-                &format!("<configuration{}>", pair("name", &configuration.name)),
-            );
+            self.line(1, &format!("<configuration{}>", pair("name", &configuration.name)));
             for (joint, values) in &configuration.positions {
                 // A joint without freedoms has no position to write.
                 if !values.is_empty() {
                     let joint = pair("joint", &mechanism.joint(*joint).name);
-                    self.line(
-                        2,
-                        &format!("<position{joint}{}/>", pair("value", &numbers(values))),
-                    );
+                    self.line(2, &format!("<position{joint}{}/>", pair("value", &numbers(values))));
                 }
             }
             self.line(1, "</configuration>");
@@ -280,9 +245,7 @@ impl Writer {
 
     fn expectation(&mut self, mechanism: &Mechanism) {
         fn told<T: Display>(name: &str, value: Option<T>) -> String {
-            value
-                .map(|value| pair(name, &value.to_string()))
-                .unwrap_or_default()
+            value.map(|value| pair(name, &value.to_string())).unwrap_or_default()
         }
         let Some(expected) = mechanism.expectation() else {
             return;
@@ -297,10 +260,7 @@ impl Writer {
             + &told("kutzbach", expected.kutzbach)
             + &told("pose", expected.pose.as_ref())
             + &told("kind", expected.kind.as_ref())
-            + &told(
-                "locked",
-                expected.locked.as_ref().map(|words| words.join(" ")),
-            )
+            + &told("locked", expected.locked.as_ref().map(|words| words.join(" ")))
             + &told("idle", expected.idle.as_ref().map(|words| words.join(" ")))
             + &told("branches", expected.branches)
             + &told("branch_dimensions", dimensions);
@@ -314,13 +274,9 @@ impl Writer {
     }
 
     fn direction(&mut self, element: &str, direction: &Direction) {
-        let left_out =
-            *direction == Direction::x() && direction.0.iter().all(|n| n.stated().is_none());
+        let left_out = *direction == Direction::x() && direction.0.iter().all(|n| n.stated().is_none());
         if !left_out {
-            self.line(
-                2,
-                &format!("<{element}{}/>", pair("xyz", &numbers(&direction.0))),
-            );
+            self.line(2, &format!("<{element}{}/>", pair("xyz", &numbers(&direction.0))));
         }
     }
 }
@@ -343,9 +299,7 @@ fn round(element: &str, radius: &Number, length: &Number) -> String {
 }
 
 fn optional(name: &str, value: Option<&Number>) -> String {
-    value
-        .map(|value| pair(name, &number(value)))
-        .unwrap_or_default()
+    value.map(|value| pair(name, &number(value))).unwrap_or_default()
 }
 
 /// `xyz` and `rpy`, each left out where it is zero by default; `None` where both are.

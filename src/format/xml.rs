@@ -15,10 +15,8 @@ pub(super) fn parse(text: &str) -> Outcome<Document<'_>> {
         return Err(fault);
     }
     if text.trim_start_matches('\u{feff}').trim().is_empty() {
-        return Err(
-            Fault::new(0..0, "the file is empty; needed a <robot> element")
-                .help("a mechanism file starts with <robot name=\"...\">"),
-        );
+        return Err(Fault::new(0..0, "the file is empty; needed a <robot> element")
+            .help("a mechanism file starts with <robot name=\"...\">"));
     }
     let unclosed = guard::check_structure(text)?;
     let options = ParsingOptions {
@@ -39,10 +37,11 @@ fn fault(text: &str, error: &Error, unclosed: Option<Range<usize>>) -> Fault {
     let end = text.len()..text.len();
     let position = at(error.pos());
     match error {
-        Error::UnexpectedCloseTag(open, close, _) => {
-            Fault::new(position, format!("needed </{open}>, found </{close}>"))
-                .help("every element is closed by </name>, or by /> if nothing is inside")
-        }
+        Error::UnexpectedCloseTag(open, close, _) => Fault::new(
+            position,
+            format!("needed </{open}>, found </{close}>"),
+        )
+        .help("every element is closed by </name>, or by /> if nothing is inside"),
         Error::UnclosedRootNode | Error::UnexpectedEndOfStream => match unclosed {
             Some(tag) => {
                 let name = text.get(tag.start + 1..tag.end).unwrap_or_default();
@@ -71,59 +70,53 @@ fn fault(text: &str, error: &Error, unclosed: Option<Range<usize>>) -> Fault {
         .help("remove one of the two"),
         Error::DuplicatedNamespace(name, _) => Fault::new(
             position,
-            format!(
-                "the prefix {} is declared twice in one element",
-                quoted(name)
-            ),
+            format!("the prefix {} is declared twice in one element", quoted(name)),
         ),
-        Error::UnknownEntityReference(name, _) => {
-            Fault::new(position, format!("the entity `&{name};` is not known"))
-                .help("known are &lt; &gt; &amp; &quot; &apos; and characters by number, &#176;")
-        }
+        Error::UnknownEntityReference(name, _) => Fault::new(
+            position,
+            format!("the entity `&{name};` is not known"),
+        )
+        .help("known are &lt; &gt; &amp; &quot; &apos; and characters by number, &#176;"),
         Error::MalformedEntityReference(_) => {
-            Fault::new(position, "found `&` that starts no entity")
-                .help("write &amp; for the character &")
+            Fault::new(position, "found `&` that starts no entity").help("write &amp; for the character &")
         }
         Error::InvalidAttributeValue(_) => {
-            Fault::new(position, "found `<` inside an attribute's value")
-                .help("is a quote missing? the character < is written &lt;")
+            Fault::new(position, "found `<` inside an attribute's value").help("is a quote missing? the character < is written &lt;")
         }
         Error::UnexpectedDeclaration(_) => Fault::new(
             position,
             "the declaration <?xml ...?> stands only at the very start of a file",
         )
         .help("remove what stands before it"),
-        Error::NodesLimitReached
-        | Error::AttributesLimitReached
-        | Error::NamespacesLimitReached => Fault::new(0..0, "the file has too many elements"),
+        Error::NodesLimitReached | Error::AttributesLimitReached | Error::NamespacesLimitReached => {
+            Fault::new(0..0, "the file has too many elements")
+        }
         Error::DtdDetected => Fault::new(position, "a document type definition is not accepted"),
-        Error::InvalidComment(_) => Fault::new(position, "found `--` inside a comment")
-            .help("a comment ends at the first --, and that must be -->"),
+        Error::InvalidComment(_) => {
+            Fault::new(position, "found `--` inside a comment").help("a comment ends at the first --, and that must be -->")
+        }
         Error::NonXmlChar(character, _) => Fault::new(
             position,
-            format!(
-                "found the control character U+{:04X}, which a file must not contain",
-                u32::from(*character)
-            ),
+            format!("found the control character U+{:04X}, which a file must not contain", u32::from(*character)),
         ),
         Error::InvalidChar(needed, found, _) => Fault::new(
             position,
             format!("needed `{}`, found {}", char::from(*needed), byte(*found)),
         ),
-        Error::InvalidChar2(needed, found, _) => {
-            Fault::new(position, format!("needed {needed}, found {}", byte(*found)))
+        Error::InvalidChar2(needed, found, _) => Fault::new(
+            position,
+            format!("needed {needed}, found {}", byte(*found)),
+        ),
+        Error::InvalidString(needed, _) => {
+            Fault::new(position, format!("needed `{needed}`"))
         }
-        Error::InvalidString(needed, _) => Fault::new(position, format!("needed `{needed}`")),
         Error::InvalidName(_) => Fault::new(position, "needed the name of an element or attribute")
             .help("names start with a letter; the character < in a text is written &lt;"),
         Error::InvalidCharacterData(_) => {
             Fault::new(position, "found `]]>` in a text").help("write ]]&gt;")
         }
-        Error::UnknownToken(_) => Fault::new(
-            position,
-            "needed an element, a comment or the end of the file",
-        )
-        .help("all elements stand inside the one <robot> element"),
+        Error::UnknownToken(_) => Fault::new(position, "needed an element, a comment or the end of the file")
+            .help("all elements stand inside the one <robot> element"),
         Error::InvalidXmlPrefixUri(_)
         | Error::UnexpectedXmlUri(_)
         | Error::UnexpectedXmlnsUri(_)
@@ -132,10 +125,7 @@ fn fault(text: &str, error: &Error, unclosed: Option<Range<usize>>) -> Fault {
             "the prefixes `xml` and `xmlns` and their addresses are reserved",
         ),
         // What remains occurs inside document type definitions only, which are refused before.
-        other => Fault::new(
-            position,
-            format!("the file is not well-formed XML: {other}"),
-        ),
+        other => Fault::new(position, format!("the file is not well-formed XML: {other}")),
     }
 }
 
