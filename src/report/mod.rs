@@ -38,7 +38,7 @@ mod schema;
 pub mod text;
 mod vocabulary;
 
-pub use assemble::{Input, Options, ReportError, kutzbach_count, report};
+pub use assemble::{Input, Options, ReportError, kutzbach_count, report, report_on};
 pub use expectation::{Comparison, Disagreement, compare};
 pub use expected_file::{ExpectedFile, ExpectedFileError};
 pub use natural::natural_order;

@@ -156,6 +156,7 @@ pub(crate) fn mobile() -> Report {
             redundant_after: 2,
         }],
         warnings: Vec::new(),
+        skipped: vec!["line 3, column 5: <gazebo>".to_owned()],
         timing: None,
     }
 }

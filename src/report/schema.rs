@@ -47,6 +47,8 @@ pub struct Report {
     pub advice: Vec<Advice>,
     /// What a careful reader should know: oddities of the file, short margins.
     pub warnings: Vec<String>,
+    /// What of the file was not read, because it says nothing about motion.
+    pub skipped: Vec<String>,
     /// How long the stages took; only where asked for, so that reports can be compared byte by byte.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub timing: Option<Timing>,
@@ -137,7 +139,7 @@ pub struct Home {
     pub rank: Option<usize>,
     /// Constraint equations: six per independent loop, one per coupling.
     pub equations: usize,
-    /// Joint variables.
+    /// Joint variables, and six more for each part that no joint connects with the ground.
     pub unknowns: usize,
     /// Smallest singular value kept over largest one dropped; `null` where none was dropped or dropped ones are zero.
     pub gap: Option<f64>,

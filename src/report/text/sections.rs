@@ -315,6 +315,12 @@ pub(super) fn details(report: &Report, page: &mut Page) {
     if page.layout().verbose {
         blocks(report, page);
         rank_details(report, page);
+        if !report.skipped.is_empty() {
+            page.heading("Not read, because it says nothing about motion");
+            for skipped in &report.skipped {
+                page.item(skipped, Tint::Quiet);
+            }
+        }
         if let Some(tree) = &report.tree {
             page.heading("Spanning tree");
             let text = format!(
