@@ -5,11 +5,13 @@
 
 use super::natural::natural_order;
 use super::schema::{
-    Assembly, CouplingRow, Home, JointRow, Mobility, Report, SCHEMA, Size, Source,
+    Assembly, CouplingRow, Home, JointRow, Mobility, Report, SCHEMA, Size, Source, Timing,
 };
 use super::vocabulary::Verdict;
 use crate::format::Reading;
 use crate::mechanism::{Coupling, Mechanism};
+use crate::mobility::{AnalysisError, AnalysisOptions, analyse, kutzbach_count};
+use std::time::Instant;
 use thiserror::Error;
 
 /// The name of the pose with all joint variables zero.
@@ -40,8 +42,11 @@ pub struct Options {
 }
 
 /// Why there is no report.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, Error)]
 pub enum ReportError {
+    /// The analysis could not be made.
+    #[error(transparent)]
+    Analysis(#[from] AnalysisError),
     /// The mechanism has no configuration of that name.
     #[error("there is no configuration `{name}` in `{mechanism}`")]
     UnknownConfiguration {
@@ -59,6 +64,7 @@ impl ReportError {
     #[must_use]
     pub fn help(&self) -> String {
         match self {
+            Self::Analysis(_) => "see the format's description of this element".to_owned(),
             Self::UnknownConfiguration { known, .. } if known.is_empty() => {
                 "the file names none; without `--at` the home pose is analysed".to_owned()
             }
@@ -117,21 +123,24 @@ pub fn report_on(input: &Input<'_>, options: &Options) -> Result<Report, ReportE
         Some(name) => name,
         None => HOME,
     };
-    Ok(counted(input, configuration))
-}
-
-/// Kutzbach's count: 6 (links − 1) − Σ (6 − freedom) − couplings (D2).
-///
-/// Linear in the number of joints. Links that no joint reaches count with six freedoms.
-#[must_use]
-pub fn kutzbach_count(mechanism: &Mechanism) -> i64 {
-    let links = signed(mechanism.links().len());
-    let removed: i64 = mechanism
-        .joints()
-        .iter()
-        .map(|joint| 6 - signed(joint.freedom()))
-        .sum();
-    6 * (links - 1) - removed - signed(mechanism.couplings().len())
+    let started = Instant::now();
+    let analysis = analyse(
+        mechanism,
+        &AnalysisOptions {
+            configuration: (configuration != HOME || mechanism.configuration(HOME).is_some())
+                .then(|| configuration.to_owned()),
+        },
+    )?;
+    let mut report = counted(input, configuration);
+    super::findings::lay_over(&mut report, mechanism, &analysis);
+    if options.timing {
+        let total_ms = started.elapsed().as_secs_f64() * 1e3;
+        report.timing = Some(Timing {
+            total_ms,
+            stages: Vec::new(),
+        });
+    }
+    Ok(report)
 }
 
 /// A report that holds what counting alone tells.
@@ -301,11 +310,6 @@ fn root(parent: &mut [usize], mut node: usize) -> usize {
     node
 }
 
-/// Counts fit easily: a mechanism of 2⁶³ joints does not fit into memory.
-fn signed(count: usize) -> i64 {
-    i64::try_from(count).unwrap_or(i64::MAX)
-}
-
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
@@ -363,7 +367,7 @@ mod tests {
         assert_eq!(report.kutzbach, 5);
         assert_eq!(report.size.loops, 1);
         let (unknowns, equations) = (report.home.unknowns, report.home.equations);
-        assert_eq!(signed(unknowns) - signed(equations), report.kutzbach);
+        assert_eq!(unknowns as i64 - equations as i64, report.kutzbach);
     }
 
     #[test]

@@ -252,8 +252,10 @@ pub(crate) fn unassembled() -> Report {
         tolerance: Some(1e-11),
         gaps: vec![Gap {
             cycle: "J3".to_owned(),
-            position: 0.3,
-            angle: 0.2,
+            position: 0.5,
+            angle: 0.4,
+            left_position: 0.3,
+            left_angle: 0.2,
         }],
     };
     report.home = Home {

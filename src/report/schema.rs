@@ -100,9 +100,9 @@ pub struct Assembly {
     pub residual: Option<f64>,
     /// How far the pose had to move from the file's to close; the largest shift of a joint, in metres.
     pub moved: Option<f64>,
-    /// The gap below which a loop counts as closed, in metres.
+    /// What the residual is held against: rounding and the numbers' stated precision.
     pub tolerance: Option<f64>,
-    /// The gap of each loop that stays open.
+    /// The gap of each loop of the file.
     pub gaps: Vec<Gap>,
 }
 
@@ -112,10 +112,14 @@ pub struct Gap {
     /// The cycle's name.
     #[serde(rename = "loop")]
     pub cycle: String,
-    /// Distance between the two frames that should coincide, in metres.
+    /// Distance between the joint's two sides as the file draws them, in metres; what the joint allows is taken out.
     pub position: f64,
     /// Angle between them, in radians.
     pub angle: f64,
+    /// What is left of the distance after assembly, in metres.
+    pub left_position: f64,
+    /// What is left of the angle after assembly, in radians.
+    pub left_angle: f64,
 }
 
 /// What holds at the pose that was analysed.
