@@ -2,7 +2,8 @@
 
 use super::element::{Attribute, Element};
 use super::error::Outcome;
-use super::reader::{Dialect, Named, Reader, SKIPPED};
+use super::names::Named;
+use super::reader::{Dialect, Reader, SKIPPED};
 use super::words::{did_you_mean, quoted};
 use crate::mechanism::{Dynamics, Frame, JointBuilder, JointKind, Limit};
 use crate::number::Number;
@@ -34,7 +35,7 @@ impl<'a> Reader<'a> {
     /// `<joint name type>` of the file's tree.
     pub(super) fn read_joint(&mut self, joint: Element<'a>) -> Outcome<()> {
         self.note_foreign_attributes(joint, &["name", "type", "independent"])?;
-        let name = self.new_name(Named::Joint, joint)?;
+        let name = self.directory.add(Named::Joint, joint)?;
         let joint_type = self.joint_type(joint)?;
         let once: Vec<&str> = ["parent", "child", "origin"]
             .iter()
@@ -85,7 +86,7 @@ impl<'a> Reader<'a> {
     pub(super) fn read_loop(&mut self, element: Element<'a>) -> Outcome<()> {
         self.uses(Dialect::UrdfPlus);
         self.note_foreign_attributes(element, &["name", "type", "independent"])?;
-        let name = self.new_name(Named::Joint, element)?;
+        let name = self.directory.add(Named::Joint, element)?;
         let joint_type = self.joint_type(element)?;
         let Some(kind) = joint_type.kind else {
             return Err(element
@@ -166,13 +167,13 @@ impl<'a> Reader<'a> {
     /// `<parent link/>` or `<child link/>`.
     fn link_of(&mut self, element: Element<'a>) -> Outcome<&'a str> {
         self.leaf(element, &["link"])?;
-        self.reference(Named::Link, element, "link")
+        self.directory.refer(Named::Link, element, "link")
     }
 
     /// `<predecessor link>` or `<successor link>` with an optional `<origin>` inside.
     fn side(&mut self, element: Element<'a>) -> Outcome<(&'a str, Frame)> {
         self.note_foreign_attributes(element, &["link"])?;
-        let link = self.reference(Named::Link, element, "link")?;
+        let link = self.directory.refer(Named::Link, element, "link")?;
         let frame = match self.parts(element, &["origin"], &[], &[])?.first() {
             Some(origin) => self.origin(*origin)?,
             None => Frame::identity(),
@@ -343,7 +344,7 @@ impl<'a> Reader<'a> {
 
     fn read_mimic(&mut self, mimic: Element<'a>) -> Outcome<(&'a str, Number, Number)> {
         self.leaf(mimic, &["joint", "multiplier", "offset"])?;
-        let leader = self.reference(Named::Joint, mimic, "joint")?;
+        let leader = self.directory.refer(Named::Joint, mimic, "joint")?;
         let multiplier = self.optional_number(mimic, "multiplier")?;
         let offset = self.optional_number(mimic, "offset")?;
         Ok((
