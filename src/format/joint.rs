@@ -8,8 +8,11 @@ use super::words::{did_you_mean, quoted};
 use crate::mechanism::{Dynamics, Frame, JointBuilder, JointKind, Limit};
 use crate::number::Number;
 
-/// What may stand inside `<joint>` and `<loop>` alike.
-const BODY: [&str; 8] = [
+/// What may stand inside `<joint>`.
+const JOINT: [&str; 11] = [
+    "parent",
+    "child",
+    "origin",
     "axis",
     "axis2",
     "screw",
@@ -20,8 +23,28 @@ const BODY: [&str; 8] = [
     "mimic",
 ];
 
-/// Elements inside a joint that steer a robot's controller and say nothing about the joint.
-const CONTROLLER: [&str; 2] = ["safety_controller", "calibration"];
+/// What may stand inside `<loop>`.
+const LOOP: [&str; 10] = [
+    "predecessor",
+    "successor",
+    "axis",
+    "axis2",
+    "screw",
+    "distance",
+    "limit",
+    "dynamics",
+    "joint_properties",
+    "mimic",
+];
+
+/// Elements that say nothing about how a joint moves: those skipped everywhere, and what steers a robot's controller.
+const SKIPPED_HERE: [&str; 5] = [
+    SKIPPED[0],
+    SKIPPED[1],
+    SKIPPED[2],
+    "safety_controller",
+    "calibration",
+];
 
 /// A joint type as the file names it.
 #[derive(Clone, Copy)]
@@ -37,12 +60,7 @@ impl<'a> Reader<'a> {
         self.note_foreign_attributes(joint, &["name", "type", "independent"])?;
         let name = self.directory.add(Named::Joint, joint)?;
         let joint_type = self.joint_type(joint)?;
-        let once: Vec<&str> = ["parent", "child", "origin"]
-            .iter()
-            .chain(&BODY)
-            .copied()
-            .collect();
-        let parts = self.parts(joint, &once, &[], &skipped())?;
+        let parts = self.parts(joint, &JOINT, &[], &SKIPPED_HERE)?;
         let (mut parent, mut child, mut origin) = (None, None, Frame::identity());
         let mut body = Vec::with_capacity(parts.len());
         for part in parts {
@@ -94,12 +112,7 @@ impl<'a> Reader<'a> {
                 .fault("a floating joint constrains nothing, so it closes no loop")
                 .help("remove the loop"));
         };
-        let once: Vec<&str> = ["predecessor", "successor"]
-            .iter()
-            .chain(&BODY)
-            .copied()
-            .collect();
-        let parts = self.parts(element, &once, &[], &skipped())?;
+        let parts = self.parts(element, &LOOP, &[], &SKIPPED_HERE)?;
         let (mut predecessor, mut successor) = (None, None);
         let mut body = Vec::with_capacity(parts.len());
         for part in parts {
@@ -365,10 +378,6 @@ impl<'a> Reader<'a> {
         );
         self.skip(part);
     }
-}
-
-fn skipped() -> Vec<&'static str> {
-    SKIPPED.iter().chain(&CONTROLLER).copied().collect()
 }
 
 fn useless(part: Element<'_>, word: &str) -> super::error::Fault {

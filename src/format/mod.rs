@@ -12,7 +12,7 @@
 //!   Faults in different elements are told together.
 //! - *No text harms the reader*: size, nesting, attributes and nodes are bounded before they are parsed, document type
 //!   definitions are refused, numbers bound themselves. Any bytes give a mechanism or an error.
-//! - *Numbers stay as they are written.* Decimals keep their digits and expressions their exact value, so [`write`] and
+//! - *Numbers stay as they are written.* Decimals keep their digits and expressions their exact value, so [`write()`] and
 //!   [`read`] are inverse in meaning.
 //!
 //! Reading is linear in the text, apart from look-ups of names. Errors cost one more walk over the text for lines and columns.

@@ -7,6 +7,7 @@ use super::names::{Directory, Named};
 use super::words::{alternatives, cut, did_you_mean};
 use super::{Reading, Skipped, Warning, xml};
 use crate::mechanism::{Entity, MechanismBuilder};
+use crate::number::Number;
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -27,6 +28,8 @@ pub(super) struct Reader<'a> {
     pub(super) dialect: Dialect,
     pub(super) definitions: Definitions<'a>,
     pub(super) directory: Directory<'a>,
+    /// Short literals that were read already.
+    pub(super) literals: HashMap<&'a str, Number>,
     root_namespace: Option<&'a str>,
     warnings: Vec<(usize, String)>,
     skipped: Vec<(usize, String)>,
@@ -88,6 +91,7 @@ impl<'a> Reader<'a> {
             builder: MechanismBuilder::new(name),
             dialect: Dialect::Urdf,
             definitions: Definitions::default(),
+            literals: HashMap::new(),
             root_namespace: root.namespace(),
             warnings: Vec::new(),
             skipped: Vec::new(),
@@ -111,6 +115,7 @@ impl<'a> Reader<'a> {
                 faults.extend(self.definitions.add(*child).err());
             }
         }
+        faults.truncate(MOST_FAULTS);
         for (name, text) in settings {
             faults.extend(self.definitions.set(name, text, root.range()).err());
         }

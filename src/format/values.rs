@@ -12,6 +12,11 @@ use std::ops::Range;
 /// Exact numbers have no largest one, but floating-point geometry does: products of a few of them must stay finite.
 const LARGEST: f64 = 1e100;
 
+/// Literals of up to so many characters are shared; longer ones seldom repeat.
+const LONGEST_SHARED: usize = 8;
+/// Bounds the memory for sharing.
+const MOST_SHARED: usize = 4096;
+
 impl<'a> Reader<'a> {
     /// One number.
     pub(super) fn number(&mut self, attribute: Attribute<'a>) -> Outcome<Number> {
@@ -83,22 +88,29 @@ impl<'a> Reader<'a> {
         }
         parts
             .into_iter()
-            .map(|part| {
-                let start = part.start;
-                let place =
-                    |range: Range<usize>| attribute.part(start + range.start..start + range.end);
-                let length = part.len();
-                let number = number_text::number(&attribute.value[part], &mut self.definitions)
-                    .map_err(|trouble| trouble.placed(place))?;
-                if number.value().abs() <= LARGEST {
-                    return Ok(number);
-                }
-                Err(Fault::new(
-                    place(0..length),
-                    "the number is too large; the largest accepted is 1e100",
-                ))
-            })
+            .map(|part| self.evaluate_part(attribute, part))
             .collect()
+    }
+
+    fn evaluate_part(&mut self, attribute: Attribute<'a>, part: Range<usize>) -> Outcome<Number> {
+        let token = &attribute.value[part.clone()];
+        // Most numbers of most files are 0 and 1: read once, then shared.
+        let is_short = token.len() <= LONGEST_SHARED && !token.contains('$');
+        if let Some(number) = self.literals.get(token).filter(|_| is_short) {
+            return Ok(number.clone());
+        }
+        let place =
+            |range: Range<usize>| attribute.part(part.start + range.start..part.start + range.end);
+        let number = number_text::number(token, &mut self.definitions)
+            .map_err(|trouble| trouble.placed(place))?;
+        if number.value().abs() > LARGEST {
+            let message = "the number is too large; the largest accepted is 1e100";
+            return Err(Fault::new(place(0..token.len()), message));
+        }
+        if is_short && self.literals.len() < MOST_SHARED {
+            self.literals.insert(token, number.clone());
+        }
+        Ok(number)
     }
 
     /// `<origin xyz rpy/>`, both optional.

@@ -211,11 +211,9 @@ pub fn check_place(text: &str, error: &FormatError) {
     let before = &text[..error.span.start];
     let line_start = before.rfind('\n').map_or(0, |at| at + 1);
     let line = before.matches('\n').count() + 1;
-    let column = before[line_start..]
-        .trim_start_matches('\u{feff}')
-        .chars()
-        .count()
-        + 1;
+    // A byte order mark, at the start of the file, is no column.
+    let mark = usize::from(line == 1 && before.starts_with('\u{feff}'));
+    let column = before[line_start..].chars().count() + 1 - mark;
     assert_eq!((error.line, error.column), (line, column), "{error:?}");
     error
         .others
