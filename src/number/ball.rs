@@ -10,7 +10,7 @@ use super::Float;
 use super::magnitude::Magnitude;
 use dashu::base::Sign;
 use dashu::float::round::mode::HalfEven;
-use dashu::float::{ConstCache, Context, FpResult};
+use dashu::float::{ConstCache, Context, FpError, FpResult};
 use dashu::integer::UBig;
 use dashu::rational::RBig;
 use std::cell::RefCell;
@@ -50,7 +50,11 @@ impl Bits {
 
     /// Midpoint as rounded by dashu, radius enlarged by that rounding.
     fn finish(self, middle: FpResult<Float>, propagated: Magnitude) -> Clear<Ball> {
-        let middle = middle.map_err(|_| Unclear::Range)?.value();
+        let middle = middle.map_err(|error| match error {
+            FpError::Overflow(_) | FpError::Underflow(_) => Unclear::Range,
+            _ => Unclear::Precision,
+        })?;
+        let middle = middle.value();
         if middle.repr().is_infinite() {
             return Err(Unclear::Range);
         }

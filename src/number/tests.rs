@@ -343,6 +343,15 @@ fn cancellation_is_evaluated_with_more_bits() {
 }
 
 #[test]
+fn huge_arguments_are_reduced_with_all_their_bits() {
+    // sin(1e22) is a classic of wrong argument reduction.
+    assert_eq!(read("sin(1e22)").value(), -0.852_200_849_767_188_8);
+    let x = read("sin(10**1000*10**1000)");
+    let square = &x * &x + read("cos(10**1000*10**1000)").power(2).unwrap();
+    assert_eq!(square, Number::one());
+}
+
+#[test]
 fn numbers_cross_threads() {
     fn check<T: Send + Sync + Clone>(x: T) -> T {
         x
