@@ -21,6 +21,7 @@ mod joint;
 mod kind;
 mod link;
 mod model;
+mod precision;
 mod scene;
 
 pub use builder::{JointBuilder, MechanismBuilder};
@@ -31,5 +32,6 @@ pub use frame::{Direction, Frame};
 pub use joint::{Dynamics, Joint, Limit, Side};
 pub use kind::{FreedomPart, JointKind};
 pub use link::{Geometry, Inertial, Link, Placement, Shape};
-pub use model::{JointId, LinkId, Mechanism, Precision};
+pub use model::{JointId, LinkId, Mechanism};
+pub use precision::Precision;
 pub use scene::{Drive, Expectation, Scene};
