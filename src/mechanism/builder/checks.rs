@@ -18,7 +18,7 @@ pub(super) fn check_finite(
     Err(MechanismError::new(
         entity.clone(),
         format!(
-            "{what} is {}, beyond the largest number accepted, 1e100",
+            "{what} is {:e}, beyond the largest number accepted, 1e100",
             value.value()
         ),
     ))
@@ -75,7 +75,7 @@ mod tests {
         assert_eq!(check("-1e100"), Ok(()));
         let beyond = |value: f64| {
             Err(format!(
-                "it is {value}, beyond the largest number accepted, 1e100"
+                "it is {value:e}, beyond the largest number accepted, 1e100"
             ))
         };
         assert_eq!(check("1.5e100"), beyond(1.5e100));

@@ -66,3 +66,69 @@ fn resolve(
         positions,
     })
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::MechanismBuilder;
+    use super::super::samples::{chain, fault, help, hinges, number};
+    use crate::mechanism::{JointId, JointKind};
+
+    fn posed(mut builder: MechanismBuilder, positions: &[(&str, &[&str])]) -> MechanismBuilder {
+        let positions = positions
+            .iter()
+            .map(|(joint, values)| {
+                let values = values.iter().map(|text| number(text)).collect();
+                ((*joint).to_owned(), values)
+            })
+            .collect();
+        builder.configuration("open", positions);
+        builder
+    }
+
+    #[test]
+    fn a_pose_gives_every_named_joint_one_value_per_freedom() {
+        let mixed = || chain(JointKind::Planar, JointKind::Fixed);
+        let pose: [(&str, &[&str]); 2] = [("bc", &[]), ("ab", &["1", "2", "3"])];
+        let mechanism = posed(mixed(), &pose).build().unwrap();
+        let open = mechanism.configuration("open").unwrap();
+        assert_eq!(open.positions[0], (JointId(1), vec![]));
+        assert_eq!(
+            open.positions[1],
+            (JointId(0), ["1", "2", "3"].map(number).to_vec())
+        );
+        assert_eq!(
+            fault(posed(mixed(), &[("ab", &["1", "2"])])),
+            "configuration `open`: joint `ab` has 3 freedoms but 2 values"
+        );
+        assert_eq!(
+            fault(posed(mixed(), &[("bc", &["1"])])),
+            "configuration `open`: joint `bc` has 0 freedoms but 1 values"
+        );
+    }
+
+    #[test]
+    fn what_a_pose_cannot_say() {
+        let wrong = posed(hinges(), &[("AB", &["1"])]);
+        assert_eq!(
+            fault(wrong.clone()),
+            "configuration `open`: there is no joint named `AB`"
+        );
+        assert_eq!(
+            help(wrong),
+            "names are compared letter by letter, capitals included"
+        );
+        assert_eq!(
+            fault(posed(hinges(), &[("ab", &["1"]), ("ab", &["1"])])),
+            "configuration `open`: joint `ab` has two positions"
+        );
+        assert_eq!(
+            fault(posed(hinges(), &[("ab", &["1e101"])])),
+            "configuration `open`: position is 1e101, beyond the largest number accepted, 1e100"
+        );
+        assert_eq!(
+            fault(posed(posed(hinges(), &[]), &[])),
+            "configuration `open`: two configurations have this name"
+        );
+    }
+}

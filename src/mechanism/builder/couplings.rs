@@ -254,3 +254,189 @@ fn mimic_terms(follower: JointId, leader: JointId, multiplier: &Number) -> Vec<C
     }
     terms
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::samples::{chain, fault, help, hinge, hinges, links, number};
+    use super::super::{JointBuilder, MechanismBuilder};
+    use super::*;
+    use crate::mechanism::{Frame, Mechanism};
+
+    /// The equation of the first coupling by joint names.
+    fn terms(mechanism: &Mechanism) -> Vec<(&str, f64)> {
+        mechanism.couplings()[0]
+            .terms
+            .iter()
+            .map(|term| {
+                let joint = mechanism.joint(term.joint);
+                (joint.name.as_str(), term.factor.value())
+            })
+            .collect()
+    }
+
+    fn ratio(mut builder: MechanismBuilder, ends: [&str; 2], ratio: &str) -> MechanismBuilder {
+        builder.coupling("gears", ends[0], ends[1], number(ratio));
+        builder
+    }
+
+    /// ```text
+    /// a --ab-- b --bc-- c --cd(fixed)-- d
+    ///          b --be-- e
+    /// ```
+    fn fork() -> MechanismBuilder {
+        let mut builder = hinges();
+        builder.link("d").link("e");
+        builder.joint(JointBuilder::tree("cd", JointKind::Fixed, "c", "d"));
+        builder.joint(JointBuilder::tree("be", JointKind::Prismatic, "b", "e"));
+        builder
+    }
+
+    #[test]
+    fn a_ratio_is_summed_from_the_nearest_common_ancestor() {
+        for (ends, expected) in [
+            // The arm's own joint `ab` moves both and does not enter.
+            (["d", "e"], vec![("be", 1.0), ("bc", -0.5)]),
+            (["e", "d"], vec![("bc", 1.0), ("be", -0.5)]),
+            (["a", "d"], vec![("bc", 1.0), ("ab", 1.0)]),
+            (["d", "a"], vec![("bc", -0.5), ("ab", -0.5)]),
+            (["e", "b"], vec![("be", -0.5)]),
+        ] {
+            let mechanism = ratio(fork(), ends, "0.5").build().unwrap();
+            assert_eq!(terms(&mechanism), expected, "{ends:?}");
+            assert!(mechanism.couplings()[0].offset.is_zero());
+        }
+    }
+
+    #[test]
+    fn a_ratio_of_zero_holds_the_driven_link_alone() {
+        let mechanism = ratio(fork(), ["d", "e"], "0").build().unwrap();
+        assert_eq!(terms(&mechanism), [("be", 1.0)]);
+    }
+
+    #[test]
+    fn a_ratio_needs_something_that_moves() {
+        for ends in [["c", "d"], ["b", "b"]] {
+            assert_eq!(
+                fault(ratio(fork(), ends, "2")),
+                format!(
+                    "coupling `gears`: no joint moves between `{}` and `{}`, so their rates cannot be coupled",
+                    ends[0], ends[1]
+                )
+            );
+        }
+        assert!(fault(ratio(fork(), ["d", "a"], "0")).contains("no joint moves"));
+    }
+
+    #[test]
+    fn a_ratio_cannot_cross_a_joint_without_one_rate() {
+        let mut builder = fork();
+        builder.link("f");
+        builder.floating("free", "e", "f", Frame::identity());
+        assert_eq!(
+            fault(ratio(builder, ["a", "f"], "1")),
+            "coupling `gears`: its path through the tree crosses floating joint `free`, which has no rate"
+        );
+        let ball = chain(JointKind::Revolute, JointKind::Spherical);
+        assert_eq!(
+            fault(ratio(ball.clone(), ["a", "c"], "1")),
+            "coupling `gears`: joint `bc` is spherical with 3 freedoms; only a joint of one freedom has a single rate"
+        );
+        assert!(ratio(ball, ["a", "b"], "1").build().is_ok());
+    }
+
+    #[test]
+    fn a_ratio_speaks_of_links_and_is_a_number() {
+        assert_eq!(
+            fault(ratio(hinges(), ["a", "ab"], "1")),
+            "coupling `gears`: there is no link named `ab`"
+        );
+        assert_eq!(help(ratio(hinges(), ["a", "ab"], "1")), "did you mean `a`?");
+        assert!(fault(ratio(hinges(), ["a", "b"], "1e101")).contains("ratio is 1e101"));
+    }
+
+    #[test]
+    fn a_mimic_is_one_equation_named_after_its_follower() {
+        let mut builder = hinges();
+        builder.mimic("bc", "ab", number("-2"), number("0.25"));
+        let mechanism = builder.build().unwrap();
+        assert_eq!(mechanism.couplings()[0].name, "bc.mimic");
+        assert_eq!(mechanism.couplings()[0].offset, number("0.25"));
+        assert_eq!(terms(&mechanism), [("bc", 1.0), ("ab", 2.0)]);
+
+        let mut builder = hinges();
+        builder.mimic("bc", "ab", number("0"), number("0.25"));
+        assert_eq!(terms(&builder.build().unwrap()), [("bc", 1.0)]);
+    }
+
+    #[test]
+    fn what_cannot_be_mimicked() {
+        let mimic = |mut builder: MechanismBuilder, follower: &str, leader: &str| {
+            builder.mimic(follower, leader, Number::one(), Number::zero());
+            builder
+        };
+        let ball = || chain(JointKind::Revolute, JointKind::Spherical);
+        let told = "joint `bc` is spherical with 3 freedoms; only a joint of one freedom has a single rate";
+        assert_eq!(
+            fault(mimic(ball(), "ab", "bc")),
+            format!("joint `ab`: {told}")
+        );
+        assert_eq!(
+            fault(mimic(ball(), "bc", "ab")),
+            format!("joint `bc`: {told}")
+        );
+        let fixed = chain(JointKind::Revolute, JointKind::Fixed);
+        assert!(fault(mimic(fixed, "ab", "bc")).contains("fixed with 0 freedoms"));
+        assert_eq!(
+            fault(mimic(hinges(), "ab", "cb")),
+            "joint `ab`: mimic names joint `cb`, which does not exist"
+        );
+        assert_eq!(
+            help(mimic(hinges(), "ab", "cb")),
+            "did you mean `ab`?",
+            "one letter off `ab`, two off `bc`"
+        );
+        assert_eq!(
+            fault(mimic(hinges(), "ab", "ab")),
+            "joint `ab`: the joint mimics itself"
+        );
+        for (multiplier, offset, what) in [("1e101", "0", "multiplier"), ("1", "1e101", "offset")] {
+            let mut builder = hinges();
+            builder.mimic("ab", "bc", number(multiplier), number(offset));
+            assert!(fault(builder).contains(&format!("{what} is 1e101")));
+        }
+    }
+
+    /// Hinges `j0`, `j1`, ... from one ground, each following another by index.
+    fn followers(leaders: &[usize]) -> MechanismBuilder {
+        let mut builder = links(&["ground"]);
+        for (index, leader) in leaders.iter().enumerate() {
+            let (joint, link) = (format!("j{index}"), format!("l{index}"));
+            builder.link(&link);
+            builder.joint(hinge(&joint, "ground", &link));
+            if *leader != index {
+                builder.mimic(&joint, &format!("j{leader}"), Number::one(), Number::zero());
+            }
+        }
+        builder
+    }
+
+    #[test]
+    fn mimics_may_form_trees_but_no_circle() {
+        // j3 -> j2 -> j0 <- j1: whoever leads in the end is free.
+        assert!(followers(&[0, 0, 0, 2]).build().is_ok());
+        assert_eq!(
+            fault(followers(&[1, 0])),
+            "joint `j0`: mimic runs in a circle: j0 -> j1"
+        );
+        assert_eq!(
+            fault(followers(&[0, 2, 3, 1, 0])),
+            "joint `j1`: mimic runs in a circle: j1 -> j2 -> j3"
+        );
+        // j0 and j1 lead into the circle but are not on it.
+        assert_eq!(
+            fault(followers(&[1, 2, 3, 2])),
+            "joint `j2`: mimic runs in a circle: j2 -> j3"
+        );
+    }
+}

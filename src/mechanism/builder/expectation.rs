@@ -50,3 +50,103 @@ fn names_a_part(text: &str, joints: &[Joint], names: &Names) -> bool {
         .enumerate()
         .any(|(index, freedom)| freedom.suffix() == part || joint.freedom_name(index) == text)
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::samples::{chain, fault};
+    use super::*;
+    use crate::mechanism::JointKind;
+
+    fn locked(name: &str) -> Expectation {
+        Expectation {
+            locked: Some(vec![name.to_owned()]),
+            ..Expectation::default()
+        }
+    }
+
+    #[test]
+    fn names_are_joints_parts_and_links() {
+        // A ball and a sleeve whose name has a dot.
+        let sample = || {
+            let mut builder = chain(JointKind::Spherical, JointKind::Revolute);
+            builder.link("d");
+            let sleeve = super::super::JointBuilder::tree("c.d", JointKind::Cylindrical, "c", "d");
+            builder.joint(sleeve);
+            builder
+        };
+        for name in [
+            "all",
+            "ab",
+            "ab.rot",
+            "ab.rot1",
+            "ab.rot3",
+            "bc",
+            "bc.rot",
+            "c.d",
+            "c.d.rot",
+            "c.d.trans",
+        ] {
+            let mut builder = sample();
+            builder.expect(locked(name));
+            assert!(builder.build().is_ok(), "{name}");
+        }
+        for name in [
+            "",
+            "none",
+            "ab.rot0",
+            "ab.rot4",
+            "ab.trans",
+            "bc.rot1",
+            "c",
+            "c.d.screw",
+            ".rot",
+        ] {
+            let mut builder = sample();
+            builder.expect(locked(name));
+            assert_eq!(
+                fault(builder),
+                format!(
+                    "the expectation: locked names `{name}`, which is neither a joint nor a part of one"
+                )
+            );
+        }
+        for (idle, known) in [("a", true), ("ab", false)] {
+            let mut builder = sample();
+            builder.expect(Expectation {
+                idle: Some(vec![idle.to_owned()]),
+                ..Expectation::default()
+            });
+            match builder.build() {
+                Ok(_) => assert!(known, "{idle}"),
+                Err(error) => assert_eq!(
+                    (error.to_string(), known),
+                    (
+                        format!("the expectation: idle names `{idle}`, which is not a link"),
+                        false
+                    )
+                ),
+            }
+        }
+    }
+
+    #[test]
+    fn a_pose_is_one_of_two_words() {
+        for (pose, known) in [("regular", true), ("singular", true), ("Regular", false)] {
+            let mut builder = chain(JointKind::Revolute, JointKind::Revolute);
+            builder.expect(Expectation {
+                pose: Some(pose.to_owned()),
+                ..Expectation::default()
+            });
+            if known {
+                let mechanism = builder.build().unwrap();
+                assert_eq!(mechanism.expectation().unwrap().pose.as_deref(), Some(pose));
+            } else {
+                assert_eq!(
+                    fault(builder),
+                    "the expectation: pose is `regular` or `singular`, not `Regular`"
+                );
+            }
+        }
+    }
+}

@@ -140,3 +140,194 @@ fn check_limit(entity: &Entity, limit: &Limit) -> Result<(), MechanismError> {
         _ => Ok(()),
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::samples::{far_away, fault, help, hinge, links, number};
+    use super::super::{JointBuilder, MechanismBuilder};
+    use crate::mechanism::{Direction, Dynamics, JointKind, Limit};
+    use crate::number::Number;
+
+    /// Two links and this joint.
+    fn with(joint: JointBuilder) -> MechanismBuilder {
+        let mut builder = links(&["a", "b"]);
+        builder.joint(joint);
+        builder
+    }
+
+    fn tree(kind: JointKind) -> JointBuilder {
+        JointBuilder::tree("j", kind, "a", "b")
+    }
+
+    fn zero() -> Direction {
+        Direction([Number::zero(), Number::zero(), Number::zero()])
+    }
+
+    #[test]
+    fn a_joint_connects_two_links() {
+        for joint in [
+            hinge("j", "b", "b"),
+            JointBuilder::closing("j", JointKind::Fixed, "b", "b"),
+        ] {
+            assert_eq!(
+                fault(with(joint)),
+                "joint `j`: both sides are link `b`; a joint connects two different links"
+            );
+        }
+    }
+
+    #[test]
+    fn both_axes_are_the_x_axis_unless_stated() {
+        let mechanism = with(tree(JointKind::Universal)).build().unwrap();
+        let joint = &mechanism.joints()[0];
+        assert_eq!(
+            (&joint.axis, &joint.axis2),
+            (&Direction::x(), &Direction::x())
+        );
+    }
+
+    #[test]
+    fn a_direction_that_is_used_is_not_zero() {
+        for kind in JointKind::ALL {
+            let described = |joint: JointBuilder| {
+                let joint = if kind.uses_lead() {
+                    joint.lead(Number::one())
+                } else {
+                    joint
+                };
+                with(if kind == JointKind::Distance {
+                    joint.distance(Number::one())
+                } else {
+                    joint
+                })
+            };
+            for (builder, what, used) in [
+                (described(tree(kind).axis(zero())), "axis", kind.uses_axis()),
+                (
+                    described(tree(kind).axis2(zero())),
+                    "axis2",
+                    kind.uses_second_axis(),
+                ),
+            ] {
+                if used {
+                    assert_eq!(
+                        fault(builder),
+                        format!("joint `j`: {what} is the zero vector, which names no direction")
+                    );
+                } else {
+                    assert!(builder.build().is_ok(), "{kind} does not read {what}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_screw_has_a_lead_and_no_other_joint_has() {
+        for kind in JointKind::ALL {
+            let told = if kind.uses_lead() {
+                assert_eq!(help(with(tree(kind))), "<screw lead=\"metres per turn\"/>");
+                assert!(with(tree(kind).lead(Number::one())).build().is_ok());
+                assert_eq!(
+                    fault(with(tree(kind).lead(number("1e101")))),
+                    "joint `j`: lead is 1e101, beyond the largest number accepted, 1e100"
+                );
+                (fault(with(tree(kind))), "needs its lead")
+            } else {
+                (fault(with(tree(kind).lead(Number::one()))), "has no lead")
+            };
+            assert_eq!(told.0, format!("joint `j`: a {kind} joint {}", told.1));
+        }
+    }
+
+    #[test]
+    fn a_distance_is_kept_by_distance_joints_only_and_is_positive() {
+        let distance = |text: &str| with(tree(JointKind::Distance).distance(number(text)));
+        assert!(distance("0.001").build().is_ok());
+        for text in ["0", "-1"] {
+            assert_eq!(
+                fault(distance(text)),
+                "joint `j`: the distance must be greater than zero"
+            );
+            assert_eq!(
+                help(distance(text)),
+                "two points that coincide are a `spherical` joint"
+            );
+        }
+        assert!(fault(distance("1e101")).contains("distance is 1e101"));
+        assert_eq!(
+            fault(with(tree(JointKind::Spherical).distance(Number::one()))),
+            "joint `j`: a spherical joint keeps no distance"
+        );
+    }
+
+    #[test]
+    fn a_distance_may_be_left_to_the_home_pose_where_there_is_one() {
+        let told = "the two points of a tree joint coincide at home, so a distance joint needs its <distance value=\"...\"/>";
+        assert_eq!(
+            fault(with(tree(JointKind::Distance))),
+            format!("joint `j`: {told}")
+        );
+        let mut closing = with(hinge("ab", "a", "b"));
+        closing.joint(JointBuilder::closing("j", JointKind::Distance, "a", "b"));
+        assert!(closing.build().is_ok());
+        // A tree joint that turns out to close a loop counts as one.
+        let mut second = with(hinge("ab", "a", "b"));
+        second.joint(tree(JointKind::Distance));
+        assert!(second.build().is_ok());
+    }
+
+    #[test]
+    fn limits_are_ordered() {
+        let limit = |lower: Option<&str>, upper: Option<&str>| {
+            with(tree(JointKind::Revolute).limit(Limit {
+                lower: lower.map(number),
+                upper: upper.map(number),
+                ..Limit::default()
+            }))
+        };
+        assert_eq!(
+            fault(limit(Some("1"), Some("0.5"))),
+            "joint `j`: the lower limit is above the upper limit"
+        );
+        assert!(limit(Some("1"), Some("1")).build().is_ok());
+        assert!(limit(Some("1"), None).build().is_ok());
+        assert!(limit(None, Some("-1")).build().is_ok());
+    }
+
+    #[test]
+    fn every_number_is_one_to_compute_with() {
+        let huge = || number("1e101");
+        let limit = |change: fn(&mut Limit, Number)| {
+            let mut limit = Limit::default();
+            change(&mut limit, huge());
+            tree(JointKind::Revolute).limit(limit)
+        };
+        let dynamics = |damping: Option<Number>, friction: Option<Number>| {
+            tree(JointKind::Revolute).dynamics(Dynamics { damping, friction })
+        };
+        // Not read by a ball, but written back to a file.
+        let axis = || Direction([Number::one(), Number::zero(), huge()]);
+        for (joint, what) in [
+            (tree(JointKind::Spherical).axis(axis()), "axis"),
+            (tree(JointKind::Spherical).axis2(axis()), "axis2"),
+            (limit(|l, x| l.lower = Some(x)), "lower limit"),
+            (limit(|l, x| l.upper = Some(x)), "upper limit"),
+            (limit(|l, x| l.effort = Some(x)), "effort"),
+            (limit(|l, x| l.velocity = Some(x)), "velocity"),
+            (dynamics(Some(huge()), None), "dynamics"),
+            (dynamics(None, Some(huge())), "dynamics"),
+        ] {
+            assert_eq!(
+                fault(with(joint)),
+                format!("joint `j`: {what} is 1e101, beyond the largest number accepted, 1e100")
+            );
+        }
+        for joint in [
+            tree(JointKind::Fixed).origin(far_away()),
+            tree(JointKind::Fixed).successor_origin(far_away()),
+        ] {
+            assert!(fault(with(joint)).starts_with("joint `j`: origin is 1e200"));
+        }
+    }
+}

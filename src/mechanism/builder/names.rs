@@ -102,3 +102,107 @@ impl Names {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{error_of, fault, help, hinge, hinges, links};
+    use crate::mechanism::{Entity, Frame};
+    use crate::number::Number;
+
+    const SHARED: &str = "joints, loops and couplings share one set of names; rename one of them";
+
+    #[test]
+    fn a_link_needs_a_name_of_its_own() {
+        assert_eq!(fault(links(&["a", ""])), "link ``: a link needs a name");
+        assert_eq!(
+            fault(links(&["a", "b", "a"])),
+            "link `a`: two links have this name"
+        );
+    }
+
+    #[test]
+    fn a_joint_needs_a_name_of_its_own() {
+        let mut twice = hinges();
+        twice.joint(hinge("ab", "a", "c"));
+        assert_eq!(
+            fault(twice.clone()),
+            "joint `ab`: two joints have this name"
+        );
+        assert_eq!(help(twice), SHARED);
+
+        let mut nameless = hinges();
+        nameless.joint(hinge("", "a", "c"));
+        assert_eq!(fault(nameless), "joint ``: a joint needs a name");
+    }
+
+    #[test]
+    fn floating_joints_share_the_names_of_joints() {
+        let mut builder = hinges();
+        builder.link("d");
+        let nameless = {
+            let mut builder = builder.clone();
+            builder.floating("", "a", "d", Frame::identity());
+            builder
+        };
+        assert_eq!(fault(nameless), "joint ``: a joint needs a name");
+        builder.floating("bc", "a", "d", Frame::identity());
+        assert_eq!(fault(builder), "joint `bc`: two joints have this name");
+    }
+
+    #[test]
+    fn couplings_share_the_names_of_joints() {
+        for name in ["ab", "placed", "ab.mimic"] {
+            let mut builder = hinges();
+            builder.link("d");
+            builder.floating("placed", "a", "d", Frame::identity());
+            builder.mimic("ab", "bc", Number::one(), Number::zero());
+            builder.coupling(name, "b", "c", Number::one());
+            let error = error_of(builder);
+            assert_eq!(error.entity, Entity::Coupling(name.to_owned()));
+            assert_eq!(error.problem, format!("the name `{name}` is taken already"));
+            assert_eq!(error.help.as_deref(), Some(SHARED));
+        }
+        let mut nameless = hinges();
+        nameless.coupling("", "b", "c", Number::one());
+        assert_eq!(fault(nameless), "coupling ``: a coupling needs a name");
+    }
+
+    #[test]
+    fn a_second_mimic_of_a_joint_is_about_that_joint() {
+        let mut builder = hinges();
+        builder.mimic("ab", "bc", Number::one(), Number::zero());
+        builder.mimic("ab", "bc", Number::integer(2), Number::zero());
+        assert_eq!(
+            fault(builder),
+            "joint `ab`: the name `ab.mimic` is taken already"
+        );
+    }
+
+    #[test]
+    fn an_unknown_link_is_told_with_the_nearest_known_one() {
+        let mut builder = links(&["ground", "crank"]);
+        builder.joint(hinge("A", "ground", "crnk"));
+        assert_eq!(
+            fault(builder.clone()),
+            "joint `A`: there is no link named `crnk`"
+        );
+        assert_eq!(help(builder), "did you mean `crank`?");
+
+        let mut builder = links(&["ground", "crank"]);
+        builder.joint(hinge("A", "earth", "crank"));
+        assert_eq!(
+            help(builder),
+            "names are compared letter by letter, capitals included"
+        );
+    }
+
+    #[test]
+    fn links_may_be_named_before_they_are_added_and_like_joints() {
+        let mut builder = links(&["a"]);
+        builder.joint(hinge("b", "a", "b"));
+        builder.link("b");
+        let mechanism = builder.build();
+        let found = mechanism.map(|m| (m.link_named("b").is_some(), m.joint_named("b").is_some()));
+        assert_eq!(found, Ok((true, true)));
+    }
+}

@@ -140,3 +140,129 @@ pub(super) fn placed_by(link: &Link, joints: &[Joint]) -> Option<LinkId> {
         Placement::Floating { parent, .. } => Some(*parent),
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::samples::{far_away, fault, help, hinge, hinges, links};
+    use super::*;
+    use crate::mechanism::{JointBuilder, JointKind};
+
+    #[test]
+    fn a_second_tree_joint_with_the_same_child_closes_a_loop() {
+        let mut builder = hinges();
+        builder.joint(hinge("ac", "a", "c"));
+        let mechanism = builder.build().unwrap();
+        let closes: Vec<bool> = mechanism.joints().iter().map(|j| j.closes_loop).collect();
+        assert_eq!(closes, [false, false, true]);
+        let c = mechanism.link_named("c").unwrap();
+        let bc = mechanism.joint_named("bc").unwrap();
+        assert_eq!(mechanism.link(c).placement, Placement::Joint(bc));
+    }
+
+    #[test]
+    fn a_circle_of_tree_joints_has_no_root() {
+        let mut builder = hinges();
+        builder.joint(hinge("ca", "c", "a"));
+        assert_eq!(
+            fault(builder.clone()),
+            "link `a`: every link is the child of another: the tree joints run in a circle and nothing is at the root"
+        );
+        assert_eq!(
+            help(builder),
+            "write the joint that closes the circle as a <loop>"
+        );
+
+        // The same circle with the last joint as a loop is a triangle.
+        let mut builder = hinges();
+        builder.joint(JointBuilder::closing("ca", JointKind::Revolute, "c", "a"));
+        assert!(builder.build().unwrap().joints()[2].closes_loop);
+    }
+
+    #[test]
+    fn a_circle_beside_the_root() {
+        // a (root)    b -> c -> b
+        let mut builder = links(&["a", "b", "c"]);
+        builder.joint(hinge("bc", "b", "c"));
+        builder.joint(hinge("cb", "c", "b"));
+        assert_eq!(
+            fault(builder.clone()),
+            "link `b`: it is not connected to the root `a`: its tree joints run in a circle"
+        );
+        assert_eq!(
+            help(builder),
+            "write the joint that closes the circle as a <loop>"
+        );
+    }
+
+    #[test]
+    fn a_link_that_nothing_places_is_told() {
+        let mut builder = hinges();
+        builder.link("d");
+        let told = "link `d`: nothing connects it to `a`: no joint has it as its child, so its home pose is unknown";
+        assert_eq!(fault(builder.clone()), told);
+        // A loop constrains it, but says nothing about where it is.
+        builder.joint(JointBuilder::closing("cd", JointKind::Revolute, "c", "d"));
+        assert_eq!(fault(builder), told);
+    }
+
+    #[test]
+    fn a_floating_joint_places_without_being_a_joint() {
+        let mut builder = links(&["a", "b"]);
+        builder.floating("free", "a", "b", Frame::identity());
+        let mechanism = builder.build().unwrap();
+        assert!(mechanism.joints().is_empty());
+        assert!(mechanism.joint_named("free").is_none());
+        let b = mechanism.link_named("b").unwrap();
+        assert_eq!(
+            mechanism.link(b).placement,
+            Placement::Floating {
+                name: "free".to_owned(),
+                parent: LinkId(0),
+                origin: Frame::identity()
+            }
+        );
+    }
+
+    #[test]
+    fn what_a_floating_joint_cannot_do() {
+        let with = |parent: &str, child: &str, origin: Frame| {
+            let mut builder = hinges();
+            builder.link("d");
+            builder.floating("free", parent, child, origin);
+            builder
+        };
+        for (builder, told) in [
+            (
+                with("d", "d", Frame::identity()),
+                "parent and child are the same link",
+            ),
+            (
+                with("a", "c", Frame::identity()),
+                "link `c` is placed by another joint already",
+            ),
+            (
+                with("a", "e", Frame::identity()),
+                "there is no link named `e`",
+            ),
+            (
+                with("a", "d", far_away()),
+                "origin is 1e200, beyond the largest number accepted, 1e100",
+            ),
+        ] {
+            assert_eq!(fault(builder), format!("joint `free`: {told}"));
+        }
+        assert_eq!(
+            help(with("a", "c", Frame::identity())),
+            "a floating joint only places its child at home; remove one of the two"
+        );
+    }
+
+    #[test]
+    fn a_link_placed_by_a_floating_joint_may_close_loops() {
+        let mut builder = links(&["a", "b"]);
+        builder.floating("free", "a", "b", Frame::identity());
+        builder.joint(JointBuilder::closing("ab", JointKind::Spherical, "a", "b"));
+        assert_eq!(builder.build().unwrap().freedom(), 3);
+    }
+}
