@@ -20,11 +20,10 @@ use kutzbach::number::Number;
 use std::error::Error;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let sarrus = sarrus("sarrus", JointKind::Revolute)?;
-    describe(&sarrus)?;
+    describe(&sarrus("sarrus", JointKind::Revolute)?)?;
 
     println!("\nA ball instead of the last hinge takes the repeated constraint away:\n");
-    describe(&self::sarrus("sarrus_with_ball", JointKind::Spherical)?)?;
+    describe(&sarrus("sarrus_with_ball", JointKind::Spherical)?)?;
 
     // What contradicts itself is told with the joint it is about, and does not become a mechanism.
     let mut wrong = MechanismBuilder::new("wrong");
@@ -88,12 +87,13 @@ fn describe(mechanism: &Mechanism) -> Result<(), Box<dyn Error>> {
         .home
         .as_ref()
         .ok_or("the mechanism does not assemble")?;
-    let redundant = home.redundant.ok_or("the rank is open")?;
+    let (Some(instantaneous), Some(redundant)) = (home.instantaneous, home.redundant) else {
+        return Err("the rank is open".into());
+    };
     println!(
-        "{}: Kutzbach {}, instantaneous {}, redundant {redundant}, verdict {}",
+        "{}: Kutzbach {}, instantaneous {instantaneous}, redundant {redundant}, verdict {}",
         mechanism.name(),
         analysis.kutzbach,
-        home.candidates.1,
         analysis.mobility.verdict.word()
     );
     for (joint, role) in mechanism.joints().iter().zip(&analysis.roles) {

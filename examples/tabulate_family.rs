@@ -1,11 +1,12 @@
 //! Tables of mechanism families: how counts, ranks and time grow with the size, and how they do not change with the shape.
 //!
 //! ```text
-//! cargo run --release --example tabulate_family [LARGEST]
+//! cargo run --release --example tabulate_family [STAGES [PANELS]]
 //! ```
 //!
-//! The scissor lift and the Miura sheet are taken from `kutzbach::families` with N = 1, 2, 5, 10, 20, ... up to LARGEST
-//! (100 if not given); an N × N sheet has N² panels. The Bennett linkages are built here from their twist angles.
+//! The scissor lift and the Miura sheet are taken from `kutzbach::families` with N = 1, 2, 5, 10, 20, ... up to STAGES (100
+//! if not given) and PANELS a side (10 if not given: a sheet of N × N panels has N² links, and a width of N that the fronts
+//! of the elimination grow with). The Bennett linkages are built here from their twist angles.
 
 use kutzbach::families::{miura_sheet, scissor_lift};
 use kutzbach::mechanism::{
@@ -16,26 +17,20 @@ use kutzbach::number::{Number, NumberError};
 use std::error::Error;
 use std::time::Instant;
 
-/// Sheets beyond this many panels a side are for patient people: the fronts of the elimination grow with the side.
-const LARGEST_SHEET: usize = 20;
-
 fn main() -> Result<(), Box<dyn Error>> {
-    let largest = match std::env::args().nth(1) {
-        None => 100,
-        Some(text) => text
-            .parse()
-            .map_err(|_| format!("needed a number of stages, found `{text}`"))?,
-    };
+    let mut arguments = std::env::args().skip(1);
+    let stages = size_or(arguments.next(), 100)?;
+    let panels = size_or(arguments.next(), 10)?;
 
     println!("Scissor lift of N stages");
     print_head("N");
-    for size in sizes(largest) {
+    for size in sizes(stages) {
         print_row(&size.to_string(), &scissor_lift(size)?)?;
     }
 
     println!("\nMiura sheet of N x N panels");
     print_head("N");
-    for size in sizes(largest.min(LARGEST_SHEET)) {
+    for size in sizes(panels) {
         print_row(&size.to_string(), &miura_sheet(size, size)?)?;
     }
 
@@ -53,6 +48,15 @@ fn main() -> Result<(), Box<dyn Error>> {
         print_row(&beta.to_string(), &bennett(40, beta, "1.05*sin(beta)")?)?;
     }
     Ok(())
+}
+
+fn size_or(argument: Option<String>, default: usize) -> Result<usize, String> {
+    match argument {
+        None => Ok(default),
+        Some(text) => text
+            .parse()
+            .map_err(|_| format!("needed a size, found `{text}`")),
+    }
 }
 
 /// 1, 2, 5, 10, 20, 50, ...
@@ -129,22 +133,12 @@ fn bennett(alpha: i64, beta: i64, ground: &str) -> Result<Mechanism, Box<dyn Err
     let hinge = |name: &str, parent: &str, child: &str| {
         JointBuilder::tree(name, JointKind::Revolute, parent, child)
     };
-    // Frames after Denavit and Hartenberg: z along the hinge, x along the link.
-    builder.joint(
-        hinge("hinge_1", "ground", "crank")
-            .origin(Frame {
-                position: [Number::zero(), Number::zero(), Number::zero()],
-                roll_pitch_yaw: triple(["0", "0", "pi/2"])?,
-            })
-            .axis(direction(["0", "0", "1"])?),
-    );
+    // The corners are at (0 0 0), (0 a 0), (-b 0 0) and hinge 3; all frames are parallel to the ground's as drawn.
+    builder.joint(hinge("hinge_1", "ground", "crank").axis(direction(["0", "0", "1"])?));
     builder.joint(
         hinge("hinge_2", "crank", "coupler")
-            .origin(Frame {
-                position: triple(["a", "0", "0"])?,
-                roll_pitch_yaw: triple(["alpha", "0", "0"])?,
-            })
-            .axis(direction(["0", "0", "1"])?),
+            .origin(point(["0", "a", "0"])?)
+            .axis(direction(["sin(alpha)", "0", "cos(alpha)"])?),
     );
     builder.joint(
         hinge("hinge_4", "ground", "rocker")
@@ -153,9 +147,13 @@ fn bennett(alpha: i64, beta: i64, ground: &str) -> Result<Mechanism, Box<dyn Err
     );
     builder.joint(
         JointBuilder::closing("hinge_3", JointKind::Revolute, "coupler", "rocker")
-            .origin(point(["b*c", "b*s", "0"])?)
+            .origin(point(["-b - a*c", "-a - a*s*cos(beta)", "a*s*sin(beta)"])?)
             .successor_origin(point(["-a*c", "-a*s*cos(beta)", "a*s*sin(beta)"])?)
-            .axis(direction(["sin(beta)*s", "-sin(beta)*c", "cos(beta)"])?),
+            .axis(direction([
+                "-s*sin(alpha)",
+                "c*sin(alpha)*cos(beta) + cos(alpha)*sin(beta)",
+                "cos(alpha)*cos(beta) - c*sin(alpha)*sin(beta)",
+            ])?),
     );
     builder
         .build()
