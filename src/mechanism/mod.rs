@@ -7,7 +7,9 @@
 //! - names are unique, every reference resolves, no joint connects a link with itself;
 //! - every link has exactly one [`Placement`]: the ground of the file's tree, or a home pose relative to another link,
 //!   without circles;
-//! - directions are not zero, numbers are finite, limits are ordered, couplings relate joints of one freedom.
+//! - directions are not zero, numbers are small enough to compute with, limits are ordered, a screw has a lead and a
+//!   distance joint a distance, couplings and drives speak of joints of one freedom, mimics form no circle;
+//! - configurations, scene and expectation speak of joints and links that exist.
 //!
 //! Geometry stays as the file wrote it: exact [`Number`](crate::number::Number)s in frames relative to links. Floating-point
 //! poses, in as many digits as a question needs, are computed from it by [`crate::closure`].
