@@ -5,10 +5,11 @@
 //! downstream checks again:
 //!
 //! - names are unique, every reference resolves, no joint connects a link with itself;
-//! - every link has exactly one [`Placement`]: the ground of the file's tree, or a home pose relative to another link,
+//! - every link has exactly one [`Placement`]: the root of the file's tree, or a home pose relative to another link,
 //!   without circles;
-//! - directions are not zero, numbers are small enough to compute with, limits are ordered, a screw has a lead and a
-//!   distance joint a distance, couplings and drives speak of joints of one freedom, mimics form no circle;
+//! - directions are not zero, numbers are small enough to compute with, limits are ordered, a screw has a lead, a distance
+//!   joint a distance (its own or that of the home pose), couplings and drives speak of joints of one freedom, mimics form
+//!   no circle;
 //! - configurations, scene and expectation speak of joints and links that exist.
 //!
 //! Geometry stays as the file wrote it: exact [`Number`](crate::number::Number)s in frames relative to links. Floating-point
