@@ -15,6 +15,7 @@
 //! | `checks` | rules about single values |
 //! | `links`, `joints` | rules about one link, one joint |
 //! | `placements` | the tree of home poses |
+//! | `ratio` | the joints between two links whose rates are coupled |
 //! | `couplings`, `configurations`, `scene`, `expectation` | what refers to links and joints |
 
 mod checks;
@@ -27,6 +28,7 @@ mod joints;
 mod links;
 mod names;
 mod placements;
+mod ratio;
 #[cfg(test)]
 mod samples;
 mod scene;
@@ -41,7 +43,7 @@ use super::{
 };
 use crate::number::Number;
 use configurations::{ConfigurationSpec, resolve_configurations};
-use couplings::{CouplingSpec, Relation, Resolver};
+use couplings::{CouplingSpec, Relation, resolve_couplings};
 use expectation::check_expectation;
 use joints::make_joint;
 use links::check_link;
@@ -246,8 +248,13 @@ impl MechanismBuilder {
             None => placement_order[0],
         };
 
-        let couplings =
-            Resolver::new(&links, &joints, &placement_order).resolve(self.couplings, &mut names)?;
+        let couplings = resolve_couplings(
+            self.couplings,
+            &links,
+            &joints,
+            &placement_order,
+            &mut names,
+        )?;
         let configurations = resolve_configurations(self.configurations, &joints, &names)?;
         let scene = resolve_scene(self.scene, self.drives, &joints, &names)?;
         if let Some(expectation) = &self.expectation {

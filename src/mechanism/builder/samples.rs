@@ -1,7 +1,7 @@
 //! Small mechanisms under construction, for the tests of this folder.
 
 use super::{JointBuilder, MechanismBuilder};
-use crate::mechanism::{Frame, JointKind, MechanismError};
+use crate::mechanism::{Frame, JointKind, Mechanism, MechanismError};
 use crate::number::Number;
 
 /// A decimal literal.
@@ -60,4 +60,16 @@ pub(super) fn fault(builder: MechanismBuilder) -> String {
 /// How to mend it.
 pub(super) fn help(builder: MechanismBuilder) -> String {
     error_of(builder).help.unwrap_or_default()
+}
+
+/// The equation of the first coupling by joint names.
+pub(super) fn terms(mechanism: &Mechanism) -> Vec<(&str, f64)> {
+    mechanism.couplings()[0]
+        .terms
+        .iter()
+        .map(|term| {
+            let joint = mechanism.joint(term.joint);
+            (joint.name.as_str(), term.factor.value())
+        })
+        .collect()
 }
