@@ -5,11 +5,11 @@
 
 use super::pose_rank::PartRank;
 use crate::closure::{Geometry, JointState, Part, entry_accuracy, follow, jacobian};
-use crate::matrix::{MatrixError, NullVectors, SplitMix64, coloops, decide, null_vectors};
+use crate::matrix::{MatrixError, NullVectors, Real, SplitMix64, coloops, decide, null_vectors};
 use crate::mechanism::{FreedomPart, Joint, JointKind, Mechanism};
 
 /// Above this nullity random null vectors stand for a basis. A variable that moves is missed with probability zero.
-const NULL_VECTORS: usize = 24;
+pub(super) const NULL_VECTORS: usize = 24;
 
 /// Finite ways of the moved check, in radians or part lengths of the fastest variable: two, so that a joint that pauses
 /// again at the first is seen at the second.
@@ -28,14 +28,14 @@ pub struct JointRole {
 ///
 /// A joint can pause: at a dead centre its rate is zero for an instant. So where some joint seems locked, the part is
 /// moved a finite way along a random motion and asked again; what moves there is not locked. (Where the rank changes on
-/// the way the pose is singular, and the roles are those of the pose itself.)
+/// the way the pose is singular, and the roles are those of the pose itself.) The states are the pose's again afterwards.
 ///
 /// # Errors
 /// [`MatrixError`] where the null vectors cannot be computed.
 pub fn roles_of_part(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
-    states: &[JointState<f64>],
+    states: &mut [JointState<f64>],
     part: &Part,
     rank: &PartRank,
 ) -> Result<Vec<JointRole>, MatrixError> {
@@ -44,6 +44,11 @@ pub fn roles_of_part(
     };
     let null = null_vectors(&rank.matrix, &decision, NULL_VECTORS, 1)?;
     let found = coloops(&null, &decision);
+    // Components of a unit vector are of the order of 1/√n. Where as much counts as zero, the vectors tell nothing: the
+    // rank was decided in more digits than they have.
+    if found.tolerance * (rank.matrix.columns() as f64).sqrt() > 1.0 {
+        return Ok(vec![JointRole::default(); part.joints.len()]);
+    }
     let mut zero = vec![false; rank.matrix.columns()];
     let mut doubtful = zero.clone();
     for column in found.zero {
@@ -77,7 +82,7 @@ pub fn roles_of_part(
 fn moving(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
-    states: &[JointState<f64>],
+    states: &mut [JointState<f64>],
     part: &Part,
     rank: &PartRank,
     null: &NullVectors<f64>,
@@ -103,24 +108,26 @@ fn moving(
         return Ok(still);
     }
     direction.iter_mut().for_each(|x| *x *= size / largest);
-    let Some(there) = follow(mechanism, geometry, states, part, &direction)? else {
-        return Ok(still);
-    };
-    let moved = jacobian(mechanism, geometry, &there, part)?;
-    let (stated, rounding) = entry_accuracy(mechanism, &moved);
-    let mut matrix = moved.matrix;
-    matrix.scale_columns();
-    let decision = decide(&matrix, stated + rounding)?;
-    if decision.nullity() != rank.instantaneous {
-        return Ok(still);
-    }
-    let null = null_vectors(&matrix, &decision, NULL_VECTORS, 1)?;
-    let found = coloops(&null, &decision);
-    let mut moves = vec![true; still.len()];
-    for column in found.zero.into_iter().chain(found.undecided) {
-        moves[column] = false;
-    }
-    Ok(moves)
+    let moves = follow(mechanism, geometry, states, part, &direction, |there| {
+        let moved = jacobian(mechanism, geometry, there, part)?;
+        let (_, rounding) = entry_accuracy(mechanism, &moved);
+        let mut matrix = moved.matrix;
+        matrix.scale_columns();
+        let left = 0.0.norm(&moved.residual);
+        // The same reading of the numbers as at the pose itself.
+        let decision = decide(&matrix, rank.stated + rounding + left)?;
+        if decision.nullity().is_none() || decision.nullity() != rank.instantaneous {
+            return Ok(None);
+        }
+        let null = null_vectors(&matrix, &decision, NULL_VECTORS, 1)?;
+        let found = coloops(&null, &decision);
+        let mut moves = vec![true; matrix.columns()];
+        for column in found.zero.into_iter().chain(found.undecided) {
+            moves[column] = false;
+        }
+        Ok(Some(moves))
+    })?;
+    Ok(moves.flatten().unwrap_or(still))
 }
 
 fn role(joint: &Joint, zero: &[bool], doubtful: &[bool]) -> JointRole {
