@@ -181,8 +181,10 @@ fn relaxations(
     }
 }
 
-/// The direction in which a second axis meets the largest load: the leading left direction of the loads of the two
-/// rotations across the axis. For other relaxations the axis itself, which is not used.
+/// A second axis across the first that the self-stresses load: of the two directions across it that the joint frame
+/// suggests, the first, unless the second is loaded clearly more. The larger load of the two is at least 1/√2 of the
+/// largest in any direction, so that little is lost by naming a direction that a person can place. For other relaxations
+/// the axis itself, which is not used; `None` where neither is loaded.
 fn pick_second_axis(
     relaxation: &Relaxation,
     rank: &PartRank,
@@ -194,19 +196,12 @@ fn pick_second_axis(
     }
     let (e1, e2) = crate::closure::across(&relaxation.axis);
     let loads = stresses.loads(rank, joint, &[(e1, [0.0; 3]), (e2, [0.0; 3])]);
-    // The largest eigenvector of a symmetric 2×2 matrix of squares, in closed form.
-    let (a, b, c) = (
-        loads.row(0).norm_squared(),
-        loads.row(0).dot(&loads.row(1)),
-        loads.row(1).norm_squared(),
-    );
-    if !(a + c > 0.0) {
+    let (first, second) = (loads.row(0).norm(), loads.row(1).norm());
+    if !(first + second > 0.0) {
         return None;
     }
-    let angle = 0.5 * (2.0 * b).atan2(a - c);
-    let direction = [0, 1, 2].map(|i| angle.cos() * e1[i] + angle.sin() * e2[i]);
-    // A direction within rounding of a coordinate axis is meant to be that axis.
-    Some(direction.map(|x| if x.abs() < 1e-9 { 0.0 } else { x }))
+    // A third more is no matter of rounding.
+    Some(if second > 4.0 / 3.0 * first { e2 } else { e1 })
 }
 
 impl Relaxation {

@@ -1,11 +1,11 @@
 //! What each basic cycle says when it is taken alone.
 
 use super::pose_rank::known_to;
-use super::roles::{NULL_VECTORS, freedom_groups};
+use super::roles::{NULL_VECTORS, Resting, freedom_groups};
 use crate::closure::{Geometry, JointState, Part, Rigid, WalkedCycle, jacobian};
 use crate::graph::Cycle;
 use crate::group::{DisplacementSubgroup, Gauge, Subalgebra, Twist};
-use crate::matrix::{MatrixError, Real, coloops, decide, null_vectors};
+use crate::matrix::{MatrixError, Real, decide, null_vectors};
 use crate::mechanism::Mechanism;
 use nalgebra::Vector3;
 
@@ -53,12 +53,13 @@ pub fn cycle_facts(
     matrix.scale_columns();
     let decision = decide(&matrix, accuracy)?;
     let mut locks = Vec::new();
-    if decision.rank.is_some() {
-        let null = null_vectors(&matrix, &decision, NULL_VECTORS, 3)?;
-        let mut stays = vec![false; matrix.columns()];
-        for column in coloops(&null, &decision).zero {
-            stays[column] = true;
-        }
+    let null = match decision.rank {
+        Some(_) => Some(null_vectors(&matrix, &decision, NULL_VECTORS, 3)?),
+        None => None,
+    };
+    if let Some(Resting { zero: stays, .. }) =
+        null.and_then(|null| Resting::columns(&null, &decision))
+    {
         let mut first = 0;
         for &joint in &part.joints {
             let joint = &mechanism.joints()[joint];

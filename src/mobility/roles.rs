@@ -5,7 +5,9 @@
 
 use super::pose_rank::PartRank;
 use crate::closure::{Geometry, JointState, Part, entry_accuracy, follow, jacobian};
-use crate::matrix::{MatrixError, NullVectors, Real, SplitMix64, coloops, decide, null_vectors};
+use crate::matrix::{
+    MatrixError, NullVectors, RankDecision, Real, SplitMix64, coloops, decide, null_vectors,
+};
 use crate::mechanism::{FreedomPart, Joint, JointKind, Mechanism};
 
 /// Above this nullity random null vectors stand for a basis. A variable that moves is missed with probability zero.
@@ -43,20 +45,9 @@ pub fn roles_of_part(
         return Ok(vec![JointRole::default(); part.joints.len()]);
     };
     let null = null_vectors(&rank.matrix, &decision, NULL_VECTORS, 1)?;
-    let found = coloops(&null, &decision);
-    // Components of a unit vector are of the order of 1/√n. Where as much counts as zero, the vectors tell nothing: the
-    // rank was decided in more digits than they have.
-    if found.tolerance * (rank.matrix.columns() as f64).sqrt() > 1.0 {
+    let Some(Resting { mut zero, doubtful }) = Resting::columns(&null, &decision) else {
         return Ok(vec![JointRole::default(); part.joints.len()]);
-    }
-    let mut zero = vec![false; rank.matrix.columns()];
-    let mut doubtful = zero.clone();
-    for column in found.zero {
-        zero[column] = true;
-    }
-    for column in found.undecided {
-        doubtful[column] = true;
-    }
+    };
     let freedom = decision.nullity().unwrap_or(0);
     if freedom > 0 && zero.iter().any(|z| *z) {
         for size in STEPS {
@@ -76,6 +67,44 @@ pub fn roles_of_part(
         roles.push(role(joint, &zero[columns.clone()], &doubtful[columns]));
     }
     Ok(roles)
+}
+
+/// Which columns vanish in all null vectors, and of which that cannot be said.
+pub(super) struct Resting {
+    pub zero: Vec<bool>,
+    pub doubtful: Vec<bool>,
+}
+
+impl Resting {
+    /// `None` where the null vectors are too uncertain to tell anything.
+    ///
+    /// Components of a unit vector of length n are of the order of a share, 1/√n. Where the error of the vectors is as
+    /// large they tell nothing. And however coarse the numbers, a component of a hundredth of a share or more is not
+    /// called zero: it is small within their precision, which is not the same as resting.
+    pub fn columns(null: &NullVectors<f64>, decision: &RankDecision) -> Option<Self> {
+        let share = 1.0 / (null.length.max(1) as f64).sqrt();
+        let error = null.residual + decision.accuracy;
+        if decision.kept > 0.0 && error > share * decision.kept {
+            return None;
+        }
+        let careful = RankDecision {
+            // Ten times the error over the smallest kept value is what is taken for zero.
+            accuracy: decision.accuracy.min(1e-3 * share * decision.kept),
+            ..decision.clone()
+        };
+        let found = coloops(null, &careful);
+        let mark = |columns: Vec<usize>| {
+            let mut marked = vec![false; null.length];
+            for column in columns {
+                marked[column] = true;
+            }
+            marked
+        };
+        Some(Self {
+            zero: mark(found.zero),
+            doubtful: mark(found.undecided),
+        })
+    }
 }
 
 /// Which variables move at a pose a finite step away; none where the step fails or the rank is another there.
@@ -120,12 +149,10 @@ fn moving(
             return Ok(None);
         }
         let null = null_vectors(&matrix, &decision, NULL_VECTORS, 1)?;
-        let found = coloops(&null, &decision);
-        let mut moves = vec![true; matrix.columns()];
-        for column in found.zero.into_iter().chain(found.undecided) {
-            moves[column] = false;
-        }
-        Ok(Some(moves))
+        Ok(Resting::columns(&null, &decision).map(|found| {
+            let still = found.zero.iter().zip(&found.doubtful);
+            still.map(|(zero, doubtful)| !zero && !doubtful).collect()
+        }))
     })?;
     Ok(moves.flatten().unwrap_or(still))
 }
