@@ -49,7 +49,7 @@ pub struct Assembly {
     pub gaps: Vec<LoopGap>,
 }
 
-/// However coarsely the numbers are stated, a cycle that misses by more than this (rad, or cycle lengths) is not closed.
+/// However coarsely the numbers are stated or rounded, a cycle that misses by more than this (rad, or cycle lengths) is not closed.
 const COARSEST_CLOSING: f64 = 0.02;
 
 /// Steps after which a part that does not close is given up.
@@ -78,10 +78,9 @@ pub fn assemble(
         .iter()
         .filter(|part| !part.cycles.is_empty() || !part.couplings.is_empty())
     {
-        let (states, outcome) = close(mechanism, geometry, assembly.states, part, held)?;
-        assembly.states = states;
+        let outcome = close(mechanism, geometry, &mut assembly.states, part, held)?;
         assembly.closed &= outcome.residual <= outcome.tolerance;
-        assembly.residual = assembly.residual.max(outcome.residual);
+        assembly.residual = largest(&[assembly.residual, outcome.residual]);
         assembly.tolerance = assembly.tolerance.max(outcome.tolerance);
         assembly.steps += outcome.steps;
     }
@@ -100,11 +99,36 @@ struct PartOutcome {
     steps: usize,
 }
 
+/// The largest magnitude; NaN if there is one, which must not pass for small.
 fn largest(values: &[f64]) -> f64 {
-    // NaN must not pass for small.
-    values
-        .iter()
-        .fold(0.0, |m: f64, x| if x.abs() <= m { m } else { x.abs() })
+    values.iter().fold(0.0, |m: f64, x| {
+        if m.is_nan() || x.abs() <= m {
+            m
+        } else {
+            x.abs()
+        }
+    })
+}
+
+/// Where the joints of one part stand, kept so that they can be put back: a mechanism of many parts is not copied as a
+/// whole for each.
+struct Kept<R>(Vec<(usize, JointState<R>)>);
+
+impl<R: Real> Kept<R> {
+    fn of(part: &Part, states: &[JointState<R>]) -> Self {
+        Self(
+            part.joints
+                .iter()
+                .map(|&j| (j, states[j].clone()))
+                .collect(),
+        )
+    }
+
+    fn put_back(&self, states: &mut [JointState<R>]) {
+        for (joint, state) in &self.0 {
+            states[*joint] = state.clone();
+        }
+    }
 }
 
 /// Tries in turn: the pose as drawn, then poses beside it, farther away each time. A pose can be stuck: drawn stretched
@@ -114,61 +138,67 @@ const NUDGES: [f64; 8] = [0.0, 0.01, 0.03, 0.1, 0.2, 0.4, 0.7, 1.0];
 fn close(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
-    states: Vec<JointState<f64>>,
+    states: &mut [JointState<f64>],
     part: &Part,
     held: &BTreeSet<usize>,
-) -> Result<(Vec<JointState<f64>>, PartOutcome), MatrixError> {
+) -> Result<PartOutcome, MatrixError> {
     let mut steps = 0;
-    let mut best: Option<(Vec<JointState<f64>>, PartOutcome)> = None;
-    for (attempt, size) in NUDGES.into_iter().enumerate() {
-        let mut start = states.clone();
-        if attempt > 0 {
-            nudge(mechanism, geometry, part, held, size, &mut start)?;
+    let drawn = Kept::of(part, states);
+    let mut best: Option<(Kept<f64>, PartOutcome)> = None;
+    for size in NUDGES {
+        drawn.put_back(states);
+        if size > 0.0 {
+            nudge(mechanism, geometry, part, held, size, states)?;
         }
-        let (reached, mut outcome) = descend(mechanism, geometry, start, part, held)?;
+        let outcome = descend(mechanism, geometry, states, part, held)?;
         steps += outcome.steps;
-        outcome.steps = steps;
-        let closed = outcome.residual <= outcome.tolerance;
+        if outcome.residual <= outcome.tolerance {
+            return Ok(PartOutcome { steps, ..outcome });
+        }
         if best
             .as_ref()
             .is_none_or(|(_, b)| !(b.residual <= outcome.residual))
         {
-            best = Some((reached, outcome));
-        }
-        if closed {
-            break;
+            best = Some((Kept::of(part, states), outcome));
         }
     }
-    let (states, mut outcome) = best.unwrap_or((
-        states,
+    let (nearest, outcome) = best.unwrap_or((
+        drawn,
         PartOutcome {
             residual: f64::INFINITY,
             tolerance: 0.0,
             steps: 0,
         },
     ));
-    outcome.steps = steps;
-    Ok((states, outcome))
+    nearest.put_back(states);
+    Ok(PartOutcome { steps, ..outcome })
 }
 
 /// Follows a motion of a part for a short finite way: all variables move along `direction` (in the Jacobian's units), then
-/// the cycles are closed again. `None` where they do not close from there.
+/// the cycles are closed again. Calls `there` with the states reached; `None` where the cycles do not close from there.
+/// The states are put back before it returns.
 ///
 /// # Errors
-/// [`MatrixError`] where numbers overflow.
-pub fn follow(
+/// [`MatrixError`] where numbers overflow, and those of `there`.
+pub fn follow<T>(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
-    states: &[JointState<f64>],
+    states: &mut [JointState<f64>],
     part: &Part,
     direction: &[f64],
-) -> Result<Option<Vec<JointState<f64>>>, MatrixError> {
+    there: impl FnOnce(&[JointState<f64>]) -> Result<T, MatrixError>,
+) -> Result<Option<T>, MatrixError> {
     let here = jacobian(mechanism, geometry, states, part)?;
     let movable = vec![true; here.variables.len()];
-    let mut start = states.to_vec();
-    advance(mechanism, geometry, &here, &movable, direction, &mut start);
-    let (reached, outcome) = descend(mechanism, geometry, start, part, &BTreeSet::new())?;
-    Ok((outcome.residual <= outcome.tolerance).then_some(reached))
+    let before = Kept::of(part, states);
+    advance(mechanism, geometry, &here, &movable, direction, states);
+    let found = match descend(mechanism, geometry, states, part, &BTreeSet::new()) {
+        Ok(outcome) if outcome.residual <= outcome.tolerance => there(states).map(Some),
+        Ok(_) => Ok(None),
+        Err(error) => Err(error),
+    };
+    before.put_back(states);
+    found
 }
 
 /// Moves the joints of a part by up to `size` (rad, or part lengths), by numbers that depend on joint names only.
@@ -202,11 +232,11 @@ fn nudge(
 fn descend(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
-    mut states: Vec<JointState<f64>>,
+    states: &mut [JointState<f64>],
     part: &Part,
     held: &BTreeSet<usize>,
-) -> Result<(Vec<JointState<f64>>, PartOutcome), MatrixError> {
-    let mut here = jacobian(mechanism, geometry, &states, part)?;
+) -> Result<PartOutcome, MatrixError> {
+    let mut here = jacobian(mechanism, geometry, states, part)?;
     let (stated, rounding) = entry_accuracy(mechanism, &here);
     let mut residual = largest(&here.residual);
     let mut steps = 0;
@@ -219,21 +249,13 @@ fn descend(
         let Some(increments) = step(&here, &columns, caution * square.min(1.0))? else {
             break;
         };
-        let mut trial = states.clone();
-        advance(
-            mechanism,
-            geometry,
-            &here,
-            &columns,
-            &increments,
-            &mut trial,
-        );
-        let there = jacobian(mechanism, geometry, &trial, part)?;
+        let before = Kept::of(part, states);
+        advance(mechanism, geometry, &here, &columns, &increments, states);
+        let there = jacobian(mechanism, geometry, states, part)?;
         let reached = sum(&there.residual);
         steps += 1;
         if reached.is_finite() && reached < square {
             let stalled = reached > square * (1.0 - 1e-6);
-            states = trial;
             here = there;
             residual = largest(&here.residual);
             caution = (caution * 0.25).max(1e-6);
@@ -241,6 +263,7 @@ fn descend(
                 break;
             }
         } else {
+            before.put_back(states);
             caution *= 8.0;
             if caution > 1e12 {
                 break;
@@ -248,12 +271,11 @@ fn descend(
         }
     }
     // What still counts as closed is the uncertainty of a walk around the cycle, which is that of a Jacobian entry.
-    let outcome = PartOutcome {
+    Ok(PartOutcome {
         residual,
-        tolerance: stated.min(COARSEST_CLOSING) + rounding,
+        tolerance: (stated + rounding).min(COARSEST_CLOSING),
         steps,
-    };
-    Ok((states, outcome))
+    })
 }
 
 fn movable_columns<R>(jacobian: &CycleJacobian<R>, held: &BTreeSet<usize>) -> Vec<bool> {
@@ -322,7 +344,7 @@ fn advance<R: Real>(
 pub fn refine<R: Real>(
     mechanism: &Mechanism,
     geometry: &Geometry<R>,
-    states: &mut Vec<JointState<R>>,
+    states: &mut [JointState<R>],
     part: &Part,
     held: &BTreeSet<usize>,
 ) -> Result<f64, MatrixError> {
@@ -347,21 +369,14 @@ pub fn refine<R: Real>(
             .iter()
             .map(|x| geometry.one.constant(*x) * geometry.one.constant(residual))
             .collect();
-        let mut trial = states.clone();
-        advance(
-            mechanism,
-            geometry,
-            &here,
-            &movable,
-            &increments,
-            &mut trial,
-        );
-        let there = jacobian(mechanism, geometry, &trial, part)?;
+        let before = Kept::of(part, states);
+        advance(mechanism, geometry, &here, &movable, &increments, states);
+        let there = jacobian(mechanism, geometry, states, part)?;
         let reached = size(&there.residual);
         if !(reached < 0.5 * residual) {
+            before.put_back(states);
             break;
         }
-        *states = trial;
         here = there;
         residual = reached;
     }

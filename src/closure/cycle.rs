@@ -4,8 +4,8 @@
 //! nor on how far the cycle is from the ground: a chain of ten thousand loops keeps the digits of a single one.
 
 use super::displacement::JointState;
-use super::geometry::Geometry;
-use super::rigid::{PlacedScrew, Rigid, Vector};
+use super::geometry::{Geometry, Uncertainty};
+use super::rigid::{self, PlacedScrew, Rigid, Vector};
 use crate::matrix::Real;
 
 /// A cycle as the closure module sees it: joints in order, and whether each is passed from predecessor to successor.
@@ -37,6 +37,10 @@ pub struct WalkedCycle<R> {
     pub length: f64,
     /// Largest coordinate met (m): rounding errors of positions are proportional to it.
     pub reach: f64,
+    /// Largest distance of a joint from the centre (m): a wrong angle at one joint moves the others by up to that much.
+    pub extent: f64,
+    /// What the stated precision leaves open of the cycle's joints together.
+    pub uncertainty: Uncertainty,
 }
 
 impl<R: Real> WalkedCycle<R> {
@@ -74,13 +78,28 @@ impl<R: Real> WalkedCycle<R> {
                 frame: joint_frame,
             });
         }
-        let (centre, length) = characteristic_length(joints.iter().flat_map(|j| &j.screws), reach);
+        let uncertainty = Uncertainty::total(
+            cycle
+                .iter()
+                .map(|(joint, _)| &geometry.uncertainties[*joint]),
+        );
+        let (centre, length) =
+            characteristic_length(joints.iter().flat_map(|j| &j.screws), reach, &uncertainty);
+        let extent = joints
+            .iter()
+            .map(|joint| {
+                let point = joint.frame.translation.clone().map(|x| x.to_f64());
+                rigid::length(&rigid::subtract(&point, &centre))
+            })
+            .fold(0.0, f64::max);
         Self {
             joints,
             closure: pose,
             centre,
             length,
             reach,
+            extent,
+            uncertainty,
         }
     }
 
@@ -118,30 +137,33 @@ impl<R: Real> WalkedCycle<R> {
 /// The least-squares point of a set of axes and the RMS distance of the axes to it (m).
 ///
 /// The point minimises `Σ |(I − u uᵀ)(c − p)|²`. Where that leaves a direction open (all axes parallel) it stays at the
-/// mean of the axis points along that direction. Where no length is left because all axes meet in a point, the size of
-/// the set of axis points serves, then the RMS pitch, then `reach`, the largest coordinate met (m); finally 1 m.
+/// mean of the axis points along that direction. Where no length is left because all axes meet in a point, as far as
+/// rounding and stated precision let that be seen, the size of the set of axis points serves, then the RMS pitch, then
+/// `reach`, the largest coordinate met (m); finally 1 m.
 pub fn characteristic_length<'a, R: Real + 'a>(
     screws: impl Iterator<Item = &'a PlacedScrew<R>>,
     reach: f64,
+    uncertainty: &Uncertainty,
 ) -> ([f64; 3], f64) {
     use nalgebra::{Matrix3, Vector3};
+    // All lengths below are in units of the reach, so that squares stay in the range of numbers.
+    let unit = if reach > 0.0 && reach.is_finite() {
+        reach
+    } else {
+        1.0
+    };
     let axes: Vec<(Vector3<f64>, Vector3<f64>, f64)> = screws
         .filter_map(|screw| {
             let u = Vector3::from(screw.angular.clone().map(|x| x.to_f64()));
-            let p = Vector3::from(screw.point.clone().map(|x| x.to_f64()));
-            let l = Vector3::from(screw.linear.clone().map(|x| x.to_f64()));
+            let p = Vector3::from(screw.point.clone().map(|x| x.to_f64() / unit));
+            let l = Vector3::from(screw.linear.clone().map(|x| x.to_f64() / unit));
             (u.norm() > 0.5 && p.iter().all(|x| x.is_finite()))
                 .then(|| (u.normalize(), p, l.norm()))
         })
         .collect();
     if axes.is_empty() {
         // Translations only: the rank has no length in it, and any positive one will do.
-        let length = if reach > 0.0 && reach.is_finite() {
-            reach
-        } else {
-            1.0
-        };
-        return ([0.0; 3], length);
+        return ([0.0; 3], unit);
     }
     let count = axes.len() as f64;
     let mean = axes.iter().map(|(_, p, _)| p).sum::<Vector3<f64>>() / count;
@@ -167,16 +189,19 @@ pub fn characteristic_length<'a, R: Real + 'a>(
         .fold(0.0, f64::max);
     let spread = rms(&mut axes.iter().map(|(u, p, _)| (p - centre).cross(u).norm()));
     let pitch = rms(&mut axes.iter().map(|(_, _, pitch)| *pitch));
-    // The damping moves the centre by up to a millionth of the size, and rounding moves points by 1e-16 of the reach:
-    // what is not far above that is no length of the mechanism.
+    // What is not far above an error of the axes' places is no length of the mechanism. The damping moves the centre by
+    // up to a millionth of the size; rounding moves points by 1e-16 of the reach; numbers as they are stated move axes
+    // by about their uncertainty together, of which four times is hardly ever exceeded.
+    let places = 4.0 * uncertainty.lengths / unit;
+    let tilts = 4.0 * uncertainty.angles * size;
     let length = [
-        (spread, 1e-3 * size),
-        (size, 0.0),
-        (pitch, 0.0),
-        (reach, 0.0),
+        (spread, (1e-3 * size).max(places + tilts)),
+        (size, places),
+        (pitch, places),
+        (1.0, 0.0),
     ]
     .into_iter()
-    .find(|(length, least)| *length > *least && *length > 1e-9 * reach && length.is_finite())
+    .find(|(length, least)| *length > *least && *length > 1e-9 && length.is_finite())
     .map_or(1.0, |(length, _)| length);
-    (centre.into(), length)
+    ((centre * unit).into(), length * unit)
 }

@@ -5,7 +5,9 @@
 //! generators, so there is no gimbal lock at any pose; at every state the derivative with respect to a variable is a
 //! screw fixed in the frame behind its factor.
 
-use super::rigid::{PlacedScrew, Rigid, Vector, cross, dot, length, perpendicular, subtract, unit};
+use super::rigid::{
+    PlacedScrew, Rigid, Vector, cross, dot, length, perpendicular, scale, subtract, unit,
+};
 use crate::matrix::Real;
 use crate::mechanism::JointKind;
 
@@ -208,25 +210,28 @@ impl<R: Real> JointDisplacement<R> {
         screws
     }
 
-    /// A state found in double precision, taken over into this arithmetic: variables of fixed axes are applied anew, so
-    /// that the displacement is one the joint can make to the last bit; the rotations of balls are made orthonormal.
-    pub fn adopt(&self, state: &JointState<f64>) -> JointState<R> {
+    /// A state found in double precision, taken over into this arithmetic. `double` is the same joint there.
+    ///
+    /// One variable is applied anew, with all its turns. Several are fitted to the displacement: which directions in a
+    /// plane are called the first and second may differ between arithmetics where the choice hangs on the last digit.
+    /// Either way the result is a displacement that the joint can make to the last bit, off by rounding in doubles.
+    pub fn adopt(&self, double: &JointDisplacement<f64>, state: &JointState<f64>) -> JointState<R> {
         let like = &self.pitch;
-        let values: Vec<R> = state.values.iter().map(|v| like.constant(*v)).collect();
-        let mut adopted = self.at(&values);
-        for (index, factor) in self.factors.iter().enumerate() {
-            if factor.generators.len() == 1 {
-                continue;
-            }
-            let rows = &state.factors[index].rotation;
-            let row = |i: usize| [0, 1, 2].map(|j| like.constant(rows[i][j]));
-            let x = unit(&row(0));
-            let y = row(1);
-            let y = unit(&subtract(&y, &super::rigid::scale(&x, &dot(&x, &y))));
-            let z = cross(&x, &y);
-            adopted.factors[index].rotation = [x, y, z];
+        if self.freedom() <= 1 {
+            let values: Vec<R> = state.values.iter().map(|v| like.constant(*v)).collect();
+            return self.at(&values);
         }
-        adopted
+        let reached = double.displacement(state);
+        let row = |i: usize| reached.rotation[i].map(|x| like.constant(x));
+        // The rotation is orthonormal to double precision only.
+        let x = unit(&row(0));
+        let y = row(1);
+        let y = unit(&subtract(&y, &scale(&x, &dot(&x, &y))));
+        let z = cross(&x, &y);
+        self.fit(&Rigid {
+            rotation: [x, y, z],
+            translation: reached.translation.map(|x| like.constant(x)),
+        })
     }
 
     /// Advances every variable by an increment (rad, m).
@@ -380,31 +385,41 @@ impl<R: Real> JointDisplacement<R> {
     }
 }
 
-/// The smallest rotation that makes a plane's normal perpendicular to a line's direction; identity where it is already.
+/// A small rotation that makes a plane's normal perpendicular to a line's direction: the smallest one where the two are
+/// not nearly parallel, about any perpendicular axis where they are; identity where nothing is to be done.
 fn into_plane<R: Real>(line: &Vector<R>, normal: &Vector<R>) -> Rigid<R> {
     let along = dot(line, normal);
     if along.is_zero() {
         return Rigid::identity(&line[0]);
     }
-    let across = subtract(normal, &super::rigid::scale(line, &along));
-    let target = if length(&across).to_f64() > 0.0 {
-        unit(&across)
+    // The part of the normal across the line: of nearly parallel directions it keeps few digits, and of parallel ones
+    // rounding errors only. Above a thousandth of the normal, a second reduction restores what the first one lost.
+    let across = subtract(normal, &scale(line, &along));
+    let target = if length(&across).to_f64() > 1e-3 {
+        let across = unit(&across);
+        unit(&subtract(&across, &scale(line, &dot(line, &across))))
     } else {
         perpendicular(line).0
     };
     shortest_rotation(normal, &target)
 }
 
-/// The rotation between two unit vectors by the smallest angle; about any perpendicular axis where they are opposite.
+/// A rotation that takes one unit vector to another: by the smallest angle, unless they are nearly opposite, where that
+/// axis would be rounding errors and a half turn about a fixed one comes first.
 fn shortest_rotation<R: Real>(from: &Vector<R>, to: &Vector<R>) -> Rigid<R> {
+    let cosine = dot(from, to);
+    if cosine.to_f64() < -0.9 {
+        let half_turn = Rigid::rotation(
+            &perpendicular(from).0,
+            &-cosine.one_like(),
+            &cosine.zero_like(),
+        );
+        return shortest_rotation(&from.clone().map(|x| -x), to).compose(&half_turn);
+    }
     let axis = cross(from, to);
     let sine = length(&axis);
-    let cosine = dot(from, to);
-    if sine.to_f64() > 0.0 {
-        return Rigid::rotation(&axis.map(|x| x / sine.clone()), &cosine, &sine);
-    }
-    if cosine > cosine.zero_like() {
+    if !(sine.to_f64() > 0.0) {
         return Rigid::identity(&cosine);
     }
-    Rigid::rotation(&perpendicular(from).0, &cosine, &sine)
+    Rigid::rotation(&axis.map(|x| x / sine.clone()), &cosine, &sine)
 }

@@ -1,9 +1,11 @@
 //! From the exact numbers of a mechanism to frames in an arithmetic of choice.
 
 use super::displacement::{JointDisplacement, JointState};
-use super::rigid::{Rigid, Vector};
+use super::rigid::{Rigid, Vector, length};
 use crate::matrix::Real;
-use crate::mechanism::{Configuration, Direction, Frame, Joint, JointKind, Mechanism, Placement};
+use crate::mechanism::{
+    Configuration, Direction, Frame, Joint, JointKind, Mechanism, Placement, Precision,
+};
 use crate::number::Number;
 
 /// How to turn an exact number into the arithmetic `R`: rounding to double, or evaluating to some number of bits.
@@ -87,6 +89,8 @@ pub struct Geometry<R> {
     pub states: Vec<JointState<R>>,
     /// Couplings as rows `Σ factor · variable = offset`; variables by joint, each of one freedom.
     pub couplings: Vec<(Vec<(usize, R)>, R)>,
+    /// What the file's stated precision leaves open of every joint's numbers.
+    pub uncertainties: Vec<Uncertainty>,
     /// One, in the arithmetic.
     pub one: R,
 }
@@ -99,18 +103,10 @@ impl<R: Real> Geometry<R> {
         arithmetic: &Arithmetic<R>,
     ) -> Self {
         let one = arithmetic.one().clone();
-        let values_of = |joint: usize| -> Option<Vec<R>> {
-            let (_, values) = configuration?
-                .positions
-                .iter()
-                .find(|(id, _)| id.0 == joint)?;
-            Some(values.iter().map(|v| arithmetic.number(v)).collect())
-        };
-        let configured: Vec<Option<Vec<R>>> = if configuration.is_some() {
-            (0..mechanism.joints().len()).map(values_of).collect()
-        } else {
-            vec![None; mechanism.joints().len()]
-        };
+        let mut configured: Vec<Option<Vec<R>>> = vec![None; mechanism.joints().len()];
+        for (joint, values) in configuration.iter().flat_map(|c| &c.positions) {
+            configured[joint.0] = Some(values.iter().map(|v| arithmetic.number(v)).collect());
+        }
         let sides: Vec<[Rigid<R>; 2]> = mechanism
             .joints()
             .iter()
@@ -148,7 +144,7 @@ impl<R: Real> Geometry<R> {
                 continue;
             }
             let relative = relative(&home, joint, &sides[index]);
-            let reach = super::rigid::length(&relative.translation);
+            let reach = length(&relative.translation);
             let displacement = joint_displacement(joint, arithmetic, &reach);
             states[index] = Some(match &configured[index] {
                 Some(values) => displacement.at(values),
@@ -174,6 +170,11 @@ impl<R: Real> Geometry<R> {
             home,
             states: states.into_iter().flatten().collect(),
             couplings,
+            uncertainties: mechanism
+                .joints()
+                .iter()
+                .map(|joint| Uncertainty::of(mechanism.precision(), joint))
+                .collect(),
             one,
         }
     }
@@ -183,6 +184,53 @@ impl<R: Real> Geometry<R> {
         self.displacements
             .iter()
             .position(|d| d.kind() == JointKind::Distance && !(d.distance().to_f64() > 0.0))
+    }
+}
+
+/// How far some numbers may together be from those meant: roots of the sums of their squared uncertainties, by unit.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Uncertainty {
+    /// Of positions, leads and distances (m).
+    pub lengths: f64,
+    /// Of directions and angles (rad).
+    pub angles: f64,
+}
+
+impl Uncertainty {
+    /// What a precision leaves open of one joint; zero where its numbers are exact.
+    pub fn of(precision: &Precision, joint: &Joint) -> Self {
+        let mut sum = Self::default();
+        if precision.is_exact() {
+            return sum;
+        }
+        let of = |numbers: &[Number; 3]| -> Vector<f64> {
+            [0, 1, 2].map(|i| precision.uncertainty(&numbers[i]))
+        };
+        for side in [&joint.predecessor, &joint.successor] {
+            sum.lengths = sum.lengths.hypot(length(&of(&side.frame.position)));
+            sum.angles = sum.angles.hypot(length(&of(&side.frame.roll_pitch_yaw)));
+        }
+        for (axis, used) in [
+            (&joint.axis, joint.kind.uses_axis()),
+            (&joint.axis2, joint.kind.uses_second_axis()),
+        ] {
+            if used {
+                let size = length(&[0, 1, 2].map(|i| axis.0[i].value()));
+                sum.angles = sum.angles.hypot(length(&of(&axis.0)) / size);
+            }
+        }
+        for scalar in joint.lead.iter().chain(&joint.distance) {
+            sum.lengths = sum.lengths.hypot(precision.uncertainty(scalar));
+        }
+        sum
+    }
+
+    /// That of several joints together.
+    pub fn total<'a>(all: impl IntoIterator<Item = &'a Self>) -> Self {
+        all.into_iter().fold(Self::default(), |sum, other| Self {
+            lengths: sum.lengths.hypot(other.lengths),
+            angles: sum.angles.hypot(other.angles),
+        })
     }
 }
 

@@ -2,14 +2,14 @@
 
 use super::cycle::{Walk, WalkedCycle};
 use super::displacement::JointState;
-use super::geometry::Geometry;
+use super::geometry::{Geometry, Uncertainty};
 use crate::matrix::{MatrixError, Real, SparseMatrix};
-use crate::mechanism::{FreedomPart, Joint, Mechanism};
+use crate::mechanism::{FreedomPart, Mechanism};
 
 /// A part of a mechanism whose equations stand alone: some joints, the cycles through them, the couplings between them.
 #[derive(Clone, Debug, Default)]
 pub struct Part {
-    /// Joints, ascending.
+    /// Joints in the order of their columns, each once.
     pub joints: Vec<usize>,
     /// Independent cycles.
     pub cycles: Vec<Vec<(usize, bool)>>,
@@ -40,44 +40,72 @@ impl<R: Real> CycleJacobian<R> {
     /// Radians or metres per unit of a column.
     pub fn unit(&self, mechanism: &Mechanism, column: usize) -> f64 {
         let (joint, variable) = self.variables[column];
-        variable_unit(&mechanism.joints()[joint], variable, self.length)
+        variable_unit(
+            mechanism.joints()[joint].kind.freedoms()[variable],
+            self.length,
+        )
     }
 }
 
-fn variable_unit(joint: &Joint, variable: usize, length: f64) -> f64 {
-    match joint.kind.freedoms()[variable] {
+fn variable_unit(part: FreedomPart, length: f64) -> f64 {
+    match part {
         FreedomPart::Translation => length,
         FreedomPart::Rotation | FreedomPart::Screw => 1.0,
     }
 }
 
-/// Builds the linearised equations of a part at given joint states.
+/// Builds the linearised equations of a part at given joint states. Joints that a cycle passes outside the part have no
+/// columns: they stand still.
 ///
 /// # Errors
-/// Only if a cycle names a joint outside the part.
+/// [`MatrixError::Length`] where geometry or states belong to another mechanism; [`MatrixError::NotFinite`] where
+/// coordinates leave the range of numbers.
 pub fn jacobian<R: Real>(
     mechanism: &Mechanism,
     geometry: &Geometry<R>,
     states: &[JointState<R>],
     part: &Part,
 ) -> Result<CycleJacobian<R>, MatrixError> {
+    for (what, found) in [
+        ("joints of the geometry", geometry.displacements.len()),
+        ("joint states", states.len()),
+    ] {
+        let expected = mechanism.joints().len();
+        if found != expected {
+            return Err(MatrixError::Length {
+                what,
+                expected,
+                found,
+            });
+        }
+    }
+    linearised(geometry, states, part)
+}
+
+/// [`jacobian`] of a geometry that may differ from any mechanism's, as where a joint is relaxed to see what that would do.
+pub(crate) fn linearised<R: Real>(
+    geometry: &Geometry<R>,
+    states: &[JointState<R>],
+    part: &Part,
+) -> Result<CycleJacobian<R>, MatrixError> {
     let one = &geometry.one;
+    let freedoms = |joint: usize| geometry.displacements[joint].kind().freedoms();
     let walks: Vec<WalkedCycle<R>> = part
         .cycles
         .iter()
         .map(|cycle: &Vec<(usize, bool)>| WalkedCycle::walk(geometry, states, cycle as &Walk))
         .collect();
+    let lengths: Vec<f64> = walks.iter().map(|walk| walk.length).collect();
     let length = if walks.is_empty() {
         1.0
     } else {
-        (walks.iter().map(|w| w.length * w.length).sum::<f64>() / walks.len() as f64).sqrt()
+        0.0.norm(&lengths) / (walks.len() as f64).sqrt()
     };
     let mut first_column = std::collections::HashMap::with_capacity(part.joints.len());
     let mut variables = Vec::new();
     for &joint in &part.joints {
         first_column.insert(joint, variables.len());
-        variables
-            .extend((0..geometry.displacements[joint].freedom()).map(|variable| (joint, variable)));
+        variables.extend((0..freedoms(joint).len()).map(|variable| (joint, variable)));
     }
     let mut triplets = Vec::new();
     let mut residual = Vec::new();
@@ -87,15 +115,10 @@ pub fn jacobian<R: Real>(
                 continue;
             };
             for (variable, screw) in joint.screws.iter().enumerate() {
-                let unit = one.constant(variable_unit(
-                    &mechanism.joints()[joint.joint],
-                    variable,
-                    length,
-                ));
-                let translation = mechanism.joints()[joint.joint].kind.freedoms()[variable]
-                    == FreedomPart::Translation;
+                let part = freedoms(joint.joint)[variable];
+                let unit = one.constant(variable_unit(part, length));
                 for (row, entry) in walk.column(joint, screw).into_iter().enumerate() {
-                    let entry = if translation {
+                    let entry = if part == FreedomPart::Translation {
                         entry * unit.clone()
                     } else {
                         entry
@@ -114,20 +137,26 @@ pub fn jacobian<R: Real>(
         let weights: Vec<(usize, R, R)> = terms
             .iter()
             .map(|(joint, factor)| {
-                let unit = variable_unit(&mechanism.joints()[*joint], 0, length);
+                let unit = freedoms(*joint)
+                    .first()
+                    .map_or(1.0, |part| variable_unit(*part, length));
                 (*joint, factor.clone(), factor.clone() * one.constant(unit))
             })
             .collect();
         // The row is brought to unit length, so that a gear of ratio 1000 weighs as much as one of ratio 1.
-        let norm = weights
+        let row_entries: Vec<R> = weights
             .iter()
-            .fold(one.zero_like(), |sum, (_, _, w)| {
-                sum + w.clone() * w.clone()
-            })
-            .sqrt();
+            .map(|(_, _, weight)| weight.clone())
+            .collect();
+        let mut norm = one.norm(&row_entries);
+        if norm.is_zero() {
+            norm = one.clone();
+        }
         let mut value = -offset.clone();
         for (joint, factor, weight) in weights {
-            value = value + factor * states[joint].values[0].clone();
+            if let Some(variable) = states[joint].values.first() {
+                value = value + factor * variable.clone();
+            }
             if let Some(&first) = first_column.get(&joint) {
                 triplets.push((row, first, weight / norm.clone()));
             }
@@ -150,14 +179,13 @@ pub fn jacobian<R: Real>(
 /// spectral norm: (by the file's stated precision, by rounding in the arithmetic).
 ///
 /// A cycle's entries depend on the frames passed before them. To first order, an uncertainty `u` of a position moves
-/// every screw of the cycle by up to `u` (relative: `u / L`), one of a direction or an angle turns every screw by as much
-/// and moves it by up to that angle times the cycle's extent, which is of the order of `L`. Rounding errors of different
-/// numbers are independent and uniform in ±u: their root sum of squares is 1.7 standard deviations of the total, and twice
-/// that is used. A cycle of `n` columns is then off by at most `√n` times as much. Rounding in the arithmetic is bounded
-/// the same way, with `u` = unit roundoff times the largest coordinate met, summed, since it is not random.
+/// every screw of the cycle by up to `u` (relative: `u / L`); one of a direction or an angle turns every screw by as much
+/// and moves it by up to that angle times the cycle's extent. Errors of different numbers are independent and uniform in
+/// ±u: their root sum of squares is 1.7 standard deviations of the total, and twice that is used. A cycle of `n` columns
+/// is then off by at most `√n` times as much. Rounding in the arithmetic is bounded the same way, with `u` = unit roundoff
+/// times the largest coordinate met, summed, since it is not random.
 pub fn entry_accuracy<R: Real>(mechanism: &Mechanism, jacobian: &CycleJacobian<R>) -> (f64, f64) {
-    let precision = mechanism.precision();
-    let exact = precision.is_exact();
+    let exact = mechanism.precision().is_exact();
     let mut stated = 0.0f64;
     let mut rounding = 0.0f64;
     let roundoff = jacobian.matrix.zero().unit_roundoff();
@@ -165,12 +193,10 @@ pub fn entry_accuracy<R: Real>(mechanism: &Mechanism, jacobian: &CycleJacobian<R
         let columns: usize = walk.joints.iter().map(|j| j.screws.len()).sum();
         let spread = (2.0 * columns as f64).sqrt();
         if !exact {
-            let square: f64 = walk
-                .joints
-                .iter()
-                .map(|j| squared_uncertainty(mechanism, &mechanism.joints()[j.joint], walk.length))
-                .sum();
-            stated = stated.max(2.0 * (columns as f64).sqrt() * square.sqrt());
+            let Uncertainty { lengths, angles } = walk.uncertainty;
+            let places = lengths / walk.length;
+            let tilts = angles * (walk.extent / walk.length).hypot(1.0);
+            stated = stated.max(2.0 * (columns as f64).sqrt() * places.hypot(tilts));
         }
         // Each joint composes three displacements; a dozen roundings of coordinates up to the reach, in units of length.
         let steps = 12.0 * walk.joints.len() as f64;
@@ -178,32 +204,4 @@ pub fn entry_accuracy<R: Real>(mechanism: &Mechanism, jacobian: &CycleJacobian<R
     }
     // Couplings: their factors are exact or rounded like any number; one rounding each.
     (stated, rounding.max(4.0 * roundoff))
-}
-
-/// Sum of the squared uncertainties that one joint brings into its cycle, in units of the cycle's length (angles in rad).
-fn squared_uncertainty(mechanism: &Mechanism, joint: &Joint, length: f64) -> f64 {
-    let precision = mechanism.precision();
-    let square = |numbers: &[crate::number::Number; 3]| -> f64 {
-        numbers
-            .iter()
-            .map(|n| precision.uncertainty(n).powi(2))
-            .sum()
-    };
-    let mut sum = 0.0;
-    for side in [&joint.predecessor, &joint.successor] {
-        sum += square(&side.frame.position) / length.powi(2) + square(&side.frame.roll_pitch_yaw);
-    }
-    for (axis, used) in [
-        (&joint.axis, joint.kind.uses_axis()),
-        (&joint.axis2, joint.kind.uses_second_axis()),
-    ] {
-        if used {
-            let size: f64 = axis.0.iter().map(|n| n.value().powi(2)).sum();
-            sum += square(&axis.0) / size;
-        }
-    }
-    for scalar in joint.lead.iter().chain(&joint.distance) {
-        sum += (precision.uncertainty(scalar) / length).powi(2);
-    }
-    sum
 }

@@ -3,8 +3,9 @@
 //! It shares nothing with the cycle equations but the joint screws: no cycles, no tree, no signs. Its kernel has the same
 //! dimension, which the tests use as an independent check.
 
+use super::cycle::characteristic_length;
 use super::displacement::JointState;
-use super::geometry::Geometry;
+use super::geometry::{Geometry, Uncertainty};
 use super::jacobian::Part;
 use super::rigid::{PlacedScrew, Rigid, Vector, cross, subtract};
 use crate::matrix::{MatrixError, Real, SparseMatrix};
@@ -46,8 +47,16 @@ pub fn positional_jacobian<R: Real>(
         .iter()
         .flat_map(|(_, frame, _)| &frame.translation)
         .fold(0.0, |far: f64, x| far.max(x.to_f64().abs()));
-    let (_, length) =
-        super::cycle::characteristic_length(placed.iter().flat_map(|(_, _, screws)| screws), reach);
+    let uncertainty = Uncertainty::total(
+        part.joints
+            .iter()
+            .map(|joint| &geometry.uncertainties[*joint]),
+    );
+    let (_, length) = characteristic_length(
+        placed.iter().flat_map(|(_, _, screws)| screws),
+        reach,
+        &uncertainty,
+    );
     let inverse_length = one.constant(1.0 / length);
     // The reference point of a link is one of its joints, so that arms stay short.
     let mut reference: BTreeMap<usize, Vector<R>> = BTreeMap::new();
@@ -65,63 +74,55 @@ pub fn positional_jacobian<R: Real>(
         .enumerate()
         .map(|(index, link)| (*link, 6 * index))
         .collect();
-    let mut triplets = Vec::new();
+    let mut equations = Equations {
+        mechanism,
+        reference,
+        first_column,
+        inverse_length,
+        triplets: Vec::new(),
+    };
     let mut rows = 0;
     let mut blocks = Vec::new();
     for (joint, frame, screws) in &placed {
         let point = &frame.translation;
         let twists: Vec<[R; 6]> = screws
             .iter()
-            .map(|s| twist_about(s, point, &inverse_length))
+            .map(|s| twist_about(s, point, &equations.inverse_length))
             .collect();
         let wrenches = complement(&twists, one);
         if !wrenches.is_empty() {
             blocks.push(rows);
         }
         for wrench in wrenches {
-            push_row(
-                &mut triplets,
-                rows,
-                &wrench,
-                point,
-                mechanism,
-                *joint,
-                &reference,
-                &first_column,
-                &inverse_length,
-            );
+            equations.add(rows, &wrench, point, *joint);
             rows += 1;
         }
     }
+    let place_of: BTreeMap<usize, usize> = placed
+        .iter()
+        .enumerate()
+        .map(|(place, (joint, _, _))| (*joint, place))
+        .collect();
     for &coupling in &part.couplings {
         blocks.push(rows);
         let (terms, _) = &geometry.couplings[coupling];
         for (joint, factor) in terms {
-            let Some((_, frame, screws)) = placed.iter().find(|(j, _, _)| j == joint) else {
+            let Some((_, frame, screws)) = place_of.get(joint).map(|&place| &placed[place]) else {
                 continue;
             };
             let Some(screw) = screws.first() else {
                 continue;
             };
             // The rate of a joint of one freedom is its relative twist times the dual vector S / (S·S).
-            let twist = twist_about(screw, &frame.translation, &inverse_length);
+            let twist = twist_about(screw, &frame.translation, &equations.inverse_length);
             let square = one.dot(&twist, &twist);
             let functional = twist.map(|x| x * factor.clone() / square.clone());
-            push_row(
-                &mut triplets,
-                rows,
-                &functional,
-                &frame.translation,
-                mechanism,
-                *joint,
-                &reference,
-                &first_column,
-                &inverse_length,
-            );
+            equations.add(rows, &functional, &frame.translation, *joint);
         }
         rows += 1;
     }
-    SparseMatrix::from_triplets(rows, 6 * first_column.len(), one.zero_like(), triplets)?
+    let columns = 6 * equations.first_column.len();
+    SparseMatrix::from_triplets(rows, columns, one.zero_like(), equations.triplets)?
         .with_row_blocks(blocks)
 }
 
@@ -189,39 +190,44 @@ fn twist_about<R: Real>(screw: &PlacedScrew<R>, point: &Vector<R>, inverse_lengt
     [a, b, c, x, y, z]
 }
 
-/// One equation `⟨wrench, twist(successor) − twist(predecessor)⟩ = 0` at a joint's point.
-#[allow(clippy::too_many_arguments)] // one row has this many ingredients; a struct would only rename them
-fn push_row<R: Real>(
-    triplets: &mut Vec<(usize, usize, R)>,
-    row: usize,
-    wrench: &[R; 6],
-    point: &Vector<R>,
-    mechanism: &Mechanism,
-    joint: usize,
-    reference: &BTreeMap<usize, Vector<R>>,
-    first_column: &BTreeMap<usize, usize>,
-    inverse_length: &R,
-) {
-    let joint = &mechanism.joints()[joint];
-    let moment = [wrench[0].clone(), wrench[1].clone(), wrench[2].clone()];
-    let force = [wrench[3].clone(), wrench[4].clone(), wrench[5].clone()];
-    for (link, negative) in [
-        (joint.successor.link.0, false),
-        (joint.predecessor.link.0, true),
-    ] {
-        let (Some(&column), Some(origin)) = (first_column.get(&link), reference.get(&link)) else {
-            continue;
-        };
-        // The velocity at the joint is v + ω × arm, so the moment about the link's point gains arm × force.
-        let arm = subtract(point, origin).map(|x| x * inverse_length.clone());
-        let gained = cross(&arm, &force);
-        for i in 0..3 {
-            let entries = [
-                (column + i, moment[i].clone() + gained[i].clone()),
-                (column + 3 + i, force[i].clone()),
-            ];
-            for (column, entry) in entries {
-                triplets.push((row, column, if negative { -entry } else { entry }));
+/// The equations collected so far, and what a row needs to know of the links.
+struct Equations<'a, R> {
+    mechanism: &'a Mechanism,
+    /// The point every link's velocity is that of.
+    reference: BTreeMap<usize, Vector<R>>,
+    /// First of the six columns of every link that can move.
+    first_column: BTreeMap<usize, usize>,
+    inverse_length: R,
+    triplets: Vec<(usize, usize, R)>,
+}
+
+impl<R: Real> Equations<'_, R> {
+    /// Adds `⟨wrench, twist(successor) − twist(predecessor)⟩` at a joint's point to a row.
+    fn add(&mut self, row: usize, wrench: &[R; 6], point: &Vector<R>, joint: usize) {
+        let joint = &self.mechanism.joints()[joint];
+        let moment = [wrench[0].clone(), wrench[1].clone(), wrench[2].clone()];
+        let force = [wrench[3].clone(), wrench[4].clone(), wrench[5].clone()];
+        for (link, negative) in [
+            (joint.successor.link.0, false),
+            (joint.predecessor.link.0, true),
+        ] {
+            let (Some(&column), Some(origin)) =
+                (self.first_column.get(&link), self.reference.get(&link))
+            else {
+                continue;
+            };
+            // The velocity at the joint is v + ω × arm, so the moment about the link's point gains arm × force.
+            let arm = subtract(point, origin).map(|x| x * self.inverse_length.clone());
+            let gained = cross(&arm, &force);
+            for i in 0..3 {
+                let entries = [
+                    (column + i, moment[i].clone() + gained[i].clone()),
+                    (column + 3 + i, force[i].clone()),
+                ];
+                for (column, entry) in entries {
+                    let entry = if negative { -entry } else { entry };
+                    self.triplets.push((row, column, entry));
+                }
             }
         }
     }

@@ -124,15 +124,6 @@ impl Mechanism {
         &self.precision
     }
 
-    /// The same mechanism with one joint of another kind in the same frames, for asking what a relaxed joint would do.
-    /// What the new kind does not use stays unread; couplings and limits are kept as they are.
-    #[must_use]
-    pub(crate) fn with_kind(&self, joint: usize, kind: super::JointKind) -> Self {
-        let mut changed = self.clone();
-        changed.joints[joint].kind = kind;
-        changed
-    }
-
     /// The sum of all joint freedoms.
     #[must_use]
     pub fn freedom(&self) -> usize {

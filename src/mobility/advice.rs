@@ -2,7 +2,7 @@
 
 use super::pose_rank::PartRank;
 use super::redundancy::SelfStresses;
-use crate::closure::{Geometry, JointDisplacement, JointState, Part, Vector, jacobian};
+use crate::closure::{Geometry, JointDisplacement, JointState, Part, Vector, linearised};
 use crate::matrix::{MatrixError, decide};
 use crate::mechanism::{JointKind, Mechanism};
 
@@ -13,7 +13,7 @@ pub struct Advice {
     pub joint: usize,
     /// The kind it would become.
     pub to: JointKind,
-    /// The second axis it would need, in the joint frame, for R → U.
+    /// The second axis it would need for R → U, in the successor's joint frame, as a file writes `axis2`.
     pub second_axis: Option<Vector<f64>>,
     /// Redundant constraints of the whole mechanism before.
     pub redundant_before: i64,
@@ -24,22 +24,26 @@ pub struct Advice {
 /// Parts with more unknowns than this get the advice of their first joints only, each still verified.
 const THOROUGH_UNKNOWNS: usize = 300;
 const ADVICE_OF_LARGE_PARTS: usize = 3;
+/// Every verification decides the rank of the whole part.
+const VERIFICATIONS_OF_LARGE_PARTS: usize = 12;
 
 /// Advice for one part, verified: every candidate's Jacobian is built anew with the relaxed joint, and its rank decided.
-/// `redundant` is the mechanism's total. Ordered by how many redundancies go, then by joint.
+/// `redundant` is the mechanism's total. Ordered by how many redundancies go, then by joint. Geometry and states are
+/// changed joint by joint and are as they were afterwards.
 ///
 /// # Errors
 /// [`MatrixError`] where numbers overflow.
 pub fn advice_for_part(
     mechanism: &Mechanism,
-    geometry: &Geometry<f64>,
-    states: &[JointState<f64>],
+    geometry: &mut Geometry<f64>,
+    states: &mut [JointState<f64>],
     part: &Part,
     rank: &PartRank,
     stresses: &SelfStresses,
     redundant: i64,
 ) -> Result<Vec<Advice>, MatrixError> {
     let mut advice = Vec::new();
+    let mut verifications = 0;
     let coupled: std::collections::BTreeSet<usize> = part
         .couplings
         .iter()
@@ -52,7 +56,10 @@ pub fn advice_for_part(
         .collect();
     let large = rank.unknowns() > THOROUGH_UNKNOWNS;
     for &joint in &part.joints {
-        if large && advice.len() >= ADVICE_OF_LARGE_PARTS {
+        if large
+            && (advice.len() >= ADVICE_OF_LARGE_PARTS
+                || verifications >= VERIFICATIONS_OF_LARGE_PARTS)
+        {
             break;
         }
         // A coupling speaks of a joint's one variable; relaxing such a joint would change what the coupling means.
@@ -72,23 +79,17 @@ pub fn advice_for_part(
             if stresses.rank(&stresses.loads(rank, joint, &screws)) < freed {
                 continue;
             }
-            if !verified(
-                mechanism,
-                geometry,
-                states,
-                part,
-                rank,
-                joint,
-                &relaxation,
-                &second_axis,
-                freed,
-            )? {
+            let relaxed =
+                relaxation.apply(&geometry.displacements[joint], &states[joint], &second_axis);
+            let axis2 = *relaxed.displacement.second_axis();
+            verifications += 1;
+            if !relaxed.verified(geometry, states, part, rank, joint, freed)? {
                 continue;
             }
             advice.push(Advice {
                 joint,
                 to: relaxation.to,
-                second_axis: relaxation.second_axis_open.then_some(second_axis),
+                second_axis: relaxation.second_axis_open.then_some(axis2),
                 redundant_before: redundant,
                 redundant_after: redundant - freed as i64,
             });
@@ -180,8 +181,10 @@ fn relaxations(
     }
 }
 
-/// The direction in which a second axis meets the largest load: the leading left direction of the loads of the two
-/// rotations across the axis. For other relaxations the axis itself, which is not used.
+/// A second axis across the first that the self-stresses load: of the two directions across it that the joint frame
+/// suggests, the first, unless the second is loaded clearly more. The larger load of the two is at least 1/√2 of the
+/// largest in any direction, so that little is lost by naming a direction that a person can place. For other relaxations
+/// the axis itself, which is not used; `None` where neither is loaded.
 fn pick_second_axis(
     relaxation: &Relaxation,
     rank: &PartRank,
@@ -193,66 +196,65 @@ fn pick_second_axis(
     }
     let (e1, e2) = crate::closure::across(&relaxation.axis);
     let loads = stresses.loads(rank, joint, &[(e1, [0.0; 3]), (e2, [0.0; 3])]);
-    // The largest eigenvector of a symmetric 2×2 matrix of squares, in closed form.
-    let (a, b, c) = (
-        loads.row(0).norm_squared(),
-        loads.row(0).dot(&loads.row(1)),
-        loads.row(1).norm_squared(),
-    );
-    if !(a + c > 0.0) {
+    let (first, second) = (loads.row(0).norm(), loads.row(1).norm());
+    if !(first + second > 0.0) {
         return None;
     }
-    let angle = 0.5 * (2.0 * b).atan2(a - c);
-    let direction = [0, 1, 2].map(|i| angle.cos() * e1[i] + angle.sin() * e2[i]);
-    // A direction within rounding of a coordinate axis is meant to be that axis.
-    Some(direction.map(|x| if x.abs() < 1e-9 { 0.0 } else { x }))
+    // A third more is no matter of rounding.
+    Some(if second > 4.0 / 3.0 * first { e2 } else { e1 })
 }
 
-#[allow(clippy::too_many_arguments)] // the whole problem, once more, with one joint changed
-fn verified(
-    mechanism: &Mechanism,
-    geometry: &Geometry<f64>,
-    states: &[JointState<f64>],
-    part: &Part,
-    rank: &PartRank,
-    joint: usize,
-    relaxation: &Relaxation,
-    second_axis: &Vector<f64>,
-    freed: usize,
-) -> Result<bool, MatrixError> {
-    let Some(freedom) = rank.instantaneous else {
-        return Ok(false);
-    };
-    let relaxed = mechanism.with_kind(joint, relaxation.to);
-    let mut geometry = geometry.clone();
-    let mut states = states.to_vec();
-    let displacement = geometry.displacements[joint].displacement(&states[joint]);
-    geometry.displacements[joint] = JointDisplacement::new(
-        relaxation.to,
-        &relaxation.axis,
-        &geometry_second_axis(&geometry, joint, relaxation, second_axis),
-        &0.0,
-        &0.0,
-    );
-    states[joint] = geometry.displacements[joint].fit(&displacement);
-    let changed = jacobian(&relaxed, &geometry, &states, part)?;
-    let mut matrix = changed.matrix;
-    matrix.scale_columns();
-    let decision = decide(&matrix, rank.decision.accuracy)?;
-    Ok(decision.rank == Some(rank.unknowns() - freedom + freed))
+impl Relaxation {
+    /// The relaxed joint standing where the joint stands. The second axis is in the predecessor's frame.
+    fn apply(
+        &self,
+        joint: &JointDisplacement<f64>,
+        state: &JointState<f64>,
+        second_axis: &Vector<f64>,
+    ) -> Relaxed {
+        let reached = joint.displacement(state);
+        let axis2 = if self.second_axis_open {
+            reached.rotate_back(second_axis)
+        } else {
+            *joint.second_axis()
+        };
+        let displacement = JointDisplacement::new(self.to, &self.axis, &axis2, &0.0, &0.0);
+        let state = displacement.fit(&reached);
+        Relaxed {
+            displacement,
+            state,
+        }
+    }
 }
 
-/// The second axis in the successor's frame: the joint's own where it has one, else the chosen one carried over by the
-/// joint's present displacement.
-fn geometry_second_axis(
-    geometry: &Geometry<f64>,
-    joint: usize,
-    relaxation: &Relaxation,
-    second_axis: &Vector<f64>,
-) -> Vector<f64> {
-    if relaxation.second_axis_open {
-        *second_axis
-    } else {
-        *geometry.displacements[joint].second_axis()
+/// A relaxed joint and where it stands.
+struct Relaxed {
+    displacement: JointDisplacement<f64>,
+    state: JointState<f64>,
+}
+
+impl Relaxed {
+    /// Whether with this in the place of a joint the rank rises by as much as is freed: the freedom stays.
+    fn verified(
+        self,
+        geometry: &mut Geometry<f64>,
+        states: &mut [JointState<f64>],
+        part: &Part,
+        rank: &PartRank,
+        joint: usize,
+        freed: usize,
+    ) -> Result<bool, MatrixError> {
+        let Some(freedom) = rank.instantaneous else {
+            return Ok(false);
+        };
+        let displacement = std::mem::replace(&mut geometry.displacements[joint], self.displacement);
+        let state = std::mem::replace(&mut states[joint], self.state);
+        let changed = linearised(geometry, states, part);
+        geometry.displacements[joint] = displacement;
+        states[joint] = state;
+        let mut matrix = changed?.matrix;
+        matrix.scale_columns();
+        let decision = decide(&matrix, rank.decision.accuracy.max(rank.accuracy))?;
+        Ok(decision.rank == Some(rank.unknowns() - freedom + freed))
     }
 }

@@ -4,7 +4,8 @@ use super::advice::{Advice, advice_for_part};
 use super::cycles::{CycleFacts, cycle_facts};
 use super::generic::{GenericCount, generic_count};
 use super::kutzbach::kutzbach_count;
-use super::pose_rank::{PartRank, Pose, rank_part};
+use super::more_digits::MoreDigits;
+use super::pose_rank::{PartRank, Pose, rank_part_with};
 use super::redundancy::SelfStresses;
 use super::roles::{JointRole, roles_of_part};
 use super::structure::Structure;
@@ -167,21 +168,27 @@ impl Analysis {
             states,
             as_drawn: self.assembly.steps == 0,
         };
+        let mut more = MoreDigits::new();
         let mut parts = Vec::with_capacity(self.structure.parts.len());
         for part in &self.structure.parts {
-            parts.push(rank_part(&pose, part)?);
+            parts.push(rank_part_with(&pose, &mut more, part)?);
         }
+        // What is tried part by part is tried on these and undone again, since copies for every part would add up.
+        let mut trial = geometry.clone();
+        let mut trial_states = states.clone();
         let home = self.home_freedom(mechanism, &parts);
         for &joint in &self.structure.free_joints {
             self.roles[joint].locked = (mechanism.joints()[joint].freedom() > 0).then_some(false);
             self.redundant_wrenches[joint] = Some(0);
         }
         for (part, rank) in self.structure.parts.iter().zip(&parts) {
-            for (joint, role) in part
-                .joints
-                .iter()
-                .zip(roles_of_part(mechanism, geometry, states, part, rank)?)
-            {
+            for (joint, role) in part.joints.iter().zip(roles_of_part(
+                mechanism,
+                geometry,
+                &mut trial_states,
+                part,
+                rank,
+            )?) {
                 self.roles[*joint] = role;
             }
             let Some(stresses) = SelfStresses::new(part, rank)? else {
@@ -192,7 +199,13 @@ impl Analysis {
             }
             if let Some(redundant) = home.redundant.filter(|r| *r > 0) {
                 self.advice.extend(advice_for_part(
-                    mechanism, geometry, states, part, rank, &stresses, redundant,
+                    mechanism,
+                    &mut trial,
+                    &mut trial_states,
+                    part,
+                    rank,
+                    &stresses,
+                    redundant,
                 )?);
             }
         }

@@ -1,10 +1,11 @@
 //! What each basic cycle says when it is taken alone.
 
-use super::roles::freedom_groups;
-use crate::closure::{Geometry, JointState, Part, Rigid, WalkedCycle, entry_accuracy, jacobian};
+use super::pose_rank::known_to;
+use super::roles::{NULL_VECTORS, Resting, freedom_groups};
+use crate::closure::{Geometry, JointState, Part, Rigid, WalkedCycle, jacobian};
 use crate::graph::Cycle;
 use crate::group::{DisplacementSubgroup, Gauge, Subalgebra, Twist};
-use crate::matrix::{MatrixError, coloops, decide, null_vectors};
+use crate::matrix::{MatrixError, Real, decide, null_vectors};
 use crate::mechanism::Mechanism;
 use nalgebra::Vector3;
 
@@ -38,29 +39,31 @@ pub fn cycle_facts(
     poses: &[Rigid<f64>],
     cycle: &Cycle,
 ) -> Result<CycleFacts, MatrixError> {
-    let mut joints: Vec<usize> = cycle.edges.iter().map(|(edge, _)| *edge).collect();
-    joints.sort_unstable();
+    // In the order of the walk, which does not depend on the order of the file.
     let part = Part {
-        joints,
+        joints: cycle.edges.iter().map(|(edge, _)| *edge).collect(),
         cycles: vec![cycle.edges.clone()],
         couplings: Vec::new(),
     };
     let alone = jacobian(mechanism, geometry, states, &part)?;
-    let (stated, rounding) = entry_accuracy(mechanism, &alone);
-    let accuracy = stated + rounding;
+    let (stated, rounding, coarse) = known_to(mechanism, &alone);
+    let left = 0.0.norm(&alone.residual);
+    let accuracy = rounding + left + if coarse { 0.0 } else { stated };
     let mut matrix = alone.matrix.clone();
     matrix.scale_columns();
     let decision = decide(&matrix, accuracy)?;
     let mut locks = Vec::new();
-    if decision.rank.is_some() {
-        let null = null_vectors(&matrix, &decision, usize::MAX, 3)?;
-        let found = coloops(&null, &decision);
+    let null = match decision.rank {
+        Some(_) => Some(null_vectors(&matrix, &decision, NULL_VECTORS, 3)?),
+        None => None,
+    };
+    if let Some(Resting { zero: stays, .. }) =
+        null.and_then(|null| Resting::columns(&null, &decision))
+    {
         let mut first = 0;
         for &joint in &part.joints {
             let joint = &mechanism.joints()[joint];
-            let zero: Vec<bool> = (first..first + joint.freedom())
-                .map(|c| found.zero.contains(&c))
-                .collect();
+            let zero = &stays[first..first + joint.freedom()];
             first += joint.freedom();
             if zero.is_empty() {
                 continue;

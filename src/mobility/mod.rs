@@ -14,6 +14,7 @@ mod analysis;
 mod cycles;
 mod generic;
 mod kutzbach;
+mod more_digits;
 mod pose_rank;
 mod redundancy;
 mod roles;
@@ -25,6 +26,7 @@ pub use analysis::{Analysis, AnalysisError, AnalysisOptions, HomeFreedom, analys
 pub use cycles::{CycleFacts, cycle_facts};
 pub use generic::{GenericCount, generic_count};
 pub use kutzbach::kutzbach_count;
+pub use more_digits::MoreDigits;
 pub use pose_rank::{LADDER, PartRank, Pose, rank_part};
 pub use redundancy::SelfStresses;
 pub use roles::{JointRole, freedom_groups, roles_of_part};

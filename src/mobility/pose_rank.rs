@@ -6,21 +6,34 @@
 //!    that are zeros that were rounded. This is the answer wherever a clear gap separates them from the rest.
 //! 2. *As written.* The numbers taken literally, uncertain by rounding only. It differs from the first for a mechanism
 //!    whose special geometry was rounded, and then both are reported.
-//! 3. Where double precision leaves the first or the second open, the geometry is evaluated again from the file's own
-//!    digits with 106, 212 and more bits: true zeros fall with the arithmetic, small values stay.
+//! 3. Where double precision decides neither, the geometry is evaluated again from the file's own digits with 106, 212
+//!    and more bits: true zeros fall with the arithmetic, small values stay.
+//!
+//! # Poses that were assembled
+//! A pose drawn closed is exact. One that was found by iteration closes to some residual ρ only, and how far that is from
+//! a closed pose depends on the rank itself: with a smallest kept singular value σ, all relative to the largest, the
+//! Newton step is at most ρ/σ, screws turn by no more than twice that (a screw's derivative is a bracket with another),
+//! and σ is certain to be no rounding of zero if it exceeds that by far: σ² ≫ ρ. Where it does not, the pose may be close
+//! to a singular one, from which an iteration stays away by √ρ. So the rank of an assembled pose must come out the same
+//! with an accuracy of √ρ; otherwise more digits decide, in which ρ is smaller.
+//!
+//! A pose that is drawn closed within the stated precision, but not beyond, is moved by closing it exactly. What it was
+//! meant to be is then as open as the way it moved.
 
-use crate::closure::{
-    Arithmetic, CycleJacobian, Geometry, JointState, Part, entry_accuracy, jacobian, refine,
-};
-use crate::matrix::{Big, MatrixError, RankDecision, SparseMatrix, decide};
+use super::more_digits::MoreDigits;
+use crate::closure::{CycleJacobian, Geometry, JointState, Part, entry_accuracy, jacobian};
+use crate::matrix::{MatrixError, RankDecision, Real, SparseMatrix, decide};
 use crate::mechanism::{Configuration, Mechanism};
 use std::collections::BTreeSet;
 
 /// The bits tried in turn after double precision.
 pub const LADDER: [u32; 4] = [106, 212, 424, 848];
 
+/// A part of more unknowns is not ranked in many digits, which would take minutes: it stays undecided.
+const LADDER_UNKNOWNS: usize = 2000;
+
 /// A stated precision that makes the Jacobian uncertain by more than this separates nothing: a kept singular value would
-/// have to be ten times as large. The numbers are then taken literally, which the report says.
+/// have to be ten times as large. Unless even so the rank is clear, the numbers are taken literally, which the report says.
 const COARSEST_STATED: f64 = 0.05;
 
 /// The rank of a part at a pose.
@@ -38,6 +51,8 @@ pub struct PartRank {
     pub taken_literally: bool,
     /// Relative uncertainty of the Jacobian by the file's stated precision; zero where the numbers are exact.
     pub stated: f64,
+    /// Relative uncertainty of the Jacobian in double precision, whatever its cause: that of everything computed from it.
+    pub accuracy: f64,
     /// Bits of the arithmetic that decided.
     pub bits: u32,
     /// Why the answer is not plain, in one sentence.
@@ -69,7 +84,7 @@ impl PartRank {
         let freedom = self.instantaneous?;
         // Margins of the double-precision matrix: its null vectors are computed in double precision.
         Some(RankDecision {
-            accuracy: self.decision.accuracy.max(f64::EPSILON),
+            accuracy: self.decision.accuracy.max(self.accuracy),
             ..self.decision.assuming(self.matrix.columns() - freedom)
         })
     }
@@ -91,38 +106,137 @@ pub struct Pose<'a> {
     pub as_drawn: bool,
 }
 
-/// Decides the rank of one part.
+/// How a part's pose came about.
+struct Standing {
+    /// Whether assembly moved a joint of the part.
+    moved: bool,
+    /// What is left of the cycles (rad, cycle lengths), if more than a drawn pose's own rounding.
+    residual: f64,
+    /// How far joints moved (rad, part lengths) from a drawn pose that closes within the stated precision.
+    shift: f64,
+}
+
+impl Standing {
+    fn of(
+        pose: &Pose<'_>,
+        part: &Part,
+        here: &CycleJacobian<f64>,
+        closing: f64,
+    ) -> Result<Self, MatrixError> {
+        let mut standing = Self {
+            moved: false,
+            residual: 0.0,
+            shift: 0.0,
+        };
+        if pose.as_drawn {
+            return Ok(standing);
+        }
+        let ways: Vec<f64> = here
+            .variables
+            .iter()
+            .enumerate()
+            .map(|(column, &(joint, variable))| {
+                let way = pose.states[joint].values[variable]
+                    - pose.geometry.states[joint].values[variable];
+                way / here.unit(pose.mechanism, column)
+            })
+            .collect();
+        standing.moved = ways.iter().any(|way| *way != 0.0);
+        if standing.moved {
+            standing.residual = 0.0.norm(&here.residual);
+            let drawn = jacobian(pose.mechanism, pose.geometry, &pose.geometry.states, part)?;
+            if drawn.residual.iter().all(|r| r.abs() <= closing) {
+                standing.shift = 0.0.norm(&ways);
+            }
+        }
+        Ok(standing)
+    }
+}
+
+/// Decides a rank that has to come out the same with the poorer of two accuracies.
+fn decide_twice<R: Real>(
+    matrix: &SparseMatrix<R>,
+    accuracy: f64,
+    poorer: f64,
+) -> Result<RankDecision, MatrixError> {
+    let mut decision = decide(matrix, accuracy)?;
+    if poorer > accuracy && decision.rank.is_some() {
+        let second = decide(matrix, poorer)?;
+        if second.rank != decision.rank {
+            decision.rank = None;
+            decision.candidates.0 = decision.candidates.0.min(second.candidates.0);
+            decision.candidates.1 = decision.candidates.1.max(second.candidates.1);
+        }
+    }
+    Ok(decision)
+}
+
+/// Decides the rank of one part. Parts that double precision leaves open are evaluated anew each time; see [`MoreDigits`]
+/// for ranking many.
 ///
 /// # Errors
 /// [`MatrixError`] where numbers overflow.
 pub fn rank_part(pose: &Pose<'_>, part: &Part) -> Result<PartRank, MatrixError> {
+    rank_part_with(pose, &mut MoreDigits::new(), part)
+}
+
+/// The accuracy of a part's Jacobian: (stated precision, rounding), and whether the first is too coarse to be of use.
+pub(super) fn known_to(mechanism: &Mechanism, jacobian: &CycleJacobian<f64>) -> (f64, f64, bool) {
+    let (stated, rounding) = entry_accuracy(mechanism, jacobian);
+    (stated, rounding, stated > COARSEST_STATED)
+}
+
+/// [`rank_part`], sharing what is evaluated in many digits with other parts.
+pub(super) fn rank_part_with(
+    pose: &Pose<'_>,
+    more: &mut MoreDigits,
+    part: &Part,
+) -> Result<PartRank, MatrixError> {
     let double = jacobian(pose.mechanism, pose.geometry, pose.states, part)?;
-    let (stated, rounding) = entry_accuracy(pose.mechanism, &double);
-    // Numbers so coarse that they would leave every rank open were chosen, not rounded.
-    let coarse = stated > COARSEST_STATED;
-    let stated = if coarse { 0.0 } else { stated };
+    let (mut stated, rounding, mut coarse) = known_to(pose.mechanism, &double);
+    let standing = Standing::of(pose, part, &double, stated + rounding)?;
+    let rounding = rounding + standing.residual;
+    // An assembled pose: see the module's text.
+    let poorer = if standing.moved { rounding.sqrt() } else { 0.0 };
     let mut matrix = double.matrix.clone();
     let column_scales = matrix.scale_columns();
     let columns = matrix.columns();
-    let mut bits = 53;
-    let mut nominal = decide(&matrix, stated + rounding)?;
-    let mut written = if stated > rounding {
-        decide(&matrix, rounding)?
+    let mut nominal = decide_twice(&matrix, stated + rounding + 2.0 * standing.shift, poorer)?;
+    coarse &= nominal.rank.is_none();
+    if coarse {
+        // Numbers so coarse that they would leave every rank open were chosen, not rounded.
+        stated = 0.0;
+        nominal = decide_twice(&matrix, rounding, poorer)?;
+    }
+    let mut written = if stated > 0.0 {
+        decide_twice(&matrix, rounding, poorer)?
     } else {
         nominal.clone()
     };
-    // A rank of the numbers as written is worth more digits only where stated precision does not already answer.
-    let mut rung = 0;
-    while nominal.rank.is_none() && written.rank.is_none() && rung < LADDER.len() {
-        bits = LADDER[rung];
-        rung += 1;
-        let (matrix, accuracy) = matrix_in_bits(pose, part, bits)?;
-        written = decide(&matrix, accuracy)?;
+    let mut bits = 53;
+    for rung in LADDER {
+        if nominal.rank.is_some() || written.rank.is_some() || columns > LADDER_UNKNOWNS {
+            break;
+        }
+        let finer = more.matrix(pose, part, standing.moved, rung)?;
+        bits = rung;
+        // Here the poorer accuracy alone: what a singular pose leaves of a zero is below it.
+        let accuracy = finer.rounding
+            + if standing.moved {
+                finer.residual.sqrt()
+            } else {
+                finer.residual
+            };
+        written = decide(&finer.matrix, accuracy)?;
         nominal = if stated > accuracy {
-            decide(&matrix, stated + accuracy)?
+            decide(&finer.matrix, stated + accuracy + 2.0 * standing.shift)?
         } else {
             written.clone()
         };
+        if finer.residual > 1e3 * finer.rounding && written.rank.is_none() {
+            // The numbers as written do not close any better, so that more digits are of no use.
+            break;
+        }
     }
     let freedom = |rank: usize| columns - rank;
     let candidates = (freedom(nominal.candidates.1), freedom(nominal.candidates.0));
@@ -153,7 +267,7 @@ pub fn rank_part(pose: &Pose<'_>, part: &Part) -> Result<PartRank, MatrixError> 
                 candidates.1,
                 nominal.kept,
                 nominal.dropped,
-                nominal.tolerance,
+                nominal.tolerance.max(poorer),
                 nominal.bits
             );
             (None, nominal, Some(note))
@@ -165,6 +279,7 @@ pub fn rank_part(pose: &Pose<'_>, part: &Part) -> Result<PartRank, MatrixError> 
         candidates,
         taken_literally: coarse,
         stated,
+        accuracy: rounding.max(poorer).max(f64::EPSILON),
         bits,
         note,
         matrix,
@@ -172,26 +287,4 @@ pub fn rank_part(pose: &Pose<'_>, part: &Part) -> Result<PartRank, MatrixError> 
         jacobian: double,
         decision,
     })
-}
-
-/// The part's Jacobian with unit columns from geometry evaluated in more bits, at states polished in those bits.
-fn matrix_in_bits(
-    pose: &Pose<'_>,
-    part: &Part,
-    bits: u32,
-) -> Result<(SparseMatrix<Big>, f64), MatrixError> {
-    let geometry = Geometry::new(pose.mechanism, pose.configuration, &Arithmetic::bits(bits));
-    let mut states = geometry.states.clone();
-    if !pose.as_drawn {
-        for (index, state) in states.iter_mut().enumerate() {
-            *state = geometry.displacements[index].adopt(&pose.states[index]);
-        }
-    }
-    let residual = refine(pose.mechanism, &geometry, &mut states, part, pose.held)?;
-    let there = jacobian(pose.mechanism, &geometry, &states, part)?;
-    let (_, rounding) = entry_accuracy(pose.mechanism, &there);
-    let mut matrix = there.matrix;
-    matrix.scale_columns();
-    // A pose that misses closing by `residual` has screws off by as much.
-    Ok((matrix, rounding + residual))
 }

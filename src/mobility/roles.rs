@@ -5,11 +5,13 @@
 
 use super::pose_rank::PartRank;
 use crate::closure::{Geometry, JointState, Part, entry_accuracy, follow, jacobian};
-use crate::matrix::{MatrixError, NullVectors, SplitMix64, coloops, decide, null_vectors};
+use crate::matrix::{
+    MatrixError, NullVectors, RankDecision, Real, SplitMix64, coloops, decide, null_vectors,
+};
 use crate::mechanism::{FreedomPart, Joint, JointKind, Mechanism};
 
 /// Above this nullity random null vectors stand for a basis. A variable that moves is missed with probability zero.
-const NULL_VECTORS: usize = 24;
+pub(super) const NULL_VECTORS: usize = 24;
 
 /// Finite ways of the moved check, in radians or part lengths of the fastest variable: two, so that a joint that pauses
 /// again at the first is seen at the second.
@@ -28,14 +30,14 @@ pub struct JointRole {
 ///
 /// A joint can pause: at a dead centre its rate is zero for an instant. So where some joint seems locked, the part is
 /// moved a finite way along a random motion and asked again; what moves there is not locked. (Where the rank changes on
-/// the way the pose is singular, and the roles are those of the pose itself.)
+/// the way the pose is singular, and the roles are those of the pose itself.) The states are the pose's again afterwards.
 ///
 /// # Errors
 /// [`MatrixError`] where the null vectors cannot be computed.
 pub fn roles_of_part(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
-    states: &[JointState<f64>],
+    states: &mut [JointState<f64>],
     part: &Part,
     rank: &PartRank,
 ) -> Result<Vec<JointRole>, MatrixError> {
@@ -43,15 +45,9 @@ pub fn roles_of_part(
         return Ok(vec![JointRole::default(); part.joints.len()]);
     };
     let null = null_vectors(&rank.matrix, &decision, NULL_VECTORS, 1)?;
-    let found = coloops(&null, &decision);
-    let mut zero = vec![false; rank.matrix.columns()];
-    let mut doubtful = zero.clone();
-    for column in found.zero {
-        zero[column] = true;
-    }
-    for column in found.undecided {
-        doubtful[column] = true;
-    }
+    let Some(Resting { mut zero, doubtful }) = Resting::columns(&null, &decision) else {
+        return Ok(vec![JointRole::default(); part.joints.len()]);
+    };
     let freedom = decision.nullity().unwrap_or(0);
     if freedom > 0 && zero.iter().any(|z| *z) {
         for size in STEPS {
@@ -73,11 +69,49 @@ pub fn roles_of_part(
     Ok(roles)
 }
 
+/// Which columns vanish in all null vectors, and of which that cannot be said.
+pub(super) struct Resting {
+    pub zero: Vec<bool>,
+    pub doubtful: Vec<bool>,
+}
+
+impl Resting {
+    /// `None` where the null vectors are too uncertain to tell anything.
+    ///
+    /// Components of a unit vector of length n are of the order of a share, 1/√n. Where the error of the vectors is as
+    /// large they tell nothing. And however coarse the numbers, a component of a hundredth of a share or more is not
+    /// called zero: it is small within their precision, which is not the same as resting.
+    pub fn columns(null: &NullVectors<f64>, decision: &RankDecision) -> Option<Self> {
+        let share = 1.0 / (null.length.max(1) as f64).sqrt();
+        let error = null.residual + decision.accuracy;
+        if decision.kept > 0.0 && error > share * decision.kept {
+            return None;
+        }
+        let careful = RankDecision {
+            // Ten times the error over the smallest kept value is what is taken for zero.
+            accuracy: decision.accuracy.min(1e-3 * share * decision.kept),
+            ..decision.clone()
+        };
+        let found = coloops(null, &careful);
+        let mark = |columns: Vec<usize>| {
+            let mut marked = vec![false; null.length];
+            for column in columns {
+                marked[column] = true;
+            }
+            marked
+        };
+        Some(Self {
+            zero: mark(found.zero),
+            doubtful: mark(found.undecided),
+        })
+    }
+}
+
 /// Which variables move at a pose a finite step away; none where the step fails or the rank is another there.
 fn moving(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
-    states: &[JointState<f64>],
+    states: &mut [JointState<f64>],
     part: &Part,
     rank: &PartRank,
     null: &NullVectors<f64>,
@@ -103,24 +137,24 @@ fn moving(
         return Ok(still);
     }
     direction.iter_mut().for_each(|x| *x *= size / largest);
-    let Some(there) = follow(mechanism, geometry, states, part, &direction)? else {
-        return Ok(still);
-    };
-    let moved = jacobian(mechanism, geometry, &there, part)?;
-    let (stated, rounding) = entry_accuracy(mechanism, &moved);
-    let mut matrix = moved.matrix;
-    matrix.scale_columns();
-    let decision = decide(&matrix, stated + rounding)?;
-    if decision.nullity() != rank.instantaneous {
-        return Ok(still);
-    }
-    let null = null_vectors(&matrix, &decision, NULL_VECTORS, 1)?;
-    let found = coloops(&null, &decision);
-    let mut moves = vec![true; still.len()];
-    for column in found.zero.into_iter().chain(found.undecided) {
-        moves[column] = false;
-    }
-    Ok(moves)
+    let moves = follow(mechanism, geometry, states, part, &direction, |there| {
+        let moved = jacobian(mechanism, geometry, there, part)?;
+        let (_, rounding) = entry_accuracy(mechanism, &moved);
+        let mut matrix = moved.matrix;
+        matrix.scale_columns();
+        let left = 0.0.norm(&moved.residual);
+        // The same reading of the numbers as at the pose itself.
+        let decision = decide(&matrix, rank.stated + rounding + left)?;
+        if decision.nullity().is_none() || decision.nullity() != rank.instantaneous {
+            return Ok(None);
+        }
+        let null = null_vectors(&matrix, &decision, NULL_VECTORS, 1)?;
+        Ok(Resting::columns(&null, &decision).map(|found| {
+            let still = found.zero.iter().zip(&found.doubtful);
+            still.map(|(zero, doubtful)| !zero && !doubtful).collect()
+        }))
+    })?;
+    Ok(moves.flatten().unwrap_or(still))
 }
 
 fn role(joint: &Joint, zero: &[bool], doubtful: &[bool]) -> JointRole {

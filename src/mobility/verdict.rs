@@ -96,11 +96,21 @@ pub fn judge(
     let mut doubtful = false;
     let mut dependent = 0;
     for part in parts {
-        let decided = part.instantaneous.filter(|_| part.note.is_none());
-        doubtful |= decided.is_none();
-        high += part
+        // A special mechanism written with too few digits is, taken literally, a generic one: that more equations than
+        // unknowns then hold it fast may be due to the digits left out.
+        let held_by_rounding = part.taken_literally
+            && part.instantaneous == Some(0)
+            && part.equations() > part.unknowns();
+        let decided = part
             .instantaneous
-            .map_or(part.candidates.1, |i| i.max(part.candidates.1));
+            .filter(|_| part.note.is_none() && !held_by_rounding);
+        doubtful |= decided.is_none();
+        high += if held_by_rounding {
+            part.unknowns()
+        } else {
+            part.instantaneous
+                .map_or(part.candidates.1, |i| i.max(part.candidates.1))
+        };
         match decided {
             Some(freedom) if freedom + part.equations() == part.unknowns() => low += freedom,
             Some(0) => dependent += part.equations() - part.unknowns(),
@@ -112,7 +122,7 @@ pub fn judge(
         }
     }
     let mut why = Vec::new();
-    let (verdict, certificate) = if low == high {
+    let (verdict, certificate) = if low == high && !doubtful {
         let sentence = if high == 0 {
             "no velocity at all satisfies the closure equations at this pose, so no motion starts from it".to_owned()
         } else {
