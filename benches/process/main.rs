@@ -19,7 +19,10 @@ const RUNS: usize = 7;
 
 /// Sizes between which growth is measured.
 const STAGES: [usize; 5] = [100, 300, 1000, 3000, 10_000];
-const PANELS: [usize; 5] = [10, 15, 20, 25, 30];
+const PANELS: [usize; 4] = [15, 20, 25, 30];
+/// Sizes at which every joint still gets its advice: shown, but no part of the growth.
+const FEW_STAGES: [usize; 1] = [30];
+const FEW_PANELS: [usize; 2] = [5, 10];
 
 /// Small mechanisms of the repository.
 const FILES: [&str; 5] = ["bennett", "sarrus", "stewart", "delta", "peaucellier"];
@@ -51,8 +54,11 @@ fn measure(folder: &Path) -> Result<(), Box<dyn Error>> {
             .len();
         row(&format!("`{name}`"), joints, &file, RUNS)?;
     }
+    let sheet = |n| miura_sheet(n, n);
+    family(folder, "scissor", &FEW_STAGES, RUNS, scissor_lift)?;
     let scissor = family(folder, "scissor", &STAGES, RUNS, scissor_lift)?;
-    let miura = family(folder, "miura", &PANELS, RUNS, |n| miura_sheet(n, n))?;
+    family(folder, "miura", &FEW_PANELS, RUNS, sheet)?;
+    let miura = family(folder, "miura", &PANELS, RUNS, sheet)?;
     println!();
     println!(
         "| family | from | to | time grows with joints to the power | microseconds per joint |"
