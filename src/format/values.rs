@@ -12,8 +12,8 @@ use std::ops::Range;
 /// Exact numbers have no largest one, but floating-point geometry does: products of a few of them must stay finite.
 const LARGEST: f64 = 1e100;
 
-/// Literals of up to so many characters are shared; longer ones seldom repeat.
-const LONGEST_SHARED: usize = 8;
+/// Numbers and expressions of up to so many bytes are shared; longer ones seldom repeat.
+const LONGEST_SHARED: usize = 24;
 /// Bounds the memory for sharing.
 const MOST_SHARED: usize = 4096;
 
@@ -94,8 +94,9 @@ impl<'a> Reader<'a> {
 
     fn evaluate_part(&mut self, attribute: Attribute<'a>, part: Range<usize>) -> Outcome<Number> {
         let token = &attribute.value[part.clone()];
-        // Most numbers of most files are 0 and 1: read once, then shared.
-        let is_short = token.len() <= LONGEST_SHARED && !token.contains('$');
+        // Most numbers of most files are 0 and 1: read once, then shared. So are expressions: by the time elements are read
+        // every definition has its value, so that the same text means the same number throughout.
+        let is_short = token.len() <= LONGEST_SHARED;
         if let Some(number) = self.literals.get(token).filter(|_| is_short) {
             return Ok(number.clone());
         }
