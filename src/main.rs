@@ -1,3 +1,9 @@
-//! The `kutzbach` command line.
+//! The `kutzbach` command line: `kutzbach report FILE` says how a mechanism can move, and why.
 
-fn main() {}
+mod cli;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    cli::run()
+}

@@ -86,7 +86,10 @@ pub fn assemble(
         assembly.steps += outcome.steps;
     }
     let poses = spanning_poses(mechanism, geometry, &assembly.states);
-    assembly.moved = moved(mechanism, geometry, &poses);
+    // Untouched states give the drawn poses back, but for rounding on another path.
+    if assembly.steps > 0 {
+        assembly.moved = moved(mechanism, geometry, &poses);
+    }
     assembly.gaps = gaps(mechanism, geometry, &assembly.states, &poses);
     Ok(assembly)
 }

@@ -152,8 +152,8 @@ impl<R: Real> Rigid<R> {
             let inverse = like.one_like() / like.constant(k as f64);
             turned_columns = turned_columns.map(|column| scale(&cross(angular, &column), &inverse));
             for (j, column) in turned_columns.iter().enumerate() {
-                for i in 0..3 {
-                    result.rotation[i][j] = result.rotation[i][j].clone() + column[i].clone();
+                for (row, entry) in result.rotation.iter_mut().zip(column) {
+                    row[j] = row[j].clone() + entry.clone();
                 }
             }
             let inverse = like.one_like() / like.constant((k + 1) as f64);

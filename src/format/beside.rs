@@ -2,7 +2,8 @@
 
 use super::element::{Attribute, Element};
 use super::error::Outcome;
-use super::reader::{Dialect, Named, Reader};
+use super::names::Named;
+use super::reader::{Dialect, Reader};
 use super::words::{alternatives, did_you_mean, quoted};
 use crate::mechanism::{Expectation, Scene};
 use std::str::FromStr;
@@ -22,7 +23,7 @@ impl<'a> Reader<'a> {
     pub(super) fn read_coupling(&mut self, coupling: Element<'a>) -> Outcome<()> {
         self.uses(Dialect::UrdfPlus);
         self.note_foreign_attributes(coupling, &["name"])?;
-        let name = self.new_name(Named::Coupling, coupling)?;
+        let name = self.directory.add(Named::Coupling, coupling)?;
         let parts = self.parts(coupling, &["predecessor", "successor", "ratio"], &[], &[])?;
         let (mut predecessor, mut successor, mut ratio) = (None, None, None);
         for part in parts {
@@ -32,7 +33,7 @@ impl<'a> Reader<'a> {
                 continue;
             }
             self.leaf(part, &["link"])?;
-            let link = self.reference(Named::Link, part, "link")?;
+            let link = self.directory.refer(Named::Link, part, "link")?;
             match part.name() {
                 "predecessor" => predecessor = Some(link),
                 _ => successor = Some(link),
@@ -55,7 +56,7 @@ impl<'a> Reader<'a> {
     pub(super) fn read_ground(&mut self, ground: Element<'a>) -> Outcome<()> {
         self.uses(Dialect::Own);
         self.leaf(ground, &["link"])?;
-        let link = self.reference(Named::Link, ground, "link")?;
+        let link = self.directory.refer(Named::Link, ground, "link")?;
         self.builder.ground(link);
         Ok(())
     }
@@ -64,11 +65,11 @@ impl<'a> Reader<'a> {
     pub(super) fn read_configuration(&mut self, configuration: Element<'a>) -> Outcome<()> {
         self.uses(Dialect::Own);
         self.note_foreign_attributes(configuration, &["name"])?;
-        let name = self.new_name(Named::Configuration, configuration)?;
+        let name = self.directory.add(Named::Configuration, configuration)?;
         let mut positions = Vec::new();
         for part in self.parts(configuration, &[], &["position"], &[])? {
             self.leaf(part, &["joint", "value"])?;
-            let joint = self.reference(Named::Joint, part, "joint")?;
+            let joint = self.directory.refer(Named::Joint, part, "joint")?;
             let values = self.number_list(part.required("value")?)?;
             positions.push((joint.to_owned(), values));
         }
@@ -90,7 +91,7 @@ impl<'a> Reader<'a> {
                 }
                 "drive" => {
                     self.leaf(part, &["joint", "velocity", "torque"])?;
-                    let joint = self.reference(Named::Joint, part, "joint")?;
+                    let joint = self.directory.refer(Named::Joint, part, "joint")?;
                     let velocity = self.number(part.required("velocity")?)?;
                     let torque = self.optional_number(part, "torque")?;
                     self.builder.drive(joint, velocity, torque);

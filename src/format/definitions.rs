@@ -4,7 +4,7 @@
 //! Properties and arguments have separate names, as in xacro: `${a}` is a property, `$(arg a)` an argument.
 
 use super::element::{Attribute, Element};
-use super::error::{Fault, Outcome};
+use super::error::{Fault, MOST_FAULTS, Outcome};
 use super::number_text::{self, Names, Trouble, is_identifier};
 use super::words::{did_you_mean, quoted};
 use crate::number::Number;
@@ -148,8 +148,11 @@ impl<'a> Definitions<'a> {
                 let known = faults
                     .iter()
                     .any(|f| f.range == fault.range && f.message == fault.message);
-                if !known && faults.len() < super::error::MOST_FAULTS {
+                if !known {
                     faults.push(fault);
+                }
+                if faults.len() == MOST_FAULTS {
+                    break;
                 }
             }
         }

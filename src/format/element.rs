@@ -67,7 +67,10 @@ impl<'a> Element<'a> {
 
     /// The name as written, prefix included.
     pub(super) fn written_name(&self) -> &'a str {
-        self.text.get(self.range()).map_or("", |tag| &tag[1..])
+        self.text
+            .get(self.range())
+            .and_then(|tag| tag.get(1..))
+            .unwrap_or_default()
     }
 
     /// A fault about this element.

@@ -2,13 +2,17 @@
 
 use super::element::{Attribute, Element};
 use super::error::Outcome;
-use super::reader::{Dialect, Named, Reader, SKIPPED};
+use super::names::Named;
+use super::reader::{Dialect, Reader, SKIPPED};
 use super::words::{did_you_mean, quoted};
 use crate::mechanism::{Dynamics, Frame, JointBuilder, JointKind, Limit};
 use crate::number::Number;
 
-/// What may stand inside `<joint>` and `<loop>` alike.
-const BODY: [&str; 8] = [
+/// What may stand inside `<joint>`.
+const JOINT: [&str; 11] = [
+    "parent",
+    "child",
+    "origin",
     "axis",
     "axis2",
     "screw",
@@ -19,8 +23,28 @@ const BODY: [&str; 8] = [
     "mimic",
 ];
 
-/// Elements inside a joint that steer a robot's controller and say nothing about the joint.
-const CONTROLLER: [&str; 2] = ["safety_controller", "calibration"];
+/// What may stand inside `<loop>`.
+const LOOP: [&str; 10] = [
+    "predecessor",
+    "successor",
+    "axis",
+    "axis2",
+    "screw",
+    "distance",
+    "limit",
+    "dynamics",
+    "joint_properties",
+    "mimic",
+];
+
+/// Elements that say nothing about how a joint moves: those skipped everywhere, and what steers a robot's controller.
+const SKIPPED_HERE: [&str; 5] = [
+    SKIPPED[0],
+    SKIPPED[1],
+    SKIPPED[2],
+    "safety_controller",
+    "calibration",
+];
 
 /// A joint type as the file names it.
 #[derive(Clone, Copy)]
@@ -34,14 +58,9 @@ impl<'a> Reader<'a> {
     /// `<joint name type>` of the file's tree.
     pub(super) fn read_joint(&mut self, joint: Element<'a>) -> Outcome<()> {
         self.note_foreign_attributes(joint, &["name", "type", "independent"])?;
-        let name = self.new_name(Named::Joint, joint)?;
+        let name = self.directory.add(Named::Joint, joint)?;
         let joint_type = self.joint_type(joint)?;
-        let once: Vec<&str> = ["parent", "child", "origin"]
-            .iter()
-            .chain(&BODY)
-            .copied()
-            .collect();
-        let parts = self.parts(joint, &once, &[], &skipped())?;
+        let parts = self.parts(joint, &JOINT, &[], &SKIPPED_HERE)?;
         let (mut parent, mut child, mut origin) = (None, None, Frame::identity());
         let mut body = Vec::with_capacity(parts.len());
         for part in parts {
@@ -85,7 +104,7 @@ impl<'a> Reader<'a> {
     pub(super) fn read_loop(&mut self, element: Element<'a>) -> Outcome<()> {
         self.uses(Dialect::UrdfPlus);
         self.note_foreign_attributes(element, &["name", "type", "independent"])?;
-        let name = self.new_name(Named::Joint, element)?;
+        let name = self.directory.add(Named::Joint, element)?;
         let joint_type = self.joint_type(element)?;
         let Some(kind) = joint_type.kind else {
             return Err(element
@@ -93,12 +112,7 @@ impl<'a> Reader<'a> {
                 .fault("a floating joint constrains nothing, so it closes no loop")
                 .help("remove the loop"));
         };
-        let once: Vec<&str> = ["predecessor", "successor"]
-            .iter()
-            .chain(&BODY)
-            .copied()
-            .collect();
-        let parts = self.parts(element, &once, &[], &skipped())?;
+        let parts = self.parts(element, &LOOP, &[], &SKIPPED_HERE)?;
         let (mut predecessor, mut successor) = (None, None);
         let mut body = Vec::with_capacity(parts.len());
         for part in parts {
@@ -166,13 +180,13 @@ impl<'a> Reader<'a> {
     /// `<parent link/>` or `<child link/>`.
     fn link_of(&mut self, element: Element<'a>) -> Outcome<&'a str> {
         self.leaf(element, &["link"])?;
-        self.reference(Named::Link, element, "link")
+        self.directory.refer(Named::Link, element, "link")
     }
 
     /// `<predecessor link>` or `<successor link>` with an optional `<origin>` inside.
     fn side(&mut self, element: Element<'a>) -> Outcome<(&'a str, Frame)> {
         self.note_foreign_attributes(element, &["link"])?;
-        let link = self.reference(Named::Link, element, "link")?;
+        let link = self.directory.refer(Named::Link, element, "link")?;
         let frame = match self.parts(element, &["origin"], &[], &[])?.first() {
             Some(origin) => self.origin(*origin)?,
             None => Frame::identity(),
@@ -343,7 +357,7 @@ impl<'a> Reader<'a> {
 
     fn read_mimic(&mut self, mimic: Element<'a>) -> Outcome<(&'a str, Number, Number)> {
         self.leaf(mimic, &["joint", "multiplier", "offset"])?;
-        let leader = self.reference(Named::Joint, mimic, "joint")?;
+        let leader = self.directory.refer(Named::Joint, mimic, "joint")?;
         let multiplier = self.optional_number(mimic, "multiplier")?;
         let offset = self.optional_number(mimic, "offset")?;
         Ok((
@@ -364,10 +378,6 @@ impl<'a> Reader<'a> {
         );
         self.skip(part);
     }
-}
-
-fn skipped() -> Vec<&'static str> {
-    SKIPPED.iter().chain(&CONTROLLER).copied().collect()
 }
 
 fn useless(part: Element<'_>, word: &str) -> super::error::Fault {

@@ -2,7 +2,8 @@
 
 use super::element::{Attribute, Element};
 use super::error::Outcome;
-use super::reader::{Named, Reader, SKIPPED};
+use super::names::Named;
+use super::reader::{Reader, SKIPPED};
 use crate::mechanism::{Frame, Geometry, Inertial, Shape};
 use crate::number::Number;
 
@@ -10,7 +11,7 @@ impl<'a> Reader<'a> {
     /// `<link name>` with `<inertial>`, any number of `<collision>` and `<visual>`.
     pub(super) fn read_link(&mut self, link: Element<'a>) -> Outcome<()> {
         self.note_foreign_attributes(link, &["name"])?;
-        let name = self.new_name(Named::Link, link)?;
+        let name = self.directory.add(Named::Link, link)?;
         let parts = self.parts(link, &["inertial"], &["collision", "visual"], &SKIPPED)?;
         let mut inertial = None;
         let mut collisions = Vec::new();

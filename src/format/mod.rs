@@ -12,7 +12,7 @@
 //!   Faults in different elements are told together.
 //! - *No text harms the reader*: size, nesting, attributes and nodes are bounded before they are parsed, document type
 //!   definitions are refused, numbers bound themselves. Any bytes give a mechanism or an error.
-//! - *Numbers stay as they are written.* Decimals keep their digits and expressions their exact value, so [`write`] and
+//! - *Numbers stay as they are written.* Decimals keep their digits and expressions their exact value, so [`write()`] and
 //!   [`read`] are inverse in meaning.
 //!
 //! Reading is linear in the text, apart from look-ups of names. Errors cost one more walk over the text for lines and columns.
@@ -42,8 +42,10 @@ mod error;
 mod guard;
 mod joint;
 mod link;
+mod names;
 mod number_text;
 mod reader;
+mod values;
 mod words;
 mod writer;
 mod xml;

@@ -8,6 +8,7 @@ use super::error::{Fault, Outcome};
 use super::words::{did_you_mean, quoted};
 use crate::number::{Number, Reason};
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// What a name in an expression stands for.
@@ -159,14 +160,14 @@ fn evaluate(text: &str, names: &mut dyn Names) -> Result<Number, Trouble> {
     let mut met = None;
     let mut unknown: Option<(String, bool)> = None;
     let mut lookup = |name: &str| {
-        let argument = arguments.iter().find(|a| disguised(a) == name);
+        let argument = undisguised(name).filter(|argument| arguments.contains(argument));
         let found = match argument {
             Some(argument) => names.argument(argument),
             None => names.property(name),
         };
         match found {
             Ok(None) => {
-                let name = argument.map_or(name, |a| *a).to_owned();
+                let name = argument.unwrap_or(name).to_owned();
                 unknown = Some((name, argument.is_some()));
                 Ok(None)
             }
@@ -213,13 +214,18 @@ fn disguised(argument: &str) -> String {
     format!("__arg_{argument}_")
 }
 
+/// The argument that an identifier stands for.
+fn undisguised(identifier: &str) -> Option<&str> {
+    identifier.strip_prefix("__arg_")?.strip_suffix('_')
+}
+
 /// The text as a plain expression of the same length, and the arguments that it names: `${...}` becomes ` (...)`.
-fn without_marks(text: &str) -> Outcome<(Cow<'_, str>, Vec<&str>)> {
+fn without_marks(text: &str) -> Outcome<(Cow<'_, str>, BTreeSet<&str>)> {
     if !text.contains('$') {
-        return Ok((Cow::Borrowed(text), Vec::new()));
+        return Ok((Cow::Borrowed(text), BTreeSet::new()));
     }
     let mut plain = String::with_capacity(text.len());
-    let mut arguments = Vec::new();
+    let mut arguments = BTreeSet::new();
     let mut depth = 0usize;
     let mut rest = text;
     while let Some(character) = rest.chars().next() {
@@ -254,7 +260,7 @@ fn without_marks(text: &str) -> Outcome<(Cow<'_, str>, Vec<&str>)> {
                 taken.saturating_sub(identifier.len()),
             ));
             plain.push_str(&identifier);
-            arguments.push(name);
+            arguments.insert(name);
         } else if character == '$' {
             return Err(Fault::new(
                 at..at + 1,

@@ -3,18 +3,16 @@
 use super::definitions::Definitions;
 use super::element::{Attribute, Element, Owner};
 use super::error::{Fault, MOST_FAULTS, Outcome, lines_and_columns};
-use super::words::{alternatives, counted, did_you_mean, quoted};
-use super::{Reading, Skipped, Warning, number_text, xml};
-use crate::mechanism::{Direction, Entity, Frame, MechanismBuilder};
+use super::names::{Directory, Named};
+use super::words::{alternatives, cut, did_you_mean};
+use super::{Reading, Skipped, Warning, xml};
+use crate::mechanism::{Entity, MechanismBuilder};
 use crate::number::Number;
 use std::collections::HashMap;
 use std::ops::Range;
 
 /// Elements of URDF that say nothing about motion; they may stand inside `robot`, `link` and `joint`.
 pub(super) const SKIPPED: [&str; 3] = ["gazebo", "transmission", "sensor"];
-
-/// Exact numbers have no largest one, but floating-point geometry does: products of a few of them must stay finite.
-const LARGEST: f64 = 1e100;
 
 /// How much of the dialect a file uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -24,30 +22,17 @@ pub(super) enum Dialect {
     Own,
 }
 
-/// Which kind of thing a name belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Named {
-    Link,
-    Joint,
-    Coupling,
-    Configuration,
-}
-
 /// What is known while a file is being read.
 pub(super) struct Reader<'a> {
     pub(super) builder: MechanismBuilder,
     pub(super) dialect: Dialect,
-    definitions: Definitions<'a>,
+    pub(super) definitions: Definitions<'a>,
+    pub(super) directory: Directory<'a>,
+    /// Short literals that were read already.
+    pub(super) literals: HashMap<&'a str, Number>,
     root_namespace: Option<&'a str>,
     warnings: Vec<(usize, String)>,
     skipped: Vec<(usize, String)>,
-    /// Every named thing with its place, in file order; joints and couplings share one set of names.
-    places: Vec<(Named, &'a str, Range<usize>)>,
-    links: HashMap<&'a str, usize>,
-    joints: HashMap<&'a str, usize>,
-    configurations: HashMap<&'a str, usize>,
-    /// Attributes that name a link or a joint.
-    references: Vec<(Named, Attribute<'a>)>,
     /// The joint that places each link so far.
     pub(super) placed_by: HashMap<&'a str, &'a str>,
     ground: Option<Range<usize>>,
@@ -77,7 +62,7 @@ pub(super) fn read(text: &str, settings: &[(String, String)]) -> Result<Reading,
         }
     }
     if faults.is_empty() {
-        faults = reader.unresolved_references();
+        faults = reader.directory.unresolved();
     }
     if !faults.is_empty() {
         return Err(faults);
@@ -106,14 +91,11 @@ impl<'a> Reader<'a> {
             builder: MechanismBuilder::new(name),
             dialect: Dialect::Urdf,
             definitions: Definitions::default(),
+            literals: HashMap::new(),
             root_namespace: root.namespace(),
             warnings: Vec::new(),
             skipped: Vec::new(),
-            places: Vec::new(),
-            links: HashMap::new(),
-            joints: HashMap::new(),
-            configurations: HashMap::new(),
-            references: Vec::new(),
+            directory: Directory::default(),
             placed_by: HashMap::new(),
             ground: None,
             scene: None,
@@ -133,6 +115,7 @@ impl<'a> Reader<'a> {
                 faults.extend(self.definitions.add(*child).err());
             }
         }
+        faults.truncate(MOST_FAULTS);
         for (name, text) in settings {
             faults.extend(self.definitions.set(name, text, root.range()).err());
         }
@@ -221,13 +204,13 @@ impl<'a> Reader<'a> {
 
     /// Records an element that is not read.
     pub(super) fn skip(&mut self, element: Element<'a>) {
-        let what = format!("<{}>", super::words::cut(element.written_name()));
+        let what = format!("<{}>", cut(element.written_name()));
         self.skipped.push((element.start(), what));
     }
 
     /// Records an element that is not read because of a fault in it.
     pub(super) fn skip_faulty(&mut self, element: Element<'a>, fault: &Fault) {
-        let name = super::words::cut(element.written_name());
+        let name = cut(element.written_name());
         self.skipped
             .push((element.start(), format!("<{name}>: {}", fault.message)));
     }
@@ -239,11 +222,9 @@ impl<'a> Reader<'a> {
         known: &[&str],
     ) -> Outcome<()> {
         for (start, name) in element.only_attributes(known)? {
-            let element = super::words::cut(element.written_name());
-            self.skipped.push((
-                start,
-                format!("attribute `{}` of <{element}>", super::words::cut(name)),
-            ));
+            let element = cut(element.written_name());
+            self.skipped
+                .push((start, format!("attribute `{}` of <{element}>", cut(name))));
         }
         Ok(())
     }
@@ -312,208 +293,9 @@ impl<'a> Reader<'a> {
         self.parts(element, &[], &[], &[]).map(|_| ())
     }
 
-    /// The name of a new link, joint, coupling or configuration; a name that is taken is an error here.
-    pub(super) fn new_name(&mut self, sort: Named, element: Element<'a>) -> Outcome<&'a str> {
-        let name = element.required("name")?;
-        check_name(name)?;
-        let names = match sort {
-            Named::Link => &mut self.links,
-            Named::Joint | Named::Coupling => &mut self.joints,
-            Named::Configuration => &mut self.configurations,
-        };
-        if let Some(first) = names.get(name.value) {
-            let (other, ..) = self.places[*first];
-            let what = match other {
-                Named::Link => "another link",
-                Named::Joint => "another joint or loop",
-                Named::Coupling => "another coupling",
-                Named::Configuration => "another configuration",
-            };
-            return Err(name
-                .fault(format!(
-                    "the name {} is taken by {what}",
-                    quoted(name.value)
-                ))
-                .help(match sort {
-                    Named::Joint | Named::Coupling => {
-                        "joints, loops and couplings share one set of names"
-                    }
-                    Named::Link => "every link has a name of its own",
-                    Named::Configuration => "every configuration has a name of its own",
-                }));
-        }
-        names.insert(name.value, self.places.len());
-        self.places.push((sort, name.value, element.range()));
-        Ok(name.value)
-    }
-
-    /// The value of an attribute that names a link or a joint, which is looked up when everything is read.
-    pub(super) fn reference(
-        &mut self,
-        sort: Named,
-        element: Element<'a>,
-        attribute: &str,
-    ) -> Outcome<&'a str> {
-        let attribute = element.required(attribute)?;
-        check_name(attribute)?;
-        self.references.push((sort, attribute));
-        Ok(attribute.value)
-    }
-
-    fn unresolved_references(&self) -> Vec<Fault> {
-        let is_joint = |name: &str| {
-            self.joints
-                .get(name)
-                .is_some_and(|index| self.places[*index].0 == Named::Joint)
-        };
-        self.references
-            .iter()
-            .filter(|(sort, attribute)| match sort {
-                Named::Link => !self.links.contains_key(attribute.value),
-                _ => !is_joint(attribute.value),
-            })
-            .take(MOST_FAULTS)
-            .map(|(sort, attribute)| {
-                let what = if *sort == Named::Link {
-                    "link"
-                } else {
-                    "joint"
-                };
-                let known = self
-                    .places
-                    .iter()
-                    .filter(|(other, ..)| other == sort)
-                    .map(|(_, name, _)| *name);
-                let name = attribute.value;
-                attribute
-                    .fault(format!("there is no {what} named {}", quoted(name)))
-                    .maybe_help(did_you_mean(name, known, ("`", "`")))
-            })
-            .collect()
-    }
-
-    /// One number.
-    pub(super) fn number(&mut self, attribute: Attribute<'a>) -> Outcome<Number> {
-        let [number] = self.numbers(attribute)?;
-        Ok(number)
-    }
-
-    /// A number that may be left out.
-    pub(super) fn optional_number(
-        &mut self,
-        element: Element<'a>,
-        name: &str,
-    ) -> Outcome<Option<Number>> {
-        element
-            .attribute(name)
-            .map(|attribute| self.number(attribute))
-            .transpose()
-    }
-
-    /// Exactly so many numbers.
-    pub(super) fn numbers<const N: usize>(
-        &mut self,
-        attribute: Attribute<'a>,
-    ) -> Outcome<[Number; N]> {
-        let parts = self.split(attribute)?;
-        if parts.len() != N {
-            return Err(attribute
-                .fault(format!(
-                    "expected {}, found {}",
-                    counted(N, "number"),
-                    parts.len()
-                ))
-                .help("numbers are separated by spaces"));
-        }
-        let numbers = self.evaluate(attribute, parts)?;
-        // The lengths are equal, so the conversion succeeds.
-        numbers
-            .try_into()
-            .map_err(|_| attribute.fault(format!("expected {}", counted(N, "number"))))
-    }
-
-    /// Any number of numbers, at least one.
-    pub(super) fn number_list(&mut self, attribute: Attribute<'a>) -> Outcome<Vec<Number>> {
-        const MOST: usize = 5;
-        let parts = self.split(attribute)?;
-        if parts.is_empty() || parts.len() > MOST {
-            return Err(attribute.fault(format!(
-                "expected 1 to {MOST} numbers, found {}",
-                parts.len()
-            )));
-        }
-        self.evaluate(attribute, parts)
-    }
-
-    fn split(&self, attribute: Attribute<'a>) -> Outcome<Vec<Range<usize>>> {
-        number_text::split(attribute.value).map_err(|mut fault| {
-            fault.range = attribute.part(fault.range);
-            fault
-        })
-    }
-
-    fn evaluate(
-        &mut self,
-        attribute: Attribute<'a>,
-        parts: Vec<Range<usize>>,
-    ) -> Outcome<Vec<Number>> {
-        if attribute.value.contains('$') {
-            self.uses(Dialect::Own);
-        }
-        parts
-            .into_iter()
-            .map(|part| {
-                let start = part.start;
-                let place =
-                    |range: Range<usize>| attribute.part(start + range.start..start + range.end);
-                let length = part.len();
-                let number = number_text::number(&attribute.value[part], &mut self.definitions)
-                    .map_err(|trouble| trouble.placed(place))?;
-                if number.value().abs() <= LARGEST {
-                    return Ok(number);
-                }
-                Err(Fault::new(
-                    place(0..length),
-                    "the number is too large; the largest accepted is 1e100",
-                ))
-            })
-            .collect()
-    }
-
-    /// `<origin xyz rpy/>`, both optional.
-    pub(super) fn origin(&mut self, element: Element<'a>) -> Outcome<Frame> {
-        self.leaf(element, &["xyz", "rpy"])?;
-        let mut frame = Frame::identity();
-        if let Some(xyz) = element.attribute("xyz") {
-            frame.position = self.numbers(xyz)?;
-        }
-        if let Some(rpy) = element.attribute("rpy") {
-            frame.roll_pitch_yaw = self.numbers(rpy)?;
-        }
-        Ok(frame)
-    }
-
-    /// `<axis xyz/>` or `<axis2 xyz/>`, any length but zero.
-    pub(super) fn direction(&mut self, element: Element<'a>) -> Outcome<Direction> {
-        self.leaf(element, &["xyz"])?;
-        let xyz = element.required("xyz")?;
-        let direction = Direction(self.numbers(xyz)?);
-        if direction.is_zero() {
-            return Err(xyz
-                .fault("the zero vector names no direction")
-                .help("give three numbers of which one is not zero, such as 0 0 1"));
-        }
-        Ok(direction)
-    }
-
     /// The place of what a builder's error is about.
     fn place_of(&self, entity: &Entity, root: Element<'a>) -> Range<usize> {
-        let named = |sort: Named, wanted: &str| {
-            self.places
-                .iter()
-                .find(|(other, name, _)| *other == sort && *name == wanted)
-                .map(|(.., range)| range.clone())
-        };
+        let named = |sort, name: &String| self.directory.place(sort, name);
         let place = match entity {
             Entity::Mechanism => None,
             Entity::Link(name) => named(Named::Link, name),
@@ -568,21 +350,6 @@ fn with_places(
         .map(|((_, message), (line, column))| (line, column, message))
 }
 
-fn check_name(name: Attribute<'_>) -> Outcome<()> {
-    if name.value.is_empty() {
-        return Err(name.fault("needed a name, found nothing"));
-    }
-    if name.value.contains("${") || name.value.contains("$(") {
-        return Err(name
-            .fault(format!(
-                "expressions stand for numbers, not for names such as {}",
-                quoted(name.value)
-            ))
-            .help("expand the file with xacro first"));
-    }
-    Ok(())
-}
-
 fn unknown_element(element: Element<'_>, parent: &str, known: &[&str]) -> Fault {
     let needed = match known {
         [] => "it has nothing inside".to_owned(),
@@ -591,8 +358,8 @@ fn unknown_element(element: Element<'_>, parent: &str, known: &[&str]) -> Fault 
     element
         .fault(format!(
             "<{}> is not known inside <{}>; {needed}",
-            super::words::cut(element.written_name()),
-            super::words::cut(parent)
+            cut(element.written_name()),
+            cut(parent)
         ))
         .maybe_help(did_you_mean(
             element.name(),

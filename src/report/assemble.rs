@@ -5,10 +5,13 @@
 
 use super::natural::natural_order;
 use super::schema::{
-    Assembly, CouplingRow, Home, JointRow, Mobility, Report, SCHEMA, Size, Source,
+    Assembly, CouplingRow, Home, JointRow, Mobility, Report, SCHEMA, Size, Source, Timing,
 };
 use super::vocabulary::Verdict;
+use crate::format::Reading;
 use crate::mechanism::{Coupling, Mechanism};
+use crate::mobility::{AnalysisError, AnalysisOptions, analyse, kutzbach_count};
+use std::time::Instant;
 use thiserror::Error;
 
 /// The name of the pose with all joint variables zero.
@@ -25,6 +28,8 @@ pub struct Input<'a> {
     pub format: &'a str,
     /// What its reader wants to be known.
     pub warnings: &'a [String],
+    /// What of the file was not read.
+    pub skipped: &'a [String],
 }
 
 /// What to report.
@@ -37,8 +42,11 @@ pub struct Options {
 }
 
 /// Why there is no report.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, Error)]
 pub enum ReportError {
+    /// The analysis could not be made.
+    #[error(transparent)]
+    Analysis(#[from] AnalysisError),
     /// The mechanism has no configuration of that name.
     #[error("there is no configuration `{name}` in `{mechanism}`")]
     UnknownConfiguration {
@@ -56,6 +64,7 @@ impl ReportError {
     #[must_use]
     pub fn help(&self) -> String {
         match self {
+            Self::Analysis(_) => "see the format's description of this element".to_owned(),
             Self::UnknownConfiguration { known, .. } if known.is_empty() => {
                 "the file names none; without `--at` the home pose is analysed".to_owned()
             }
@@ -66,11 +75,38 @@ impl ReportError {
     }
 }
 
-/// The report on a mechanism.
+/// The report on a mechanism read from a file.
 ///
 /// # Errors
 /// [`ReportError`] where the options ask for what the mechanism does not have.
-pub fn report(input: &Input<'_>, options: &Options) -> Result<Report, ReportError> {
+pub fn report(reading: &Reading, file: &str, options: &Options) -> Result<Report, ReportError> {
+    let place =
+        |line: usize, column: usize, text: &str| format!("line {line}, column {column}: {text}");
+    let warnings: Vec<String> = reading
+        .warnings
+        .iter()
+        .map(|warning| place(warning.line, warning.column, &warning.message))
+        .collect();
+    let skipped: Vec<String> = reading
+        .skipped
+        .iter()
+        .map(|skipped| place(skipped.line, skipped.column, &skipped.what))
+        .collect();
+    let input = Input {
+        mechanism: &reading.mechanism,
+        file,
+        format: reading.format,
+        warnings: &warnings,
+        skipped: &skipped,
+    };
+    report_on(&input, options)
+}
+
+/// The report on a mechanism from anywhere, such as one built in code.
+///
+/// # Errors
+/// [`ReportError`] where the options ask for what the mechanism does not have.
+pub fn report_on(input: &Input<'_>, options: &Options) -> Result<Report, ReportError> {
     let mechanism = input.mechanism;
     let configuration = match options.configuration.as_deref() {
         Some(name) if name != HOME && mechanism.configuration(name).is_none() => {
@@ -87,33 +123,38 @@ pub fn report(input: &Input<'_>, options: &Options) -> Result<Report, ReportErro
         Some(name) => name,
         None => HOME,
     };
-    Ok(counted(input, configuration))
-}
-
-/// Kutzbach's count: 6 (links − 1) − Σ (6 − freedom) − couplings (D2).
-///
-/// Linear in the number of joints. Links that no joint reaches count with six freedoms.
-#[must_use]
-pub fn kutzbach_count(mechanism: &Mechanism) -> i64 {
-    let links = signed(mechanism.links().len());
-    let removed: i64 = mechanism
-        .joints()
-        .iter()
-        .map(|joint| 6 - signed(joint.freedom()))
-        .sum();
-    6 * (links - 1) - removed - signed(mechanism.couplings().len())
+    let started = Instant::now();
+    let analysis = analyse(
+        mechanism,
+        &AnalysisOptions {
+            configuration: (configuration != HOME || mechanism.configuration(HOME).is_some())
+                .then(|| configuration.to_owned()),
+        },
+    )?;
+    let mut report = counted(input, configuration);
+    super::findings::lay_over(&mut report, mechanism, &analysis);
+    if options.timing {
+        let total_ms = started.elapsed().as_secs_f64() * 1e3;
+        report.timing = Some(Timing {
+            total_ms,
+            stages: Vec::new(),
+        });
+    }
+    Ok(report)
 }
 
 /// A report that holds what counting alone tells.
 fn counted(input: &Input<'_>, configuration: &str) -> Report {
     let mechanism = input.mechanism;
+    let parts = connected_parts(mechanism);
     let size = Size {
         links: mechanism.links().len(),
         joints: mechanism.joints().len(),
-        loops: mechanism.joints().len() + connected_parts(mechanism) - mechanism.links().len(),
+        loops: mechanism.joints().len() + parts - mechanism.links().len(),
         couplings: mechanism.couplings().len(),
         freedoms: mechanism.freedom(),
     };
+    let unknowns = size.freedoms + 6 * (parts - 1);
     let precision = mechanism.precision();
     Report {
         schema: SCHEMA.to_owned(),
@@ -138,16 +179,16 @@ fn counted(input: &Input<'_>, configuration: &str) -> Report {
             pose: None,
             kind: None,
             instantaneous: None,
-            // No equation leaves fewer freedoms than the count, and none more than all joints have together.
+            // Equations take no more freedoms than they are many, and independent ones no fewer than none.
             candidates: [
                 usize::try_from(kutzbach_count(mechanism)).unwrap_or(0),
-                size.freedoms + 6 * (connected_parts(mechanism) - 1),
+                unknowns,
             ],
             as_written: None,
             redundant: None,
             rank: None,
             equations: 6 * size.loops + size.couplings,
-            unknowns: size.freedoms,
+            unknowns,
             gap: None,
             kept: None,
             dropped: None,
@@ -176,6 +217,7 @@ fn counted(input: &Input<'_>, configuration: &str) -> Report {
         motions: Vec::new(),
         advice: Vec::new(),
         warnings: input.warnings.to_vec(),
+        skipped: input.skipped.to_vec(),
         timing: None,
         size,
     }
@@ -268,7 +310,91 @@ fn root(parent: &mut [usize], mut node: usize) -> usize {
     node
 }
 
-/// Counts fit easily: a mechanism of 2⁶³ joints does not fit into memory.
-fn signed(count: usize) -> i64 {
-    i64::try_from(count).unwrap_or(i64::MAX)
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::format::read;
+
+    /// ```text
+    ///   crank ──B── coupler
+    ///     │            │
+    ///     A            C      D: ground ── rocker
+    ///     │            │
+    ///   ground ──D── rocker        loose: no joint
+    /// ```
+    fn four_bar(joints: &[&str], extra: &str) -> Report {
+        let all = [
+            r#"<joint name="J10" type="revolute"><parent link="ground"/><child link="crank"/></joint>"#,
+            r#"<joint name="J2" type="revolute"><parent link="crank"/><child link="coupler"/></joint>"#,
+            r#"<joint name="J1" type="cylindrical"><parent link="ground"/><child link="rocker"/></joint>"#,
+        ];
+        let closing = r#"<loop name="C" type="revolute"><predecessor link="coupler"><origin xyz="0 0 0"/></predecessor>
+            <successor link="rocker"><origin xyz="0 0 0"/></successor></loop>"#;
+        let joints: String = joints
+            .iter()
+            .map(|name| {
+                all.iter()
+                    .find(|text| text.contains(&format!("\"{name}\"")))
+                    .unwrap()
+            })
+            .copied()
+            .collect();
+        let text = format!(
+            r#"<robot name="bar"><link name="ground"/><link name="crank"/><link name="coupler"/><link name="rocker"/>
+            {joints}{closing}{extra}</robot>"#
+        );
+        let reading = read(&text, "bar.urdf", &[]).unwrap();
+        report(&reading, "bar.urdf", &Options::default()).unwrap()
+    }
+
+    #[test]
+    fn counts_follow_the_formulas() {
+        let report = four_bar(&["J10", "J2", "J1"], "");
+        // 6 (4 − 1) − (5 + 5 + 4 + 5)
+        assert_eq!(report.kutzbach, -1);
+        assert_eq!(report.size.loops, 1);
+        assert_eq!(report.home.unknowns, 5);
+        assert_eq!(report.home.equations, 6);
+    }
+
+    #[test]
+    fn parts_without_a_joint_count_with_six_freedoms() {
+        let report = four_bar(
+            &["J10", "J2", "J1"],
+            r#"<link name="loose"/><joint name="f" type="floating"><parent link="ground"/><child link="loose"/></joint>"#,
+        );
+        assert_eq!(report.kutzbach, 5);
+        assert_eq!(report.size.loops, 1);
+        let (unknowns, equations) = (report.home.unknowns, report.home.equations);
+        assert_eq!(unknowns as i64 - equations as i64, report.kutzbach);
+    }
+
+    #[test]
+    fn rows_do_not_follow_the_file() {
+        let report = four_bar(&["J10", "J2", "J1"], "");
+        let names: Vec<&str> = report.joints.iter().map(|j| j.name.as_str()).collect();
+        assert_eq!(names, ["C", "J1", "J2", "J10"]);
+        let other = four_bar(&["J1", "J10", "J2"], "");
+        assert_eq!(other.joints, report.joints);
+    }
+
+    #[test]
+    fn unknown_configurations_are_refused_with_those_there_are() {
+        let text = r#"<robot name="one"><link name="a"/><link name="b"/>
+            <joint name="J" type="revolute"><parent link="a"/><child link="b"/></joint>
+            <configuration name="open"><position joint="J" value="0.3"/></configuration></robot>"#;
+        let reading = read(text, "one.urdf", &[]).unwrap();
+        let at = |name: &str| {
+            let options = Options {
+                configuration: Some(name.to_owned()),
+                ..Options::default()
+            };
+            report(&reading, "one.urdf", &options)
+        };
+        assert_eq!(at("open").unwrap().home.configuration, "open");
+        assert_eq!(at("home").unwrap().home.configuration, "home");
+        let error = at("opened").unwrap_err();
+        assert!(error.help().contains("open"));
+    }
 }

@@ -1,12 +1,4 @@
-//! Whether a report agrees with what is known of a mechanism.
-//!
-//! Only fields that the expectation states are looked at. A field that the report has not decided is *open*, which is no
-//! disagreement, unless what the report does know excludes the expected value: bounds on the finite mobility, candidates
-//! for the instantaneous one, a mechanism that does not assemble.
-//!
-//! Locked joints are compared at regular poses only, because at a singular pose what moves at the pose and what moves on a
-//! branch differ (D9). Joints are named whole (`slider`) or in part (`slider.rot`; with several rotations `ball.rot` means
-//! all of them and `ball.rot2` one).
+//! Whether a report agrees with what is known of a mechanism; the rules are those of [`compare`].
 
 use super::schema::{JointRow, Report};
 use super::vocabulary::{Pose, Verdict};
@@ -57,7 +49,15 @@ impl Comparison {
     }
 }
 
-/// Compares a report with an expectation; see the [module](self) for the rules.
+/// Compares a report with an expectation.
+///
+/// Only fields that the expectation states are looked at. A field that the report has not decided is *open*, which is no
+/// disagreement, unless what the report does know excludes the expected value: bounds on the finite mobility, candidates
+/// for the instantaneous one, a mechanism that does not assemble.
+///
+/// Locked joints are compared at regular poses only, because at a singular pose what moves at the pose and what moves on a
+/// branch differ (D9). Joints are named whole (`slider`) or in part (`slider.rot`; with several rotations `ball.rot` means
+/// all of them and `ball.rot2` one).
 #[must_use]
 pub fn compare(report: &Report, expectation: &Expectation) -> Comparison {
     let mut comparison = Comparison::default();
@@ -69,8 +69,7 @@ pub fn compare(report: &Report, expectation: &Expectation) -> Comparison {
         comparison.add("instantaneous", expected, instantaneous(report, expected));
     }
     if let Some(expected) = expectation.redundant {
-        let found = unless_unassembled(report, decided(&expected, report.home.redundant.as_ref()));
-        comparison.add("redundant", expected, found);
+        comparison.add("redundant", expected, redundant(report, expected));
     }
     if let Some(expected) = expectation.finite {
         comparison.add("finite", expected, finite(report, expected));
@@ -134,6 +133,30 @@ fn instantaneous(report: &Report, expected: usize) -> Found {
         Found::Open if expected < least || expected > most => {
             Found::Differs(format!("between {least} and {most}"))
         }
+        found => found,
+    }
+}
+
+/// Redundancy is what the instantaneous freedom exceeds the count by, and so has its candidates.
+fn redundant(report: &Report, expected: i64) -> Found {
+    let found = decided(&expected, report.home.redundant.as_ref());
+    let freedom = expected.saturating_add(report.kutzbach);
+    match unless_unassembled(report, found) {
+        Found::Open => match usize::try_from(freedom) {
+            Ok(freedom) => match instantaneous(report, freedom) {
+                Found::Differs(_) => {
+                    let [least, most] = report
+                        .home
+                        .candidates
+                        .map(|n| n as i128 - i128::from(report.kutzbach));
+                    Found::Differs(format!("between {least} and {most}"))
+                }
+                Found::Open | Found::Agrees => Found::Open,
+            },
+            Err(_) => Found::Differs(
+                "as many as would leave less than no freedom are impossible".to_owned(),
+            ),
+        },
         found => found,
     }
 }

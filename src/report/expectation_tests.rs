@@ -100,6 +100,14 @@ fn undecided_fields_are_open_unless_excluded() {
         };
         assert_eq!(compare(&report, &expectation).wrong.len(), outcome);
     }
+    report.home.redundant = None;
+    for (expected, outcome) in [(2, 1), (3, 0), (4, 0), (5, 1), (-9, 1)] {
+        let expectation = Expectation {
+            redundant: Some(expected),
+            ..expect()
+        };
+        assert_eq!(compare(&report, &expectation).wrong.len(), outcome);
+    }
 }
 
 #[test]

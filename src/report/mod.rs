@@ -30,6 +30,7 @@ mod assemble;
 pub mod definitions;
 mod expectation;
 mod expected_file;
+mod findings;
 mod natural;
 #[cfg(test)]
 #[allow(clippy::wildcard_imports)]
@@ -38,7 +39,7 @@ mod schema;
 pub mod text;
 mod vocabulary;
 
-pub use assemble::{Input, Options, ReportError, kutzbach_count, report};
+pub use assemble::{Input, Options, ReportError, report, report_on};
 pub use expectation::{Comparison, Disagreement, compare};
 pub use expected_file::{ExpectedFile, ExpectedFileError};
 pub use natural::natural_order;

@@ -63,7 +63,7 @@ pub(crate) fn mobile() -> Report {
         assembly: Assembly {
             closed: Some(true),
             residual: Some(3.1e-13),
-            moved: Some(2.4e-13),
+            moved: Some(0.0),
             tolerance: Some(1e-11),
             gaps: Vec::new(),
         },
@@ -156,6 +156,7 @@ pub(crate) fn mobile() -> Report {
             redundant_after: 2,
         }],
         warnings: Vec::new(),
+        skipped: vec!["line 3, column 5: <gazebo>".to_owned()],
         timing: None,
     }
 }
@@ -251,8 +252,10 @@ pub(crate) fn unassembled() -> Report {
         tolerance: Some(1e-11),
         gaps: vec![Gap {
             cycle: "J3".to_owned(),
-            position: 0.3,
-            angle: 0.2,
+            position: 0.5,
+            angle: 0.4,
+            left_position: 0.3,
+            left_angle: 0.2,
         }],
     };
     report.home = Home {

@@ -47,6 +47,8 @@ pub struct Report {
     pub advice: Vec<Advice>,
     /// What a careful reader should know: oddities of the file, short margins.
     pub warnings: Vec<String>,
+    /// What of the file was not read, because it says nothing about motion.
+    pub skipped: Vec<String>,
     /// How long the stages took; only where asked for, so that reports can be compared byte by byte.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub timing: Option<Timing>,
@@ -98,9 +100,9 @@ pub struct Assembly {
     pub residual: Option<f64>,
     /// How far the pose had to move from the file's to close; the largest shift of a joint, in metres.
     pub moved: Option<f64>,
-    /// The gap below which a loop counts as closed, in metres.
+    /// What the residual is held against: rounding and the numbers' stated precision.
     pub tolerance: Option<f64>,
-    /// The gap of each loop that stays open.
+    /// The gap of each loop of the file.
     pub gaps: Vec<Gap>,
 }
 
@@ -110,10 +112,14 @@ pub struct Gap {
     /// The cycle's name.
     #[serde(rename = "loop")]
     pub cycle: String,
-    /// Distance between the two frames that should coincide, in metres.
+    /// Distance between the joint's two sides as the file draws them, in metres; what the joint allows is taken out.
     pub position: f64,
     /// Angle between them, in radians.
     pub angle: f64,
+    /// What is left of the distance after assembly, in metres.
+    pub left_position: f64,
+    /// What is left of the angle after assembly, in radians.
+    pub left_angle: f64,
 }
 
 /// What holds at the pose that was analysed.
@@ -137,7 +143,7 @@ pub struct Home {
     pub rank: Option<usize>,
     /// Constraint equations: six per independent loop, one per coupling.
     pub equations: usize,
-    /// Joint variables.
+    /// Joint variables, and six more for each part that no joint connects with the ground.
     pub unknowns: usize,
     /// Smallest singular value kept over largest one dropped; `null` where none was dropped or dropped ones are zero.
     pub gap: Option<f64>,

@@ -2,6 +2,7 @@
 
 #![allow(dead_code)]
 
+use kutzbach::format::{FormatError, read};
 use kutzbach::mechanism::{
     Coupling, Direction, Frame, Geometry, Joint, Link, Mechanism, Placement, Shape,
 };
@@ -120,7 +121,7 @@ fn same_frame(a: &Frame, b: &Frame) -> bool {
 fn same_optional(a: &Option<Number>, b: &Option<Number>) -> bool {
     match (a, b) {
         (None, None) => true,
-        (Some(a), Some(b)) => same_numbers(&[a.clone()], &[b.clone()]),
+        (Some(a), Some(b)) => same_numbers(std::slice::from_ref(a), std::slice::from_ref(b)),
         _ => false,
     }
 }
@@ -175,4 +176,47 @@ pub fn files_below(folder: &Path) -> Vec<PathBuf> {
     }
     files.sort();
     files
+}
+
+/// Puts lines into a robot with links `a`, `b`, `c`; the lines start at line 3.
+pub fn robot(lines: &str) -> String {
+    format!(
+        "<robot name=\"r\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">\n<link name=\"a\"/><link name=\"b\"/><link name=\"c\"/>\n{lines}\n</robot>\n"
+    )
+}
+
+/// A chain a - b - c with something inside the first joint, which starts at line 3, column 30.
+pub fn chain(kind: &str, inside: &str) -> String {
+    robot(&format!(
+        "<joint name=\"j\" type=\"{kind}\">\n<parent link=\"a\"/><child link=\"b\"/>\n{inside}\n</joint>\n<joint name=\"k\" type=\"fixed\"><parent link=\"b\"/><child link=\"c\"/></joint>"
+    ))
+}
+
+pub fn fault(text: &str) -> FormatError {
+    match read(text, "bad.urdf", &[]) {
+        Ok(_) => panic!("this was read:\n{text}"),
+        Err(error) => {
+            check_place(text, &error);
+            error
+        }
+    }
+}
+
+/// A place lies inside the text, and line and column agree with the byte range.
+pub fn check_place(text: &str, error: &FormatError) {
+    assert!(
+        error.span.start <= error.span.end && error.span.end <= text.len(),
+        "{error:?}"
+    );
+    let before = &text[..error.span.start];
+    let line_start = before.rfind('\n').map_or(0, |at| at + 1);
+    let line = before.matches('\n').count() + 1;
+    // A byte order mark, at the start of the file, is no column.
+    let mark = usize::from(line == 1 && before.starts_with('\u{feff}'));
+    let column = before[line_start..].chars().count() + 1 - mark;
+    assert_eq!((error.line, error.column), (line, column), "{error:?}");
+    error
+        .others
+        .iter()
+        .for_each(|other| check_place(text, other));
 }

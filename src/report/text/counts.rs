@@ -52,7 +52,7 @@ pub(super) fn write(report: &Report, page: &mut Page) {
         match home.rank {
             Some(rank) => format!(
                 "instantaneous: {} less rank {rank}, of {}",
-                counted(home.unknowns, "joint variable"),
+                counted(home.unknowns, "variable"),
                 counted(home.equations, "constraint equation")
             ),
             None => format!(

@@ -58,6 +58,14 @@ impl Page {
         }
     }
 
+    /// A line that keeps its spaces, such as a formula; never wrapped.
+    pub fn formula(&mut self, line: &str, indent: &str) {
+        self.text.push_str(indent);
+        self.text
+            .push_str(&Tint::Strong.paint(&visible(line), self.layout.color));
+        self.text.push('\n');
+    }
+
     /// A point of a list.
     pub fn item(&mut self, text: &str, tint: Tint) {
         self.paragraph(text, tint, "  • ", "    ");

@@ -25,28 +25,39 @@ pub(super) fn assembly(report: &Report, page: &mut Page) {
         for gap in &assembly.gaps {
             table.row(vec![
                 Cell::new(&gap.cycle),
-                Cell::new(figure(gap.position)).tint(Tint::Bad),
-                Cell::new(figure(gap.angle.to_degrees())),
+                Cell::new(figure(gap.left_position)).tint(Tint::Bad),
+                Cell::new(figure(gap.left_angle.to_degrees())),
             ]);
         }
         page.table(&table, "loops");
         return;
     }
-    let (Some(moved), Some(tolerance)) = (assembly.moved, assembly.tolerance) else {
+    let Some(moved) = assembly.moved.filter(|moved| *moved > 0.0) else {
         return;
     };
-    if moved > tolerance {
-        page.heading("Assembly");
-        let mut text = format!(
-            "The file's pose does not close. It was assembled by moving joints by up to {} m",
-            figure(moved)
-        );
-        if let Some(residual) = assembly.residual {
-            text.push_str(&format!("; the largest gap left is {} m", figure(residual)));
-        }
-        text.push_str(". Everything here holds at the assembled pose.");
-        page.paragraph(&text, Tint::Plain, "  ", "  ");
+    page.heading("Assembly");
+    let worst = assembly
+        .gaps
+        .iter()
+        .max_by(|a, b| a.position.total_cmp(&b.position));
+    let mut text = match worst {
+        Some(gap) => format!(
+            "As the file draws it, loop `{}` is open by {} m and {}°.",
+            gap.cycle,
+            figure(gap.position),
+            figure(gap.angle.to_degrees())
+        ),
+        None => "The file's pose does not satisfy its couplings.".to_owned(),
+    };
+    text.push_str(&format!(
+        " It was assembled by moving joints by up to {} m",
+        figure(moved)
+    ));
+    if let Some(residual) = assembly.residual {
+        text.push_str(&format!("; {} of a loop's size is left", figure(residual)));
     }
+    text.push_str(". Everything here holds at the assembled pose.");
+    page.paragraph(&text, Tint::Plain, "  ", "  ");
 }
 
 /// The branches through the pose.
@@ -315,6 +326,12 @@ pub(super) fn details(report: &Report, page: &mut Page) {
     if page.layout().verbose {
         blocks(report, page);
         rank_details(report, page);
+        if !report.skipped.is_empty() {
+            page.heading("Not read, because it says nothing about motion");
+            for skipped in &report.skipped {
+                page.item(skipped, Tint::Quiet);
+            }
+        }
         if let Some(tree) = &report.tree {
             page.heading("Spanning tree");
             let text = format!(

@@ -88,14 +88,14 @@ fn unassembled(assembly: &Assembly) -> String {
     let worst = assembly
         .gaps
         .iter()
-        .max_by(|a, b| a.position.total_cmp(&b.position));
+        .max_by(|a, b| a.left_position.total_cmp(&b.left_position));
     match worst {
         Some(gap) => format!(
             "Does not assemble: loop `{}` stays open by {} m and {}° however the joints are turned, so there is no pose \
              to analyse.",
             gap.cycle,
-            figure(gap.position),
-            figure(gap.angle.to_degrees())
+            figure(gap.left_position),
+            figure(gap.left_angle.to_degrees())
         ),
         None => "Does not assemble: the loops cannot be closed, so there is no pose to analyse."
             .to_owned(),

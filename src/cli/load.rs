@@ -1,0 +1,38 @@
+//! From a path to a mechanism and its report.
+
+use super::failure::Failure;
+use kutzbach::format::{Reading, read_file};
+use kutzbach::report::{Options, Report, report};
+use std::path::Path;
+
+/// Reads a mechanism file.
+///
+/// # Errors
+/// What is wrong with the file, and where.
+pub fn mechanism(file: &Path, settings: &[(String, String)]) -> Result<Reading, Failure> {
+    Ok(read_file(file, settings)?)
+}
+
+/// Analyses what was read.
+///
+/// # Errors
+/// Where the options ask for what the mechanism does not have.
+pub fn report_on(reading: &Reading, file: &Path, options: &Options) -> Result<Report, Failure> {
+    report(reading, &file.display().to_string(), options).map_err(|error| Failure::Plain {
+        message: format!("{}: {error}", file.display()),
+        help: Some(error.help()),
+    })
+}
+
+/// Reads `name=value` of a `--set`.
+///
+/// # Errors
+/// Where there is no `=`, or nothing before it.
+pub fn setting(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.trim().is_empty() && !value.trim().is_empty() => {
+            Ok((name.trim().to_owned(), value.trim().to_owned()))
+        }
+        _ => Err("write it as name=value, for example `twist=pi/4`".to_owned()),
+    }
+}

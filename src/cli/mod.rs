@@ -1,0 +1,64 @@
+//! The command line: words in, a call into the library, text out. One file per subcommand; no analysis in any of them.
+//!
+//! Exit codes: 0 done; 1 an expectation failed; 2 bad input; 3 undecided where `--strict` was given.
+
+mod check;
+mod excerpt;
+mod explain;
+mod failure;
+mod graph;
+mod load;
+mod output;
+mod report;
+mod terminal;
+
+use clap::{Parser, Subcommand};
+use failure::Failure;
+use std::process::ExitCode;
+
+/// Exit code of a command that did what was asked.
+const DONE: u8 = 0;
+/// Exit code where an expectation failed.
+const DISAGREEMENT: u8 = 1;
+/// Exit code for input that cannot be used.
+const BAD_INPUT: u8 = 2;
+/// Exit code for an undecided verdict under `--strict`.
+const UNDECIDED: u8 = 3;
+
+/// How can this mechanism move, and why?
+#[derive(Debug, Parser)]
+#[command(name = "kutzbach", version, about, max_term_width = 100)]
+#[command(
+    after_help = "Exit codes: 0 done, 1 an expectation failed, 2 bad input, 3 undecided under --strict."
+)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Report(report::Arguments),
+    Check(check::Arguments),
+    Graph(graph::Arguments),
+    Explain(explain::Arguments),
+}
+
+/// Reads the arguments, runs the command and tells what went wrong.
+pub fn run() -> ExitCode {
+    let outcome = match Arguments::parse().command {
+        Command::Report(arguments) => report::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
+        Command::Graph(arguments) => graph::run(&arguments),
+        Command::Explain(arguments) => explain::run(&arguments),
+    };
+    match outcome {
+        Ok(code) => ExitCode::from(code),
+        // Whoever read the output has seen enough, as in `kutzbach report … | head`.
+        Err(Failure::ReaderGone) => ExitCode::from(DONE),
+        Err(failure) => {
+            failure.tell();
+            ExitCode::from(BAD_INPUT)
+        }
+    }
+}

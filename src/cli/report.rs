@@ -1,0 +1,71 @@
+//! `kutzbach report FILE`: the mobility report.
+
+use super::failure::Failure;
+use super::{DONE, UNDECIDED, load, output, terminal};
+use clap::{Args, ValueEnum};
+use kutzbach::report::text::render;
+use kutzbach::report::{Options, Verdict};
+use std::path::PathBuf;
+
+/// Say how a mechanism can move, and why
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// Mechanism file
+    file: PathBuf,
+    /// Form of the report
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+    /// Write to this file instead of standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Give a property of the file another value, a number or an expression; may be repeated
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = load::setting)]
+    settings: Vec<(String, String)>,
+    /// Analyse a configuration of the file instead of the home pose
+    #[arg(long, value_name = "CONFIGURATION")]
+    at: Option<String>,
+    /// End with exit code 3 where the verdict is undecided
+    #[arg(long)]
+    strict: bool,
+    /// Show every row and every detail, and what of the file was skipped
+    #[arg(long)]
+    verbose: bool,
+    /// Say how long the stages took
+    #[arg(long)]
+    timing: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// A page for a person
+    Text,
+    /// Everything, for a program
+    Json,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Where the file cannot be read, has no such configuration, or the output cannot be written.
+pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let reading = load::mechanism(&arguments.file, &arguments.settings)?;
+    let options = Options {
+        configuration: arguments.at.clone(),
+        timing: arguments.timing,
+    };
+    let report = load::report_on(&reading, &arguments.file, &options)?;
+    let text = match arguments.format {
+        Format::Text => render(
+            &report,
+            terminal::layout(arguments.output.is_some(), arguments.verbose),
+        ),
+        Format::Json => output::json(&report)?,
+    };
+    output::put(&text, arguments.output.as_deref())?;
+    let undecided = report.mobility.verdict == Verdict::Undecided;
+    Ok(if arguments.strict && undecided {
+        UNDECIDED
+    } else {
+        DONE
+    })
+}

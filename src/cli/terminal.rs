@@ -1,0 +1,36 @@
+//! What the terminal can show.
+
+use kutzbach::report::text::Layout;
+use std::io::IsTerminal;
+
+/// Columns of a page where the terminal does not say.
+const USUAL_WIDTH: usize = 100;
+
+/// The layout for standard output, or for a file.
+pub fn layout(to_file: bool, verbose: bool) -> Layout {
+    let terminal = !to_file && std::io::stdout().is_terminal();
+    Layout {
+        color: terminal && color_wanted(),
+        width: if terminal { width() } else { USUAL_WIDTH },
+        verbose,
+    }
+}
+
+/// Whether standard error shows colours.
+pub fn color_on_stderr() -> bool {
+    std::io::stderr().is_terminal() && color_wanted()
+}
+
+/// <https://no-color.org>: any value but an empty one forbids colour. A dumb terminal has none.
+fn color_wanted() -> bool {
+    let set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    !set("NO_COLOR") && std::env::var_os("TERM").is_none_or(|term| term != "dumb")
+}
+
+/// The width that the shell states; a page wider than 160 columns is hard to read.
+fn width() -> usize {
+    std::env::var("COLUMNS")
+        .ok()
+        .and_then(|columns| columns.parse().ok())
+        .map_or(USUAL_WIDTH, |columns: usize| columns.min(160))
+}

@@ -1,0 +1,135 @@
+//! Names: each is given once, and what is referred to exists.
+
+use super::element::{Attribute, Element};
+use super::error::{Fault, MOST_FAULTS, Outcome};
+use super::words::{did_you_mean, quoted};
+use std::collections::HashMap;
+use std::ops::Range;
+
+/// What a name belongs to. Joints (loops among them) and couplings share one set of names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Named {
+    Link,
+    Joint,
+    Coupling,
+    Configuration,
+}
+
+/// All names that a file gives and refers to. The maps are only asked for single names, so their order does not matter.
+#[derive(Default)]
+pub(super) struct Directory<'a> {
+    /// Every named thing with its place, in file order.
+    given: Vec<(Named, &'a str, Range<usize>)>,
+    links: HashMap<&'a str, usize>,
+    joints: HashMap<&'a str, usize>,
+    configurations: HashMap<&'a str, usize>,
+    /// Attributes that name a link or a joint.
+    references: Vec<(Named, Attribute<'a>)>,
+}
+
+impl<'a> Directory<'a> {
+    /// The name of a new thing; a name that is taken is an error.
+    pub(super) fn add(&mut self, sort: Named, element: Element<'a>) -> Outcome<&'a str> {
+        let name = element.required("name")?;
+        check_name(name)?;
+        let names = match sort {
+            Named::Link => &mut self.links,
+            Named::Joint | Named::Coupling => &mut self.joints,
+            Named::Configuration => &mut self.configurations,
+        };
+        if let Some(first) = names.get(name.value) {
+            let other = match self.given[*first].0 {
+                Named::Link => "link",
+                Named::Joint => "joint or loop",
+                Named::Coupling => "coupling",
+                Named::Configuration => "configuration",
+            };
+            let help = match sort {
+                Named::Joint | Named::Coupling => {
+                    "joints, loops and couplings share one set of names"
+                }
+                Named::Link => "every link has a name of its own",
+                Named::Configuration => "every configuration has a name of its own",
+            };
+            return Err(name
+                .fault(format!(
+                    "the name {} is taken by another {other}",
+                    quoted(name.value)
+                ))
+                .help(help));
+        }
+        names.insert(name.value, self.given.len());
+        self.given.push((sort, name.value, element.range()));
+        Ok(name.value)
+    }
+
+    /// The value of an attribute that names a link or a joint; whether that exists is asked when everything is read.
+    pub(super) fn refer(
+        &mut self,
+        sort: Named,
+        element: Element<'a>,
+        attribute: &str,
+    ) -> Outcome<&'a str> {
+        let attribute = element.required(attribute)?;
+        check_name(attribute)?;
+        self.references.push((sort, attribute));
+        Ok(attribute.value)
+    }
+
+    /// Where the thing of that name is.
+    pub(super) fn place(&self, sort: Named, name: &str) -> Option<Range<usize>> {
+        self.given
+            .iter()
+            .find(|(other, given, _)| *other == sort && *given == name)
+            .map(|(.., range)| range.clone())
+    }
+
+    /// A fault for each reference to something that does not exist.
+    pub(super) fn unresolved(&self) -> Vec<Fault> {
+        self.references
+            .iter()
+            .filter(|(sort, attribute)| !self.exists(*sort, attribute.value))
+            .take(MOST_FAULTS)
+            .map(|(sort, attribute)| {
+                let what = if *sort == Named::Link {
+                    "link"
+                } else {
+                    "joint"
+                };
+                let known = self.given.iter().filter(|(other, ..)| other == sort);
+                let name = attribute.value;
+                attribute
+                    .fault(format!("there is no {what} named {}", quoted(name)))
+                    .maybe_help(did_you_mean(
+                        name,
+                        known.map(|(_, name, _)| *name),
+                        ("`", "`"),
+                    ))
+            })
+            .collect()
+    }
+
+    fn exists(&self, sort: Named, name: &str) -> bool {
+        let index = match sort {
+            Named::Link => self.links.get(name),
+            Named::Joint | Named::Coupling => self.joints.get(name),
+            Named::Configuration => self.configurations.get(name),
+        };
+        index.is_some_and(|index| self.given[*index].0 == sort)
+    }
+}
+
+fn check_name(name: Attribute<'_>) -> Outcome<()> {
+    if name.value.is_empty() {
+        return Err(name.fault("needed a name, found nothing"));
+    }
+    if name.value.contains("${") || name.value.contains("$(") {
+        return Err(name
+            .fault(format!(
+                "expressions stand for numbers, not for names such as {}",
+                quoted(name.value)
+            ))
+            .help("expand the file with xacro first"));
+    }
+    Ok(())
+}

@@ -1,0 +1,303 @@
+//! Lays what an analysis found over a report that holds counts only.
+
+use super::natural::natural_order;
+use super::schema::{
+    Advice, Assembly, Block, Certificate, Cycle, Gap, GenericCount, Home, JointRow, Mobility,
+    Report, Tree, TreeLink,
+};
+use super::vocabulary::{CertificateLevel, Pose, Verdict};
+use crate::matrix::Method;
+use crate::mechanism::{JointKind, Mechanism};
+use crate::mobility::{self, Analysis, PartRank};
+
+/// Fills in everything that the analysis decided. Linear in the size of both.
+pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis) {
+    report.generic = Some(GenericCount {
+        mobility: usize::try_from(analysis.generic.mobility).unwrap_or(0),
+        redundant: analysis.generic.redundant,
+    });
+    report.assembly = assembly(mechanism, analysis);
+    fill_home(&mut report.home, analysis);
+    report.mobility = verdict(analysis);
+    report.joints = joint_rows(mechanism, analysis);
+    report.cycles = cycle_rows(mechanism, analysis);
+    report.tree = Some(tree(analysis));
+    report.advice = analysis
+        .advice
+        .iter()
+        .map(|a| advice(mechanism, a))
+        .collect();
+    if !analysis.structure.cycles_are_fundamental {
+        report.warnings.push(
+            "the fundamental cycles of the spanning tree are too long to list; the cycles shown are a shortest basis".to_owned(),
+        );
+    }
+    if analysis.parts.iter().any(|part| part.taken_literally) {
+        report.warnings.push(
+            "the numbers are stated so coarsely, for a mechanism of this size, that rounding would leave every rank open; \
+             they were taken literally"
+                .to_owned(),
+        );
+    }
+    if analysis.structure.loose_pieces > 0 {
+        report.warnings.push(format!(
+            "{} of the links are connected to the ground by no joint at all; each such piece counts with six freedoms",
+            analysis.structure.loose_pieces
+        ));
+    }
+}
+
+fn assembly(mechanism: &Mechanism, analysis: &Analysis) -> Assembly {
+    let found = &analysis.assembly;
+    let mut gaps: Vec<Gap> = found
+        .gaps
+        .iter()
+        .map(|gap| Gap {
+            cycle: mechanism.joints()[gap.joint].name.clone(),
+            position: gap.position,
+            angle: gap.angle,
+            left_position: gap.left_position,
+            left_angle: gap.left_angle,
+        })
+        .collect();
+    gaps.sort_by(|a, b| natural_order(&a.cycle, &b.cycle));
+    Assembly {
+        closed: Some(found.closed),
+        residual: Some(found.residual),
+        moved: Some(found.moved),
+        tolerance: Some(found.tolerance),
+        gaps,
+    }
+}
+
+fn fill_home(home: &mut Home, analysis: &Analysis) {
+    let Some(found) = &analysis.home else { return };
+    let parts = &analysis.parts;
+    home.pose = analysis.mobility.regular.then_some(Pose::Regular);
+    home.instantaneous = found.instantaneous;
+    home.candidates = [found.candidates.0, found.candidates.1];
+    home.as_written = found.as_written;
+    home.redundant = found.redundant;
+    home.rank = found
+        .instantaneous
+        .map(|freedom| home.unknowns.saturating_sub(freedom));
+    // The weakest part speaks for the whole.
+    let weakest = parts
+        .iter()
+        .filter(|part| part.unknowns() > 0 && part.equations() > 0)
+        .min_by(|a, b| margin(a).total_cmp(&margin(b)));
+    if let Some(part) = weakest {
+        let decision = &part.decision;
+        home.gap = decision.gap.is_finite().then_some(decision.gap);
+        home.kept = Some(decision.kept);
+        home.dropped = Some(decision.dropped);
+        home.tolerance = Some(decision.tolerance);
+        home.accuracy = Some(decision.accuracy);
+        home.method = match decision.method {
+            Method::Svd => "singular values",
+            Method::Jacobi => "singular values by Jacobi rotations",
+            Method::SparseQr => "sparse QR with estimated singular values",
+        }
+        .to_owned();
+        home.bits = parts.iter().map(|part| part.bits).max();
+    }
+    home.note = parts.iter().find_map(|part| part.note.clone());
+    home.blocks = parts
+        .iter()
+        .zip(&analysis.structure.parts)
+        .map(|(rank, part)| Block {
+            name: part.joints.first().map_or_else(String::new, |joint| {
+                analysis.structure.graph.edge_name(*joint).to_owned()
+            }),
+            joints: part.joints.len(),
+            unknowns: rank.unknowns(),
+            rank: rank.instantaneous.map(|freedom| rank.unknowns() - freedom),
+            instantaneous: rank.instantaneous,
+        })
+        .collect();
+}
+
+/// How far the decision of a part is from being another: the smaller of its clearances from the tolerance on both sides.
+fn margin(part: &PartRank) -> f64 {
+    let decision = &part.decision;
+    let above = if decision.kept > 0.0 {
+        decision.kept / decision.tolerance
+    } else {
+        f64::INFINITY
+    };
+    let below = if decision.dropped > 0.0 {
+        decision.tolerance / decision.dropped
+    } else {
+        f64::INFINITY
+    };
+    above.min(below)
+}
+
+fn verdict(analysis: &Analysis) -> Mobility {
+    let found = &analysis.mobility;
+    let verdict = match found.verdict {
+        mobility::Verdict::Mobile => Verdict::Mobile,
+        mobility::Verdict::Rigid => Verdict::Rigid,
+        mobility::Verdict::Undecided => Verdict::Undecided,
+        mobility::Verdict::Unassembled => Verdict::Unassembled,
+    };
+    Mobility {
+        verdict,
+        finite: found.finite(),
+        bounds: [found.bounds.0, found.bounds.1],
+        complex_dimension: None,
+        class: None,
+        certificate: Some(Certificate {
+            level: CertificateLevel::Numeric,
+            text: found.certificate.clone(),
+        }),
+        nominal: None,
+        why: found.why.clone(),
+    }
+}
+
+fn joint_rows(mechanism: &Mechanism, analysis: &Analysis) -> Vec<JointRow> {
+    let mut rows: Vec<JointRow> = mechanism
+        .joints()
+        .iter()
+        .zip(&analysis.roles)
+        .zip(&analysis.redundant_wrenches)
+        .map(|((joint, role), wrenches)| JointRow {
+            name: joint.name.clone(),
+            class: joint.kind.class().to_owned(),
+            kind: joint.kind.word().to_owned(),
+            links: [&joint.predecessor, &joint.successor]
+                .map(|side| mechanism.link(side.link).name.clone()),
+            freedom: joint.freedom(),
+            locked: role.locked,
+            locked_parts: role.locked_parts.clone(),
+            redundant_wrenches: *wrenches,
+            closes_loop: joint.closes_loop,
+        })
+        .collect();
+    rows.sort_by(|a, b| natural_order(&a.name, &b.name));
+    rows
+}
+
+fn cycle_rows(mechanism: &Mechanism, analysis: &Analysis) -> Vec<Cycle> {
+    let name = |joint: usize| mechanism.joints()[joint].name.clone();
+    if analysis.cycles.is_empty() {
+        // Not assembled: the cycles are there, but nothing can be said of their motions.
+        return analysis
+            .structure
+            .cycles
+            .iter()
+            .enumerate()
+            .map(|(index, cycle)| Cycle {
+                name: format!("C{}", index + 1),
+                joints: cycle.edges.iter().map(|(edge, _)| name(*edge)).collect(),
+                space: None,
+                space_text: String::new(),
+                dimension: None,
+                rank: None,
+                redundant: None,
+                mobility: None,
+                locks: Vec::new(),
+            })
+            .collect();
+    }
+    analysis
+        .cycles
+        .iter()
+        .enumerate()
+        .map(|(index, facts)| Cycle {
+            name: format!("C{}", index + 1),
+            joints: facts.joints.iter().map(|(joint, _)| name(*joint)).collect(),
+            space: facts
+                .space
+                .as_ref()
+                .map(|space| space.short_name().to_owned()),
+            space_text: facts
+                .space
+                .as_ref()
+                .map(ToString::to_string)
+                .unwrap_or_default(),
+            dimension: facts.space_dimension,
+            rank: facts.rank,
+            redundant: facts.redundant.and_then(|r| i64::try_from(r).ok()),
+            mobility: facts.mobility,
+            locks: facts.locks.clone(),
+        })
+        .collect()
+}
+
+fn tree(analysis: &Analysis) -> Tree {
+    let graph = &analysis.structure.graph;
+    let tree = &analysis.structure.tree;
+    let root = tree
+        .roots()
+        .first()
+        .copied()
+        .unwrap_or_else(|| graph.ground());
+    let links = tree
+        .order()
+        .iter()
+        .filter_map(|&node| {
+            let up = tree.parent(node)?;
+            Some(TreeLink {
+                link: graph.node_name(node).to_owned(),
+                parent: graph.node_name(up.node).to_owned(),
+                joint: graph.edge_name(up.edge).to_owned(),
+                depth: tree.depth(node),
+            })
+        })
+        .collect();
+    Tree {
+        root: graph.node_name(root).to_owned(),
+        depth: tree.height(),
+        links,
+    }
+}
+
+fn advice(mechanism: &Mechanism, advice: &mobility::Advice) -> Advice {
+    let joint = &mechanism.joints()[advice.joint];
+    let gained = advice.redundant_before - advice.redundant_after;
+    let how = match (joint.kind, advice.to) {
+        (JointKind::Revolute, JointKind::Cylindrical) => "let it slide along its axis".to_owned(),
+        (
+            JointKind::Prismatic | JointKind::PlanarTranslation,
+            JointKind::Cylindrical | JointKind::Planar,
+        ) => "let it turn about its axis".to_owned(),
+        (JointKind::Revolute, JointKind::Universal) => match advice.second_axis {
+            Some([x, y, z]) => format!(
+                "let it tilt about ({}, {}, {}) of its own frame",
+                round(x),
+                round(y),
+                round(z)
+            ),
+            None => "let it tilt about a second axis".to_owned(),
+        },
+        (_, JointKind::Spherical) => "make it a ball joint".to_owned(),
+        (_, JointKind::Translational) => "let it translate in every direction".to_owned(),
+        (_, JointKind::Schoenflies) => "let it move along its axis too".to_owned(),
+        (JointKind::Screw, _) => "let it turn and slide independently".to_owned(),
+        (_, to) => format!("make it {to}"),
+    };
+    let (from, to) = (joint.kind.class(), advice.to.class());
+    let removed = if gained == 1 {
+        "1 redundant constraint".to_owned()
+    } else {
+        format!("{gained} redundant constraints")
+    };
+    Advice {
+        text: format!(
+            "{}: {from} → {to}, {how}; removes {removed} and adds no freedom at this pose",
+            joint.name
+        ),
+        joint: joint.name.clone(),
+        from: from.to_owned(),
+        to: to.to_owned(),
+        redundant_before: advice.redundant_before,
+        redundant_after: advice.redundant_after,
+    }
+}
+
+/// Four decimals, without a sign on zero.
+fn round(x: f64) -> f64 {
+    (x * 1e4).round() / 1e4 + 0.0
+}

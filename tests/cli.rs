@@ -1,0 +1,275 @@
+//! The command line as a user meets it: what it prints, what it exits with, what it leaves behind.
+#![allow(clippy::unwrap_used)]
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+
+const BAR: &str = r#"<robot name="bar" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <link name="ground"/> <link name="crank"/> <link name="coupler"/> <link name="rocker"/>
+  <xacro:property name="length" value="2"/>
+  <joint name="A" type="revolute"><parent link="ground"/><child link="crank"/><axis xyz="0 0 1"/></joint>
+  <joint name="B" type="revolute"><parent link="crank"/><child link="coupler"/><origin xyz="0 1 0"/><axis xyz="0 0 1"/></joint>
+  <joint name="D" type="revolute"><parent link="ground"/><child link="rocker"/><origin xyz="${length} 0 0"/><axis xyz="0 0 1"/></joint>
+  <loop name="C" type="revolute">
+    <predecessor link="coupler"><origin xyz="${length} 0 0"/></predecessor>
+    <successor link="rocker"><origin xyz="0 1 0"/></successor>
+    <axis xyz="0 0 1"/>
+  </loop>
+  <expect kutzbach="-2"/>
+</robot>
+"#;
+
+/// A folder of its own for one test.
+fn folder(test: &str) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("cli_{test}"));
+    let _ = fs::remove_dir_all(&path);
+    fs::create_dir_all(&path).unwrap();
+    path
+}
+
+fn kutzbach(folder: &PathBuf, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+        .args(arguments)
+        .current_dir(folder)
+        .stdin(Stdio::null())
+        .output()
+        .unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+#[test]
+fn report_prints_a_page_without_colour_into_a_pipe() {
+    let folder = folder("page");
+    fs::write(folder.join("bar.urdf"), BAR).unwrap();
+    let output = kutzbach(&folder, &["report", "bar.urdf"]);
+    assert_eq!(output.status.code(), Some(0));
+    let page = text(&output.stdout);
+    assert!(page.contains("Kutzbach's count"), "{page}");
+    assert!(page.contains("bar (bar.urdf): 4 links, 4 joints and 1 independent loop"));
+    assert!(!page.contains('\u{1b}'));
+    assert!(output.stderr.is_empty());
+}
+
+#[test]
+fn report_writes_json_that_is_the_same_every_time() {
+    let folder = folder("json");
+    fs::write(folder.join("bar.urdf"), BAR).unwrap();
+    let once = kutzbach(&folder, &["report", "bar.urdf", "--format", "json"]);
+    let again = kutzbach(&folder, &["report", "bar.urdf", "--format", "json"]);
+    assert_eq!(once.stdout, again.stdout);
+    let report: serde_json::Value = serde_json::from_slice(&once.stdout).unwrap();
+    assert_eq!(report["schema"], "kutzbach-report-1");
+    assert_eq!(report["kutzbach"], -2);
+    assert_eq!(report["size"]["loops"], 1);
+    assert!(report.get("timing").is_none());
+}
+
+#[test]
+fn strict_exits_with_3_exactly_where_the_verdict_is_undecided() {
+    let folder = folder("strict");
+    fs::write(folder.join("bar.urdf"), BAR).unwrap();
+    let output = kutzbach(
+        &folder,
+        &["report", "bar.urdf", "--format", "json", "--strict"],
+    );
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let undecided = report["mobility"]["verdict"] == "undecided";
+    assert_eq!(output.status.code(), Some(if undecided { 3 } else { 0 }));
+}
+
+#[test]
+fn output_replaces_a_file_as_a_whole_and_leaves_nothing_else() {
+    let folder = folder("output");
+    fs::write(folder.join("bar.urdf"), BAR).unwrap();
+    fs::write(folder.join("out.json"), "x".repeat(1 << 20)).unwrap();
+    let arguments = ["report", "bar.urdf", "--format", "json", "-o", "out.json"];
+    let output = kutzbach(&folder, &arguments);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(output.stdout.is_empty());
+    let written = fs::read(folder.join("out.json")).unwrap();
+    assert!(serde_json::from_slice::<serde_json::Value>(&written).is_ok());
+    let mut left: Vec<_> = fs::read_dir(&folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name())
+        .collect();
+    left.sort();
+    assert_eq!(left, ["bar.urdf", "out.json"]);
+
+    let output = kutzbach(&folder, &["report", "bar.urdf", "-o", "no/such/folder"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("cannot write `no/such/folder`"));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_device_is_written_to_and_not_replaced() {
+    let folder = folder("device");
+    fs::write(folder.join("bar.urdf"), BAR).unwrap();
+    let output = kutzbach(&folder, &["report", "bar.urdf", "-o", "/dev/null"]);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(!fs::metadata("/dev/null").unwrap().is_file());
+}
+
+#[test]
+fn bad_input_is_shown_with_line_column_and_hint() {
+    let folder = folder("bad");
+    fs::write(
+        folder.join("bar.urdf"),
+        BAR.replace(
+            "<loop name=\"C\" type=\"revolute\">",
+            "<loop name=\"C\" type=\"revolut\">",
+        ),
+    )
+    .unwrap();
+    let output = kutzbach(&folder, &["report", "bar.urdf"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(output.stdout.is_empty());
+    let message = text(&output.stderr);
+    for part in ["bar.urdf:7:", "<loop name=\"C\"", "revolut", "help: "] {
+        assert!(message.contains(part), "{part} in {message}");
+    }
+    assert!(!message.contains('\u{1b}'));
+}
+
+#[test]
+fn settings_reach_the_file_and_bad_ones_are_refused() {
+    let folder = folder("set");
+    fs::write(folder.join("bar.urdf"), BAR).unwrap();
+    for (arguments, code) in [
+        (vec!["report", "bar.urdf", "--set", "length=5/2"], 0),
+        (vec!["report", "bar.urdf", "--set", "lenght=5/2"], 2),
+        (vec!["report", "bar.urdf", "--set", "length=1/0"], 2),
+        (vec!["report", "bar.urdf", "--set", "length"], 2),
+        (vec!["report", "bar.urdf", "--at", "open"], 2),
+        (vec!["report", "missing.urdf"], 2),
+        (vec!["report", "."], 2),
+        (vec!["trace", "bar.urdf"], 2),
+        (vec!["graph", "bar.urdf", "--set", "length=3"], 0),
+    ] {
+        let output = kutzbach(&folder, &arguments);
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}");
+        assert_eq!(output.stderr.is_empty(), code == 0, "{arguments:?}");
+    }
+}
+
+#[test]
+fn check_compares_both_sources_and_exits_with_1_on_a_disagreement() {
+    let folder = folder("check");
+    fs::create_dir(folder.join("inner")).unwrap();
+    fs::write(folder.join("inner/bar.urdf"), BAR).unwrap();
+    fs::write(
+        folder.join("other.urdf"),
+        BAR.replace("<expect kutzbach=\"-2\"/>", ""),
+    )
+    .unwrap();
+    let output = kutzbach(&folder, &["check", "."]);
+    assert_eq!(output.status.code(), Some(0));
+    let page = text(&output.stdout);
+    assert!(
+        page.contains("2 files: 1 fact right, 0 wrong, 0 open. Nothing is known of 1 file."),
+        "{page}"
+    );
+
+    fs::write(
+        folder.join("expected.json"),
+        r#"{"other": {"kutzbach": 1, "idle": null, "colour": "red"}, "gone": {}}"#,
+    )
+    .unwrap();
+    let output = kutzbach(&folder, &["check", "."]);
+    assert_eq!(output.status.code(), Some(1));
+    let page = text(&output.stdout);
+    for part in [
+        "1 disagreement",
+        "other.urdf",
+        "kutzbach",
+        "other.colour",
+        "`gone`",
+    ] {
+        assert!(page.contains(part), "{part} in {page}");
+    }
+    let output = kutzbach(
+        &folder,
+        &["check", "inner/bar.urdf", "other.urdf", "--format", "json"],
+    );
+    let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(json["disagreements"][0]["what"], "kutzbach");
+    assert_eq!(json["disagreements"][0]["expected"], "1");
+    assert_eq!(json["disagreements"][0]["found"], "-2");
+    assert_eq!(json["right"], 1);
+}
+
+#[test]
+fn check_tells_unreadable_files_after_all_others() {
+    let folder = folder("unreadable");
+    fs::write(folder.join("a.urdf"), "<robot").unwrap();
+    fs::write(folder.join("b.urdf"), BAR).unwrap();
+    let output = kutzbach(&folder, &["check", "."]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stdout).contains("2 files: 1 fact right"));
+    assert!(text(&output.stderr).contains("a.urdf:1:"));
+    fs::write(folder.join("expected.json"), "{").unwrap();
+    let output = kutzbach(&folder, &["check", "b.urdf"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("expected.json:1:"));
+    let output = kutzbach(&folder, &["check", "nowhere"]);
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
+fn graph_has_four_forms() {
+    let folder = folder("graph");
+    fs::write(folder.join("bar.urdf"), BAR).unwrap();
+    for (format, part) in [
+        ("text", "ground"),
+        ("dot", "graph"),
+        ("svg", "<svg"),
+        ("json", "\"chords\""),
+    ] {
+        let output = kutzbach(&folder, &["graph", "bar.urdf", "--format", format]);
+        assert_eq!(output.status.code(), Some(0));
+        assert!(text(&output.stdout).contains(part), "{format}");
+    }
+}
+
+#[test]
+fn explain_defines_words_and_suggests_near_ones() {
+    let folder = folder("explain");
+    let output = kutzbach(&folder, &["explain", "permanently", "shaky"]);
+    assert!(text(&output.stdout).starts_with("D7 "));
+    let output = kutzbach(&folder, &["explain"]);
+    assert!(text(&output.stdout).contains("D12"));
+    let output = kutzbach(&folder, &["explain", "redundent"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("did you mean `redundant`?"));
+}
+
+#[test]
+fn a_reader_that_leaves_is_no_error() {
+    let folder = folder("pipe");
+    let links: String = (0..3000)
+        .map(|n| {
+            format!(
+                "<link name=\"l{}\"/><joint name=\"j{n}\" type=\"revolute\"><parent link=\"l{n}\"/><child link=\"l{}\"/></joint>",
+                n + 1,
+                n + 1
+            )
+        })
+        .collect();
+    let chain = format!("<robot name=\"chain\"><link name=\"l0\"/>{links}</robot>");
+    fs::write(folder.join("chain.urdf"), chain).unwrap();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+        .args(["graph", "chain.urdf", "--format", "dot"])
+        .current_dir(&folder)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(output.stderr.is_empty());
+}

@@ -1,0 +1,250 @@
+//! What a file means: every element of the format, what is skipped, what is warned of, and which dialect it is.
+
+#![allow(clippy::unwrap_used)]
+
+mod format_support;
+
+use format_support::{chain, robot};
+use kutzbach::format::{Reading, read};
+use kutzbach::mechanism::{CouplingOrigin, JointKind, Placement};
+
+fn reading(text: &str) -> Reading {
+    read(text, "file", &[]).unwrap_or_else(|error| panic!("{error} {:?}\n{text}", error.help))
+}
+
+fn values(numbers: &[kutzbach::number::Number]) -> Vec<f64> {
+    numbers.iter().map(|number| number.value()).collect()
+}
+
+#[test]
+fn every_type_word_is_a_kind() {
+    let words = JointKind::ALL.map(|kind| (kind.word(), kind));
+    let synonyms = [
+        ("continuous", JointKind::Revolute),
+        ("line_on_line", JointKind::Cylindrical),
+        ("plane_on_plane", JointKind::Planar),
+        ("point_on_point", JointKind::Spherical),
+    ];
+    for (word, kind) in words.into_iter().chain(synonyms) {
+        let inside = match kind {
+            JointKind::Screw | JointKind::TranslatingScrew => "<screw lead='-0.01'/>",
+            JointKind::Distance => "<distance value='0.5'/>",
+            _ => "",
+        };
+        let reading = reading(&chain(word, inside));
+        let joint = &reading.mechanism.joints()[0];
+        assert_eq!(joint.kind, kind, "{word}");
+        assert!(!joint.closes_loop);
+        assert_eq!(values(&joint.axis.0), [1.0, 0.0, 0.0], "the default axis");
+        let plain = ["revolute", "continuous", "prismatic", "fixed", "planar"].contains(&word);
+        assert_eq!(
+            reading.format,
+            if plain { "urdf" } else { "kutzbach-urdf" },
+            "{word}"
+        );
+    }
+}
+
+#[test]
+fn expressions_stand_wherever_numbers_do() {
+    let text = robot(
+        "<joint name='j' type='screw'><parent link='a'/><child link='b'/>\n\
+         <origin xyz='${a} 0 ${ sqrt(3) / 2 }' rpy='$(arg twist) ${radians(30)} -${b}'/>\n\
+         <axis xyz='${1/3} 0.50 -.5'/><screw lead='${2*$(arg twist)/b}'/><limit lower='${-b}'/></joint>\n\
+         <joint name='k' type='fixed'><parent link='b'/><child link='c'/></joint>\n\
+         <xacro:property name='a' value='2*b'/>\n\
+         <xacro:property name='b' value='3/5'/><xacro:arg name='twist' default='pi/6'/>",
+    );
+    let reading = reading(&text);
+    let joint = &reading.mechanism.joints()[0];
+    let position = values(&joint.predecessor.frame.position);
+    assert_eq!(position, [1.2, 0.0, 3f64.sqrt() / 2.0]);
+    let angles = values(&joint.predecessor.frame.roll_pitch_yaw);
+    let sixth = std::f64::consts::FRAC_PI_6;
+    assert!(
+        (angles[0] - sixth).abs() < 1e-15 && (angles[1] - sixth).abs() < 1e-15 && angles[2] == -0.6
+    );
+    assert!((joint.lead.as_ref().unwrap().value() - 2.0 * sixth / 0.6).abs() < 1e-14);
+    assert_eq!(
+        joint
+            .limit
+            .as_ref()
+            .unwrap()
+            .lower
+            .as_ref()
+            .unwrap()
+            .value(),
+        -0.6
+    );
+    let stated: Vec<Option<i32>> = joint
+        .axis
+        .0
+        .iter()
+        .map(|n| n.stated().map(|s| s.decimals))
+        .collect();
+    assert_eq!(
+        stated,
+        [None, Some(2), Some(1)],
+        "only literals state a precision"
+    );
+    assert_eq!(reading.format, "kutzbach-urdf");
+}
+
+#[test]
+fn loops_couplings_and_mimics() {
+    let text = robot(
+        "<joint name='j' type='continuous' independent='true'><parent link='a'/><child link='b'/></joint>\n\
+         <joint name='k' type='prismatic' independent='0'><parent link='b'/><child link='c'/>\
+           <mimic joint='j' multiplier='-2'/></joint>\n\
+         <loop name='l' type='cylindrical'><predecessor link='c'><origin xyz='1 2 3'/></predecessor>\
+           <successor link='a'/><axis xyz='0 0 2'/></loop>\n\
+         <coupling name='g'><predecessor link='b'/><successor link='c'/><ratio value='6.0'/></coupling>",
+    );
+    let mechanism = reading(&text).mechanism;
+    assert_eq!(mechanism.joints().len(), 3);
+    let closing = &mechanism.joints()[2];
+    assert!(closing.closes_loop);
+    assert_eq!(values(&closing.predecessor.frame.position), [1.0, 2.0, 3.0]);
+    assert!(closing.successor.frame.is_identity());
+    let independent: Vec<Option<bool>> = mechanism.joints().iter().map(|j| j.independent).collect();
+    assert_eq!(independent, [Some(true), Some(false), None]);
+    assert_eq!(mechanism.couplings().len(), 2);
+    for coupling in mechanism.couplings() {
+        match &coupling.origin {
+            CouplingOrigin::Mimic {
+                multiplier, offset, ..
+            } => {
+                assert_eq!((multiplier.value(), offset.value()), (-2.0, 0.0));
+            }
+            CouplingOrigin::Ratio { ratio, .. } => assert_eq!(ratio.value(), 6.0),
+        }
+    }
+    let urdf_plus = text.replace("cylindrical", "revolute");
+    assert_eq!(reading(&urdf_plus).format, "urdf+");
+}
+
+#[test]
+fn ground_poses_scene_and_expectation() {
+    let text = chain("cylindrical", "").replace(
+        "</robot>",
+        "<ground link='c'/>\n\
+         <configuration name='open'><position joint='j' value='0.1 ${pi}'/></configuration>\n\
+         <scene><gravity xyz='0 0 -9.81'/><contact/><friction/></scene>\n\
+         <expect finite='2' instantaneous='2' redundant='-1' kutzbach='3' pose='singular' kind='cusp' locked='j.rot j.trans' idle=' b ' \
+          branches='3' branch_dimensions='2 1'/></robot>",
+    );
+    let mechanism = reading(&text).mechanism;
+    assert_eq!(mechanism.link(mechanism.ground()).name, "c");
+    let open = mechanism.configuration("open").unwrap();
+    assert_eq!(values(&open.positions[0].1), [0.1, std::f64::consts::PI]);
+    let scene = mechanism.scene().unwrap();
+    assert!(scene.contact && scene.friction && !scene.limits && !scene.damping);
+    assert_eq!(values(scene.gravity.as_ref().unwrap()), [0.0, 0.0, -9.81]);
+    let expected = mechanism.expectation().unwrap();
+    assert_eq!(
+        (expected.finite, expected.redundant, expected.kutzbach),
+        (Some(2), Some(-1), Some(3))
+    );
+    assert_eq!(expected.locked.as_deref().unwrap(), ["j.rot", "j.trans"]);
+    assert_eq!(expected.idle.as_deref().unwrap(), ["b"]);
+    assert_eq!(expected.branch_dimensions.as_deref().unwrap(), [1, 2]);
+}
+
+#[test]
+fn a_floating_joint_places_and_does_not_constrain() {
+    let reading = reading(&chain(
+        "floating",
+        "<origin xyz='1 0 0'/><axis xyz='0 0 0'/>",
+    ));
+    assert_eq!(reading.mechanism.joints().len(), 1);
+    let b = reading.mechanism.link_named("b").unwrap();
+    assert!(
+        matches!(&reading.mechanism.link(b).placement, Placement::Floating { name, .. } if name == "j")
+    );
+    assert_eq!(reading.warnings.len(), 1);
+}
+
+#[test]
+fn what_says_nothing_about_motion_is_skipped_and_listed() {
+    let text = chain("revolute", "<safety_controller k_velocity='1'/><calibration rising='0'/><gazebo><a>text</a></gazebo>")
+        .replace("xmlns:xacro", "xmlns:o='urn:other' o:mark='1' xmlns:xacro")
+        .replace(
+            "</robot>",
+            "<gazebo reference='a'><b c='d'/></gazebo><transmission/><material name='red'/><sensor/><o:thing x='1'>text</o:thing>\n\
+             <link name='d'><visual><geometry><ball/></geometry></visual>\
+             <visual><geometry><sphere radius='1'/></geometry><material name='red'/></visual></link>\
+             <joint name='m' type='fixed'><parent link='a'/><child link='d'/></joint></robot>",
+        );
+    let reading = reading(&text);
+    let what: Vec<&str> = reading
+        .skipped
+        .iter()
+        .map(|s| s.what.split(':').next().unwrap())
+        .collect();
+    let expected = [
+        "attribute `mark` of <robot>",
+        "<safety_controller>",
+        "<calibration>",
+        "<gazebo>",
+        "<gazebo>",
+        "<transmission>",
+        "<material>",
+        "<sensor>",
+        "<o",
+        "<visual>",
+        "<material>",
+    ];
+    assert_eq!(what, expected);
+    assert_eq!((reading.skipped[1].line, reading.skipped[1].column), (5, 1));
+    assert_eq!(
+        (reading.skipped[9].line, reading.skipped[9].column),
+        (9, 16)
+    );
+    assert!(
+        reading.skipped[9].what.contains("<ball> is not known"),
+        "{:?}",
+        reading.skipped[9]
+    );
+    assert!(reading.warnings.is_empty());
+    let d = reading.mechanism.link_named("d").unwrap();
+    assert_eq!(reading.mechanism.link(d).visuals.len(), 1);
+    assert_eq!(reading.format, "urdf");
+}
+
+#[test]
+fn what_may_be_meant_otherwise_is_warned_of() {
+    let warning = |text: &str| {
+        let reading = reading(text);
+        assert_eq!(reading.warnings.len(), 1, "{:?}", reading.warnings);
+        let warning = &reading.warnings[0];
+        (warning.line, warning.column, warning.message.clone())
+    };
+    for (text, line, column, part) in [
+        (chain("fixed", "<axis xyz='0 0 0'/>"), 5, 1, "<axis> means nothing for a fixed joint"),
+        (chain("spherical", " <axis xyz='1 0 0'/>"), 5, 2, "<axis> means nothing for a spherical joint"),
+        (chain("planar", "<limit effort='1' velocity='1'/>"), 5, 1, "<limit> means nothing for a planar joint"),
+        (chain("revolute", "<joint_properties friction='0'/>"), 5, 1, "old name of <dynamics>"),
+        (chain("continuous", "<limit lower='-1' upper='1' effort='3'/>"), 5, 1, "turns without end"),
+        (chain("revolute", "<limit effort='3' acceleration='1'/>"), 5, 1, "acceleration"),
+        (
+            chain("revolute", "").replace("</robot>", "<joint name='m' type='revolute'><parent link='a'/><child link='c'/></joint></robot>"),
+            8, 1, "joint `m` closes a loop: link `c` is the child of joint `k` already",
+        ),
+    ] {
+        let (found_line, found_column, message) = warning(&text);
+        assert_eq!((found_line, found_column), (line, column), "{message}");
+        assert!(message.contains(part), "{message}");
+    }
+    let text = chain("continuous", "<limit lower='-1' upper='1' effort='3'/>");
+    let limit = reading(&text).mechanism.joints()[0].limit.clone().unwrap();
+    assert!(limit.lower.is_none() && limit.upper.is_none() && limit.effort.is_some());
+}
+
+#[test]
+fn names_and_text_survive_the_quirks_of_xml() {
+    let text = "\u{feff}<?xml version='1.0' encoding='utf-8'?>\r\n<!-- - -->\r\n<?pi x?><robot xmlns='urn:any' name=\"a &amp; 'b' &#233;\">\
+                <!-- <link/> --><link name='\u{3bb}'></link><![CDATA[ \n]]></robot>\n<!-- end -->\n";
+    let reading = reading(text);
+    assert_eq!(reading.mechanism.name(), "a & 'b' é");
+    assert_eq!(reading.mechanism.links()[0].name, "λ");
+}
