@@ -2,6 +2,9 @@
 
 #![allow(dead_code)] // every test file is a crate of its own and uses a part of this
 
+pub mod decimal;
+pub mod rewrite;
+
 use kutzbach::mechanism::Mechanism;
 use kutzbach::mobility::{Analysis, AnalysisOptions, analyse};
 use std::collections::BTreeSet;
