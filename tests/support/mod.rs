@@ -96,6 +96,19 @@ pub fn locked_names(mechanism: &Mechanism, analysis: &Analysis) -> BTreeSet<Stri
         .collect()
 }
 
+/// Whether a joint, or a part of it, is among the names that [`locked_names`] gives. Where a joint's freedoms of one sort
+/// count one by one (`table.rot1`, `table.rot2`), the sort as a whole (`table.rot`) is locked when all of them are.
+pub fn is_locked(name: &str, found: &BTreeSet<String>, mechanism: &Mechanism) -> bool {
+    let numbered = || {
+        let (joint, sort) = name.rsplit_once('.')?;
+        let joint = &mechanism.joints()[mechanism.joint_named(joint)?.0];
+        let freedoms = joint.kind.freedoms().iter();
+        let count = freedoms.filter(|f| f.suffix() == sort).count();
+        Some(count > 0 && (1..=count).all(|i| found.contains(&format!("{name}{i}"))))
+    };
+    found.contains(name) || numbered().unwrap_or(false)
+}
+
 /// Maps over items on two threads; the results keep the items' order.
 pub fn in_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let next = AtomicUsize::new(0);
