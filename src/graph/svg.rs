@@ -77,7 +77,7 @@ pub fn to_svg(graph: &ConstraintGraph, tree: &SpanningTree) -> String {
                 "\n<title>Constraint graph: {n} links, {e} joints, {l} independent loops</title>\n",
                 "<style>text{{font:{f}px ui-monospace,Menlo,Consolas,monospace;text-anchor:middle;dominant-baseline:central}}",
                 ".edge{{fill:none;stroke:#345;stroke-width:1.6}}.chord{{stroke:#b5482a;stroke-dasharray:6 4}}",
-                ".name{{font-size:{g}px;fill:#345;stroke:#fff;stroke-width:3px;paint-order:stroke}}.chord-name{{fill:#b5482a}}",
+                ".name{{font-size:{g}px;fill:#345}}.chord-name{{fill:#b5482a}}.halo{{font-size:{g}px;fill:#fff;stroke:#fff;stroke-width:4px}}",
                 ".link{{fill:#f4f7fa;stroke:#345;stroke-width:1.4}}.ground{{fill:#345}}.ground-name{{fill:#fff}}</style>\n",
                 r##"<rect width="100%" height="100%" fill="#fff"/>"##,
                 "\n"
@@ -348,10 +348,15 @@ fn write_edge_names(
         put(
             svg,
             format_args!(
-                "<text class=\"{class}\" x=\"{:.1}\" y=\"{:.1}\">{}</text>\n",
-                label.centre.x,
-                label.centre.y,
-                escaped(name)
+                concat!(
+                    // The halo is a text of its own: not every viewer knows `paint-order`.
+                    "<text class=\"halo\" x=\"{x:.1}\" y=\"{y:.1}\">{name}</text>",
+                    "<text class=\"{class}\" x=\"{x:.1}\" y=\"{y:.1}\">{name}</text>\n"
+                ),
+                x = label.centre.x,
+                y = label.centre.y,
+                name = escaped(name),
+                class = class
             ),
         );
         taken.push(label);

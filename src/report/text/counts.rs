@@ -205,26 +205,33 @@ fn pose(home: &Home) -> Option<String> {
     Some(text)
 }
 
+/// Dropped singular values up to this, relative to the largest, are rounding in double precision.
+const ROUNDING: f64 = 1e-14;
+
 /// How safe the rank is.
 fn margin(report: &Report) -> Option<String> {
     let home = &report.home;
     home.rank?;
-    let mut text = match (home.kept, home.dropped) {
-        (Some(kept), Some(dropped)) => format!(
-            "Margin of the rank: the smallest singular value kept is {}, the largest dropped {}",
-            figure(kept),
-            figure(dropped)
-        ),
-        (Some(kept), None) => format!(
-            "Margin of the rank: the smallest singular value kept is {}, none was dropped",
-            figure(kept)
-        ),
-        _ => return None,
-    };
-    if let Some(tolerance) = home.tolerance {
-        text.push_str(&format!("; below {} counts as zero", figure(tolerance)));
+    let kept = figure(home.kept?);
+    let tolerance = home.tolerance.unwrap_or(0.0);
+    let mut text =
+        format!("Margin of the rank: the smallest singular value kept is {kept} of the largest");
+    match home.dropped {
+        // Rounding differs from machine to machine, and its digits mean nothing to a person.
+        Some(dropped) if dropped <= ROUNDING => text.push_str(&format!(
+            ", those dropped are zero up to rounding; below {} counts as zero.",
+            figure(tolerance)
+        )),
+        Some(dropped) => text.push_str(&format!(
+            ", the largest dropped {}; below {} counts as zero.",
+            figure(dropped),
+            figure(tolerance)
+        )),
+        None => text.push_str(&format!(
+            ", none was dropped; below {} counts as zero.",
+            figure(tolerance)
+        )),
     }
-    text.push('.');
     if let Some(literal) = home.as_written {
         text.push_str(&format!(
             " Taken literally, the numbers of the file give {}; within their stated precision it is {}.",
