@@ -64,6 +64,8 @@ pub struct Draft {
     pub placed: Vec<Placed>,
     pub mimics: Vec<DraftMimic>,
     pub ratios: Vec<DraftRatio>,
+    /// Named poses: joints with their values.
+    pub poses: Vec<(String, Vec<(String, Vec<Number>)>)>,
 }
 
 impl Draft {
@@ -106,7 +108,14 @@ impl Draft {
             placed,
             mimics: Vec::new(),
             ratios: Vec::new(),
+            poses: Vec::new(),
         };
+        for configuration in mechanism.configurations() {
+            let values = configuration.positions.iter();
+            let named = values.map(|(id, v)| (mechanism.joint(*id).name.clone(), v.clone()));
+            let pose = (configuration.name.clone(), named.collect());
+            draft.poses.push(pose);
+        }
         for coupling in mechanism.couplings() {
             match &coupling.origin {
                 CouplingOrigin::Ratio {
@@ -179,6 +188,9 @@ impl Draft {
                 &ratio.ends[1],
                 ratio.ratio.clone(),
             );
+        }
+        for (name, values) in &self.poses {
+            builder.configuration(name, values.clone());
         }
         builder
             .build()
@@ -358,15 +370,18 @@ impl Draft {
         for ratio in &mut self.ratios {
             ratio.ends = ratio.ends.clone().map(|end| links[&end].clone());
         }
+        for (joint, _) in self.poses.iter_mut().flat_map(|(_, values)| values) {
+            *joint = joints[joint].clone();
+        }
         (self, joints)
     }
 
     /// Another spanning tree, grown from another link: some loops become tree joints and some tree joints loops, links get
     /// their frames at the joint that now carries them, and a joint passed backward has its sides exchanged. A joint whose
-    /// two frames do not coincide at home stays a loop. Frames must be parallel at home, and couplings absent.
+    /// two frames do not coincide at home stays a loop. Frames must be parallel at home, couplings and named poses absent.
     #[must_use]
     pub fn with_another_tree(mut self, seed: u64) -> Self {
-        assert!(self.mimics.is_empty() && self.ratios.is_empty());
+        assert!(self.mimics.is_empty() && self.ratios.is_empty() && self.poses.is_empty());
         let old_origins = self.origins();
         let at = |end: &End| sum(&old_origins[&end.link], &end.frame.position);
         let mut random = Shuffle(seed);
