@@ -23,3 +23,8 @@ pub mod mechanism;
 pub mod mobility;
 pub mod number;
 pub mod report;
+
+/// The README's example is compiled and run with the documentation tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

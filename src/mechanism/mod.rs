@@ -5,9 +5,12 @@
 //! downstream checks again:
 //!
 //! - names are unique, every reference resolves, no joint connects a link with itself;
-//! - every link has exactly one [`Placement`]: the ground of the file's tree, or a home pose relative to another link,
+//! - every link has exactly one [`Placement`]: the root of the file's tree, or a home pose relative to another link,
 //!   without circles;
-//! - directions are not zero, numbers are finite, limits are ordered, couplings relate joints of one freedom.
+//! - directions are not zero, numbers are small enough to compute with, limits are ordered, a screw has a lead, a distance
+//!   joint a distance (its own or that of the home pose), couplings and drives speak of joints of one freedom, mimics form
+//!   no circle;
+//! - configurations, scene and expectation speak of joints and links that exist.
 //!
 //! Geometry stays as the file wrote it: exact [`Number`](crate::number::Number)s in frames relative to links. Floating-point
 //! poses, in as many digits as a question needs, are computed from it by [`crate::closure`].
@@ -21,6 +24,7 @@ mod joint;
 mod kind;
 mod link;
 mod model;
+mod precision;
 mod scene;
 
 pub use builder::{JointBuilder, MechanismBuilder};
@@ -31,5 +35,6 @@ pub use frame::{Direction, Frame};
 pub use joint::{Dynamics, Joint, Limit, Side};
 pub use kind::{FreedomPart, JointKind};
 pub use link::{Geometry, Inertial, Link, Placement, Shape};
-pub use model::{JointId, LinkId, Mechanism, Precision};
+pub use model::{JointId, LinkId, Mechanism};
+pub use precision::Precision;
 pub use scene::{Drive, Expectation, Scene};

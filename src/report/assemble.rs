@@ -11,6 +11,7 @@ use super::vocabulary::Verdict;
 use crate::format::Reading;
 use crate::mechanism::{Coupling, Mechanism};
 use crate::mobility::{AnalysisError, AnalysisOptions, analyse, kutzbach_count};
+use crate::number::Number;
 use std::time::Instant;
 use thiserror::Error;
 
@@ -264,11 +265,11 @@ fn equation(mechanism: &Mechanism, coupling: &Coupling) -> String {
     let mut text = String::new();
     for (index, term) in coupling.terms.iter().enumerate() {
         let negative = term.factor.value() < 0.0;
-        let factor = if negative {
-            (-&term.factor).source()
+        let factor = plain(&if negative {
+            -&term.factor
         } else {
-            term.factor.source()
-        };
+            term.factor.clone()
+        });
         text.push_str(match (index, negative) {
             (0, false) => "",
             (0, true) => "−",
@@ -282,8 +283,17 @@ fn equation(mechanism: &Mechanism, coupling: &Coupling) -> String {
         text.push_str(&mechanism.joint(term.joint).name);
     }
     text.push_str(" = ");
-    text.push_str(&coupling.offset.source());
+    text.push_str(&plain(&coupling.offset));
     text
+}
+
+/// A number as the file wrote it, without the braces of an expression.
+fn plain(number: &Number) -> String {
+    let source = number.source();
+    match source.strip_prefix("${").and_then(|s| s.strip_suffix('}')) {
+        Some(inner) => inner.to_owned(),
+        None => source,
+    }
 }
 
 /// The number of connected parts of the links under the joints.
