@@ -182,11 +182,14 @@ impl Answers {
 /// collection is 2e-7 of it (a Bennett loop perturbed by a millionth), all others are above 1e-4.
 const KEPT_AGREES: f64 = 1e-6;
 
+/// How a mechanism was rewritten, the rewriting, and the new names of its joints where they have any.
+type Rewritten = (String, Draft, BTreeMap<String, String>);
+
 /// Compares every reference mechanism, prepared in some way, with its rewritings.
 fn compare(
     prepare: &(dyn Fn(Draft) -> Draft + Sync),
     kept_agrees: &(dyn Fn(&Mechanism) -> bool + Sync),
-    rewritings: &(dyn Fn(&Draft) -> Vec<(String, Draft, BTreeMap<String, String>)> + Sync),
+    rewritings: &(dyn Fn(&Draft) -> Vec<Rewritten> + Sync),
 ) {
     let wrong = in_parallel(&zoo(), |(name, mechanism)| {
         let same = |n: &str| n.to_owned();
@@ -220,7 +223,7 @@ fn exact(draft: Draft) -> Draft {
     draft.each_number(&decimal::exact)
 }
 
-fn plain(how: &str, draft: Draft) -> (String, Draft, BTreeMap<String, String>) {
+fn plain(how: &str, draft: Draft) -> Rewritten {
     (how.to_owned(), draft, BTreeMap::new())
 }
 

@@ -54,6 +54,9 @@ pub struct DraftRatio {
     pub ratio: Number,
 }
 
+/// The name of a pose, and joints with their values.
+pub type DraftPose = (String, Vec<(String, Vec<Number>)>);
+
 /// A mechanism as plain data.
 #[derive(Clone)]
 pub struct Draft {
@@ -64,8 +67,8 @@ pub struct Draft {
     pub placed: Vec<Placed>,
     pub mimics: Vec<DraftMimic>,
     pub ratios: Vec<DraftRatio>,
-    /// Named poses: joints with their values.
-    pub poses: Vec<(String, Vec<(String, Vec<Number>)>)>,
+    /// Named poses.
+    pub poses: Vec<DraftPose>,
 }
 
 impl Draft {
