@@ -1,0 +1,129 @@
+//! The mechanisms of `mechanisms/` and what their own `<expect>` says of them.
+//!
+//! What the analysis decides must agree; where it leaves the finite mobility open, its bounds must contain the answer.
+
+#![allow(clippy::unwrap_used)]
+
+mod support;
+
+use kutzbach::mechanism::{Expectation, Mechanism};
+use kutzbach::mobility::{Analysis, Verdict};
+use std::collections::BTreeSet;
+use support::{analysis, assert_none, in_parallel, is_locked, locked_names, own_mechanisms};
+
+fn disagreements(name: &str, mechanism: &Mechanism) -> Vec<String> {
+    let Some(expected) = mechanism.expectation() else {
+        return vec![format!("{name}: states no expectation")];
+    };
+    let analysis = analysis(mechanism);
+    let Some(home) = &analysis.home else {
+        return vec![format!("{name}: does not assemble")];
+    };
+    let mut wrong = Vec::new();
+    let mut compare = |what: &str, found: Option<i64>, expected: Option<i64>| {
+        if expected.is_some() && found != expected {
+            wrong.push(format!("{name}: {what} {found:?}, expected {expected:?}"));
+        }
+    };
+    let whole = |number: Option<usize>| number.map(|n| n as i64);
+    compare("kutzbach", Some(analysis.kutzbach), expected.kutzbach);
+    compare(
+        "instantaneous",
+        whole(home.instantaneous),
+        whole(expected.instantaneous),
+    );
+    compare("redundant", home.redundant, expected.redundant);
+    if let (Some(instantaneous), Some(redundant), Some(kutzbach)) = (
+        expected.instantaneous,
+        expected.redundant,
+        expected.kutzbach,
+    ) && instantaneous as i64 - redundant != kutzbach
+    {
+        wrong.push(format!("{name}: its own numbers do not add up"));
+    }
+    wrong.extend(
+        finite_disagreement(expected, &analysis)
+            .iter()
+            .map(|w| format!("{name}: {w}")),
+    );
+    wrong.extend(
+        locked_disagreement(mechanism, expected, &analysis)
+            .iter()
+            .map(|w| format!("{name}: {w}")),
+    );
+    wrong
+}
+
+fn finite_disagreement(expected: &Expectation, analysis: &Analysis) -> Option<String> {
+    let finite = expected.finite?;
+    let (low, high) = analysis.mobility.bounds;
+    let verdict = analysis.mobility.verdict;
+    let right = match verdict {
+        Verdict::Mobile | Verdict::Rigid => analysis.mobility.finite() == Some(finite),
+        Verdict::Undecided => low.is_some_and(|l| l <= finite) && high.is_some_and(|h| finite <= h),
+        Verdict::Unassembled => false,
+    };
+    let regular = expected.pose.as_deref().map(|pose| pose == "regular");
+    if analysis.mobility.regular && regular == Some(false) {
+        return Some("a singular pose is called regular".to_owned());
+    }
+    (!right).then(|| {
+        format!(
+            "{} with {low:?} to {high:?}, expected {finite}",
+            verdict.word()
+        )
+    })
+}
+
+/// Compared at regular poses of mobile mechanisms, like the reference mechanisms.
+fn locked_disagreement(
+    mechanism: &Mechanism,
+    expected: &Expectation,
+    analysis: &Analysis,
+) -> Option<String> {
+    let names = expected.locked.as_ref()?;
+    let singular = expected.pose.as_deref() == Some("singular");
+    if singular || expected.finite == Some(0) || names.iter().any(|n| n == "all") {
+        return None;
+    }
+    let expected: BTreeSet<String> = names.iter().cloned().collect();
+    let found = locked_names(mechanism, analysis);
+    let whole = |names: &BTreeSet<String>| -> BTreeSet<String> {
+        names.iter().filter(|n| !n.contains('.')).cloned().collect()
+    };
+    let parts_found = expected
+        .iter()
+        .all(|part| is_locked(part, &found, mechanism));
+    (whole(&found) != whole(&expected) || !parts_found)
+        .then(|| format!("locked {found:?}, expected {expected:?}"))
+}
+
+#[test]
+fn every_file_agrees_with_its_own_expectation() {
+    let mechanisms = own_mechanisms();
+    assert!(mechanisms.len() >= 30, "found {}", mechanisms.len());
+    let wrong = in_parallel(&mechanisms, |(name, mechanism)| {
+        disagreements(name, mechanism)
+    });
+    assert_none(&wrong.concat());
+}
+
+/// Their numbers are exact and their loops close, so assembly has nothing to do and the answers need no reservation.
+#[test]
+fn every_file_is_drawn_closed_and_exact() {
+    let wrong = in_parallel(&own_mechanisms(), |(name, mechanism)| {
+        let analysis = analysis(mechanism);
+        let mut wrong = Vec::new();
+        if analysis.assembly.steps > 0 {
+            wrong.push(format!(
+                "{name}: {} steps, moved {:.1e}",
+                analysis.assembly.steps, analysis.assembly.moved
+            ));
+        }
+        for part in &analysis.parts {
+            wrong.extend(part.note.iter().map(|note| format!("{name}: {note}")));
+        }
+        wrong
+    });
+    assert_none(&wrong.concat());
+}

@@ -1,0 +1,147 @@
+//! What the tests of whole mechanisms share: finding files, running over them on two cores, and listing what went wrong.
+
+#![allow(dead_code)] // every test file is a crate of its own and uses a part of this
+
+pub mod decimal;
+pub mod rewrite;
+
+use kutzbach::mechanism::Mechanism;
+use kutzbach::mobility::{Analysis, AnalysisOptions, analyse};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// A folder of the package.
+pub fn folder(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
+}
+
+/// A folder of the material that lies beside the repository and is not part of it: under `KUTZBACH_SHARED`, or `../shared`.
+/// `None`, with a note on the test's output, where there is none.
+pub fn shared(name: &str) -> Option<PathBuf> {
+    let root = std::env::var_os("KUTZBACH_SHARED").map_or_else(
+        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared"),
+        PathBuf::from,
+    );
+    let path = root.join(name);
+    if path.is_dir() {
+        return Some(path);
+    }
+    println!(
+        "skipped: there is no folder {}; set KUTZBACH_SHARED to the folder that has {name}",
+        path.display()
+    );
+    None
+}
+
+/// The mechanism files of a folder with their stems, by name.
+pub fn mechanism_files(folder: &Path) -> Vec<(String, PathBuf)> {
+    let mut files: Vec<(String, PathBuf)> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|e| e == "urdf"))
+        .map(|path| {
+            (
+                path.file_stem().unwrap().to_string_lossy().into_owned(),
+                path,
+            )
+        })
+        .collect();
+    files.sort();
+    files
+}
+
+/// The reference mechanisms of `tests/zoo`.
+pub fn zoo() -> Vec<(String, Mechanism)> {
+    read_all(&folder("tests/zoo"))
+}
+
+/// The mechanisms of `mechanisms/`.
+pub fn own_mechanisms() -> Vec<(String, Mechanism)> {
+    read_all(&folder("mechanisms"))
+}
+
+fn read_all(folder: &Path) -> Vec<(String, Mechanism)> {
+    mechanism_files(folder)
+        .into_iter()
+        .map(|(name, path)| {
+            let reading = kutzbach::format::read_file(&path, &[]).unwrap_or_else(|e| panic!("{e}"));
+            (name, reading.mechanism)
+        })
+        .collect()
+}
+
+/// One mechanism of the zoo.
+pub fn zoo_mechanism(name: &str) -> Mechanism {
+    let path = folder("tests/zoo").join(format!("{name}.urdf"));
+    kutzbach::format::read_file(path, &[]).unwrap().mechanism
+}
+
+/// The analysis at the home pose.
+pub fn analysis(mechanism: &Mechanism) -> Analysis {
+    analyse(mechanism, &AnalysisOptions::default())
+        .unwrap_or_else(|error| panic!("{}: {error}", mechanism.name()))
+}
+
+/// The names of joints, or parts of joints, that an analysis calls locked; a joint without freedoms is never named.
+pub fn locked_names(mechanism: &Mechanism, analysis: &Analysis) -> BTreeSet<String> {
+    mechanism
+        .joints()
+        .iter()
+        .zip(&analysis.roles)
+        .flat_map(|(joint, role)| {
+            let whole = (role.locked == Some(true)).then(|| joint.name.clone());
+            whole.into_iter().chain(role.locked_parts.iter().cloned())
+        })
+        .collect()
+}
+
+/// Whether a joint, or a part of it, is among the names that [`locked_names`] gives. Where a joint's freedoms of one sort
+/// count one by one (`table.rot1`, `table.rot2`), the sort as a whole (`table.rot`) is locked when all of them are.
+pub fn is_locked(name: &str, found: &BTreeSet<String>, mechanism: &Mechanism) -> bool {
+    let numbered = || {
+        let (joint, sort) = name.rsplit_once('.')?;
+        let joint = &mechanism.joints()[mechanism.joint_named(joint)?.0];
+        let freedoms = joint.kind.freedoms().iter();
+        let count = freedoms.filter(|f| f.suffix() == sort).count();
+        Some(count > 0 && (1..=count).all(|i| found.contains(&format!("{name}{i}"))))
+    };
+    found.contains(name) || numbered().unwrap_or(false)
+}
+
+/// Maps over items on two threads; the results keep the items' order.
+pub fn in_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let next = AtomicUsize::new(0);
+    let mut done: Vec<(usize, R)> = std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..2)
+            .map(|_| {
+                scope.spawn(|| {
+                    let mut done = Vec::new();
+                    loop {
+                        let index = next.fetch_add(1, Ordering::Relaxed);
+                        let Some(item) = items.get(index) else {
+                            return done;
+                        };
+                        done.push((index, work(item)));
+                    }
+                })
+            })
+            .collect();
+        workers
+            .into_iter()
+            .flat_map(|worker| worker.join().unwrap())
+            .collect()
+    });
+    done.sort_by_key(|(index, _)| *index);
+    done.into_iter().map(|(_, result)| result).collect()
+}
+
+/// Fails with every line at once.
+pub fn assert_none(wrong: &[String]) {
+    assert!(
+        wrong.is_empty(),
+        "{} disagreements:\n{}",
+        wrong.len(),
+        wrong.join("\n")
+    );
+}
