@@ -395,8 +395,8 @@ fn polishing_reaches_the_last_digits() {
         let mut states: Vec<JointState<Big>> = precise
             .displacements
             .iter()
-            .zip(&assembly.states)
-            .map(|(displacement, state)| displacement.adopt(state))
+            .zip(geometry.displacements.iter().zip(&assembly.states))
+            .map(|(displacement, (double, state))| displacement.adopt(double, state))
             .collect();
         let mut wrong = Vec::new();
         for part in &structure.parts {

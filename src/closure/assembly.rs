@@ -249,11 +249,21 @@ fn descend(
         let Some(increments) = step(&here, &columns, caution * square.min(1.0))? else {
             break;
         };
+        // What closes within the stated precision is polished only as far as that precision goes: rounded numbers leave
+        // a gap that no motion removes, and chasing it would drag the mechanism along its own freedom.
+        let within = residual <= stated.min(COARSEST_CLOSING);
+        if within && largest(&increments) > 3.0 * stated {
+            break;
+        }
         let before = Kept::of(part, states);
         advance(mechanism, geometry, &here, &columns, &increments, states);
         let there = jacobian(mechanism, geometry, states, part)?;
         let reached = sum(&there.residual);
         steps += 1;
+        if within && !(reached <= 0.25 * square) {
+            before.put_back(states);
+            break;
+        }
         if reached.is_finite() && reached < square {
             let stalled = reached > square * (1.0 - 1e-6);
             here = there;

@@ -83,8 +83,12 @@ impl<R: Real> WalkedCycle<R> {
                 .iter()
                 .map(|(joint, _)| &geometry.uncertainties[*joint]),
         );
-        let (centre, length) =
-            characteristic_length(joints.iter().flat_map(|j| &j.screws), reach, &uncertainty);
+        let (centre, length) = characteristic_length(
+            joints.iter().flat_map(|j| &j.screws),
+            reach.max(geometry.size),
+            geometry.least_length(),
+            &uncertainty,
+        );
         let extent = joints
             .iter()
             .map(|joint| {
@@ -139,15 +143,16 @@ impl<R: Real> WalkedCycle<R> {
 /// The point minimises `Σ |(I − u uᵀ)(c − p)|²`. Where that leaves a direction open (all axes parallel) it stays at the
 /// mean of the axis points along that direction. Where no length is left because all axes meet in a point, as far as
 /// rounding and stated precision let that be seen, the size of the set of axis points serves, then the RMS pitch, then
-/// `reach`, the largest coordinate met (m); finally 1 m.
+/// `reach`, the largest coordinate met (m); finally 1 m. What is not above `least` (m) is no length but rounding.
 pub fn characteristic_length<'a, R: Real + 'a>(
     screws: impl Iterator<Item = &'a PlacedScrew<R>>,
     reach: f64,
+    least: f64,
     uncertainty: &Uncertainty,
 ) -> ([f64; 3], f64) {
     use nalgebra::{Matrix3, Vector3};
     // All lengths below are in units of the reach, so that squares stay in the range of numbers.
-    let unit = if reach > 0.0 && reach.is_finite() {
+    let unit = if reach > least && reach.is_finite() {
         reach
     } else {
         1.0
@@ -192,7 +197,7 @@ pub fn characteristic_length<'a, R: Real + 'a>(
     // What is not far above an error of the axes' places is no length of the mechanism. The damping moves the centre by
     // up to a millionth of the size; rounding moves points by 1e-16 of the reach; numbers as they are stated move axes
     // by about their uncertainty together, of which four times is hardly ever exceeded.
-    let places = 4.0 * uncertainty.lengths / unit;
+    let places = (4.0 * uncertainty.lengths).max(least) / unit;
     let tilts = 4.0 * uncertainty.angles * size;
     let length = [
         (spread, (1e-3 * size).max(places + tilts)),

@@ -91,11 +91,24 @@ pub struct Geometry<R> {
     pub couplings: Vec<(Vec<(usize, R)>, R)>,
     /// What the file's stated precision leaves open of every joint's numbers.
     pub uncertainties: Vec<Uncertainty>,
+    /// Largest coordinate of any joint frame in its link (m).
+    pub size: f64,
     /// One, in the arithmetic.
     pub one: R,
 }
 
+/// No mechanism is smaller than this (m): a hundredth of an atom. Coordinates below it are the noise of a zero.
+const SMALLEST_LENGTH: f64 = 1e-12;
+
+/// Rounding leaves zeros of about 1e-16 of the coordinates they come from; a thousand times that is still no length.
+const NOISE_OF_SIZE: f64 = 1e-13;
+
 impl<R: Real> Geometry<R> {
+    /// What a coordinate has to exceed to be a length (m).
+    pub fn least_length(&self) -> f64 {
+        SMALLEST_LENGTH.max(NOISE_OF_SIZE * self.size)
+    }
+
     /// Evaluates a mechanism at the home pose or at a configuration. Cost: linear in the mechanism.
     pub fn new(
         mechanism: &Mechanism,
@@ -164,7 +177,13 @@ impl<R: Real> Geometry<R> {
                 (terms, arithmetic.number(&coupling.offset))
             })
             .collect();
+        let size = sides
+            .iter()
+            .flatten()
+            .flat_map(|frame| &frame.translation)
+            .fold(0.0, |far: f64, x| far.max(x.to_f64().abs()));
         Self {
+            size,
             sides,
             displacements: displacements.into_iter().flatten().collect(),
             home,

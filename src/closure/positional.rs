@@ -54,7 +54,8 @@ pub fn positional_jacobian<R: Real>(
     );
     let (_, length) = characteristic_length(
         placed.iter().flat_map(|(_, _, screws)| screws),
-        reach,
+        reach.max(geometry.size),
+        geometry.least_length(),
         &uncertainty,
     );
     let inverse_length = one.constant(1.0 / length);

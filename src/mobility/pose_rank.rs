@@ -203,7 +203,9 @@ pub(super) fn rank_part_with(
     let columns = matrix.columns();
     let mut nominal = decide_twice(&matrix, stated + rounding + 2.0 * standing.shift, poorer)?;
     coarse &= nominal.rank.is_none();
+    let mut possible = None;
     if coarse {
+        possible = Some(nominal.candidates);
         // Numbers so coarse that they would leave every rank open were chosen, not rounded.
         stated = 0.0;
         nominal = decide_twice(&matrix, rounding, poorer)?;
@@ -239,14 +241,26 @@ pub(super) fn rank_part_with(
         }
     }
     let freedom = |rank: usize| columns - rank;
-    let candidates = (freedom(nominal.candidates.1), freedom(nominal.candidates.0));
+    let (least, most) = possible.unwrap_or(nominal.candidates);
     let literal = written.rank.map(freedom);
+    let mut candidates = (freedom(most), freedom(least));
+    if let Some(literal) = literal {
+        candidates = (candidates.0.min(literal), candidates.1.max(literal));
+    }
     let (instantaneous, decision, note) = match (nominal.rank.map(freedom), literal) {
         (Some(answer), Some(literal)) if literal != answer => {
             let note = format!(
                 "taken literally, the numbers leave {literal} instead of {answer}: the smallest singular values, up to \
                  {:.1e} of the largest, are below what the stated precision leaves open ({:.1e})",
                 nominal.dropped, nominal.tolerance
+            );
+            (Some(answer), nominal, Some(note))
+        }
+        (Some(answer), _) if coarse && candidates.0 < candidates.1 => {
+            let note = format!(
+                "the numbers are stated too coarsely to decide anything; taken literally they leave {answer}, within their \
+                 stated precision anything from {} to {} is possible",
+                candidates.0, candidates.1
             );
             (Some(answer), nominal, Some(note))
         }
