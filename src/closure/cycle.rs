@@ -210,3 +210,210 @@ pub fn characteristic_length<'a, R: Real + 'a>(
     .map_or(1.0, |(length, _)| length);
     ((centre * unit).into(), length * unit)
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::geometry::Arithmetic;
+    use super::super::samples::{
+        CRANK_ROCKER, Place, Written, planar, ring, sarrus_places, spherical,
+    };
+    use super::*;
+    use crate::mechanism::JointKind;
+    use proptest::prelude::*;
+
+    fn walked(places: &[Place], gap: [f64; 3]) -> WalkedCycle<f64> {
+        let mechanism = ring(places, gap, Written::Exactly);
+        let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
+        let cycle: Vec<(usize, bool)> = (0..places.len()).map(|joint| (joint, true)).collect();
+        WalkedCycle::walk(&geometry, &geometry.states, &cycle)
+    }
+
+    fn screw(angular: Vector<f64>, point: Vector<f64>) -> PlacedScrew<f64> {
+        PlacedScrew {
+            angular: rigid::unit(&angular),
+            point,
+            linear: [0.0; 3],
+        }
+    }
+
+    fn scale_of(screws: &[PlacedScrew<f64>], reach: f64) -> ([f64; 3], f64) {
+        characteristic_length(screws.iter(), reach, &Uncertainty::default())
+    }
+
+    #[test]
+    fn a_closed_loop_leaves_nothing() {
+        for places in [planar(&CRANK_ROCKER), sarrus_places()] {
+            let walk = walked(&places, [0.0; 3]);
+            assert!(walk.residual().iter().all(|r| r.abs() < 1e-15));
+            assert_eq!(walk.joints.len(), places.len());
+        }
+    }
+
+    #[test]
+    fn a_gap_counts_in_lengths_of_the_cycle() {
+        let walk = walked(&planar(&CRANK_ROCKER), [0.0, 0.0, 0.5]);
+        let residual = walk.residual();
+        assert!(
+            residual[..3].iter().all(|r| r.abs() < 1e-15),
+            "nothing turns"
+        );
+        assert!((residual[5].abs() * walk.length - 0.5).abs() < 1e-15);
+        assert!(residual[3].abs() + residual[4].abs() < 1e-15);
+    }
+
+    #[test]
+    fn walking_back_undoes_the_walk() {
+        let mechanism = ring(&planar(&CRANK_ROCKER), [0.25, 0.0, 0.5], Written::Exactly);
+        let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
+        let forth = [(0, true), (1, true), (2, true), (3, true)];
+        let back = [(3, false), (2, false), (1, false), (0, false)];
+        let [there, home] =
+            [&forth, &back].map(|cycle| WalkedCycle::walk(&geometry, &geometry.states, cycle));
+        let nothing = there.closure.compose(&home.closure);
+        assert!(rigid::length(&nothing.translation) < 1e-14);
+        assert!(rigid::length(&nothing.rotation_vector()) < 1e-14);
+        let joint = &home.joints[0];
+        let column = home.column(joint, &joint.screws[0]);
+        assert_eq!(
+            column[2], -1.0,
+            "passed backward, the screw counts negative"
+        );
+    }
+
+    #[test]
+    fn the_square_has_the_distance_of_its_corners() {
+        let corners = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
+        let screws: Vec<_> = corners
+            .iter()
+            .map(|[x, y]| screw([0.0, 0.0, 1.0], [10.0 + x, *y, 3.0]))
+            .collect();
+        let (centre, length) = scale_of(&screws, 11.0);
+        assert!((length - 2f64.sqrt()).abs() < 1e-5);
+        assert!((centre[0] - 10.0).abs() + centre[1].abs() < 1e-5);
+        assert_eq!(
+            centre[2], 3.0,
+            "along parallel axes the centre stays with their points"
+        );
+    }
+
+    #[test]
+    fn what_gives_no_length_falls_back() {
+        let slide = PlacedScrew {
+            angular: [0.0; 3],
+            point: [0.0; 3],
+            linear: [1.0, 0.0, 0.0],
+        };
+        assert_eq!(scale_of(std::slice::from_ref(&slide), 2.5).1, 2.5);
+        assert_eq!(scale_of(&[slide], 0.0).1, 1.0, "no length at all");
+        assert_eq!(scale_of(&[], 0.0).1, 1.0);
+        // All axes through one point, drawn away from it.
+        let screws = [
+            screw([0.0, 0.0, 1.0], [0.0, 0.0, 2.0]),
+            screw([1.0, 0.0, 0.0], [-2.0, 0.0, 0.0]),
+            screw([0.6, 0.8, 0.0], [0.6, 0.8, 0.0]),
+        ];
+        let (centre, length) = scale_of(&screws, 2.0);
+        assert!(rigid::length(&centre) < 1e-5);
+        assert!(
+            (length - 2.0).abs() < 1e-5,
+            "the size of the set of points: {length}"
+        );
+        // One axis and a pitch: the pitch is the length.
+        let mut helix = screw([0.0, 0.0, 1.0], [0.0; 3]);
+        helix.linear = [0.0, 0.0, 0.125];
+        assert_eq!(scale_of(&[helix.clone(), helix], 3.0).1, 0.125);
+    }
+
+    #[test]
+    fn rounded_axes_of_a_sphere_have_no_length_of_their_own() {
+        // Axes that miss each other by what six decimals leave open.
+        let off = [
+            [3e-7, 0.0, 0.0],
+            [0.0, -4e-7, 1e-7],
+            [2e-7, 2e-7, 0.0],
+            [0.0; 3],
+        ];
+        let axes = [
+            [0.0, 0.0, 1.0],
+            [1.0, 0.0, 1.0],
+            [0.0, 1.0, 1.0],
+            [1.0, 1.0, 0.0],
+        ];
+        let screws: Vec<_> = axes.iter().zip(off).map(|(u, p)| screw(*u, p)).collect();
+        let stated = Uncertainty {
+            lengths: 24f64.sqrt() * 0.5e-6,
+            angles: 0.0,
+        };
+        let (_, length) = characteristic_length(screws.iter(), 0.3, &stated);
+        assert_eq!(length, 0.3);
+        let (_, length) = characteristic_length(screws.iter(), 0.3, &Uncertainty::default());
+        assert!(length < 1e-6, "taken literally they do");
+    }
+
+    #[test]
+    fn lengths_of_any_size_scale() {
+        let at = |unit: f64| {
+            let places: Vec<Place> = sarrus_places()
+                .into_iter()
+                .map(|(kind, at, along)| (kind, at.map(|x| x * unit), along))
+                .collect();
+            walked(&places, [0.0; 3]).length / unit
+        };
+        for unit in [1e-300, 1e-170, 1e-6, 1e6, 1e99] {
+            assert!((at(unit) / at(1.0) - 1.0).abs() < 1e-12, "{unit:e}");
+        }
+    }
+
+    #[test]
+    fn spherical_loops_close_wherever_their_joints_are_drawn() {
+        for distances in [[0.0; 4], [1.0, 0.5, -0.25, 2.0]] {
+            let walk = walked(&spherical([0.125, 0.25, -0.5], distances), [0.0; 3]);
+            assert!(walk.residual().iter().all(|r| r.abs() < 1e-15));
+            assert!(walk.length > 0.1 && walk.length < 3.0, "{}", walk.length);
+        }
+    }
+
+    #[test]
+    fn the_extent_is_that_of_the_joints_not_of_the_world() {
+        let near = walked(&planar(&CRANK_ROCKER), [0.0; 3]);
+        let moved: Vec<Place> = planar(&CRANK_ROCKER)
+            .into_iter()
+            .map(|(kind, [x, y, z], along)| (kind, [x + 1024.0, y, z], along))
+            .collect();
+        let far = walked(&moved, [0.0; 3]);
+        assert!((near.extent - far.extent).abs() < 1e-9);
+        assert!(far.reach > 1e3 && near.reach < 10.0);
+        assert!(matches!(planar(&CRANK_ROCKER)[0].0, JointKind::Revolute));
+    }
+
+    proptest! {
+        #[test]
+        fn the_length_knows_no_origin_no_unit_and_no_point_of_an_axis(
+            axes in prop::collection::vec(
+                (prop::array::uniform3(-1.0..1.0f64), prop::array::uniform3(-1.0..1.0f64)), 3..7),
+            shift in prop::array::uniform3(-50.0..50.0f64),
+            slides in prop::collection::vec(-2.0..2.0f64, 7),
+            power in -6..6i32,
+        ) {
+            prop_assume!(axes.iter().all(|(u, _)| rigid::length(u) > 0.2));
+            let plain: Vec<_> = axes.iter().map(|(u, p)| screw(*u, *p)).collect();
+            let unit = 10f64.powi(power);
+            let changed: Vec<_> = plain
+                .iter()
+                .zip(&slides)
+                .map(|(s, slide)| {
+                    let p = [0, 1, 2].map(|i| unit * (s.point[i] + shift[i] + slide * s.angular[i]));
+                    screw(s.angular, p)
+                })
+                .collect();
+            let (centre, length) = scale_of(&plain, 2.0);
+            prop_assume!(length > 0.1);
+            let (other_centre, other) = scale_of(&changed, 60.0 * unit);
+            // Damping lets the points be felt by a millionth of their distances, and more where axes are nearly parallel.
+            prop_assert!((other / (unit * length) - 1.0).abs() < 1e-3, "{length} {other}");
+            let moved = [0, 1, 2].map(|i| other_centre[i] / unit - shift[i] - centre[i]);
+            prop_assert!(rigid::length(&moved) < 0.02);
+        }
+    }
+}

@@ -423,3 +423,7 @@ fn shortest_rotation<R: Real>(from: &Vector<R>, to: &Vector<R>) -> Rigid<R> {
     }
     Rigid::rotation(&axis.map(|x| x / sine.clone()), &cosine, &sine)
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;

@@ -291,3 +291,173 @@ fn joint_displacement<R: Real>(
         &distance,
     )
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::samples::{Written, four_bar, planar, ring};
+    use super::*;
+    use crate::matrix::{Big, Ring};
+    use crate::mechanism::{JointBuilder, MechanismBuilder};
+
+    fn decimal(text: &str) -> Number {
+        Number::decimal(text).unwrap()
+    }
+
+    fn numbers(text: [&str; 3]) -> [Number; 3] {
+        text.map(decimal)
+    }
+
+    #[test]
+    fn roll_pitch_yaw_turn_about_fixed_axes_in_this_order() {
+        // A quarter turn about x takes z to −y; then one about z takes that to x. (The other order would give z to −y.)
+        let quarter = Number::expression("pi/2", &mut |_| Ok(None)).unwrap();
+        let frame = Frame {
+            position: numbers(["1", "2", "3"]),
+            roll_pitch_yaw: [quarter.clone(), Number::zero(), quarter],
+        };
+        let pose = Arithmetic::double().frame(&frame);
+        let image = pose.apply(&[0.0, 0.0, 1.0]);
+        for (x, y) in image.iter().zip([2.0, 2.0, 3.0]) {
+            assert!((x - y).abs() < 1e-15, "{image:?}");
+        }
+        // All three at once, by hand: x → Rz(0.3) Ry(0.2) x = (cos .3 cos .2, sin .3 cos .2, −sin .2).
+        let frame = Frame {
+            position: numbers(["0", "0", "0"]),
+            roll_pitch_yaw: numbers(["0.1", "0.2", "0.3"]),
+        };
+        let image = Arithmetic::double().frame(&frame).rotate(&[1.0, 0.0, 0.0]);
+        let expected = [
+            0.3f64.cos() * 0.2f64.cos(),
+            0.3f64.sin() * 0.2f64.cos(),
+            -(0.2f64.sin()),
+        ];
+        for (x, y) in image.iter().zip(expected) {
+            assert!((x - y).abs() < 1e-15);
+        }
+        let fine = Arithmetic::bits(212).frame(&frame);
+        assert!((fine.rotation[2][0].to_f64() + 0.2f64.sin()).abs() < 1e-15);
+        let rows = [0, 1, 2].map(|i| length(&fine.rotation[i]));
+        for norm in rows {
+            let one = norm.one_like();
+            assert!((norm - one).abs().to_f64() < 1e-62);
+        }
+    }
+
+    #[test]
+    fn configured_values_place_the_links() {
+        let mut builder = MechanismBuilder::new("arm");
+        builder.link("ground").link("arm").link("hand");
+        let z = || Direction(numbers(["0", "0", "2"]));
+        builder.joint(JointBuilder::tree("turn", JointKind::Revolute, "ground", "arm").axis(z()));
+        builder.joint(
+            JointBuilder::tree("slide", JointKind::Cylindrical, "arm", "hand")
+                .origin(Frame::at(numbers(["1", "0", "0"])))
+                .axis(z()),
+        );
+        let quarter = Number::expression("pi/2", &mut |_| Ok(None)).unwrap();
+        builder.configuration(
+            "out",
+            vec![
+                ("slide".to_owned(), vec![decimal("0.5"), Number::zero()]),
+                ("turn".to_owned(), vec![quarter]),
+            ],
+        );
+        let arm = builder.build().unwrap();
+        let hand = arm.link_named("hand").unwrap().0;
+        let home = Geometry::new(&arm, None, &Arithmetic::double());
+        assert_eq!(home.home[hand].translation, [1.0, 0.0, 0.0]);
+        let out = Geometry::new(&arm, arm.configuration("out"), &Arithmetic::double());
+        for (x, y) in out.home[hand].translation.iter().zip([0.0, 1.0, 0.5]) {
+            assert!((x - y).abs() < 1e-15);
+        }
+        assert_eq!(
+            out.states[arm.joint_named("slide").unwrap().0].values,
+            [0.5, 0.0]
+        );
+    }
+
+    #[test]
+    fn closing_joints_stand_as_the_links_do() {
+        let geometry = Geometry::new(&four_bar(), None, &Arithmetic::double());
+        assert!(geometry.states.iter().all(|state| state.values == [0.0]));
+        assert_eq!(geometry.home.len(), 4);
+    }
+
+    fn with_rod(at: [f64; 3], distance: Option<&str>) -> Mechanism {
+        let mut builder = MechanismBuilder::new("rod");
+        builder.link("ground").link("arm");
+        builder.joint(JointBuilder::tree(
+            "pin",
+            JointKind::Revolute,
+            "ground",
+            "arm",
+        ));
+        let mut rod = JointBuilder::closing("rod", JointKind::Distance, "ground", "arm")
+            .successor_origin(Frame::at_point(at).unwrap());
+        if let Some(distance) = distance {
+            rod = rod.distance(decimal(distance));
+        }
+        builder.joint(rod);
+        builder.build().unwrap()
+    }
+
+    #[test]
+    fn distances_are_read_off_at_home_or_stated() {
+        let at = |place, stated| {
+            let mechanism = with_rod(place, stated);
+            let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
+            (
+                *geometry.displacements[1].distance(),
+                geometry.degenerate_distance(),
+            )
+        };
+        assert_eq!(at([0.0, 3.0, 4.0], None), (5.0, None));
+        assert_eq!(at([0.0, 3.0, 4.0], Some("4.5")), (4.5, None));
+        assert_eq!(at([0.0; 3], None), (0.0, Some(1)));
+        // Squares of such lengths are no doubles, the lengths are.
+        assert_eq!(at([0.0, 3e-200, 4e-200], None), (5e-200, None));
+    }
+
+    #[test]
+    fn leads_count_by_the_turn() {
+        let screw = ring(
+            &[
+                (JointKind::Screw, [0.0; 3], [0.0, 0.0, 1.0]),
+                (JointKind::Prismatic, [0.0; 3], [0.0, 0.0, 1.0]),
+            ],
+            [0.0; 3],
+            Written::Exactly,
+        );
+        let geometry = Geometry::new(&screw, None, &Arithmetic::double());
+        let joint = &geometry.displacements[0];
+        let after = joint.displacement(&joint.at(&[std::f64::consts::TAU]));
+        assert!((after.translation[2] - 0.25).abs() < 1e-15);
+    }
+
+    #[test]
+    fn numbers_are_evaluated_in_the_arithmetic_asked_for() {
+        let tenth = Arithmetic::<Big>::bits(212).number(&decimal("0.1"));
+        let ten = tenth.constant(10.0);
+        assert!((tenth * ten.clone() - ten.one_like()).abs().to_f64() < 1e-62);
+    }
+
+    #[test]
+    fn uncertainty_follows_the_digits_and_the_unit_of_each_number() {
+        let points = [[0.0, 0.0], [0.123, 0.2], [1.25, 0.4], [1.0, 0.0]];
+        let exact = ring(&planar(&points), [0.0; 3], Written::Exactly);
+        let geometry = Geometry::new(&exact, None, &Arithmetic::double());
+        assert_eq!(
+            Uncertainty::total(&geometry.uncertainties),
+            Uncertainty::default()
+        );
+        let rounded = ring(&planar(&points), [0.0; 3], Written::Decimals(6));
+        let geometry = Geometry::new(&rounded, None, &Arithmetic::double());
+        let one = geometry.uncertainties[1];
+        // Three numbers of a position, three of a direction of length 1, each within half a unit of the last place.
+        assert!((one.lengths / (3f64.sqrt() * 0.5e-6) - 1.0).abs() < 1e-12);
+        assert!((one.angles / (3f64.sqrt() * 0.5e-6) - 1.0).abs() < 1e-12);
+        let all = Uncertainty::total(&geometry.uncertainties);
+        assert!(all.lengths > one.lengths && all.lengths < 4.0 * one.lengths);
+    }
+}

@@ -166,6 +166,10 @@ pub(crate) fn linearised<R: Real>(
     let matrix =
         SparseMatrix::from_triplets(residual.len(), variables.len(), one.zero_like(), triplets)?
             .with_row_blocks(block_starts)?;
+    matrix.largest_entry()?;
+    if let Some(row) = residual.iter().position(|r| !r.is_finite()) {
+        return Err(MatrixError::NotFinite { row, column: 0 });
+    }
     Ok(CycleJacobian {
         matrix,
         variables,
@@ -204,4 +208,226 @@ pub fn entry_accuracy<R: Real>(mechanism: &Mechanism, jacobian: &CycleJacobian<R
     }
     // Couplings: their factors are exact or rounded like any number; one rounding each.
     (stated, rounding.max(4.0 * roundoff))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::geometry::Arithmetic;
+    use super::super::samples::{
+        CRANK_ROCKER, Place, Written, four_bar, planar, ring, sarrus_places,
+    };
+    use super::*;
+    use crate::matrix::{Big, decide};
+    use crate::mechanism::{JointKind, MechanismBuilder};
+    use crate::number::Number;
+
+    fn whole(mechanism: &Mechanism) -> Part {
+        let joints: Vec<usize> = (0..mechanism.joints().len()).collect();
+        Part {
+            cycles: vec![joints.iter().map(|j| (*j, true)).collect()],
+            couplings: (0..mechanism.couplings().len()).collect(),
+            joints,
+        }
+    }
+
+    /// A loop of joints of many kinds, none of which stands at zero.
+    fn mixed() -> Mechanism {
+        let places: Vec<Place> = vec![
+            (JointKind::Revolute, [0.0, 0.0, 0.0], [0.0, 0.5, 1.0]),
+            (JointKind::Spherical, [1.0, 0.5, 0.0], [1.0, 0.0, 0.0]),
+            (JointKind::Cylindrical, [2.0, 0.0, 0.5], [1.0, 0.25, 0.0]),
+            (JointKind::Screw, [2.0, -1.0, 0.0], [0.0, 1.0, 1.0]),
+            (JointKind::Universal, [1.0, -2.0, 0.0], [0.5, 1.0, 0.0]),
+        ];
+        ring(&places, [0.0; 3], Written::Exactly)
+    }
+
+    #[test]
+    fn columns_are_the_derivative_of_the_residual() {
+        // In many digits a difference quotient has the derivative's digits; the loop stays closed to first order only, so
+        // the twist of the closure is compared, not the matrix's own residual away from it.
+        let mechanism = mixed();
+        let part = whole(&mechanism);
+        let geometry = Geometry::new(&mechanism, None, &Arithmetic::<Big>::bits(212));
+        let here = jacobian(&mechanism, &geometry, &geometry.states, &part).unwrap();
+        assert!(
+            here.residual.iter().all(|r| r.to_f64().abs() < 1e-60),
+            "closed as drawn"
+        );
+        let step = geometry.one.constant(1e-25);
+        for (column, &(joint, variable)) in here.variables.iter().enumerate() {
+            let mut states = geometry.states.clone();
+            let mut increments =
+                vec![geometry.one.constant(0.0); geometry.displacements[joint].freedom()];
+            increments[variable] =
+                step.clone() * geometry.one.constant(here.unit(&mechanism, column));
+            geometry.displacements[joint].advance(&mut states[joint], &increments);
+            // The centre and length of the walk are those of the closed pose to double precision.
+            let there = jacobian(&mechanism, &geometry, &states, &part).unwrap();
+            for row in 0..6 {
+                let entry = here
+                    .matrix
+                    .row(row)
+                    .iter()
+                    .find(|(c, _)| *c == column)
+                    .map_or(0.0, |(_, entry)| entry.to_f64());
+                let quotient = (there.residual[row].clone() / step.clone()).to_f64();
+                assert!(
+                    (entry - quotient).abs() < 1e-12,
+                    "{row} {column}: {entry} {quotient}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_matrix_knows_no_unit() {
+        let at = |unit: f64| {
+            let places: Vec<Place> = sarrus_places()
+                .into_iter()
+                .map(|(kind, at, along)| (kind, at.map(|x| x * unit), along))
+                .chain([(JointKind::Prismatic, [0.5 * unit; 3], [1.0, 0.25, 0.0])])
+                .collect();
+            let mechanism = ring(&places, [0.0; 3], Written::Exactly);
+            let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
+            jacobian(&mechanism, &geometry, &geometry.states, &whole(&mechanism)).unwrap()
+        };
+        let reference = at(1.0);
+        for unit in [1e-300, 1e-170, 1e-6, 1e6, 1e99] {
+            let scaled = at(unit);
+            assert!(
+                (scaled.length / unit / reference.length - 1.0).abs() < 1e-12,
+                "{unit:e}"
+            );
+            for (a, b) in reference.matrix.triplets().zip(scaled.matrix.triplets()) {
+                assert_eq!((a.0, a.1), (b.0, b.1));
+                assert!((a.2 - b.2).abs() < 1e-9, "{unit:e}");
+            }
+        }
+    }
+
+    fn geared(ratio: f64) -> Mechanism {
+        let mut builder = MechanismBuilder::new("geared");
+        builder.link("ground");
+        super::super::samples::add_ring(
+            &mut builder,
+            "r",
+            "ground",
+            &planar(&CRANK_ROCKER),
+            [0.0; 3],
+            Written::Exactly,
+        );
+        let number = |x: f64| Number::from_f64(x).unwrap();
+        builder.mimic("r_b", "r_a", number(ratio), number(0.5));
+        builder.build().unwrap()
+    }
+
+    #[test]
+    fn couplings_are_rows_of_unit_length() {
+        for ratio in [2.0, 1e3, 1e-200, 0.0, 1e99] {
+            let mechanism = geared(ratio);
+            let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
+            let found =
+                jacobian(&mechanism, &geometry, &geometry.states, &whole(&mechanism)).unwrap();
+            assert_eq!(found.matrix.rows(), 7);
+            let row: Vec<f64> = found.matrix.row(6).iter().map(|(_, x)| *x).collect();
+            assert!((0.0.norm(&row) - 1.0).abs() < 1e-15, "{ratio:e}");
+            // All angles are zero, so what is missing is the offset, in the row's own unit.
+            let expected = -0.5 / 1f64.hypot(ratio);
+            assert!((found.residual[6] / expected - 1.0).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn parts_of_another_mechanism_are_refused() {
+        let geometry = Geometry::new(&four_bar(), None, &Arithmetic::double());
+        let part = whole(&four_bar());
+        assert!(jacobian(&mixed(), &geometry, &geometry.states, &part).is_err());
+        assert!(jacobian(&four_bar(), &geometry, &geometry.states[1..], &part).is_err());
+    }
+
+    #[test]
+    fn joints_outside_the_part_stand_still() {
+        let mechanism = four_bar();
+        let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
+        let mut part = whole(&mechanism);
+        part.joints = vec![3, 1];
+        let found = jacobian(&mechanism, &geometry, &geometry.states, &part).unwrap();
+        assert_eq!(found.variables, [(3, 0), (1, 0)]);
+        assert_eq!(found.matrix.columns(), 2);
+    }
+
+    #[test]
+    fn lengths_whose_inverse_is_out_of_range_are_an_error() {
+        let places: Vec<Place> = planar(&CRANK_ROCKER)
+            .into_iter()
+            .map(|(kind, at, along)| (kind, at.map(|x| x * 1e-310), along))
+            .collect();
+        let mechanism = ring(&places[..3], [0.0; 3], Written::Exactly);
+        let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
+        assert!(jacobian(&mechanism, &geometry, &geometry.states, &whole(&mechanism)).is_err());
+    }
+
+    #[test]
+    fn accuracy_follows_digits_reach_and_arithmetic() {
+        let of = |written, shift: f64| {
+            let places: Vec<Place> = planar(&[[0.0, 0.0], [0.125, 2.0], [4.0, 5.0], [4.0, 0.0]])
+                .into_iter()
+                .map(|(kind, [x, y, z], along)| (kind, [x + shift, y, z], along))
+                .collect();
+            let mechanism = ring(&places, [0.0; 3], written);
+            let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
+            let found =
+                jacobian(&mechanism, &geometry, &geometry.states, &whole(&mechanism)).unwrap();
+            entry_accuracy(&mechanism, &found)
+        };
+        let (none, rounding) = of(Written::Exactly, 0.0);
+        assert_eq!(none, 0.0);
+        assert!(rounding > 1e-16 && rounding < 1e-12);
+        let (six, _) = of(Written::Decimals(6), 0.0);
+        let (nine, _) = of(Written::Decimals(9), 0.0);
+        assert!((six / nine / 1e3 - 1.0).abs() < 1e-6);
+        assert!(six > 1e-6 && six < 1e-4);
+        let (_, far) = of(Written::Exactly, 1e4);
+        assert!(
+            far > 1e3 * rounding,
+            "far from its own frames a loop loses digits"
+        );
+    }
+
+    #[test]
+    fn perturbations_within_the_stated_digits_stay_within_the_accuracy() {
+        // Every number moved to a random place within half a unit of its last digit: what singular values change by is
+        // what `entry_accuracy` allows for, and not a tiny fraction of it.
+        use crate::matrix::SplitMix64;
+        let mut random = SplitMix64::new(3);
+        let matrix = |off: &mut dyn FnMut() -> f64| {
+            let places: Vec<Place> = sarrus_places()
+                .into_iter()
+                .map(|(kind, at, along)| (kind, at.map(|x| x + off()), along.map(|x| x + off())))
+                .collect();
+            let mechanism = ring(&places, [0.0; 3], Written::Exactly);
+            let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
+            let mut matrix = jacobian(&mechanism, &geometry, &geometry.states, &whole(&mechanism))
+                .unwrap()
+                .matrix;
+            matrix.scale_columns();
+            matrix
+        };
+        let rounded = ring(&sarrus_places(), [0.0; 3], Written::Decimals(5));
+        let geometry = Geometry::new(&rounded, None, &Arithmetic::double());
+        let found = jacobian(&rounded, &geometry, &geometry.states, &whole(&rounded)).unwrap();
+        let (stated, _) = entry_accuracy(&rounded, &found);
+        let mut worst = 0.0f64;
+        for _ in 0..100 {
+            let decision = decide(&matrix(&mut || 0.5e-5 * random.symmetric()), stated).unwrap();
+            worst = worst.max(decision.dropped);
+            assert_eq!(decision.rank, Some(5), "{decision:?}");
+        }
+        assert!(
+            worst < stated && worst > stated / 100.0,
+            "{worst:e} {stated:e}"
+        );
+    }
 }

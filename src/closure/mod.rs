@@ -19,6 +19,9 @@ mod geometry;
 mod jacobian;
 mod positional;
 mod rigid;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+pub(crate) mod samples;
 
 pub use assembly::{Assembly, LoopGap, assemble, follow, refine, spanning_poses};
 pub use cycle::{Walk, WalkedCycle, WalkedJoint, characteristic_length};

@@ -276,3 +276,132 @@ fn complement<R: Real>(vectors: &[[R; 6]], like: &R) -> Vec<[R; 6]> {
     }
     basis.split_off(spanned)
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::geometry::Arithmetic;
+    use super::super::jacobian::jacobian;
+    use super::super::samples::{
+        CRANK_ROCKER, Place, Written, flat_parallelogram, four_bar, general_four, planar, ring,
+        sarrus, spherical,
+    };
+    use super::*;
+    use crate::matrix::{Ring, decide};
+    use crate::mechanism::{JointBuilder, JointKind, MechanismBuilder};
+    use crate::mobility::Structure;
+    use crate::number::Number;
+
+    fn nullities(mechanism: &Mechanism) -> [Option<usize>; 2] {
+        let geometry = Geometry::new(mechanism, None, &Arithmetic::double());
+        let structure = Structure::new(mechanism);
+        let [part] = structure.parts.as_slice() else {
+            return [None; 2];
+        };
+        let states = &geometry.states;
+        let by_cycles = jacobian(mechanism, &geometry, states, part).unwrap().matrix;
+        let by_links = positional_jacobian(mechanism, &geometry, states, part).unwrap();
+        [by_cycles, by_links].map(|mut matrix| {
+            matrix.scale_columns();
+            decide(&matrix, 1e-13).unwrap().nullity()
+        })
+    }
+
+    #[test]
+    fn both_formulations_leave_the_same_freedom() {
+        let sphere = ring(
+            &spherical([0.5, 0.0, 1.0], [1.0; 4]),
+            [0.0; 3],
+            Written::Exactly,
+        );
+        for (mechanism, freedom) in [
+            (four_bar(), 1),
+            (sarrus(), 1),
+            (general_four(), 0),
+            (flat_parallelogram(), 2),
+            (sphere, 1),
+        ] {
+            assert_eq!(nullities(&mechanism), [Some(freedom); 2]);
+        }
+    }
+
+    #[test]
+    fn every_kind_of_joint_agrees() {
+        // Each kind closes a ring with two balls and a hinge.
+        for kind in JointKind::ALL
+            .into_iter()
+            .filter(|k| *k != JointKind::Distance)
+        {
+            let along = if kind.uses_second_axis() && kind.uses_axis() {
+                // The same direction on both sides would be a line across its own plane.
+                continue;
+            } else {
+                [0.5, 0.25, 1.0]
+            };
+            let places: Vec<Place> = vec![
+                (JointKind::Revolute, [0.0, 0.0, 0.0], [1.0, 0.5, 0.0]),
+                (JointKind::Spherical, [1.0, 0.5, 0.0], [0.0; 3]),
+                (JointKind::Spherical, [2.0, 0.0, 1.0], [0.0; 3]),
+                (kind, [0.0, 1.0, 1.0], along),
+            ];
+            let found = nullities(&ring(&places, [0.0; 3], Written::Exactly));
+            assert!(
+                found[0].is_some() && found[0] == found[1],
+                "{kind}: {found:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn couplings_hold_in_both() {
+        // Two pairs of links that only a gear ties together, then a coupled four-bar.
+        let mut builder = MechanismBuilder::new("gears");
+        builder.link("ground").link("wheel").link("rack");
+        builder.joint(JointBuilder::tree(
+            "turn",
+            JointKind::Revolute,
+            "ground",
+            "wheel",
+        ));
+        builder.joint(JointBuilder::tree(
+            "slide",
+            JointKind::Prismatic,
+            "ground",
+            "rack",
+        ));
+        builder.mimic("slide", "turn", Number::integer(3), Number::zero());
+        assert_eq!(nullities(&builder.build().unwrap()), [Some(1); 2]);
+        let mut builder = MechanismBuilder::new("geared");
+        builder.link("ground");
+        super::super::samples::add_ring(
+            &mut builder,
+            "r",
+            "ground",
+            &planar(&CRANK_ROCKER),
+            [0.0; 3],
+            Written::Exactly,
+        );
+        builder.mimic("r_b", "r_a", Number::integer(3), Number::zero());
+        assert_eq!(nullities(&builder.build().unwrap()), [Some(0); 2]);
+    }
+
+    #[test]
+    fn complements_are_orthonormal_and_orthogonal() {
+        let given = [
+            [1.0, 2.0, 0.0, 0.0, 1e-9, 0.0],
+            [0.0, 0.0, 3.0, 0.0, 0.0, -1.0],
+            // Depends on the first.
+            [2.0, 4.0, 0.0, 0.0, 2e-9, 0.0],
+        ];
+        let found = complement(&given, &1.0);
+        assert_eq!(found.len(), 4);
+        for (i, a) in found.iter().enumerate() {
+            for (j, b) in found.iter().enumerate() {
+                let expected = if i == j { 1.0 } else { 0.0 };
+                assert!((1f64.dot(a, b) - expected).abs() < 1e-15);
+            }
+            assert!(given.iter().all(|g| 1f64.dot(a, g).abs() < 1e-14));
+        }
+        assert_eq!(complement(&[], &1.0).len(), 6);
+    }
+}

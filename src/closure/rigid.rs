@@ -286,3 +286,178 @@ impl<R: Real> PlacedScrew<R> {
         }
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::matrix::Big;
+    use proptest::prelude::*;
+
+    fn close(a: &Rigid<f64>, b: &Rigid<f64>, bound: f64) -> bool {
+        let rows = a.rotation.iter().flatten().zip(b.rotation.iter().flatten());
+        let places = a.translation.iter().zip(&b.translation);
+        rows.chain(places).all(|(x, y)| (x - y).abs() <= bound)
+    }
+
+    fn big(v: Vector<f64>, bits: u32) -> Vector<Big> {
+        v.map(|x| Big::new(x, bits))
+    }
+
+    /// exp by its power series, in many digits; good for small twists.
+    fn by_series(angular: Vector<f64>, linear: Vector<f64>) -> Rigid<Big> {
+        Rigid::exponential_series(&big(angular, 600), &big(linear, 600))
+    }
+
+    #[test]
+    fn a_quarter_turn_of_a_screw_is_known() {
+        // About z with a pitch of 1/π m/rad: a quarter turn climbs half a metre.
+        let angle = std::f64::consts::FRAC_PI_2;
+        let moved = Rigid::exponential(&[0.0, 0.0, angle], &[0.0, 0.0, 0.5]);
+        let p = moved.apply(&[1.0, 0.0, 0.0]);
+        for (x, y) in p.iter().zip([0.0, 1.0, 0.5]) {
+            assert!((x - y).abs() < 1e-15);
+        }
+        // Turning while pushed along x: the end point of a quarter of a circle of radius 1.
+        let moved = Rigid::exponential(&[0.0, 0.0, angle], &[angle, 0.0, 0.0]);
+        for (x, y) in moved.translation.iter().zip([1.0, 1.0, 0.0]) {
+            assert!((x - y).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn small_twists_agree_with_the_series_to_the_last_digits() {
+        // On both sides of where the closed form takes over from the series.
+        for size in [1e-200, 1e-12, 0.99e-8, 1.01e-8, 3e-8, 1e-6, 1e-4] {
+            let angular = [0.3 * size, -0.5 * size, 0.81 * size];
+            let linear = [0.7, 0.2, -0.4];
+            let exact = by_series(angular, linear);
+            let found = Rigid::exponential(&angular, &linear);
+            for (x, y) in found.translation.iter().zip(&exact.translation) {
+                assert!((x - y.to_f64()).abs() < 4e-16, "{size:e}: {x} {y:?}");
+            }
+            for i in 0..3 {
+                for j in 0..3 {
+                    let off = found.rotation[i][j] - exact.rotation[i][j].to_f64();
+                    assert!(off.abs() < 4e-16, "{size:e}");
+                }
+            }
+            // The turn itself keeps its relative accuracy.
+            let turn = found.rotation_vector();
+            assert!((length(&turn) / length(&angular) - 1.0).abs() < 1e-7 + 1e-16 / size.max(1e-9));
+        }
+    }
+
+    #[test]
+    fn rotation_vectors_near_zero_and_near_a_half_turn() {
+        let axis = unit(&[1.0, -2.0, 0.5]);
+        for angle in [
+            0.0,
+            1e-300,
+            1e-160,
+            1e-9,
+            0.1,
+            2.6,
+            2.7,
+            3.1,
+            std::f64::consts::PI - 1e-6,
+            std::f64::consts::PI - 1e-9,
+        ] {
+            let wanted = scale(&axis, &angle);
+            let found = Rigid::exponential(&wanted, &[0.0; 3]).rotation_vector();
+            let off = length(&subtract(&found, &wanted));
+            assert!(off <= 4e-15 * angle.max(1e-300), "{angle}: {off:e}");
+        }
+        // Exactly at a half turn the axis has two signs; its largest component is positive.
+        for axis in [[0.0, -1.0, 0.0], [0.6, 0.0, -0.8], [-0.6, 0.64, 0.48]] {
+            let half = Rigid::rotation(&axis, &-1.0, &0.0).rotation_vector();
+            let largest = half
+                .iter()
+                .copied()
+                .fold(0.0f64, |m, x| if x.abs() > m.abs() { x } else { m });
+            assert!(largest > 0.0);
+            assert!((length(&half) - std::f64::consts::PI).abs() < 1e-15);
+            assert!(length(&cross(&half, &axis)) < 1e-15);
+        }
+    }
+
+    #[test]
+    fn many_digits_are_kept() {
+        let bits = 212;
+        let angular = big([0.7, -1.1, 2.2], bits);
+        let linear = big([3.0, 0.5, -0.25], bits);
+        let forth = Rigid::exponential(&angular, &linear);
+        let back = Rigid::exponential(&angular.clone().map(|x| -x), &linear.map(|x| -x));
+        let off = forth.compose(&back);
+        // exp(ξ) exp(−ξ) = 1: both the turn and the way keep 200 bits.
+        assert!(length(&off.translation).to_f64() < 2f64.powi(-200));
+        assert!(length(&off.rotation_vector()).to_f64() < 2f64.powi(-200));
+        let found = forth.rotation_vector();
+        assert!(length(&subtract(&found, &angular)).to_f64() < 2f64.powi(-200));
+        let double = Rigid::exponential(&[0.7, -1.1, 2.2], &[3.0, 0.5, -0.25]);
+        for (x, y) in double.translation.iter().zip(&forth.translation) {
+            assert!((x - y.to_f64()).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn directions_and_lengths_of_any_size() {
+        for size in [1e-310, 1e-200, 1.0, 1e200] {
+            let v = [3.0 * size, 0.0, -4.0 * size];
+            assert!((length(&v) / size - 5.0).abs() < 1e-12);
+            assert!(length(&subtract(&unit(&v), &[0.6, 0.0, -0.8])) < 1e-12);
+        }
+        assert!(unit(&[0.0; 3]).iter().all(|x: &f64| x.is_nan()));
+    }
+
+    #[test]
+    fn a_screw_moves_with_its_frame() {
+        let screw = PlacedScrew {
+            angular: [0.0, 0.0, 1.0],
+            point: [1.0, 0.0, 0.0],
+            linear: [0.0, 0.0, 0.5],
+        };
+        // The body's point at the origin moves by ω × (0 − p) + h ω.
+        assert_eq!(screw.about(&[0.0; 3]).1, [0.0, -1.0, 0.5]);
+        let moved = screw.moved(&Rigid::translation([0.0, 2.0, 0.0]));
+        assert_eq!(moved.point, [1.0, 2.0, 0.0]);
+        assert_eq!(moved.about(&[1.0, 2.0, 0.0]).1, [0.0, 0.0, 0.5]);
+    }
+
+    proptest! {
+        #[test]
+        fn frames_across_an_axis_are_right_handed(v in prop::array::uniform3(-1.0..1.0f64)) {
+            prop_assume!(length(&v) > 1e-3);
+            let axis = unit(&v);
+            let (e1, e2) = perpendicular(&axis);
+            prop_assert!(dot(&e1, &axis).abs() < 1e-15 && dot(&e2, &axis).abs() < 1e-15);
+            prop_assert!((length(&e1) - 1.0).abs() < 1e-15);
+            prop_assert!(length(&subtract(&cross(&axis, &e1), &e2)) < 1e-15);
+        }
+
+        #[test]
+        fn inverse_undoes(
+            angular in prop::array::uniform3(-3.0..3.0f64),
+            linear in prop::array::uniform3(-3.0..3.0f64),
+            point in prop::array::uniform3(-3.0..3.0f64),
+        ) {
+            let moved = Rigid::exponential(&angular, &linear);
+            let identity = Rigid::identity(&0.0);
+            prop_assert!(close(&moved.compose(&moved.inverse()), &identity, 1e-13));
+            let there_and_back = moved.inverse().apply(&moved.apply(&point));
+            prop_assert!(length(&subtract(&there_and_back, &point)) < 1e-13);
+            prop_assert!(length(&subtract(&moved.rotate_back(&moved.rotate(&point)), &point)) < 1e-14);
+        }
+
+        #[test]
+        fn steps_along_one_screw_add_up(
+            angular in prop::array::uniform3(-1.0..1.0f64),
+            linear in prop::array::uniform3(-1.0..1.0f64),
+            s in -1.0..1.0f64,
+            t in -1.0..1.0f64,
+        ) {
+            let go = |x: f64| Rigid::exponential(&scale(&angular, &x), &scale(&linear, &x));
+            prop_assert!(close(&go(s).compose(&go(t)), &go(s + t), 1e-14));
+        }
+    }
+}

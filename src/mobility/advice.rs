@@ -258,3 +258,162 @@ impl Relaxed {
         Ok(decision.rank == Some(rank.unknowns() - freedom + freed))
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::closure::samples::{
+        CRANK_ROCKER, Written, add_ring, flat_parallelogram, four_bar, planar, ring, sarrus,
+    };
+    use crate::mechanism::MechanismBuilder;
+    use crate::mobility::{Analysis, AnalysisOptions, analyse};
+    use crate::number::Number;
+
+    fn analysed(mechanism: &Mechanism) -> Analysis {
+        analyse(mechanism, &AnalysisOptions::default()).unwrap()
+    }
+
+    #[test]
+    fn counts_are_those_of_the_mechanism_so_changed() {
+        // Every piece of advice is carried out on the drawing and counted anew.
+        let before = analysed(&four_bar());
+        assert_eq!(
+            before.advice.len(),
+            12,
+            "C, U and S for each of four hinges"
+        );
+        for advice in &before.advice {
+            let mut places = planar(&CRANK_ROCKER);
+            places[advice.joint].0 = advice.to;
+            let Some(second) = advice.second_axis else {
+                let after = analysed(&ring(&places, [0.0; 3], Written::Exactly))
+                    .home
+                    .unwrap();
+                assert_eq!(after.redundant, Some(advice.redundant_after), "{advice:?}");
+                assert_eq!(after.instantaneous, Some(1));
+                continue;
+            };
+            assert!((second[2]).abs() < 1e-12, "across the hinge");
+        }
+        let best = &before.advice[0];
+        assert_eq!(
+            (best.to, best.redundant_before, best.redundant_after),
+            (JointKind::Spherical, 3, 1)
+        );
+    }
+
+    #[test]
+    fn what_would_add_a_freedom_is_not_advised() {
+        // The one redundancy of a Sarrus linkage is a couple: sliding hinges do not help.
+        let advice = analysed(&sarrus()).advice;
+        assert!(!advice.is_empty());
+        for one in &advice {
+            assert_eq!((one.redundant_before, one.redundant_after), (1, 0));
+            assert_ne!(
+                one.to,
+                JointKind::Spherical,
+                "two at once would add one freedom"
+            );
+        }
+        // Nothing is redundant, nothing is advised.
+        let mut places = planar(&CRANK_ROCKER);
+        places[1].0 = JointKind::Cylindrical;
+        places[2].0 = JointKind::Spherical;
+        assert!(
+            analysed(&ring(&places, [0.0; 3], Written::Exactly))
+                .advice
+                .is_empty()
+        );
+    }
+
+    #[test]
+    fn second_axes_hold_where_the_joint_stands() {
+        // At a pose with turned joints the axis in the successor is not that in the predecessor.
+        let mut builder = MechanismBuilder::new("turned");
+        builder.link("ground");
+        add_ring(
+            &mut builder,
+            "r",
+            "ground",
+            &planar(&CRANK_ROCKER),
+            [0.0; 3],
+            Written::Exactly,
+        );
+        let turn = Number::from_f64(0.75).unwrap();
+        builder.configuration("turned", vec![("r_a".to_owned(), vec![turn])]);
+        let mechanism = builder.build().unwrap();
+        let options = AnalysisOptions {
+            configuration: Some("turned".to_owned()),
+        };
+        let analysis = analyse(&mechanism, &options).unwrap();
+        let advice = analysis
+            .advice
+            .iter()
+            .find(|a| a.joint == 0 && a.second_axis.is_some());
+        let [x, y, z] = advice.unwrap().second_axis.unwrap();
+        let (s, c) = 0.75f64.sin_cos();
+        // Seen from the predecessor it is one of the directions across the hinge that the joint frame suggests.
+        let seen = [c * x - s * y, s * x + c * y];
+        assert!(
+            seen.iter().any(|x| (x.abs() - 1.0).abs() < 1e-12),
+            "{seen:?}"
+        );
+        assert!(z.abs() < 1e-12);
+    }
+
+    #[test]
+    fn geometry_and_states_are_put_back() {
+        let mechanism = four_bar();
+        let analysis = analysed(&mechanism);
+        let mut geometry = Geometry::new(&mechanism, None, &crate::closure::Arithmetic::double());
+        let mut states = geometry.states.clone();
+        let (part, rank) = (&analysis.structure.parts[0], &analysis.parts[0]);
+        let stresses = SelfStresses::new(part, rank).unwrap().unwrap();
+        let advice = advice_for_part(
+            &mechanism,
+            &mut geometry,
+            &mut states,
+            part,
+            rank,
+            &stresses,
+            3,
+        )
+        .unwrap();
+        assert_eq!(advice.len(), 12);
+        assert!(
+            geometry
+                .displacements
+                .iter()
+                .all(|d| d.kind() == JointKind::Revolute)
+        );
+        assert!(states.iter().all(|state| state.values == [0.0]));
+    }
+
+    #[test]
+    fn coupled_joints_are_left_as_they_are() {
+        let mut builder = MechanismBuilder::new("geared");
+        builder.link("ground");
+        add_ring(
+            &mut builder,
+            "r",
+            "ground",
+            &planar(&CRANK_ROCKER),
+            [0.0; 3],
+            Written::Exactly,
+        );
+        builder.mimic("r_b", "r_a", Number::integer(2), Number::zero());
+        let advice = analysed(&builder.build().unwrap()).advice;
+        assert!(
+            !advice.is_empty() && advice.iter().all(|a| a.joint >= 2),
+            "{advice:?}"
+        );
+    }
+
+    #[test]
+    fn the_best_comes_first_at_singular_poses_too() {
+        let advice = analysed(&flat_parallelogram()).advice;
+        assert!(!advice.is_empty());
+        assert!(advice.is_sorted_by_key(|a| a.redundant_after));
+    }
+}

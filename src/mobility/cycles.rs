@@ -131,3 +131,117 @@ fn generated_subgroup(
     }
     algebra.subgroup().ok()?
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::closure::samples::{
+        CRANK_ROCKER, Place, Written, four_bar, general_four, planar, ring, sarrus, spherical,
+    };
+    use crate::group::Class;
+    use crate::mechanism::JointKind;
+    use crate::mobility::{AnalysisOptions, analyse};
+
+    fn facts(mechanism: &Mechanism) -> CycleFacts {
+        let mut cycles = analyse(mechanism, &AnalysisOptions::default())
+            .unwrap()
+            .cycles;
+        assert_eq!(cycles.len(), 1);
+        cycles.remove(0)
+    }
+
+    fn class(facts: &CycleFacts) -> Class {
+        facts.space.as_ref().unwrap().class()
+    }
+
+    #[test]
+    fn spaces_ranks_and_freedoms() {
+        let planar_loop = facts(&four_bar());
+        assert_eq!(class(&planar_loop), Class::G);
+        assert_eq!(
+            (
+                planar_loop.space_dimension,
+                planar_loop.rank,
+                planar_loop.redundant,
+                planar_loop.mobility
+            ),
+            (Some(3), Some(3), Some(3), Some(1))
+        );
+        let sphere = ring(
+            &spherical([0.5, 0.0, 1.0], [1.0, 0.5, 2.0, 1.0]),
+            [0.0; 3],
+            Written::Exactly,
+        );
+        let sphere = facts(&sphere);
+        assert_eq!(
+            (class(&sphere), sphere.rank, sphere.mobility),
+            (Class::S, Some(3), Some(1))
+        );
+        let sarrus = facts(&sarrus());
+        assert_eq!(class(&sarrus), Class::D);
+        assert_eq!(
+            (sarrus.rank, sarrus.redundant, sarrus.mobility),
+            (Some(5), Some(1), Some(1))
+        );
+        assert!(sarrus.locks.is_empty());
+    }
+
+    #[test]
+    fn rigid_loops_lock_their_joints_in_the_order_of_the_walk() {
+        let rigid = facts(&general_four());
+        assert_eq!((rigid.rank, rigid.mobility), (Some(4), Some(0)));
+        let mut locks = rigid.locks.clone();
+        let walk: Vec<String> = rigid
+            .joints
+            .iter()
+            .map(|(j, _)| format!("r_{}", ["a", "b", "c", "d"][*j]))
+            .collect();
+        assert_eq!(locks, walk);
+        locks.sort();
+        assert_eq!(locks, ["r_a", "r_b", "r_c", "r_d"]);
+    }
+
+    #[test]
+    fn parts_of_joints_are_locked_one_by_one() {
+        let mut places = planar(&CRANK_ROCKER);
+        places[2].0 = JointKind::Cylindrical;
+        let found = facts(&ring(&places, [0.0; 3], Written::Exactly));
+        assert_eq!(found.locks, ["r_c.trans"]);
+        assert_eq!(
+            class(&found),
+            Class::X,
+            "sliding adds the third translation"
+        );
+    }
+
+    #[test]
+    fn coarse_numbers_are_taken_literally_as_for_the_whole() {
+        let points = [[0.0, 0.0], [0.003, 0.02], [0.04, 0.05], [0.04, 0.001]];
+        let found = facts(&ring(&planar(&points), [0.0; 3], Written::Decimals(3)));
+        assert_eq!((found.rank, found.mobility), (Some(3), Some(1)));
+    }
+
+    #[test]
+    fn long_cycles_cost_no_basis_of_their_freedoms() {
+        // A ring of 26 × 20 coaxial hinges is not drawn here letter by letter: sliders and hinges along one axis do.
+        let places: Vec<Place> = (0..26)
+            .map(|i| {
+                let kind = if i % 2 == 0 {
+                    JointKind::Schoenflies
+                } else {
+                    JointKind::Cylindrical
+                };
+                (kind, [0.0; 3], [0.0, 0.0, 1.0])
+            })
+            .collect();
+        let found = facts(&ring(&places, [0.0; 3], Written::Exactly));
+        assert_eq!((class(&found), found.rank), (Class::X, Some(4)));
+        assert_eq!(
+            found.mobility,
+            Some(13 * 6 - 4),
+            "more than are looked at one by one"
+        );
+        assert!(found.locks.is_empty());
+    }
+}

@@ -164,3 +164,107 @@ fn cross(a: &Vector, b: &Vector) -> Vector {
         a[0] * b[1] - a[1] * b[0],
     ]
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::closure::samples::{Place, Written, four_bar, planar, ring, sarrus};
+    use crate::mechanism::{JointBuilder, MechanismBuilder};
+    use crate::number::Number;
+
+    fn count(mechanism: &Mechanism) -> (i64, i64) {
+        let found = generic_count(mechanism, &Structure::new(mechanism)).unwrap();
+        (found.mobility, found.redundant)
+    }
+
+    #[test]
+    fn special_geometry_is_not_seen() {
+        assert_eq!(count(&four_bar()), (0, 2));
+        assert_eq!(count(&sarrus()), (0, 0));
+        // Seven hinges in any position move.
+        let points: Vec<[f64; 2]> = (0..7).map(|i| [f64::from(i), f64::from(i * i)]).collect();
+        assert_eq!(
+            count(&ring(&planar(&points), [0.0; 3], Written::Exactly)),
+            (1, 0)
+        );
+    }
+
+    #[test]
+    fn what_topology_repeats_is_seen() {
+        // A rod between two balls spins whatever the geometry: 3 + 3 freedoms, 5 of them stop it… and two rods in a row
+        // on one line would not be generic. A ring of two balls and a fixed joint: three rotations and the spin.
+        let places: Vec<Place> = vec![
+            (JointKind::Spherical, [0.0; 3], [0.0; 3]),
+            (JointKind::Spherical, [1.0, 0.0, 0.0], [0.0; 3]),
+            (JointKind::Fixed, [0.0, 1.0, 0.0], [0.0; 3]),
+        ];
+        assert_eq!(count(&ring(&places, [0.0; 3], Written::Exactly)), (1, 1));
+        // Sliders alone never turn: three equations are idle however they point.
+        let slider = |x: f64| (JointKind::Prismatic, [x, 0.0, 0.0], [0.0, x, 1.0]);
+        let places: Vec<Place> = (0..5).map(|i| slider(f64::from(i))).collect();
+        assert_eq!(count(&ring(&places, [0.0; 3], Written::Exactly)), (2, 3));
+    }
+
+    #[test]
+    fn every_kind_spans_its_freedoms_and_closes_generically() {
+        // One joint of the kind and enough hinges: mobility is the excess over six whatever the kind.
+        for kind in JointKind::ALL {
+            let mut builder = MechanismBuilder::new("loop");
+            let hinges = 8 - kind.freedom();
+            for link in 0..=hinges {
+                builder.link(&format!("l{link}"));
+            }
+            for link in 0..hinges {
+                let (from, to) = (format!("l{link}"), format!("l{}", link + 1));
+                let name = format!("h{link}");
+                builder.joint(JointBuilder::tree(&name, JointKind::Revolute, &from, &to));
+            }
+            let mut last = JointBuilder::closing("last", kind, &format!("l{hinges}"), "l0");
+            if kind.uses_lead() {
+                last = last.lead(Number::one());
+            }
+            if kind == JointKind::Distance {
+                last = last.distance(Number::one());
+            }
+            builder.joint(last);
+            assert_eq!(count(&builder.build().unwrap()), (2, 0), "{kind}");
+        }
+    }
+
+    #[test]
+    fn trees_gears_and_loose_pieces() {
+        let mut builder = MechanismBuilder::new("arm");
+        builder.link("ground").link("arm").link("hand");
+        builder.joint(JointBuilder::tree(
+            "a",
+            JointKind::Revolute,
+            "ground",
+            "arm",
+        ));
+        builder.joint(JointBuilder::tree(
+            "b",
+            JointKind::Cylindrical,
+            "arm",
+            "hand",
+        ));
+        assert_eq!(count(&builder.clone().build().unwrap()), (3, 0));
+        builder.link("wheel");
+        builder.joint(JointBuilder::tree(
+            "c",
+            JointKind::Revolute,
+            "ground",
+            "wheel",
+        ));
+        builder.mimic("c", "a", Number::integer(2), Number::zero());
+        assert_eq!(count(&builder.clone().build().unwrap()), (3, 0));
+        builder.link("stone");
+        builder.floating(
+            "drop",
+            "ground",
+            "stone",
+            crate::mechanism::Frame::identity(),
+        );
+        assert_eq!(count(&builder.build().unwrap()), (9, 0));
+    }
+}

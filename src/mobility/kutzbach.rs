@@ -15,3 +15,43 @@ pub fn kutzbach_count(mechanism: &Mechanism) -> i64 {
         .sum();
     6 * moving - constraints - mechanism.couplings().len() as i64
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::closure::samples::{four_bar, sarrus};
+    use crate::mechanism::{JointBuilder, JointKind, MechanismBuilder};
+    use crate::number::Number;
+
+    #[test]
+    fn known_counts() {
+        assert_eq!(kutzbach_count(&four_bar()), -2);
+        assert_eq!(kutzbach_count(&sarrus()), 0);
+    }
+
+    #[test]
+    fn every_constraint_counts_once() {
+        let mut builder = MechanismBuilder::new("arm");
+        builder.link("ground");
+        assert_eq!(kutzbach_count(&builder.clone().build().unwrap()), 0);
+        builder.link("arm").link("hand");
+        builder.joint(JointBuilder::tree(
+            "a",
+            JointKind::Revolute,
+            "ground",
+            "arm",
+        ));
+        builder.joint(JointBuilder::tree("b", JointKind::Prismatic, "arm", "hand"));
+        assert_eq!(kutzbach_count(&builder.clone().build().unwrap()), 2);
+        builder.mimic("b", "a", Number::one(), Number::zero());
+        assert_eq!(kutzbach_count(&builder.clone().build().unwrap()), 1);
+        builder.joint(JointBuilder::closing(
+            "c",
+            JointKind::Fixed,
+            "ground",
+            "hand",
+        ));
+        assert_eq!(kutzbach_count(&builder.build().unwrap()), -5);
+    }
+}

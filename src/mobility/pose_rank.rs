@@ -302,3 +302,7 @@ pub(super) fn rank_part_with(
         decision,
     })
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;

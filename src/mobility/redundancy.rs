@@ -157,3 +157,109 @@ fn independent_rows(loads: &DMatrix<f64>, threshold: f64) -> usize {
     }
     rank
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::closure::samples::{
+        CRANK_ROCKER, Place, Written, add_ring, four_bar, planar, ring, sarrus,
+    };
+    use crate::mechanism::{JointBuilder, JointKind, Mechanism, MechanismBuilder};
+    use crate::mobility::{Analysis, AnalysisOptions, analyse};
+
+    fn analysed(mechanism: &Mechanism) -> Analysis {
+        analyse(mechanism, &AnalysisOptions::default()).unwrap()
+    }
+
+    #[test]
+    fn a_planar_four_bar_is_loaded_in_three_directions_everywhere() {
+        let analysis = analysed(&four_bar());
+        assert_eq!(analysis.redundant_wrenches, [Some(3); 4]);
+        assert_eq!(analysed(&sarrus()).redundant_wrenches, [Some(1); 6]);
+    }
+
+    #[test]
+    fn bridges_and_independent_loops_carry_nothing() {
+        let mut builder = MechanismBuilder::new("hand");
+        builder.link("ground");
+        add_ring(
+            &mut builder,
+            "r",
+            "ground",
+            &planar(&CRANK_ROCKER),
+            [0.0; 3],
+            Written::Exactly,
+        );
+        builder.link("hand");
+        builder.joint(JointBuilder::tree(
+            "wrist",
+            JointKind::Revolute,
+            "r2",
+            "hand",
+        ));
+        let mechanism = builder.build().unwrap();
+        let wrist = mechanism.joint_named("wrist").unwrap().0;
+        let found = analysed(&mechanism).redundant_wrenches;
+        assert_eq!(found[wrist], Some(0));
+        assert_eq!(found[0], Some(3));
+        // R C C C: nothing redundant.
+        let places: Vec<Place> = vec![
+            (JointKind::Revolute, [0.0; 3], [0.0, 0.25, 1.0]),
+            (JointKind::Cylindrical, [1.0, 0.25, 0.0], [0.5, 0.0, 1.0]),
+            (JointKind::Cylindrical, [1.0, 1.5, 0.5], [0.0, 1.0, 0.5]),
+            (JointKind::Cylindrical, [0.25, 1.0, -0.5], [1.0, -0.5, 0.25]),
+        ];
+        let analysis = analysed(&ring(&places, [0.0; 3], Written::Exactly));
+        assert_eq!(analysis.home.unwrap().redundant, Some(0));
+        assert_eq!(analysis.redundant_wrenches, [Some(0); 4]);
+    }
+
+    #[test]
+    fn loads_are_reciprocal_to_the_joint_and_felt_across_it() {
+        let analysis = analysed(&four_bar());
+        let (part, rank) = (&analysis.structure.parts[0], &analysis.parts[0]);
+        let stresses = SelfStresses::new(part, rank).unwrap().unwrap();
+        let none = [0.0; 3];
+        for joint in 0..4 {
+            let own = stresses.loads(rank, joint, &[([0.0, 0.0, 1.0], none)]);
+            assert!(
+                own.norm() < 1e-14,
+                "a hinge carries nothing about its own axis"
+            );
+            assert_eq!(stresses.rank(&own), 0);
+            let sliding = stresses.loads(rank, joint, &[(none, [0.0, 0.0, 1.0])]);
+            assert_eq!(stresses.rank(&sliding), 1);
+            let in_plane = stresses.loads(
+                rank,
+                joint,
+                &[(none, [1.0, 0.0, 0.0]), (none, [0.0, 1.0, 0.0])],
+            );
+            assert_eq!(
+                stresses.rank(&in_plane),
+                0,
+                "forces in the plane are determined"
+            );
+        }
+    }
+
+    #[test]
+    fn open_ranks_have_no_self_stresses() {
+        let analysis = analysed(&four_bar());
+        let mut rank = analysis.parts[0].clone();
+        rank.instantaneous = None;
+        assert!(
+            SelfStresses::new(&analysis.structure.parts[0], &rank)
+                .unwrap()
+                .is_none()
+        );
+    }
+
+    #[test]
+    fn independent_rows_are_counted_against_the_threshold() {
+        let loads = DMatrix::from_row_slice(3, 3, &[1.0, 0.0, 0.0, 1.0, 1e-7, 0.0, 0.0, 0.0, 0.5]);
+        assert_eq!(independent_rows(&loads, 1e-9), 3);
+        assert_eq!(independent_rows(&loads, 1e-6), 2);
+        assert_eq!(independent_rows(&DMatrix::zeros(6, 2), 0.0), 0);
+    }
+}

@@ -207,3 +207,161 @@ pub fn freedom_groups(kind: JointKind) -> Vec<(String, Vec<usize>)> {
     }
     groups
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::closure::samples::{
+        CRANK_ROCKER, Place, Written, add_ring, four_bar, general_four, planar, ring,
+    };
+    use crate::matrix::SparseMatrix;
+    use crate::mechanism::MechanismBuilder;
+    use crate::mobility::{AnalysisOptions, analyse};
+
+    fn roles(mechanism: &Mechanism) -> Vec<JointRole> {
+        analyse(mechanism, &AnalysisOptions::default())
+            .unwrap()
+            .roles
+    }
+
+    fn locked(mechanism: &Mechanism) -> Vec<Option<bool>> {
+        roles(mechanism)
+            .into_iter()
+            .map(|role| role.locked)
+            .collect()
+    }
+
+    #[test]
+    fn all_joints_of_a_four_bar_move_and_none_of_a_rigid_ring() {
+        assert_eq!(locked(&four_bar()), [Some(false); 4]);
+        assert_eq!(locked(&general_four()), [Some(true); 4]);
+    }
+
+    #[test]
+    fn a_joint_at_a_dead_centre_pauses_but_is_not_locked() {
+        // Crank and coupler in one line: at this instant the rocker's own joint stands still.
+        let points = [[0.0, 0.0], [0.6, 0.8], [2.4, 3.2], [4.0, 0.0]];
+        let mechanism = ring(&planar(&points), [0.0; 3], Written::Exactly);
+        let analysis = analyse(&mechanism, &AnalysisOptions::default()).unwrap();
+        let part = &analysis.parts[0];
+        let null = null_vectors(&part.matrix, &part.settled().unwrap(), NULL_VECTORS, 1).unwrap();
+        let resting = Resting::columns(&null, &part.settled().unwrap()).unwrap();
+        let last = analysis.structure.parts[0]
+            .joints
+            .iter()
+            .position(|j| *j == 3)
+            .unwrap();
+        assert!(resting.zero[last], "it does pause: {:?}", null.vectors);
+        assert_eq!(locked(&mechanism), [Some(false); 4]);
+    }
+
+    #[test]
+    fn a_cylindrical_joint_in_a_planar_loop_turns_and_does_not_slide() {
+        let mut places = planar(&CRANK_ROCKER);
+        places[1].0 = JointKind::Cylindrical;
+        let found = roles(&ring(&places, [0.0; 3], Written::Exactly));
+        assert_eq!(found[1].locked, Some(false));
+        assert_eq!(found[1].locked_parts, ["r_b.trans"]);
+        assert!(found[0].locked_parts.is_empty());
+    }
+
+    #[test]
+    fn joints_without_freedom_have_no_role() {
+        let mut places = planar(&CRANK_ROCKER);
+        places.insert(2, (JointKind::Fixed, [1.0, 4.0, 0.0], [0.0; 3]));
+        let found = roles(&ring(&places, [0.0; 3], Written::Exactly));
+        assert_eq!(found[2], JointRole::default());
+        assert_eq!(found[3].locked, Some(false));
+    }
+
+    #[test]
+    fn coarse_numbers_do_not_hide_that_a_joint_moves() {
+        // Centimetres with three decimals, crank and coupler in line.
+        let points = [[0.0, 0.0], [0.006, 0.008], [0.024, 0.032], [0.04, 0.001]];
+        let mechanism = ring(&planar(&points), [0.0; 3], Written::Decimals(3));
+        assert_eq!(locked(&mechanism), [Some(false); 4]);
+    }
+
+    #[test]
+    fn a_locked_part_beside_a_moving_one() {
+        let mut builder = MechanismBuilder::new("two");
+        builder.link("ground");
+        add_ring(
+            &mut builder,
+            "moves",
+            "ground",
+            &planar(&CRANK_ROCKER),
+            [0.0; 3],
+            Written::Exactly,
+        );
+        add_ring(
+            &mut builder,
+            "stays",
+            "ground",
+            &planar(&CRANK_ROCKER[..3]),
+            [0.0; 3],
+            Written::Exactly,
+        );
+        let mechanism = builder.build().unwrap();
+        let found = locked(&mechanism);
+        assert_eq!(found[..4], [Some(false); 4]);
+        assert_eq!(found[4..], [Some(true); 3]);
+    }
+
+    #[test]
+    fn components_small_by_lack_of_digits_are_not_called_zero() {
+        // The null vector (1, −0.01, 0) / |·|, uncertain by 1e-3 and by 1e-9.
+        let matrix =
+            SparseMatrix::from_triplets(2, 3, 0.0, [(0, 0, 0.01), (0, 1, 1.0), (1, 2, 1.0)])
+                .unwrap();
+        for (accuracy, expected) in [(1e-3, [false, false, true]), (1e-9, [false, false, true])] {
+            let decision = decide(&matrix, accuracy).unwrap();
+            let null = null_vectors(&matrix, &decision, 9, 1).unwrap();
+            let found = Resting::columns(&null, &decision).unwrap();
+            assert_eq!(found.zero, expected);
+            assert_eq!(found.doubtful[1], accuracy > 1e-6);
+        }
+        // Vectors as uncertain as they are large say nothing.
+        let decision = decide(&matrix, 0.0).unwrap();
+        let null = null_vectors(&matrix, &decision, 9, 1).unwrap();
+        let hopeless = RankDecision {
+            accuracy: 1.0,
+            ..decision
+        };
+        assert!(Resting::columns(&null, &hopeless).is_none());
+    }
+
+    #[test]
+    fn groups_cover_every_freedom_once() {
+        for kind in JointKind::ALL {
+            let mut variables: Vec<usize> = freedom_groups(kind)
+                .into_iter()
+                .flat_map(|(_, v)| v)
+                .collect();
+            variables.sort_unstable();
+            assert_eq!(variables, (0..kind.freedom()).collect::<Vec<_>>(), "{kind}");
+        }
+        let names = |kind| -> Vec<String> {
+            freedom_groups(kind)
+                .into_iter()
+                .map(|(name, _)| name)
+                .collect()
+        };
+        assert_eq!(names(JointKind::Universal), ["rot1", "rot2"]);
+        assert_eq!(names(JointKind::Planar), ["rot", "trans"]);
+    }
+
+    #[test]
+    fn roles_do_not_depend_on_where_the_file_names_a_joint() {
+        // Three hinges idle about one axis beside a slider that cannot move.
+        let hinge = (JointKind::Revolute, [0.0; 3], [0.0, 0.0, 1.0]);
+        let places: Vec<Place> = vec![
+            hinge,
+            hinge,
+            (JointKind::Prismatic, [0.0; 3], [1.0, 0.0, 0.0]),
+        ];
+        let found = locked(&ring(&places, [0.0; 3], Written::Exactly));
+        assert_eq!(found, [Some(false), Some(false), Some(true)]);
+    }
+}

@@ -125,3 +125,136 @@ pub fn constraint_graph(mechanism: &Mechanism) -> ConstraintGraph {
         .collect();
     ConstraintGraph::new(mechanism.ground().0, nodes, edges, couplings)
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::closure::samples::{
+        CRANK_ROCKER, Written, add_ring, four_bar, planar, sarrus_places,
+    };
+    use crate::mechanism::{Frame, JointBuilder, JointKind, MechanismBuilder};
+    use crate::number::Number;
+
+    fn two_rings() -> MechanismBuilder {
+        let mut builder = MechanismBuilder::new("two");
+        builder.link("ground");
+        add_ring(
+            &mut builder,
+            "p",
+            "ground",
+            &planar(&CRANK_ROCKER),
+            [0.0; 3],
+            Written::Exactly,
+        );
+        add_ring(
+            &mut builder,
+            "s",
+            "ground",
+            &sarrus_places(),
+            [0.0; 3],
+            Written::Exactly,
+        );
+        builder
+    }
+
+    #[test]
+    fn blocks_that_share_a_link_only_stand_alone() {
+        let structure = Structure::new(&two_rings().build().unwrap());
+        assert_eq!(structure.parts.len(), 2);
+        assert!(structure.free_joints.is_empty() && structure.loose_pieces == 0);
+        assert_eq!(structure.cycles.len(), 2);
+        assert!(structure.cycles_are_fundamental);
+        let sizes: Vec<usize> = structure
+            .parts
+            .iter()
+            .map(|part| part.joints.len())
+            .collect();
+        assert_eq!(sizes.iter().sum::<usize>(), 10);
+        for part in &structure.parts {
+            assert_eq!(part.cycles.len(), 1);
+            assert_eq!(part.cycles[0].len(), part.joints.len());
+        }
+    }
+
+    #[test]
+    fn couplings_tie_blocks_together() {
+        let mut builder = two_rings();
+        builder.mimic("s_b", "p_a", Number::one(), Number::zero());
+        let structure = Structure::new(&builder.build().unwrap());
+        assert_eq!(structure.parts.len(), 1);
+        assert_eq!(
+            (
+                structure.parts[0].cycles.len(),
+                structure.parts[0].couplings.len()
+            ),
+            (2, 1)
+        );
+    }
+
+    #[test]
+    fn bridges_are_free_and_bodies_without_joints_loose() {
+        let mut builder = two_rings();
+        builder.link("hand").link("finger").link("stone");
+        builder.joint(JointBuilder::tree(
+            "wrist",
+            JointKind::Spherical,
+            "p2",
+            "hand",
+        ));
+        builder.joint(JointBuilder::tree(
+            "tip",
+            JointKind::Fixed,
+            "hand",
+            "finger",
+        ));
+        builder.floating("drop", "ground", "stone", Frame::identity());
+        let mechanism = builder.build().unwrap();
+        let structure = Structure::new(&mechanism);
+        let mut free: Vec<&str> = structure
+            .free_joints
+            .iter()
+            .map(|j| mechanism.joints()[*j].name.as_str())
+            .collect();
+        free.sort_unstable();
+        assert_eq!(free, ["tip", "wrist"]);
+        assert_eq!(structure.loose_pieces, 1);
+        // A gear makes a bridge part of something.
+        let mut builder = two_rings();
+        builder.link("hand");
+        builder.joint(JointBuilder::tree(
+            "wrist",
+            JointKind::Revolute,
+            "p2",
+            "hand",
+        ));
+        builder.mimic("wrist", "p_a", Number::one(), Number::zero());
+        let structure = Structure::new(&builder.build().unwrap());
+        assert!(structure.free_joints.is_empty());
+        assert_eq!(
+            structure.parts.iter().map(|part| part.joints.len()).max(),
+            Some(6)
+        );
+    }
+
+    #[test]
+    fn columns_follow_names_not_the_file() {
+        let mechanism = four_bar();
+        let joints = &Structure::new(&mechanism).parts[0].joints;
+        let names: Vec<&str> = joints
+            .iter()
+            .map(|j| mechanism.joints()[*j].name.as_str())
+            .collect();
+        assert_eq!(names, ["r_a", "r_b", "r_c", "r_d"]);
+    }
+
+    #[test]
+    fn the_graph_keeps_indices() {
+        let mechanism = two_rings().build().unwrap();
+        let graph = constraint_graph(&mechanism);
+        assert_eq!(graph.edge_count(), mechanism.joints().len());
+        for (index, joint) in mechanism.joints().iter().enumerate() {
+            assert_eq!(graph.edge_name(index), joint.name);
+        }
+    }
+}

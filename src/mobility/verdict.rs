@@ -160,3 +160,174 @@ pub fn judge(
         why,
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::closure::samples::{
+        CRANK_ROCKER, Place, Written, add_ring, four_bar, general_four, planar, ring,
+    };
+    use crate::mechanism::{Frame, JointBuilder, JointKind, MechanismBuilder};
+    use crate::mobility::{Analysis, AnalysisOptions, analyse};
+
+    fn analysed(mechanism: &Mechanism) -> Analysis {
+        analyse(mechanism, &AnalysisOptions::default()).unwrap()
+    }
+
+    fn judged(mechanism: &Mechanism) -> Mobility {
+        analysed(mechanism).mobility
+    }
+
+    /// R C C C at general places: one freedom, nothing redundant.
+    fn cylinders(written: Written) -> Mechanism {
+        let places: Vec<Place> = vec![
+            (JointKind::Revolute, [0.0; 3], [0.0, 0.25, 1.0]),
+            (JointKind::Cylindrical, [1.0, 0.25, 0.0], [0.5, 0.0, 1.0]),
+            (JointKind::Cylindrical, [1.0, 1.5, 0.5], [0.0, 1.0, 0.5]),
+            (JointKind::Cylindrical, [0.25, 1.0, -0.5], [1.0, -0.5, 0.25]),
+        ];
+        ring(&places, [0.0; 3], written)
+    }
+
+    #[test]
+    fn independent_equations_make_a_manifold() {
+        for written in [Written::Exactly, Written::Decimals(6)] {
+            let found = judged(&cylinders(written));
+            assert_eq!((found.verdict, found.finite()), (Verdict::Mobile, Some(1)));
+            assert!(found.regular && found.why.is_empty());
+        }
+    }
+
+    #[test]
+    fn no_velocity_no_motion() {
+        let found = judged(&general_four());
+        assert_eq!((found.verdict, found.finite()), (Verdict::Rigid, Some(0)));
+        assert!(found.regular);
+        let alone = MechanismBuilder::new("block")
+            .link("ground")
+            .clone()
+            .build()
+            .unwrap();
+        assert_eq!(judged(&alone).finite(), Some(0));
+    }
+
+    #[test]
+    fn dependent_equations_leave_it_open() {
+        let found = judged(&four_bar());
+        assert_eq!((found.verdict, found.finite()), (Verdict::Undecided, None));
+        assert_eq!(found.bounds, (Some(0), Some(1)));
+        assert!(!found.regular && !found.why.is_empty());
+    }
+
+    #[test]
+    fn what_does_not_close_is_not_ranked() {
+        let found = analysed(&ring(
+            &planar(&CRANK_ROCKER),
+            [0.0, 0.0, 0.5],
+            Written::Exactly,
+        ));
+        assert_eq!(found.mobility.verdict, Verdict::Unassembled);
+        assert_eq!(found.mobility.bounds, (None, None));
+        assert!(found.home.is_none() && found.parts.is_empty());
+    }
+
+    #[test]
+    fn free_joints_and_loose_bodies_add_their_freedom() {
+        let mut builder = MechanismBuilder::new("arm");
+        builder.link("ground").link("arm").link("stone");
+        builder.joint(JointBuilder::tree(
+            "a",
+            JointKind::Spherical,
+            "ground",
+            "arm",
+        ));
+        builder.floating("drop", "ground", "stone", Frame::identity());
+        let found = judged(&builder.build().unwrap());
+        assert_eq!((found.verdict, found.finite()), (Verdict::Mobile, Some(9)));
+        // A rigid loop beside a free joint.
+        let mut builder = MechanismBuilder::new("arm");
+        builder.link("ground").link("arm");
+        builder.joint(JointBuilder::tree(
+            "a",
+            JointKind::Revolute,
+            "ground",
+            "arm",
+        ));
+        add_ring(
+            &mut builder,
+            "t",
+            "ground",
+            &planar(&CRANK_ROCKER[..3]),
+            [0.0; 3],
+            Written::Exactly,
+        );
+        let found = judged(&builder.build().unwrap());
+        assert_eq!((found.verdict, found.finite()), (Verdict::Mobile, Some(1)));
+    }
+
+    #[test]
+    fn a_doubtful_part_makes_all_doubtful() {
+        let mechanism = general_four();
+        let mut analysis = analysed(&mechanism);
+        analysis.parts[0].note = Some("not plain".to_owned());
+        let found = judge(
+            &mechanism,
+            &analysis.structure,
+            &analysis.assembly,
+            &analysis.parts,
+        );
+        assert_eq!((found.verdict, found.finite()), (Verdict::Undecided, None));
+        assert!(!found.regular && !found.why.is_empty());
+        analysis.parts[0].instantaneous = None;
+        analysis.parts[0].candidates = (0, 2);
+        let found = judge(
+            &mechanism,
+            &analysis.structure,
+            &analysis.assembly,
+            &analysis.parts,
+        );
+        assert_eq!(
+            (found.verdict, found.bounds),
+            (Verdict::Undecided, (Some(0), Some(2)))
+        );
+    }
+
+    #[test]
+    fn digits_left_out_hold_nothing_fast() {
+        // Rigid when taken literally, by equations too many, at a size where three decimals say little.
+        let small = |(kind, at, along): Place| (kind, at.map(|x| (x * 8.0).round() / 1e3), along);
+        let places: Vec<Place> = [
+            (JointKind::Revolute, [0.0, 0.0, 0.0], [0.0, 0.25, 1.0]),
+            (JointKind::Revolute, [1.0, 0.25, 0.0], [0.5, 0.0, 1.0]),
+            (JointKind::Revolute, [1.0, 1.5, 0.5], [0.0, 1.0, 0.5]),
+            (JointKind::Revolute, [0.25, 1.0, -0.5], [1.0, -0.5, 0.25]),
+        ]
+        .map(small)
+        .to_vec();
+        let coarse = ring(&places, [0.0; 3], Written::Decimals(3));
+        let found = analysed(&coarse);
+        assert!(found.parts[0].taken_literally);
+        assert_eq!(found.parts[0].instantaneous, Some(0));
+        assert_eq!(
+            (found.mobility.verdict, found.mobility.finite()),
+            (Verdict::Undecided, None)
+        );
+        assert!(!found.mobility.regular);
+        // The same numbers meant exactly.
+        let found = judged(&ring(&places, [0.0; 3], Written::Exactly));
+        assert_eq!(found.verdict, Verdict::Rigid);
+    }
+
+    #[test]
+    fn every_verdict_has_its_word() {
+        let words = [
+            Verdict::Mobile,
+            Verdict::Rigid,
+            Verdict::Undecided,
+            Verdict::Unassembled,
+        ]
+        .map(Verdict::word);
+        assert_eq!(words, ["mobile", "rigid", "undecided", "unassembled"]);
+    }
+}

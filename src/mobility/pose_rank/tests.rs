@@ -1,0 +1,259 @@
+use super::*;
+use crate::closure::samples::{
+    CRANK_ROCKER, Place, Written, flat_parallelogram, four_bar, general_four, planar, ring, sarrus,
+    sarrus_places, spherical,
+};
+use crate::closure::{Arithmetic, assemble};
+use crate::mechanism::JointKind;
+use crate::mobility::Structure;
+
+/// The rank of a one-part mechanism at its assembled pose.
+fn ranked(mechanism: &Mechanism) -> PartRank {
+    let geometry = Geometry::new(mechanism, None, &Arithmetic::double());
+    let structure = Structure::new(mechanism);
+    let held = BTreeSet::new();
+    let assembly = assemble(mechanism, &geometry, &structure.parts, &held).unwrap();
+    assert!(assembly.closed, "{assembly:?}");
+    let pose = Pose {
+        mechanism,
+        configuration: None,
+        held: &held,
+        geometry: &geometry,
+        states: &assembly.states,
+        as_drawn: assembly.steps == 0,
+    };
+    rank_part(&pose, &structure.parts[0]).unwrap()
+}
+
+/// Hinges along x and along y, one of them tilted by `tilt`: a Sarrus linkage only if that is zero.
+fn tilted(tilt: f64, written: Written) -> Mechanism {
+    let mut places = sarrus_places();
+    places[1].2 = [1.0, 0.5 * tilt, tilt];
+    ring(&places, [0.0; 3], written)
+}
+
+#[test]
+fn known_freedoms() {
+    for (mechanism, freedom) in [
+        (four_bar(), 1),
+        (sarrus(), 1),
+        (general_four(), 0),
+        (flat_parallelogram(), 2),
+    ] {
+        let rank = ranked(&mechanism);
+        assert_eq!(rank.instantaneous, Some(freedom));
+        assert_eq!(rank.candidates, (freedom, freedom));
+        assert_eq!((rank.bits, &rank.note), (53, &None));
+        assert_eq!(
+            rank.unknowns() - freedom,
+            rank.settled().unwrap().rank.unwrap()
+        );
+    }
+}
+
+#[test]
+fn a_tilt_of_1e_13_is_seen_with_106_bits() {
+    let plain = ranked(&tilted(0.0, Written::Exactly));
+    assert_eq!((plain.instantaneous, plain.bits), (Some(1), 53));
+    // Doubles cannot tell this from rounding; the numbers themselves can.
+    let rank = ranked(&tilted(1e-13, Written::Exactly));
+    assert_eq!(
+        rank.instantaneous,
+        Some(0),
+        "{:?} {:?}",
+        rank.decision,
+        rank.note
+    );
+    assert_eq!(rank.bits, 106);
+    assert!(rank.decision.kept < 1e-12 && rank.decision.kept > 1e-15);
+    // What doubles do tell, they tell.
+    let rank = ranked(&tilted(1e-6, Written::Exactly));
+    assert_eq!((rank.instantaneous, rank.bits), (Some(0), 53));
+}
+
+#[test]
+fn rounded_numbers_have_two_readings() {
+    // Six decimals of a tilt that is not theirs: nominally a Sarrus linkage.
+    let mut places = sarrus_places();
+    for (i, (_, at, along)) in places.iter_mut().enumerate() {
+        // Turned about z by an angle whose cosine has no end.
+        let (s, c) = 0.7f64.sin_cos();
+        let turn = |v: [f64; 3]| [c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]];
+        (*at, *along) = (turn(*at), turn(*along));
+        along[2] += if i == 1 { 1e-6 } else { 0.0 };
+    }
+    let rank = ranked(&ring(&places, [0.0; 3], Written::Decimals(6)));
+    assert_eq!(rank.instantaneous, Some(1));
+    assert!(rank.stated > 1e-7 && rank.stated < 1e-4);
+    if let Some(literal) = rank.as_written {
+        assert_eq!(literal, 0);
+        assert!(rank.note.is_some());
+    }
+    // The same as doubles states nothing about rounding.
+    let rank = ranked(&tilted(1e-6, Written::Exactly));
+    assert_eq!((rank.instantaneous, rank.stated), (Some(0), 0.0));
+}
+
+#[test]
+fn numbers_that_agree_in_both_readings_need_no_note() {
+    let points = [[0.0, 0.0], [0.333, 2.0], [4.0, 5.125], [4.0, 0.0]];
+    let rank = ranked(&ring(&planar(&points), [0.0; 3], Written::Decimals(6)));
+    assert_eq!(rank.instantaneous, Some(1));
+    assert_eq!((rank.as_written, &rank.note), (Some(1), &None));
+}
+
+#[test]
+fn coarse_numbers_are_taken_as_they_are() {
+    // Centimetres with three decimals.
+    let points = [[0.0, 0.0], [0.003, 0.02], [0.04, 0.05], [0.04, 0.001]];
+    let rank = ranked(&ring(&planar(&points), [0.0; 3], Written::Decimals(3)));
+    assert!(rank.taken_literally);
+    assert_eq!((rank.instantaneous, rank.stated), (Some(1), 0.0));
+    let rank = ranked(&ring(
+        &planar(&CRANK_ROCKER),
+        [0.0; 3],
+        Written::Decimals(3),
+    ));
+    assert!(!rank.taken_literally);
+}
+
+#[test]
+fn rounded_spheres_are_spheres() {
+    // The axes of a spherical loop miss each other by what the decimals left out, whether joints are drawn at the centre
+    // or away from it: the size of that miss must not become the unit of length.
+    for distances in [[0.0; 4], [0.3, 0.7, 0.2, 0.9]] {
+        let centre = [0.123_456_7, -0.345_678_9, 0.765_432_1];
+        let mut places = spherical(centre, distances);
+        for (_, at, along) in &mut places {
+            let (s, c) = 0.7f64.sin_cos();
+            let turn = |v: [f64; 3]| [c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]];
+            (*at, *along) = (turn(*at), turn(*along));
+        }
+        for decimals in [6, 9, 12] {
+            let rank = ranked(&ring(&places, [0.0; 3], Written::Decimals(decimals)));
+            assert_eq!(rank.instantaneous, Some(1), "{decimals}: {:?}", rank.note);
+            assert!(!rank.taken_literally);
+        }
+    }
+}
+
+/// A four-bar that just reaches: a crank of 1 and a coupler of 2, stretched, to a rocker's pin, drawn with a gap that
+/// only bending the rocker back closes.
+fn stretched(short: f64) -> Mechanism {
+    let points = [[0.0, 0.0], [1.0, 0.0], [3.0, 0.0], [4.0, 0.0]];
+    ring(&planar(&points), [short, 0.0, 0.0], Written::Exactly)
+}
+
+#[test]
+fn a_singular_pose_found_by_iteration_is_no_regular_one() {
+    // Drawn bent, with lengths that close on one line only: the iteration comes near it as √ρ, where a small singular
+    // value looks decided. It is the flat four-bar with two freedoms, and nothing else may be claimed.
+    let mut builder = crate::mechanism::MechanismBuilder::new("taut");
+    use crate::mechanism::{Direction, Frame, JointBuilder};
+    use crate::number::Number;
+    let n = |x: f64| Number::from_f64(x).unwrap();
+    builder
+        .link("ground")
+        .link("crank")
+        .link("coupler")
+        .link("rocker");
+    let z = || Direction([Number::zero(), Number::zero(), Number::one()]);
+    let pin = |name: &str, a: &str, b: &str, at: [f64; 3]| {
+        JointBuilder::tree(name, JointKind::Revolute, a, b)
+            .origin(Frame::at(at.map(n)))
+            .axis(z())
+    };
+    builder.joint(pin("a", "ground", "crank", [0.0; 3]));
+    builder.joint(pin("b", "crank", "coupler", [1.0, 0.0, 0.0]));
+    builder.joint(pin("c", "coupler", "rocker", [2.0, 0.0, 0.0]));
+    builder.joint(
+        JointBuilder::closing("d", JointKind::Revolute, "rocker", "ground")
+            .origin(Frame::at([n(1.0), n(0.0), n(0.0)]))
+            .successor_origin(Frame::at([n(4.0), n(0.0), n(0.0)]))
+            .axis(z()),
+    );
+    builder.configuration(
+        "bent",
+        vec![
+            ("a".to_owned(), vec![n(0.1)]),
+            ("b".to_owned(), vec![n(-0.2)]),
+        ],
+    );
+    let mechanism = builder.build().unwrap();
+    let configuration = mechanism.configuration("bent");
+    let geometry = Geometry::new(&mechanism, configuration, &Arithmetic::double());
+    let structure = Structure::new(&mechanism);
+    let held = BTreeSet::new();
+    let assembly = assemble(&mechanism, &geometry, &structure.parts, &held).unwrap();
+    assert!(assembly.closed && assembly.steps > 3, "{assembly:?}");
+    let pose = Pose {
+        mechanism: &mechanism,
+        configuration,
+        held: &held,
+        geometry: &geometry,
+        states: &assembly.states,
+        as_drawn: false,
+    };
+    let rank = rank_part(&pose, &structure.parts[0]).unwrap();
+    assert_eq!(rank.candidates.1, 2, "{:?} {:?}", rank.decision, rank.note);
+    assert_ne!(rank.instantaneous, Some(1));
+    // The stuck pose above, moved by assembly onto a regular one, is decided at once.
+    let regular = ranked(&stretched(-0.5));
+    assert_eq!((regular.instantaneous, regular.bits), (Some(1), 53));
+}
+
+#[test]
+fn the_rank_knows_no_unit_and_no_origin() {
+    for unit in [1e-300, 1e-200, 1e-6, 1.0, 1e6, 1e90] {
+        let places: Vec<Place> = sarrus_places()
+            .into_iter()
+            .map(|(kind, at, along)| (kind, at.map(|x| x * unit), along))
+            .chain([(JointKind::Prismatic, [0.5 * unit; 3], [1.0, 0.25, 0.0])])
+            .collect();
+        let rank = ranked(&ring(&places, [0.0; 3], Written::Exactly));
+        // The slider goes in the plane of the two chains' translations, and repeats them.
+        assert_eq!(rank.instantaneous, Some(2), "{unit:e}");
+    }
+    let shifted: Vec<Place> = sarrus_places()
+        .into_iter()
+        .map(|(kind, [x, y, z], along)| (kind, [x + 2048.0, y - 512.0, z], along))
+        .collect();
+    assert_eq!(
+        ranked(&ring(&shifted, [0.0; 3], Written::Exactly)).instantaneous,
+        Some(1)
+    );
+}
+
+#[test]
+fn loops_without_freedom_or_without_size() {
+    let fixed: Vec<Place> = vec![(JointKind::Fixed, [0.0; 3], [0.0; 3]); 3];
+    let rank = ranked(&ring(&fixed, [0.0; 3], Written::Exactly));
+    assert_eq!(
+        (rank.instantaneous, rank.unknowns(), rank.equations()),
+        (Some(0), 0, 6)
+    );
+    // Four hinges on one axis at one point: three of them are idle.
+    let coaxial: Vec<Place> = vec![(JointKind::Revolute, [0.0; 3], [0.0, 0.0, 1.0]); 4];
+    assert_eq!(
+        ranked(&ring(&coaxial, [0.0; 3], Written::Exactly)).instantaneous,
+        Some(3)
+    );
+    let sliders: Vec<Place> = vec![
+        (JointKind::Prismatic, [0.0; 3], [1.0, 0.0, 0.0]),
+        (JointKind::Prismatic, [0.0; 3], [0.0, 1.0, 0.0]),
+        (JointKind::Prismatic, [0.0; 3], [1.0, 1.0, 0.0]),
+    ];
+    assert_eq!(
+        ranked(&ring(&sliders, [0.0; 3], Written::Exactly)).instantaneous,
+        Some(1)
+    );
+}
+
+#[test]
+fn two_accuracies_must_agree() {
+    let matrix = SparseMatrix::from_triplets(2, 2, 0.0, [(0, 0, 1.0), (1, 1, 1e-8)]).unwrap();
+    assert_eq!(decide_twice(&matrix, 1e-14, 0.0).unwrap().rank, Some(2));
+    let doubtful = decide_twice(&matrix, 1e-14, 1e-7).unwrap();
+    assert_eq!((doubtful.rank, doubtful.candidates), (None, (1, 2)));
+    assert_eq!(decide_twice(&matrix, 1e-14, 1e-10).unwrap().rank, Some(2));
+}
