@@ -195,12 +195,11 @@ fn plan() -> impl Strategy<Value = Plan> {
         })
 }
 
-fn joint(plan: &JointPlan, mut builder: JointBuilder, closes: bool) -> JointBuilder {
+fn joint(plan: &JointPlan, mut builder: JointBuilder) -> JointBuilder {
     let kind = plan.kind;
-    builder = builder.origin(plan.frames[0].clone());
-    if closes {
-        builder = builder.successor_origin(plan.frames[1].clone());
-    }
+    builder = builder
+        .origin(plan.frames[0].clone())
+        .successor_origin(plan.frames[1].clone());
     let [axis, axis2] = plan.axes.clone();
     if let Some(axis) = axis.filter(|_| kind.uses_axis()) {
         builder = builder.axis(axis);
@@ -276,7 +275,6 @@ fn build(plan: &Plan) -> MechanismBuilder {
         builder.joint(joint(
             joint_plan,
             JointBuilder::tree(&name, joint_plan.kind, &parent, &child),
-            false,
         ));
     }
     let links = plan.tree.len() + 1;
@@ -286,7 +284,7 @@ fn build(plan: &Plan) -> MechanismBuilder {
         let name = format!("{}loop{index}", plan.prefix);
         let closing =
             JointBuilder::closing(&name, joint_plan.kind, &link(predecessor), &link(successor));
-        builder.joint(joint(joint_plan, closing, true));
+        builder.joint(joint(joint_plan, closing));
     }
     if let (Some((multiplier, offset)), [leader, .., follower]) = (&plan.mimic, moving.as_slice()) {
         builder.mimic(follower, leader, multiplier.clone(), offset.clone());

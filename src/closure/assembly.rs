@@ -252,7 +252,7 @@ fn descend(
         // What closes within the stated precision is polished only as far as that precision goes: rounded numbers leave
         // a gap that no motion removes, and chasing it would drag the mechanism along its own freedom.
         let within = residual <= stated.min(COARSEST_CLOSING);
-        if within && largest(&increments) > 3.0 * stated {
+        if within && largest(&increments) > stated {
             break;
         }
         let before = Kept::of(part, states);
@@ -409,20 +409,18 @@ pub fn spanning_poses<R: Real>(
         link
     }
     let mut in_tree = vec![false; joints.len()];
-    for closing in [false, true] {
-        for (index, joint) in joints
-            .iter()
-            .enumerate()
-            .filter(|(_, j)| j.closes_loop == closing)
-        {
-            let (a, b) = (
-                root(&mut piece, joint.predecessor.link.0),
-                root(&mut piece, joint.successor.link.0),
-            );
-            if a != b {
-                piece[a] = b;
-                in_tree[index] = true;
-            }
+    // By name, so that the order in the file changes nothing.
+    let mut order: Vec<usize> = (0..joints.len()).collect();
+    order.sort_by_key(|&index| (joints[index].closes_loop, &joints[index].name));
+    for index in order {
+        let joint = &joints[index];
+        let (a, b) = (
+            root(&mut piece, joint.predecessor.link.0),
+            root(&mut piece, joint.successor.link.0),
+        );
+        if a != b {
+            piece[a] = b;
+            in_tree[index] = true;
         }
     }
     let mut incident = vec![Vec::new(); mechanism.links().len()];

@@ -294,7 +294,7 @@ mod tests {
             jacobian(&mechanism, &geometry, &geometry.states, &whole(&mechanism)).unwrap()
         };
         let reference = at(1.0);
-        for unit in [1e-300, 1e-170, 1e-6, 1e6, 1e99] {
+        for unit in [1e-9, 1e-6, 1e6, 1e99] {
             let scaled = at(unit);
             assert!(
                 (scaled.length / unit / reference.length - 1.0).abs() < 1e-12,
@@ -359,14 +359,15 @@ mod tests {
     }
 
     #[test]
-    fn lengths_whose_inverse_is_out_of_range_are_an_error() {
+    fn what_is_too_small_for_a_mechanism_is_no_length() {
         let places: Vec<Place> = planar(&CRANK_ROCKER)
             .into_iter()
             .map(|(kind, at, along)| (kind, at.map(|x| x * 1e-310), along))
             .collect();
         let mechanism = ring(&places[..3], [0.0; 3], Written::Exactly);
         let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
-        assert!(jacobian(&mechanism, &geometry, &geometry.states, &whole(&mechanism)).is_err());
+        let found = jacobian(&mechanism, &geometry, &geometry.states, &whole(&mechanism)).unwrap();
+        assert!((found.length - 1.0).abs() < 1e-12);
     }
 
     #[test]

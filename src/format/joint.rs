@@ -66,7 +66,7 @@ impl<'a> Reader<'a> {
         for part in parts {
             match part.name() {
                 "parent" => parent = Some(self.link_of(part)?),
-                "child" => child = Some(self.link_of(part)?),
+                "child" => child = Some((part, self.side(part)?)),
                 "origin" => origin = self.origin(part)?,
                 _ => body.push(part),
             }
@@ -78,8 +78,17 @@ impl<'a> Reader<'a> {
             ))
         };
         let parent = parent.ok_or_else(|| needs("parent"))?;
-        let child = child.ok_or_else(|| needs("child"))?;
+        let (child_element, (child, child_frame)) = child.ok_or_else(|| needs("child"))?;
+        let own_frame = !child_frame.is_identity();
+        if own_frame {
+            self.uses(Dialect::Own);
+        }
         let Some(kind) = joint_type.kind else {
+            if own_frame {
+                return Err(child_element.fault(
+                    "a floating joint is placed by its <origin> alone; its child has no frame for it",
+                ));
+            }
             return self.read_floating(joint, name, parent, child, origin, &body);
         };
         match self.placed_by.get(child) {
@@ -96,7 +105,9 @@ impl<'a> Reader<'a> {
                 self.placed_by.insert(child, name);
             }
         }
-        let builder = JointBuilder::tree(name, kind, parent, child).origin(origin);
+        let builder = JointBuilder::tree(name, kind, parent, child)
+            .origin(origin)
+            .successor_origin(child_frame);
         self.read_body(joint, name, joint_type, kind, builder, &body)
     }
 
@@ -177,13 +188,13 @@ impl<'a> Reader<'a> {
         Ok(Type { word, kind })
     }
 
-    /// `<parent link/>` or `<child link/>`.
+    /// `<parent link/>`.
     fn link_of(&mut self, element: Element<'a>) -> Outcome<&'a str> {
         self.leaf(element, &["link"])?;
         self.directory.refer(Named::Link, element, "link")
     }
 
-    /// `<predecessor link>` or `<successor link>` with an optional `<origin>` inside.
+    /// `<predecessor link>`, `<successor link>` or `<child link>` with an optional `<origin>` inside: the joint's frame there.
     fn side(&mut self, element: Element<'a>) -> Outcome<(&'a str, Frame)> {
         self.note_foreign_attributes(element, &["link"])?;
         let link = self.directory.refer(Named::Link, element, "link")?;

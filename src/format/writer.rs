@@ -137,7 +137,7 @@ impl Writer {
             self.side("successor", successor, &joint.successor.frame);
         } else {
             self.line(2, &format!("<parent{}/>", pair("link", predecessor)));
-            self.line(2, &format!("<child{}/>", pair("link", successor)));
+            self.side("child", successor, &joint.successor.frame);
             self.origin(2, &joint.predecessor.frame);
         }
         if joint.kind.uses_axis() {

@@ -17,13 +17,16 @@ use crate::number::Number;
 ///
 /// which is right for both manners: the first term wherever no zeros were stripped, the second where they were. Expressions
 /// are exact. A file whose numbers all have at most [`Precision::EXACT_DECIMALS`] decimals holds numbers that a designer
-/// chose, not rounded ones, and is taken as exact too.
+/// chose, not rounded ones, and is taken as exact too. Decimals of lengths count in the decade of the longest one, if that
+/// is below 1 m: `0.125` says of metres what `1.25` says of decimetres.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Precision {
     /// Most decimals of any literal in the geometry; `None` where there is no literal.
     pub decimals: Option<i32>,
     /// Most significant digits of any literal in the geometry.
     pub significant: u32,
+    /// Most decimals of any literal, those of lengths counted in the decade of the longest one.
+    designed: i32,
 }
 
 impl Precision {
@@ -33,7 +36,7 @@ impl Precision {
     /// Whether every number of the geometry is exact.
     #[must_use]
     pub fn is_exact(&self) -> bool {
-        self.decimals.is_none_or(|d| d <= Self::EXACT_DECIMALS)
+        self.designed <= Self::EXACT_DECIMALS
     }
 
     /// How far a number of this file may be from the number meant; zero for exact ones.
@@ -56,20 +59,10 @@ impl Precision {
 
     /// The precision of a mechanism's links and joints.
     pub(super) fn of(links: &[Link], joints: &[Joint]) -> Self {
-        let mut precision = Self::default();
-        let mut read = |number: &Number| {
-            if let Some(stated) = number.stated() {
-                let most = precision.decimals.unwrap_or(stated.decimals);
-                precision.decimals = Some(most.max(stated.decimals));
-                precision.significant = precision.significant.max(stated.significant);
-            }
-        };
+        let (mut lengths, mut directions) = (Digits::default(), Digits::default());
         let mut read_frame = |frame: &Frame| {
-            frame
-                .position
-                .iter()
-                .chain(&frame.roll_pitch_yaw)
-                .for_each(&mut read);
+            frame.position.iter().for_each(|x| lengths.read(x));
+            frame.roll_pitch_yaw.iter().for_each(|a| directions.read(a));
         };
         for link in links {
             if let Placement::Floating { origin, .. } = &link.placement {
@@ -83,10 +76,48 @@ impl Precision {
         for joint in joints {
             let Direction(axis) = &joint.axis;
             let Direction(axis2) = &joint.axis2;
-            axis.iter().chain(axis2).for_each(&mut read);
-            joint.lead.iter().chain(&joint.distance).for_each(&mut read);
+            axis.iter().chain(axis2).for_each(|x| directions.read(x));
+            joint
+                .lead
+                .iter()
+                .chain(&joint.distance)
+                .for_each(|x| lengths.read(x));
         }
-        precision
+        let decade = lengths.places.map_or(0, |places| places.min(0));
+        Self {
+            decimals: lengths.decimals.max(directions.decimals),
+            significant: lengths.significant.max(directions.significant),
+            designed: lengths
+                .decimals
+                .map_or(0, |decimals| decimals.saturating_add(decade))
+                .max(directions.decimals.unwrap_or(0)),
+        }
+    }
+}
+
+/// The digits found in a kind of numbers.
+#[derive(Default)]
+struct Digits {
+    /// Most decimals of any literal.
+    decimals: Option<i32>,
+    /// Most significant digits of any literal.
+    significant: u32,
+    /// Power of ten of the first digit of the largest literal: 0 for `1.25`, −1 for `0.125`.
+    places: Option<i32>,
+}
+
+impl Digits {
+    fn read(&mut self, number: &Number) {
+        let Some(stated) = number.stated() else {
+            return;
+        };
+        self.decimals = self.decimals.max(Some(stated.decimals));
+        self.significant = self.significant.max(stated.significant);
+        if stated.significant > 0 {
+            let written = i64::from(stated.significant) - i64::from(stated.decimals) - 1;
+            let place = written.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32;
+            self.places = self.places.max(Some(place));
+        }
     }
 }
 
@@ -183,6 +214,8 @@ mod tests {
             &["0.25", "3", "-17.5", "1e3"][..],
             &["0"][..],
             &["300"][..],
+            &["0.25", "0.125"][..],
+            &["0.00425", "0.00125"][..],
             &[][..],
         ] {
             let precision = of(texts);
@@ -192,7 +225,7 @@ mod tests {
             }
         }
         // One number of three decimals, and none of them is chosen.
-        let precision = of(&["0.25", "0.125"]);
+        let precision = of(&["0.25", "1.125"]);
         assert!(!precision.is_exact());
         assert_uncertainty(&precision, "0.25", 0.5e-3);
     }

@@ -3,7 +3,7 @@
 use super::pose_rank::PartRank;
 use super::redundancy::SelfStresses;
 use crate::closure::{Geometry, JointDisplacement, JointState, Part, Vector, linearised};
-use crate::matrix::{MatrixError, decide};
+use crate::matrix::{MatrixError, decide, decide_by_qr};
 use crate::mechanism::{JointKind, Mechanism};
 
 /// One piece of advice.
@@ -22,7 +22,9 @@ pub struct Advice {
 }
 
 /// Parts with more unknowns than this get the advice of their first joints only, each still verified.
-const THOROUGH_UNKNOWNS: usize = 300;
+const THOROUGH_UNKNOWNS: usize = 120;
+/// Above this many unknowns a sparse factorisation verifies sooner than singular values do.
+const DENSE_UNKNOWNS: usize = 40;
 const ADVICE_OF_LARGE_PARTS: usize = 3;
 /// Every verification decides the rank of the whole part.
 const VERIFICATIONS_OF_LARGE_PARTS: usize = 12;
@@ -254,7 +256,12 @@ impl Relaxed {
         states[joint] = state;
         let mut matrix = changed?.matrix;
         matrix.scale_columns();
-        let decision = decide(&matrix, rank.decision.accuracy.max(rank.accuracy))?;
+        let accuracy = rank.decision.accuracy.max(rank.accuracy);
+        let decision = if matrix.columns() > DENSE_UNKNOWNS {
+            decide_by_qr(&matrix, accuracy)?.0
+        } else {
+            decide(&matrix, accuracy)?
+        };
         Ok(decision.rank == Some(rank.unknowns() - freedom + freed))
     }
 }

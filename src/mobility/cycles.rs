@@ -139,7 +139,7 @@ mod tests {
     use crate::closure::samples::{
         CRANK_ROCKER, Place, Written, four_bar, general_four, planar, ring, sarrus, spherical,
     };
-    use crate::group::Class;
+    use crate::group::SubgroupKind;
     use crate::mechanism::JointKind;
     use crate::mobility::{AnalysisOptions, analyse};
 
@@ -151,14 +151,14 @@ mod tests {
         cycles.remove(0)
     }
 
-    fn class(facts: &CycleFacts) -> Class {
-        facts.space.as_ref().unwrap().class()
+    fn class(facts: &CycleFacts) -> SubgroupKind {
+        facts.space.as_ref().unwrap().kind()
     }
 
     #[test]
     fn spaces_ranks_and_freedoms() {
         let planar_loop = facts(&four_bar());
-        assert_eq!(class(&planar_loop), Class::G);
+        assert_eq!(class(&planar_loop), SubgroupKind::Planar);
         assert_eq!(
             (
                 planar_loop.space_dimension,
@@ -176,10 +176,10 @@ mod tests {
         let sphere = facts(&sphere);
         assert_eq!(
             (class(&sphere), sphere.rank, sphere.mobility),
-            (Class::S, Some(3), Some(1))
+            (SubgroupKind::Spherical, Some(3), Some(1))
         );
         let sarrus = facts(&sarrus());
-        assert_eq!(class(&sarrus), Class::D);
+        assert_eq!(class(&sarrus), SubgroupKind::General);
         assert_eq!(
             (sarrus.rank, sarrus.redundant, sarrus.mobility),
             (Some(5), Some(1), Some(1))
@@ -210,7 +210,7 @@ mod tests {
         assert_eq!(found.locks, ["r_c.trans"]);
         assert_eq!(
             class(&found),
-            Class::X,
+            SubgroupKind::Schoenflies,
             "sliding adds the third translation"
         );
     }
@@ -236,7 +236,10 @@ mod tests {
             })
             .collect();
         let found = facts(&ring(&places, [0.0; 3], Written::Exactly));
-        assert_eq!((class(&found), found.rank), (Class::X, Some(4)));
+        assert_eq!(
+            (class(&found), found.rank),
+            (SubgroupKind::Schoenflies, Some(4))
+        );
         assert_eq!(
             found.mobility,
             Some(13 * 6 - 4),

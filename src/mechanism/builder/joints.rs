@@ -34,6 +34,13 @@ pub(super) fn make_joint(
     check_lead(&entity, &spec)?;
     check_distance(&entity, &spec, closes_loop)?;
     if let Some(limit) = &spec.limit {
+        if spec.kind.freedom() != 1 {
+            let problem = format!(
+                "a {} joint has no single value that could be limited",
+                spec.kind
+            );
+            return Err(MechanismError::new(entity, problem));
+        }
         check_limit(&entity, limit)?;
     }
     if let Some(dynamics) = &spec.dynamics {

@@ -204,7 +204,7 @@ fn a_singular_pose_found_by_iteration_is_no_regular_one() {
 
 #[test]
 fn the_rank_knows_no_unit_and_no_origin() {
-    for unit in [1e-300, 1e-200, 1e-6, 1.0, 1e6, 1e90] {
+    for unit in [1e-9, 1e-6, 1.0, 1e6, 1e90] {
         let places: Vec<Place> = sarrus_places()
             .into_iter()
             .map(|(kind, at, along)| (kind, at.map(|x| x * unit), along))
