@@ -297,7 +297,8 @@ mod tests {
         /// not, is never further from the value meant than the file's precision says.
         #[test]
         fn the_value_meant_is_within_the_uncertainty(
-            values in prop::collection::vec(-2000.0f64..2000.0, 1..12),
+            // Three digits at least: an integer is written out, whatever its digits are worth.
+            values in prop::collection::vec(-999.0f64..999.0, 1..12),
             digits in 3usize..9,
             significant: bool,
             stripped: bool,
