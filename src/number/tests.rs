@@ -408,7 +408,8 @@ proptest! {
         if let Ok(x) = Number::expression(&text, &mut |_| Ok(None)) {
             let value = x.value();
             let size = double.abs();
-            if size > 1e-6 && size < 1e6 {
+            // Roots of a double's rounding are far from the zero they stand for.
+            if size > 1e-6 && size < 1e6 && !x.is_zero() {
                 prop_assert!((value - double).abs() < 1e-5 * size, "{} = {} or {}", text, value, double);
             }
             let exact = x.evaluate(200);
