@@ -11,6 +11,7 @@
 
 mod advice;
 mod analysis;
+mod branch;
 mod cycles;
 mod generic;
 mod kutzbach;
@@ -23,6 +24,7 @@ mod verdict;
 
 pub use advice::{Advice, advice_for_part};
 pub use analysis::{Analysis, AnalysisError, AnalysisOptions, HomeFreedom, analyse};
+pub use branch::{Branch, BranchPose, IdleLink, RelativeMotion};
 pub use cycles::{CycleFacts, cycle_facts};
 pub use generic::{GenericCount, generic_count};
 pub use kutzbach::kutzbach_count;
