@@ -21,6 +21,7 @@ mod redundancy;
 mod roles;
 mod structure;
 mod verdict;
+mod vocabulary;
 
 pub use advice::{Advice, advice_for_part};
 pub use analysis::{Analysis, AnalysisError, AnalysisOptions, HomeFreedom, analyse};
@@ -33,4 +34,5 @@ pub use pose_rank::{LADDER, PartRank, Pose, rank_part};
 pub use redundancy::SelfStresses;
 pub use roles::{JointRole, freedom_groups, roles_of_part};
 pub use structure::{Structure, constraint_graph};
-pub use verdict::{Mobility, Verdict, judge};
+pub use verdict::{Mobility, judge};
+pub use vocabulary::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};

@@ -2,34 +2,9 @@
 
 use super::pose_rank::PartRank;
 use super::structure::Structure;
+use super::vocabulary::Verdict;
 use crate::closure::Assembly;
 use crate::mechanism::Mechanism;
-
-/// What is said of the mechanism as a whole.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    /// At least one finite freedom.
-    Mobile,
-    /// No finite freedom.
-    Rigid,
-    /// The bounds do not meet.
-    Undecided,
-    /// There is no closed pose to ask about.
-    Unassembled,
-}
-
-impl Verdict {
-    /// The word of the report.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Mobile => "mobile",
-            Self::Rigid => "rigid",
-            Self::Undecided => "undecided",
-            Self::Unassembled => "unassembled",
-        }
-    }
-}
 
 /// The verdict with its bounds and reasons.
 #[derive(Clone, Debug, PartialEq)]

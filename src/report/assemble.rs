@@ -7,9 +7,9 @@ use super::natural::natural_order;
 use super::schema::{
     Assembly, CouplingRow, Home, JointRow, Mobility, Report, SCHEMA, Size, Source, Timing,
 };
-use super::vocabulary::Verdict;
 use crate::format::Reading;
 use crate::mechanism::{Coupling, Mechanism};
+use crate::mobility::Verdict;
 use crate::mobility::{AnalysisError, AnalysisOptions, analyse, kutzbach_count};
 use crate::number::Number;
 use std::time::Instant;

@@ -110,7 +110,7 @@ fn distance(a: &[char], b: &str) -> usize {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::report::{CertificateLevel, MobilityClass, Pose, SingularKind, Verdict};
+    use crate::report::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
 
     #[test]
     fn definitions_are_numbered_without_gaps_and_complete() {
@@ -159,7 +159,7 @@ mod tests {
             "half-branch",
         ];
         words.extend(SingularKind::ALL.iter().map(|w| w.word()));
-        words.extend(Pose::ALL.iter().map(|w| w.word()));
+        words.extend(PoseKind::ALL.iter().map(|w| w.word()));
         words.extend(Verdict::ALL.iter().map(|w| w.word()));
         words.extend(MobilityClass::ALL.iter().map(|w| w.word()));
         words.extend(CertificateLevel::ALL.iter().map(|w| w.word()));

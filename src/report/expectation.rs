@@ -1,8 +1,8 @@
 //! Whether a report agrees with what is known of a mechanism; the rules are those of [`compare`].
 
 use super::schema::{JointRow, Report};
-use super::vocabulary::{Pose, Verdict};
 use crate::mechanism::{Expectation, JointKind};
+use crate::mobility::{PoseKind, Verdict};
 use serde::Serialize;
 use std::collections::BTreeSet;
 
@@ -177,7 +177,7 @@ fn kind(report: &Report, expected: &str) -> Found {
     match (report.home.kind, report.home.pose) {
         (Some(kind), _) if kind.word() == expected => Found::Agrees,
         (Some(kind), _) => Found::Differs(kind.word().to_owned()),
-        (None, Some(Pose::Regular)) => Found::Differs("none, the pose is regular".to_owned()),
+        (None, Some(PoseKind::Regular)) => Found::Differs("none, the pose is regular".to_owned()),
         (None, _) => unless_unassembled(report, Found::Open),
     }
 }
@@ -188,7 +188,7 @@ fn locked(
     expected: &[String],
     comparison: &mut Comparison,
 ) {
-    let expects_regular = expectation.pose.as_deref() == Some(Pose::Regular.word());
+    let expects_regular = expectation.pose.as_deref() == Some(PoseKind::Regular.word());
     match report.home.pose {
         // An analysis that does not decide regularity still says which joints stand still at the pose. Where the pose is
         // known to be regular, that is its answer for the branch.
@@ -197,8 +197,8 @@ fn locked(
             comparison.open.push("locked");
             return;
         }
-        Some(Pose::Singular) => return,
-        Some(Pose::Regular) => {}
+        Some(PoseKind::Singular) => return,
+        Some(PoseKind::Regular) => {}
     }
     let finite = expectation.finite.or(report.mobility.finite);
     if expected.is_empty() && finite == Some(0) {

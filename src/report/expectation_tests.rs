@@ -191,7 +191,7 @@ fn all_means_every_joint_that_has_a_freedom() {
 fn locked_says_something_only_at_regular_poses_and_of_moving_mechanisms() {
     let mut report = rigid();
     assert_eq!(compare(&report, &regular(&["J1"])).right, [""; 0]);
-    report.home.pose = Some(Pose::Regular);
+    report.home.pose = Some(PoseKind::Regular);
     let mut expectation = regular(&[]);
     expectation.finite = Some(0);
     for joint in &mut report.joints {

@@ -5,10 +5,10 @@ use super::schema::{
     Advice, Assembly, Block, Certificate, Cycle, Gap, GenericCount, Home, JointRow, Mobility,
     Report, Tree, TreeLink,
 };
-use super::vocabulary::{CertificateLevel, Pose, Verdict};
 use crate::matrix::Method;
 use crate::mechanism::{JointKind, Mechanism};
 use crate::mobility::{self, Analysis, PartRank};
+use crate::mobility::{CertificateLevel, PoseKind, Verdict};
 
 /// Fills in everything that the analysis decided. Linear in the size of both.
 pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis) {
@@ -73,7 +73,7 @@ fn assembly(mechanism: &Mechanism, analysis: &Analysis) -> Assembly {
 fn fill_home(home: &mut Home, analysis: &Analysis) {
     let Some(found) = &analysis.home else { return };
     let parts = &analysis.parts;
-    home.pose = analysis.mobility.regular.then_some(Pose::Regular);
+    home.pose = analysis.mobility.regular.then_some(PoseKind::Regular);
     home.instantaneous = found.instantaneous;
     home.candidates = [found.candidates.0, found.candidates.1];
     home.as_written = found.as_written;

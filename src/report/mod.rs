@@ -20,7 +20,7 @@
 //! # Where to look
 //! | file | what it answers |
 //! |---|---|
-//! | `schema`, `vocabulary` | which fields there are, and which words their values come from |
+//! | `schema` | which fields there are; their words are those of `mobility` |
 //! | `assemble` | how a mechanism and its analysis become a report |
 //! | `text` | how a report becomes a page |
 //! | `expectation`, `expected_file` | whether a report agrees with what is known |
@@ -37,8 +37,8 @@ mod natural;
 pub(crate) mod samples;
 mod schema;
 pub mod text;
-mod vocabulary;
 
+pub use crate::mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
 pub use assemble::{Input, Options, ReportError, report, report_on};
 pub use expectation::{Comparison, Disagreement, compare};
 pub use expected_file::{ExpectedFile, ExpectedFileError};
@@ -48,4 +48,3 @@ pub use schema::{
     Idle, JointRow, Mobility, Motion, Nominal, Report, SCHEMA, Size, Source, Stage, Timing, Tree,
     TreeLink,
 };
-pub use vocabulary::{CertificateLevel, MobilityClass, Pose, SingularKind, Verdict};

@@ -1,7 +1,7 @@
 //! Reports made by hand, for tests of what is shown and compared.
 
 use super::schema::*;
-use super::vocabulary::*;
+use crate::mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
 
 /// A joint of one freedom between two links.
 pub(crate) fn revolute(name: &str, links: [&str; 2], closes_loop: bool) -> JointRow {
@@ -69,7 +69,7 @@ pub(crate) fn mobile() -> Report {
         },
         home: Home {
             configuration: "home".to_owned(),
-            pose: Some(Pose::Regular),
+            pose: Some(PoseKind::Regular),
             kind: None,
             instantaneous: Some(1),
             candidates: [1, 1],
@@ -184,7 +184,7 @@ pub(crate) fn rigid() -> Report {
         redundant: 3,
     });
     report.home = Home {
-        pose: Some(Pose::Singular),
+        pose: Some(PoseKind::Singular),
         kind: Some(SingularKind::Shaky),
         redundant: Some(4),
         rank: Some(2),

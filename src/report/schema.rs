@@ -4,7 +4,7 @@
 //! Units: metres and radians. Dimensions, ranks and freedoms are plain counts. `null` means "not decided" or "does not
 //! apply", as the field says; it never means zero. Every number is finite.
 
-use super::vocabulary::{CertificateLevel, MobilityClass, Pose, SingularKind, Verdict};
+use crate::mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
 use serde::{Deserialize, Serialize};
 
 /// The value of [`Report::schema`].
@@ -128,7 +128,7 @@ pub struct Home {
     /// Name of the configuration, `home` for all joint variables zero.
     pub configuration: String,
     /// Regular or singular (D6); `null` while not decided.
-    pub pose: Option<Pose>,
+    pub pose: Option<PoseKind>,
     /// The kind of singularity (D7); `null` at regular poses and while not decided.
     pub kind: Option<SingularKind>,
     /// Instantaneous freedom (D3); `null` where the margin did not suffice or the mechanism does not assemble.

@@ -4,8 +4,8 @@ use super::page::Page;
 use super::style::Tint;
 use super::table::{Cell, Column, Table};
 use super::words::{counted, figure};
+use crate::mobility::{PoseKind, SingularKind, Verdict};
 use crate::report::schema::{Home, Report};
-use crate::report::vocabulary::{Pose, SingularKind, Verdict};
 
 /// Writes the counts.
 pub(super) fn write(report: &Report, page: &mut Page) {
@@ -179,13 +179,13 @@ fn pose(home: &Home) -> Option<String> {
         format!("configuration `{}`", home.configuration)
     };
     let text = match (home.pose?, home.kind) {
-        (Pose::Regular, _) => {
+        (PoseKind::Regular, _) => {
             format!("Regular: around {at} every instantaneous freedom can be followed.")
         }
-        (Pose::Singular, None) => {
+        (PoseKind::Singular, None) => {
             format!("Singular: around {at} the instantaneous freedoms are not all motions.")
         }
-        (Pose::Singular, Some(kind)) => {
+        (PoseKind::Singular, Some(kind)) => {
             let what = match kind {
                 SingularKind::Bifurcation => "branches with different tangents meet",
                 SingularKind::Tangential => "branches with a common tangent meet",

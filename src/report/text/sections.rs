@@ -4,8 +4,8 @@ use super::page::Page;
 use super::style::Tint;
 use super::table::{Cell, Column, Table};
 use super::words::{counted, figure, names};
+use crate::mobility::Verdict;
 use crate::report::schema::{Cycle, JointRow, Report};
-use crate::report::vocabulary::Verdict;
 
 /// Lists of names in a table show this many.
 const NAMES_IN_CELL: usize = 12;

@@ -3,8 +3,8 @@
 use super::page::Page;
 use super::style::Tint;
 use super::words::{counted, figure, names};
+use crate::mobility::{CertificateLevel, MobilityClass, Verdict};
 use crate::report::schema::{Assembly, Report};
-use crate::report::vocabulary::{CertificateLevel, MobilityClass, Verdict};
 
 /// Writes the verdict, its reasons and the line that says what was read.
 pub(super) fn write(report: &Report, page: &mut Page) {

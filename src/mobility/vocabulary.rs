@@ -1,4 +1,4 @@
-//! The closed sets of words that appear as values in a report. Definitions: `docs/src/definitions.md`.
+//! The closed sets of words that an answer is given in, in the library as in reports. Definitions: `docs/src/definitions.md`.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -52,7 +52,7 @@ words! {
 
 words! {
     /// Whether the configuration space is a manifold at the pose, of the dimension that the rank promises (D6).
-    Pose {
+    PoseKind {
         /// It is.
         Regular => "regular",
         /// It is not.
