@@ -22,6 +22,7 @@ mod rigid;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 pub(crate) mod samples;
+mod section;
 
 pub use assembly::{Assembly, LoopGap, assemble, follow, refine, spanning_poses};
 pub use cycle::{Walk, WalkedCycle, WalkedJoint, characteristic_length};
@@ -31,3 +32,4 @@ pub(crate) use jacobian::linearised;
 pub use jacobian::{CycleJacobian, Part, entry_accuracy, jacobian};
 pub use positional::positional_jacobian;
 pub use rigid::{PlacedScrew, Rigid, Vector, cross as cross_product, perpendicular as across};
+pub use section::{Closing, Metric, Section};

@@ -25,14 +25,15 @@ impl MoreDigits {
         Self::default()
     }
 
-    /// The Jacobian of a part at its states, polished in these bits; `moved` says that they are not the drawn ones.
-    pub(super) fn matrix(
+    /// The mechanism in these bits, with a part's joints at their states and polished; `moved` says that they are not the
+    /// drawn ones.
+    pub(super) fn polished(
         &mut self,
         pose: &Pose<'_>,
         part: &Part,
         moved: bool,
         bits: u32,
-    ) -> Result<FinerMatrix, MatrixError> {
+    ) -> Result<(&Geometry<Big>, &[JointState<Big>]), MatrixError> {
         let (geometry, states) = self.0.entry(bits).or_insert_with(|| {
             let geometry =
                 Geometry::new(pose.mechanism, pose.configuration, &Arithmetic::bits(bits));
@@ -46,6 +47,18 @@ impl MoreDigits {
             }
         }
         refine(pose.mechanism, geometry, states, part, pose.held)?;
+        Ok((geometry, states))
+    }
+
+    /// The Jacobian of a part at its states, polished in these bits; `moved` says that they are not the drawn ones.
+    pub(super) fn matrix(
+        &mut self,
+        pose: &Pose<'_>,
+        part: &Part,
+        moved: bool,
+        bits: u32,
+    ) -> Result<FinerMatrix, MatrixError> {
+        let (geometry, states) = self.polished(pose, part, moved, bits)?;
         let there = jacobian(pose.mechanism, geometry, states, part)?;
         let (_, rounding) = entry_accuracy(pose.mechanism, &there);
         let left: Vec<f64> = there.residual.iter().map(Real::to_f64).collect();

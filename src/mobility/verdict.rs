@@ -1,10 +1,23 @@
-//! The one place where engines meet: each gives bounds on the finite mobility, and what they agree on is the verdict.
+//! The one place where engines meet: each gives bounds on the finite mobility of a part, and what they agree on is the
+//! verdict on the whole.
+//!
+//! Parts do not influence one another, so that the configuration space near the pose is a product: freedoms add, a branch
+//! of the whole is one branch of every part, and the pose is singular where that of some part is.
 
-use super::pose_rank::PartRank;
+use super::part_mobility::{Evidence, PartFinding};
 use super::structure::Structure;
-use super::vocabulary::Verdict;
+use super::vocabulary::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
 use crate::closure::Assembly;
 use crate::mechanism::Mechanism;
+
+/// A mobile mechanism within the stated precision of a rigid file (D13).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nominal {
+    /// Its finite freedom.
+    pub finite: usize,
+    /// How far the file's numbers, taken literally, are from closing along the motion (m).
+    pub tolerance: f64,
+}
 
 /// The verdict with its bounds and reasons.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,12 +26,24 @@ pub struct Mobility {
     pub verdict: Verdict,
     /// Least and greatest finite mobility that remain possible; `None` where nothing is known.
     pub bounds: (Option<usize>, Option<usize>),
-    /// Whether the pose is known to be regular.
-    pub regular: bool,
+    /// Regular or singular; `None` while not decided.
+    pub pose: Option<PoseKind>,
+    /// In which way singular.
+    pub kind: Option<SingularKind>,
+    /// Hervé's class of a mobile mechanism, at a regular pose.
+    pub class: Option<MobilityClass>,
+    /// Dimension of the complex configuration space at the pose, where it was found.
+    pub complex_dimension: Option<usize>,
+    /// How strong the certificate is.
+    pub level: CertificateLevel,
     /// What the verdict rests on, in one sentence.
     pub certificate: String,
+    /// A mobile mechanism within the stated precision, where the file is rigid as written, or less mobile.
+    pub nominal: Option<Nominal>,
     /// Why not more, why not less, or what would decide.
     pub why: Vec<String>,
+    /// What every engine found: part by part, in the order asked.
+    pub evidence: Vec<(usize, Evidence)>,
 }
 
 impl Mobility {
@@ -34,106 +59,128 @@ impl Mobility {
     }
 }
 
-/// Intersects what the rank at the pose says about each part.
-///
-/// - Upper bound: the kernel of the Jacobian contains the tangents of every motion, so the instantaneous freedom bounds
-///   the finite one from above.
-/// - Lower bound: where the equations of a part are independent (full row rank), the implicit function theorem makes its
-///   configurations a manifold of exactly the instantaneous dimension. Elsewhere nothing is known yet: 0.
+/// The verdict on a mechanism that does not assemble.
 #[must_use]
-pub fn judge(
-    mechanism: &Mechanism,
-    structure: &Structure,
-    assembly: &Assembly,
-    parts: &[PartRank],
-) -> Mobility {
-    if !assembly.closed {
-        return Mobility {
-            verdict: Verdict::Unassembled,
-            bounds: (None, None),
-            regular: false,
-            certificate: format!(
-                "no closed pose was found from the pose drawn: the best one still misses by {:.2e} (allowed {:.2e})",
-                assembly.residual, assembly.tolerance
-            ),
-            why: vec!["a mechanism that does not close has no motions to count".to_owned()],
-        };
+pub fn unassembled(assembly: &Assembly) -> Mobility {
+    Mobility {
+        verdict: Verdict::Unassembled,
+        bounds: (None, None),
+        pose: None,
+        kind: None,
+        class: None,
+        complex_dimension: None,
+        level: CertificateLevel::Numeric,
+        certificate: format!(
+            "no closed pose was found from the pose drawn: the best one still misses by {:.2e} (allowed {:.2e})",
+            assembly.residual, assembly.tolerance
+        ),
+        nominal: None,
+        why: vec!["a mechanism that does not close has no motions to count".to_owned()],
+        evidence: Vec::new(),
     }
+}
+
+/// Puts together what was found of each part.
+#[must_use]
+pub fn judge(mechanism: &Mechanism, structure: &Structure, parts: &[PartFinding]) -> Mobility {
     let free: usize = structure
         .free_joints
         .iter()
         .map(|&j| mechanism.joints()[j].freedom())
         .sum();
     let base = free + 6 * structure.loose_pieces;
-    let mut low = base;
-    let mut high = base;
-    let mut regular = true;
-    let mut doubtful = false;
-    let mut dependent = 0;
-    for part in parts {
-        // A special mechanism written with too few digits is, taken literally, a generic one: that more equations than
-        // unknowns then hold it fast may be due to the digits left out.
-        let held_by_rounding = part.taken_literally
-            && part.instantaneous == Some(0)
-            && part.equations() > part.unknowns();
-        let decided = part
-            .instantaneous
-            .filter(|_| part.note.is_none() && !held_by_rounding);
-        doubtful |= decided.is_none();
-        high += if held_by_rounding {
-            part.unknowns()
-        } else {
-            part.instantaneous
-                .map_or(part.candidates.1, |i| i.max(part.candidates.1))
-        };
-        match decided {
-            Some(freedom) if freedom + part.equations() == part.unknowns() => low += freedom,
-            Some(0) => dependent += part.equations() - part.unknowns(),
-            Some(freedom) => {
-                regular = false;
-                dependent += freedom + part.equations() - part.unknowns();
-            }
-            None => regular = false,
+    let low = base + parts.iter().map(|p| p.lower).sum::<usize>();
+    let high = base + parts.iter().map(|p| p.upper).sum::<usize>();
+    let open: Vec<&str> = parts.iter().filter_map(|p| p.open.as_deref()).collect();
+    let poses: Vec<Option<PoseKind>> = parts.iter().map(|p| p.pose).collect();
+    let pose = if poses.contains(&Some(PoseKind::Singular)) {
+        Some(PoseKind::Singular)
+    } else if poses.contains(&None) {
+        None
+    } else {
+        Some(PoseKind::Regular)
+    };
+    let verdict = match (low == high && open.is_empty(), high) {
+        (false, _) => Verdict::Undecided,
+        (true, 0) => Verdict::Rigid,
+        (true, _) => Verdict::Mobile,
+    };
+    let weakest = parts.iter().min_by_key(|p| (p.open.is_none(), p.level));
+    let level = weakest.map_or(CertificateLevel::Subgroup, |p| p.level);
+    let certificate = match weakest {
+        None => "no loop constrains any joint".to_owned(),
+        Some(part) => part.certificate.clone(),
+    };
+    let mut why: Vec<String> = Vec::new();
+    for reason in open {
+        if !why.iter().any(|w| w == reason) {
+            why.push(reason.to_owned());
         }
     }
-    let mut why = Vec::new();
-    let (verdict, certificate) = if low == high && !doubtful {
-        let sentence = if high == 0 {
-            "no velocity at all satisfies the closure equations at this pose, so no motion starts from it".to_owned()
-        } else {
-            "where they constrain motion at all, the closure equations at this pose are independent, so its motions form a \
-             manifold of exactly this dimension (implicit function theorem)"
-                .to_owned()
-        };
-        let verdict = if high == 0 {
-            Verdict::Rigid
-        } else {
-            Verdict::Mobile
-        };
-        (verdict, sentence)
-    } else {
-        if doubtful {
-            why.push("the numbers as they are stated leave the rank at this pose open".to_owned());
-        }
-        if dependent > 0 {
-            why.push(format!(
-                "{dependent} of the equations repeat the others at this pose; whether they do so all along a motion, or only \
-                 here, is not settled by a rank at one pose"
-            ));
-        }
-        (
-            Verdict::Undecided,
-            "the rank of the closure equations at this pose bounds the freedom from above"
-                .to_owned(),
-        )
-    };
+    let class = (verdict == Verdict::Mobile && pose == Some(PoseKind::Regular))
+        .then(|| {
+            parts
+                .iter()
+                .filter(|p| p.upper > 0)
+                .map(|p| p.class)
+                .try_fold(MobilityClass::Trivial, |worst, class| Some(worst.max(class?)))
+        })
+        .flatten();
+    let nominal = parts
+        .iter()
+        .filter_map(|p| p.nominal)
+        .reduce(f64::max)
+        .filter(|_| verdict != Verdict::Undecided)
+        .map(|tolerance| Nominal {
+            finite: high,
+            tolerance,
+        });
     Mobility {
         verdict,
         bounds: (Some(low), Some(high)),
-        regular,
+        pose,
+        kind: kind_of_whole(verdict, parts),
+        class,
+        complex_dimension: parts
+            .iter()
+            .map(|p| p.complex_dimension)
+            .sum::<Option<usize>>()
+            .map(|dimension| dimension + base),
+        level,
         certificate,
+        nominal,
         why,
+        evidence: parts
+            .iter()
+            .enumerate()
+            .flat_map(|(index, p)| p.evidence.iter().map(move |e| (index, e.clone())))
+            .collect(),
     }
+}
+
+/// D7 for a product: a part that is shaky stays at its pose while others move, and is shaky all along.
+fn kind_of_whole(verdict: Verdict, parts: &[PartFinding]) -> Option<SingularKind> {
+    let mut kinds: Vec<Option<SingularKind>> = parts
+        .iter()
+        .filter(|p| p.pose == Some(PoseKind::Singular))
+        .map(|p| p.kind)
+        .collect();
+    if verdict == Verdict::Rigid {
+        return kinds.first().copied().flatten();
+    }
+    if kinds.iter().any(|k| *k != Some(SingularKind::Shaky)) {
+        kinds.retain(|k| *k != Some(SingularKind::Shaky));
+    }
+    let first = kinds.first().copied().flatten()?;
+    if first == SingularKind::Shaky {
+        return Some(SingularKind::PermanentlyShaky);
+    }
+    if kinds.iter().all(|k| *k == Some(first)) {
+        return Some(first);
+    }
+    [SingularKind::Kinematotropic, SingularKind::Bifurcation]
+        .into_iter()
+        .find(|kind| kinds.contains(&Some(*kind)))
 }
 
 #[cfg(test)]

@@ -1,0 +1,203 @@
+//! Closing the cycles while some directions of motion are held: the step from a pose to its neighbours.
+//!
+//! All unknowns of a part are measured in one metric, fixed at a pose of reference: `z = w q`, with `q` in rad and m and
+//! the weights `w` such that every column of the Jacobian had unit length there. A direction is a unit vector in `z`.
+
+use super::displacement::JointState;
+use super::geometry::Geometry;
+use super::jacobian::{CycleJacobian, Part, entry_accuracy, jacobian};
+use crate::matrix::{LeastSquares, MatrixError, Real, SparseMatrix};
+use crate::mechanism::Mechanism;
+
+/// The metric of a part's unknowns.
+#[derive(Clone, Debug)]
+pub struct Metric {
+    /// One weight per unknown: per rad or per m.
+    pub weights: Vec<f64>,
+}
+
+impl Metric {
+    /// The metric in which the columns of a Jacobian have the unit length that dividing by `column_scales` gave them.
+    /// Columns that vanish count as if they had length 1.
+    #[must_use]
+    pub fn of<R: Real>(
+        mechanism: &Mechanism,
+        jacobian: &CycleJacobian<R>,
+        column_scales: &[f64],
+    ) -> Self {
+        let weights = column_scales
+            .iter()
+            .enumerate()
+            .map(|(column, scale)| {
+                let scale = if *scale > 0.0 { *scale } else { 1.0 };
+                scale / jacobian.unit(mechanism, column)
+            })
+            .collect();
+        Self { weights }
+    }
+}
+
+/// What closing came to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Closing {
+    /// Largest equation left (rad, cycle lengths).
+    pub residual: f64,
+    /// Rounding in the equations at the pose reached, same units.
+    pub rounding: f64,
+    /// Length of the way gone while closing, in the metric.
+    pub way: f64,
+    /// Length of the last step, in the metric.
+    pub last_step: f64,
+    /// Steps taken.
+    pub steps: usize,
+}
+
+/// A part that is moved about, in an arithmetic.
+pub struct Section<'a, R> {
+    /// The mechanism.
+    pub mechanism: &'a Mechanism,
+    /// Its geometry.
+    pub geometry: &'a Geometry<R>,
+    /// The part that moves.
+    pub part: &'a Part,
+    /// The metric of its unknowns.
+    pub metric: &'a Metric,
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0f64, |m, x| {
+        if m.is_nan() || x.abs() <= m {
+            m
+        } else {
+            x.abs()
+        }
+    })
+}
+
+impl<R: Real> Section<'_, R> {
+    /// Moves the part's joints by `z`.
+    pub fn advance(&self, states: &mut [JointState<R>], z: &[R]) {
+        let one = &self.geometry.one;
+        let mut column = 0;
+        for &joint in &self.part.joints {
+            let displacement = &self.geometry.displacements[joint];
+            let freedom = displacement.freedom();
+            let values: Vec<R> = (column..column + freedom)
+                .map(|c| z[c].clone() / one.constant(self.metric.weights[c]))
+                .collect();
+            displacement.advance(&mut states[joint], &values);
+            column += freedom;
+        }
+    }
+
+    /// [`Self::advance`] by doubles.
+    pub fn advance_by(&self, states: &mut [JointState<R>], z: &[f64]) {
+        let z: Vec<R> = z.iter().map(|x| self.geometry.one.constant(*x)).collect();
+        self.advance(states, &z);
+    }
+
+    /// Newton steps of least length that close the cycles and do not move along the `held` directions (orthonormal in the
+    /// metric). Stops where the equations hold to rounding, where no progress is made, or after `limit` steps. Where the
+    /// equations cannot be met the pose is one that meets them best, nearby.
+    ///
+    /// The residual is exact to the arithmetic; directions are solved in double precision.
+    ///
+    /// # Errors
+    /// [`MatrixError`] where numbers overflow.
+    pub fn close(
+        &self,
+        states: &mut [JointState<R>],
+        held: &[Vec<f64>],
+        limit: usize,
+    ) -> Result<Closing, MatrixError> {
+        let mut here = jacobian(self.mechanism, self.geometry, states, self.part)?;
+        let (_, rounding) = entry_accuracy(self.mechanism, &here);
+        let size = |r: &[R]| largest(&r.iter().map(Real::to_f64).collect::<Vec<_>>());
+        let mut closing = Closing {
+            residual: size(&here.residual),
+            rounding,
+            way: 0.0,
+            last_step: 0.0,
+            steps: 0,
+        };
+        let floor = 8.0 * self.geometry.one.unit_roundoff();
+        let mut kept = Vec::new();
+        while closing.steps < limit && closing.residual > floor {
+            let unit = self.geometry.one.constant(closing.residual);
+            let right: Vec<f64> = here
+                .residual
+                .iter()
+                .map(|r| -(r.clone() / unit.clone()).to_f64())
+                .chain(held.iter().map(|_| 0.0))
+                .collect();
+            let matrix = self.bordered(&here, held)?;
+            let mut step = LeastSquares::damped(&matrix, &right, 1e-24, None)?;
+            for direction in held {
+                let along: f64 = direction.iter().zip(&step).map(|(a, b)| a * b).sum();
+                step.iter_mut()
+                    .zip(direction)
+                    .for_each(|(x, d)| *x -= along * d);
+            }
+            let mut length = 0.0.norm(&step) * closing.residual;
+            if !length.is_finite() {
+                break;
+            }
+            // Beyond a radian or so the linearisation says nothing.
+            let shorten = if length > 0.5 { 0.5 / length } else { 1.0 };
+            length *= shorten;
+            let factor = self.geometry.one.constant(closing.residual * shorten);
+            let z: Vec<R> = step
+                .iter()
+                .map(|x| self.geometry.one.constant(*x) * factor.clone())
+                .collect();
+            kept.clear();
+            kept.extend(self.part.joints.iter().map(|&j| states[j].clone()));
+            self.advance(states, &z);
+            let there = jacobian(self.mechanism, self.geometry, states, self.part)?;
+            let reached = size(&there.residual);
+            closing.steps += 1;
+            if !(reached < closing.residual) {
+                for (&joint, state) in self.part.joints.iter().zip(kept.drain(..)) {
+                    states[joint] = state;
+                }
+                break;
+            }
+            let stalled = reached > 0.999 * closing.residual;
+            closing.way += length;
+            closing.last_step = length;
+            closing.residual = reached;
+            here = there;
+            if stalled {
+                break;
+            }
+        }
+        Ok(closing)
+    }
+
+    /// The Jacobian in the metric, in double precision, with the held directions as further rows.
+    fn bordered(
+        &self,
+        here: &CycleJacobian<R>,
+        held: &[Vec<f64>],
+    ) -> Result<SparseMatrix<f64>, MatrixError> {
+        let rows = here.matrix.rows();
+        let columns = here.matrix.columns();
+        let factors: Vec<f64> = (0..columns)
+            .map(|c| 1.0 / (self.metric.weights[c] * here.unit(self.mechanism, c)))
+            .collect();
+        let mut triplets: Vec<(usize, usize, f64)> = here
+            .matrix
+            .triplets()
+            .map(|(row, column, value)| (row, column, value.to_f64() * factors[column]))
+            .collect();
+        for (index, direction) in held.iter().enumerate() {
+            triplets.extend(
+                direction
+                    .iter()
+                    .enumerate()
+                    .map(|(column, x)| (rows + index, column, *x)),
+            );
+        }
+        SparseMatrix::from_triplets(rows + held.len(), columns, 0.0, triplets)
+    }
+}

@@ -1,0 +1,276 @@
+//! Whether the configuration space is a manifold at a pose, of the dimension that the rank promises.
+//!
+//! With δ = dim ker J, hold the δ coordinates along the kernel at some small y and close the cycles by moving across it.
+//! At a regular pose that succeeds for every y: the kernel's coordinates are a chart. At a singular one the equations that
+//! J does not see leave something over, which vanishes with |y| like a power of at least two (the germ of the
+//! configuration space: Golubitsky and Schaeffer 1985, section I.3, Lyapunov–Schmidt reduction). So:
+//!
+//! - *regular* where nothing is left over, in several directions and at radii where a germ of order up to
+//!   [`ORDERS_SEEN`] would leave far more than the noise does;
+//! - *singular* where what is left is far above the noise and falls like a power of the radius;
+//! - otherwise more digits decide, or nothing does.
+//!
+//! The noise is rounding, and for rounded numbers what their stated precision leaves open. Radii follow the smallest
+//! singular value σ kept: a chart reaches as far as the equations bend by less than σ.
+//!
+//! A finite number of directions and orders proves nothing about all of them: the certificate is numeric.
+
+use super::more_digits::MoreDigits;
+use super::pose_rank::{LADDER, PartRank, Pose};
+use crate::closure::{JointState, Metric, Part, Section};
+use crate::matrix::{MatrixError, NullVectors, Real, SplitMix64, null_vectors};
+
+/// A germ whose leftover vanishes to a higher order than this is not told from none. Order 4 decides all that is known;
+/// two more are a margin, which rounded numbers do not have.
+const ORDERS_SEEN: i32 = 6;
+const ORDERS_SEEN_ROUNDED: i32 = 4;
+
+/// The coefficient that a germ of that order is expected to have at least, with radii in units of the chart's size.
+const COEFFICIENT: f64 = 1e-2;
+
+/// What exceeds the noise by this factor is no noise.
+const CLEAR: f64 = 100.0;
+
+/// Largest radius (rad, part lengths): beyond, other branches interfere.
+const LARGEST_RADIUS: f64 = 0.3;
+
+/// The parts with more unknowns than this are moved in double precision only.
+const LADDER_UNKNOWNS: usize = 400;
+
+/// At most so many directions are tried.
+const DIRECTIONS: usize = 6;
+
+/// The seed of the directions.
+pub const SEED: u64 = 20;
+
+/// What the chart test found.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ChartOutcome {
+    /// The configuration space is a manifold here, of the dimension of the kernel.
+    Regular,
+    /// It is not; the leftover vanishes like this power of the distance.
+    Singular {
+        /// The power, as measured.
+        order: f64,
+    },
+    /// The margin is too thin to tell.
+    Thin,
+}
+
+/// A chart test with its figures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChartTest {
+    /// What it found.
+    pub outcome: ChartOutcome,
+    /// The largest radius tried (length in the metric of unit columns).
+    pub radius: f64,
+    /// The largest equation left over there (rad, cycle lengths).
+    pub leftover: f64,
+    /// What rounding and stated precision account for.
+    pub noise: f64,
+    /// Directions tried.
+    pub directions: usize,
+    /// Bits of the arithmetic that decided.
+    pub bits: u32,
+    /// Whether the numbers had to be taken literally, their stated precision being too coarse to decide anything.
+    pub literal: bool,
+}
+
+/// The kernel at the pose, and the metric it is orthonormal in.
+pub struct Kernel {
+    /// Orthonormal basis.
+    pub basis: NullVectors<f64>,
+    /// The metric.
+    pub metric: Metric,
+}
+
+impl Kernel {
+    /// The kernel that a decided rank leaves, or `limit` random vectors of a larger one; `None` where it is undecided.
+    ///
+    /// # Errors
+    /// [`MatrixError`] where the null vectors cannot be computed.
+    pub fn of(pose: &Pose<'_>, rank: &PartRank, limit: usize) -> Result<Option<Self>, MatrixError> {
+        let Some(decision) = rank.settled() else {
+            return Ok(None);
+        };
+        Ok(Some(Self {
+            basis: null_vectors(&rank.matrix, &decision, limit, SEED)?,
+            metric: Metric::of(pose.mechanism, &rank.jacobian, &rank.column_scales),
+        }))
+    }
+}
+
+/// Directions to try: random ones in the kernel, both ways.
+fn directions(kernel: &NullVectors<f64>) -> Vec<Vec<f64>> {
+    let count = if kernel.vectors.len() == 1 {
+        1
+    } else {
+        (kernel.vectors.len() + 1).min(DIRECTIONS)
+    };
+    let mut random = SplitMix64::new(SEED);
+    (0..count)
+        .flat_map(|_| {
+            let mut direction = vec![0.0; kernel.length];
+            for vector in &kernel.vectors {
+                let weight = random.symmetric();
+                direction
+                    .iter_mut()
+                    .zip(vector)
+                    .for_each(|(d, x)| *d += weight * x);
+            }
+            let length = 0.0.norm(&direction);
+            direction.iter_mut().for_each(|x| *x /= length);
+            let back = direction.iter().map(|x| -x).collect();
+            [direction, back]
+        })
+        .collect()
+}
+
+/// Tests whether the kernel's coordinates are a chart of the configuration space.
+///
+/// # Errors
+/// [`MatrixError`] where numbers overflow.
+pub fn chart_test(
+    pose: &Pose<'_>,
+    more: &mut MoreDigits,
+    part: &Part,
+    rank: &PartRank,
+    kernel: &Kernel,
+) -> Result<ChartTest, MatrixError> {
+    let radius = (0.5 * rank.decision.kept.min(1.0)).clamp(1e-12, LARGEST_RADIUS);
+    // What the numbers leave open shifts every equation by about as much, whatever the radius.
+    let test = climb(pose, more, part, rank, kernel, radius, rank.stated)?;
+    // Coarse numbers of which both readings have the same rank satisfy whatever makes them special to the last digit: such
+    // numbers were chosen.
+    if test.outcome == ChartOutcome::Thin
+        && rank.stated > 0.0
+        && rank
+            .as_written
+            .is_none_or(|written| Some(written) == rank.instantaneous)
+    {
+        let literal = climb(pose, more, part, rank, kernel, radius, 0.0)?;
+        if literal.outcome != ChartOutcome::Thin {
+            return Ok(ChartTest {
+                literal: true,
+                ..literal
+            });
+        }
+    }
+    Ok(test)
+}
+
+/// The test in as many digits as it takes, with what the stated precision leaves open.
+fn climb(
+    pose: &Pose<'_>,
+    more: &mut MoreDigits,
+    part: &Part,
+    rank: &PartRank,
+    kernel: &Kernel,
+    mut radius: f64,
+    stated: f64,
+) -> Result<ChartTest, MatrixError> {
+    let ways = directions(&kernel.basis);
+    let mut bits = 53;
+    let moved = !pose.as_drawn;
+    let mut test;
+    let mut rungs = LADDER.iter();
+    loop {
+        test = if bits == 53 {
+            let section = Section {
+                mechanism: pose.mechanism,
+                geometry: pose.geometry,
+                part,
+                metric: &kernel.metric,
+            };
+            probe(&section, pose.states, kernel, &ways, radius, stated)?
+        } else {
+            let (geometry, states) = more.polished(pose, part, moved, bits)?;
+            let section = Section {
+                mechanism: pose.mechanism,
+                geometry,
+                part,
+                metric: &kernel.metric,
+            };
+            probe(&section, states, kernel, &ways, radius, stated)?
+        };
+        test.bits = bits;
+        if test.outcome != ChartOutcome::Thin || rank.unknowns() > LADDER_UNKNOWNS {
+            break;
+        }
+        // More digits than the numbers have tell nothing.
+        if stated > 0.5 * test.noise {
+            break;
+        }
+        let Some(next) = rungs.next() else { break };
+        bits = *next;
+        if bits > 53 && test.leftover > CLEAR * test.noise {
+            radius *= 0.25;
+        }
+    }
+    Ok(test)
+}
+
+fn probe<R: Real>(
+    section: &Section<'_, R>,
+    base: &[JointState<R>],
+    kernel: &Kernel,
+    ways: &[Vec<f64>],
+    radius: f64,
+    stated: f64,
+) -> Result<ChartTest, MatrixError> {
+    let mut states = base.to_vec();
+    let mut left = |way: &[f64], radius: f64| -> Result<(f64, f64), MatrixError> {
+        for &joint in &section.part.joints {
+            states[joint] = base[joint].clone();
+        }
+        let z: Vec<f64> = way.iter().map(|x| x * radius).collect();
+        section.advance_by(&mut states, &z);
+        let closing = section.close(&mut states, &kernel.basis.vectors, 40)?;
+        Ok((closing.residual, closing.rounding))
+    };
+    let mut worst = (0, 0.0f64);
+    let mut noise = 0.0f64;
+    for (index, way) in ways.iter().enumerate() {
+        let (residual, rounding) = left(way, radius)?;
+        noise = noise.max(4.0 * rounding + stated);
+        if residual > worst.1 || !residual.is_finite() {
+            worst = (index, residual);
+        }
+        if residual > 1e3 * CLEAR * noise {
+            break;
+        }
+    }
+    let (index, leftover) = worst;
+    let orders = if stated > 0.5 * noise {
+        ORDERS_SEEN_ROUNDED
+    } else {
+        ORDERS_SEEN
+    };
+    let visible = COEFFICIENT * radius.powi(orders) > noise;
+    let outcome = if leftover <= noise {
+        if visible {
+            ChartOutcome::Regular
+        } else {
+            ChartOutcome::Thin
+        }
+    } else {
+        let (half, _) = left(&ways[index], 0.5 * radius)?;
+        let (quarter, _) = left(&ways[index], 0.25 * radius)?;
+        let orders = [(leftover / half).log2(), (half / quarter).log2()];
+        let power = |order: f64| (1.5..=ORDERS_SEEN as f64 + 2.5).contains(&order);
+        if quarter > CLEAR * noise && orders.iter().all(|o| power(*o)) {
+            ChartOutcome::Singular { order: orders[1] }
+        } else {
+            ChartOutcome::Thin
+        }
+    };
+    Ok(ChartTest {
+        outcome,
+        radius,
+        leftover,
+        noise,
+        directions: ways.len(),
+        bits: section.geometry.one.bits(),
+        literal: false,
+    })
+}

@@ -1,0 +1,306 @@
+//! The finite mobility of one part: engines from cheap to dear, until their bounds meet.
+//!
+//! | engine | says | costs |
+//! |---|---|---|
+//! | rank | finite ≤ δ; = δ where no equation is redundant (implicit function theorem); = 0 where δ = 0 | done already |
+//! | subgroup | exact, at every pose, where displacement subgroups explain the motion | a few brackets a cycle |
+//! | chart | regular: finite = δ; singular: finite ≤ δ − 1 | some dozen closures |
+//! | germ and its zeros | the branches through a singular pose, each confirmed by closing all equations on it | power series |
+//!
+//! A verdict is never given on a thin margin: what an engine cannot tell, it leaves open and says why.
+
+use super::chart::{ChartOutcome, ChartTest, Kernel, chart_test};
+use super::more_digits::MoreDigits;
+use super::pose_rank::{PartRank, Pose};
+use super::singular::{SingularFinding, singular_finding};
+use super::structure::Structure;
+use super::subgroup::subgroup_finding;
+use super::tracing::{KERNEL_LIMIT, PartPose, poses_of_regular_part};
+use super::vocabulary::{CertificateLevel, MobilityClass, PoseKind, SingularKind};
+use crate::closure::Part;
+use crate::matrix::MatrixError;
+
+/// What one engine contributed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Evidence {
+    /// Its name.
+    pub engine: &'static str,
+    /// What it looked at: the pose, a neighbourhood of it, all poses.
+    pub scope: &'static str,
+    /// The bounds it gives on the finite mobility of the part.
+    pub bounds: (usize, Option<usize>),
+    /// Figures: margins, orders, radii, seeds.
+    pub text: String,
+}
+
+/// A branch of one part.
+#[derive(Clone, Debug)]
+pub struct PartBranch {
+    /// Dimension.
+    pub dimension: usize,
+    /// Ways of leaving the pose, for dimension 1.
+    pub half_branches: Option<usize>,
+    /// Generic poses on it.
+    pub poses: Vec<PartPose>,
+}
+
+/// The finite mobility of one part.
+#[derive(Clone, Debug)]
+pub struct PartFinding {
+    /// At least so many finite freedoms.
+    pub lower: usize,
+    /// At most so many.
+    pub upper: usize,
+    /// Regular or singular.
+    pub pose: Option<PoseKind>,
+    /// In which way singular.
+    pub kind: Option<SingularKind>,
+    /// Hervé's class.
+    pub class: Option<MobilityClass>,
+    /// How strong the certificate is.
+    pub level: CertificateLevel,
+    /// What it proves.
+    pub certificate: String,
+    /// Dimension over the complex numbers, where it was found.
+    pub complex_dimension: Option<usize>,
+    /// The branches; `None` while not decided.
+    pub branches: Option<Vec<PartBranch>>,
+    /// What stays open, and what would decide it.
+    pub open: Option<String>,
+    /// What the engines found, in the order they were asked.
+    pub evidence: Vec<Evidence>,
+    /// How far the numbers, taken literally, miss a mobile mechanism (m), where they do.
+    pub nominal: Option<f64>,
+}
+
+impl PartFinding {
+    fn open(lower: usize, upper: usize, why: String) -> Self {
+        Self {
+            lower,
+            upper,
+            pose: None,
+            kind: None,
+            class: None,
+            level: CertificateLevel::Numeric,
+            certificate: "the rank of the closure equations at this pose bounds the freedom from above".to_owned(),
+            complex_dimension: None,
+            branches: None,
+            open: Some(why),
+            evidence: Vec::new(),
+            nominal: None,
+        }
+    }
+
+    fn regular(freedom: usize, class: Option<MobilityClass>, level: CertificateLevel, certificate: String) -> Self {
+        Self {
+            lower: freedom,
+            upper: freedom,
+            pose: Some(PoseKind::Regular),
+            kind: None,
+            class,
+            level,
+            certificate,
+            complex_dimension: Some(freedom),
+            branches: None,
+            open: None,
+            evidence: Vec::new(),
+            nominal: None,
+        }
+    }
+
+    fn with(mut self, evidence: Vec<Evidence>) -> Self {
+        self.evidence = evidence;
+        self
+    }
+}
+
+/// Asks the engines about one part.
+///
+/// # Errors
+/// [`MatrixError`] where numbers overflow.
+pub fn part_mobility(
+    pose: &Pose<'_>,
+    more: &mut MoreDigits,
+    structure: &Structure,
+    part: &Part,
+    rank: &PartRank,
+) -> Result<PartFinding, MatrixError> {
+    let surplus = rank.unknowns() as i64 - rank.equations() as i64;
+    let rank_evidence = Evidence {
+        engine: "rank",
+        scope: "this pose",
+        bounds: (surplus.max(0) as usize, Some(rank.candidates.1)),
+        text: format!(
+            "{} equations in {} unknowns; smallest singular value kept {:.2e}, largest dropped {:.2e}, tolerance {:.2e}; \
+             {} bits",
+            rank.equations(),
+            rank.unknowns(),
+            rank.decision.kept,
+            rank.decision.dropped,
+            rank.decision.tolerance,
+            rank.bits
+        ),
+    };
+    // A special mechanism written with too few digits is, taken literally, a generic one: that more equations than unknowns
+    // then hold it fast may be due to the digits left out.
+    let held_by_rounding =
+        rank.taken_literally && rank.instantaneous == Some(0) && surplus < 0;
+    let Some(freedom) = rank.instantaneous.filter(|_| !held_by_rounding) else {
+        let upper = if held_by_rounding {
+            rank.unknowns()
+        } else {
+            rank.candidates.1
+        };
+        let why = "the numbers as they are stated leave the rank at this pose open; more digits would decide it";
+        return Ok(PartFinding::open(surplus.max(0) as usize, upper, why.to_owned())
+            .with(vec![rank_evidence]));
+    };
+    // The rank was decided one way, but the precision stated allows another: the numbers have to be better.
+    if rank.candidates.0 != rank.candidates.1 && rank.as_written.is_none_or(|w| Some(w) == rank.instantaneous) {
+        let why = "within the precision of its numbers the mechanism could have another rank at this pose; more digits would decide";
+        let upper = freedom.max(rank.candidates.1);
+        return Ok(PartFinding::open(surplus.max(0) as usize, upper, why.to_owned())
+            .with(vec![rank_evidence]));
+    }
+    let mut evidence = vec![rank_evidence];
+    if freedom == 0 {
+        let text = "no velocity at all satisfies the closure equations at this pose, so no motion starts from it";
+        let mut found = PartFinding::regular(0, None, CertificateLevel::Numeric, text.to_owned());
+        found.branches = Some(Vec::new());
+        return Ok(found.with(evidence));
+    }
+    let kernel = Kernel::of(pose, rank, KERNEL_LIMIT)?;
+    let one_branch = |found: &mut PartFinding| -> Result<(), MatrixError> {
+        if let Some(kernel) = &kernel {
+            found.branches = Some(vec![PartBranch {
+                dimension: freedom,
+                half_branches: (freedom == 1).then_some(2),
+                poses: poses_of_regular_part(pose, part, rank, kernel)?,
+            }]);
+        }
+        Ok(())
+    };
+    let subgroups = subgroup_finding(
+        pose.mechanism,
+        pose.geometry,
+        pose.states,
+        structure,
+        part,
+        rank,
+    )?;
+    evidence.push(Evidence {
+        engine: "subgroup",
+        scope: "every pose",
+        bounds: (subgroups.lower, subgroups.upper),
+        text: format!(
+            "{}{}",
+            subgroups.text,
+            subgroups
+                .steps
+                .iter()
+                .map(|s| format!("; {s}"))
+                .collect::<String>()
+        ),
+    });
+    if subgroups.finite == Some(freedom) {
+        let mut found = PartFinding::regular(
+            freedom,
+            subgroups.class,
+            CertificateLevel::Subgroup,
+            subgroups.text.clone(),
+        );
+        one_branch(&mut found)?;
+        return Ok(found.with(evidence));
+    }
+    if surplus == freedom as i64 {
+        let text = "the closure equations at this pose are independent, so its motions form a manifold of exactly this \
+                    dimension (implicit function theorem)";
+        let mut found = PartFinding::regular(
+            freedom,
+            Some(subgroups.class.unwrap_or(MobilityClass::Trivial)),
+            CertificateLevel::Numeric,
+            text.to_owned(),
+        );
+        one_branch(&mut found)?;
+        return Ok(found.with(evidence));
+    }
+    let lower = (surplus.max(0) as usize).max(subgroups.lower);
+    let Some(kernel) = kernel.as_ref().filter(|k| k.basis.complete) else {
+        let why = format!(
+            "{freedom} instantaneous freedoms in one block are too many to follow; driving or fixing some joints would decide"
+        );
+        return Ok(PartFinding::open(lower, freedom, why).with(evidence));
+    };
+    let chart = chart_test(pose, more, part, rank, kernel)?;
+    evidence.push(chart_evidence(&chart, freedom));
+    match chart.outcome {
+        ChartOutcome::Regular => {
+            let text = format!(
+                "the loops close at finite distances from this pose in all directions of its {freedom} instantaneous \
+                 freedom{}: what is left over is {:.1e} where {:.1e} is noise",
+                if freedom == 1 { "" } else { "s" },
+                chart.leftover,
+                chart.noise
+            );
+            let mut found = PartFinding::regular(
+                freedom,
+                Some(subgroups.class.unwrap_or(MobilityClass::Paradoxical)),
+                CertificateLevel::Numeric,
+                text,
+            );
+            if rank.as_written.is_some_and(|w| w < freedom) {
+                found.nominal = Some(chart.leftover * rank.jacobian.length);
+            }
+            one_branch(&mut found)?;
+            Ok(found.with(evidence))
+        }
+        ChartOutcome::Singular { .. } => {
+            let SingularFinding { mut found, more_evidence } =
+                singular_finding(pose, part, rank, kernel, &chart, lower)?;
+            evidence.extend(more_evidence);
+            found.class = None;
+            Ok(found.with(evidence))
+        }
+        ChartOutcome::Thin => {
+            let why = format!(
+                "whether this pose is regular hangs on a margin that is too thin: at a distance of {:.1e} the equations leave \
+                 {:.1e} over, and {:.1e} of that may be noise; {}",
+                chart.radius,
+                chart.leftover,
+                chart.noise,
+                if rank.stated > 0.0 {
+                    "more digits in the file would decide"
+                } else {
+                    "a pose farther from other branches would decide"
+                }
+            );
+            Ok(PartFinding::open(lower, freedom, why).with(evidence))
+        }
+    }
+}
+
+fn chart_evidence(chart: &ChartTest, freedom: usize) -> Evidence {
+    let (bounds, what) = match chart.outcome {
+        ChartOutcome::Regular => ((freedom, Some(freedom)), "regular".to_owned()),
+        ChartOutcome::Singular { order } => (
+            (0, Some(freedom - 1)),
+            format!("singular, leftover of order {order:.2}"),
+        ),
+        ChartOutcome::Thin => ((0, Some(freedom)), "margin too thin".to_owned()),
+    };
+    Evidence {
+        engine: "chart",
+        scope: "a neighbourhood",
+        bounds,
+        text: format!(
+            "{what}; radius {:.2e}, {} directions, left over {:.2e}, noise {:.2e}; {} bits; seed {}{}",
+            chart.radius,
+            chart.directions,
+            chart.leftover,
+            chart.noise,
+            chart.bits,
+            super::chart::SEED,
+            if chart.literal { "; numbers taken literally" } else { "" }
+        ),
+    }
+}

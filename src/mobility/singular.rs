@@ -1,0 +1,449 @@
+//! Singular poses: which branches pass through them.
+//!
+//! The germ of the configuration space, a few power series in the δ coordinates of the kernel, is cut off at a small order
+//! and its real zeros near the origin are found ([`germ_zeros`]). That is a hint. Each branch found is then lifted to the
+//! mechanism, closed on *all* equations at a finite distance, ranked there and followed: only what survives this is a
+//! branch. What bounds the mobility from above is the search for zeros, which is numeric, and where it can be had the
+//! dimension over the complex numbers.
+//!
+//! One variable (δ = 1) needs none of it: an analytic function of one variable that does not vanish identically has an
+//! isolated zero, so a singular pose with δ = 1 is rigid.
+
+use super::chart::{ChartTest, Kernel};
+use super::germ::{Germ, complex_dimension, prestress_certificate};
+use super::germ_zeros::{GermBranch, GermZeroOptions, germ_zeros};
+use super::part_mobility::{Evidence, PartBranch, PartFinding};
+use super::pose_rank::{PartRank, Pose};
+use super::tracing::{PartPose, natural, orthonormal, tangents_at, walk};
+use super::vocabulary::{CertificateLevel, PoseKind, SingularKind};
+use crate::closure::{JointState, Part, Section};
+use crate::matrix::{MatrixError, Real};
+
+/// Orders of the series tried in turn.
+const DEGREES: [usize; 3] = [4, 6, 8];
+
+/// Branches whose directions differ by less (cosine) share a tangent.
+const SAME_DIRECTION: f64 = 0.999;
+
+/// A lifted point may move by this share of its distance from the pose while all equations are closed.
+const POLISHING: f64 = 0.35;
+
+/// What is known of a singular pose.
+pub(super) struct SingularFinding {
+    pub found: PartFinding,
+    pub more_evidence: Vec<Evidence>,
+}
+
+/// Looks for the branches through a pose that the chart test calls singular.
+///
+/// # Errors
+/// [`MatrixError`] where numbers overflow.
+pub(super) fn singular_finding(
+    pose: &Pose<'_>,
+    part: &Part,
+    rank: &PartRank,
+    kernel: &Kernel,
+    chart: &ChartTest,
+    lower: usize,
+) -> Result<SingularFinding, MatrixError> {
+    let freedom = kernel.basis.nullity;
+    let mut evidence = Vec::new();
+    let mut found = PartFinding {
+        lower,
+        upper: freedom - 1,
+        pose: Some(PoseKind::Singular),
+        kind: None,
+        class: None,
+        level: CertificateLevel::Numeric,
+        certificate: String::new(),
+        complex_dimension: None,
+        branches: None,
+        open: None,
+        evidence: Vec::new(),
+        nominal: None,
+    };
+    if freedom == 1 {
+        "along the only direction that the equations allow to first order they fail at higher order, and an equation in one \
+         variable that does not vanish identically has an isolated solution"
+            .clone_into(&mut found.certificate);
+        isolated(&mut found);
+        found.complex_dimension = Some(0);
+        return Ok(SingularFinding {
+            found,
+            more_evidence: evidence,
+        });
+    }
+    let mut why = "its power series are too many to follow".to_owned();
+    // Numbers taken literally are exact.
+    let literal;
+    let rank = if chart.literal {
+        literal = PartRank {
+            stated: 0.0,
+            ..rank.clone()
+        };
+        &literal
+    } else {
+        rank
+    };
+    for degree in DEGREES {
+        let Some(germ) = Germ::of_part(
+            pose.mechanism,
+            pose.geometry,
+            pose.states,
+            part,
+            rank,
+            degree,
+        )?
+        else {
+            break;
+        };
+        let Some(order) = germ.order() else {
+            why = format!("what the equations leave over is of higher order than {degree}");
+            continue;
+        };
+        if let Some(stress) = prestress_certificate(&germ) {
+            evidence.push(Evidence {
+                engine: "second order",
+                scope: "a neighbourhood, real",
+                bounds: (0, Some(0)),
+                text: format!(
+                    "a self-stress makes the second-order form definite: smallest eigenvalue {:.2e}, noise {:.2e}",
+                    stress.smallest_eigenvalue, stress.noise
+                ),
+            });
+            "a self-stress blocks every motion at second order (its quadratic form on the velocities is definite)"
+                .clone_into(&mut found.certificate);
+            isolated(&mut found);
+            found.complex_dimension =
+                complex_dimension(germ.equations(), germ.noise(order)).map(|c| c.dimension);
+            break;
+        }
+        let complex = complex_dimension(germ.equations(), germ.noise(order));
+        let zeros = germ_zeros(
+            germ.equations(),
+            germ.noise(order),
+            &GermZeroOptions::default(),
+        );
+        evidence.push(Evidence {
+            engine: "germ",
+            scope: "a neighbourhood",
+            bounds: (
+                0,
+                zeros
+                    .thin
+                    .is_none()
+                    .then(|| zeros.branches.iter().map(|b| b.dimension).max().unwrap_or(0)),
+            ),
+            text: format!(
+                "{} equations of order {order} in {freedom} variables to degree {degree}, margin {:.1e}; real zeros on spheres \
+                 of radius {}: {}; {} starts, seed {}{}",
+                germ.equations().len(),
+                germ.margin(),
+                zeros
+                    .radii
+                    .iter()
+                    .map(|r| format!("{r:.2}"))
+                    .collect::<Vec<_>>()
+                    .join(", "),
+                match zeros.branches.len() {
+                    0 => "none".to_owned(),
+                    _ => zeros
+                        .branches
+                        .iter()
+                        .map(|b| format!("a branch of dimension {}", b.dimension))
+                        .collect::<Vec<_>>()
+                        .join(", "),
+                },
+                zeros.starts,
+                zeros.seed,
+                complex.as_ref().map_or(String::new(), |c| format!(
+                    "; complex dimension {}, Hilbert function {:?}",
+                    c.dimension, c.hilbert
+                ))
+            ),
+        });
+        found.complex_dimension = complex.as_ref().map(|c| c.dimension);
+        if let Some(thin) = &zeros.thin {
+            why.clone_from(thin);
+            continue;
+        }
+        if zeros.branches.is_empty() {
+            "near this pose the closure equations have no other real solution: what the power series leave over stays away from \
+             zero on small spheres"
+                .clone_into(&mut found.certificate);
+            isolated(&mut found);
+            break;
+        }
+        match lift_all(pose, part, rank, kernel, &germ, &zeros.branches)? {
+            Ok(lifted) => {
+                let top = lifted.iter().map(|b| b.branch.dimension).max().unwrap_or(0);
+                if complex.as_ref().is_some_and(|c| c.dimension < top) {
+                    why = "the dimension over the complex numbers contradicts the branches found".to_owned();
+                    continue;
+                }
+                found.lower = top;
+                found.upper = top;
+                found.kind = kind_of(&lifted, &zeros.branches);
+                found.certificate = format!(
+                    "the real zeros of the equations' power series give {}, and on each of them the loops close at finite \
+                     distances from this pose",
+                    if lifted.len() == 1 {
+                        "one branch".to_owned()
+                    } else {
+                        format!("{} branches", lifted.len())
+                    }
+                );
+                found.branches = Some(lifted.into_iter().map(|l| l.branch).collect());
+                break;
+            }
+            Err(reason) => why = reason,
+        }
+    }
+    if found.branches.is_none() {
+        found.certificate = "the pose is singular, so that the finite freedom is below the instantaneous one".to_owned();
+        found.open = Some(format!(
+            "which branches pass through this singular pose is not settled: {why}; a pose beside it would be easier"
+        ));
+        if let Some(complex) = found.complex_dimension {
+            found.upper = found.upper.min(complex).max(found.lower);
+        }
+    }
+    Ok(SingularFinding {
+        found,
+        more_evidence: evidence,
+    })
+}
+
+fn isolated(found: &mut PartFinding) {
+    found.lower = 0;
+    found.upper = 0;
+    found.kind = Some(SingularKind::Shaky);
+    found.branches = Some(Vec::new());
+}
+
+/// A branch that the mechanism really has.
+struct Lifted {
+    branch: PartBranch,
+    /// Whether its instantaneous freedom at a generic pose is more than its dimension.
+    shaky: bool,
+}
+
+fn lift_all(
+    pose: &Pose<'_>,
+    part: &Part,
+    rank: &PartRank,
+    kernel: &Kernel,
+    germ: &Germ,
+    branches: &[GermBranch],
+) -> Result<Result<Vec<Lifted>, String>, MatrixError> {
+    let mut lifted = Vec::new();
+    for branch in branches {
+        let mut best = None;
+        for point in &branch.points {
+            if let Some(found) = lift(pose, part, rank, kernel, germ, branch, point)? {
+                best = Some(found);
+                break;
+            }
+        }
+        let Some(found) = best else {
+            return Ok(Err(format!(
+                "a branch of dimension {} of the power series does not close on all equations at a finite distance",
+                branch.dimension
+            )));
+        };
+        lifted.push(found);
+    }
+    Ok(Ok(lifted))
+}
+
+fn lift(
+    pose: &Pose<'_>,
+    part: &Part,
+    rank: &PartRank,
+    kernel: &Kernel,
+    germ: &Germ,
+    branch: &GermBranch,
+    point: &[f64],
+) -> Result<Option<Lifted>, MatrixError> {
+    let metric = &kernel.metric;
+    let section = Section {
+        mechanism: pose.mechanism,
+        geometry: pose.geometry,
+        part,
+        metric,
+    };
+    let z: Vec<f64> = germ
+        .increments(point)
+        .iter()
+        .zip(&metric.weights)
+        .map(|(q, weight)| q * weight)
+        .collect();
+    let away = 0.0.norm(&z);
+    let mut states = pose.states.to_vec();
+    section.advance_by(&mut states, &z);
+    let closing = section.close(&mut states, &[], 80)?;
+    if closing.residual > 4.0 * closing.rounding + rank.stated || closing.way > POLISHING * away {
+        return Ok(None);
+    }
+    // Along a branch on which an equation enters squared, a residual of ρ leaves a pose off by √ρ.
+    let blur = closing.residual.max(closing.rounding).sqrt();
+    let Some((mut there, _)) = tangents_at(&section, &states, rank.stated, branch.dimension)?
+    else {
+        return Ok(None);
+    };
+    if there.instantaneous != Some(branch.dimension) {
+        let Some((blurred, _)) =
+            tangents_at(&section, &states, rank.stated + 10.0 * blur, branch.dimension)?
+        else {
+            return Ok(None);
+        };
+        there = blurred;
+    }
+    let Some(instantaneous) = there.instantaneous else {
+        return Ok(None);
+    };
+    if instantaneous < branch.dimension {
+        return Ok(None);
+    }
+    let direction: Vec<f64> = z.iter().map(|x| x / away).collect();
+    let poses = if instantaneous == branch.dimension {
+        walk(&section, &states, there.basis, Some(direction), rank.stated)?
+    } else {
+        secant_poses(
+            &section,
+            &states,
+            &there.basis,
+            branch.dimension,
+            instantaneous,
+            rank.stated,
+        )?
+    };
+    if poses.is_empty() {
+        return Ok(None);
+    }
+    let shaky = poses
+        .iter()
+        .all(|p| p.instantaneous.is_some_and(|i| i > branch.dimension));
+    Ok(Some(Lifted {
+        branch: PartBranch {
+            dimension: branch.dimension,
+            half_branches: (branch.dimension == 1).then_some(branch.half_branches.len()),
+            poses,
+        },
+        shaky,
+    }))
+}
+
+/// How far a secant reaches (metric): its error falls with the square.
+const SECANT: f64 = 0.01;
+
+/// Poses on a branch whose tangents are fewer than its instantaneous motions: tangents are taken from neighbours on the
+/// branch, found by stepping along every instantaneous motion and closing the loops.
+fn secant_poses(
+    section: &Section<'_, f64>,
+    start: &[JointState<f64>],
+    kernel: &[Vec<f64>],
+    dimension: usize,
+    instantaneous: usize,
+    stated: f64,
+) -> Result<Vec<PartPose>, MatrixError> {
+    let values = |states: &[JointState<f64>]| -> Vec<f64> {
+        let of_joint = section.part.joints.iter().flat_map(|&j| &states[j].values);
+        of_joint
+            .zip(&section.metric.weights)
+            .map(|(value, weight)| value * weight)
+            .collect()
+    };
+    let neighbour = |direction: &[f64], size: f64| -> Result<Option<Vec<f64>>, MatrixError> {
+        let mut states = start.to_vec();
+        let z: Vec<f64> = direction.iter().map(|x| x * size).collect();
+        section.advance_by(&mut states, &z);
+        let closing = section.close(&mut states, &[], 80)?;
+        Ok((closing.residual <= 4.0 * closing.rounding + stated).then(|| values(&states)))
+    };
+    let mut secants = Vec::new();
+    for direction in kernel {
+        let (Some(ahead), Some(behind)) =
+            (neighbour(direction, SECANT)?, neighbour(direction, -SECANT)?)
+        else {
+            return Ok(Vec::new());
+        };
+        secants.push(
+            ahead
+                .iter()
+                .zip(&behind)
+                .map(|(a, b)| a - b)
+                .collect::<Vec<f64>>(),
+        );
+    }
+    // The longest ones span the tangent space.
+    secants.sort_by(|a, b| 0.0.norm(b).total_cmp(&0.0.norm(a)));
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    for secant in secants {
+        let mut trial = basis.clone();
+        trial.push(secant.clone());
+        let spanned = orthonormal(trial);
+        let new = spanned.len() > basis.len();
+        let reach = spanned
+            .last()
+            .map_or(0.0, |v| v.iter().zip(&secant).map(|(a, b)| a * b).sum::<f64>());
+        if new && reach.abs() > 0.05 * SECANT && basis.len() < dimension {
+            basis = spanned;
+        }
+    }
+    if basis.len() != dimension {
+        return Ok(Vec::new());
+    }
+    let (columns, rows) = (section.metric.weights.len(), 6 * section.part.cycles.len());
+    Ok(vec![PartPose {
+        states: section
+            .part
+            .joints
+            .iter()
+            .map(|&j| start[j].clone())
+            .collect(),
+        tangents: basis
+            .iter()
+            .map(|v| natural(section.metric, v))
+            .collect(),
+        instantaneous: Some(instantaneous),
+        surplus: columns as i64 - (rows + section.part.couplings.len()) as i64,
+    }])
+}
+
+/// D7, from the branches through the pose.
+fn kind_of(lifted: &[Lifted], zeros: &[GermBranch]) -> Option<SingularKind> {
+    let first = lifted.first()?;
+    if lifted
+        .iter()
+        .any(|l| l.branch.dimension != first.branch.dimension)
+    {
+        return Some(SingularKind::Kinematotropic);
+    }
+    if lifted.iter().all(|l| l.shaky) {
+        return Some(SingularKind::PermanentlyShaky);
+    }
+    if lifted.len() == 1 {
+        let halves = &zeros.first()?.half_branches;
+        return match halves.as_slice() {
+            [a, b] if along(&a.tangent, &b.tangent) > SAME_DIRECTION => Some(SingularKind::Cusp),
+            _ => None,
+        };
+    }
+    let line = |branch: &GermBranch| branch.half_branches.first().map(|h| h.tangent.clone());
+    let lines: Option<Vec<Vec<f64>>> = zeros.iter().map(line).collect();
+    let tangential = lines.is_some_and(|lines| {
+        lines
+            .iter()
+            .all(|l| along(l, &lines[0]).abs() > SAME_DIRECTION)
+    });
+    Some(if tangential {
+        SingularKind::Tangential
+    } else {
+        SingularKind::Bifurcation
+    })
+}
+
+fn along(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
