@@ -65,6 +65,8 @@ pub struct PartFinding {
     pub complex_dimension: Option<usize>,
     /// The branches; `None` while not decided.
     pub branches: Option<Vec<PartBranch>>,
+    /// Instantaneous freedom at the pose, where the part stays there.
+    pub at_rest: usize,
     /// What stays open, and what would decide it.
     pub open: Option<String>,
     /// What the engines found, in the order they were asked.
@@ -85,6 +87,7 @@ impl PartFinding {
             certificate: "the rank of the closure equations at this pose bounds the freedom from above".to_owned(),
             complex_dimension: None,
             branches: None,
+            at_rest: upper,
             open: Some(why),
             evidence: Vec::new(),
             nominal: None,
@@ -102,6 +105,7 @@ impl PartFinding {
             certificate,
             complex_dimension: Some(freedom),
             branches: None,
+            at_rest: freedom,
             open: None,
             evidence: Vec::new(),
             nominal: None,

@@ -157,7 +157,8 @@ fn moving(
     Ok(moves.flatten().unwrap_or(still))
 }
 
-fn role(joint: &Joint, zero: &[bool], doubtful: &[bool]) -> JointRole {
+/// The role of a joint by its variables: which rest, and of which that stays open.
+pub(super) fn role(joint: &Joint, zero: &[bool], doubtful: &[bool]) -> JointRole {
     if zero.is_empty() {
         return JointRole::default();
     }

@@ -58,6 +58,7 @@ pub(super) fn singular_finding(
         certificate: String::new(),
         complex_dimension: None,
         branches: None,
+        at_rest: freedom,
         open: None,
         evidence: Vec::new(),
         nominal: None,
