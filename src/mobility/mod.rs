@@ -20,6 +20,7 @@ mod pose_rank;
 mod redundancy;
 mod roles;
 mod structure;
+mod subgroup;
 mod verdict;
 mod vocabulary;
 
@@ -34,5 +35,6 @@ pub use pose_rank::{LADDER, PartRank, Pose, rank_part};
 pub use redundancy::SelfStresses;
 pub use roles::{JointRole, freedom_groups, roles_of_part};
 pub use structure::{Structure, constraint_graph};
+pub use subgroup::{SubgroupFinding, subgroup_finding};
 pub use verdict::{Mobility, judge};
 pub use vocabulary::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
