@@ -1,0 +1,138 @@
+//! Chains of screws and of what replaced whole loops, between two links.
+
+use super::clear;
+use crate::group::{Gauge, GroupError, Margin, ScrewSystem, Subalgebra, Twist};
+
+/// One member of a chain: a smooth map into SE(3), the identity at the pose.
+#[derive(Clone, Debug)]
+pub enum Piece {
+    /// The exponential of one screw.
+    Screw {
+        /// The joint it belongs to.
+        joint: usize,
+        /// The screw.
+        twist: Twist,
+    },
+    /// What replaced a loop.
+    Replaced(Box<Replaced>),
+}
+
+/// A manifold of displacements that replaced a loop.
+#[derive(Clone, Debug)]
+pub struct Replaced {
+    /// The joints of the loop.
+    pub joints: Vec<usize>,
+    /// Dimension of the manifold that is mapped to displacements.
+    pub freedom: usize,
+    /// The image of its tangent space at the pose, W.
+    pub span: ScrewSystem,
+    /// The algebra of a subgroup that holds all its displacements, K.
+    pub algebra: Subalgebra,
+}
+
+impl Piece {
+    /// Number of variables.
+    pub fn freedom(&self) -> usize {
+        match self {
+            Self::Screw { .. } => 1,
+            Self::Replaced(loop_) => loop_.freedom,
+        }
+    }
+
+    /// The joints in it.
+    pub fn joints(&self) -> &[usize] {
+        match self {
+            Self::Screw { joint, .. } => std::slice::from_ref(joint),
+            Self::Replaced(loop_) => &loop_.joints,
+        }
+    }
+}
+
+/// Freedoms of some pieces together.
+pub fn freedom<'a>(pieces: impl IntoIterator<Item = &'a Piece>) -> usize {
+    pieces.into_iter().map(Piece::freedom).sum()
+}
+
+/// The joints of some pieces, each once, in order.
+pub fn joints<'a>(pieces: impl IntoIterator<Item = &'a Piece>) -> Vec<usize> {
+    let mut joints: Vec<usize> = Vec::new();
+    for joint in pieces.into_iter().flat_map(Piece::joints) {
+        if !joints.contains(joint) {
+            joints.push(*joint);
+        }
+    }
+    joints
+}
+
+/// The linear space W spanned by some pieces.
+pub fn span<'a>(
+    pieces: impl IntoIterator<Item = &'a Piece>,
+    gauge: &Gauge,
+) -> Result<ScrewSystem, GroupError> {
+    let mut twists = Vec::new();
+    let mut spaces = Vec::new();
+    for piece in pieces {
+        match piece {
+            Piece::Screw { twist, .. } => twists.push(*twist),
+            Piece::Replaced(loop_) => spaces.push(&loop_.span),
+        }
+    }
+    let screws = ScrewSystem::span(&twists, gauge)?;
+    spaces.into_iter().try_fold(screws, |sum, w| sum.sum(w))
+}
+
+/// The algebra K of a subgroup that holds all displacements of some pieces.
+pub fn enclosing<'a>(
+    pieces: impl IntoIterator<Item = &'a Piece>,
+    gauge: &Gauge,
+) -> Result<Subalgebra, GroupError> {
+    let mut twists = Vec::new();
+    let mut spaces = Vec::new();
+    for piece in pieces {
+        match piece {
+            Piece::Screw { twist, .. } => twists.push(*twist),
+            Piece::Replaced(loop_) => spaces.push(loop_.algebra.system()),
+        }
+    }
+    let screws = ScrewSystem::span(&twists, gauge)?;
+    let all = spaces.into_iter().try_fold(screws, |sum, k| sum.sum(k))?;
+    Subalgebra::generated_by_system(&all)
+}
+
+/// The subgroup that some pieces are a submersion onto: their span, where it is closed under the bracket and no
+/// displacement of theirs leaves its subgroup. `None` where it is not, or not clearly.
+pub fn swept<'a>(
+    pieces: impl IntoIterator<Item = &'a Piece> + Clone,
+    gauge: &Gauge,
+) -> Result<Option<Subalgebra>, GroupError> {
+    let span = span(pieces.clone(), gauge)?;
+    // No subalgebra of se(3) has dimension 5.
+    if span.dimension() == 5 || !clear(span.margin()) {
+        return Ok(None);
+    }
+    let Some(algebra) = Subalgebra::from_system(&span)?.filter(|a| clear(a.margin())) else {
+        return Ok(None);
+    };
+    for piece in pieces {
+        if let Piece::Replaced(loop_) = piece
+            && algebra.dimension() < 6
+            && !within(&loop_.algebra, &algebra)?
+        {
+            return Ok(None);
+        }
+    }
+    Ok(Some(algebra))
+}
+
+/// Whether one algebra clearly lies in another.
+fn within(inner: &Subalgebra, outer: &Subalgebra) -> Result<bool, GroupError> {
+    let common = inner.intersection(outer)?;
+    Ok(common.dimension() == inner.dimension() && clear(common.margin()))
+}
+
+impl Replaced {
+    /// The worst margin behind the two spaces.
+    pub fn margin(&self) -> Margin {
+        self.span.margin().and(self.algebra.margin())
+    }
+}
