@@ -93,7 +93,7 @@ impl Answers {
             ("redundant", format!("{:?}", home.map(|h| h.redundant))),
             ("verdict", mobility.verdict.word().to_owned()),
             ("bounds", format!("{:?}", mobility.bounds)),
-            ("regular", mobility.regular.to_string()),
+            ("pose", format!("{:?}", mobility.pose)),
             ("advice", advice.join(", ")),
             (
                 "reservations",

@@ -7,7 +7,7 @@
 mod support;
 
 use kutzbach::mechanism::{Expectation, Mechanism};
-use kutzbach::mobility::{Analysis, Verdict};
+use kutzbach::mobility::{Analysis, PoseKind, Verdict};
 use std::collections::BTreeSet;
 use support::{analysis, assert_none, in_parallel, is_locked, locked_names, own_mechanisms};
 
@@ -64,7 +64,7 @@ fn finite_disagreement(expected: &Expectation, analysis: &Analysis) -> Option<St
         Verdict::Unassembled => false,
     };
     let regular = expected.pose.as_deref().map(|pose| pose == "regular");
-    if analysis.mobility.regular && regular == Some(false) {
+    if analysis.mobility.pose == Some(PoseKind::Regular) && regular == Some(false) {
         return Some("a singular pose is called regular".to_owned());
     }
     (!right).then(|| {

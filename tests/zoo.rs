@@ -9,7 +9,7 @@
 mod support;
 
 use kutzbach::mechanism::Mechanism;
-use kutzbach::mobility::Analysis;
+use kutzbach::mobility::{Analysis, PoseKind};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use support::{analysis, assert_none, folder, in_parallel, is_locked, locked_names, zoo};
@@ -55,7 +55,7 @@ fn disagreements(name: &str, mechanism: &Mechanism, expected: &Value) -> Vec<Str
             "{name}: finite mobility between {low} and {high}, expected {finite}"
         ));
     }
-    if expected["pose"] == "singular" && analysis.mobility.regular {
+    if expected["pose"] == "singular" && analysis.mobility.pose == Some(PoseKind::Regular) {
         wrong.push(format!("{name}: a singular pose is called regular"));
     }
     if finite > 0

@@ -1,15 +1,18 @@
 //! Everything the first engines say about a mechanism at one pose.
 
 use super::advice::{Advice, advice_for_part};
+use super::branch::Branch;
 use super::cycles::{CycleFacts, cycle_facts};
 use super::generic::{GenericCount, generic_count};
 use super::kutzbach::kutzbach_count;
 use super::more_digits::MoreDigits;
+use super::part_mobility::{PartFinding, part_mobility};
 use super::pose_rank::{PartRank, Pose, rank_part_with};
 use super::redundancy::SelfStresses;
 use super::roles::{JointRole, roles_of_part};
 use super::structure::Structure;
-use super::verdict::{Mobility, judge};
+use super::verdict::{Mobility, judge, unassembled};
+use super::whole_branches::whole_branches;
 use crate::closure::{Arithmetic, Assembly, Geometry, assemble, spanning_poses};
 use crate::matrix::MatrixError;
 use crate::mechanism::Mechanism;
@@ -83,6 +86,10 @@ pub struct Analysis {
     pub cycles: Vec<CycleFacts>,
     /// Repair advice, best first.
     pub advice: Vec<Advice>,
+    /// What the engines found of every part, in the order of [`Structure::parts`].
+    pub findings: Vec<PartFinding>,
+    /// The branches through the pose; `None` while not decided, or where there are too many to list.
+    pub branches: Option<Vec<Branch>>,
     /// The verdict.
     pub mobility: Mobility,
 }
@@ -119,7 +126,7 @@ pub fn analyse(
     }
     let assembly = assemble(mechanism, &geometry, &structure.parts, &held)?;
     let mut analysis = Analysis {
-        mobility: judge(mechanism, &structure, &assembly, &[]),
+        mobility: unassembled(&assembly),
         structure,
         kutzbach,
         generic,
@@ -130,6 +137,8 @@ pub fn analyse(
         redundant_wrenches: vec![None; mechanism.joints().len()],
         cycles: Vec::new(),
         advice: Vec::new(),
+        findings: Vec::new(),
+        branches: None,
     };
     if analysis.assembly.closed {
         analysis.rank(mechanism, configuration, &held, &geometry)?;
@@ -217,7 +226,24 @@ impl Analysis {
             self.cycles
                 .push(cycle_facts(mechanism, geometry, states, &poses, cycle)?);
         }
-        self.mobility = judge(mechanism, &self.structure, &self.assembly, &parts);
+        for (part, rank) in self.structure.parts.iter().zip(&parts) {
+            self.findings.push(part_mobility(
+                &pose,
+                &mut more,
+                &self.structure,
+                part,
+                rank,
+            )?);
+        }
+        self.mobility = judge(mechanism, &self.structure, &self.findings);
+        self.branches = whole_branches(
+            mechanism,
+            geometry,
+            &self.structure,
+            states,
+            self.kutzbach,
+            &self.findings,
+        );
         self.home = Some(home);
         self.parts = parts;
         Ok(())

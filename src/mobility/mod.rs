@@ -4,34 +4,41 @@
 //! cannot influence each other. Each part is counted ([`kutzbach_count`], [`generic_count`]), closed
 //! ([`crate::closure::assemble`]) and ranked at its pose ([`rank_part`]); from the kernel come the joints' roles
 //! ([`roles_of_part`]), from the left kernel the redundant constraints ([`SelfStresses`]) and what to relax
-//! ([`advice_for_part`]). [`judge`] intersects the bounds.
+//! ([`advice_for_part`]).
+//!
+//! Then [`part_mobility`] asks what is left of that freedom in finite motion: displacement subgroups
+//! ([`subgroup_finding`]), the chart test ([`chart_test`]), and at singular poses the germ of the configuration space and
+//! its real zeros. Every branch is walked to generic poses of its own, where [`branch_facts`] asks what moves along it.
+//! [`judge`] puts the parts together.
 //!
 //! Cost: near-linear in the mechanism where its loops are short and hang together like a chain; fronts of the sparse
-//! elimination grow with the width of a lattice.
+//! elimination grow with the width of a lattice. Singular poses cost power series in the variables of one part's kernel.
 
 mod advice;
 mod analysis;
 mod branch;
-mod chart;
 mod branch_facts;
 mod branch_roles;
+mod chart;
 mod cycles;
 mod generic;
+mod germ;
+mod germ_zeros;
 mod idle;
 mod kutzbach;
 mod link_twists;
 mod more_digits;
-mod part_mobility;
 mod one_sided;
+mod part_mobility;
 mod pose_rank;
 mod redundancy;
 mod relative_motion;
 mod roles;
 mod singular;
 mod structure;
-mod tracing;
-mod tangent_space;
 mod subgroup;
+mod tangent_space;
+mod tracing;
 mod verdict;
 mod vocabulary;
 mod whole_branches;
@@ -39,9 +46,9 @@ mod whole_branches;
 pub use advice::{Advice, advice_for_part};
 pub use analysis::{Analysis, AnalysisError, AnalysisOptions, HomeFreedom, analyse};
 pub use branch::{Branch, BranchPose, IdleLink, RelativeMotion};
-pub use chart::{ChartOutcome, ChartTest, Kernel, chart_test};
 pub use branch_facts::{BranchFacts, branch_facts};
 pub use branch_roles::branch_roles;
+pub use chart::{ChartOutcome, ChartTest, Kernel, chart_test};
 pub use cycles::{CycleFacts, cycle_facts};
 pub use generic::{GenericCount, generic_count};
 pub use idle::idle_links;
@@ -53,8 +60,7 @@ pub use redundancy::SelfStresses;
 pub use relative_motion::{motions_to_ground, relative_motions};
 pub use roles::{JointRole, freedom_groups, roles_of_part};
 pub use structure::{Structure, constraint_graph};
-pub use verdict::{Mobility, Nominal, judge, unassembled};
-pub use tracing::{PartPose, poses_of_regular_part};
 pub use subgroup::{SubgroupFinding, subgroup_finding};
-pub use verdict::{Mobility, judge};
+pub use tracing::{PartPose, poses_of_regular_part};
+pub use verdict::{Mobility, Nominal, judge, unassembled};
 pub use vocabulary::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};

@@ -84,7 +84,9 @@ impl PartFinding {
             kind: None,
             class: None,
             level: CertificateLevel::Numeric,
-            certificate: "the rank of the closure equations at this pose bounds the freedom from above".to_owned(),
+            certificate:
+                "the rank of the closure equations at this pose bounds the freedom from above"
+                    .to_owned(),
             complex_dimension: None,
             branches: None,
             at_rest: upper,
@@ -94,7 +96,12 @@ impl PartFinding {
         }
     }
 
-    fn regular(freedom: usize, class: Option<MobilityClass>, level: CertificateLevel, certificate: String) -> Self {
+    fn regular(
+        freedom: usize,
+        class: Option<MobilityClass>,
+        level: CertificateLevel,
+        certificate: String,
+    ) -> Self {
         Self {
             lower: freedom,
             upper: freedom,
@@ -133,7 +140,7 @@ pub fn part_mobility(
     let rank_evidence = Evidence {
         engine: "rank",
         scope: "this pose",
-        bounds: (surplus.max(0) as usize, Some(rank.candidates.1)),
+        bounds: (0, Some(rank.candidates.1)),
         text: format!(
             "{} equations in {} unknowns; smallest singular value kept {:.2e}, largest dropped {:.2e}, tolerance {:.2e}; \
              {} bits",
@@ -147,8 +154,7 @@ pub fn part_mobility(
     };
     // A special mechanism written with too few digits is, taken literally, a generic one: that more equations than unknowns
     // then hold it fast may be due to the digits left out.
-    let held_by_rounding =
-        rank.taken_literally && rank.instantaneous == Some(0) && surplus < 0;
+    let held_by_rounding = rank.taken_literally && rank.instantaneous == Some(0) && surplus < 0;
     let Some(freedom) = rank.instantaneous.filter(|_| !held_by_rounding) else {
         let upper = if held_by_rounding {
             rank.unknowns()
@@ -156,15 +162,17 @@ pub fn part_mobility(
             rank.candidates.1
         };
         let why = "the numbers as they are stated leave the rank at this pose open; more digits would decide it";
-        return Ok(PartFinding::open(surplus.max(0) as usize, upper, why.to_owned())
-            .with(vec![rank_evidence]));
+        return Ok(PartFinding::open(0, upper, why.to_owned()).with(vec![rank_evidence]));
     };
     // The rank was decided one way, but the precision stated allows another: the numbers have to be better.
-    if rank.candidates.0 != rank.candidates.1 && rank.as_written.is_none_or(|w| Some(w) == rank.instantaneous) {
+    if rank.candidates.0 != rank.candidates.1
+        && rank
+            .as_written
+            .is_none_or(|w| Some(w) == rank.instantaneous)
+    {
         let why = "within the precision of its numbers the mechanism could have another rank at this pose; more digits would decide";
         let upper = freedom.max(rank.candidates.1);
-        return Ok(PartFinding::open(surplus.max(0) as usize, upper, why.to_owned())
-            .with(vec![rank_evidence]));
+        return Ok(PartFinding::open(0, upper, why.to_owned()).with(vec![rank_evidence]));
     }
     let mut evidence = vec![rank_evidence];
     if freedom == 0 {
@@ -228,7 +236,8 @@ pub fn part_mobility(
         one_branch(&mut found)?;
         return Ok(found.with(evidence));
     }
-    let lower = (surplus.max(0) as usize).max(subgroups.lower);
+    // Fewer equations than unknowns leave a motion over the complex numbers, but not always a real one (x² + y² = 0).
+    let lower = subgroups.lower;
     let Some(kernel) = kernel.as_ref().filter(|k| k.basis.complete) else {
         let why = format!(
             "{freedom} instantaneous freedoms in one block are too many to follow; driving or fixing some joints would decide"
@@ -259,8 +268,10 @@ pub fn part_mobility(
             Ok(found.with(evidence))
         }
         ChartOutcome::Singular { .. } => {
-            let SingularFinding { mut found, more_evidence } =
-                singular_finding(pose, part, rank, kernel, &chart, lower)?;
+            let SingularFinding {
+                mut found,
+                more_evidence,
+            } = singular_finding(pose, part, rank, kernel, &chart, lower)?;
             evidence.extend(more_evidence);
             found.class = None;
             Ok(found.with(evidence))
@@ -304,7 +315,11 @@ fn chart_evidence(chart: &ChartTest, freedom: usize) -> Evidence {
             chart.noise,
             chart.bits,
             super::chart::SEED,
-            if chart.literal { "; numbers taken literally" } else { "" }
+            if chart.literal {
+                "; numbers taken literally"
+            } else {
+                ""
+            }
         ),
     }
 }

@@ -179,7 +179,8 @@ pub(super) fn singular_finding(
             Ok(lifted) => {
                 let top = lifted.iter().map(|b| b.branch.dimension).max().unwrap_or(0);
                 if complex.as_ref().is_some_and(|c| c.dimension < top) {
-                    why = "the dimension over the complex numbers contradicts the branches found".to_owned();
+                    why = "the dimension over the complex numbers contradicts the branches found"
+                        .to_owned();
                     continue;
                 }
                 found.lower = top;
@@ -201,7 +202,9 @@ pub(super) fn singular_finding(
         }
     }
     if found.branches.is_none() {
-        found.certificate = "the pose is singular, so that the finite freedom is below the instantaneous one".to_owned();
+        found.certificate =
+            "the pose is singular, so that the finite freedom is below the instantaneous one"
+                .to_owned();
         found.open = Some(format!(
             "which branches pass through this singular pose is not settled: {why}; a pose beside it would be easier"
         ));
@@ -293,8 +296,12 @@ fn lift(
         return Ok(None);
     };
     if there.instantaneous != Some(branch.dimension) {
-        let Some((blurred, _)) =
-            tangents_at(&section, &states, rank.stated + 10.0 * blur, branch.dimension)?
+        let Some((blurred, _)) = tangents_at(
+            &section,
+            &states,
+            rank.stated + 10.0 * blur,
+            branch.dimension,
+        )?
         else {
             return Ok(None);
         };
@@ -364,9 +371,10 @@ fn secant_poses(
     };
     let mut secants = Vec::new();
     for direction in kernel {
-        let (Some(ahead), Some(behind)) =
-            (neighbour(direction, SECANT)?, neighbour(direction, -SECANT)?)
-        else {
+        let (Some(ahead), Some(behind)) = (
+            neighbour(direction, SECANT)?,
+            neighbour(direction, -SECANT)?,
+        ) else {
             return Ok(Vec::new());
         };
         secants.push(
@@ -385,9 +393,9 @@ fn secant_poses(
         trial.push(secant.clone());
         let spanned = orthonormal(trial);
         let new = spanned.len() > basis.len();
-        let reach = spanned
-            .last()
-            .map_or(0.0, |v| v.iter().zip(&secant).map(|(a, b)| a * b).sum::<f64>());
+        let reach = spanned.last().map_or(0.0, |v| {
+            v.iter().zip(&secant).map(|(a, b)| a * b).sum::<f64>()
+        });
         if new && reach.abs() > 0.05 * SECANT && basis.len() < dimension {
             basis = spanned;
         }
@@ -403,10 +411,7 @@ fn secant_poses(
             .iter()
             .map(|&j| start[j].clone())
             .collect(),
-        tangents: basis
-            .iter()
-            .map(|v| natural(section.metric, v))
-            .collect(),
+        tangents: basis.iter().map(|v| natural(section.metric, v)).collect(),
         instantaneous: Some(instantaneous),
         surplus: columns as i64 - (rows + section.part.couplings.len()) as i64,
     }])

@@ -206,10 +206,7 @@ pub(super) fn walk(
         basis = there.basis;
         poses.push(PartPose {
             states: keep(&states),
-            tangents: basis
-                .iter()
-                .map(|b| natural(section.metric, b))
-                .collect(),
+            tangents: basis.iter().map(|b| natural(section.metric, b)).collect(),
             instantaneous: there.instantaneous,
             surplus: here.matrix.columns() as i64 - here.matrix.rows() as i64,
         });
@@ -240,7 +237,11 @@ pub fn poses_of_regular_part(
     }
     if poses.is_empty() {
         poses.push(PartPose {
-            states: part.joints.iter().map(|&j| pose.states[j].clone()).collect(),
+            states: part
+                .joints
+                .iter()
+                .map(|&j| pose.states[j].clone())
+                .collect(),
             tangents: kernel
                 .basis
                 .vectors

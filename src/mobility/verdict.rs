@@ -123,7 +123,9 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, parts: &[PartFinding]
                 .iter()
                 .filter(|p| p.upper > 0)
                 .map(|p| p.class)
-                .try_fold(MobilityClass::Trivial, |worst, class| Some(worst.max(class?)))
+                .try_fold(MobilityClass::Trivial, |worst, class| {
+                    Some(worst.max(class?))
+                })
         })
         .flatten();
     let nominal = parts
@@ -217,7 +219,7 @@ mod tests {
         for written in [Written::Exactly, Written::Decimals(6)] {
             let found = judged(&cylinders(written));
             assert_eq!((found.verdict, found.finite()), (Verdict::Mobile, Some(1)));
-            assert!(found.regular && found.why.is_empty());
+            assert!(found.pose == Some(PoseKind::Regular) && found.why.is_empty());
         }
     }
 
@@ -225,7 +227,7 @@ mod tests {
     fn no_velocity_no_motion() {
         let found = judged(&general_four());
         assert_eq!((found.verdict, found.finite()), (Verdict::Rigid, Some(0)));
-        assert!(found.regular);
+        assert!(found.pose == Some(PoseKind::Regular));
         let alone = MechanismBuilder::new("block")
             .link("ground")
             .clone()
@@ -239,7 +241,7 @@ mod tests {
         let found = judged(&four_bar());
         assert_eq!((found.verdict, found.finite()), (Verdict::Undecided, None));
         assert_eq!(found.bounds, (Some(0), Some(1)));
-        assert!(!found.regular && !found.why.is_empty());
+        assert!(found.pose != Some(PoseKind::Regular) && !found.why.is_empty());
     }
 
     #[test]
@@ -292,26 +294,16 @@ mod tests {
     fn a_doubtful_part_makes_all_doubtful() {
         let mechanism = general_four();
         let mut analysis = analysed(&mechanism);
-        analysis.parts[0].note = Some("not plain".to_owned());
-        let found = judge(
-            &mechanism,
-            &analysis.structure,
-            &analysis.assembly,
-            &analysis.parts,
-        );
+        let part = &mut analysis.findings[0];
+        part.open = Some("not plain".to_owned());
+        part.pose = None;
+        part.upper = 2;
+        let found = judge(&mechanism, &analysis.structure, &analysis.findings);
         assert_eq!((found.verdict, found.finite()), (Verdict::Undecided, None));
-        assert!(!found.regular && !found.why.is_empty());
-        analysis.parts[0].instantaneous = None;
-        analysis.parts[0].candidates = (0, 2);
-        let found = judge(
-            &mechanism,
-            &analysis.structure,
-            &analysis.assembly,
-            &analysis.parts,
-        );
+        assert_eq!(found.bounds, (Some(0), Some(2)));
         assert_eq!(
-            (found.verdict, found.bounds),
-            (Verdict::Undecided, (Some(0), Some(2)))
+            (found.pose, &found.why[..]),
+            (None, &["not plain".to_owned()][..])
         );
     }
 
@@ -335,7 +327,7 @@ mod tests {
             (found.mobility.verdict, found.mobility.finite()),
             (Verdict::Undecided, None)
         );
-        assert!(!found.mobility.regular);
+        assert!(found.mobility.pose != Some(PoseKind::Regular));
         // The same numbers meant exactly.
         let found = judged(&ring(&places, [0.0; 3], Written::Exactly));
         assert_eq!(found.verdict, Verdict::Rigid);

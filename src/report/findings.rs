@@ -2,13 +2,12 @@
 
 use super::natural::natural_order;
 use super::schema::{
-    Advice, Assembly, Block, Certificate, Cycle, Gap, GenericCount, Home, JointRow, Mobility,
-    Report, Tree, TreeLink,
+    Advice, Assembly, Block, Branch, Certificate, Cycle, Gap, GenericCount, Home, Idle, JointRow,
+    Mobility, Motion, Nominal, Report, Tree, TreeLink,
 };
 use crate::matrix::Method;
 use crate::mechanism::{JointKind, Mechanism};
-use crate::mobility::{self, Analysis, PartRank};
-use crate::mobility::{CertificateLevel, PoseKind, Verdict};
+use crate::mobility::{Analysis, JointRole, PartRank, RelativeMotion};
 
 /// Fills in everything that the analysis decided. Linear in the size of both.
 pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis) {
@@ -20,6 +19,8 @@ pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &An
     fill_home(&mut report.home, analysis);
     report.mobility = verdict(analysis);
     report.joints = joint_rows(mechanism, analysis);
+    report.branches = branch_rows(mechanism, analysis);
+    report.motions = motion_rows(mechanism, analysis);
     report.cycles = cycle_rows(mechanism, analysis);
     report.tree = Some(tree(analysis));
     report.advice = analysis
@@ -73,7 +74,8 @@ fn assembly(mechanism: &Mechanism, analysis: &Analysis) -> Assembly {
 fn fill_home(home: &mut Home, analysis: &Analysis) {
     let Some(found) = &analysis.home else { return };
     let parts = &analysis.parts;
-    home.pose = analysis.mobility.regular.then_some(PoseKind::Regular);
+    home.pose = analysis.mobility.pose;
+    home.kind = analysis.mobility.kind;
     home.instantaneous = found.instantaneous;
     home.candidates = [found.candidates.0, found.candidates.1];
     home.as_written = found.as_written;
@@ -135,32 +137,153 @@ fn margin(part: &PartRank) -> f64 {
 
 fn verdict(analysis: &Analysis) -> Mobility {
     let found = &analysis.mobility;
-    let verdict = match found.verdict {
-        mobility::Verdict::Mobile => Verdict::Mobile,
-        mobility::Verdict::Rigid => Verdict::Rigid,
-        mobility::Verdict::Undecided => Verdict::Undecided,
-        mobility::Verdict::Unassembled => Verdict::Unassembled,
-    };
     Mobility {
-        verdict,
+        verdict: found.verdict,
         finite: found.finite(),
         bounds: [found.bounds.0, found.bounds.1],
-        complex_dimension: None,
-        class: None,
+        complex_dimension: found.complex_dimension,
+        class: found.class,
         certificate: Some(Certificate {
-            level: CertificateLevel::Numeric,
+            level: found.level,
             text: found.certificate.clone(),
         }),
-        nominal: None,
+        nominal: found.nominal.map(|nominal| Nominal {
+            finite: nominal.finite,
+            tolerance: nominal.tolerance,
+        }),
         why: found.why.clone(),
     }
+}
+
+/// Whether a joint rests on every branch; at the pose itself where there is none, or none is known.
+fn joint_role(analysis: &Analysis, joint: usize) -> JointRole {
+    let Some(branches) = analysis.branches.as_ref().filter(|b| !b.is_empty()) else {
+        return analysis.roles[joint].clone();
+    };
+    let roles: Vec<&JointRole> = branches
+        .iter()
+        .filter_map(|branch| branch.roles.get(joint))
+        .collect();
+    let locked = if roles.iter().any(|role| role.locked == Some(false)) {
+        Some(false)
+    } else if roles.iter().all(|role| role.locked == Some(true)) {
+        Some(true)
+    } else {
+        None
+    };
+    let Some((first, others)) = roles.split_first() else {
+        return analysis.roles[joint].clone();
+    };
+    JointRole {
+        locked,
+        locked_parts: first
+            .locked_parts
+            .iter()
+            .filter(|part| others.iter().all(|role| role.locked_parts.contains(part)))
+            .cloned()
+            .collect(),
+    }
+}
+
+fn branch_rows(mechanism: &Mechanism, analysis: &Analysis) -> Option<Vec<Branch>> {
+    let link = |index: usize| mechanism.links()[index].name.clone();
+    let branches = analysis.branches.as_ref()?;
+    let rows = branches.iter().map(|branch| {
+        let mut locked: Vec<String> = mechanism
+            .joints()
+            .iter()
+            .zip(&branch.roles)
+            .flat_map(|(joint, role)| {
+                if role.locked == Some(true) {
+                    vec![joint.name.clone()]
+                } else {
+                    role.locked_parts.clone()
+                }
+            })
+            .collect();
+        locked.sort_by(|a, b| natural_order(a, b));
+        let mut idle: Vec<Idle> = branch
+            .idle
+            .iter()
+            .map(|idle| Idle {
+                links: vec![link(idle.link)],
+                freedom: idle.freedom,
+            })
+            .collect();
+        idle.sort_by(|a, b| natural_order(&a.links[0], &b.links[0]));
+        Branch {
+            name: branch.name.clone(),
+            dimension: branch.dimension,
+            instantaneous: branch.instantaneous,
+            redundant: branch.redundant,
+            half_branches: branch.half_branches,
+            locked,
+            idle,
+        }
+    });
+    Some(rows.collect())
+}
+
+/// `1R 2T`: freedoms that turn and freedoms that do not.
+fn split(motion: &RelativeMotion) -> String {
+    let count = |number: usize, letter: &str| (number > 0).then(|| format!("{number}{letter}"));
+    let counts = [
+        count(motion.rotations, "R"),
+        count(motion.translations, "T"),
+    ];
+    counts.into_iter().flatten().collect::<Vec<_>>().join(" ")
+}
+
+fn split_text(motion: &RelativeMotion) -> String {
+    match (motion.rotations, motion.translations) {
+        (0, _) => "translates along curved paths".to_owned(),
+        (1, 0) => "turns about an axis that moves".to_owned(),
+        (_, 0) => format!("turns in {} ways, about axes that move", motion.rotations),
+        (1, 1) => "turns in one way and translates in another".to_owned(),
+        (r, t) => format!("turns in {r} and translates in {t} independent ways"),
+    }
+}
+
+fn motion_rows(mechanism: &Mechanism, analysis: &Analysis) -> Vec<Motion> {
+    let link = |index: usize| mechanism.links()[index].name.clone();
+    let mut rows: Vec<Motion> = analysis
+        .branches
+        .iter()
+        .flatten()
+        .flat_map(|branch| branch.motions.iter().map(move |motion| (branch, motion)))
+        .map(|(branch, motion)| Motion {
+            branch: branch.name.clone(),
+            link: link(motion.link),
+            relative_to: link(motion.relative_to),
+            freedom: motion.freedom,
+            class: motion
+                .class
+                .as_ref()
+                .map_or_else(|| split(motion), |class| class.short_name().to_owned()),
+            text: motion
+                .class
+                .as_ref()
+                .map_or_else(|| split_text(motion), ToString::to_string),
+            rotations: motion.rotations,
+            translations: motion.translations,
+        })
+        .collect();
+    rows.sort_by(|a, b| {
+        a.branch
+            .len()
+            .cmp(&b.branch.len())
+            .then_with(|| a.branch.cmp(&b.branch))
+            .then_with(|| natural_order(&a.link, &b.link))
+    });
+    rows
 }
 
 fn joint_rows(mechanism: &Mechanism, analysis: &Analysis) -> Vec<JointRow> {
     let mut rows: Vec<JointRow> = mechanism
         .joints()
         .iter()
-        .zip(&analysis.roles)
+        .enumerate()
+        .map(|(index, joint)| (joint, joint_role(analysis, index)))
         .zip(&analysis.redundant_wrenches)
         .map(|((joint, role), wrenches)| JointRow {
             name: joint.name.clone(),
@@ -170,7 +293,7 @@ fn joint_rows(mechanism: &Mechanism, analysis: &Analysis) -> Vec<JointRow> {
                 .map(|side| mechanism.link(side.link).name.clone()),
             freedom: joint.freedom(),
             locked: role.locked,
-            locked_parts: role.locked_parts.clone(),
+            locked_parts: role.locked_parts,
             redundant_wrenches: *wrenches,
             closes_loop: joint.closes_loop,
         })
@@ -254,7 +377,7 @@ fn tree(analysis: &Analysis) -> Tree {
     }
 }
 
-fn advice(mechanism: &Mechanism, advice: &mobility::Advice) -> Advice {
+fn advice(mechanism: &Mechanism, advice: &crate::mobility::Advice) -> Advice {
     let joint = &mechanism.joints()[advice.joint];
     let gained = advice.redundant_before - advice.redundant_after;
     let how = match (joint.kind, advice.to) {

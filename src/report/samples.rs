@@ -112,8 +112,8 @@ pub(crate) fn mobile() -> Report {
         branches: Some(vec![Branch {
             name: "1".to_owned(),
             dimension: 1,
-            instantaneous: 1,
-            redundant: 3,
+            instantaneous: Some(1),
+            redundant: Some(3),
             half_branches: Some(2),
             locked: Vec::new(),
             idle: Vec::new(),
@@ -145,7 +145,11 @@ pub(crate) fn mobile() -> Report {
             link: "B1".to_owned(),
             relative_to: "B0".to_owned(),
             freedom: 1,
-            class: "R: rotation about the axis of J1".to_owned(),
+            class: "R".to_owned(),
+            text: "rotation about the axis of J1".to_owned(),
+            rotations: 1,
+            translations: 0,
+            branch: "A".to_owned(),
         }],
         advice: vec![Advice {
             text: "Let J3 also slide along its axis (R → C).".to_owned(),

@@ -226,10 +226,10 @@ pub struct Branch {
     pub name: String,
     /// Its dimension: the freedoms a mechanism has while on it.
     pub dimension: usize,
-    /// Instantaneous freedom on it.
-    pub instantaneous: usize,
-    /// Redundant equations on it.
-    pub redundant: i64,
+    /// Instantaneous freedom at a generic pose of it; `null` where the margin does not tell.
+    pub instantaneous: Option<usize>,
+    /// Redundant equations there.
+    pub redundant: Option<i64>,
     /// In how many directions it leaves the pose, for branches of dimension one.
     pub half_branches: Option<usize>,
     /// Joints that move nowhere on it (D9).
@@ -326,17 +326,26 @@ pub struct TreeLink {
     pub depth: usize,
 }
 
-/// How one link moves relative to another.
+/// How one link moves relative to another along a branch.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Motion {
+    /// The branch.
+    pub branch: String,
     /// The link.
     pub link: String,
     /// The link it is seen from.
     pub relative_to: String,
-    /// In how many ways it moves.
+    /// In how many ways it moves: the dimension of the set of its relative displacements.
     pub freedom: usize,
-    /// The displacements it makes, such as `R` or `motion in a plane`.
+    /// Hervé's letter, such as `R` or `T3`, where these displacements are a subgroup; otherwise how many of its freedoms
+    /// turn it and how many do not, such as `1R` or `1R 2T`.
     pub class: String,
+    /// The same in words, with axes in the frame of `relative_to`.
+    pub text: String,
+    /// How many of its freedoms turn it, at a generic pose.
+    pub rotations: usize,
+    /// The others.
+    pub translations: usize,
 }
 
 /// A joint to relax.

@@ -188,7 +188,9 @@ impl<'a> Network<'a> {
 
     /// A chain from a link to itself closes on its own.
     fn close(&mut self, index: usize) -> Result<bool, GroupError> {
-        let Some(edge) = self.edge(index).filter(|_| !self.refused.contains(&(index, index)))
+        let Some(edge) = self
+            .edge(index)
+            .filter(|_| !self.refused.contains(&(index, index)))
         else {
             return Ok(false);
         };

@@ -66,9 +66,8 @@ pub fn prove(pieces: &[&Piece], gauge: &Gauge) -> Result<Option<Proof>, GroupErr
         .collect();
     arcs.sort_by_key(|&(start, length)| ((2 * length).abs_diff(count), start, length));
     for (start, length) in arcs {
-        let arc = |from: usize, number: usize| {
-            (from..from + number).map(move |i| pieces[i % count])
-        };
+        let arc =
+            |from: usize, number: usize| (from..from + number).map(move |i| pieces[i % count]);
         let Some(first) = swept(arc(start, length), gauge)? else {
             continue;
         };

@@ -83,8 +83,8 @@ pub(super) fn branches(report: &Report, page: &mut Page) {
         table.row(vec![
             Cell::new(&branch.name),
             Cell::new(branch.dimension.to_string()),
-            Cell::new(branch.instantaneous.to_string()),
-            Cell::new(branch.redundant.to_string()),
+            Cell::new(unsure(branch.instantaneous)),
+            Cell::new(unsure(branch.redundant)),
             Cell::new(names(&branch.locked, most)),
             Cell::new(names(&idle, most)),
         ]);
@@ -254,18 +254,28 @@ pub(super) fn motions(report: &Report, page: &mut Page) {
         return;
     }
     page.heading("Motions");
-    let mut table = Table::new()
+    let several = report.branches.as_ref().is_some_and(|b| b.len() > 1);
+    let mut table = Table::new();
+    if several {
+        table = table.column("branch", Column::Words);
+    }
+    table = table
         .column("link", Column::Shrinking)
         .column("seen from", Column::Shrinking)
         .column("freedom", Column::Numbers)
         .column("moves by", Column::Shrinking);
     for motion in &report.motions {
-        table.row(vec![
+        let mut cells = Vec::new();
+        if several {
+            cells.push(Cell::new(&motion.branch));
+        }
+        cells.extend([
             Cell::new(&motion.link),
             Cell::new(&motion.relative_to),
             Cell::new(motion.freedom.to_string()),
-            Cell::new(&motion.class),
+            Cell::new(format!("{}: {}", motion.class, motion.text)),
         ]);
+        table.row(cells);
     }
     page.table(&table, "motions");
 }
