@@ -14,17 +14,13 @@
 //!   except that it is never less than the number of variables minus that of all the equations there are.
 //!
 //! # Scale
-//! Ranks are decided with variables in units of [`RADIUS`] and every equation of unit length, so that coefficients that
+//! Ranks are decided with variables in units of a quarter and every equation of unit length, so that coefficients that
 //! grow with the degree do not hide those of the lowest. The accuracy of the matrix follows from the equations' noise.
 
+use super::ideal::scaled;
 use super::slices::{random_subspace, restricted};
-use super::splitting::dot;
 use crate::group::{Monomials, Series};
 use crate::matrix::{SparseMatrix, SplitMix64, decide};
-
-/// Unit of the variables: the germ's coefficients grow by about 1/σ per degree, with σ the smallest kept singular value
-/// of the Jacobian, which is a few tenths for most mechanisms.
-const RADIUS: f64 = 0.25;
 
 /// Seed of the slices.
 const SEED: u64 = 0x6b75_747a_6261_6368;
@@ -146,35 +142,18 @@ fn macaulay_rank(equations: &[Series], table: &Monomials, noise: &[f64]) -> Opti
     let mut error = 0.0;
     for equation in equations {
         let monomials = equation.monomials();
-        let scaled: Vec<f64> = (0..monomials.count_up_to(k))
-            .map(|slot| {
-                equation.coefficients()[slot] * RADIUS.powi(monomials.degree_of(slot) as i32)
-            })
-            .collect();
-        let all: f64 = (0..=monomials.degree())
-            .map(|d| dot(equation.of_degree(d), equation.of_degree(d)) * RADIUS.powi(2 * d as i32))
-            .sum();
-        let norm = all.sqrt();
-        if !(norm > 0.0 && norm.is_finite()) {
-            continue;
-        }
-        let row_error: f64 = noise
-            .iter()
-            .enumerate()
-            .take(k + 1)
-            .map(|(d, n)| n * RADIUS.powi(d as i32) / norm)
-            .sum();
+        let (unit, row_error) = scaled(equation, noise);
         for shift in 0..table.count_up_to(k - 1) {
             let alpha = table.exponents(shift);
             let reach = monomials.count_up_to(k - table.degree_of(shift));
             let mut any = false;
-            for (slot, value) in scaled[..reach].iter().enumerate() {
+            for (slot, value) in unit[..reach].iter().enumerate() {
                 if *value == 0.0 {
                     continue;
                 }
                 let beta = monomials.exponents(slot);
                 let sum: Vec<u8> = alpha.iter().zip(beta).map(|(a, b)| a + b).collect();
-                triplets.push((row, table.index_of(&sum)?, value / norm));
+                triplets.push((row, table.index_of(&sum)?, *value));
                 any = true;
             }
             if any {

@@ -16,15 +16,24 @@ pub(super) struct Effective {
     pub combinations: Vec<Vec<f64>>,
     /// The equations; what is below the order of each is exactly zero.
     pub equations: Vec<Series>,
-    /// Smallest factor by which a decision differs from its bound; infinite where nothing was to be decided.
+    /// By how much each equation exceeds the noise.
+    pub margins: Vec<f64>,
+    /// Smallest factor by which what was dropped stays below its bound; infinite where nothing was.
     pub margin: f64,
 }
 
 /// Takes the independent equations among `kappa`, of which each degree's coefficients are known to within `noise[degree]`
 /// in the Frobenius norm. A singular value of the coefficients of one degree is kept if it exceeds that bound (Weyl).
-pub(super) fn independent(kappa: &[Series], noise: &[f64]) -> Result<Effective, MatrixError> {
+/// `natural` is the size of all equations' coefficients by degree: being below a noise of that size means nothing, and the
+/// margin says so.
+pub(super) fn independent(
+    kappa: &[Series],
+    noise: &[f64],
+    natural: &[f64],
+) -> Result<Effective, MatrixError> {
     let mut effective = Effective {
         combinations: Vec::new(),
+        margins: Vec::new(),
         equations: Vec::new(),
         margin: f64::INFINITY,
     };
@@ -35,7 +44,7 @@ pub(super) fn independent(kappa: &[Series], noise: &[f64]) -> Result<Effective, 
                 .collect()
         })
         .collect();
-    for (degree, &noise) in noise.iter().enumerate().skip(2) {
+    for (degree, (&noise, &natural)) in noise.iter().zip(natural).enumerate().skip(2) {
         let Some(first) = kappa.first() else {
             break;
         };
@@ -60,7 +69,7 @@ pub(super) fn independent(kappa: &[Series], noise: &[f64]) -> Result<Effective, 
             return Err(MatrixError::NotFinite { row: 0, column: 0 });
         }
         if norm <= noise {
-            effective.below(norm, noise);
+            effective.below(norm, noise, natural);
             continue;
         }
         let dense = Mat::<f64>::from_fn(open.len(), width, |i, j| parts[i][j]);
@@ -83,10 +92,10 @@ pub(super) fn independent(kappa: &[Series], noise: &[f64]) -> Result<Effective, 
         for k in 0..open.len() {
             let value = if k < values.nrows() { values[k] } else { 0.0 };
             if value > noise {
-                effective.margin = effective.margin.min(value / noise);
+                effective.margins.push(value / noise);
                 effective.keep(kappa, rotated(k), degree);
             } else {
-                effective.below(value, noise);
+                effective.below(value, noise, natural);
                 left.push(rotated(k));
             }
         }
@@ -96,9 +105,12 @@ pub(super) fn independent(kappa: &[Series], noise: &[f64]) -> Result<Effective, 
 }
 
 impl Effective {
-    fn below(&mut self, value: f64, noise: f64) {
+    fn below(&mut self, value: f64, noise: f64, natural: f64) {
         if value > 0.0 {
             self.margin = self.margin.min(noise / value);
+        }
+        if natural > 0.0 && noise > 0.0 {
+            self.margin = self.margin.min(natural / noise);
         }
     }
 
@@ -145,12 +157,12 @@ mod tests {
                 series
             })
             .collect();
-        let found = independent(&kappa, &[0.0, 0.0, 1e-12, 1e-12]).unwrap();
+        let found = independent(&kappa, &[0.0, 0.0, 1e-12, 1e-12], &[1.0; 4]).unwrap();
         assert_eq!(found.equations.len(), 2);
         assert!((found.equations[0].coefficients()[uv] - 14f64.sqrt()).abs() < 1e-14);
         assert_eq!(found.equations[1].coefficients()[uv], 0.0);
         assert!(found.equations[1].coefficients()[u3] > 0.1);
-        assert!(found.margin > 50.0 && found.margin < 1e6);
+        assert!(found.margin > 10.0 && found.margins.iter().all(|m| *m > 1e10));
         for a in 0..2 {
             for b in 0..2 {
                 let product = dot(&found.combinations[a], &found.combinations[b]);
@@ -163,11 +175,17 @@ mod tests {
     fn nothing_but_noise_is_no_equation() {
         let m = Monomials::new(2, 3).unwrap();
         let tiny = Series::from_coefficients(&m, vec![1e-16; m.count()]);
-        let found = independent(&[tiny.clone(), tiny], &[0.0, 0.0, 1e-13, 1e-13]).unwrap();
+        let found = {
+            let noise = [0.0, 0.0, 1e-13, 1e-13];
+            independent(&[tiny.clone(), tiny.clone()], &noise, &[1.0; 4]).unwrap()
+        };
         assert!(found.equations.is_empty());
         assert!(found.margin > 100.0 && found.margin.is_finite());
+        // Where any coefficient could be noise, its absence is no finding.
+        let coarse = independent(&[tiny], &[0.0, 0.0, 0.5, 0.5], &[1.0; 4]).unwrap();
+        assert!(coarse.equations.is_empty() && coarse.margin <= 2.0);
         assert!(
-            independent(&[], &[0.0, 0.0, 1.0])
+            independent(&[], &[0.0, 0.0, 1.0], &[1.0; 3])
                 .unwrap()
                 .equations
                 .is_empty()

@@ -11,6 +11,7 @@
 //! are linear and follow below. Variables are those of the matrix with unit columns.
 
 use crate::group::{DisplacementSeries, Monomials, Series, Twist};
+use crate::matrix::{MatrixError, SparseMatrix, SplitMix64};
 use crate::mechanism::{JointKind, Mechanism};
 use crate::mobility::PartRank;
 use nalgebra::Vector3;
@@ -105,18 +106,66 @@ impl LoopEquations {
         &self.units
     }
 
-    /// The screws of each cycle as (column, |ω| + |v|), and how many exponentials the cycle has.
-    pub(super) fn sizes(&self) -> impl Iterator<Item = (Vec<(usize, f64)>, usize)> {
-        self.cycles.iter().map(|factors| {
-            let sizes = factors.iter().flat_map(|factor| {
-                let norms = factor
+    /// Number of coordinates of all screws, and entries of all couplings.
+    pub(super) fn entry_count(&self) -> usize {
+        let screws = self.cycles.iter().flatten().map(|f| 6 * f.columns.len());
+        screws.chain(self.couplings.iter().map(Vec::len)).sum()
+    }
+
+    /// The most exponentials in a cycle.
+    pub(super) fn longest_cycle(&self) -> usize {
+        self.cycles.iter().map(Vec::len).max().unwrap_or(0)
+    }
+
+    /// The linear part: the Jacobian with unit columns.
+    pub(super) fn matrix(&self) -> Result<SparseMatrix<f64>, MatrixError> {
+        let mut triplets = Vec::new();
+        for (cycle, factors) in self.cycles.iter().enumerate() {
+            for factor in factors {
+                for (column, screw) in factor.columns.iter().zip(&factor.screws) {
+                    let screw = screw.to_vector();
+                    triplets.extend((0..6).map(|row| (6 * cycle + row, *column, screw[row])));
+                }
+            }
+        }
+        let first = 6 * self.cycles.len();
+        for (coupling, row) in self.couplings.iter().enumerate() {
+            triplets.extend(
+                row.iter()
+                    .map(|(column, entry)| (first + coupling, *column, *entry)),
+            );
+        }
+        SparseMatrix::from_triplets(
+            first + self.couplings.len(),
+            self.units.len(),
+            0.0,
+            triplets,
+        )
+    }
+
+    /// The same with every entry changed by a random number up to `amplitude` in size.
+    pub(super) fn changed(&self, amplitude: f64, random: &mut SplitMix64) -> Self {
+        let mut change = |x: f64| x + amplitude * random.symmetric();
+        let mut changed = Self {
+            cycles: Vec::with_capacity(self.cycles.len()),
+            couplings: self.couplings.clone(),
+            units: self.units.clone(),
+        };
+        for factors in &self.cycles {
+            let factors = factors.iter().map(|factor| Factor {
+                columns: factor.columns.clone(),
+                screws: factor
                     .screws
                     .iter()
-                    .map(|s| s.angular.norm() + s.linear.norm());
-                factor.columns.iter().copied().zip(norms)
+                    .map(|screw| Twist::from(screw.to_vector().map(&mut change)))
+                    .collect(),
             });
-            (sizes.collect(), factors.len())
-        })
+            changed.cycles.push(factors.collect());
+        }
+        for (_, entry) in changed.couplings.iter_mut().flatten() {
+            *entry = change(*entry);
+        }
+        changed
     }
 
     /// Every row as a power series, where each variable is one without constant term. Coefficients of the variables beyond
@@ -188,7 +237,6 @@ mod tests {
     use super::*;
     use crate::closure::JointDisplacement;
     use crate::group::Pose;
-    use crate::matrix::SplitMix64;
 
     #[test]
     fn every_joint_is_a_product_of_exponentials_of_its_screws() {

@@ -11,14 +11,14 @@
 //! # What a result must satisfy
 //! - It stands for the mechanism and not for how it is written: lengths are measured in cycle lengths and joint
 //!   variables in units in which each moves its cycles equally far.
-//! - Every coefficient comes with a bound of its error, by rounding and by the stated precision of the file. An equation
+//! - Every coefficient comes with an estimate of its largest error, by rounding and by the stated precision of the file. An equation
 //!   counts only as far as it exceeds that, and [`Germ::margin`] says how clearly each one did.
 //! - What holds only up to the computed degree is called so. Equations that vanish to every computed degree prove nothing;
 //!   a definite quadratic form ([`prestress_certificate`]) or an isolated zero ([`complex_dimension`]) does.
 //!
 //! # The way through
 //! [`loop_equations`]: the closure equations as power series. [`splitting`]: kernel, left kernel and pseudo-inverse.
-//! [`reduction`]: the germ. [`effective`]: independent equations, by order. [`noise`]: what is known of each coefficient.
+//! [`reduction`]: the germ. [`effective`], [`ideal`]: independent equations, by order. [`noise`]: what is known of each coefficient.
 //! [`second_order`], [`min_norm_point`]: definite combinations of the quadratic forms. [`dual_space`], [`slices`]: complex dimension.
 //!
 //! # Cost
@@ -27,6 +27,7 @@
 
 mod dual_space;
 mod effective;
+mod ideal;
 mod loop_equations;
 mod min_norm_point;
 mod noise;

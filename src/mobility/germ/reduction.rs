@@ -6,9 +6,10 @@
 //! zero: the pose is closed, and κ has no linear part (Golubitsky and Schaeffer 1985, chapter VII; Kuranishi 1962).
 
 use super::effective::independent;
+use super::ideal::drop_consequences;
 use super::loop_equations::LoopEquations;
-use super::noise::{Known, bounds};
-use super::splitting::{LARGEST_SIDE, Splitting};
+use super::noise::noise_of;
+use super::splitting::{LARGEST_SIDE, Splitting, dot};
 use crate::group::{Monomials, Series};
 use crate::matrix::MatrixError;
 use crate::mechanism::Mechanism;
@@ -66,13 +67,12 @@ impl Germ {
         let Some(reduced) = reduce(&equations, &splitting, unknowns, degree) else {
             return Ok(None);
         };
-        let known = Known {
-            equations: &equations,
-            splitting: &splitting,
-            accuracy: rank.stated.max(rank.accuracy),
+        let accuracy = rank.stated.max(rank.accuracy);
+        let Some(noise) = noise_of(&equations, &splitting, &reduced, accuracy)? else {
+            return Ok(None);
         };
-        let noise = bounds(&known, &reduced.monomials, &reduced.variables);
-        let effective = independent(&reduced.kappa, &noise)?;
+        let mut effective = independent(&reduced.kappa, &noise, &reduced.natural)?;
+        drop_consequences(&mut effective, &noise)?;
         let units = equations.units();
         let stresses = effective.combinations.iter().map(|combination| {
             let mut stress = vec![0.0; rank.equations()];
@@ -111,7 +111,7 @@ impl Germ {
     }
 
     /// The effective equations κ, sorted by order: independent up to the noise, combined with orthonormal factors from all
-    /// that the left kernel gives. None are left where all vanish to every computed degree.
+    /// that the left kernel gives, without those that follow from the ones before. None are left where all vanish to every computed degree.
     #[must_use]
     pub fn equations(&self) -> &[Series] {
         &self.equations
@@ -135,7 +135,7 @@ impl Germ {
         self.equations.iter().filter_map(order_of).min()
     }
 
-    /// Bound of the error of the coefficients of one degree, in the Frobenius norm over equations and monomials. Zero
+    /// Estimate of the largest error of the coefficients of one degree, in the Frobenius norm over equations and monomials. Zero
     /// below degree two, where the equations have no terms; infinite above [`degree`](Self::degree).
     #[must_use]
     pub fn noise(&self, degree: usize) -> f64 {
@@ -149,7 +149,9 @@ impl Germ {
     }
 
     /// How clearly equations were told from noise: the smallest factor by which a singular value of the coefficients of
-    /// one degree exceeds the noise, if kept, or stays below it, if dropped. Infinite where nothing was to be decided.
+    /// one degree exceeds the noise, if kept, or stays below it, if dropped; and by which the noise is below the size of
+    /// coefficients of that degree in general, without which being below it means nothing. Infinite where nothing was to
+    /// be decided, as without self-stresses.
     #[must_use]
     pub fn margin(&self) -> f64 {
         self.margin
@@ -202,16 +204,19 @@ fn monomial_count(variables: usize, degree: usize) -> usize {
     count
 }
 
-struct Reduced {
-    monomials: Arc<Monomials>,
+/// What the reduction gives before anything is decided about it.
+pub(super) struct Reduced {
+    pub monomials: Arc<Monomials>,
     /// Coefficients of every variable, in units of the matrix with unit columns.
-    variables: Vec<Vec<f64>>,
+    pub variables: Vec<Vec<f64>>,
     /// Nᵀ F, what is below degree two exactly zero.
-    kappa: Vec<Series>,
+    pub kappa: Vec<Series>,
+    /// Frobenius norm of F's coefficients by degree before ψ of that degree is taken off.
+    pub natural: Vec<f64>,
 }
 
 /// Solves for ψ and returns κ; `None` where the table of monomials would be too large.
-fn reduce(
+pub(super) fn reduce(
     equations: &LoopEquations,
     splitting: &Splitting,
     unknowns: usize,
@@ -247,6 +252,13 @@ fn reduce(
             }
         }
     }
+    let natural = (0..=degree).map(|d| {
+        let squares = residual
+            .iter()
+            .map(|row| dot(row.of_degree(d), row.of_degree(d)));
+        squares.sum::<f64>().sqrt()
+    });
+    let natural = natural.collect();
     let below = monomials.count_up_to(1);
     let kappa = splitting.left.iter().map(|stress| {
         let mut sum = Series::zero(&monomials);
@@ -259,6 +271,7 @@ fn reduce(
     Some(Reduced {
         kappa: kappa.collect(),
         variables,
+        natural,
         monomials,
     })
 }

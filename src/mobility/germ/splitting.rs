@@ -17,8 +17,6 @@ pub(super) struct Splitting {
     pub left: Vec<Vec<f64>>,
     /// Largest singular value; zero for rank zero.
     pub largest: f64,
-    /// Smallest kept singular value; zero for rank zero.
-    pub smallest: f64,
     /// (left vector, right vector, singular value) of the kept ones.
     kept: Vec<(Vec<f64>, Vec<f64>, f64)>,
 }
@@ -48,7 +46,6 @@ impl Splitting {
                 kernel: unit(columns),
                 left: unit(rows),
                 largest: 0.0,
-                smallest: 0.0,
                 kept: Vec::new(),
             });
         }
@@ -77,11 +74,33 @@ impl Splitting {
             kernel: canonical((rank..columns).map(right_vector).collect()),
             left: canonical((rank..rows).map(left_vector).collect()),
             largest: s[0],
-            smallest: s[rank - 1],
             kept: (0..rank)
                 .map(|j| (left_vector(j), right_vector(j), s[j]))
                 .collect(),
         })
+    }
+
+    /// The rank.
+    pub(super) fn rank(&self) -> usize {
+        self.kept.len()
+    }
+
+    /// Replaces the bases of the two kernels by the projections of another matrix's bases on them: where the matrices are
+    /// close, these are as good as orthonormal, and comparable vector by vector.
+    pub(super) fn align_with(&mut self, other: &Self) {
+        let project = |basis: &[Vec<f64>], wanted: &[Vec<f64>]| -> Vec<Vec<f64>> {
+            let one = |vector: &Vec<f64>| {
+                let mut sum = vec![0.0; vector.len()];
+                for b in basis {
+                    let along = dot(b, vector);
+                    sum.iter_mut().zip(b).for_each(|(s, b)| *s += along * b);
+                }
+                sum
+            };
+            wanted.iter().map(one).collect()
+        };
+        self.kernel = project(&self.kernel, &other.kernel);
+        self.left = project(&self.left, &other.left);
     }
 
     /// The shortest least-squares solution: J⁺ times the right side.
