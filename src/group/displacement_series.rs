@@ -74,6 +74,67 @@ impl DisplacementSeries {
         e
     }
 
+    /// E(y) = exp(X(y)) for a twist X = (ω(y); v(y)) whose coordinates are power series that vanish at y = 0, as where
+    /// several variables of one joint share an exponential.
+    ///
+    /// With s = ω·ω: R = I + f \[ω\]× + g \[ω\]×², t = (I + g \[ω\]× + h \[ω\]×²) v, where f, g, h = Σ (−s)ⁿ/(2n+1)!,
+    /// …/(2n+2)!, …/(2n+3)! (Rodrigues); all products are of scalar series. Panics if a coordinate has a constant
+    /// term or another shape.
+    pub fn exp_twist(angular: &[Series; 3], linear: &[Series; 3]) -> Self {
+        let monomials = angular[0].monomials();
+        let constants = angular.iter().chain(linear).map(|x| x.coefficients()[0]);
+        assert!(
+            constants.into_iter().all(|c| c == 0.0),
+            "the exponent must vanish at the origin"
+        );
+        let dot = |a: &[Series; 3], b: &[Series; 3]| {
+            let [x, y, z] = [0, 1, 2].map(|i| &a[i] * &b[i]);
+            &(&x + &y) + &z
+        };
+        let cross = |a: &[Series; 3], b: &[Series; 3]| {
+            [(1, 2), (2, 0), (0, 1)].map(|(i, j)| &(&a[i] * &b[j]) - &(&a[j] * &b[i]))
+        };
+        let negative_square = -&dot(angular, angular);
+        // Horner's rule; s starts at degree two.
+        let series_from = |first: usize| {
+            let mut factorial: f64 = (2..=first).map(|i| i as f64).product();
+            let mut coefficients = vec![1.0 / factorial];
+            for n in 1..=monomials.degree() / 2 {
+                factorial *= ((first + 2 * n) * (first + 2 * n - 1)) as f64;
+                coefficients.push(1.0 / factorial);
+            }
+            let mut sum = Series::zero(monomials);
+            for c in coefficients.into_iter().rev() {
+                sum = &sum * &negative_square;
+                sum.coefficients_mut()[0] += c;
+            }
+            sum
+        };
+        let (f, g, h) = (series_from(1), series_from(2), series_from(3));
+        let turn: [Series; 3] = [0, 1, 2].map(|i| &f * &angular[i]);
+        let bent: [Series; 3] = [0, 1, 2].map(|i| &g * &angular[i]);
+        let along = dot(angular, linear);
+        let across = cross(angular, linear);
+        let moved: [Series; 3] = [0, 1, 2].map(|i| {
+            // [ω]×² v = ω (ω·v) − s v.
+            let twice = &(&angular[i] * &along) + &(&negative_square * &linear[i]);
+            &(&linear[i] + &(&g * &across[i])) + &(&h * &twice)
+        });
+        let squares = [0, 1, 2].map(|i| [0, 1, 2].map(|j| &bent[i] * &angular[j]));
+        let sink = &g * &negative_square;
+        let mut e = Self::identity(monomials);
+        for index in 0..monomials.count() {
+            let c = |series: &Series| series.coefficients()[index];
+            let mut r = Matrix3::from_fn(|i, j| c(&squares[i][j]));
+            for i in 0..3 {
+                r[(i, i)] += c(&sink);
+            }
+            e.rotation[index] += r + Vector3::from_fn(|i, _| c(&turn[i])).cross_matrix();
+            e.translation[index] = Vector3::from_fn(|i, _| c(&moved[i]));
+        }
+        e
+    }
+
     /// The product exp(ξ₁ q₁(y)) exp(ξ₂ q₂(y)) … along a chain or loop, in the order given.
     ///
     /// A loop that is closed at y = 0, written with the screws of that pose, gives the closure map: it is
@@ -164,14 +225,20 @@ impl Mul for &DisplacementSeries {
             translation: self.translation.clone(),
         };
         let zero = Matrix3::zeros();
+        // A joint that stands still, or moves with few of the variables, leaves most coefficients zero.
+        let moving: Vec<bool> = (0..count)
+            .map(|b| other.rotation[b] != zero || other.translation[b] != Vector3::zeros())
+            .collect();
         for a in 0..count {
             let left = &self.rotation[a];
             if *left == zero {
                 continue;
             }
             for (b, &slot) in self.monomials.products_with(a).iter().enumerate() {
-                product.rotation[slot as usize] += left * other.rotation[b];
-                product.translation[slot as usize] += left * other.translation[b];
+                if moving[b] {
+                    product.rotation[slot as usize] += left * other.rotation[b];
+                    product.translation[slot as usize] += left * other.translation[b];
+                }
             }
         }
         product
@@ -283,6 +350,46 @@ mod tests {
                     }
                 }
             }
+        }
+    }
+
+    #[test]
+    fn a_shared_exponential_is_not_a_product() {
+        let m = Monomials::new(2, 6).unwrap();
+        let forms: [[f64; 2]; 6] = [
+            [0.3, -0.2],
+            [0.1, 0.4],
+            [-0.5, 0.2],
+            [0.7, 0.1],
+            [-0.1, 0.6],
+            [0.2, -0.3],
+        ];
+        let q = forms.map(|f| Series::linear(&m, &f));
+        let [a, b, c, x, y, z] = q.clone();
+        let e = DisplacementSeries::exp_twist(&[a, b, c], &[x, y, z]);
+        let error = |size: f64| {
+            let point = [size, -0.7 * size];
+            let value = q.each_ref().map(|q| q.evaluate(&point));
+            distance(
+                &e.evaluate(&point),
+                &Pose::exp(&Twist::from(nalgebra::Vector6::from(value))),
+            )
+        };
+        assert!(error(0.5) < 1e-6);
+        let order = (error(1.0) / error(0.5)).log2();
+        assert!((order - 7.0).abs() < 0.5, "{order}");
+        // With one variable it is the exponential of a screw.
+        let screw = screws()[2];
+        let q = Series::linear(&m, &[0.8, 0.3]);
+        let v = screw.to_vector();
+        let e = DisplacementSeries::exp_twist(
+            &[0, 1, 2].map(|i| q.scaled(v[i])),
+            &[3, 4, 5].map(|i| q.scaled(v[i])),
+        );
+        let expected = DisplacementSeries::exp(&screw, &q);
+        for index in 0..m.count() {
+            let ((r, t), (r1, t1)) = (e.coefficient(index), expected.coefficient(index));
+            assert!((r - r1).norm() + (t - t1).norm() < 1e-14);
         }
     }
 
