@@ -14,6 +14,7 @@ mod analysis;
 mod branch;
 mod cycles;
 mod generic;
+mod germ_zeros;
 mod kutzbach;
 mod more_digits;
 mod pose_rank;
@@ -28,6 +29,7 @@ pub use analysis::{Analysis, AnalysisError, AnalysisOptions, HomeFreedom, analys
 pub use branch::{Branch, BranchPose, IdleLink, RelativeMotion};
 pub use cycles::{CycleFacts, cycle_facts};
 pub use generic::{GenericCount, generic_count};
+pub use germ_zeros::{GermBranch, GermZeroOptions, GermZeros, HalfBranch, Isolation, germ_zeros};
 pub use kutzbach::kutzbach_count;
 pub use more_digits::MoreDigits;
 pub use pose_rank::{LADDER, PartRank, Pose, rank_part};

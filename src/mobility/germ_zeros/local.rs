@@ -1,0 +1,140 @@
+//! The real zero set near one of its points away from the origin: its dimension and tangent space.
+
+use super::correct::{Landing, Within, land};
+use super::small::{distance, dot, orthonormal, plus, singular};
+use super::system::{Level, Work};
+use crate::matrix::SplitMix64;
+
+/// What the zero set looks like near a point.
+#[derive(Clone, Debug)]
+pub(super) struct Local {
+    /// Real dimension there.
+    pub(super) dimension: usize,
+    /// Orthonormal basis of the tangent space, in coordinates of the germ; for a set that is not reduced only as accurate
+    /// as a secant.
+    pub(super) tangent: Vec<Vec<f64>>,
+    /// Whether the Jacobian has rank δ − dimension.
+    pub(super) reduced: bool,
+    /// Smallest singular value that counts, over the largest possible.
+    pub(super) smallest: f64,
+}
+
+/// How far, in units of the radius, the zero set is probed.
+const PROBE: f64 = 0.03;
+
+/// Singular values up to this are zero: a double zero is known to the root of the accuracy of the values, and there the
+/// derivative is as large as that error.
+pub(super) fn rank_threshold(level: &Level<'_>, size: f64) -> f64 {
+    3.0 * level.tolerance().max(size).sqrt()
+}
+
+/// Largest d such that d coordinates can be prescribed at random near the point and the equations still solved.
+///
+/// The kernel of the Jacobian bounds d. One coordinate, the radius, is known to be free. Each larger d is tried with
+/// random offsets; a set of smaller dimension misses the prescribed values for all but a null set of choices.
+pub(super) fn local(
+    level: &Level<'_>,
+    point: &Landing,
+    random: &mut SplitMix64,
+    work: &mut Work,
+) -> Local {
+    let variables = point.z.len();
+    level.evaluate(&point.z, work);
+    let (values, vectors) = singular(&work.jacobian, variables);
+    let threshold = rank_threshold(level, point.size);
+    let rank = values.iter().filter(|v| **v > threshold).count();
+    let kernel = &vectors[rank..];
+    let smallest = if rank > 0 { values[rank - 1] } else { 1.0 };
+    for dimension in (2..=kernel.len()).rev() {
+        let whole = dimension == kernel.len();
+        let directions = if whole {
+            kernel.to_vec()
+        } else {
+            random_subspace(kernel, dimension, random)
+        };
+        if (0..dimension + 2).all(|_| {
+            let offset: Vec<f64> = directions.iter().map(|_| PROBE * random.symmetric()).collect();
+            probe(level, point, &directions, &offset, work).is_some()
+        }) {
+            let tangent = if whole {
+                kernel.to_vec()
+            } else {
+                secants(level, point, &directions, work)
+            };
+            return Local {
+                dimension,
+                tangent,
+                reduced: whole,
+                smallest,
+            };
+        }
+    }
+    Local {
+        dimension: 1,
+        tangent: kernel.to_vec(),
+        reduced: kernel.len() <= 1,
+        smallest,
+    }
+}
+
+/// The zero near `point` whose coordinates along `directions` differ from it by `offset`.
+fn probe(
+    level: &Level<'_>,
+    point: &Landing,
+    directions: &[Vec<f64>],
+    offset: &[f64],
+    work: &mut Work,
+) -> Option<Vec<f64>> {
+    let mut start = point.z.clone();
+    for (direction, by) in directions.iter().zip(offset) {
+        start = plus(&start, *by, direction);
+    }
+    let landed = land(level, &start, &Within::Slice(directions), 60, work);
+    let zero = landed.above_noise <= 1.0 || landed.size <= 5.0 * point.size;
+    (zero && distance(&landed.z, &start) <= 3.0 * PROBE).then_some(landed.z)
+}
+
+fn secants(
+    level: &Level<'_>,
+    point: &Landing,
+    directions: &[Vec<f64>],
+    work: &mut Work,
+) -> Vec<Vec<f64>> {
+    let mut tangent = Vec::new();
+    for i in 0..directions.len() {
+        let mut ends = Vec::new();
+        for sign in [1.0, -1.0] {
+            let mut offset = vec![0.0; directions.len()];
+            offset[i] = 0.3 * sign * PROBE;
+            ends.extend(probe(level, point, directions, &offset, work));
+        }
+        tangent.push(match &ends[..] {
+            [plus_end, minus_end] => plus(plus_end, -1.0, minus_end),
+            _ => directions[i].clone(),
+        });
+    }
+    orthonormal(&tangent)
+}
+
+fn random_subspace(
+    space: &[Vec<f64>],
+    dimension: usize,
+    random: &mut SplitMix64,
+) -> Vec<Vec<f64>> {
+    let vectors: Vec<Vec<f64>> = (0..dimension)
+        .map(|_| {
+            let mut sum = vec![0.0; space[0].len()];
+            for direction in space {
+                sum = plus(&sum, random.symmetric(), direction);
+            }
+            sum
+        })
+        .collect();
+    orthonormal(&vectors)
+}
+
+/// Cosine of the angle between a vector and a space given by orthonormal vectors.
+pub(super) fn within(space: &[Vec<f64>], vector: &[f64]) -> f64 {
+    let inside: f64 = space.iter().map(|d| dot(d, vector).powi(2)).sum();
+    (inside / dot(vector, vector)).sqrt()
+}
