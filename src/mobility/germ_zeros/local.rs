@@ -22,6 +22,9 @@ pub(super) struct Local {
 /// How far, in units of the radius, the zero set is probed.
 const PROBE: f64 = 0.03;
 
+/// Random spaces tried for each dimension below that of the kernel.
+const SPACES: usize = 4;
+
 /// Singular values up to this are zero: a double zero is known to the root of the accuracy of the values, and there the
 /// derivative is as large as that error.
 pub(super) fn rank_threshold(level: &Level<'_>, size: f64) -> f64 {
@@ -45,8 +48,13 @@ pub(super) fn local(
     let rank = values.iter().filter(|v| **v > threshold).count();
     let kernel = &vectors[rank..];
     let smallest = if rank > 0 { values[rank - 1] } else { 1.0 };
-    for dimension in (2..=kernel.len()).rev() {
+    // A random space may happen to be nearly parallel to the set: several are tried.
+    let tries = (2..kernel.len()).rev().flat_map(|d| [d; SPACES]);
+    for dimension in std::iter::once(kernel.len()).chain(tries) {
         let whole = dimension == kernel.len();
+        if whole && dimension < 2 {
+            break;
+        }
         let directions = if whole {
             kernel.to_vec()
         } else {
@@ -91,7 +99,7 @@ fn probe(
     }
     let landed = land(level, &start, &Within::Slice(directions), 60, work);
     let zero = landed.above_noise <= 1.0 || landed.size <= 5.0 * point.size;
-    (zero && distance(&landed.z, &start) <= 3.0 * PROBE).then_some(landed.z)
+    (zero && distance(&landed.z, &start) <= 6.0 * PROBE).then_some(landed.z)
 }
 
 fn secants(

@@ -255,7 +255,7 @@ impl<'a> Search<'a> {
             let found = plane::candidates(self.system, radius, &mut self.random);
             guesses.extend(found.into_iter().map(|(_, z)| z));
         }
-        while guesses.len() < starts {
+        while self.system.variables() > 2 && guesses.len() < starts {
             guesses.push(random_direction(self.system.variables(), &mut self.random));
         }
         let mut best = (f64::INFINITY, Vec::new());

@@ -5,7 +5,7 @@
 //! two nappes of a cone, are joined by slices: a linear space through a point of one piece, of a dimension that leaves a
 //! curve, whose two half-branches belong to the same branch.
 
-use super::correct::{Within, land};
+use super::correct::{Within, contract, land};
 use super::local::{rank_threshold, within};
 use super::small::{agreement, distance, dot, length, orthonormal, plus, project, singular, unit};
 use super::system::{Level, Work};
@@ -141,22 +141,47 @@ fn walk(
         }
         let by = stride.min(reach);
         let start = unit(plus(&z, by / reach, &along));
-        let landed = land(level, &start, &Within::Sphere, 40, work);
-        let correction = distance(&landed.z, &start);
-        let next = (landed.above_truncation <= 1.0 && correction <= 0.4 * by)
-            .then(|| carried(level, &landed.z, landed.size, &tangent, reduced, work))
-            .flatten();
-        match next {
-            Some(next) => {
-                z = landed.z;
-                tangent = next;
-                stride = (2.0 * stride).min(STRIDE);
-            }
-            None if stride < 2e-3 => return false,
-            None => stride = 0.5 * by,
+        if let Some((landed, next)) = advance(level, &start, &tangent, reduced, by, work) {
+            z = landed;
+            tangent = next;
+            stride = (2.0 * stride).min(STRIDE);
+        } else if by > 2e-3 {
+            stride = 0.5 * by;
+        } else {
+            // Small steps do not get over a crossing, where the kernel is larger; a leap along the tangent may.
+            let leap = [0.02, 0.05, 0.1].into_iter().find_map(|leap| {
+                let start = unit(plus(&z, leap / reach, &along));
+                advance(level, &start, &tangent, reduced, leap, work)
+            });
+            let Some((landed, next)) = leap else {
+                return false;
+            };
+            z = landed;
+            tangent = next;
+            stride = 0.02;
         }
     }
     false
+}
+
+/// Corrects a point predicted at a distance `by`; with the tangent space there.
+fn advance(
+    level: &Level<'_>,
+    start: &[f64],
+    tangent: &[Vec<f64>],
+    reduced: bool,
+    by: f64,
+    work: &mut Work,
+) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
+    // A correction that contracts at once stays on its sheet; at multiple zeros nothing contracts.
+    let landed = if reduced {
+        contract(level, start, work)?
+    } else {
+        land(level, start, &Within::Sphere, 40, work)
+    };
+    let near = landed.above_truncation <= 1.0 && distance(&landed.z, start) <= 0.4 * by;
+    let next = near.then(|| carried(level, &landed.z, landed.size, tangent, reduced, work))??;
+    Some((landed.z, next))
 }
 
 /// The tangent space at a neighbouring point: the kernel there where it has the right dimension and nearly the right

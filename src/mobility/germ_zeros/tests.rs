@@ -80,7 +80,7 @@ const CASES: &[Case] = &[
     case("hidden cubic", 2, 5, |y| {
         let node = &y[0] * &y[1];
         vec![node.clone(), &node + &power(&y[0], 3)]
-    }, &[DOUBLE_LINE], 0),
+    }, &[LINE], 0),
     case("plane and line", 3, 4, |y| vec![&y[0] * &y[2], &y[1] * &y[2]], &[SURFACE, LINE], 0),
     case("three axes", 3, 4, |y| {
         vec![&y[0] * &y[1], &y[1] * &y[2], &y[0] * &y[2]]
@@ -104,7 +104,7 @@ const CASES: &[Case] = &[
     case("line by two squares", 3, 4, |y| vec![&sq(&y[0]) + &sq(&y[1])], &[DOUBLE_LINE], 0),
     case("space cusp", 3, 5, |y| {
         vec![&sq(&y[1]) - &power(&y[0], 3), &(&y[2] * &y[0]) - &sq(&y[1]), sq(&y[2])]
-    }, &[], 3),
+    }, &[], 4),
     case("space curve", 3, 6, |y| {
         // (t², t³, t⁴) lies in both; the other zeros of the first pair are cut off by the third.
         vec![
@@ -115,7 +115,7 @@ const CASES: &[Case] = &[
     }, &[CUSP], 0),
     case("four quadrics in five variables", 5, 3, |y| {
         (0..4).map(|i| &y[i] * &(&y[i + 1] - &y[0].scaled(0.5 + i as f64))).collect()
-    }, &[], 0),
+    }, &[SURFACE, SURFACE, SURFACE, LINE], 0),
 ];
 
 const fn case(
@@ -188,6 +188,7 @@ fn scratch() {
         let answer = germ_zeros(case.variables, &equations, 1e-12, &GermZeroOptions::default());
         let time = start.elapsed();
         let ok = if summary(&answer) == expected(case) { "ok  " } else { "FAIL" };
+        if answer.branches.len() < 8 && ok == "FAIL" { for b in &answer.branches { println!("   {} {:?} {:?} {}", b.dimension, b.points, b.tangents, b.hits); } }
         println!("{ok} {:35} {:8.2?} {:5} {:?} {:?}", case.name, time, answer.starts, summary(&answer), answer.thin);
     }
 }

@@ -39,6 +39,10 @@ pub(super) fn follow(
     rank: Option<usize>,
     work: &mut Work,
 ) -> Option<Landing> {
+    if (to / from).ln().abs() < 1e-12 {
+        let level = Level::new(system, to);
+        return Some(land(&level, start, &Within::Sphere, 20, work));
+    }
     match rank {
         Some(rank) => follow_regular(system, start, from, to, rank, work),
         None => follow_multiple(system, start, from, to, work),
