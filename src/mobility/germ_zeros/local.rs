@@ -1,7 +1,8 @@
 //! The real zero set near one of its points away from the origin: its dimension and tangent space.
 
 use super::correct::{Landing, Within, land};
-use super::small::{distance, dot, orthonormal, plus, singular};
+use super::search::random_direction;
+use super::small::{distance, dot, orthonormal, plus, singular, unit};
 use super::system::{Level, Work};
 use crate::matrix::SplitMix64;
 
@@ -15,6 +16,8 @@ pub(super) struct Local {
     pub(super) tangent: Vec<Vec<f64>>,
     /// Whether the Jacobian has rank δ − dimension.
     pub(super) reduced: bool,
+    /// Rank of the Jacobian.
+    pub(super) rank: usize,
     /// Smallest singular value that counts, over the largest possible.
     pub(super) smallest: f64,
 }
@@ -73,6 +76,7 @@ pub(super) fn local(
                 dimension,
                 tangent,
                 reduced: whole,
+                rank,
                 smallest,
             };
         }
@@ -81,8 +85,36 @@ pub(super) fn local(
         dimension: 1,
         tangent: kernel.to_vec(),
         reduced: kernel.len() <= 1,
+        rank,
         smallest,
     }
+}
+
+/// A zero near the point at which the Jacobian has a larger rank, if there is one: then the point is a singular one of a
+/// branch that is otherwise reduced there, and says nothing about the branch.
+pub(super) fn more_regular(
+    level: &Level<'_>,
+    point: &Landing,
+    rank: usize,
+    random: &mut SplitMix64,
+    work: &mut Work,
+) -> Option<Landing> {
+    for scale in [PROBE, PROBE, 3.0 * PROBE, 3.0 * PROBE] {
+        let by = random_direction(point.z.len(), random);
+        let start = unit(plus(&point.z, scale, &by));
+        let landed = land(level, &start, &Within::Sphere, 80, work);
+        if landed.above_truncation > 1.0 || distance(&landed.z, &point.z) > 4.0 * scale {
+            continue;
+        }
+        level.evaluate(&landed.z, work);
+        let (values, _) = singular(&work.jacobian, point.z.len());
+        let threshold = rank_threshold(level, landed.size.max(point.size));
+        // Ten times the threshold: a multiple zero that was reached a little less well is not more regular.
+        if values.iter().filter(|v| **v > 10.0 * threshold).count() > rank {
+            return Some(landed);
+        }
+    }
+    None
 }
 
 /// The zero near `point` whose coordinates along `directions` differ from it by `offset`.

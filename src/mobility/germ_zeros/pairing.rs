@@ -80,7 +80,8 @@ pub(super) fn pair(
             let best = (1..=largest_ramification)
                 .map(|m| (m, fit(&tracks[i][1..], &tracks[j][1..], inner, m)))
                 // A larger m is more flexible: it has to be better to be believed.
-                .map(|(m, fit)| (fit.misfit * f64::powi(2.0, m as i32), m, fit))
+                // Below 1e-10 all misfits are rounding.
+                .map(|(m, fit)| (fit.misfit.max(1e-10) * f64::powi(2.0, m as i32), m, fit))
                 .min_by(|a, b| a.0.total_cmp(&b.0));
             if let Some((score, m, fit)) = best {
                 choices.push((score, i, j, m, fit));

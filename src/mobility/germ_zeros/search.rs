@@ -1,7 +1,7 @@
 //! Collecting the zeros on the outer sphere and sorting them into curves and sheets.
 
 use super::correct::{Landing, Within, land};
-use super::local::{Local, local};
+use super::local::{Local, local, more_regular};
 use super::plane;
 use super::sheets::Sheets;
 use super::small::{distance, plus, unit};
@@ -157,7 +157,17 @@ impl<'a> Search<'a> {
         if self.strangers.iter().any(|z| distance(z, &landed.z) < 1e-4) {
             return false;
         }
-        let kind = local(level, landed, &mut self.random, &mut self.work);
+        let mut landed = landed.clone();
+        let mut kind = local(level, &landed, &mut self.random, &mut self.work);
+        if !kind.reduced
+            && let Some(regular) =
+                more_regular(level, &landed, kind.rank, &mut self.random, &mut self.work)
+        {
+            self.strangers.push(landed.z);
+            landed = regular;
+            kind = local(level, &landed, &mut self.random, &mut self.work);
+        }
+        let landed = &landed;
         let rank = kind
             .reduced
             .then_some(self.system.variables() - kind.dimension);
@@ -212,6 +222,11 @@ impl<'a> Search<'a> {
             return;
         }
         let kind = local(level, landed, &mut self.random, &mut self.work);
+        let singular = !kind.reduced
+            && more_regular(level, landed, kind.rank, &mut self.random, &mut self.work).is_some();
+        if singular {
+            return;
+        }
         if kind.dimension > 1 {
             if self.sheets.iter().all(|s| s.dimension != kind.dimension) {
                 self.doubts.push(format!(

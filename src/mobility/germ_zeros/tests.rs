@@ -180,15 +180,87 @@ fn expected(case: &Case) -> Summary {
     (branches, case.order as i64)
 }
 
-#[test]
-fn scratch() {
-    for case in CASES {
-        let equations = germ_of(case, &identity(case.variables, 1.0));
+fn zeros(case: &Case, equations: &[Series]) -> GermZeros {
+    germ_zeros(case.variables, equations, 1e-12, &GermZeroOptions::default())
+}
+
+/// Fails with all cases that differ, so that one run shows what a change breaks.
+fn check(cases: &[Case], what: &str, change: impl Fn(&Case, &mut SplitMix64) -> Vec<Series>) {
+    let mut failures = Vec::new();
+    for case in cases {
+        let mut random = SplitMix64::named(&format!("{what} {}", case.name));
         let start = Instant::now();
-        let answer = germ_zeros(case.variables, &equations, 1e-12, &GermZeroOptions::default());
-        let time = start.elapsed();
-        let ok = if summary(&answer) == expected(case) { "ok  " } else { "FAIL" };
-        if answer.branches.len() < 8 && ok == "FAIL" { for b in &answer.branches { println!("   {} {:?} {:?} {}", b.dimension, b.points, b.tangents, b.hits); } }
-        println!("{ok} {:35} {:8.2?} {:5} {:?} {:?}", case.name, time, answer.starts, summary(&answer), answer.thin);
+        let answer = zeros(case, &change(case, &mut random));
+        println!("{:35} {:8.2?} {:5}", case.name, start.elapsed(), answer.starts);
+        if summary(&answer) != expected(case) || answer.thin.is_some() {
+            failures.push(format!("{}: {:?} {:?}", case.name, summary(&answer), answer.thin));
+        }
     }
+    assert!(failures.is_empty(), "{what}:\n{}", failures.join("\n"));
+}
+
+fn as_it_is(case: &Case) -> Vec<Series> {
+    germ_of(case, &identity(case.variables, 1.0))
+}
+
+/// A matrix whose singular values are between about 1/2 and 2: random rotations around a random scaling.
+fn random_change(n: usize, random: &mut SplitMix64) -> Vec<Vec<f64>> {
+    let mut rotation = || {
+        let rows: Vec<Vec<f64>> = (0..n)
+            .map(|_| (0..n).map(|_| random.symmetric()).collect())
+            .collect();
+        orthonormal(&rows)
+    };
+    let (left, right) = (rotation(), rotation());
+    let stretch: Vec<f64> = (0..n).map(|_| 2.0_f64.powf(random.symmetric())).collect();
+    (0..n)
+        .map(|i| {
+            (0..n)
+                .map(|j| (0..n).map(|k| left[k][i] * stretch[k] * right[k][j]).sum())
+                .collect()
+        })
+        .collect()
+}
+
+#[test]
+fn germs_as_they_are() {
+    check(CASES, "as it is", |case, _| as_it_is(case));
+}
+
+#[test]
+fn linear_changes_of_variables_change_nothing() {
+    for round in 0..4 {
+        check(CASES, &format!("variables {round}"), |case, random| {
+            germ_of(case, &random_change(case.variables, random))
+        });
+    }
+}
+
+#[test]
+fn other_equations_for_the_same_space_change_nothing() {
+    check(CASES, "equations", |case, random| {
+        let equations = as_it_is(case);
+        (0..=equations.len())
+            .map(|_| {
+                let mut sum = equations[0].scaled(0.0);
+                for equation in &equations {
+                    sum.add_scaled(3.0 * random.symmetric(), equation);
+                }
+                sum
+            })
+            .collect()
+    });
+}
+
+#[test]
+fn noise_below_its_level_changes_nothing() {
+    check(CASES, "noise", |case, random| {
+        let mut equations = germ_of(case, &random_change(case.variables, random));
+        for equation in &mut equations {
+            for c in equation.coefficients_mut() {
+                *c += 0.5e-12 * random.symmetric();
+            }
+        }
+        equations
+    });
 }
