@@ -51,6 +51,10 @@ pub use branch_roles::branch_roles;
 pub use chart::{ChartOutcome, ChartTest, Kernel, chart_test};
 pub use cycles::{CycleFacts, cycle_facts};
 pub use generic::{GenericCount, generic_count};
+pub use germ::{
+    ComplexDimension, Germ, PrestressCertificate, complex_dimension, prestress_certificate,
+};
+pub use germ_zeros::{GermBranch, GermZeroOptions, GermZeros, HalfBranch, Isolation, germ_zeros};
 pub use idle::idle_links;
 pub use kutzbach::kutzbach_count;
 pub use more_digits::MoreDigits;

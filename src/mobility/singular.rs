@@ -87,15 +87,7 @@ pub(super) fn singular_finding(
         rank
     };
     for degree in DEGREES {
-        let Some(germ) = Germ::of_part(
-            pose.mechanism,
-            pose.geometry,
-            pose.states,
-            part,
-            rank,
-            degree,
-        )?
-        else {
+        let Some(germ) = Germ::of_part(pose.mechanism, rank, degree)? else {
             break;
         };
         let Some(order) = germ.order() else {
@@ -116,11 +108,13 @@ pub(super) fn singular_finding(
                 .clone_into(&mut found.certificate);
             isolated(&mut found);
             found.complex_dimension =
-                complex_dimension(germ.equations(), germ.noise(order)).map(|c| c.dimension);
+                complex_dimension(germ.equations(), freedom, germ.noise_by_degree())
+                    .map(|c| c.dimension);
             break;
         }
-        let complex = complex_dimension(germ.equations(), germ.noise(order));
+        let complex = complex_dimension(germ.equations(), freedom, germ.noise_by_degree());
         let zeros = germ_zeros(
+            freedom,
             germ.equations(),
             germ.noise(order),
             &GermZeroOptions::default(),

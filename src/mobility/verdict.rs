@@ -237,11 +237,14 @@ mod tests {
     }
 
     #[test]
-    fn dependent_equations_leave_it_open() {
+    fn planar_loops_are_explained_by_their_subgroup() {
         let found = judged(&four_bar());
-        assert_eq!((found.verdict, found.finite()), (Verdict::Undecided, None));
-        assert_eq!(found.bounds, (Some(0), Some(1)));
-        assert!(found.pose != Some(PoseKind::Regular) && !found.why.is_empty());
+        assert_eq!((found.verdict, found.finite()), (Verdict::Mobile, Some(1)));
+        assert_eq!(found.pose, Some(PoseKind::Regular));
+        assert_eq!(
+            (found.class, found.level),
+            (Some(MobilityClass::Trivial), CertificateLevel::Subgroup)
+        );
     }
 
     #[test]

@@ -64,7 +64,10 @@ pub(super) fn local(
             random_subspace(kernel, dimension, random)
         };
         if (0..dimension + 2).all(|_| {
-            let offset: Vec<f64> = directions.iter().map(|_| PROBE * random.symmetric()).collect();
+            let offset: Vec<f64> = directions
+                .iter()
+                .map(|_| PROBE * random.symmetric())
+                .collect();
             probe(level, point, &directions, &offset, work).is_some()
         }) {
             let tangent = if whole {
@@ -156,11 +159,7 @@ fn secants(
     orthonormal(&tangent)
 }
 
-fn random_subspace(
-    space: &[Vec<f64>],
-    dimension: usize,
-    random: &mut SplitMix64,
-) -> Vec<Vec<f64>> {
+fn random_subspace(space: &[Vec<f64>], dimension: usize, random: &mut SplitMix64) -> Vec<Vec<f64>> {
     let vectors: Vec<Vec<f64>> = (0..dimension)
         .map(|_| {
             let mut sum = vec![0.0; space[0].len()];

@@ -213,11 +213,7 @@ fn carried(
 }
 
 /// A random linear space through z in which a set of the given dimension leaves a curve; its first vector is z.
-pub(super) fn slice_through(
-    z: &[f64],
-    dimension: usize,
-    random: &mut SplitMix64,
-) -> Vec<Vec<f64>> {
+pub(super) fn slice_through(z: &[f64], dimension: usize, random: &mut SplitMix64) -> Vec<Vec<f64>> {
     let mut vectors = vec![z.to_vec()];
     while vectors.len() < z.len() + 1 - dimension {
         vectors.push(z.iter().map(|_| random.symmetric()).collect());
