@@ -24,13 +24,10 @@ pub(super) struct Effective {
 
 /// Takes the independent equations among `kappa`, of which each degree's coefficients are known to within `noise[degree]`
 /// in the Frobenius norm. A singular value of the coefficients of one degree is kept if it exceeds that bound (Weyl).
-/// `natural` is the size of all equations' coefficients by degree: being below a noise of that size means nothing, and the
-/// margin says so.
-pub(super) fn independent(
-    kappa: &[Series],
-    noise: &[f64],
-    natural: &[f64],
-) -> Result<Effective, MatrixError> {
+///
+/// To vanish within a noise as large as such coefficients are anyway means nothing, and the margin says so: a joint variable
+/// of one moves its cycle by about one, so that terms of degree k are of the size 1/k!, those of the exponential.
+pub(super) fn independent(kappa: &[Series], noise: &[f64]) -> Result<Effective, MatrixError> {
     let mut effective = Effective {
         combinations: Vec::new(),
         margins: Vec::new(),
@@ -44,7 +41,9 @@ pub(super) fn independent(
                 .collect()
         })
         .collect();
-    for (degree, (&noise, &natural)) in noise.iter().zip(natural).enumerate().skip(2) {
+    let mut natural = 1.0;
+    for (degree, &noise) in noise.iter().enumerate().skip(2) {
+        natural /= degree as f64;
         let Some(first) = kappa.first() else {
             break;
         };
@@ -109,7 +108,7 @@ impl Effective {
         if value > 0.0 {
             self.margin = self.margin.min(noise / value);
         }
-        if natural > 0.0 && noise > 0.0 {
+        if noise > 0.0 {
             self.margin = self.margin.min(natural / noise);
         }
     }
@@ -157,7 +156,7 @@ mod tests {
                 series
             })
             .collect();
-        let found = independent(&kappa, &[0.0, 0.0, 1e-12, 1e-12], &[1.0; 4]).unwrap();
+        let found = independent(&kappa, &[0.0, 0.0, 1e-12, 1e-12]).unwrap();
         assert_eq!(found.equations.len(), 2);
         assert!((found.equations[0].coefficients()[uv] - 14f64.sqrt()).abs() < 1e-14);
         assert_eq!(found.equations[1].coefficients()[uv], 0.0);
@@ -177,15 +176,15 @@ mod tests {
         let tiny = Series::from_coefficients(&m, vec![1e-16; m.count()]);
         let found = {
             let noise = [0.0, 0.0, 1e-13, 1e-13];
-            independent(&[tiny.clone(), tiny.clone()], &noise, &[1.0; 4]).unwrap()
+            independent(&[tiny.clone(), tiny.clone()], &noise).unwrap()
         };
         assert!(found.equations.is_empty());
         assert!(found.margin > 100.0 && found.margin.is_finite());
         // Where any coefficient could be noise, its absence is no finding.
-        let coarse = independent(&[tiny], &[0.0, 0.0, 0.5, 0.5], &[1.0; 4]).unwrap();
+        let coarse = independent(&[tiny], &[0.0, 0.0, 0.5, 0.5]).unwrap();
         assert!(coarse.equations.is_empty() && coarse.margin <= 2.0);
         assert!(
-            independent(&[], &[0.0, 0.0, 1.0], &[1.0; 3])
+            independent(&[], &[0.0, 0.0, 1.0])
                 .unwrap()
                 .equations
                 .is_empty()

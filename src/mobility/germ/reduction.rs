@@ -9,7 +9,7 @@ use super::effective::independent;
 use super::ideal::drop_consequences;
 use super::loop_equations::LoopEquations;
 use super::noise::noise_of;
-use super::splitting::{LARGEST_SIDE, Splitting, dot};
+use super::splitting::{LARGEST_SIDE, Splitting};
 use crate::group::{Monomials, Series};
 use crate::matrix::MatrixError;
 use crate::mechanism::Mechanism;
@@ -71,7 +71,7 @@ impl Germ {
         let Some(noise) = noise_of(&equations, &splitting, &reduced, accuracy)? else {
             return Ok(None);
         };
-        let mut effective = independent(&reduced.kappa, &noise, &reduced.natural)?;
+        let mut effective = independent(&reduced.kappa, &noise)?;
         drop_consequences(&mut effective, &noise)?;
         let units = equations.units();
         let stresses = effective.combinations.iter().map(|combination| {
@@ -211,8 +211,6 @@ pub(super) struct Reduced {
     pub variables: Vec<Vec<f64>>,
     /// Nᵀ F, what is below degree two exactly zero.
     pub kappa: Vec<Series>,
-    /// Frobenius norm of F's coefficients by degree before ψ of that degree is taken off.
-    pub natural: Vec<f64>,
 }
 
 /// Solves for ψ and returns κ; `None` where the table of monomials would be too large.
@@ -252,13 +250,6 @@ pub(super) fn reduce(
             }
         }
     }
-    let natural = (0..=degree).map(|d| {
-        let squares = residual
-            .iter()
-            .map(|row| dot(row.of_degree(d), row.of_degree(d)));
-        squares.sum::<f64>().sqrt()
-    });
-    let natural = natural.collect();
     let below = monomials.count_up_to(1);
     let kappa = splitting.left.iter().map(|stress| {
         let mut sum = Series::zero(&monomials);
@@ -271,7 +262,6 @@ pub(super) fn reduce(
     Some(Reduced {
         kappa: kappa.collect(),
         variables,
-        natural,
         monomials,
     })
 }
