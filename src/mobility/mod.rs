@@ -14,6 +14,9 @@ mod analysis;
 mod branch;
 mod branch_facts;
 mod branch_roles;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod branch_samples;
 mod cycles;
 mod generic;
 mod idle;
