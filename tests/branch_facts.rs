@@ -7,13 +7,14 @@ mod generic_poses;
 mod support;
 
 use generic_poses::Posed;
+use kutzbach::families::scissor_lift;
+use kutzbach::group::{DisplacementSubgroup, Gauge, Pose, ScrewSystem};
 use kutzbach::mechanism::Mechanism;
-use kutzbach::mobility::{
-    JointRole, RelativeMotion, branch_facts, branch_roles, idle_links, motions_to_ground,
-    relative_motions,
-};
+use kutzbach::mobility::{JointRole, RelativeMotion, branch_facts, relative_motions};
+use kutzbach::number::Number;
 use serde_json::Value;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use support::rewrite::Draft;
 use support::{assert_none, folder, in_parallel, is_locked, zoo, zoo_mechanism};
 
 fn expected() -> Value {
@@ -120,41 +121,307 @@ fn locked_joints_and_idle_links_are_the_known_ones() {
     assert_none(&wrong.concat());
 }
 
+/// `freedom class rotations`, and the class in words where it has an axis, a direction or a point.
+fn in_words(motion: &RelativeMotion) -> String {
+    let class = motion.class.map_or("none".to_owned(), |class| {
+        format!("{} {class}", class.short_name())
+    });
+    format!("{} {} {class}", motion.freedom, motion.rotations)
+}
+
 #[test]
-#[ignore]
-fn show() {
-    for name in std::env::var("SHOW").unwrap().split(',') {
+fn links_move_in_the_known_subgroups() {
+    let translation = "3 0 T3 translation in every direction";
+    let turning_translation = "4 1 X translation in every direction and rotation about (0, 0, 1)";
+    let wheel =
+        |x: &str| format!("1 1 R rotation about the axis along (0, 0, 1) through ({x}, 0, 0)");
+    let (at_0, at_1, at_3) = (wheel("0"), wheel("1"), wheel("3"));
+    let known: &[(&str, &str, &str, &str)] = &[
+        // Clavel's robot, with parallelograms of hinges and of rods between balls.
+        ("delta_3RRPaR", "plat", "", translation),
+        ("delta_3R_SS2", "plat", "", translation),
+        (
+            "delta_3R_SS2",
+            "arm0",
+            "",
+            "1 1 R rotation about the axis along (0, 1, 0) through (2, 0, 0)",
+        ),
+        ("delta_3R_SS2", "rod0p", "", "4 3 none"),
+        ("upu3_tsai", "plat", "", translation),
+        ("tripteron_3PRRR", "plat", "", translation),
+        (
+            "tripteron_3PRRR",
+            "u0",
+            "",
+            "2 1 C rotation about and translation along the axis along (1, 0, 0) through (0, 3, 0)",
+        ),
+        ("quattro_par4", "N3", "", turning_translation),
+        ("h4_double_R", "N3", "", turning_translation),
+        // Oldham's coupling: the disc slides on both shafts and makes a motion of its own in space.
+        ("oldham_rppr", "B1", "", &at_0),
+        ("oldham_rppr", "B2", "", "1 1 none"),
+        ("oldham_rppr", "B3", "", &at_1),
+        (
+            "oldham_parallel_grooves",
+            "B2",
+            "",
+            "1 0 T translation along (0.866025, 0.5, 0)",
+        ),
+        ("oldham_parallel_grooves", "B1", "", "0 0 E no motion"),
+        (
+            "ruiz_cartesian_table",
+            "B1",
+            "",
+            "2 0 T2 translation in the plane normal to (0, 1, 0)",
+        ),
+        ("sarrus_6r", "B3", "", "1 0 T translation along (0, 0, 1)"),
+        ("sarrus_6r", "B2", "", "1 1 none"),
+        // Hinges about one point.
+        ("spherical_4r", "B2", "", "1 1 none"),
+        (
+            "spherical_4r",
+            "B1",
+            "",
+            "1 1 R rotation about the axis along (1, 0, 0) through (0, 0, 0)",
+        ),
+        (
+            "agile_eye",
+            "plat",
+            "",
+            "3 3 S rotation about the point (0, 0, 0)",
+        ),
+        // Planar loops; every hinge is seen as one from the link beside it.
+        ("planar_4r_general", "B2", "", "1 1 none"),
+        ("planar_4r_general", "B1", "", &at_0),
+        ("planar_parallelogram_generic", "B2", "", "1 0 none"),
+        ("planar_parallelogram_generic", "B3", "", &at_3),
+        ("planar_parallelogram_generic", "B3", "B1", "1 0 none"),
+        (
+            "planar_3RRR",
+            "plat",
+            "",
+            "3 1 G planar motion normal to (0, 0, 1)",
+        ),
+        (
+            "delassus_hhhp",
+            "B1",
+            "",
+            "1 1 H screw motion with pitch 0.2 m/rad about the axis along (0, 0, 1) through (0, 0, 0)",
+        ),
+        (
+            "thomas_torras_4body",
+            "pin",
+            "",
+            "2 1 C rotation about and translation along the axis along (0, 0, 1) through (2, 1, 0)",
+        ),
+        ("stewart_6SPS", "plat", "", "6 3 D unrestricted motion"),
+        (
+            "scissor_lift_3",
+            "T",
+            "",
+            "1 0 T translation along (0, 1, 0)",
+        ),
+        ("exechon", "plat", "", "3 2 none"),
+    ];
+    let wrong = in_parallel(known, |(name, link, relative_to, expected)| {
         let mechanism = zoo_mechanism(name);
+        let posed = Posed::of(&mechanism);
+        let index = |name: &str| match name {
+            "" => mechanism.ground().0,
+            name => mechanism.link_named(name).unwrap().0,
+        };
+        let found = relative_motions(
+            &mechanism,
+            &posed.geometry,
+            &posed.structure,
+            &posed.poses,
+            &[(index(link), index(relative_to))],
+        );
+        let found: Vec<String> = found.iter().map(in_words).collect();
+        (found != [*expected]).then(|| format!("{name} {link}: {found:?}, expected {expected}"))
+    });
+    assert_none(&wrong.into_iter().flatten().collect::<Vec<_>>());
+}
+
+/// Across a hinge, a slider or a screw that moves, either link sees the other move in the joint's own subgroup.
+#[test]
+fn joints_of_one_freedom_are_seen_from_both_sides() {
+    use kutzbach::mechanism::JointKind as K;
+    let wrong = in_parallel(&zoo(), |(name, mechanism)| {
+        if expected()[name]["pose"] != "regular" {
+            return Vec::new();
+        }
         let Posed {
             geometry,
             structure,
             poses,
-        } = Posed::of(&mechanism);
-        println!("{name} tangents {}", poses[0].tangents.len());
-        for m in motions_to_ground(&mechanism, &geometry, &structure, &poses) {
-            println!(
-                "  {} f={} r={} t={} {}",
-                mechanism.links()[m.link].name,
-                m.freedom,
-                m.rotations,
-                m.translations,
-                m.class
-                    .map_or("-".into(), |c| format!("{} {c}", c.short_name()))
-            );
-        }
-        println!(
-            "  idle {:?}",
-            idle_links(&mechanism, &geometry, &structure, &poses)
+        } = Posed::of(mechanism);
+        let roles = branch_facts(mechanism, &geometry, &structure, &poses).roles;
+        let mut wrong = Vec::new();
+        for (joint, role) in mechanism.joints().iter().zip(&roles) {
+            let letter = match joint.kind {
+                _ if role.locked == Some(true) => "E",
+                K::Revolute => "R",
+                K::Prismatic => "T",
+                K::Screw => "H",
+                _ => continue,
+            };
+            let (a, b) = (joint.predecessor.link.0, joint.successor.link.0);
+            let seen =
+                relative_motions(mechanism, &geometry, &structure, &poses, &[(a, b), (b, a)]);
+            let found: Vec<&str> = seen
                 .iter()
-                .map(|i| mechanism.links()[i.link].name.clone())
-                .collect::<Vec<_>>()
-        );
-        println!(
-            "  locked {:?}",
-            locked(
-                &mechanism,
-                &branch_roles(&mechanism, &geometry, &structure, &poses)
-            )
-        );
+                .map(|motion| motion.class.map_or("none", |class| class.short_name()))
+                .collect();
+            if found != [letter; 2] {
+                wrong.push(format!(
+                    "{name}: across {} {found:?}, not {letter}",
+                    joint.name
+                ));
+            }
+        }
+        wrong
+    });
+    assert_none(&wrong.concat());
+}
+
+#[test]
+fn every_rod_between_two_balls_is_idle() {
+    for (name, prefix, count) in [("delta_3R_SS2", "rod", 6), ("h4_double_R", "rod", 8)] {
+        let mechanism = zoo_mechanism(name);
+        let posed = Posed::of(&mechanism);
+        let facts = branch_facts(&mechanism, &posed.geometry, &posed.structure, &posed.poses);
+        let idle: Vec<&str> = facts
+            .idle
+            .iter()
+            .map(|idle| mechanism.links()[idle.link].name.as_str())
+            .collect();
+        assert_eq!(idle.len(), count, "{name}: {idle:?}");
+        assert!(idle.iter().all(|link| link.starts_with(prefix)));
+        assert!(facts.idle.iter().all(|idle| idle.freedom == 1));
     }
+}
+
+#[test]
+fn long_chains_are_no_harder() {
+    let mechanism = scissor_lift(300).unwrap();
+    let posed = Posed::of(&mechanism);
+    let facts = branch_facts(&mechanism, &posed.geometry, &posed.structure, &posed.poses);
+    assert!(facts.idle.is_empty());
+    assert!(facts.roles.iter().all(|role| role.locked == Some(false)));
+    assert_eq!(facts.motions.len(), mechanism.links().len() - 1);
+    assert!(facts.motions.iter().all(|motion| motion.freedom == 1));
+    let straight = facts.motions.iter().filter(|m| m.rotations == 0).count();
+    assert_eq!(straight, 3, "both sliders and the platform");
+}
+
+/// What is said of a branch, in the names of the mechanism it is compared with: links are told by their joints.
+#[derive(Debug, Default, PartialEq)]
+struct Told {
+    locked: BTreeSet<String>,
+    idle: BTreeSet<(BTreeSet<String>, usize)>,
+    motions: BTreeMap<BTreeSet<String>, String>,
+}
+
+/// The classes themselves, in the order of [`Told::motions`].
+type Classes = BTreeMap<BTreeSet<String>, DisplacementSubgroup>;
+
+fn told(mechanism: &Mechanism, old: &dyn Fn(&str) -> String) -> (Told, Classes) {
+    let Posed {
+        geometry,
+        structure,
+        poses,
+    } = Posed::of(mechanism);
+    let facts = branch_facts(mechanism, &geometry, &structure, &poses);
+    let joints_of = |link: usize| -> BTreeSet<String> {
+        let joints = mechanism.joints().iter();
+        joints
+            .filter(|joint| joint.predecessor.link.0 == link || joint.successor.link.0 == link)
+            .map(|joint| old(&joint.name))
+            .collect()
+    };
+    let mut told = Told::default();
+    let mut classes = Classes::new();
+    for (joint, role) in mechanism.joints().iter().zip(&facts.roles) {
+        if role.locked == Some(true) {
+            told.locked.insert(old(&joint.name));
+        }
+        for part in &role.locked_parts {
+            let suffix = &part[joint.name.len()..];
+            told.locked.insert(format!("{}{suffix}", old(&joint.name)));
+        }
+    }
+    told.idle = facts
+        .idle
+        .iter()
+        .map(|idle| (joints_of(idle.link), idle.freedom))
+        .collect();
+    for motion in &facts.motions {
+        let class = motion.class.map_or("none", |class| class.short_name());
+        let words = format!("{} {} {class}", motion.freedom, motion.rotations);
+        told.motions.insert(joints_of(motion.link), words);
+        if let Some(class) = motion.class {
+            classes.insert(joints_of(motion.link), class);
+        }
+    }
+    (told, classes)
+}
+
+/// Whether the classes are those of the original moved by a displacement, axes and points included.
+fn same_place(found: &Classes, original: &Classes, moved: &Pose, within: f64) -> bool {
+    found
+        .iter()
+        .zip(original)
+        .all(|((_, found), (_, original))| {
+            let original = original.conjugated_by(moved);
+            let gauge = Gauge::new(moved.translation, 1.0, within).unwrap();
+            let space = ScrewSystem::span(&original.algebra(), &gauge).unwrap();
+            found.algebra().iter().all(|twist| space.contains(twist))
+        })
+}
+
+#[test]
+fn facts_do_not_depend_on_the_description() {
+    let known = expected();
+    let same = |name: &str| name.to_owned();
+    let (far, by) = ([1500, -2600, 777], [1500, -2600, 777].map(Number::integer));
+    let stays = Pose::identity();
+    let moves = Pose::translation(far.map(|x| x as f64).into());
+    let wrong = in_parallel(&zoo(), |(name, mechanism)| {
+        let mut wrong = Vec::new();
+        if known[name]["pose"] != "regular" {
+            return wrong;
+        }
+        let draft = Draft::of(mechanism);
+        let (original, classes) = told(mechanism, &same);
+        let mut compare = |how: &str, (found, there): (Told, Classes), by: Option<&Pose>| {
+            // Three thousand metres cost four digits, and a branch that passes close to another as many again.
+            let within = if how == "far away" { 1e-5 } else { 1e-8 };
+            if found != original {
+                wrong.push(format!("{name}, {how}: {found:?} instead of {original:?}"));
+            } else if !by.is_none_or(|by| same_place(&there, &classes, by, within)) {
+                wrong.push(format!("{name}, {how}: {there:?} instead of {classes:?}"));
+            }
+        };
+        for seed in 1..=2 {
+            let (shuffled, new_names) = draft.clone().shuffled(seed);
+            let old_names: BTreeMap<&str, &str> = new_names
+                .iter()
+                .map(|(old, new)| (new.as_str(), old.as_str()))
+                .collect();
+            let old = |name: &str| old_names[name].to_owned();
+            compare("shuffled", told(&shuffled.build(), &old), Some(&stays));
+        }
+        for (how, draft, by) in [
+            ("far away", draft.clone().ground_moved(&by), Some(&moves)),
+            ("with far frames", draft.clone().frames_moved(&by), None),
+            ("turned", draft.clone().ground_turned(), None),
+            ("in micrometres", draft.clone().scaled(6), None),
+            ("in megametres", draft.clone().scaled(-6), None),
+        ] {
+            compare(how, told(&draft.build(), &same), by);
+        }
+        wrong
+    });
+    assert_none(&wrong.concat());
 }

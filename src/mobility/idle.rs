@@ -140,3 +140,47 @@ fn idle_freedom(there: &LinkTwists, link: usize, joints: &[(usize, usize)]) -> O
     let own_motion = OneSided::of(alone.collect())?;
     there.limits.rank(&own_motion.values)
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::branch_samples::Sample;
+    use super::*;
+
+    fn idle(sample: &Sample) -> Vec<(&str, usize)> {
+        idle_links(
+            &sample.mechanism,
+            &sample.geometry,
+            &sample.structure,
+            &sample.poses,
+        )
+        .iter()
+        .map(|idle| {
+            let link = &sample.mechanism.links()[idle.link];
+            (link.name.as_str(), idle.freedom)
+        })
+        .collect()
+    }
+
+    #[test]
+    fn rods_spin_and_sleeves_slide() {
+        assert_eq!(idle(&Sample::rod()), [("r1", 1)]);
+        assert_eq!(idle(&Sample::sleeve()), [("r1", 2)]);
+    }
+
+    #[test]
+    fn links_that_move_others_are_not_idle() {
+        assert!(idle(&Sample::parallelogram()).is_empty());
+    }
+
+    #[test]
+    fn the_poorest_pose_counts() {
+        let mut sample = Sample::sleeve();
+        sample.poses[1].tangents.pop();
+        assert_eq!(idle(&sample), [("r1", 1)]);
+        sample.poses[0].tangents.clear();
+        assert!(idle(&sample).is_empty());
+        sample.poses.clear();
+        assert!(idle(&sample).is_empty());
+    }
+}

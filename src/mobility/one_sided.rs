@@ -29,6 +29,9 @@ impl OneSided {
             .collect();
         // A computed cosine is off by up to (length + 3) roundings.
         let tolerance = 2.0 * (length + 3) as f64 * f64::EPSILON;
+        // Below u² of the largest a vector is what rounding left of a dependent one, and would shrink for ever.
+        let largest = vectors.iter().map(|v| dot(v, v)).fold(0.0, f64::max);
+        let negligible = f64::EPSILON.powi(4) * largest;
         for _ in 0..MOST_SWEEPS {
             let mut settled = true;
             for i in 0..count {
@@ -38,9 +41,7 @@ impl OneSided {
                     if !(aa + bb).is_finite() {
                         return None;
                     }
-                    // Below u² of the other a vector is what rounding left of a dependent one.
-                    let negligible = aa.min(bb) <= f64::EPSILON.powi(4) * aa.max(bb);
-                    if negligible || ab.abs() <= tolerance * (aa * bb).sqrt() {
+                    if aa.min(bb) <= negligible || ab.abs() <= tolerance * aa.sqrt() * bb.sqrt() {
                         continue;
                     }
                     settled = false;
@@ -123,6 +124,14 @@ mod tests {
     }
 
     proptest! {
+        /// Many vectors in a space of two dimensions, at the edge of what rounding leaves.
+        #[test]
+        fn dependent_vectors_settle(entries in proptest::collection::vec(-1.0..1.0_f64, 24)) {
+            let given: Vec<Vec<f64>> = entries.chunks(2).map(<[f64]>::to_vec).collect();
+            let found = OneSided::of(given).unwrap();
+            prop_assert!(found.values[2] < 1e-14);
+        }
+
         /// Small whole numbers are where decompositions go wrong: many dependent and equal rows.
         #[test]
         fn combinations_are_orthonormal_and_give_the_vectors(
@@ -141,9 +150,9 @@ mod tests {
                     let product = dot(&found.vectors[i], &found.vectors[j]);
                     prop_assert!((product - expected * found.values[i].powi(2)).abs() < 1e-12);
                 }
-                for k in 0..length {
+                for (k, x) in found.vectors[i].iter().enumerate() {
                     let sum: f64 = (0..6).map(|j| found.combinations[i][j] * given[j][k]).sum();
-                    prop_assert!((sum - found.vectors[i][k]).abs() < 1e-13);
+                    prop_assert!((sum - x).abs() < 1e-13);
                 }
             }
         }

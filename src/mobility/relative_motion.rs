@@ -17,7 +17,9 @@ use super::one_sided::OneSided;
 use super::structure::Structure;
 use super::tangent_space::Limits;
 use crate::closure::Geometry;
-use crate::group::{DisplacementSubgroup, Gauge, GroupError, Pose, ScrewSystem, Twist, classify};
+use crate::group::{
+    Axis, DisplacementSubgroup, Gauge, GroupError, Pose, ScrewSystem, Twist, classify,
+};
 use crate::mechanism::Mechanism;
 use nalgebra::Vector3;
 
@@ -128,7 +130,7 @@ struct Span {
 impl Span {
     /// `None` where the dimension is doubtful.
     fn of(twists: &[Twist], length: f64, limits: &Limits) -> Option<Self> {
-        let mut rows = vec![Vec::with_capacity(twists.len()); 6];
+        let mut rows = vec![Vec::new(); 6];
         for twist in twists {
             for (row, x) in rows.iter_mut().zip(coordinates(twist, length)) {
                 row.push(x);
@@ -193,5 +195,178 @@ fn subgroup(
     Ok(found
         .subgroup
         .filter(|_| clear)
-        .map(|subgroup| subgroup.conjugated_by(&back)))
+        .map(|subgroup| tidied(subgroup.conjugated_by(&back), error, length)))
+}
+
+/// The same geometry with coordinates that are nothing but error set to zero.
+///
+/// Even of coarse numbers no more than a billionth is taken for error here: a coordinate that means something to a reader
+/// is not to vanish.
+fn tidied(subgroup: DisplacementSubgroup, error: f64, length: f64) -> DisplacementSubgroup {
+    use DisplacementSubgroup as G;
+    let error = error.min(1e-9);
+    let cleaned = |v: Vector3<f64>, noise: f64| v.map(|x| if x.abs() <= noise { 0.0 } else { x });
+    // What is left is a unit vector to within the square of the error.
+    let direction = |v: Vector3<f64>| cleaned(v, error);
+    let place = |v: Vector3<f64>| cleaned(v, error * (length + v.norm()));
+    let line = |axis: Axis| Axis {
+        point: place(axis.point),
+        direction: direction(axis.direction),
+    };
+    match subgroup {
+        G::Rotation { axis } => G::Rotation { axis: line(axis) },
+        G::Cylindrical { axis } => G::Cylindrical { axis: line(axis) },
+        G::Helical { axis, pitch } => G::Helical {
+            axis: line(axis),
+            pitch,
+        },
+        G::Translation { direction: d } => G::Translation {
+            direction: direction(d),
+        },
+        G::PlanarTranslation { normal } => G::PlanarTranslation {
+            normal: direction(normal),
+        },
+        G::Planar { normal } => G::Planar {
+            normal: direction(normal),
+        },
+        G::Spherical { centre } => G::Spherical {
+            centre: place(centre),
+        },
+        G::TranslatingScrew {
+            direction: d,
+            pitch,
+        } => G::TranslatingScrew {
+            direction: direction(d),
+            pitch,
+        },
+        G::Schoenflies { direction: d } => G::Schoenflies {
+            direction: direction(d),
+        },
+        G::Identity | G::SpatialTranslation | G::General => subgroup,
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::branch_samples::Sample;
+    use super::*;
+    use crate::mechanism::{Direction, Frame, JointBuilder, JointKind, MechanismBuilder};
+    use crate::number::Number;
+
+    impl Sample {
+        fn motion(&self, link: &str, relative_to: &str) -> Option<RelativeMotion> {
+            let index = |name| self.mechanism.link_named(name).unwrap().0;
+            relative_motions(
+                &self.mechanism,
+                &self.geometry,
+                &self.structure,
+                &self.poses,
+                &[(index(link), index(relative_to))],
+            )
+            .pop()
+        }
+
+        fn words(&self, link: &str, relative_to: &str) -> String {
+            let motion = self.motion(link, relative_to).unwrap();
+            let class = motion.class.map_or("-", |class| class.short_name());
+            format!("{}{} {class}", motion.rotations, motion.translations)
+        }
+    }
+
+    #[test]
+    fn a_coupler_on_a_circle_is_in_no_subgroup() {
+        let sample = Sample::parallelogram();
+        assert_eq!(sample.words("r2", "ground"), "01 -");
+        assert_eq!(sample.words("r1", "r3"), "01 -");
+        assert_eq!(sample.words("r2", "r2"), "00 E");
+        let crank = sample.motion("r3", "ground").unwrap();
+        let Some(DisplacementSubgroup::Rotation { axis }) = crank.class else {
+            panic!("{crank:?}")
+        };
+        assert_eq!(axis.direction, Vector3::z());
+        assert!((axis.point - Vector3::new(2.0, 0.0, 0.0)).norm() < 1e-12);
+        // In the frame of the crank, which has its origin at its first joint; the other hinge is one length away from it.
+        let coupler = sample.motion("r2", "r1").unwrap();
+        let Some(DisplacementSubgroup::Rotation { axis }) = coupler.class else {
+            panic!("{coupler:?}")
+        };
+        assert!((axis.point - Vector3::new(0.0, 1.0, 0.0)).norm() < 1e-12);
+    }
+
+    #[test]
+    fn one_pose_tells_freedoms_but_no_class() {
+        let mut sample = Sample::parallelogram();
+        sample.poses.truncate(1);
+        assert_eq!(sample.words("r1", "ground"), "10 -");
+        assert_eq!(sample.words("r1", "r1"), "00 E");
+        sample.poses.clear();
+        assert!(sample.motion("r1", "ground").is_none());
+    }
+
+    #[test]
+    fn poses_of_another_mechanism_are_not_used() {
+        let mut sample = Sample::parallelogram();
+        sample.poses[0].tangents[0].pop();
+        sample.poses[1].states.pop();
+        assert_eq!(sample.words("r1", "ground"), "10 -");
+        sample.poses[2].tangents[0][1] = f64::NAN;
+        assert!(sample.motion("r1", "ground").is_none());
+    }
+
+    #[test]
+    fn the_scale_and_the_choice_of_the_tangents_mean_nothing() {
+        let mut sample = Sample::sleeve();
+        assert_eq!(sample.words("r1", "ground"), "11 C");
+        for tangents in sample.poses.iter_mut().map(|pose| &mut pose.tangents) {
+            let repeated = tangents[1].iter().map(|x| 1e-200 * x).collect();
+            tangents.push(repeated);
+        }
+        assert_eq!(sample.words("r1", "ground"), "11 C");
+    }
+
+    #[test]
+    fn bridges_move_even_where_the_tangents_leave_them_out() {
+        let number = |x: i64| Number::integer(x);
+        let mut builder = MechanismBuilder::new("arm");
+        builder
+            .link("ground")
+            .link("arm")
+            .link("hand")
+            .link("stone");
+        let along = |x, y, z| Direction([x, y, z].map(number));
+        builder.joint(
+            JointBuilder::tree("turn", JointKind::Revolute, "ground", "arm")
+                .origin(Frame::at([5, 0, 0].map(number)))
+                .axis(along(0, 0, 1)),
+        );
+        builder.joint(
+            JointBuilder::tree("reach", JointKind::Prismatic, "arm", "hand").axis(along(1, 0, 0)),
+        );
+        builder.floating("drop", "ground", "stone", Frame::identity());
+        let poses = [0.2, 0.7].map(|x: f64| (vec![vec![x], vec![x]], vec![]));
+        let sample = Sample::new(builder.build().unwrap(), poses.into());
+        assert_eq!(sample.words("arm", "ground"), "10 R");
+        assert_eq!(sample.words("hand", "arm"), "01 T");
+        assert_eq!(sample.words("hand", "ground"), "11 -");
+        // Nothing holds the stone.
+        assert_eq!(sample.words("stone", "hand"), "33 D");
+        let all = motions_to_ground(
+            &sample.mechanism,
+            &sample.geometry,
+            &sample.structure,
+            &sample.poses,
+        );
+        assert_eq!(all.len(), 3);
+    }
+
+    #[test]
+    fn tangents_that_are_none_are_not_trusted() {
+        // One hinge moves by half as much again: the cycle does not close along that.
+        let mut sample = Sample::parallelogram();
+        for pose in &mut sample.poses {
+            pose.tangents[0][1] *= 1.5;
+        }
+        assert!(sample.motion("r2", "ground").is_none());
+    }
 }

@@ -1,8 +1,7 @@
 //! Generic poses near a regular one: every part follows its own motions a finite way.
 
 use kutzbach::closure::{
-    Arithmetic, CycleJacobian, Geometry, JointState, Part, assemble, entry_accuracy, follow,
-    jacobian,
+    Arithmetic, CycleJacobian, Geometry, Part, assemble, entry_accuracy, follow, jacobian,
 };
 use kutzbach::matrix::{SplitMix64, decide, null_basis};
 use kutzbach::mechanism::Mechanism;
@@ -115,30 +114,24 @@ fn follow_part(
         }
     }
     let largest = direction.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-    let mut reached: Option<(Vec<JointState<f64>>, Vec<Vec<f64>>)> = None;
-    for shorter in SHORTER {
-        let step: Vec<f64> = direction
-            .iter()
-            .map(|x| {
-                if largest > 0.0 {
-                    x / largest * way * shorter
-                } else {
-                    0.0
-                }
+    let (states, vectors) = SHORTER
+        .iter()
+        .find_map(|shorter| {
+            let scale = if largest > 0.0 {
+                way * shorter / largest
+            } else {
+                0.0
+            };
+            let step: Vec<f64> = direction.iter().map(|x| x * scale).collect();
+            let mut states = pose.states.clone();
+            follow(mechanism, geometry, &mut states, part, &step, |there| {
+                let moved = jacobian(mechanism, geometry, there, part)?;
+                Ok((there.to_vec(), tangents(mechanism, &moved)))
             })
-            .collect();
-        let mut states = pose.states.clone();
-        let found = follow(mechanism, geometry, &mut states, part, &step, |there| {
-            let moved = jacobian(mechanism, geometry, there, part)?;
-            Ok((there.to_vec(), tangents(mechanism, &moved)))
+            .unwrap()
+            .filter(|(_, vectors)| vectors.len() == basis.len())
         })
-        .unwrap();
-        reached = found.filter(|(_, vectors)| vectors.len() == basis.len());
-        if reached.is_some() {
-            break;
-        }
-    }
-    let (states, vectors) = reached.expect("no regular pose nearby");
+        .expect("no regular pose nearby");
     pose.states = states;
     for vector in vectors {
         let mut whole = vec![0.0; count];
