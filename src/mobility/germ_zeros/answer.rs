@@ -232,7 +232,12 @@ fn join_along(
 fn paired(search: &Search<'_>) -> (Vec<Pair>, Vec<usize>) {
     let tracks: Vec<&[Vec<f64>]> = search.halves.iter().map(|h| &h.track.z[..]).collect();
     // y = (t^m, …, t^n) with n > m is no zero of equations of degree below m.
-    pair(&tracks, &search.radii, search.system.degree().clamp(1, 5))
+    let accuracies: Vec<f64> = search
+        .halves
+        .iter()
+        .map(|half| if half.reduced { 1e-10 } else { half.same })
+        .collect();
+    pair(&tracks, &accuracies, &search.radii, search.system.degree().clamp(1, 5))
 }
 
 fn collect(search: &mut Search<'_>, answer: &mut GermZeros) {

@@ -1,6 +1,6 @@
 //! Moving a point onto the zero set: damped Gauss–Newton steps on a sphere or in an affine slice.
 
-use super::small::{least_squares, length, plus, project, unit};
+use super::small::{dot, least_squares, length, plus, project, singular, unit};
 use super::system::{Level, Work};
 
 /// Where the point may go.
@@ -117,15 +117,43 @@ pub(super) fn land(
     }
 }
 
-/// Gauss–Newton without damping, accepted only where it contracts at once: the first correction is then at most a few
+/// The shortest step that solves the linearised equations, these taken to have the given rank: what is left of the
+/// smaller singular values is noise, or the terms cut off.
+fn step_of_rank(work: &Work, z: &[f64], rank: usize) -> Vec<f64> {
+    let rows: Vec<Vec<f64>> = work
+        .jacobian
+        .iter()
+        .map(|row| plus(row, -dot(row, z), z))
+        .collect();
+    let (values, vectors) = singular(&rows, z.len());
+    let mut sum = vec![0.0; z.len()];
+    for (value, direction) in values.iter().zip(&vectors).take(rank) {
+        if *value > 0.0 {
+            let image: f64 = rows
+                .iter()
+                .zip(&work.values)
+                .map(|(row, v)| dot(row, direction) * v)
+                .sum();
+            sum = plus(&sum, -image / (value * value), direction);
+        }
+    }
+    sum
+}
+
+/// Gauss–Newton without damping on a set of dimension δ − rank, accepted only where it contracts at once: the first correction is then at most a few
 /// tenths of the distance to any other zero. `None` otherwise.
-pub(super) fn contract(level: &Level<'_>, start: &[f64], work: &mut Work) -> Option<Landing> {
+pub(super) fn contract(
+    level: &Level<'_>,
+    start: &[f64],
+    rank: usize,
+    work: &mut Work,
+) -> Option<Landing> {
     let mut z = start.to_vec();
     let mut last = f64::INFINITY;
     let mut first = 0.0;
     for iteration in 0..10 {
         level.evaluate(&z, work);
-        let correction = step(work, &z, &Within::Sphere, 1e-24);
+        let correction = step_of_rank(work, &z, rank);
         let reach = length(&correction);
         if !reach.is_finite() || reach > 0.3 {
             return None;

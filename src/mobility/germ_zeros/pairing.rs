@@ -67,8 +67,10 @@ fn fit(h: &[Vec<f64>], g: &[Vec<f64>], radii: &[f64], m: usize) -> Fit {
 }
 
 /// Pairs half-branches given as directions at `radii`, outermost first; those without a partner are left over.
+/// `accuracies`: how well the directions of each are known.
 pub(super) fn pair(
     tracks: &[&[Vec<f64>]],
+    accuracies: &[f64],
     radii: &[f64],
     largest_ramification: usize,
 ) -> (Vec<Pair>, Vec<usize>) {
@@ -80,8 +82,11 @@ pub(super) fn pair(
             let best = (1..=largest_ramification)
                 .map(|m| (m, fit(&tracks[i][1..], &tracks[j][1..], inner, m)))
                 // A larger m is more flexible: it has to be better to be believed.
-                // Below 1e-10 all misfits are rounding.
-                .map(|(m, fit)| (fit.misfit.max(1e-10) * f64::powi(2.0, m as i32), m, fit))
+                .map(|(m, fit)| {
+                    // Below the accuracy of the points all misfits are alike.
+                    let misfit = fit.misfit.max(accuracies[i]).max(accuracies[j]);
+                    (misfit * f64::powi(2.0, m as i32), m, fit)
+                })
                 .min_by(|a, b| a.0.total_cmp(&b.0));
             if let Some((score, m, fit)) = best {
                 choices.push((score, i, j, m, fit));

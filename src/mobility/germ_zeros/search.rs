@@ -17,7 +17,7 @@ pub(super) struct Half {
     pub(super) reduced: bool,
     pub(super) hits: usize,
     /// Points closer than this are the same.
-    same: f64,
+    pub(super) same: f64,
 }
 
 /// What has been found so far.
@@ -77,6 +77,7 @@ impl<'a> Search<'a> {
             };
             self.starts += 1;
             let landed = land(&level, &start, &Within::Sphere, 80, &mut self.work);
+            let landed = self.settled(&level, landed);
             if self.sort(&level, &landed) {
                 last_new = self.starts;
                 queue.push(landed.z.iter().map(|x| -x).collect());
@@ -86,6 +87,7 @@ impl<'a> Search<'a> {
         for _ in 0..self.starts / 3 {
             let start = self.next_start();
             let landed = land(&level, &start, &Within::Sphere, 80, &mut self.work);
+            let landed = self.settled(&level, landed);
             self.sort_inner(&level, 2, &landed);
         }
     }
@@ -129,6 +131,7 @@ impl<'a> Search<'a> {
             self.starts += 1;
             let there = Level::new(self.system, from);
             let landed = land(&there, &z, &Within::Sphere, 80, &mut self.work);
+            let landed = self.settled(&there, landed);
             if landed.above_truncation > 1.0 {
                 continue;
             }
@@ -143,6 +146,26 @@ impl<'a> Search<'a> {
                 }
             }
         }
+    }
+
+    /// A point where the equations are too large for noise but small enough for terms that were cut off may be a saddle
+    /// between two zeros: kicked away from it, the search goes on.
+    fn settled(&mut self, level: &Level<'_>, landed: Landing) -> Landing {
+        if landed.above_noise <= 1.0 || landed.above_truncation > 1.0 {
+            return landed;
+        }
+        // Zeros of multiplicity two are as far away as the root of the values.
+        let reach = (4.0 * landed.size.sqrt()).min(0.1);
+        let mut best = landed;
+        for _ in 0..4 {
+            let by = random_direction(best.z.len(), &mut self.random);
+            let start = unit(plus(&best.z, reach, &by));
+            let again = land(level, &start, &Within::Sphere, 80, &mut self.work);
+            if again.size < 0.5 * best.size && distance(&again.z, &best.z) < 4.0 * reach {
+                best = again;
+            }
+        }
+        best
     }
 
     /// Puts a landing on the outer sphere where it belongs; whether it is something new.

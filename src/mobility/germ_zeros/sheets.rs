@@ -175,7 +175,7 @@ fn advance(
 ) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
     // A correction that contracts at once stays on its sheet; at multiple zeros nothing contracts.
     let landed = if reduced {
-        contract(level, start, work)?
+        contract(level, start, start.len() - tangent.len(), work)?
     } else {
         land(level, start, &Within::Sphere, 40, work)
     };

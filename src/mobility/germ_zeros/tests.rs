@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::small::{dot, orthonormal, unit};
+use super::small::orthonormal;
 use super::*;
 use crate::group::{Monomials, Series};
 use crate::matrix::SplitMix64;

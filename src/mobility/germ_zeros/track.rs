@@ -80,7 +80,7 @@ fn follow_regular(
             for (k, weight) in [(k1, 1.0), (k2, 2.0), (k3, 2.0), (k4, 1.0)] {
                 next = plus(&next, weight * stride / 6.0, &k);
             }
-            let landed = contract(&last, &unit(next), work)?;
+            let landed = contract(&last, &unit(next), rank, work)?;
             (landed.above_truncation <= 1.0).then_some(landed)
         })();
         match predicted {
