@@ -49,7 +49,7 @@ fn table() {
         let (found, free) = findings(mechanism);
         let finite: Option<usize> = found.iter().map(|f| f.finite).sum::<Option<usize>>();
         let lower: usize = found.iter().map(|f| f.lower).sum();
-        let known = expected[name]["finite"].as_u64().unwrap() as usize;
+        let known: usize = expected[name]["finite"].as_u64().unwrap() as usize;
         let pose = expected[name]["pose"].as_str().unwrap();
         let wrong = finite.is_some_and(|f| f + free != known || pose == "singular") || lower + free > known;
         let class: Vec<_> = found.iter().map(|f| f.class.map(|c| c.word())).collect();

@@ -1,17 +1,20 @@
 //! Chains of screws and of what replaced whole loops, between two links.
 
 use super::clear;
+use crate::mechanism::JointKind;
 use crate::group::{Gauge, GroupError, Margin, ScrewSystem, Subalgebra, Twist};
 
 /// One member of a chain: a smooth map into SE(3), the identity at the pose.
 #[derive(Clone, Debug)]
 pub enum Piece {
-    /// The exponential of one screw.
-    Screw {
-        /// The joint it belongs to.
+    /// Some screws of a joint that are not taken apart.
+    Factor {
+        /// The joint.
         joint: usize,
-        /// The screw.
-        twist: Twist,
+        /// Number of the subgroup in the joint's product of subgroups. Factors of one subgroup may change places.
+        subgroup: usize,
+        /// The screws.
+        twists: Vec<Twist>,
     },
     /// What replaced a loop.
     Replaced(Box<Replaced>),
@@ -34,7 +37,7 @@ impl Piece {
     /// Number of variables.
     pub fn freedom(&self) -> usize {
         match self {
-            Self::Screw { .. } => 1,
+            Self::Factor { twists, .. } => twists.len(),
             Self::Replaced(loop_) => loop_.freedom,
         }
     }
@@ -42,10 +45,48 @@ impl Piece {
     /// The joints in it.
     pub fn joints(&self) -> &[usize] {
         match self {
-            Self::Screw { joint, .. } => std::slice::from_ref(joint),
+            Self::Factor { joint, .. } => std::slice::from_ref(joint),
             Self::Replaced(loop_) => &loop_.joints,
         }
     }
+}
+
+/// The pieces of a joint, from its screws in the order of its variables.
+///
+/// A joint of [`JointKind::is_subgroup`] is one subgroup, every other a product of two. Planar motions, cylindrical ones and
+/// the like are translations times the rotations or screws about an axis, in either order; where the translations end
+/// depends on nothing but the joint. How a ball or a plane's translations could be taken apart depends on the choice of
+/// axes, and they are left whole.
+pub fn of_joint(joint: usize, kind: JointKind, screws: &[Twist]) -> Vec<Piece> {
+    let subgroups: &[&[usize]] = match kind {
+        JointKind::Fixed => &[],
+        JointKind::Revolute | JointKind::Prismatic | JointKind::Screw => &[&[1]],
+        JointKind::Cylindrical => &[&[1, 1]],
+        JointKind::Universal => &[&[1], &[1]],
+        JointKind::PlanarTranslation => &[&[2]],
+        JointKind::Planar | JointKind::TranslatingScrew => &[&[2, 1]],
+        JointKind::Spherical | JointKind::Translational => &[&[3]],
+        JointKind::Schoenflies => &[&[3, 1]],
+        JointKind::PointOnLine => &[&[3], &[1]],
+        JointKind::LineOnPlane => &[&[1], &[2, 1]],
+        JointKind::PointOnPlane => &[&[3], &[2]],
+        // The two swings of the rod turn about its first point.
+        JointKind::Distance => &[&[2], &[3]],
+    };
+    let mut rest = screws;
+    let mut pieces = Vec::new();
+    for (subgroup, factors) in subgroups.iter().enumerate() {
+        for &number in *factors {
+            let (own, others) = rest.split_at(number.min(rest.len()));
+            rest = others;
+            pieces.push(Piece::Factor {
+                joint,
+                subgroup,
+                twists: own.to_vec(),
+            });
+        }
+    }
+    pieces
 }
 
 /// Freedoms of some pieces together.
@@ -73,7 +114,7 @@ pub fn span<'a>(
     let mut spaces = Vec::new();
     for piece in pieces {
         match piece {
-            Piece::Screw { twist, .. } => twists.push(*twist),
+            Piece::Factor { twists: own, .. } => twists.extend(own),
             Piece::Replaced(loop_) => spaces.push(&loop_.span),
         }
     }
@@ -90,7 +131,7 @@ pub fn enclosing<'a>(
     let mut spaces = Vec::new();
     for piece in pieces {
         match piece {
-            Piece::Screw { twist, .. } => twists.push(*twist),
+            Piece::Factor { twists: own, .. } => twists.extend(own),
             Piece::Replaced(loop_) => spaces.push(loop_.algebra.system()),
         }
     }

@@ -44,7 +44,7 @@
 //!
 //! # Cost
 //! Rule 1: two or three decompositions of six-rowed matrices for every cycle. Rule 2: a few for every pair of cuts of loops up
-//! to [`LONGEST_SPLIT`](one_loop::LONGEST_SPLIT) screws. Rule 3: one such loop for every pair of chains, on parts of up to
+//! with up to [`MOST_CUTS`](one_loop::MOST_CUTS) of them. Rule 3: one such loop for every pair of chains, on parts of up to
 //! [`MOST_JOINTS`] joints.
 
 mod chain;

@@ -105,30 +105,42 @@ pub fn proof(mechanism: &Mechanism, pieces: &[&Piece], proof: &Proof) -> String 
             named_algebra(group),
             equations(group.dimension())
         ),
-        Proof::Split {
-            start,
-            length,
-            first,
-            second,
-            common,
-        } => {
-            let (inside, outside): (Vec<_>, Vec<_>) = (0..pieces.len())
-                .map(|i| (start + i) % pieces.len())
-                .partition(|i| (*start..start + length).contains(i));
-            let of = |arc: Vec<usize>| {
-                list(
-                    mechanism,
-                    &chain::joints(arc.into_iter().map(|i| pieces[i])),
+        Proof::Split(arcs, common) => {
+            let [first, second] = arcs.each_ref().map(|arc| {
+                let joints = chain::joints(arc.pieces.iter().map(|&i| pieces[i]));
+                format!(
+                    "chain {} generates {}",
+                    list(mechanism, &joints),
+                    named_algebra(&arc.group)
                 )
-            };
-            format!(
-                "chain {} generates {}, chain {} generates {}; they meet in {}",
-                of(inside),
-                named_algebra(first),
-                of(outside),
-                named_algebra(second),
-                named_algebra(common)
-            )
+            });
+            format!("{first}, {second}; they meet in {}", named_algebra(common))
+        }
+        Proof::Held { arcs, .. } => {
+            let loose: Vec<String> = arcs
+                .iter()
+                .filter(|arc| {
+                    chain::freedom(arc.pieces.iter().map(|&i| pieces[i])) > arc.group.dimension()
+                })
+                .map(|arc| {
+                    let joints = chain::joints(arc.pieces.iter().map(|&i| pieces[i]));
+                    format!(
+                        "chain {} generates {}",
+                        list(mechanism, &joints),
+                        named_algebra(&arc.group)
+                    )
+                })
+                .collect();
+            let all = list(mechanism, &all);
+            if loose.is_empty() {
+                format!("no velocity closes the loop {all}, so it stands still")
+            } else {
+                format!(
+                    "in the loop {all}, {}; beyond that no velocity closes the loop, so only what moves within these chains \
+                     moves",
+                    loose.join(", ")
+                )
+            }
         }
     }
 }
