@@ -1,8 +1,12 @@
 //! Chains of screws and of what replaced whole loops, between two links.
 
 use super::clear;
-use crate::mechanism::JointKind;
 use crate::group::{Gauge, GroupError, Margin, ScrewSystem, Subalgebra, Twist};
+use crate::mechanism::JointKind;
+use nalgebra::Vector6;
+
+/// How many times its error a number must exceed to be told from zero without a decomposition.
+const SAFE: f64 = 100.0;
 
 /// One member of a chain: a smooth map into SE(3), the identity at the pose.
 #[derive(Clone, Debug)]
@@ -13,6 +17,8 @@ pub enum Piece {
         joint: usize,
         /// Number of the subgroup in the joint's product of subgroups. Factors of one subgroup may change places.
         subgroup: usize,
+        /// The joint's variable of the first screw; the others follow.
+        first: usize,
         /// The screws.
         twists: Vec<Twist>,
     },
@@ -73,17 +79,17 @@ pub fn of_joint(joint: usize, kind: JointKind, screws: &[Twist]) -> Vec<Piece> {
         // The two swings of the rod turn about its first point.
         JointKind::Distance => &[&[2], &[3]],
     };
-    let mut rest = screws;
+    let mut first = 0;
     let mut pieces = Vec::new();
     for (subgroup, factors) in subgroups.iter().enumerate() {
         for &number in *factors {
-            let (own, others) = rest.split_at(number.min(rest.len()));
-            rest = others;
             pieces.push(Piece::Factor {
                 joint,
                 subgroup,
-                twists: own.to_vec(),
+                first,
+                twists: screws.iter().skip(first).take(number).copied().collect(),
             });
+            first += number;
         }
     }
     pieces
@@ -146,12 +152,23 @@ pub fn swept<'a>(
     pieces: impl IntoIterator<Item = &'a Piece> + Clone,
     gauge: &Gauge,
 ) -> Result<Option<Subalgebra>, GroupError> {
+    if !may_close(pieces.clone(), gauge) {
+        return Ok(None);
+    }
     let span = span(pieces.clone(), gauge)?;
+    swept_by(pieces, &span)
+}
+
+/// [`swept`] where the span is known.
+pub fn swept_by<'a>(
+    pieces: impl IntoIterator<Item = &'a Piece>,
+    span: &ScrewSystem,
+) -> Result<Option<Subalgebra>, GroupError> {
     // No subalgebra of se(3) has dimension 5.
     if span.dimension() == 5 || !clear(span.margin()) {
         return Ok(None);
     }
-    let Some(algebra) = Subalgebra::from_system(&span)?.filter(|a| clear(a.margin())) else {
+    let Some(algebra) = Subalgebra::from_system(span)?.filter(|a| clear(a.margin())) else {
         return Ok(None);
     };
     for piece in pieces {
@@ -163,6 +180,46 @@ pub fn swept<'a>(
         }
     }
     Ok(Some(algebra))
+}
+
+/// A quick look that spares most decompositions: false only where the span is certainly not closed, or only just.
+///
+/// Of less than six freedoms, two turns about directions that differ generate a group that they span only if it is that of
+/// the rotations about a point: then there are no translations and all axes meet. Numbers within [`SAFE`] times their
+/// accuracy are left to the decompositions.
+fn may_close<'a>(pieces: impl IntoIterator<Item = &'a Piece> + Clone, gauge: &Gauge) -> bool {
+    if freedom(pieces.clone()) >= 6 {
+        return true;
+    }
+    let mut first: Option<Vector6<f64>> = None;
+    let mut parallel = true;
+    let mut slides = false;
+    let mut skew = false;
+    let visible = SAFE * gauge.tolerance().max(1e-12);
+    for piece in pieces {
+        let Piece::Factor { twists, .. } = piece else {
+            return true;
+        };
+        for twist in twists {
+            let own = gauge.measure(twist);
+            let (turn, moment) = (own.fixed_rows::<3>(0), own.fixed_rows::<3>(3));
+            let size = own.norm();
+            if turn.norm() < 0.5 {
+                slides = true;
+                continue;
+            }
+            skew |= turn.dot(&moment).abs() > visible * size * size;
+            let Some(other) = first else {
+                first = Some(own);
+                continue;
+            };
+            let (turn2, moment2) = (other.fixed_rows::<3>(0), other.fixed_rows::<3>(3));
+            parallel &= turn.cross(&turn2).norm() <= visible;
+            let meeting = turn.dot(&moment2) + turn2.dot(&moment);
+            skew |= meeting.abs() > visible * size * other.norm();
+        }
+    }
+    parallel || !(slides || skew)
 }
 
 /// Whether one algebra clearly lies in another.

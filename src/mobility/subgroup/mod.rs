@@ -159,6 +159,13 @@ pub fn subgroup_finding(
         Ok(None) => {}
         Err(error) => return open(finding, &words::failure(&error)),
     }
+    if freedom == 0 {
+        finding.decide(0, MobilityClass::Trivial);
+        finding.text = format!(
+            "{reading}no velocity at all satisfies the closure equations: the part stands still, whatever its subgroups"
+        );
+        return Ok(finding);
+    }
     if !part.couplings.is_empty() {
         return open(
             finding,
@@ -171,7 +178,7 @@ pub fn subgroup_finding(
             "no loop space explains the rank, and the part is too large to be reduced",
         );
     }
-    let outcome = reduced(mechanism, geometry, states, structure, part, accuracy);
+    let outcome = reduced(mechanism, geometry, states, structure, part, rank, accuracy);
     match outcome {
         Err(error) => open(finding, &words::failure(&error)),
         Ok(outcome) => {
@@ -187,9 +194,10 @@ fn reduced(
     states: &[JointState<f64>],
     structure: &Structure,
     part: &Part,
+    rank: &PartRank,
     accuracy: f64,
 ) -> Result<Outcome, GroupError> {
-    let placed = placing::place(mechanism, geometry, states, part, accuracy)?;
+    let placed = placing::place(mechanism, geometry, states, part, rank, accuracy)?;
     let mut network = Network::new(mechanism, structure, part, &placed)?;
     network.reduce()?;
     network.conclude()

@@ -68,6 +68,8 @@ pub struct Network<'a> {
     refused: BTreeSet<(usize, usize)>,
     /// Pairs whose loop has six independent equations; they wait for those of fewer, whose subgroups say more.
     postponed: BTreeMap<(usize, usize), (Replaced, String, Margin)>,
+    /// Edges found not to allow everything.
+    constraining: BTreeSet<usize>,
     /// Links around which something has changed.
     changed: BTreeSet<usize>,
     settled: usize,
@@ -93,6 +95,7 @@ impl<'a> Network<'a> {
             at: BTreeMap::new(),
             refused: BTreeSet::new(),
             postponed: BTreeMap::new(),
+            constraining: BTreeSet::new(),
             changed: BTreeSet::new(),
             settled: 0,
             steps: Vec::new(),
@@ -378,11 +381,12 @@ impl<'a> Network<'a> {
                 continue;
             };
             let free = freedom(&edge.pieces);
-            if free < 6 {
+            if free < 6 || self.constraining.contains(&index) {
                 continue;
             }
-            let Some(group) = swept(&edge.pieces, &self.gauge)?.filter(|g| g.dimension() == 6)
-            else {
+            let group = swept(&edge.pieces, &self.gauge)?.filter(|g| g.dimension() == 6);
+            let Some(group) = group else {
+                self.constraining.insert(index);
                 continue;
             };
             let step = words::free_chain(self.mechanism, &edge.pieces);

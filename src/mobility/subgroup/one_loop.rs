@@ -1,6 +1,6 @@
 //! Why the configurations of one loop of pieces are a manifold with tangent space ker J.
 
-use super::chain::{Piece, freedom, span, swept};
+use super::chain::{Piece, freedom, span, swept, swept_by};
 use super::clear;
 use crate::group::{Gauge, GroupError, Margin, Subalgebra};
 use std::collections::BTreeMap;
@@ -63,10 +63,10 @@ impl Proof {
 /// Looks for a proof, the more special the better. The pieces are in the order of the loop; where they start does not
 /// matter.
 pub fn prove(pieces: &[&Piece], gauge: &Gauge) -> Result<Option<Proof>, GroupError> {
-    if let Some(group) = swept(pieces.iter().copied(), gauge)? {
+    let span = span(pieces.iter().copied(), gauge)?;
+    if let Some(group) = swept_by(pieces.iter().copied(), &span)? {
         return Ok(Some(Proof::Whole(group)));
     }
-    let span = span(pieces.iter().copied(), gauge)?;
     if !clear(span.margin()) {
         return Ok(None);
     }
@@ -106,6 +106,13 @@ struct Cut {
     block: usize,
     /// Positions of the block's pieces before and after the cut.
     sides: [Vec<usize>; 2],
+}
+
+impl Cut {
+    /// Whether this is the cut before the block that the other cut is within.
+    fn begins_block_of(&self, other: &Self) -> bool {
+        self.block == other.block && self.sides[0].is_empty() && !other.sides[0].is_empty()
+    }
 }
 
 fn cuts(pieces: &[&Piece]) -> Vec<Cut> {
@@ -153,9 +160,13 @@ struct Arcs<'a> {
 }
 
 impl Arcs<'_> {
-    /// The pieces from a cut to another in a later block, or in the same or an earlier one after going around.
+    /// The pieces from a cut to another: in a later block, or from the beginning of a block to a cut in it; otherwise after
+    /// going around.
     fn between(&self, from: usize, to: usize) -> Vec<usize> {
         let (from, to) = (&self.cuts[from], &self.cuts[to]);
+        if from.begins_block_of(to) {
+            return to.sides[0].clone();
+        }
         let blocks = self.cuts.last().map_or(0, |cut| cut.block + 1);
         let mut arc = from.sides[1].clone();
         let mut block = (from.block + 1) % blocks;
@@ -185,7 +196,10 @@ impl Arcs<'_> {
         let count = self.cuts.len();
         let mut pairs: Vec<(usize, usize, usize)> = (0..count)
             .flat_map(|from| (from + 1..count).map(move |to| (from, to)))
-            .filter(|&(from, to)| self.cuts[from].block < self.cuts[to].block)
+            .filter(|&(from, to)| {
+                let (from, to) = (&self.cuts[from], &self.cuts[to]);
+                from.block < to.block || from.begins_block_of(to)
+            })
             .map(|(from, to)| {
                 let length = self.between(from, to).len();
                 ((2 * length).abs_diff(self.pieces.len()), from, to)
@@ -229,7 +243,9 @@ impl Arcs<'_> {
             for to in order.into_iter().chain([start]) {
                 let mut found: Option<(usize, usize, usize)> = None;
                 for &from in &reached {
-                    if from != start && to != start && steps[from] >= steps[to] {
+                    let forward = steps[from] < steps[to]
+                        || self.cuts[from].begins_block_of(&self.cuts[to]);
+                    if from != start && to != start && !forward {
                         continue;
                     }
                     if from == start && to == start {
