@@ -49,7 +49,7 @@ fn table() {
         let (found, free) = findings(mechanism);
         let finite: Option<usize> = found.iter().map(|f| f.finite).sum::<Option<usize>>();
         let lower: usize = found.iter().map(|f| f.lower).sum();
-        let known = expected[name]["finite"].as_u64().unwrap() as usize;
+        let known: usize = expected[name]["finite"].as_u64().unwrap() as usize;
         let pose = expected[name]["pose"].as_str().unwrap();
         let wrong =
             finite.is_some_and(|f| f + free != known || pose == "singular") || lower + free > known;
@@ -70,4 +70,20 @@ fn table() {
         )
     });
     println!("{}", rows.join("\n"));
+}
+
+#[test]
+fn timing() {
+    for (name, mechanism) in zoo() {
+        let analysis = analysis(&mechanism);
+        let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
+        let start = std::time::Instant::now();
+        let n = 20;
+        for _ in 0..n {
+            for (part, rank) in analysis.structure.parts.iter().zip(&analysis.parts) {
+                subgroup_finding(&mechanism, &geometry, &analysis.assembly.states, &analysis.structure, part, rank).unwrap();
+            }
+        }
+        println!("{:9.1} us {name} {} joints", start.elapsed().as_secs_f64() * 1e6 / n as f64, mechanism.joints().len());
+    }
 }

@@ -2,16 +2,25 @@
 
 use super::clear;
 use crate::group::{Gauge, GroupError, Margin, ScrewSystem, Subalgebra, Twist};
+use crate::mechanism::JointKind;
+use nalgebra::Vector6;
+
+/// How many times its error a number must exceed to be told from zero without a decomposition.
+const SAFE: f64 = 100.0;
 
 /// One member of a chain: a smooth map into SE(3), the identity at the pose.
 #[derive(Clone, Debug)]
 pub enum Piece {
-    /// The exponential of one screw.
-    Screw {
-        /// The joint it belongs to.
+    /// Some screws of a joint that are not taken apart.
+    Factor {
+        /// The joint.
         joint: usize,
-        /// The screw.
-        twist: Twist,
+        /// Number of the subgroup in the joint's product of subgroups. Factors of one subgroup may change places.
+        subgroup: usize,
+        /// The joint's variable of the first screw; the others follow.
+        first: usize,
+        /// The screws.
+        twists: Vec<Twist>,
     },
     /// What replaced a loop.
     Replaced(Box<Replaced>),
@@ -34,7 +43,7 @@ impl Piece {
     /// Number of variables.
     pub fn freedom(&self) -> usize {
         match self {
-            Self::Screw { .. } => 1,
+            Self::Factor { twists, .. } => twists.len(),
             Self::Replaced(loop_) => loop_.freedom,
         }
     }
@@ -42,10 +51,48 @@ impl Piece {
     /// The joints in it.
     pub fn joints(&self) -> &[usize] {
         match self {
-            Self::Screw { joint, .. } => std::slice::from_ref(joint),
+            Self::Factor { joint, .. } => std::slice::from_ref(joint),
             Self::Replaced(loop_) => &loop_.joints,
         }
     }
+}
+
+/// The pieces of a joint, from its screws in the order of its variables.
+///
+/// A joint of [`JointKind::is_subgroup`] is one subgroup, every other a product of two. Planar motions, cylindrical ones and
+/// the like are translations times the rotations or screws about an axis, in either order; where the translations end
+/// depends on nothing but the joint. How a ball or a plane's translations could be taken apart depends on the choice of
+/// axes, and they are left whole.
+pub fn of_joint(joint: usize, kind: JointKind, screws: &[Twist]) -> Vec<Piece> {
+    let subgroups: &[&[usize]] = match kind {
+        JointKind::Fixed => &[],
+        JointKind::Revolute | JointKind::Prismatic | JointKind::Screw => &[&[1]],
+        JointKind::Cylindrical => &[&[1, 1]],
+        JointKind::Universal => &[&[1], &[1]],
+        JointKind::PlanarTranslation => &[&[2]],
+        JointKind::Planar | JointKind::TranslatingScrew => &[&[2, 1]],
+        JointKind::Spherical | JointKind::Translational => &[&[3]],
+        JointKind::Schoenflies => &[&[3, 1]],
+        JointKind::PointOnLine => &[&[3], &[1]],
+        JointKind::LineOnPlane => &[&[1], &[2, 1]],
+        JointKind::PointOnPlane => &[&[3], &[2]],
+        // The two swings of the rod turn about its first point.
+        JointKind::Distance => &[&[2], &[3]],
+    };
+    let mut first = 0;
+    let mut pieces = Vec::new();
+    for (subgroup, factors) in subgroups.iter().enumerate() {
+        for &number in *factors {
+            pieces.push(Piece::Factor {
+                joint,
+                subgroup,
+                first,
+                twists: screws.iter().skip(first).take(number).copied().collect(),
+            });
+            first += number;
+        }
+    }
+    pieces
 }
 
 /// Freedoms of some pieces together.
@@ -73,7 +120,7 @@ pub fn span<'a>(
     let mut spaces = Vec::new();
     for piece in pieces {
         match piece {
-            Piece::Screw { twist, .. } => twists.push(*twist),
+            Piece::Factor { twists: own, .. } => twists.extend(own),
             Piece::Replaced(loop_) => spaces.push(&loop_.span),
         }
     }
@@ -90,7 +137,7 @@ pub fn enclosing<'a>(
     let mut spaces = Vec::new();
     for piece in pieces {
         match piece {
-            Piece::Screw { twist, .. } => twists.push(*twist),
+            Piece::Factor { twists: own, .. } => twists.extend(own),
             Piece::Replaced(loop_) => spaces.push(loop_.algebra.system()),
         }
     }
@@ -105,12 +152,23 @@ pub fn swept<'a>(
     pieces: impl IntoIterator<Item = &'a Piece> + Clone,
     gauge: &Gauge,
 ) -> Result<Option<Subalgebra>, GroupError> {
+    if !may_close(pieces.clone(), gauge) {
+        return Ok(None);
+    }
     let span = span(pieces.clone(), gauge)?;
+    swept_by(pieces, &span)
+}
+
+/// [`swept`] where the span is known.
+pub fn swept_by<'a>(
+    pieces: impl IntoIterator<Item = &'a Piece>,
+    span: &ScrewSystem,
+) -> Result<Option<Subalgebra>, GroupError> {
     // No subalgebra of se(3) has dimension 5.
     if span.dimension() == 5 || !clear(span.margin()) {
         return Ok(None);
     }
-    let Some(algebra) = Subalgebra::from_system(&span)?.filter(|a| clear(a.margin())) else {
+    let Some(algebra) = Subalgebra::from_system(span)?.filter(|a| clear(a.margin())) else {
         return Ok(None);
     };
     for piece in pieces {
@@ -122,6 +180,46 @@ pub fn swept<'a>(
         }
     }
     Ok(Some(algebra))
+}
+
+/// A quick look that spares most decompositions: false only where the span is certainly not closed, or only just.
+///
+/// Of less than six freedoms, two turns about directions that differ generate a group that they span only if it is that of
+/// the rotations about a point: then there are no translations and all axes meet. Numbers within [`SAFE`] times their
+/// accuracy are left to the decompositions.
+fn may_close<'a>(pieces: impl IntoIterator<Item = &'a Piece> + Clone, gauge: &Gauge) -> bool {
+    if freedom(pieces.clone()) >= 6 {
+        return true;
+    }
+    let mut first: Option<Vector6<f64>> = None;
+    let mut parallel = true;
+    let mut slides = false;
+    let mut skew = false;
+    let visible = SAFE * gauge.tolerance().max(1e-12);
+    for piece in pieces {
+        let Piece::Factor { twists, .. } = piece else {
+            return true;
+        };
+        for twist in twists {
+            let own = gauge.measure(twist);
+            let (turn, moment) = (own.fixed_rows::<3>(0), own.fixed_rows::<3>(3));
+            let size = own.norm();
+            if turn.norm() < 0.5 {
+                slides = true;
+                continue;
+            }
+            skew |= turn.dot(&moment).abs() > visible * size * size;
+            let Some(other) = first else {
+                first = Some(own);
+                continue;
+            };
+            let (turn2, moment2) = (other.fixed_rows::<3>(0), other.fixed_rows::<3>(3));
+            parallel &= turn.cross(&turn2).norm() <= visible;
+            let meeting = turn.dot(&moment2) + turn2.dot(&moment);
+            skew |= meeting.abs() > visible * size * other.norm();
+        }
+    }
+    parallel || !(slides || skew)
 }
 
 /// Whether one algebra clearly lies in another.

@@ -44,7 +44,7 @@
 //!
 //! # Cost
 //! Rule 1: two or three decompositions of six-rowed matrices for every cycle. Rule 2: a few for every pair of cuts of loops up
-//! to [`LONGEST_SPLIT`](one_loop::LONGEST_SPLIT) screws. Rule 3: one such loop for every pair of chains, on parts of up to
+//! with up to [`MOST_CUTS`](one_loop::MOST_CUTS) of them. Rule 3: one such loop for every pair of chains, on parts of up to
 //! [`MOST_JOINTS`] joints.
 
 mod chain;
@@ -158,6 +158,13 @@ pub fn subgroup_finding(
         Ok(None) => {}
         Err(error) => return open(finding, &words::failure(&error)),
     }
+    if freedom == 0 {
+        finding.decide(0, MobilityClass::Trivial);
+        finding.text = format!(
+            "{reading}no velocity at all satisfies the closure equations: the part stands still, whatever its subgroups"
+        );
+        return Ok(finding);
+    }
     if !part.couplings.is_empty() {
         return open(
             finding,
@@ -170,7 +177,7 @@ pub fn subgroup_finding(
             "no loop space explains the rank, and the part is too large to be reduced",
         );
     }
-    let outcome = reduced(mechanism, geometry, states, structure, part, accuracy);
+    let outcome = reduced(mechanism, geometry, states, structure, part, rank, accuracy);
     match outcome {
         Err(error) => open(finding, &words::failure(&error)),
         Ok(outcome) => {
@@ -186,9 +193,10 @@ fn reduced(
     states: &[JointState<f64>],
     structure: &Structure,
     part: &Part,
+    rank: &PartRank,
     accuracy: f64,
 ) -> Result<Outcome, GroupError> {
-    let placed = placing::place(mechanism, geometry, states, part, accuracy)?;
+    let placed = placing::place(mechanism, geometry, states, part, rank, accuracy)?;
     let mut network = Network::new(mechanism, structure, part, &placed)?;
     network.reduce()?;
     network.conclude()

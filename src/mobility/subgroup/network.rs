@@ -1,7 +1,7 @@
 //! Rule 3: a part as a network of chains between links, reduced loop by loop.
 
 use super::chain::{self, Piece, Replaced, enclosing, freedom, span, swept};
-use super::one_loop::prove;
+use super::one_loop::{Arc, Proof, prove};
 use super::parallelogram::circular;
 use super::placing::{Placed, ends};
 use super::{clear, remainder, words};
@@ -66,6 +66,10 @@ pub struct Network<'a> {
     at: BTreeMap<usize, BTreeSet<usize>>,
     /// Pairs of edges found to be no loop that can be replaced.
     refused: BTreeSet<(usize, usize)>,
+    /// Pairs whose loop has six independent equations; they wait for those of fewer, whose subgroups say more.
+    postponed: BTreeMap<(usize, usize), (Replaced, String, Margin)>,
+    /// Edges found not to allow everything.
+    constraining: BTreeSet<usize>,
     /// Links around which something has changed.
     changed: BTreeSet<usize>,
     settled: usize,
@@ -74,10 +78,7 @@ pub struct Network<'a> {
 }
 
 impl<'a> Network<'a> {
-    /// The network of a part: one chain for every joint, one piece for each of its variables.
-    ///
-    /// That a joint is the product of the exponentials of its screws in order is its definition where each variable is a
-    /// factor of its own, and true of a ball near any pose: three rotations about axes that span are coordinates of it.
+    /// The network of a part: one chain for every joint, its pieces between its links.
     pub fn new(
         mechanism: &'a Mechanism,
         structure: &Structure,
@@ -93,6 +94,8 @@ impl<'a> Network<'a> {
             edges: Vec::with_capacity(order.len()),
             at: BTreeMap::new(),
             refused: BTreeSet::new(),
+            postponed: BTreeMap::new(),
+            constraining: BTreeSet::new(),
             changed: BTreeSet::new(),
             settled: 0,
             steps: Vec::new(),
@@ -100,10 +103,8 @@ impl<'a> Network<'a> {
         };
         for i in order {
             let joint = part.joints[i];
-            let pieces = placed.screws[i]
-                .iter()
-                .map(|&twist| Piece::Screw { joint, twist })
-                .collect();
+            let kind = mechanism.joints()[joint].kind;
+            let pieces = chain::of_joint(joint, kind, &placed.screws[i]);
             network.insert(Edge {
                 ends: ends(mechanism, joint).map(|link| structure.graph.node_rank(link)),
                 pieces,
@@ -150,7 +151,7 @@ impl<'a> Network<'a> {
                     self.changed.insert(link);
                 }
             }
-            if !self.remove_free_chain()? {
+            if !(self.remove_free_chain()? || self.replace_postponed()) {
                 return Ok(());
             }
         }
@@ -277,14 +278,35 @@ impl<'a> Network<'a> {
             return Ok(false);
         }
         let (one, two) = (one.from(ends[0]), two.from(ends[0]));
-        let Some((replaced, step)) = self.replacement(&one, &two)? else {
+        let Some((replaced, step, margin)) = self.replacement(&one, &two)? else {
             self.refused.insert((first, second));
             return Ok(false);
         };
+        if freedom(&one) + freedom(&two) - replaced.freedom == 6 {
+            self.refused.insert((first, second));
+            self.postponed
+                .insert((first, second), (replaced, step, margin));
+            return Ok(false);
+        }
+        self.replace(first, second, replaced, step, margin);
+        Ok(true)
+    }
+
+    /// Puts one chain in the place of two.
+    fn replace(
+        &mut self,
+        first: usize,
+        second: usize,
+        mut replaced: Replaced,
+        step: String,
+        margin: Margin,
+    ) {
+        let Some(ends) = self.edge(first).map(|edge| edge.ends) else {
+            return;
+        };
         self.steps.push(step);
-        self.margin = self.margin.and(replaced.margin());
+        self.margin = self.margin.and(margin).and(replaced.margin());
         let (dimension, within) = (replaced.span.dimension(), replaced.algebra.dimension());
-        let mut replaced = replaced;
         if dimension == within {
             self.settled += replaced.freedom - dimension;
             replaced.freedom = dimension;
@@ -293,15 +315,25 @@ impl<'a> Network<'a> {
         self.remove(second);
         let pieces = vec![Piece::Replaced(Box::new(replaced))];
         self.insert(Edge { ends, pieces });
-        Ok(true)
+    }
+
+    /// Carries out the first of the replacements put off.
+    fn replace_postponed(&mut self) -> bool {
+        while let Some(((first, second), (replaced, step, margin))) = self.postponed.pop_first() {
+            if self.edge(first).is_some() && self.edge(second).is_some() {
+                self.replace(first, second, replaced, step, margin);
+                return true;
+            }
+        }
+        false
     }
 
     /// What replaces two parallel chains, and the reason.
     fn replacement(
-        &mut self,
+        &self,
         one: &[Piece],
         two: &[Piece],
-    ) -> Result<Option<(Replaced, String)>, GroupError> {
+    ) -> Result<Option<(Replaced, String, Margin)>, GroupError> {
         let gauge = self.gauge;
         let around: Vec<&Piece> = one.iter().chain(two.iter().rev()).collect();
         let Some(proof) = prove(&around, &gauge)? else {
@@ -314,11 +346,15 @@ impl<'a> Network<'a> {
         if rank != proof.rank() || rank > free || !clear(common.margin()) {
             return Ok(None);
         }
-        let enclosed = enclosing(one, &gauge)?.intersection(&enclosing(two, &gauge)?)?;
+        let mut enclosed = enclosing(one, &gauge)?.intersection(&enclosing(two, &gauge)?)?;
+        if let Proof::Held { arcs, .. } = &proof
+            && rank < free
+        {
+            enclosed = enclosed.intersection(&moving_arcs(arcs, one.len(), &gauge)?)?;
+        }
         if !clear(enclosed.margin()) {
             return Ok(None);
         }
-        self.margin = self.margin.and(proof.margin());
         let mut step = words::proof(self.mechanism, &around, &proof);
         let mut replaced = Replaced {
             joints: chain::joints(around.iter().copied()),
@@ -337,7 +373,7 @@ impl<'a> Network<'a> {
             replaced.algebra = circular.algebra;
             step.push_str("; it is a parallelogram, whose coupler is translated along a circle");
         }
-        Ok(Some((replaced, step)))
+        Ok(Some((replaced, step, proof.margin())))
     }
 
     /// Removes one chain that lets its links do everything, if there is one among what is left.
@@ -347,11 +383,12 @@ impl<'a> Network<'a> {
                 continue;
             };
             let free = freedom(&edge.pieces);
-            if free < 6 {
+            if free < 6 || self.constraining.contains(&index) {
                 continue;
             }
-            let Some(group) = swept(&edge.pieces, &self.gauge)?.filter(|g| g.dimension() == 6)
-            else {
+            let group = swept(&edge.pieces, &self.gauge)?.filter(|g| g.dimension() == 6);
+            let Some(group) = group else {
+                self.constraining.insert(index);
                 continue;
             };
             let step = words::free_chain(self.mechanism, &edge.pieces);
@@ -427,6 +464,18 @@ impl<'a> Network<'a> {
         }
         components.max(1)
     }
+}
+
+/// The subgroup that holds the displacements between the ends of the first `count` pieces of a loop that is held: every
+/// arc as a whole stays the identity, so that only arcs cut by one of the two ends contribute.
+fn moving_arcs(arcs: &[Arc], count: usize, gauge: &Gauge) -> Result<Subalgebra, GroupError> {
+    let none = Subalgebra::generated_by(&[], gauge)?;
+    arcs.iter()
+        .filter(|arc| {
+            let inside = arc.pieces.iter().filter(|&&i| i < count).count();
+            inside > 0 && inside < arc.pieces.len()
+        })
+        .try_fold(none, |sum, arc| sum.join(&arc.group))
 }
 
 /// Freedoms of a chain that change nothing between its ends, where the chain is a submersion onto a subgroup or onto a

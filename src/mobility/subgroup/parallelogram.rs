@@ -65,13 +65,16 @@ pub fn circular(
 /// The two screws of a chain of two, if both turn.
 fn hinges(pieces: &[Piece]) -> Option<[Twist; 2]> {
     let [
-        Piece::Screw { twist: first, .. },
-        Piece::Screw { twist: second, .. },
+        Piece::Factor { twists: first, .. },
+        Piece::Factor { twists: second, .. },
     ] = pieces
     else {
         return None;
     };
-    [*first, *second]
+    let ([first], [second]) = (&first[..], &second[..]) else {
+        return None;
+    };
+    [first, second]
         .iter()
         .all(|twist| twist.angular.norm() > 0.5)
         .then_some([*first, *second])

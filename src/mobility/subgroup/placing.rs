@@ -21,6 +21,9 @@ pub struct Placed {
 /// first joint's predecessor, which is put where the file draws it. Links are reached by the fewest joints; how else they
 /// could be reached differs by what the loops leave open, which the accuracy covers.
 ///
+/// `accuracy` is that of the part's cycles, each in units of its own length. In the part's length, errors are larger by as
+/// much as the largest cycle's length exceeds it; along a way of more joints than the longest cycle has, they add up.
+///
 /// # Errors
 /// [`GroupError::BadGauge`] where the part's size is out of range.
 pub fn place(
@@ -28,9 +31,10 @@ pub fn place(
     geometry: &Geometry<f64>,
     states: &[JointState<f64>],
     part: &Part,
+    rank: &PartRank,
     accuracy: f64,
 ) -> Result<Placed, GroupError> {
-    let poses = link_poses(mechanism, geometry, states, part);
+    let (poses, depth) = link_poses(mechanism, geometry, states, part);
     let placed: Vec<Vec<PlacedScrew<f64>>> = part
         .joints
         .iter()
@@ -66,8 +70,12 @@ pub fn place(
             joint.iter().map(twist).collect()
         })
         .collect();
+    let walks = &rank.jacobian.walks;
+    let longest = walks.iter().map(|w| w.joints.len()).max().unwrap_or(1);
+    let largest = walks.iter().map(|w| w.length).fold(length, f64::max);
+    let farther = (depth as f64 / longest.max(1) as f64).max(1.0) * (largest / length);
     Ok(Placed {
-        gauge: Gauge::new(Vector3::from(centre), length, accuracy)?,
+        gauge: Gauge::new(Vector3::from(centre), length, accuracy * farther)?,
         screws,
     })
 }
@@ -87,7 +95,7 @@ pub fn cycle_frame(
     let (joint, forward) = *cycle.first()?;
     let [predecessor, successor] = ends(mechanism, joint);
     let first = if forward { predecessor } else { successor };
-    let poses = link_poses(mechanism, geometry, states, part);
+    let (poses, _) = link_poses(mechanism, geometry, states, part);
     let centre = Rigid {
         translation: walk.centre,
         ..Rigid::identity(&1.0)
@@ -95,13 +103,13 @@ pub fn cycle_frame(
     Some(poses.get(&first)?.compose(&centre))
 }
 
-/// Poses of the part's links, breadth first.
+/// Poses of the part's links, breadth first, and the number of joints to the farthest.
 fn link_poses(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
     states: &[JointState<f64>],
     part: &Part,
-) -> BTreeMap<usize, Rigid<f64>> {
+) -> (BTreeMap<usize, Rigid<f64>>, usize) {
     let mut incident: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for &joint in &part.joints {
         for side in ends(mechanism, joint) {
@@ -114,14 +122,16 @@ fn link_poses(
         .filter(|link| incident.contains_key(link))
         .chain(first)
         .chain(incident.keys().copied());
+    let mut depth = 0;
     let mut poses: BTreeMap<usize, Rigid<f64>> = BTreeMap::new();
     for root in roots {
         if poses.contains_key(&root) {
             continue;
         }
         poses.insert(root, geometry.home[root].clone());
-        let mut queue = VecDeque::from([root]);
-        while let Some(link) = queue.pop_front() {
+        let mut queue = VecDeque::from([(root, 0)]);
+        while let Some((link, steps)) = queue.pop_front() {
+            depth = depth.max(steps);
             let from = poses[&link].clone();
             for &joint in incident.get(&link).into_iter().flatten() {
                 let [predecessor, successor] = &geometry.sides[joint];
@@ -135,13 +145,13 @@ fn link_poses(
                     (start, across.inverse())
                 };
                 poses.entry(other).or_insert_with(|| {
-                    queue.push_back(other);
+                    queue.push_back((other, steps + 1));
                     from.compose(&step)
                 });
             }
         }
     }
-    poses
+    (poses, depth)
 }
 
 /// The links of a joint: predecessor, successor.

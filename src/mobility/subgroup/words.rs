@@ -7,7 +7,7 @@ use crate::group::{DisplacementSubgroup, GroupError, Pose, Subalgebra, SubgroupK
 use crate::mechanism::Mechanism;
 use crate::mobility::PartRank;
 use nalgebra::{Matrix3, Vector3};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// More names than this are not listed.
 const MOST_NAMES: usize = 12;
@@ -107,30 +107,40 @@ pub fn proof(mechanism: &Mechanism, pieces: &[&Piece], proof: &Proof) -> String 
             named_algebra(group),
             equations(group.dimension())
         ),
-        Proof::Split {
-            start,
-            length,
-            first,
-            second,
-            common,
-        } => {
-            let (inside, outside): (Vec<_>, Vec<_>) = (0..pieces.len())
-                .map(|i| (start + i) % pieces.len())
-                .partition(|i| (*start..start + length).contains(i));
-            let of = |arc: Vec<usize>| {
-                list(
-                    mechanism,
-                    &chain::joints(arc.into_iter().map(|i| pieces[i])),
+        Proof::Split(arcs, common) => {
+            let [first, second] = arcs.each_ref().map(|arc| {
+                format!(
+                    "chain {} generates {}",
+                    chain_of(mechanism, arc.pieces.iter().map(|&i| pieces[i])),
+                    named_algebra(&arc.group)
                 )
-            };
-            format!(
-                "chain {} generates {}, chain {} generates {}; they meet in {}",
-                of(inside),
-                named_algebra(first),
-                of(outside),
-                named_algebra(second),
-                named_algebra(common)
-            )
+            });
+            format!("{first}, {second}; they meet in {}", named_algebra(common))
+        }
+        Proof::Held { arcs, .. } => {
+            let loose: Vec<String> = arcs
+                .iter()
+                .filter(|arc| {
+                    chain::freedom(arc.pieces.iter().map(|&i| pieces[i])) > arc.group.dimension()
+                })
+                .map(|arc| {
+                    format!(
+                        "chain {} generates {}",
+                        chain_of(mechanism, arc.pieces.iter().map(|&i| pieces[i])),
+                        named_algebra(&arc.group)
+                    )
+                })
+                .collect();
+            let all = list(mechanism, &all);
+            if loose.is_empty() {
+                format!("no velocity closes the loop {all}, so it stands still")
+            } else {
+                format!(
+                    "in the loop {all}, {}; beyond that no velocity closes the loop, so only what moves within these chains \
+                     moves",
+                    loose.join(", ")
+                )
+            }
         }
     }
 }
@@ -228,16 +238,56 @@ fn equations(count: usize) -> String {
     }
 }
 
+/// The joints of a chain, each once; where a chain holds a part of a joint, that part.
+fn chain_of<'a>(mechanism: &Mechanism, pieces: impl Iterator<Item = &'a Piece> + Clone) -> String {
+    let mut names: Vec<String> = Vec::new();
+    for piece in pieces.clone() {
+        match piece {
+            Piece::Factor {
+                joint,
+                first,
+                twists,
+                ..
+            } => {
+                let all = &mechanism.joints()[*joint];
+                let held: usize = pieces
+                    .clone()
+                    .filter(|other| other.joints() == [*joint])
+                    .map(Piece::freedom)
+                    .sum();
+                let name = match all.kind.freedoms().get(*first) {
+                    _ if held >= all.freedom() => all.name.clone(),
+                    Some(part) if twists.len() > 1 => format!("{}.{}", all.name, part.suffix()),
+                    _ => all.freedom_name(*first),
+                };
+                names.push(name);
+            }
+            Piece::Replaced(loop_) => {
+                let joints = loop_.joints.iter();
+                names.extend(joints.map(|&joint| mechanism.joints()[joint].name.clone()));
+            }
+        }
+    }
+    let mut seen = BTreeSet::new();
+    names.retain(|name| seen.insert(name.clone()));
+    quoted(&names)
+}
+
 fn list(mechanism: &Mechanism, joints: &[usize]) -> String {
+    let joints = joints.iter();
     let names: Vec<String> = joints
-        .iter()
-        .take(MOST_NAMES)
-        .map(|&joint| format!("`{}`", mechanism.joints()[joint].name))
+        .map(|&joint| mechanism.joints()[joint].name.clone())
         .collect();
-    let names = names.join(" ");
-    match joints.len().saturating_sub(MOST_NAMES) {
-        0 => names,
-        more => format!("{names} and {more} more"),
+    quoted(&names)
+}
+
+fn quoted(names: &[String]) -> String {
+    let shown = names.iter().take(MOST_NAMES);
+    let shown: Vec<String> = shown.map(|name| format!("`{name}`")).collect();
+    let shown = shown.join(" ");
+    match names.len().saturating_sub(MOST_NAMES) {
+        0 => shown,
+        more => format!("{shown} and {more} more"),
     }
 }
 
