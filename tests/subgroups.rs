@@ -81,9 +81,21 @@ fn timing() {
         let n = 20;
         for _ in 0..n {
             for (part, rank) in analysis.structure.parts.iter().zip(&analysis.parts) {
-                subgroup_finding(&mechanism, &geometry, &analysis.assembly.states, &analysis.structure, part, rank).unwrap();
+                subgroup_finding(
+                    &mechanism,
+                    &geometry,
+                    &analysis.assembly.states,
+                    &analysis.structure,
+                    part,
+                    rank,
+                )
+                .unwrap();
             }
         }
-        println!("{:9.1} us {name} {} joints", start.elapsed().as_secs_f64() * 1e6 / n as f64, mechanism.joints().len());
+        println!(
+            "{:9.1} us {name} {} joints",
+            start.elapsed().as_secs_f64() * 1e6 / n as f64,
+            mechanism.joints().len()
+        );
     }
 }

@@ -19,6 +19,9 @@ mod analysis;
 mod branch;
 mod branch_facts;
 mod branch_roles;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod branch_samples;
 mod chart;
 mod cycles;
 mod generic;

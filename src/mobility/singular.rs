@@ -19,8 +19,12 @@ use super::vocabulary::{CertificateLevel, PoseKind, SingularKind};
 use crate::closure::{JointState, Part, Section};
 use crate::matrix::{MatrixError, Real};
 
-/// Orders of the series tried in turn.
-const DEGREES: [usize; 3] = [4, 6, 8];
+/// Degrees to which the series are computed: the first, and the last tried.
+const FIRST_DEGREE: usize = 4;
+const LAST_DEGREE: usize = 8;
+
+/// More starts than this are not made on a germ of many variables.
+const STARTS: usize = 600;
 
 /// Branches whose directions differ by less (cosine) share a tangent.
 const SAME_DIRECTION: f64 = 0.999;
@@ -86,7 +90,10 @@ pub(super) fn singular_finding(
     } else {
         rank
     };
-    for degree in DEGREES {
+    let mut next = FIRST_DEGREE;
+    while next <= LAST_DEGREE {
+        let degree = next;
+        next += 2;
         let Some(germ) = Germ::of_part(pose.mechanism, rank, degree)? else {
             break;
         };
@@ -94,6 +101,8 @@ pub(super) fn singular_finding(
             why = format!("what the equations leave over is of higher order than {degree}");
             continue;
         };
+        // Twice the order shows the next terms too, by which branches of a common tangent cone differ.
+        next = next.max(2 * order);
         if let Some(stress) = prestress_certificate(&germ) {
             evidence.push(Evidence {
                 engine: "second order",
@@ -117,7 +126,10 @@ pub(super) fn singular_finding(
             freedom,
             germ.equations(),
             germ.noise(order),
-            &GermZeroOptions::default(),
+            &GermZeroOptions {
+                most_starts: STARTS,
+                ..GermZeroOptions::default()
+            },
         );
         evidence.push(Evidence {
             engine: "germ",
@@ -178,6 +190,14 @@ pub(super) fn singular_finding(
                     continue;
                 }
                 found.lower = top;
+                if complex.as_ref().is_some_and(|c| c.dimension > top) {
+                    // Real branches of smaller dimension than the complex ones exist, but so do branches overlooked.
+                    why = format!(
+                        "real branches of dimension {top} were found where the complex ones have {}",
+                        complex.as_ref().map_or(0, |c| c.dimension)
+                    );
+                    continue;
+                }
                 found.upper = top;
                 found.kind = kind_of(&lifted, &zeros.branches);
                 found.certificate = format!(

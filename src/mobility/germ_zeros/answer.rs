@@ -237,7 +237,12 @@ fn paired(search: &Search<'_>) -> (Vec<Pair>, Vec<usize>) {
         .iter()
         .map(|half| if half.reduced { 1e-10 } else { half.same })
         .collect();
-    pair(&tracks, &accuracies, &search.radii, search.system.degree().clamp(1, 5))
+    pair(
+        &tracks,
+        &accuracies,
+        &search.radii,
+        search.system.degree().clamp(1, 5),
+    )
 }
 
 fn collect(search: &mut Search<'_>, answer: &mut GermZeros) {

@@ -70,31 +70,6 @@ pub fn prove(pieces: &[&Piece], gauge: &Gauge) -> Result<Option<Proof>, GroupErr
     if !clear(span.margin()) {
         return Ok(None);
     }
-<<<<<<< HEAD
-    // Every pair of complementary arcs once: the one that holds the last piece is the second.
-    let mut arcs: Vec<(usize, usize)> = (0..count)
-        .flat_map(|start| (1..count - start).map(move |length| (start, length)))
-        .collect();
-    arcs.sort_by_key(|&(start, length)| ((2 * length).abs_diff(count), start, length));
-    for (start, length) in arcs {
-        let arc =
-            |from: usize, number: usize| (from..from + number).map(move |i| pieces[i % count]);
-        let Some(first) = swept(arc(start, length), gauge)? else {
-            continue;
-        };
-        let Some(second) = swept(arc(start + length, count - length), gauge)? else {
-            continue;
-        };
-        let common = first.intersection(&second)?;
-        if super::clear(common.margin()) {
-            return Ok(Some(Proof::Split {
-                start,
-                length,
-                first,
-                second,
-                common,
-            }));
-=======
     let rank = span.dimension();
     let free = freedom(pieces.iter().copied());
     let held = |arcs| Proof::Held {
@@ -171,7 +146,6 @@ fn cuts(pieces: &[&Piece]) -> Vec<Cut> {
                     sides: [first.to_vec(), second.to_vec()],
                 });
             }
->>>>>>> subgroup
         }
     }
     cuts
@@ -269,8 +243,8 @@ impl Arcs<'_> {
             for to in order.into_iter().chain([start]) {
                 let mut found: Option<(usize, usize, usize)> = None;
                 for &from in &reached {
-                    let forward = steps[from] < steps[to]
-                        || self.cuts[from].begins_block_of(&self.cuts[to]);
+                    let forward =
+                        steps[from] < steps[to] || self.cuts[from].begins_block_of(&self.cuts[to]);
                     if from != start && to != start && !forward {
                         continue;
                     }
