@@ -160,14 +160,13 @@ fn join_by_slices(search: &mut Search<'_>, options: &GermZeroOptions) {
                 if search.sheets[slot].pieces().len() < 2 || variables + 1 - dimension < 2 {
                     break;
                 }
-                let members: Vec<Vec<f64>> = search.sheets[slot]
-                    .of_piece(piece)
-                    .map(|m| m.z.clone())
-                    .collect();
-                let Some(z) = members.get(attempt * members.len() / 3) else {
+                // Near a crossing a slice has a second curve close by.
+                let mut members: Vec<_> = search.sheets[slot].of_piece(piece).collect();
+                members.sort_by(|a, b| b.regularity.total_cmp(&a.regularity));
+                let Some(z) = members.get(attempt).map(|m| m.z.clone()) else {
                     break;
                 };
-                let basis = slice_through(z, dimension, &mut search.random);
+                let basis = slice_through(&z, dimension, &mut search.random);
                 join_along(search, slot, piece, &basis, options);
             }
         }
@@ -409,10 +408,15 @@ fn collect_sheets(search: &mut Search<'_>) -> Vec<(GermBranch, Vec<Vec<f64>>)> {
 /// Some points that are far from the other branches and from each other.
 fn spread(own: &[super::sheets::Member], others: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let regular = |m: &&super::sheets::Member| m.reduced || own.iter().all(|o| !o.reduced);
-    let mut candidates: Vec<&Vec<f64>> = own.iter().filter(regular).map(|m| &m.z).collect();
+    let clearance = |m: &super::sheets::Member| match m.regularity {
+        0.0 => gap(others, &m.z),
+        regularity => gap(others, &m.z).min(regularity),
+    };
+    let mut candidates: Vec<&super::sheets::Member> = own.iter().filter(regular).collect();
     // The half that is farthest from everything else, then by turns the one farthest from those taken.
-    candidates.sort_by(|a, b| gap(others, b).total_cmp(&gap(others, a)));
+    candidates.sort_by(|a, b| clearance(b).total_cmp(&clearance(a)));
     candidates.truncate(candidates.len().div_ceil(2).max(SAMPLES));
+    let candidates: Vec<&Vec<f64>> = candidates.into_iter().map(|m| &m.z).collect();
     let mut taken: Vec<Vec<f64>> = Vec::new();
     while taken.len() < SAMPLES && taken.len() < candidates.len() {
         let next = candidates
