@@ -46,14 +46,18 @@ pub fn germ_zeros(
         return answer;
     }
     if !equations.iter().all(shape) {
-        answer.thin = Some(format!("not all equations are series in {variables} variables"));
+        answer.thin = Some(format!(
+            "not all equations are series in {variables} variables"
+        ));
         return answer;
     }
     if variables == 0 {
         return answer;
     }
     match System::new(equations, noise, options.largest_radius) {
-        None => answer.branches.push(whole_space(variables, options, &mut answer.radii)),
+        None => answer
+            .branches
+            .push(whole_space(variables, options, &mut answer.radii)),
         Some(system) if variables == 1 => {
             // The only zero near the origin is the origin.
             let (order, _) = system.lowest();
@@ -190,7 +194,10 @@ fn join_along(
     let ratio = outer / inner.radii[0];
     inner.radii.iter_mut().for_each(|r| *r *= ratio);
     inner.run(options);
-    let through = inner.halves.iter().position(|half| half.track.z[0][0] > 1.0 - 1e-6);
+    let through = inner
+        .halves
+        .iter()
+        .position(|half| half.track.z[0][0] > 1.0 - 1e-6);
     let (pairs, _) = paired(&inner);
     let Some(pair) = pairs
         .iter()
@@ -229,7 +236,12 @@ fn paired(search: &Search<'_>) -> (Vec<Pair>, Vec<usize>) {
         .iter()
         .map(|half| if half.reduced { 1e-10 } else { half.same })
         .collect();
-    pair(&tracks, &accuracies, &search.radii, search.system.degree().clamp(1, 5))
+    pair(
+        &tracks,
+        &accuracies,
+        &search.radii,
+        search.system.degree().clamp(1, 5),
+    )
 }
 
 fn collect(search: &mut Search<'_>, answer: &mut GermZeros) {
@@ -248,9 +260,9 @@ fn collect(search: &mut Search<'_>, answer: &mut GermZeros) {
         match continues_sheet(search, index) {
             Some(_) if sheets.is_empty() => {}
             Some(z) => {
-                let nearest = sheets.iter_mut().min_by(|a, b| {
-                    gap(&a.1, &z).total_cmp(&gap(&b.1, &z))
-                });
+                let nearest = sheets
+                    .iter_mut()
+                    .min_by(|a, b| gap(&a.1, &z).total_cmp(&gap(&b.1, &z)));
                 if let Some((branch, _)) = nearest {
                     branch.half_branches.push(half);
                 }
@@ -274,7 +286,9 @@ fn collect(search: &mut Search<'_>, answer: &mut GermZeros) {
         }
     }
     answer.branches = sheets.into_iter().map(|(branch, _)| branch).collect();
-    answer.branches.sort_by_key(|b| std::cmp::Reverse(b.dimension));
+    answer
+        .branches
+        .sort_by_key(|b| std::cmp::Reverse(b.dimension));
     answer.branches.append(&mut curves);
     if answer.branches.is_empty() {
         answer.isolation = Some(isolation(search));
@@ -286,7 +300,10 @@ fn collect(search: &mut Search<'_>, answer: &mut GermZeros) {
 }
 
 fn gap(points: &[Vec<f64>], z: &[f64]) -> f64 {
-    points.iter().map(|p| distance(p, z)).fold(f64::INFINITY, f64::min)
+    points
+        .iter()
+        .map(|p| distance(p, z))
+        .fold(f64::INFINITY, f64::min)
 }
 
 fn scaled(z: &[f64], radius: f64) -> Vec<f64> {
@@ -309,7 +326,11 @@ fn half_branch(search: &Search<'_>, index: usize, tangent: Option<Vec<f64>>) -> 
 }
 
 fn curve(search: &Search<'_>, pair: &Pair) -> GermBranch {
-    let sign = if pair.ramification % 2 == 1 { -1.0 } else { 1.0 };
+    let sign = if pair.ramification % 2 == 1 {
+        -1.0
+    } else {
+        1.0
+    };
     let tangents = vec![pair.tangent.clone(), scaled(&pair.tangent, sign)];
     let half_branches: Vec<HalfBranch> = pair
         .halves
@@ -318,7 +339,11 @@ fn curve(search: &Search<'_>, pair: &Pair) -> GermBranch {
         .map(|(index, tangent)| half_branch(search, *index, Some(tangent.clone())))
         .collect();
     let halves = pair.halves.map(|i| &search.halves[i]);
-    let order = halves[0].track.order.into_iter().chain(halves[1].track.order);
+    let order = halves[0]
+        .track
+        .order
+        .into_iter()
+        .chain(halves[1].track.order);
     GermBranch {
         dimension: 1,
         points: half_branches.iter().map(|h| h.point.clone()).collect(),

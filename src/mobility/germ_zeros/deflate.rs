@@ -24,7 +24,9 @@ pub(super) fn land_firmly(level: &Level<'_>, start: &[f64], work: &mut Work) -> 
 /// The multiple zero near a point, for the largest rank with which one is found.
 pub(super) fn deflated(level: &Level<'_>, near: &Landing, work: &mut Work) -> Option<Landing> {
     let largest = level.system.count().min(near.z.len() - 1);
-    (0..largest).rev().find_map(|rank| with_rank(level, near, rank, work))
+    (0..largest)
+        .rev()
+        .find_map(|rank| with_rank(level, near, rank, work))
 }
 
 fn with_rank(level: &Level<'_>, near: &Landing, rank: usize, work: &mut Work) -> Option<Landing> {
@@ -43,7 +45,8 @@ fn with_rank(level: &Level<'_>, near: &Landing, rank: usize, work: &mut Work) ->
         let gradients = |jacobian: &[Vec<f64>]| -> Vec<f64> {
             flat.iter()
                 .flat_map(|u| {
-                    (0..columns).map(move |i| u.iter().zip(jacobian).map(|(w, row)| w * row[i]).sum())
+                    (0..columns)
+                        .map(move |i| u.iter().zip(jacobian).map(|(w, row)| w * row[i]).sum())
                 })
                 .collect()
         };

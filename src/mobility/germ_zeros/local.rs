@@ -65,11 +65,15 @@ pub(super) fn local(
         };
         let accuracy = level.tolerance().max(point.size);
         // A double zero is missed by the square of the offset, which has to be seen.
-        let reaches = PROBES.into_iter().filter(|reach| reach * reach > 1e3 * accuracy);
+        let reaches = PROBES
+            .into_iter()
+            .filter(|reach| reach * reach > 1e3 * accuracy);
         let probed = reaches.into_iter().find(|reach| {
             (0..dimension + 2).all(|_| {
-                let offset: Vec<f64> =
-                    directions.iter().map(|_| reach * random.symmetric()).collect();
+                let offset: Vec<f64> = directions
+                    .iter()
+                    .map(|_| reach * random.symmetric())
+                    .collect();
                 probe(level, point, &directions, &offset, work).is_some()
             })
         });
@@ -164,11 +168,7 @@ fn secants(
     orthonormal(&tangent)
 }
 
-fn random_subspace(
-    space: &[Vec<f64>],
-    dimension: usize,
-    random: &mut SplitMix64,
-) -> Vec<Vec<f64>> {
+fn random_subspace(space: &[Vec<f64>], dimension: usize, random: &mut SplitMix64) -> Vec<Vec<f64>> {
     let vectors: Vec<Vec<f64>> = (0..dimension)
         .map(|_| {
             let mut sum = vec![0.0; space[0].len()];

@@ -53,7 +53,9 @@ fn roots_and_critical_points(coefficients: &[f64]) -> Vec<f64> {
     // Zeros at the corners of the square must not fall between two edges.
     const END: f64 = 1.02;
     let largest = coefficients.iter().fold(0.0, |m, c| f64::max(m, c.abs()));
-    let degree = coefficients.iter().rposition(|c| c.abs() > f64::EPSILON * largest);
+    let degree = coefficients
+        .iter()
+        .rposition(|c| c.abs() > f64::EPSILON * largest);
     let mut derivatives = vec![coefficients[..=degree.unwrap_or(0)].to_vec()];
     while let Some(last) = derivatives.last()
         && last.len() > 2

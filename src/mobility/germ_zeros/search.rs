@@ -100,7 +100,11 @@ impl<'a> Search<'a> {
             .halves
             .iter()
             .map(|half| &half.track.z[0])
-            .chain(self.sheets.iter().flat_map(|s| s.members.iter().map(|m| &m.z)))
+            .chain(
+                self.sheets
+                    .iter()
+                    .flat_map(|s| s.members.iter().map(|m| &m.z)),
+            )
             .collect();
         match self.starts % 4 {
             // A zero of the leading forms: the equations at a radius where nothing else counts.
@@ -199,7 +203,8 @@ impl<'a> Search<'a> {
             .reduced
             .then_some(self.system.variables() - kind.dimension);
         if kind.dimension == 1 {
-            let Some(track) = inwards(self.system, &self.radii, landed, rank, &mut self.work) else {
+            let Some(track) = inwards(self.system, &self.radii, landed, rank, &mut self.work)
+            else {
                 self.strangers.push(landed.z.clone());
                 return false;
             };
@@ -221,7 +226,10 @@ impl<'a> Search<'a> {
         kind: Local,
         rank: Option<usize>,
     ) -> bool {
-        let slot = self.sheets.iter().position(|s| s.dimension == kind.dimension);
+        let slot = self
+            .sheets
+            .iter()
+            .position(|s| s.dimension == kind.dimension);
         let slot = slot.unwrap_or_else(|| {
             self.sheets.push(Sheets::new(kind.dimension));
             self.sheets.len() - 1
@@ -290,7 +298,12 @@ impl<'a> Search<'a> {
     }
 
     /// Directions in which the equations are smallest at one radius, and the norm there.
-    pub(super) fn smallest(&mut self, radius: f64, starts: usize, hints: &[Vec<f64>]) -> (f64, Vec<f64>) {
+    pub(super) fn smallest(
+        &mut self,
+        radius: f64,
+        starts: usize,
+        hints: &[Vec<f64>],
+    ) -> (f64, Vec<f64>) {
         let level = Level::new(self.system, radius);
         let mut guesses = hints.to_vec();
         if self.system.variables() == 2 {

@@ -79,12 +79,7 @@ impl Sheets {
     }
 
     /// Adds a point; whether it opened a new piece.
-    pub(super) fn add(
-        &mut self,
-        z: Vec<f64>,
-        kind: Local,
-        reached: &[usize],
-    ) -> bool {
+    pub(super) fn add(&mut self, z: Vec<f64>, kind: Local, reached: &[usize]) -> bool {
         let piece = match reached.first() {
             Some(first) => {
                 self.join(reached);
@@ -215,11 +210,7 @@ fn carried(
 }
 
 /// A random linear space through z in which a set of the given dimension leaves a curve; its first vector is z.
-pub(super) fn slice_through(
-    z: &[f64],
-    dimension: usize,
-    random: &mut SplitMix64,
-) -> Vec<Vec<f64>> {
+pub(super) fn slice_through(z: &[f64], dimension: usize, random: &mut SplitMix64) -> Vec<Vec<f64>> {
     let mut vectors = vec![z.to_vec()];
     while vectors.len() < z.len() + 1 - dimension {
         vectors.push(z.iter().map(|_| random.symmetric()).collect());

@@ -55,8 +55,10 @@ impl System {
         let mut finished = Vec::new();
         for degree in 1..=monomials.degree() {
             let range = monomials.of_degree(degree);
-            let mut leading: Vec<Vec<f64>> =
-                pending.iter().map(|row| row[range.clone()].to_vec()).collect();
+            let mut leading: Vec<Vec<f64>> = pending
+                .iter()
+                .map(|row| row[range.clone()].to_vec())
+                .collect();
             rotate_to_orthogonal(&mut leading, &mut pending, Some(&weights[range.clone()]));
             // The combinations are no better known than √(number of coefficients) errors.
             let largest = leading
@@ -276,14 +278,19 @@ impl<'a> Level<'a> {
             truncations: Vec::new(),
         };
         for equation in &system.equations {
-            let parts = (equation.lowest..=degree).map(|k| equation.sizes[k] * radius.powi(k as i32));
+            let parts =
+                (equation.lowest..=degree).map(|k| equation.sizes[k] * radius.powi(k as i32));
             let scale = parts.clone().fold(0.0, f64::max);
             // |Σ e_α y^α| ≤ e·(Σ|y_i|)^k ≤ e·(√δ·radius)^k for coefficients wrong by e in degree k; a few roundings of
             // every part besides.
-            let noise: f64 = (equation.lowest..=degree).map(|k| spread.powi(k as i32)).sum();
+            let noise: f64 = (equation.lowest..=degree)
+                .map(|k| spread.powi(k as i32))
+                .sum();
             let rounding = 16.0 * f64::EPSILON * parts.sum::<f64>();
             level.weights.push(1.0 / scale);
-            level.tolerances.push((system.noise * noise + rounding) / scale);
+            level
+                .tolerances
+                .push((system.noise * noise + rounding) / scale);
             // The first part that was cut off, were it as large as the bound on the others allows.
             let order = degree + 1 - equation.lowest;
             level.truncations.push(relative.powi(order as i32));

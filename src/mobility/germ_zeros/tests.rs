@@ -40,82 +40,312 @@ const SURFACE: (usize, usize, bool, usize) = (2, 0, true, 0);
 
 const CASES: &[Case] = &[
     case("node", 2, 4, |y| vec![&y[0] * &y[1]], &[LINE, LINE], 0),
-    case("cusp", 2, 4, |y| vec![&sq(&y[1]) - &power(&y[0], 3)], &[CUSP], 0),
-    case("weak cusp", 2, 4, |y| vec![&sq(&y[1]) - &power(&y[0], 3).scaled(0.01)], &[CUSP], 0),
-    case("higher cusp", 2, 6, |y| vec![&sq(&y[1]) - &power(&y[0], 5)], &[CUSP], 0),
-    case("cubic with fractional exponents", 2, 5, |y| vec![&power(&y[1], 3) - &power(&y[0], 4)], &[(1, 3, true, 0)], 0),
-    case("cusp and its tangent", 2, 5, |y| vec![&(&sq(&y[1]) - &power(&y[0], 3)) * &y[1]], &[LINE, CUSP], 0),
+    case(
+        "cusp",
+        2,
+        4,
+        |y| vec![&sq(&y[1]) - &power(&y[0], 3)],
+        &[CUSP],
+        0,
+    ),
+    case(
+        "weak cusp",
+        2,
+        4,
+        |y| vec![&sq(&y[1]) - &power(&y[0], 3).scaled(0.01)],
+        &[CUSP],
+        0,
+    ),
+    case(
+        "higher cusp",
+        2,
+        6,
+        |y| vec![&sq(&y[1]) - &power(&y[0], 5)],
+        &[CUSP],
+        0,
+    ),
+    case(
+        "cubic with fractional exponents",
+        2,
+        5,
+        |y| vec![&power(&y[1], 3) - &power(&y[0], 4)],
+        &[(1, 3, true, 0)],
+        0,
+    ),
+    case(
+        "cusp and its tangent",
+        2,
+        5,
+        |y| vec![&(&sq(&y[1]) - &power(&y[0], 3)) * &y[1]],
+        &[LINE, CUSP],
+        0,
+    ),
     case("tacnode", 2, 6, |y| tacnode(y, 1.0, -0.5), &[LINE, LINE], 0),
-    case("close tacnode", 2, 6, |y| tacnode(y, 1.0, 1.05), &[LINE, LINE], 0),
-    case("very close tacnode", 2, 6, |y| tacnode(y, 0.70, 0.71), &[LINE, LINE], 0),
-    case("contact of order three", 2, 6, |y| {
-        let cube = power(&y[0], 3);
-        vec![&(&y[1] - &cube) * &(&y[1] + &cube)]
-    }, &[LINE, LINE], 0),
-    case("definite form", 2, 4, |y| vec![&sq(&y[0]) + &sq(&y[1]).scaled(0.3)], &[], 2),
-    case("definite quartic", 2, 6, |y| {
-        let quartic = &power(&y[0], 4) + &power(&y[1], 4);
-        vec![&quartic - &(&sq(&y[0]) * &sq(&y[1])).scaled(1.5)]
-    }, &[], 4),
-    case("definite by its quartic", 2, 6, |y| vec![&sq(&y[0]) + &power(&y[1], 4)], &[], 4),
-    case("definite by its sextic", 2, 7, |y| vec![&sq(&y[0]) + &power(&y[1], 6)], &[], 6),
-    case("definite product", 2, 6, |y| {
-        let circle = &sq(&y[0]) + &sq(&y[1]);
-        vec![&circle * &(&circle + &(&y[0] * &y[1]))]
-    }, &[], 4),
-    case("line with isolated factor", 2, 6, |y| {
-        vec![&(&sq(&y[0]) + &sq(&y[1])) * &(&y[0] - &sq(&y[1]))]
-    }, &[LINE], 0),
+    case(
+        "close tacnode",
+        2,
+        6,
+        |y| tacnode(y, 1.0, 1.05),
+        &[LINE, LINE],
+        0,
+    ),
+    case(
+        "very close tacnode",
+        2,
+        6,
+        |y| tacnode(y, 0.70, 0.71),
+        &[LINE, LINE],
+        0,
+    ),
+    case(
+        "contact of order three",
+        2,
+        6,
+        |y| {
+            let cube = power(&y[0], 3);
+            vec![&(&y[1] - &cube) * &(&y[1] + &cube)]
+        },
+        &[LINE, LINE],
+        0,
+    ),
+    case(
+        "definite form",
+        2,
+        4,
+        |y| vec![&sq(&y[0]) + &sq(&y[1]).scaled(0.3)],
+        &[],
+        2,
+    ),
+    case(
+        "definite quartic",
+        2,
+        6,
+        |y| {
+            let quartic = &power(&y[0], 4) + &power(&y[1], 4);
+            vec![&quartic - &(&sq(&y[0]) * &sq(&y[1])).scaled(1.5)]
+        },
+        &[],
+        4,
+    ),
+    case(
+        "definite by its quartic",
+        2,
+        6,
+        |y| vec![&sq(&y[0]) + &power(&y[1], 4)],
+        &[],
+        4,
+    ),
+    case(
+        "definite by its sextic",
+        2,
+        7,
+        |y| vec![&sq(&y[0]) + &power(&y[1], 6)],
+        &[],
+        6,
+    ),
+    case(
+        "definite product",
+        2,
+        6,
+        |y| {
+            let circle = &sq(&y[0]) + &sq(&y[1]);
+            vec![&circle * &(&circle + &(&y[0] * &y[1]))]
+        },
+        &[],
+        4,
+    ),
+    case(
+        "line with isolated factor",
+        2,
+        6,
+        |y| vec![&(&sq(&y[0]) + &sq(&y[1])) * &(&y[0] - &sq(&y[1]))],
+        &[LINE],
+        0,
+    ),
     case("double line", 2, 4, |y| vec![sq(&y[1])], &[DOUBLE_LINE], 0),
-    case("triple line", 2, 4, |y| vec![power(&y[1], 3)], &[DOUBLE_LINE], 0),
-    case("double parabola", 2, 6, |y| vec![sq(&(&y[1] - &sq(&y[0])))], &[DOUBLE_LINE], 0),
-    case("three lines", 2, 5, |y| {
-        let two = &y[0] * &y[1];
-        vec![&two * &(&y[0] - &y[1].scaled(2.0))]
-    }, &[LINE, LINE, LINE], 0),
-    case("common line of two equations", 2, 5, |y| {
-        vec![&y[0] * &y[1], &y[1] * &(&y[1] + &power(&y[0], 2))]
-    }, &[LINE], 0),
-    case("no common line", 2, 5, |y| vec![&y[0] * &y[1], &sq(&y[0]) - &sq(&y[1])], &[], 2),
-    case("hidden cubic", 2, 5, |y| {
-        let node = &y[0] * &y[1];
-        vec![node.clone(), &node + &power(&y[0], 3)]
-    }, &[LINE], 0),
-    case("plane and line", 3, 4, |y| vec![&y[0] * &y[2], &y[1] * &y[2]], &[SURFACE, LINE], 0),
-    case("three axes", 3, 4, |y| {
-        vec![&y[0] * &y[1], &y[1] * &y[2], &y[0] * &y[2]]
-    }, &[LINE, LINE, LINE], 0),
-    case("double plane", 3, 4, |y| vec![sq(&y[2])], &[(2, 0, false, 0)], 0),
-    case("two crossing planes", 3, 4, |y| vec![&y[0] * &y[2]], &[SURFACE, SURFACE], 0),
-    case("touching surfaces", 3, 5, |y| {
-        vec![&y[2] * &(&y[2] - &(&sq(&y[0]) + &sq(&y[1])))]
-    }, &[SURFACE, SURFACE], 0),
-    case("two planes in four dimensions", 4, 3, |y| {
-        vec![&y[0] * &y[2], &y[0] * &y[3], &y[1] * &y[2], &y[1] * &y[3]]
-    }, &[SURFACE, SURFACE], 0),
-    case("cone", 3, 4, |y| vec![&sq(&y[2]) - &(&sq(&y[0]) + &sq(&y[1]))], &[SURFACE], 0),
-    case("Whitney umbrella", 3, 4, |y| vec![&sq(&y[0]) - &(&sq(&y[1]) * &y[2])], &[(2, 0, true, 1)], 0),
-    case("plane and tangent curve", 3, 5, |y| {
-        vec![&y[2] * &(&y[2] - &sq(&y[0])), &y[2] * &y[1]]
-    }, &[SURFACE, LINE], 0),
-    case("definite in three variables", 3, 4, |y| {
-        vec![&(&sq(&y[0]) + &sq(&y[1])) + &power(&y[2], 4)]
-    }, &[], 4),
-    case("line by two squares", 3, 4, |y| vec![&sq(&y[0]) + &sq(&y[1])], &[DOUBLE_LINE], 0),
-    case("space cusp", 3, 5, |y| {
-        vec![&sq(&y[1]) - &power(&y[0], 3), &(&y[2] * &y[0]) - &sq(&y[1]), sq(&y[2])]
-    }, &[], 4),
-    case("space curve", 3, 6, |y| {
-        // (t², t³, t⁴) lies in both; the other zeros of the first pair are cut off by the third.
-        vec![
-            &sq(&y[1]) - &power(&y[0], 3),
-            &(&y[2] * &y[0]) - &sq(&y[1]),
-            &sq(&y[2]) - &power(&y[0], 4),
-        ]
-    }, &[CUSP], 0),
-    case("four quadrics in five variables", 5, 3, |y| {
-        (0..4).map(|i| &y[i] * &(&y[i + 1] - &y[0].scaled(0.5 + i as f64))).collect()
-    }, &[SURFACE, SURFACE, SURFACE, LINE], 0),
+    case(
+        "triple line",
+        2,
+        4,
+        |y| vec![power(&y[1], 3)],
+        &[DOUBLE_LINE],
+        0,
+    ),
+    case(
+        "double parabola",
+        2,
+        6,
+        |y| vec![sq(&(&y[1] - &sq(&y[0])))],
+        &[DOUBLE_LINE],
+        0,
+    ),
+    case(
+        "three lines",
+        2,
+        5,
+        |y| {
+            let two = &y[0] * &y[1];
+            vec![&two * &(&y[0] - &y[1].scaled(2.0))]
+        },
+        &[LINE, LINE, LINE],
+        0,
+    ),
+    case(
+        "common line of two equations",
+        2,
+        5,
+        |y| vec![&y[0] * &y[1], &y[1] * &(&y[1] + &power(&y[0], 2))],
+        &[LINE],
+        0,
+    ),
+    case(
+        "no common line",
+        2,
+        5,
+        |y| vec![&y[0] * &y[1], &sq(&y[0]) - &sq(&y[1])],
+        &[],
+        2,
+    ),
+    case(
+        "hidden cubic",
+        2,
+        5,
+        |y| {
+            let node = &y[0] * &y[1];
+            vec![node.clone(), &node + &power(&y[0], 3)]
+        },
+        &[LINE],
+        0,
+    ),
+    case(
+        "plane and line",
+        3,
+        4,
+        |y| vec![&y[0] * &y[2], &y[1] * &y[2]],
+        &[SURFACE, LINE],
+        0,
+    ),
+    case(
+        "three axes",
+        3,
+        4,
+        |y| vec![&y[0] * &y[1], &y[1] * &y[2], &y[0] * &y[2]],
+        &[LINE, LINE, LINE],
+        0,
+    ),
+    case(
+        "double plane",
+        3,
+        4,
+        |y| vec![sq(&y[2])],
+        &[(2, 0, false, 0)],
+        0,
+    ),
+    case(
+        "two crossing planes",
+        3,
+        4,
+        |y| vec![&y[0] * &y[2]],
+        &[SURFACE, SURFACE],
+        0,
+    ),
+    case(
+        "touching surfaces",
+        3,
+        5,
+        |y| vec![&y[2] * &(&y[2] - &(&sq(&y[0]) + &sq(&y[1])))],
+        &[SURFACE, SURFACE],
+        0,
+    ),
+    case(
+        "two planes in four dimensions",
+        4,
+        3,
+        |y| vec![&y[0] * &y[2], &y[0] * &y[3], &y[1] * &y[2], &y[1] * &y[3]],
+        &[SURFACE, SURFACE],
+        0,
+    ),
+    case(
+        "cone",
+        3,
+        4,
+        |y| vec![&sq(&y[2]) - &(&sq(&y[0]) + &sq(&y[1]))],
+        &[SURFACE],
+        0,
+    ),
+    case(
+        "Whitney umbrella",
+        3,
+        4,
+        |y| vec![&sq(&y[0]) - &(&sq(&y[1]) * &y[2])],
+        &[(2, 0, true, 1)],
+        0,
+    ),
+    case(
+        "plane and tangent curve",
+        3,
+        5,
+        |y| vec![&y[2] * &(&y[2] - &sq(&y[0])), &y[2] * &y[1]],
+        &[SURFACE, LINE],
+        0,
+    ),
+    case(
+        "definite in three variables",
+        3,
+        4,
+        |y| vec![&(&sq(&y[0]) + &sq(&y[1])) + &power(&y[2], 4)],
+        &[],
+        4,
+    ),
+    case(
+        "line by two squares",
+        3,
+        4,
+        |y| vec![&sq(&y[0]) + &sq(&y[1])],
+        &[DOUBLE_LINE],
+        0,
+    ),
+    case(
+        "space cusp",
+        3,
+        5,
+        |y| {
+            vec![
+                &sq(&y[1]) - &power(&y[0], 3),
+                &(&y[2] * &y[0]) - &sq(&y[1]),
+                sq(&y[2]),
+            ]
+        },
+        &[],
+        4,
+    ),
+    case(
+        "space curve",
+        3,
+        6,
+        |y| {
+            // (t², t³, t⁴) lies in both; the other zeros of the first pair are cut off by the third.
+            vec![
+                &sq(&y[1]) - &power(&y[0], 3),
+                &(&y[2] * &y[0]) - &sq(&y[1]),
+                &sq(&y[2]) - &power(&y[0], 4),
+            ]
+        },
+        &[CUSP],
+        0,
+    ),
+    case(
+        "four quadrics in five variables",
+        5,
+        3,
+        |y| {
+            (0..4)
+                .map(|i| &y[i] * &(&y[i + 1] - &y[0].scaled(0.5 + i as f64)))
+                .collect()
+        },
+        &[SURFACE, SURFACE, SURFACE, LINE],
+        0,
+    ),
 ];
 
 const fn case(
@@ -181,7 +411,12 @@ fn expected(case: &Case) -> Summary {
 }
 
 fn zeros(case: &Case, equations: &[Series]) -> GermZeros {
-    germ_zeros(case.variables, equations, 1e-12, &GermZeroOptions::default())
+    germ_zeros(
+        case.variables,
+        equations,
+        1e-12,
+        &GermZeroOptions::default(),
+    )
 }
 
 /// Fails with all cases that differ, so that one run shows what a change breaks.
@@ -191,9 +426,19 @@ fn check(cases: &[Case], what: &str, change: impl Fn(&Case, &mut SplitMix64) -> 
         let mut random = SplitMix64::named(&format!("{what} {}", case.name));
         let start = Instant::now();
         let answer = zeros(case, &change(case, &mut random));
-        println!("{:35} {:8.2?} {:5}", case.name, start.elapsed(), answer.starts);
+        println!(
+            "{:35} {:8.2?} {:5}",
+            case.name,
+            start.elapsed(),
+            answer.starts
+        );
         if summary(&answer) != expected(case) || answer.thin.is_some() {
-            failures.push(format!("{}: {:?} {:?}", case.name, summary(&answer), answer.thin));
+            failures.push(format!(
+                "{}: {:?} {:?}",
+                case.name,
+                summary(&answer),
+                answer.thin
+            ));
         }
     }
     assert!(failures.is_empty(), "{what}:\n{}", failures.join("\n"));
@@ -329,7 +574,10 @@ fn half_branches_point_where_the_curve_goes() {
             assert!((y[1] * y[1] - y[0].powi(3)).abs() < 1e-12);
         }
     }
-    let tacnode = CASES.iter().find(|case| case.name == "very close tacnode").unwrap();
+    let tacnode = CASES
+        .iter()
+        .find(|case| case.name == "very close tacnode")
+        .unwrap();
     let answer = zeros(tacnode, &as_it_is(tacnode));
     for branch in &answer.branches {
         // Both halves of a parabola v = c u² have the same c.

@@ -141,7 +141,10 @@ pub(super) fn inwards(
     work: &mut Work,
 ) -> Option<Track> {
     let mut z = vec![start.z.clone()];
-    let mut residuals = vec![(start.above_noise, residual(system, radii[0], &start.z, work))];
+    let mut residuals = vec![(
+        start.above_noise,
+        residual(system, radii[0], &start.z, work),
+    )];
     for step in radii.windows(2) {
         let from = z.last()?.clone();
         let landed = follow(system, &from, step[0], step[1], rank, work)?;
