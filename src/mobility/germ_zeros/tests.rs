@@ -606,7 +606,6 @@ proptest::proptest! {
     #![proptest_config(proptest::prelude::ProptestConfig {
         cases: 24,
         failure_persistence: None,
-        rng_seed: proptest::test_runner::RngSeed::Fixed(11),
         ..Default::default()
     })]
 
