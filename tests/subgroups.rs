@@ -51,14 +51,22 @@ fn table() {
         let lower: usize = found.iter().map(|f| f.lower).sum();
         let known: usize = expected[name]["finite"].as_u64().unwrap() as usize;
         let pose = expected[name]["pose"].as_str().unwrap();
-        let wrong = finite.is_some_and(|f| f + free != known || pose == "singular") || lower + free > known;
+        let wrong =
+            finite.is_some_and(|f| f + free != known || pose == "singular") || lower + free > known;
         let class: Vec<_> = found.iter().map(|f| f.class.map(|c| c.word())).collect();
         format!(
             "{}{name}: {finite:?} lower {lower} +{free} known {known} {pose} {class:?} margin {:.1e}\n      {}\n      {:?}",
             if wrong { "WRONG " } else { "" },
             found.iter().map(|f| f.margin).fold(f64::INFINITY, f64::min),
-            found.iter().map(|f| f.text.clone()).collect::<Vec<_>>().join(" | "),
-            found.iter().flat_map(|f| f.steps.clone()).collect::<Vec<_>>(),
+            found
+                .iter()
+                .map(|f| f.text.clone())
+                .collect::<Vec<_>>()
+                .join(" | "),
+            found
+                .iter()
+                .flat_map(|f| f.steps.clone())
+                .collect::<Vec<_>>(),
         )
     });
     println!("{}", rows.join("\n"));
@@ -73,9 +81,21 @@ fn timing() {
         let n = 20;
         for _ in 0..n {
             for (part, rank) in analysis.structure.parts.iter().zip(&analysis.parts) {
-                subgroup_finding(&mechanism, &geometry, &analysis.assembly.states, &analysis.structure, part, rank).unwrap();
+                subgroup_finding(
+                    &mechanism,
+                    &geometry,
+                    &analysis.assembly.states,
+                    &analysis.structure,
+                    part,
+                    rank,
+                )
+                .unwrap();
             }
         }
-        println!("{:9.1} us {name} {} joints", start.elapsed().as_secs_f64() * 1e6 / n as f64, mechanism.joints().len());
+        println!(
+            "{:9.1} us {name} {} joints",
+            start.elapsed().as_secs_f64() * 1e6 / n as f64,
+            mechanism.joints().len()
+        );
     }
 }

@@ -152,8 +152,7 @@ pub fn subgroup_finding(
             finding.decide(freedom, MobilityClass::Trivial);
             finding.margin = finding.margin.min(margin.gap());
             let frame = placing::cycle_frame(mechanism, geometry, states, part, rank);
-            finding.text =
-                words::loop_spaces(mechanism, part, &algebras, frame.as_ref(), reading);
+            finding.text = words::loop_spaces(mechanism, part, &algebras, frame.as_ref(), reading);
             return Ok(finding);
         }
         Ok(None) => {}

@@ -243,8 +243,8 @@ impl Arcs<'_> {
             for to in order.into_iter().chain([start]) {
                 let mut found: Option<(usize, usize, usize)> = None;
                 for &from in &reached {
-                    let forward = steps[from] < steps[to]
-                        || self.cuts[from].begins_block_of(&self.cuts[to]);
+                    let forward =
+                        steps[from] < steps[to] || self.cuts[from].begins_block_of(&self.cuts[to]);
                     if from != start && to != start && !forward {
                         continue;
                     }

@@ -48,8 +48,7 @@ pub fn place(
             screws.iter().map(|screw| screw.moved(&frame)).collect()
         })
         .collect();
-    let uncertainty =
-        Uncertainty::total(part.joints.iter().map(|&j| &geometry.uncertainties[j]));
+    let uncertainty = Uncertainty::total(part.joints.iter().map(|&j| &geometry.uncertainties[j]));
     let reach = placed
         .iter()
         .flatten()

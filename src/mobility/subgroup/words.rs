@@ -91,7 +91,9 @@ pub fn loop_spaces(
     format!(
         "{reading}of the displacements around the loops, {}; the {} that this leaves are independent{coupled}",
         loops.join(", "),
-        equations(sum).trim_end_matches(" are").trim_end_matches(" is")
+        equations(sum)
+            .trim_end_matches(" are")
+            .trim_end_matches(" is")
     )
 }
 
@@ -156,7 +158,9 @@ pub fn remainder(mechanism: &Mechanism, joints: &[usize], rank: usize) -> String
     format!(
         "in the network that is left, of {}, the {} that the subgroups of its loops leave are independent",
         list(mechanism, joints),
-        equations(rank).trim_end_matches(" are").trim_end_matches(" is")
+        equations(rank)
+            .trim_end_matches(" are")
+            .trim_end_matches(" is")
     )
 }
 
@@ -175,7 +179,10 @@ pub fn summary(steps: &[String]) -> String {
 /// Nothing decided.
 pub fn stuck(chains: usize, steps: usize) -> String {
     match steps {
-        0 => "neither the subgroups of the loops nor those of two chains of a loop explain the rank".to_owned(),
+        0 => {
+            "neither the subgroups of the loops nor those of two chains of a loop explain the rank"
+                .to_owned()
+        }
         _ => format!(
             "subgroups explain a part of the mechanism only: {chains} chains are left whose loops they do not explain"
         ),
