@@ -450,7 +450,7 @@ impl<'a> Network<'a> {
         }
         let mut idle = 0;
         for edge in &left {
-            idle += without_effect(&edge.pieces, &self.gauge)?;
+            idle += chain::without_effect(&edge.pieces, &self.gauge)?;
         }
         let text = words::stuck(left.len(), self.steps.len());
         Ok(Outcome {
@@ -495,21 +495,4 @@ fn moving_arcs(arcs: &[Arc], count: usize, gauge: &Gauge) -> Result<Subalgebra, 
             inside > 0 && inside < arc.pieces.len()
         })
         .try_fold(none, |sum, arc| sum.join(&arc.group))
-}
-
-/// Freedoms of a chain that change nothing between its ends, where the chain is a submersion onto a subgroup or onto a
-/// product of two: then every displacement is reached by a manifold of variables of that dimension.
-fn without_effect(pieces: &[Piece], gauge: &Gauge) -> Result<usize, GroupError> {
-    let reached = span(pieces, gauge)?;
-    let surplus = freedom(pieces).saturating_sub(reached.dimension());
-    if surplus == 0 || !clear(reached.margin()) {
-        return Ok(0);
-    }
-    for cut in 0..pieces.len() {
-        let (before, after) = pieces.split_at(cut);
-        if swept(before, gauge)?.is_some() && swept(after, gauge)?.is_some() {
-            return Ok(surplus);
-        }
-    }
-    Ok(0)
 }

@@ -47,8 +47,11 @@ fn answer(finding: &SubgroupFinding) -> (Option<usize>, Option<MobilityClass>) {
 const TRIVIAL: Option<MobilityClass> = Some(MobilityClass::Trivial);
 const EXCEPTIONAL: Option<MobilityClass> = Some(MobilityClass::Exceptional);
 
+/// A joint of a network: name, kind, its two links, where it is and along which axis.
+type Between<'a> = (&'a str, JointKind, &'a str, &'a str, [f64; 3], [f64; 3]);
+
 /// Joints between links that all have the world's frame at home.
-fn network(joints: &[(&str, JointKind, &str, &str, [f64; 3], [f64; 3])]) -> Mechanism {
+fn network(joints: &[Between]) -> Mechanism {
     let mut builder = MechanismBuilder::new("network");
     builder.link("a");
     let mut known = vec!["a"];
