@@ -4,7 +4,7 @@ use super::cite;
 use super::page::Page;
 use super::style::Tint;
 use super::table::{Cell, Column, Table};
-use super::words::{counted, figure};
+use super::words::{capitalised, counted, figure};
 use crate::mobility::{PoseKind, SingularKind, Verdict};
 use crate::report::schema::{Home, Report};
 
@@ -92,7 +92,7 @@ pub(super) fn write(report: &Report, page: &mut Page) {
         page.paragraph(&sentence, Tint::Plain, "  ", "  ");
     }
     if let Some(note) = &home.note {
-        page.paragraph(note, Tint::Doubtful, "  ", "  ");
+        page.paragraph(&capitalised(note), Tint::Doubtful, "  ", "  ");
     }
 }
 
@@ -162,8 +162,8 @@ fn geometry(report: &Report) -> Option<String> {
     let freedom = report.home.instantaneous?;
     let text = match freedom.checked_sub(generic.mobility)? {
         0 => format!(
-            "Any mechanism of these links and joints has {}: the dimensions add nothing.",
-            counted(freedom, "freedom")
+            "At almost any dimensions {}: those of this pose add nothing.",
+            remain(freedom)
         ),
         more => format!(
             "At other dimensions {}: the geometry of this pose adds {more}.",
@@ -237,7 +237,8 @@ fn margin(report: &Report) -> Option<String> {
             figure(tolerance)
         )),
     }
-    if let Some(literal) = home.as_written {
+    // A note says this already, with its figures.
+    if let (Some(literal), None) = (home.as_written, &home.note) {
         text.push_str(&format!(
             " Taken literally, the numbers of the file give {}; within their stated precision it is {}.",
             counted(literal, "instantaneous freedom"),

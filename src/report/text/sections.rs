@@ -86,6 +86,11 @@ pub(super) fn joints(report: &Report, page: &mut Page) {
         };
         table = table.column(title, Column::Shrinking);
     }
+    // A velocity that is not known to lead anywhere is no motion.
+    let moves = match report.mobility.verdict {
+        Verdict::Mobile => "moves",
+        _ => "gives way",
+    };
     if wrenches {
         table = table.column("undetermined", Column::Numbers);
     }
@@ -98,7 +103,7 @@ pub(super) fn joints(report: &Report, page: &mut Page) {
             Cell::new(joint.freedom.to_string()),
         ];
         if roles {
-            row.push(role(joint, branches));
+            row.push(role(joint, branches, moves));
         }
         if wrenches {
             row.push(match joint.redundant_wrenches {
@@ -129,7 +134,7 @@ pub(super) fn joints(report: &Report, page: &mut Page) {
     }
 }
 
-fn role(joint: &JointRow, branches: &[Branch]) -> Cell {
+fn role(joint: &JointRow, branches: &[Branch], moves: &str) -> Cell {
     let rests: Vec<&str> = branches
         .iter()
         .filter(|branch| branch.locked.contains(&joint.name))
@@ -142,7 +147,7 @@ fn role(joint: &JointRow, branches: &[Branch]) -> Cell {
         (_, Some(false)) if !rests.is_empty() => {
             Cell::new(format!("locked on {}", rests.join(", "))).tint(Tint::Notable)
         }
-        (_, Some(false)) if joint.locked_parts.is_empty() => Cell::new("moves"),
+        (_, Some(false)) if joint.locked_parts.is_empty() => Cell::new(moves),
         (_, Some(false)) => {
             let parts: Vec<&str> = joint
                 .locked_parts
@@ -153,7 +158,7 @@ fn role(joint: &JointRow, branches: &[Branch]) -> Cell {
                         .unwrap_or(part)
                 })
                 .collect();
-            Cell::new(format!("moves; {} locked", parts.join(", "))).tint(Tint::Notable)
+            Cell::new(format!("{moves}; {} locked", parts.join(", "))).tint(Tint::Notable)
         }
     }
 }

@@ -5,7 +5,7 @@
 use super::cite;
 use super::page::Page;
 use super::style::Tint;
-use super::words::{counted, figure, names};
+use super::words::{capitalised, counted, figure, names};
 use crate::mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
 use crate::report::schema::{Assembly, Branch, Report};
 
@@ -209,7 +209,7 @@ pub(super) fn not_more(report: &Report) -> Option<String> {
                         counted(at_pose, "freedom")
                     ),
                     _ => format!(
-                        "Why not more: the pose is singular ({}): its {} exist to first order only, and no branch \
+                        "Why not more: the pose is singular ({}): its {} exist together to first order only, and no branch \
                          through it has more than {} ({})",
                         cite::REGULAR,
                         counted(at_pose, "freedom"),
@@ -297,16 +297,6 @@ fn freedoms(report: &Report) -> String {
 
 fn optional(count: Option<usize>) -> String {
     count.map_or_else(|| "?".to_owned(), |n| n.to_string())
-}
-
-fn capitalised(sentence: &str) -> String {
-    let mut letters = sentence.chars();
-    let first: String = letters
-        .next()
-        .into_iter()
-        .flat_map(char::to_uppercase)
-        .collect();
-    format!("{first}{}.", letters.as_str().trim_end_matches('.'))
 }
 
 fn unassembled(assembly: &Assembly) -> String {

@@ -129,7 +129,7 @@ fn singular_poses_say_why_not_more() {
     let mut report = at_singular(Some(SingularKind::Bifurcation), 2, &[1, 1]);
     assert_eq!(
         not_more(&report).unwrap(),
-        "Why not more: the pose is singular (D6): its 2 freedoms exist to first order only, and no branch through it has \
+        "Why not more: the pose is singular (D6): its 2 freedoms exist together to first order only, and no branch through it has \
          more than 1 (D8)."
     );
     report.mobility.complex_dimension = Some(1);

@@ -10,6 +10,18 @@ pub fn counted(count: usize, thing: &str) -> String {
     }
 }
 
+/// A clause as a sentence of its own: a capital, and one full stop.
+#[must_use]
+pub fn capitalised(clause: &str) -> String {
+    let mut letters = clause.chars();
+    let first: String = letters
+        .next()
+        .into_iter()
+        .flat_map(char::to_uppercase)
+        .collect();
+    format!("{first}{}.", letters.as_str().trim_end_matches('.'))
+}
+
 /// A measured number with three significant digits: `0.3`, `12.5`, `2.5e-13`. Powers of ten from 0.001 to 10,000 are
 /// written out.
 #[must_use]
