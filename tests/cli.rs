@@ -156,6 +156,119 @@ fn settings_reach_the_file_and_bad_ones_are_refused() {
     }
 }
 
+/// A mechanism of the repository through whose pose two branches pass.
+const TWO_BRANCHES: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/mechanisms/parallelogram_flat.urdf"
+);
+
+fn json(output: &Output) -> serde_json::Value {
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[test]
+fn evidence_is_told_where_it_is_asked_for() {
+    let folder = folder("evidence");
+    let page = |more: &[&str]| {
+        let arguments = [&["report", TWO_BRANCHES][..], more].concat();
+        let output = kutzbach(&folder, &arguments);
+        assert_eq!(output.status.code(), Some(0));
+        output
+    };
+    assert!(!text(&page(&[]).stdout).contains("Evidence"));
+    let told = text(&page(&["--evidence"]).stdout);
+    let (_, told) = told.split_once("Evidence (D20)").unwrap();
+    for engine in ["rank", "subgroup", "chart", "germ"] {
+        assert!(told.contains(&format!("• {engine} (")), "{engine}: {told}");
+    }
+    assert!(json(&page(&["--format", "json"])).get("evidence").is_none());
+    let report = json(&page(&["--format", "json", "--evidence"]));
+    let evidence = report["evidence"].as_array().unwrap();
+    let rank = &evidence[0];
+    assert_eq!(
+        (&rank["engine"], &rank["bounds"][1]),
+        (&"rank".into(), &2.into())
+    );
+    let least = evidence
+        .iter()
+        .filter_map(|e| e["bounds"][1].as_u64())
+        .min();
+    assert_eq!(least, Some(1));
+    assert!(
+        evidence
+            .iter()
+            .all(|e| e["block"] == report["home"]["blocks"][0]["name"])
+    );
+}
+
+#[test]
+fn motions_between_links_are_told_on_every_branch() {
+    let folder = folder("between");
+    let arguments = ["report", TWO_BRANCHES, "--between", "coupler", "ground"];
+    let page = text(&kutzbach(&folder, &arguments).stdout);
+    let (_, asked) = page.split_once("Relative motions asked for").unwrap();
+    let (asked, others) = asked.split_once("Motions (").unwrap();
+    assert!(asked.contains("translates") && asked.contains("turns about an axis that moves"));
+    assert!(
+        !others.split_once("Advice").unwrap().0.contains("coupler "),
+        "{others}"
+    );
+
+    let twice = ["--between", "right_crank", "left_crank", "--format", "json"];
+    let report = json(&kutzbach(&folder, &[&arguments[..], &twice].concat()));
+    let asked: Vec<(&str, &str, &str, u64)> = report["motions"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|motion| motion["asked"] == true)
+        .map(|motion| {
+            let word = |field: &str| motion[field].as_str().unwrap();
+            let turns = motion["rotations"].as_u64().unwrap();
+            (word("link"), word("relative_to"), word("branch"), turns)
+        })
+        .collect();
+    let of = |link: &str, seen_from: &str| -> Vec<u64> {
+        let rows = asked
+            .iter()
+            .filter(|row| (row.0, row.1) == (link, seen_from));
+        let mut turns: Vec<u64> = rows.map(|row| row.3).collect();
+        turns.sort_unstable();
+        turns
+    };
+    // As a parallelogram the coupler is translated, crossed it turns; and so do the cranks seen from one another.
+    assert_eq!(asked.len(), 4, "{asked:?}");
+    assert_eq!(of("coupler", "ground"), [0, 1]);
+    assert_eq!(of("right_crank", "left_crank"), [0, 1]);
+}
+
+#[test]
+fn links_that_do_not_exist_are_refused_with_a_hint() {
+    let folder = folder("unknown_link");
+    fs::write(folder.join("bar.urdf"), BAR).unwrap();
+    for (links, help) in [
+        (["couple", "ground"], "did you mean `coupler`?"),
+        (["coupler", "grond"], "did you mean `ground`?"),
+        (
+            ["coupler", "quadrant"],
+            "`kutzbach graph FILE` lists all links",
+        ),
+    ] {
+        let output = kutzbach(
+            &folder,
+            &["report", "bar.urdf", "--between", links[0], links[1]],
+        );
+        assert_eq!(output.status.code(), Some(2));
+        assert!(output.stdout.is_empty());
+        let message = text(&output.stderr);
+        assert!(
+            message.contains("there is no link `") && message.contains(help),
+            "{message}"
+        );
+    }
+    let output = kutzbach(&folder, &["report", "bar.urdf", "--between", "coupler"]);
+    assert_eq!(output.status.code(), Some(2));
+}
+
 #[test]
 fn check_compares_both_sources_and_exits_with_1_on_a_disagreement() {
     let folder = folder("check");
