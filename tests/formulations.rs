@@ -17,17 +17,18 @@ use kutzbach::mechanism::Mechanism;
 use std::collections::BTreeSet;
 use support::{analysis, assert_none, in_parallel, own_mechanisms, zoo, zoo_mechanism};
 
-/// The nullities of the matrices by the cycles and by the links, each with its columns scaled to one.
+/// The nullities of the matrices by the cycles and by the links.
+///
+/// The columns by the cycles are scaled to one, which a screw allows. Those by the links are not: where nothing hinders a
+/// link's turning a column holds rounding only, and scaled it would count.
 fn nullities<R: Real>(
     by_cycles: &SparseMatrix<R>,
     by_links: &SparseMatrix<R>,
     accuracy: f64,
 ) -> [Option<usize>; 2] {
-    [by_cycles, by_links].map(|matrix| {
-        let mut matrix = matrix.clone();
-        matrix.scale_columns();
-        decide(&matrix, accuracy).unwrap().nullity()
-    })
+    let mut by_cycles = by_cycles.clone();
+    by_cycles.scale_columns();
+    [&by_cycles, by_links].map(|matrix| decide(matrix, accuracy).unwrap().nullity())
 }
 
 /// Number of unknowns of the second formulation: six per link but one in each connected piece.

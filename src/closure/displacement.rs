@@ -257,6 +257,30 @@ impl<R: Real> JointDisplacement<R> {
         }
     }
 
+    /// By how much [`Self::advance`] has to advance every variable to get from one state to another; turns of a ball are
+    /// taken the short way.
+    pub fn increments(&self, from: &JointState<R>, to: &JointState<R>) -> Vec<R> {
+        let mut increments = Vec::with_capacity(self.freedom());
+        for ((factor, start), end) in self.factors.iter().zip(&from.factors).zip(&to.factors) {
+            let zero = self.pitch.zero_like();
+            let turns = |g: &&Generator<R>| g.angular.iter().any(|x| *x != zero);
+            if factor.generators.iter().filter(turns).count() > 1 {
+                let turn = start.inverse().compose(end).rotation_vector();
+                increments.extend(
+                    factor
+                        .generators
+                        .iter()
+                        .map(|generator| dot(&generator.angular, &turn)),
+                );
+            } else {
+                let first = increments.len();
+                let variables = first..first + factor.generators.len();
+                increments.extend(variables.map(|v| to.values[v].clone() - from.values[v].clone()));
+            }
+        }
+        increments
+    }
+
     /// The state whose displacement is a given one, or comes near it where the joint cannot reach it: rotations about
     /// fixed axes are chosen to turn as far as the given rotation does, translations are projected.
     pub fn fit(&self, wanted: &Rigid<R>) -> JointState<R> {

@@ -64,6 +64,9 @@ pub struct Section<'a, R> {
     pub metric: &'a Metric,
 }
 
+/// A step that leads away from closing is halved so often.
+const SHORTENINGS: i32 = 6;
+
 fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0f64, |m, x| {
         if m.is_nan() || x.abs() <= m {
@@ -94,6 +97,18 @@ impl<R: Real> Section<'_, R> {
     pub fn advance_by(&self, states: &mut [JointState<R>], z: &[f64]) {
         let z: Vec<R> = z.iter().map(|x| self.geometry.one.constant(*x)).collect();
         self.advance(states, &z);
+    }
+
+    /// By which [`Self::advance_by`] leads from one pose of the part to another.
+    #[must_use]
+    pub fn way_between(&self, from: &[JointState<R>], to: &[JointState<R>]) -> Vec<f64> {
+        self.part
+            .joints
+            .iter()
+            .flat_map(|&j| self.geometry.displacements[j].increments(&from[j], &to[j]))
+            .zip(&self.metric.weights)
+            .map(|(increment, weight)| increment.to_f64() * weight)
+            .collect()
     }
 
     /// Newton steps of least length that close the cycles and do not move along the `held` directions (orthonormal in the
@@ -145,23 +160,37 @@ impl<R: Real> Section<'_, R> {
             // Beyond a radian or so the linearisation says nothing.
             let shorten = if length > 0.5 { 0.5 / length } else { 1.0 };
             length *= shorten;
-            let factor = self.geometry.one.constant(closing.residual * shorten);
-            let z: Vec<R> = step
-                .iter()
-                .map(|x| self.geometry.one.constant(*x) * factor.clone())
-                .collect();
             kept.clear();
             kept.extend(self.part.joints.iter().map(|&j| states[j].clone()));
-            self.advance(states, &z);
-            let there = jacobian(self.mechanism, self.geometry, states, self.part)?;
-            let reached = size(&there.residual);
-            closing.steps += 1;
-            if !(reached < closing.residual) {
-                for (&joint, state) in self.part.joints.iter().zip(kept.drain(..)) {
-                    states[joint] = state;
+            // Where the equations are nearly singular a step may be far too long. Sections that hold directions are asked how
+            // much is left over, and end there all the sooner.
+            let shortenings = if held.is_empty() && closing.residual > 1e3 * rounding {
+                SHORTENINGS
+            } else {
+                1
+            };
+            let mut there = None;
+            for halving in 0..shortenings {
+                let part = closing.residual * shorten * 0.5f64.powi(halving);
+                let factor = self.geometry.one.constant(part);
+                let z: Vec<R> = step
+                    .iter()
+                    .map(|x| self.geometry.one.constant(*x) * factor.clone())
+                    .collect();
+                self.advance(states, &z);
+                let found = jacobian(self.mechanism, self.geometry, states, self.part)?;
+                let reached = size(&found.residual);
+                if reached < closing.residual {
+                    there = Some((found, reached));
+                    length *= 0.5f64.powi(halving);
+                    break;
                 }
-                break;
+                for (&joint, state) in self.part.joints.iter().zip(&kept) {
+                    states[joint] = state.clone();
+                }
             }
+            closing.steps += 1;
+            let Some((there, reached)) = there else { break };
             let stalled = reached > 0.999 * closing.residual;
             closing.way += length;
             closing.last_step = length;

@@ -23,8 +23,9 @@ const NEARLY_ALL: f64 = 0.99;
 
 /// Links of loops that can move alone at all of the poses, with the smallest freedom they have there, by link index.
 ///
-/// A link counts as inside a loop if at least two of its joints are in cycles of one part. Links that hang on bridges, and
-/// the ground, are never idle. Where margins are thin a link is not called idle.
+/// A link counts as inside a loop if at least two of its joints are in cycles of one part, and these lead to at least two
+/// other links: between two links alone the motion of one is what the mechanism is for. Links that hang on bridges, and the
+/// ground, are never idle. Where margins are thin a link is not called idle.
 #[must_use]
 pub fn idle_links(
     mechanism: &Mechanism,
@@ -66,7 +67,14 @@ pub(super) fn idle_seen(
             .collect();
         parts.sort_unstable();
         let in_a_loop = parts.windows(2).any(|pair| pair[0] == pair[1]);
-        if link == mechanism.ground().0 || !in_a_loop {
+        let mut others: Vec<usize> = joints
+            .iter()
+            .filter(|(j, _)| part_of_joint[*j].is_some())
+            .map(|(_, other)| *other)
+            .collect();
+        others.sort_unstable();
+        others.dedup();
+        if link == mechanism.ground().0 || !in_a_loop || others.len() < 2 {
             continue;
         }
         let mut freedom = usize::MAX;

@@ -14,7 +14,7 @@ use super::germ::{Germ, complex_dimension, prestress_certificate};
 use super::germ_zeros::{GermBranch, GermZeroOptions, germ_zeros};
 use super::part_mobility::{Evidence, PartBranch, PartFinding};
 use super::pose_rank::{PartRank, Pose};
-use super::tracing::{PartPose, natural, orthonormal, tangents_at, walk};
+use super::tracing::{PartPose, Tangents, natural, orthonormal, tangents_at, walk};
 use super::vocabulary::{CertificateLevel, PoseKind, SingularKind};
 use crate::closure::{JointState, Part, Section};
 use crate::matrix::{MatrixError, Real};
@@ -303,28 +303,28 @@ fn lift(
     if closing.residual > 4.0 * closing.rounding + rank.stated || closing.way > POLISHING * away {
         return Ok(None);
     }
-    // Along a branch on which an equation enters squared, a residual of ρ leaves a pose off by √ρ.
+    // Along a branch on which an equation enters squared, a residual of ρ leaves a pose off by √ρ: a singular value of this
+    // size is zero there, and nowhere else so close to it.
     let blur = closing.residual.max(closing.rounding).sqrt();
-    let Some((mut there, _)) = tangents_at(&section, &states, rank.stated, branch.dimension)?
-    else {
+    let dimension = branch.dimension;
+    let sharp = tangents_at(&section, &states, rank.stated, dimension)?;
+    let blurred = tangents_at(&section, &states, rank.stated + 10.0 * blur, dimension)?;
+    let tells = |seen: &Option<Tangents>| seen.as_ref().and_then(|t| t.instantaneous);
+    let [sharp, blurred] = [sharp, blurred].map(|seen| seen.map(|(tangents, _)| tangents));
+    // Where the two differ the singular values are small for one of two reasons, and the series tell which: the branch is
+    // not simple, or the pose that singular values grow from is near.
+    let shaky_there = !branch.reduced && tells(&blurred).is_some_and(|freedom| freedom > dimension);
+    let Some(there) = (if shaky_there || tells(&sharp).is_none() {
+        blurred
+    } else {
+        sharp
+    }) else {
         return Ok(None);
     };
-    if there.instantaneous != Some(branch.dimension) {
-        let Some((blurred, _)) = tangents_at(
-            &section,
-            &states,
-            rank.stated + 10.0 * blur,
-            branch.dimension,
-        )?
-        else {
-            return Ok(None);
-        };
-        there = blurred;
-    }
     let Some(instantaneous) = there.instantaneous else {
         return Ok(None);
     };
-    if instantaneous < branch.dimension {
+    if instantaneous < dimension {
         return Ok(None);
     }
     let direction: Vec<f64> = z.iter().map(|x| x / away).collect();
@@ -356,8 +356,8 @@ fn lift(
     }))
 }
 
-/// How far a secant reaches (metric): its error falls with the square.
-const SECANT: f64 = 0.01;
+/// How far a secant reaches (metric). Its error falls with the fourth power, and grows with the pose's, of 1e-8, over it.
+const SECANT: f64 = 0.02;
 
 /// Poses on a branch whose tangents are fewer than its instantaneous motions: tangents are taken from neighbours on the
 /// branch, found by stepping along every instantaneous motion and closing the loops.
@@ -369,49 +369,45 @@ fn secant_poses(
     instantaneous: usize,
     stated: f64,
 ) -> Result<Vec<PartPose>, MatrixError> {
-    let values = |states: &[JointState<f64>]| -> Vec<f64> {
-        let of_joint = section.part.joints.iter().flat_map(|&j| &states[j].values);
-        of_joint
-            .zip(&section.metric.weights)
-            .map(|(value, weight)| value * weight)
-            .collect()
-    };
     let neighbour = |direction: &[f64], size: f64| -> Result<Option<Vec<f64>>, MatrixError> {
         let mut states = start.to_vec();
         let z: Vec<f64> = direction.iter().map(|x| x * size).collect();
         section.advance_by(&mut states, &z);
         let closing = section.close(&mut states, &[], 80)?;
-        Ok((closing.residual <= 4.0 * closing.rounding + stated).then(|| values(&states)))
+        let closed = closing.residual <= 4.0 * closing.rounding + stated;
+        Ok(closed.then(|| section.way_between(start, &states)))
     };
-    let mut secants = Vec::new();
-    for direction in kernel {
-        let (Some(ahead), Some(behind)) = (
-            neighbour(direction, SECANT)?,
-            neighbour(direction, -SECANT)?,
-        ) else {
-            return Ok(Vec::new());
-        };
-        secants.push(
-            ahead
-                .iter()
-                .zip(&behind)
-                .map(|(a, b)| a - b)
-                .collect::<Vec<f64>>(),
-        );
-    }
-    // The longest ones span the tangent space.
-    secants.sort_by(|a, b| 0.0.norm(b).total_cmp(&0.0.norm(a)));
-    let mut basis: Vec<Vec<f64>> = Vec::new();
-    for secant in secants {
-        let mut trial = basis.clone();
-        trial.push(secant.clone());
-        let spanned = orthonormal(trial);
-        let new = spanned.len() > basis.len();
-        let reach = spanned.last().map_or(0.0, |v| {
-            v.iter().zip(&secant).map(|(a, b)| a * b).sum::<f64>()
-        });
-        if new && reach.abs() > 0.05 * SECANT && basis.len() < dimension {
-            basis = spanned;
+    // The first tangents come from directions that mostly lead off the branch, where closing is slow and coarse, or fails;
+    // the second from the first.
+    let mut basis = kernel.to_vec();
+    for _ in 0..2 {
+        let mut slopes = Vec::new();
+        for direction in &basis {
+            // Central differences over one and two steps together are exact to the fourth order.
+            let mut slope = Some(vec![0.0; direction.len()]);
+            for (steps, weight) in [(1.0, 2.0 / 3.0), (2.0, -1.0 / 12.0)] {
+                for side in [1.0, -1.0] {
+                    let way = neighbour(direction, side * steps * SECANT)?;
+                    slope = slope.zip(way).map(|(sum, way)| {
+                        let weight = side * weight / SECANT;
+                        sum.iter().zip(way).map(|(s, x)| s + weight * x).collect()
+                    });
+                }
+            }
+            slopes.extend(slope.map(|slope| projected(&slope, kernel)));
+        }
+        // The longest ones span the tangent space.
+        slopes.sort_by(|a, b| 0.0.norm(b).total_cmp(&0.0.norm(a)));
+        basis = Vec::new();
+        for slope in slopes {
+            let mut trial = basis.clone();
+            trial.push(slope.clone());
+            let spanned = orthonormal(trial);
+            let new = spanned.len() > basis.len();
+            let reach = spanned.last().map_or(0.0, |v| along(v, &slope));
+            if new && reach.abs() > 0.05 && basis.len() < dimension {
+                basis = spanned;
+            }
         }
     }
     if basis.len() != dimension {
@@ -462,6 +458,19 @@ fn kind_of(lifted: &[Lifted], zeros: &[GermBranch]) -> Option<SingularKind> {
     } else {
         SingularKind::Bifurcation
     })
+}
+
+/// The part of a vector in the span of an orthonormal basis.
+fn projected(vector: &[f64], basis: &[Vec<f64>]) -> Vec<f64> {
+    let mut inside = vec![0.0; vector.len()];
+    for direction in basis {
+        let share = along(vector, direction);
+        inside
+            .iter_mut()
+            .zip(direction)
+            .for_each(|(sum, x)| *sum += share * x);
+    }
+    inside
 }
 
 fn along(a: &[f64], b: &[f64]) -> f64 {

@@ -9,7 +9,8 @@
 //! leaves open, what is left of their residual, and what is left of the equations for the tangents given), a null vector
 //! of their Jacobian is off by ε/σ with σ its smallest kept singular value (Wedin 1972), all relative to the largest.
 //! That needs the tangents to *be* its null space. Where it is larger, as along a permanently shaky branch, the equations
-//! have a double zero: a residual of ε leaves the pose itself uncertain by √ε, its screws too, and a tangent by √ε/σ.
+//! have a double zero: a residual of ε leaves the pose itself uncertain by √ε, its screws too, and a tangent by √ε/σ, where
+//! singular values up to √ε count as zero.
 //!
 //! Cost: one rank decision for every part and, for `d` tangents with `n` components each, `n d²` operations.
 
@@ -18,7 +19,7 @@ use super::one_sided::{dot, norm};
 use super::pose_rank::known_to;
 use super::structure::Structure;
 use crate::closure::{Geometry, Part, jacobian};
-use crate::matrix::{MatrixError, Real, decide};
+use crate::matrix::{MatrixError, Real, SparseMatrix, decide};
 use crate::mechanism::{FreedomPart, Mechanism};
 
 /// What counts as rest and what as motion among numbers that come from unit tangents.
@@ -147,11 +148,15 @@ impl TangentSpace {
             .iter()
             .map(|&joint| first[joint + 1] - first[joint])
             .sum();
-        let kernel = equations
-            .iter()
-            .map(|part| part.nullity)
-            .sum::<Option<usize>>();
-        let whole_kernel = kernel.is_some_and(|kernel| kernel + free == basis.len());
+        let freedom = |kernel: fn(&PartEquations) -> &Kernel| {
+            equations
+                .iter()
+                .map(|part| kernel(part).nullity)
+                .sum::<Option<usize>>()
+                .map(|sum| sum + free)
+        };
+        let whole_kernel = freedom(|part| &part.simple) == Some(basis.len())
+            && freedom(|part| &part.multiple).is_none_or(|freedom| freedom == basis.len());
         let own = |length| Limits::new(8.0 * f64::EPSILON, length);
         let mut joint_limits = vec![own(1); mechanism.joints().len()];
         let mut worst: f64 = 8.0 * f64::EPSILON;
@@ -216,10 +221,31 @@ struct PartEquations {
     length: f64,
     /// What the equations are uncertain by.
     uncertainty: f64,
+    /// The kernel if the equations have a simple zero here, and if they have a double one.
+    simple: Kernel,
+    multiple: Kernel,
+    matrix: SparseMatrix<f64>,
+}
+
+/// What a rank decision says of the kernel.
+struct Kernel {
     /// Smallest kept singular value, relative to the largest.
     kept: f64,
     nullity: Option<usize>,
-    matrix: crate::matrix::SparseMatrix<f64>,
+}
+
+impl Kernel {
+    fn within(matrix: &SparseMatrix<f64>, uncertainty: f64) -> Result<Self, MatrixError> {
+        let decision = decide(matrix, uncertainty)?;
+        Ok(Self {
+            kept: if decision.kept > 0.0 {
+                decision.kept.min(1.0)
+            } else {
+                1.0
+            },
+            nullity: decision.nullity(),
+        })
+    }
 }
 
 impl PartEquations {
@@ -235,16 +261,11 @@ impl PartEquations {
         let uncertainty = rounding + residual + if coarse { 0.0 } else { stated };
         let mut scaled = here.matrix.clone();
         scaled.scale_columns();
-        let decision = decide(&scaled, uncertainty)?;
         Ok(Self {
             length: here.length,
             uncertainty,
-            kept: if decision.kept > 0.0 {
-                decision.kept.min(1.0)
-            } else {
-                1.0
-            },
-            nullity: decision.nullity(),
+            simple: Kernel::within(&scaled, uncertainty)?,
+            multiple: Kernel::within(&scaled, uncertainty.sqrt())?,
             matrix: here.matrix,
         })
     }
@@ -267,12 +288,11 @@ impl PartEquations {
             left = left.max(norm(&self.matrix.multiply(&own).ok()?));
         }
         let uncertainty = self.uncertainty + left;
-        let open = if whole_kernel {
-            uncertainty
+        Some(if whole_kernel {
+            uncertainty / self.simple.kept
         } else {
-            uncertainty.sqrt()
-        };
-        Some(open / self.kept)
+            uncertainty.sqrt() / self.multiple.kept
+        })
     }
 }
 

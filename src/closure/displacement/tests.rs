@@ -308,3 +308,26 @@ fn directions_in_a_plane_may_differ_between_arithmetics() {
     let adopted = other.adopt(&double, &state);
     assert!(apart(&other.displacement(&adopted), &double.displacement(&state)) < 1e-14);
 }
+
+#[test]
+fn increments_lead_from_one_state_to_another() {
+    let mut random = SplitMix64::new(5);
+    for kind in JointKind::ALL {
+        let joint = joint(kind);
+        for _ in 0..20 {
+            let from = joint.at(&random_values(kind, &mut random));
+            let mut to = from.clone();
+            let small: Vec<f64> = (0..kind.freedom())
+                .map(|_| 0.01 * random.symmetric())
+                .collect();
+            joint.advance(&mut to, &small);
+            let found = joint.increments(&from, &to);
+            for (a, b) in found.iter().zip(&small) {
+                assert!((a - b).abs() < 1e-13, "{kind}: {found:?} for {small:?}");
+            }
+            let mut again = from.clone();
+            joint.advance(&mut again, &found);
+            assert!(apart(&joint.displacement(&again), &joint.displacement(&to)) < 1e-13);
+        }
+    }
+}
