@@ -33,6 +33,12 @@ pub struct Arguments {
     /// Say how long the stages took
     #[arg(long)]
     timing: bool,
+    /// Tell what every engine found, with its figures
+    #[arg(long)]
+    evidence: bool,
+    /// Say how link A moves, seen from link B, on every branch; may be repeated
+    #[arg(long, num_args = 2, value_names = ["A", "B"])]
+    between: Vec<String>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -52,6 +58,12 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let options = Options {
         configuration: arguments.at.clone(),
         timing: arguments.timing,
+        evidence: arguments.evidence,
+        between: arguments
+            .between
+            .chunks_exact(2)
+            .map(|pair| (pair[0].clone(), pair[1].clone()))
+            .collect(),
     };
     let report = load::report_on(&reading, &arguments.file, &options)?;
     let text = match arguments.format {

@@ -40,6 +40,10 @@ pub struct Options {
     pub configuration: Option<String>,
     /// Whether to say how long the stages took.
     pub timing: bool,
+    /// Whether to tell what every engine found.
+    pub evidence: bool,
+    /// Pairs of links: how does the first move, seen from the second?
+    pub between: Vec<(String, String)>,
 }
 
 /// Why there is no report.
@@ -58,6 +62,16 @@ pub enum ReportError {
         /// Those it has.
         known: Vec<String>,
     },
+    /// The mechanism has no link of that name.
+    #[error("there is no link `{name}` in `{mechanism}`")]
+    UnknownLink {
+        /// The name asked for.
+        name: String,
+        /// The mechanism.
+        mechanism: String,
+        /// The name it has that is closest, if one is close.
+        nearest: Option<String>,
+    },
 }
 
 impl ReportError {
@@ -72,6 +86,11 @@ impl ReportError {
             Self::UnknownConfiguration { known, .. } => {
                 format!("it has: home, {}", known.join(", "))
             }
+            Self::UnknownLink {
+                nearest: Some(nearest),
+                ..
+            } => format!("did you mean `{nearest}`?"),
+            Self::UnknownLink { .. } => "`kutzbach graph FILE` lists all links".to_owned(),
         }
     }
 }
@@ -124,6 +143,7 @@ pub fn report_on(input: &Input<'_>, options: &Options) -> Result<Report, ReportE
         Some(name) => name,
         None => HOME,
     };
+    let pairs = super::extras::pairs(mechanism, &options.between)?;
     let started = Instant::now();
     let analysis = analyse(
         mechanism,
@@ -134,6 +154,10 @@ pub fn report_on(input: &Input<'_>, options: &Options) -> Result<Report, ReportE
     )?;
     let mut report = counted(input, configuration);
     super::findings::lay_over(&mut report, mechanism, &analysis);
+    super::extras::ask_between(&mut report, mechanism, &analysis, configuration, &pairs);
+    if options.evidence {
+        report.evidence = Some(super::extras::evidence(&report, &analysis));
+    }
     if options.timing {
         let total_ms = started.elapsed().as_secs_f64() * 1e3;
         report.timing = Some(Timing {
@@ -219,6 +243,7 @@ fn counted(input: &Input<'_>, configuration: &str) -> Report {
         advice: Vec::new(),
         warnings: input.warnings.to_vec(),
         skipped: input.skipped.to_vec(),
+        evidence: None,
         timing: None,
         size,
     }

@@ -56,10 +56,18 @@ pub fn find(word: &str) -> Option<Definition> {
 /// The known word closest to an unknown one, if one is close: at most a third of its letters differ.
 #[must_use]
 pub fn nearest(word: &str) -> Option<&'static str> {
+    closest(
+        word,
+        all()
+            .iter()
+            .flat_map(|d| [d.anchor].into_iter().chain(d.also.iter().copied())),
+    )
+}
+
+/// The name closest to a misspelt one, if one is close: at most a third of its letters differ.
+pub(super) fn closest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let wanted: Vec<char> = normal(word).chars().take(64).collect();
-    all()
-        .iter()
-        .flat_map(|d| [d.anchor].into_iter().chain(d.also.iter().copied()))
+    known
         .map(|known| (distance(&wanted, &normal(known)), known))
         .min()
         .filter(|(distance, known)| 3 * distance <= known.chars().count().max(3))
@@ -123,14 +131,13 @@ mod tests {
                     definition.number
                 );
             }
-            let decided = ["Decided by: `kutzbach::", "Not decided yet; report field `"];
             assert!(
-                decided.iter().any(|part| definition.body.contains(part)),
+                definition.body.contains("Decided by: `kutzbach::"),
                 "{} does not say what decides it",
                 definition.number
             );
         }
-        assert!(all().len() >= 17);
+        assert!(all().len() >= 20);
     }
 
     #[test]
@@ -157,6 +164,8 @@ mod tests {
             "gap",
             "verdict",
             "half-branch",
+            "relative motion",
+            "evidence",
         ];
         words.extend(SingularKind::ALL.iter().map(|w| w.word()));
         words.extend(PoseKind::ALL.iter().map(|w| w.word()));

@@ -55,6 +55,8 @@ impl Comparison {
 /// disagreement, unless what the report does know excludes the expected value: bounds on the finite mobility, candidates
 /// for the instantaneous one, a mechanism that does not assemble.
 ///
+/// Dimensions of branches are compared as a set: that all branches have dimension 1 is one fact, how many there are another.
+///
 /// Locked joints are compared at regular poses only, because at a singular pose what moves at the pose and what moves on a
 /// branch differ (D9). Joints are named whole (`slider`) or in part (`slider.rot`; with several rotations `ball.rot` means
 /// all of them and `ball.rot2` one).
@@ -94,14 +96,11 @@ pub fn compare(report: &Report, expectation: &Expectation) -> Comparison {
         comparison.add("branches", expected, found);
     }
     if let Some(expected) = &expectation.branch_dimensions {
-        let mut expected = expected.clone();
-        expected.sort_unstable();
-        let found = report.branches.as_ref().map(|branches| {
-            let mut dimensions: Vec<usize> = branches.iter().map(|b| b.dimension).collect();
-            dimensions.sort_unstable();
-            numbers_text(&dimensions)
-        });
-        let expected = numbers_text(&expected);
+        let expected = set_of_numbers(expected.iter().copied());
+        let found = report
+            .branches
+            .as_ref()
+            .map(|branches| set_of_numbers(branches.iter().map(|b| b.dimension)));
         let found = unless_unassembled(report, decided(&expected, found.as_ref()));
         comparison.add("branch_dimensions", expected, found);
     }
@@ -332,12 +331,11 @@ fn set_text(names: &[String]) -> String {
     }
 }
 
-fn numbers_text(numbers: &[usize]) -> String {
-    if numbers.is_empty() {
-        return "none".to_owned();
-    }
-    let words: Vec<String> = numbers.iter().map(usize::to_string).collect();
-    words.join(", ")
+/// The distinct numbers in order, as text.
+fn set_of_numbers(numbers: impl Iterator<Item = usize>) -> String {
+    let distinct: BTreeSet<usize> = numbers.collect();
+    let words: Vec<String> = distinct.iter().map(usize::to_string).collect();
+    set_text(&words)
 }
 
 #[cfg(test)]

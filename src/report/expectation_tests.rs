@@ -229,3 +229,27 @@ fn idle_links_of_all_branches_are_compared() {
     expectation.idle = Some(vec!["B1".to_owned()]);
     assert_eq!(wrong(&report, &expectation), ["idle"]);
 }
+
+#[test]
+fn dimensions_of_branches_are_a_set() {
+    let mut report = mobile();
+    let first = report.branches.as_ref().unwrap()[0].clone();
+    let second = Branch {
+        dimension: 2,
+        ..first.clone()
+    };
+    let expecting = |dimensions: &[usize]| Expectation {
+        branch_dimensions: Some(dimensions.to_vec()),
+        ..expect()
+    };
+    report.branches = Some(vec![first.clone(), first.clone()]);
+    assert_eq!(wrong(&report, &expecting(&[1])), [""; 0]);
+    assert_eq!(wrong(&report, &expecting(&[1, 1])), [""; 0]);
+    assert_eq!(wrong(&report, &expecting(&[2, 1])), ["branch_dimensions"]);
+    report.branches = Some(vec![second, first.clone(), first]);
+    assert_eq!(wrong(&report, &expecting(&[1, 2])), [""; 0]);
+    let found = compare(&report, &expecting(&[1])).wrong.remove(0).found;
+    assert_eq!(found, "1, 2");
+    report.branches = Some(Vec::new());
+    assert_eq!(wrong(&report, &expecting(&[])), [""; 0]);
+}

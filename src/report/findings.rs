@@ -244,29 +244,35 @@ fn split_text(motion: &RelativeMotion) -> String {
     }
 }
 
-fn motion_rows(mechanism: &Mechanism, analysis: &Analysis) -> Vec<Motion> {
+/// One motion on the branch of this name.
+pub(super) fn motion_row(mechanism: &Mechanism, branch: &str, motion: &RelativeMotion) -> Motion {
     let link = |index: usize| mechanism.links()[index].name.clone();
+    Motion {
+        branch: branch.to_owned(),
+        link: link(motion.link),
+        relative_to: link(motion.relative_to),
+        freedom: motion.freedom,
+        class: motion
+            .class
+            .as_ref()
+            .map_or_else(|| split(motion), |class| class.short_name().to_owned()),
+        text: motion
+            .class
+            .as_ref()
+            .map_or_else(|| split_text(motion), ToString::to_string),
+        rotations: motion.rotations,
+        translations: motion.translations,
+        asked: false,
+    }
+}
+
+fn motion_rows(mechanism: &Mechanism, analysis: &Analysis) -> Vec<Motion> {
     let mut rows: Vec<Motion> = analysis
         .branches
         .iter()
         .flatten()
         .flat_map(|branch| branch.motions.iter().map(move |motion| (branch, motion)))
-        .map(|(branch, motion)| Motion {
-            branch: branch.name.clone(),
-            link: link(motion.link),
-            relative_to: link(motion.relative_to),
-            freedom: motion.freedom,
-            class: motion
-                .class
-                .as_ref()
-                .map_or_else(|| split(motion), |class| class.short_name().to_owned()),
-            text: motion
-                .class
-                .as_ref()
-                .map_or_else(|| split_text(motion), ToString::to_string),
-            rotations: motion.rotations,
-            translations: motion.translations,
-        })
+        .map(|(branch, motion)| motion_row(mechanism, &branch.name, motion))
         .collect();
     rows.sort_by(|a, b| {
         a.branch

@@ -22,6 +22,7 @@
 //! |---|---|
 //! | `schema` | which fields there are; their words are those of `mobility` |
 //! | `assemble` | how a mechanism and its analysis become a report |
+//! | `extras` | what a report holds only where it was asked for: pairs of links, evidence |
 //! | `text` | how a report becomes a page |
 //! | `expectation`, `expected_file` | whether a report agrees with what is known |
 //! | `definitions` | what a word means |
@@ -30,6 +31,7 @@ mod assemble;
 pub mod definitions;
 mod expectation;
 mod expected_file;
+mod extras;
 mod findings;
 mod natural;
 #[cfg(test)]
@@ -44,7 +46,7 @@ pub use expectation::{Comparison, Disagreement, compare};
 pub use expected_file::{ExpectedFile, ExpectedFileError};
 pub use natural::natural_order;
 pub use schema::{
-    Advice, Assembly, Block, Branch, Certificate, CouplingRow, Cycle, Gap, GenericCount, Home,
-    Idle, JointRow, Mobility, Motion, Nominal, Report, SCHEMA, Size, Source, Stage, Timing, Tree,
-    TreeLink,
+    Advice, Assembly, Block, Branch, Certificate, CouplingRow, Cycle, Evidence, Gap, GenericCount,
+    Home, Idle, JointRow, Mobility, Motion, Nominal, Report, SCHEMA, Size, Source, Stage, Timing,
+    Tree, TreeLink,
 };

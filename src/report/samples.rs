@@ -110,7 +110,7 @@ pub(crate) fn mobile() -> Report {
             ],
         },
         branches: Some(vec![Branch {
-            name: "1".to_owned(),
+            name: "A".to_owned(),
             dimension: 1,
             instantaneous: Some(1),
             redundant: Some(3),
@@ -150,6 +150,7 @@ pub(crate) fn mobile() -> Report {
             rotations: 1,
             translations: 0,
             branch: "A".to_owned(),
+            asked: false,
         }],
         advice: vec![Advice {
             text: "Let J3 also slide along its axis (R → C).".to_owned(),
@@ -161,6 +162,7 @@ pub(crate) fn mobile() -> Report {
         }],
         warnings: Vec::new(),
         skipped: vec!["line 3, column 5: <gazebo>".to_owned()],
+        evidence: None,
         timing: None,
     }
 }

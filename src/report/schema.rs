@@ -41,7 +41,7 @@ pub struct Report {
     pub cycles: Vec<Cycle>,
     /// The spanning tree the cycles come from (D15); `null` where it was not made.
     pub tree: Option<Tree>,
-    /// How links move relative to one another.
+    /// How links move relative to one another (D19): every link seen from the ground, after the pairs that were asked for.
     pub motions: Vec<Motion>,
     /// Single joints whose relaxation removes redundancy without adding freedom.
     pub advice: Vec<Advice>,
@@ -49,6 +49,10 @@ pub struct Report {
     pub warnings: Vec<String>,
     /// What of the file was not read, because it says nothing about motion.
     pub skipped: Vec<String>,
+    /// What every engine found; only where asked for, since its figures differ from machine to machine in their last
+    /// digits.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub evidence: Option<Vec<Evidence>>,
     /// How long the stages took; only where asked for, so that reports can be compared byte by byte.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub timing: Option<Timing>,
@@ -219,6 +223,21 @@ pub struct Nominal {
     pub tolerance: f64,
 }
 
+/// What one engine found of one block (D20).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Evidence {
+    /// The block, by the name it has in [`Home::blocks`].
+    pub block: String,
+    /// The engine.
+    pub engine: String,
+    /// Where what it found holds: at the pose, in a neighbourhood, at every pose.
+    pub scope: String,
+    /// Bounds on the finite mobility of the block; `null` where it gives none from above.
+    pub bounds: [Option<usize>; 2],
+    /// Its figures: margins, orders, radii, seeds.
+    pub text: String,
+}
+
 /// A branch of the configuration space through the pose, described at a generic pose of its own.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Branch {
@@ -260,7 +279,7 @@ pub struct JointRow {
     pub links: [String; 2],
     /// Its freedoms.
     pub freedom: usize,
-    /// Whether none of its freedoms moves (D9): at the pose, and on the whole branch where the pose is regular.
+    /// Whether none of its freedoms moves (D9) on any branch; at the pose where no branch is known.
     pub locked: Option<bool>,
     /// The single freedoms that do not move, such as `slider.rot`.
     pub locked_parts: Vec<String>,
@@ -346,6 +365,15 @@ pub struct Motion {
     pub rotations: usize,
     /// The others.
     pub translations: usize,
+    /// Whether this pair of links was asked for by name.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub asked: bool,
+}
+
+// By reference, as serde calls it.
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_false(value: &bool) -> bool {
+    !*value
 }
 
 /// A joint to relax.

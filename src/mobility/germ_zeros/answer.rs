@@ -126,7 +126,8 @@ fn merge_inseparable(search: &mut Search<'_>) {
                 .zip(&search.halves[j].track.z)
                 .map(|(a, b)| unit(plus(a, 1.0, b)))
                 .collect();
-            let near = distance(&middles[0], &search.halves[i].track.z[0]) < 0.1;
+            let ends = [i, j].map(|k| &search.halves[k].track.z[0]);
+            let near = distance(ends[0], ends[1]) < 0.1;
             if near && vanishes(search, &middles) {
                 let twin = search.halves.remove(j);
                 search.halves[i].hits += twin.hits;
@@ -164,14 +165,13 @@ fn join_by_slices(search: &mut Search<'_>, options: &GermZeroOptions) {
                 if search.sheets[slot].pieces().len() < 2 || variables + 1 - dimension < 2 {
                     break;
                 }
-                let members: Vec<Vec<f64>> = search.sheets[slot]
-                    .of_piece(piece)
-                    .map(|m| m.z.clone())
-                    .collect();
-                let Some(z) = members.get(attempt * members.len() / 3) else {
+                // Near a crossing a slice has a second curve close by.
+                let mut members: Vec<_> = search.sheets[slot].of_piece(piece).collect();
+                members.sort_by(|a, b| b.regularity.total_cmp(&a.regularity));
+                let Some(z) = members.get(attempt).map(|m| m.z.clone()) else {
                     break;
                 };
-                let basis = slice_through(z, dimension, &mut search.random);
+                let basis = slice_through(&z, dimension, &mut search.random);
                 join_along(search, slot, piece, &basis, options);
             }
         }
@@ -258,33 +258,31 @@ fn collect(search: &mut Search<'_>, answer: &mut GermZeros) {
     }
     for index in left {
         let half = half_branch(search, index, None);
-        match continues_sheet(search, index) {
-            Some(_) if sheets.is_empty() => {}
-            Some(z) => {
-                let nearest = sheets
-                    .iter_mut()
-                    .min_by(|a, b| gap(&a.1, &z).total_cmp(&gap(&b.1, &z)));
-                if let Some((branch, _)) = nearest {
-                    branch.half_branches.push(half);
-                }
-            }
-            None => {
-                search
-                    .doubts
-                    .push("a half-branch has no continuation through the origin".into());
-                let found = &search.halves[index];
-                curves.push(GermBranch {
-                    dimension: 1,
-                    points: vec![half.point.clone()],
-                    tangents: vec![half.tangent.clone()],
-                    half_branches: vec![half],
-                    ramification: None,
-                    reduced: found.reduced,
-                    vanishing_order: found.track.order,
-                    hits: found.hits,
-                });
-            }
+        let continued = continues_sheet(search, index);
+        let nearest = continued.and_then(|z| {
+            let to = |points: &[Vec<f64>]| gap(points, &z);
+            sheets
+                .iter_mut()
+                .min_by(|a, b| to(&a.1).total_cmp(&to(&b.1)))
+        });
+        if let Some((branch, _)) = nearest {
+            branch.half_branches.push(half);
+            continue;
         }
+        search
+            .doubts
+            .push("a half-branch has no continuation through the origin".into());
+        let found = &search.halves[index];
+        curves.push(GermBranch {
+            dimension: 1,
+            points: vec![half.point.clone()],
+            tangents: vec![half.tangent.clone()],
+            half_branches: vec![half],
+            ramification: None,
+            reduced: found.reduced,
+            vanishing_order: found.track.order,
+            hits: found.hits,
+        });
     }
     answer.branches = sheets.into_iter().map(|(branch, _)| branch).collect();
     answer
@@ -364,7 +362,12 @@ fn continues_sheet(search: &mut Search<'_>, index: usize) -> Option<Vec<f64>> {
     let z = continuation(&search.halves[index].track.z, &search.radii);
     let level = Level::new(search.system, radius);
     let landed = land(&level, &z, &Within::Sphere, 60, &mut search.work);
-    (landed.above_truncation <= 1.0 && distance(&landed.z, &z) < 1e-2).then_some(landed.z)
+    // A half-branch there would be the partner that pairing refused.
+    let innermost = search.radii.len() - 1;
+    let taken =
+        |half: &super::search::Half| distance(&half.track.z[innermost], &landed.z) < half.same;
+    let free = !search.halves.iter().any(taken);
+    (free && landed.above_truncation <= 1.0 && distance(&landed.z, &z) < 1e-2).then_some(landed.z)
 }
 
 /// The branches of dimension two and more, each with all its points as unit directions.
@@ -434,10 +437,15 @@ fn collect_sheets(search: &mut Search<'_>) -> Vec<(GermBranch, Vec<Vec<f64>>)> {
 /// Some points that are far from the other branches and from each other.
 fn spread(own: &[super::sheets::Member], others: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let regular = |m: &&super::sheets::Member| m.reduced || own.iter().all(|o| !o.reduced);
-    let mut candidates: Vec<&Vec<f64>> = own.iter().filter(regular).map(|m| &m.z).collect();
+    let clearance = |m: &super::sheets::Member| match m.regularity {
+        0.0 => gap(others, &m.z),
+        regularity => gap(others, &m.z).min(regularity),
+    };
+    let mut candidates: Vec<&super::sheets::Member> = own.iter().filter(regular).collect();
     // The half that is farthest from everything else, then by turns the one farthest from those taken.
-    candidates.sort_by(|a, b| gap(others, b).total_cmp(&gap(others, a)));
+    candidates.sort_by(|a, b| clearance(b).total_cmp(&clearance(a)));
     candidates.truncate(candidates.len().div_ceil(2).max(SAMPLES));
+    let candidates: Vec<&Vec<f64>> = candidates.into_iter().map(|m| &m.z).collect();
     let mut taken: Vec<Vec<f64>> = Vec::new();
     while taken.len() < SAMPLES && taken.len() < candidates.len() {
         let next = candidates

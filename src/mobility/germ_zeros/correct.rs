@@ -118,8 +118,8 @@ pub(super) fn land(
 }
 
 /// The shortest step that solves the linearised equations, these taken to have the given rank: what is left of the
-/// smaller singular values is noise, or the terms cut off.
-fn step_of_rank(work: &Work, z: &[f64], rank: usize) -> Vec<f64> {
+/// smaller singular values is noise, or the terms cut off. With the smallest singular value used.
+fn step_of_rank(work: &Work, z: &[f64], rank: usize) -> (Vec<f64>, f64) {
     let rows: Vec<Vec<f64>> = work
         .jacobian
         .iter()
@@ -137,15 +137,20 @@ fn step_of_rank(work: &Work, z: &[f64], rank: usize) -> Vec<f64> {
             sum = plus(&sum, -image / (value * value), direction);
         }
     }
-    sum
+    (sum, if rank > 0 { values[rank - 1] } else { 1.0 })
 }
 
-/// Gauss–Newton without damping on a set of dimension δ − rank, accepted only where it contracts at once: the first correction is then at most a few
-/// tenths of the distance to any other zero. `None` otherwise.
+/// Gauss–Newton without damping on a set of dimension δ − rank, accepted only where it contracts at once and the first
+/// correction is at most `trust` times the smallest singular value. `None` otherwise.
+///
+/// Where another sheet passes at a distance d, the smallest singular value is about d (second derivatives are at most
+/// of size 1 after scaling): a start that is off by more than d reaches the trusted neighbourhood of the wrong
+/// sheet only by chance, and one that is off by less is corrected to the right one.
 pub(super) fn contract(
     level: &Level<'_>,
     start: &[f64],
     rank: usize,
+    trust: f64,
     work: &mut Work,
 ) -> Option<Landing> {
     let mut z = start.to_vec();
@@ -153,12 +158,15 @@ pub(super) fn contract(
     let mut first = 0.0;
     for iteration in 0..10 {
         level.evaluate(&z, work);
-        let correction = step_of_rank(work, &z, rank);
+        let (correction, smallest) = step_of_rank(work, &z, rank);
         let reach = length(&correction);
         if !reach.is_finite() || reach > 0.3 {
             return None;
         }
         if iteration == 0 {
+            if reach > trust * smallest {
+                return None;
+            }
             first = reach;
         }
         // Far above rounding each correction must be a quarter of the last; near rounding anything goes.

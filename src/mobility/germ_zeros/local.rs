@@ -22,8 +22,8 @@ pub(super) struct Local {
     pub(super) smallest: f64,
 }
 
-/// How far, in units of the radius, the zero set is probed.
-const PROBE: f64 = 0.03;
+/// How far, in units of the radius, the zero set is probed; the second where it is too curved for the first.
+const PROBES: [f64; 2] = [0.03, 0.003];
 
 /// Random spaces tried for each dimension below that of the kernel.
 const SPACES: usize = 4;
@@ -63,17 +63,25 @@ pub(super) fn local(
         } else {
             random_subspace(kernel, dimension, random)
         };
-        if (0..dimension + 2).all(|_| {
-            let offset: Vec<f64> = directions
-                .iter()
-                .map(|_| PROBE * random.symmetric())
-                .collect();
-            probe(level, point, &directions, &offset, work).is_some()
-        }) {
+        let accuracy = level.tolerance().max(point.size);
+        // A double zero is missed by the square of the offset, which has to be seen.
+        let reaches = PROBES
+            .into_iter()
+            .filter(|reach| reach * reach > 1e3 * accuracy);
+        let probed = reaches.into_iter().find(|reach| {
+            (0..dimension + 2).all(|_| {
+                let offset: Vec<f64> = directions
+                    .iter()
+                    .map(|_| reach * random.symmetric())
+                    .collect();
+                probe(level, point, &directions, &offset, work).is_some()
+            })
+        });
+        if let Some(reach) = probed {
             let tangent = if whole {
                 kernel.to_vec()
             } else {
-                secants(level, point, &directions, work)
+                secants(level, point, &directions, reach, work)
             };
             return Local {
                 dimension,
@@ -102,7 +110,7 @@ pub(super) fn more_regular(
     random: &mut SplitMix64,
     work: &mut Work,
 ) -> Option<Landing> {
-    for scale in [PROBE, PROBE, 3.0 * PROBE, 3.0 * PROBE] {
+    for scale in [0.03, 0.03, 0.03, 0.1, 0.1, 0.1] {
         let by = random_direction(point.z.len(), random);
         let start = unit(plus(&point.z, scale, &by));
         let landed = land(level, &start, &Within::Sphere, 80, work);
@@ -134,13 +142,14 @@ fn probe(
     }
     let landed = land(level, &start, &Within::Slice(directions), 60, work);
     let zero = landed.above_noise <= 1.0 || landed.size <= 5.0 * point.size;
-    (zero && distance(&landed.z, &start) <= 6.0 * PROBE).then_some(landed.z)
+    (zero && distance(&landed.z, &start) <= 0.2).then_some(landed.z)
 }
 
 fn secants(
     level: &Level<'_>,
     point: &Landing,
     directions: &[Vec<f64>],
+    reach: f64,
     work: &mut Work,
 ) -> Vec<Vec<f64>> {
     let mut tangent = Vec::new();
@@ -148,7 +157,7 @@ fn secants(
         let mut ends = Vec::new();
         for sign in [1.0, -1.0] {
             let mut offset = vec![0.0; directions.len()];
-            offset[i] = 0.3 * sign * PROBE;
+            offset[i] = 0.3 * sign * reach;
             ends.extend(probe(level, point, directions, &offset, work));
         }
         tangent.push(match &ends[..] {

@@ -27,6 +27,7 @@
 
 mod answer;
 mod correct;
+mod deflate;
 mod local;
 mod pairing;
 mod plane;

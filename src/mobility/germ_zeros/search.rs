@@ -1,6 +1,7 @@
 //! Collecting the zeros on the outer sphere and sorting them into curves and sheets.
 
 use super::correct::{Landing, Within, land};
+use super::deflate::deflated;
 use super::local::{Local, local, more_regular};
 use super::plane;
 use super::sheets::Sheets;
@@ -154,6 +155,9 @@ impl<'a> Search<'a> {
         if landed.above_noise <= 1.0 || landed.above_truncation > 1.0 {
             return landed;
         }
+        if let Some(multiple) = deflated(level, &landed, &mut self.work) {
+            return multiple;
+        }
         // Zeros of multiplicity two are as far away as the root of the values.
         let reach = (4.0 * landed.size.sqrt()).min(0.1);
         let mut best = landed;
@@ -243,7 +247,7 @@ impl<'a> Search<'a> {
             self.strangers.push(landed.z.clone());
             return false;
         }
-        self.sheets[slot].add(landed.z.clone(), kind.tangent, kind.reduced, &reached)
+        self.sheets[slot].add(landed.z.clone(), kind, &reached)
     }
 
     /// A landing at an inner radius: a half-branch that was missed at the outer one is followed outwards.

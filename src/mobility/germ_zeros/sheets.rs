@@ -6,7 +6,7 @@
 //! curve, whose two half-branches belong to the same branch.
 
 use super::correct::{Within, contract, land};
-use super::local::{rank_threshold, within};
+use super::local::{Local, rank_threshold, within};
 use super::small::{agreement, distance, dot, length, orthonormal, plus, project, singular, unit};
 use super::system::{Level, Work};
 use crate::matrix::SplitMix64;
@@ -17,6 +17,8 @@ pub(super) struct Member {
     pub(super) z: Vec<f64>,
     pub(super) tangent: Vec<Vec<f64>>,
     pub(super) reduced: bool,
+    /// Smallest singular value of the Jacobian that counts: small near a crossing.
+    pub(super) regularity: f64,
     piece: usize,
 }
 
@@ -77,13 +79,7 @@ impl Sheets {
     }
 
     /// Adds a point; whether it opened a new piece.
-    pub(super) fn add(
-        &mut self,
-        z: Vec<f64>,
-        tangent: Vec<Vec<f64>>,
-        reduced: bool,
-        reached: &[usize],
-    ) -> bool {
+    pub(super) fn add(&mut self, z: Vec<f64>, kind: Local, reached: &[usize]) -> bool {
         let piece = match reached.first() {
             Some(first) => {
                 self.join(reached);
@@ -96,8 +92,9 @@ impl Sheets {
         };
         self.members.push(Member {
             z,
-            tangent,
-            reduced,
+            tangent: kind.tangent,
+            reduced: kind.reduced,
+            regularity: if kind.reduced { kind.smallest } else { 0.0 },
             piece,
         });
         reached.is_empty()
@@ -175,7 +172,7 @@ fn advance(
 ) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
     // A correction that contracts at once stays on its sheet; at multiple zeros nothing contracts.
     let landed = if reduced {
-        contract(level, start, start.len() - tangent.len(), work)?
+        contract(level, start, start.len() - tangent.len(), 0.2, work)?
     } else {
         land(level, start, &Within::Sphere, 40, work)
     };

@@ -509,3 +509,120 @@ fn noise_below_its_level_changes_nothing() {
         equations
     });
 }
+
+#[test]
+fn terms_beyond_the_decisive_order_change_nothing() {
+    // Only the cases whose zeros are decided by the degrees they are written in.
+    let stable = [
+        "node",
+        "cusp",
+        "tacnode",
+        "definite form",
+        "definite by its quartic",
+        "three lines",
+        "cone",
+        "cubic with fractional exponents",
+    ];
+    let orders = [2, 3, 4, 2, 4, 3, 2, 4];
+    for (name, order) in stable.into_iter().zip(orders) {
+        let case = CASES.iter().find(|case| case.name == name).unwrap();
+        let m = Monomials::new(case.variables, order + 2).unwrap();
+        let y: Vec<Series> = identity(case.variables, 1.0)
+            .iter()
+            .map(|row| Series::linear(&m, row))
+            .collect();
+        let mut equations = (case.germ)(&y);
+        let mut random = SplitMix64::named(name);
+        for equation in &mut equations {
+            for degree in order + 1..=m.degree() {
+                for slot in m.of_degree(degree) {
+                    equation.coefficients_mut()[slot] += 0.3 * random.symmetric();
+                }
+            }
+        }
+        let answer = zeros(case, &equations);
+        assert_eq!(summary(&answer), expected(case), "{name}");
+        assert_eq!(answer.thin, None, "{name}");
+    }
+}
+
+#[test]
+fn equations_cut_off_at_a_degree_keep_their_common_branch() {
+    // Both equations vanish on v = sin u; their expansions to degree 5 have only the origin in common.
+    let m = Monomials::new(2, 5).unwrap();
+    let (u, v) = (Series::linear(&m, &[1.0]), Series::linear(&m, &[0.0, 1.0]));
+    let sine = &(&u - &power(&u, 3).scaled(1.0 / 6.0)) + &power(&u, 5).scaled(1.0 / 120.0);
+    let factor = &v - &sine;
+    let equations = [
+        &factor * &(&u + &sq(&v).scaled(0.4)),
+        &factor * &(&v.scaled(2.0) + &sq(&u)),
+    ];
+    let answer = germ_zeros(2, &equations, 1e-12, &GermZeroOptions::default());
+    assert_eq!(answer.branches.len(), 1, "{answer:?}");
+    assert_eq!(answer.branches[0].ramification, Some(1));
+    let diagonal = std::f64::consts::FRAC_1_SQRT_2;
+    assert!((answer.branches[0].tangents[0][0].abs() - diagonal).abs() < 1e-3);
+}
+
+#[test]
+fn half_branches_point_where_the_curve_goes() {
+    let cusp = CASES.iter().find(|case| case.name == "cusp").unwrap();
+    let answer = zeros(cusp, &as_it_is(cusp));
+    for half in &answer.branches[0].half_branches {
+        assert!((half.tangent[0] - 1.0).abs() < 1e-3, "{half:?}");
+        for y in &half.path {
+            assert!((y[1] * y[1] - y[0].powi(3)).abs() < 1e-12);
+        }
+    }
+    let tacnode = CASES
+        .iter()
+        .find(|case| case.name == "very close tacnode")
+        .unwrap();
+    let answer = zeros(tacnode, &as_it_is(tacnode));
+    for branch in &answer.branches {
+        // Both halves of a parabola v = c u² have the same c.
+        let c = |half: &HalfBranch| half.point[1] / (half.point[0] * half.point[0]);
+        assert!((c(&branch.half_branches[0]) - c(&branch.half_branches[1])).abs() < 1e-6);
+        assert!(branch.half_branches[0].point[0] * branch.half_branches[1].point[0] < 0.0);
+    }
+}
+
+#[test]
+fn one_variable_and_no_equation() {
+    let m = Monomials::new(1, 5).unwrap();
+    let u = Series::linear(&m, &[2.0]);
+    let options = GermZeroOptions::default();
+    let isolated = germ_zeros(1, &[power(&u, 3)], 1e-12, &options);
+    assert_eq!(isolated.isolation.unwrap().order, 3.0);
+    let free = germ_zeros(1, &[Series::zero(&m)], 1e-12, &options);
+    assert_eq!(free.branches[0].half_branches.len(), 2);
+    let space = germ_zeros(3, &[], 1e-12, &options);
+    assert_eq!(space.branches[0].dimension, 3);
+    let wrong = germ_zeros(2, &[u.scaled(f64::NAN)], 1e-12, &options);
+    assert!(wrong.thin.is_some() && wrong.branches.is_empty() && wrong.isolation.is_none());
+}
+
+proptest::proptest! {
+    #![proptest_config(proptest::prelude::ProptestConfig {
+        cases: 24,
+        failure_persistence: None,
+        ..Default::default()
+    })]
+
+    /// Other units of the variables and of the equations, other directions of the axes.
+    #[test]
+    fn scaling_and_turning_change_nothing(index in 0..CASES.len(), seed: u64, log_unit in -1.0..2.0f64, log_size in -3.0..3.0f64) {
+        let case = &CASES[index];
+        let mut random = SplitMix64::new(seed);
+        let unit = 10.0_f64.powf(log_unit);
+        let change: Vec<Vec<f64>> = random_change(case.variables, &mut random)
+            .into_iter()
+            .map(|row| row.into_iter().map(|x| unit * x).collect())
+            .collect();
+        let size = 10.0_f64.powf(log_size);
+        let equations: Vec<Series> = germ_of(case, &change).iter().map(|e| e.scaled(size)).collect();
+        let largest = equations.iter().flat_map(|e| e.coefficients()).fold(0.0, |m: f64, c| m.max(c.abs()));
+        let answer = germ_zeros(case.variables, &equations, 1e-14 * largest, &GermZeroOptions::default());
+        proptest::prop_assert_eq!(summary(&answer), expected(case), "{} {:?}", case.name, answer.thin);
+    }
+}

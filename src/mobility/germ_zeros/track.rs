@@ -1,6 +1,7 @@
 //! Following a zero towards the origin, and what its residuals say on the way.
 
 use super::correct::{Landing, Within, contract, land};
+use super::deflate::land_firmly;
 use super::small::{dot, length, plus, project, singular, unit};
 use super::system::{Level, System, Work};
 
@@ -80,7 +81,7 @@ fn follow_regular(
             for (k, weight) in [(k1, 1.0), (k2, 2.0), (k3, 2.0), (k4, 1.0)] {
                 next = plus(&next, weight * stride / 6.0, &k);
             }
-            let landed = contract(&last, &unit(next), rank, work)?;
+            let landed = contract(&last, &unit(next), rank, 0.02, work)?;
             (landed.above_truncation <= 1.0).then_some(landed)
         })();
         match predicted {
@@ -120,7 +121,7 @@ fn follow_multiple(
             }
         };
         let level = Level::new(system, radius);
-        let landed = land(&level, &guess, &Within::Sphere, 60, work);
+        let landed = land_firmly(&level, &guess, work);
         if landed.above_truncation > 1.0 || length(&plus(&landed.z, -1.0, &here.1)) > 0.5 {
             return None;
         }

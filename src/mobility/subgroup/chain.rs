@@ -234,3 +234,20 @@ impl Replaced {
         self.span.margin().and(self.algebra.margin())
     }
 }
+
+/// Freedoms of a chain that change nothing between its ends, where the chain is a submersion onto a subgroup or onto a
+/// product of two: then every displacement is reached by a manifold of variables of that dimension.
+pub fn without_effect(pieces: &[Piece], gauge: &Gauge) -> Result<usize, GroupError> {
+    let reached = span(pieces, gauge)?;
+    let surplus = freedom(pieces).saturating_sub(reached.dimension());
+    if surplus == 0 || !clear(reached.margin()) {
+        return Ok(0);
+    }
+    for cut in 0..pieces.len() {
+        let (before, after) = pieces.split_at(cut);
+        if swept(before, gauge)?.is_some() && swept(after, gauge)?.is_some() {
+            return Ok(surplus);
+        }
+    }
+    Ok(0)
+}

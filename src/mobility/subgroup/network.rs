@@ -57,6 +57,19 @@ pub struct Outcome {
     pub margin: Margin,
 }
 
+/// What can replace two parallel chains.
+struct Replacement {
+    by: Replaced,
+    /// Independent equations of their loop.
+    rank: usize,
+    /// Whether the loop is a parallelogram, which nothing in terms of subgroups could say any better.
+    circular: bool,
+    /// The reason.
+    step: String,
+    /// The margin of the reason.
+    margin: Margin,
+}
+
 /// A part that is being reduced.
 pub struct Network<'a> {
     mechanism: &'a Mechanism,
@@ -66,8 +79,9 @@ pub struct Network<'a> {
     at: BTreeMap<usize, BTreeSet<usize>>,
     /// Pairs of edges found to be no loop that can be replaced.
     refused: BTreeSet<(usize, usize)>,
-    /// Pairs whose loop has six independent equations; they wait for those of fewer, whose subgroups say more.
-    postponed: BTreeMap<(usize, usize), (Replaced, String, Margin)>,
+    /// Loops that can be replaced, by rank and pair. They wait until nothing else is to be done; then those of the lowest
+    /// rank come first: their subgroups are the smallest and say most about the loops that remain.
+    postponed: BTreeMap<(usize, usize, usize), Replacement>,
     /// Edges found not to allow everything.
     constraining: BTreeSet<usize>,
     /// Links around which something has changed.
@@ -278,50 +292,51 @@ impl<'a> Network<'a> {
             return Ok(false);
         }
         let (one, two) = (one.from(ends[0]), two.from(ends[0]));
-        let Some((replaced, step, margin)) = self.replacement(&one, &two)? else {
-            self.refused.insert((first, second));
-            return Ok(false);
-        };
-        if freedom(&one) + freedom(&two) - replaced.freedom == 6 {
-            self.refused.insert((first, second));
-            self.postponed
-                .insert((first, second), (replaced, step, margin));
-            return Ok(false);
+        let replacement = self.replacement(&one, &two)?;
+        self.refused.insert((first, second));
+        match replacement {
+            Some(replacement) if replacement.circular => {
+                self.replace(first, second, replacement);
+                Ok(true)
+            }
+            Some(replacement) => {
+                let key = (replacement.rank, first, second);
+                self.postponed.insert(key, replacement);
+                Ok(false)
+            }
+            None => Ok(false),
         }
-        self.replace(first, second, replaced, step, margin);
-        Ok(true)
     }
 
     /// Puts one chain in the place of two.
-    fn replace(
-        &mut self,
-        first: usize,
-        second: usize,
-        mut replaced: Replaced,
-        step: String,
-        margin: Margin,
-    ) {
+    fn replace(&mut self, first: usize, second: usize, replacement: Replacement) {
         let Some(ends) = self.edge(first).map(|edge| edge.ends) else {
             return;
         };
+        let Replacement {
+            mut by,
+            step,
+            margin,
+            ..
+        } = replacement;
         self.steps.push(step);
-        self.margin = self.margin.and(margin).and(replaced.margin());
-        let (dimension, within) = (replaced.span.dimension(), replaced.algebra.dimension());
-        if dimension == within {
-            self.settled += replaced.freedom - dimension;
-            replaced.freedom = dimension;
+        self.margin = self.margin.and(margin).and(by.margin());
+        let dimension = by.span.dimension();
+        if dimension == by.algebra.dimension() {
+            self.settled += by.freedom - dimension;
+            by.freedom = dimension;
         }
         self.remove(first);
         self.remove(second);
-        let pieces = vec![Piece::Replaced(Box::new(replaced))];
+        let pieces = vec![Piece::Replaced(Box::new(by))];
         self.insert(Edge { ends, pieces });
     }
 
     /// Carries out the first of the replacements put off.
     fn replace_postponed(&mut self) -> bool {
-        while let Some(((first, second), (replaced, step, margin))) = self.postponed.pop_first() {
+        while let Some(((_, first, second), replacement)) = self.postponed.pop_first() {
             if self.edge(first).is_some() && self.edge(second).is_some() {
-                self.replace(first, second, replaced, step, margin);
+                self.replace(first, second, replacement);
                 return true;
             }
         }
@@ -329,11 +344,7 @@ impl<'a> Network<'a> {
     }
 
     /// What replaces two parallel chains, and the reason.
-    fn replacement(
-        &self,
-        one: &[Piece],
-        two: &[Piece],
-    ) -> Result<Option<(Replaced, String, Margin)>, GroupError> {
+    fn replacement(&self, one: &[Piece], two: &[Piece]) -> Result<Option<Replacement>, GroupError> {
         let gauge = self.gauge;
         let around: Vec<&Piece> = one.iter().chain(two.iter().rev()).collect();
         let Some(proof) = prove(&around, &gauge)? else {
@@ -356,24 +367,32 @@ impl<'a> Network<'a> {
             return Ok(None);
         }
         let mut step = words::proof(self.mechanism, &around, &proof);
-        let mut replaced = Replaced {
+        let mut by = Replaced {
             joints: chain::joints(around.iter().copied()),
             freedom: free - rank,
             span: common,
             algebra: enclosed,
         };
-        if replaced.freedom == 0 {
+        let mut is_circular = false;
+        if by.freedom == 0 {
             // The loop stands still.
-            replaced.span = ScrewSystem::empty(&gauge);
-            replaced.algebra = Subalgebra::generated_by(&[], &gauge)?;
-        } else if replaced.freedom == 1
+            by.span = ScrewSystem::empty(&gauge);
+            by.algebra = Subalgebra::generated_by(&[], &gauge)?;
+        } else if by.freedom == 1
             && let Some(circular) = circular(one, two, &gauge)?
         {
-            replaced.span = circular.span;
-            replaced.algebra = circular.algebra;
+            by.span = circular.span;
+            by.algebra = circular.algebra;
+            is_circular = true;
             step.push_str("; it is a parallelogram, whose coupler is translated along a circle");
         }
-        Ok(Some((replaced, step, proof.margin())))
+        Ok(Some(Replacement {
+            by,
+            rank,
+            circular: is_circular,
+            step,
+            margin: proof.margin(),
+        }))
     }
 
     /// Removes one chain that lets its links do everything, if there is one among what is left.
@@ -431,7 +450,7 @@ impl<'a> Network<'a> {
         }
         let mut idle = 0;
         for edge in &left {
-            idle += without_effect(&edge.pieces, &self.gauge)?;
+            idle += chain::without_effect(&edge.pieces, &self.gauge)?;
         }
         let text = words::stuck(left.len(), self.steps.len());
         Ok(Outcome {
@@ -476,21 +495,4 @@ fn moving_arcs(arcs: &[Arc], count: usize, gauge: &Gauge) -> Result<Subalgebra, 
             inside > 0 && inside < arc.pieces.len()
         })
         .try_fold(none, |sum, arc| sum.join(&arc.group))
-}
-
-/// Freedoms of a chain that change nothing between its ends, where the chain is a submersion onto a subgroup or onto a
-/// product of two: then every displacement is reached by a manifold of variables of that dimension.
-fn without_effect(pieces: &[Piece], gauge: &Gauge) -> Result<usize, GroupError> {
-    let reached = span(pieces, gauge)?;
-    let surplus = freedom(pieces).saturating_sub(reached.dimension());
-    if surplus == 0 || !clear(reached.margin()) {
-        return Ok(0);
-    }
-    for cut in 0..pieces.len() {
-        let (before, after) = pieces.split_at(cut);
-        if swept(before, gauge)?.is_some() && swept(after, gauge)?.is_some() {
-            return Ok(surplus);
-        }
-    }
-    Ok(0)
 }

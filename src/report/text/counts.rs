@@ -1,5 +1,6 @@
 //! The counts, and the sentence that says why they differ from Kutzbach's.
 
+use super::cite;
 use super::page::Page;
 use super::style::Tint;
 use super::table::{Cell, Column, Table};
@@ -179,11 +180,18 @@ fn pose(home: &Home) -> Option<String> {
         format!("configuration `{}`", home.configuration)
     };
     let text = match (home.pose?, home.kind) {
+        (PoseKind::Regular, _) if home.instantaneous == Some(0) => return None,
         (PoseKind::Regular, _) => {
-            format!("Regular: around {at} every instantaneous freedom can be followed.")
+            format!(
+                "Regular ({}): around {at} every instantaneous freedom can be followed.",
+                cite::REGULAR
+            )
         }
         (PoseKind::Singular, None) => {
-            format!("Singular: around {at} the instantaneous freedoms are not all motions.")
+            format!(
+                "Singular ({}): around {at} the instantaneous freedoms are not all motions.",
+                cite::REGULAR
+            )
         }
         (PoseKind::Singular, Some(kind)) => {
             let what = match kind {
@@ -196,10 +204,7 @@ fn pose(home: &Home) -> Option<String> {
                     "it gives way in more directions than it moves, here and all along the motion"
                 }
             };
-            format!(
-                "Singular ({}): at {at} {what}.",
-                kind.word().replace('_', " ")
-            )
+            format!("Singular ({}): at {at} {what}.", cite::kind(kind))
         }
     };
     Some(text)

@@ -4,6 +4,8 @@
 //! take part; which loops hold it; what to change; what to beware of. Everything shown stands in the [`Report`], nothing
 //! is computed here but sums and words.
 
+mod branches;
+mod cite;
 mod counts;
 mod escape;
 mod page;
@@ -27,13 +29,14 @@ pub fn render(report: &Report, layout: Layout) -> String {
     verdict::write(report, &mut page);
     counts::write(report, &mut page);
     sections::assembly(report, &mut page);
-    sections::branches(report, &mut page);
+    branches::branches(report, &mut page);
     sections::joints(report, &mut page);
     sections::couplings(report, &mut page);
     sections::cycles(report, &mut page);
-    sections::motions(report, &mut page);
+    branches::motions(report, &mut page);
     sections::advice(report, &mut page);
     sections::warnings(report, &mut page);
+    branches::evidence(report, &mut page);
     sections::details(report, &mut page);
     page.into_text()
 }

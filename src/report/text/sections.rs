@@ -5,7 +5,7 @@ use super::style::Tint;
 use super::table::{Cell, Column, Table};
 use super::words::{counted, figure, names};
 use crate::mobility::Verdict;
-use crate::report::schema::{Cycle, JointRow, Report};
+use crate::report::schema::{Branch, Cycle, JointRow, Report};
 
 /// Lists of names in a table show this many.
 const NAMES_IN_CELL: usize = 12;
@@ -60,38 +60,6 @@ pub(super) fn assembly(report: &Report, page: &mut Page) {
     page.paragraph(&text, Tint::Plain, "  ", "  ");
 }
 
-/// The branches through the pose.
-pub(super) fn branches(report: &Report, page: &mut Page) {
-    let Some(branches) = report.branches.as_ref().filter(|b| !b.is_empty()) else {
-        return;
-    };
-    page.heading("Branches through this pose");
-    let most = limit(page);
-    let mut table = Table::new()
-        .column("branch", Column::Shrinking)
-        .column("freedom", Column::Numbers)
-        .column("instantaneous", Column::Numbers)
-        .column("redundant", Column::Numbers)
-        .column("locked joints", Column::Shrinking)
-        .column("idle links", Column::Shrinking);
-    for branch in branches {
-        let idle: Vec<String> = branch
-            .idle
-            .iter()
-            .map(|idle| format!("{} ({})", idle.links.join(" with "), idle.freedom))
-            .collect();
-        table.row(vec![
-            Cell::new(&branch.name),
-            Cell::new(branch.dimension.to_string()),
-            Cell::new(unsure(branch.instantaneous)),
-            Cell::new(unsure(branch.redundant)),
-            Cell::new(names(&branch.locked, most)),
-            Cell::new(names(&idle, most)),
-        ]);
-    }
-    page.table(&table, "branches");
-}
-
 /// One row per joint.
 pub(super) fn joints(report: &Report, page: &mut Page) {
     if report.joints.is_empty() {
@@ -108,8 +76,15 @@ pub(super) fn joints(report: &Report, page: &mut Page) {
         .column("type", Column::Words)
         .column("between", Column::Shrinking)
         .column("freedom", Column::Numbers);
+    // Roles are those on the branches where there are any, and those at the pose otherwise.
+    let branches = report.branches.as_deref().unwrap_or_default();
     if roles {
-        table = table.column("here", Column::Shrinking);
+        let title = if branches.is_empty() {
+            "here"
+        } else {
+            "in motion"
+        };
+        table = table.column(title, Column::Shrinking);
     }
     if wrenches {
         table = table.column("undetermined", Column::Numbers);
@@ -123,7 +98,7 @@ pub(super) fn joints(report: &Report, page: &mut Page) {
             Cell::new(joint.freedom.to_string()),
         ];
         if roles {
-            row.push(role(joint));
+            row.push(role(joint, branches));
         }
         if wrenches {
             row.push(match joint.redundant_wrenches {
@@ -154,11 +129,19 @@ pub(super) fn joints(report: &Report, page: &mut Page) {
     }
 }
 
-fn role(joint: &JointRow) -> Cell {
+fn role(joint: &JointRow, branches: &[Branch]) -> Cell {
+    let rests: Vec<&str> = branches
+        .iter()
+        .filter(|branch| branch.locked.contains(&joint.name))
+        .map(|branch| branch.name.as_str())
+        .collect();
     match (joint.freedom, joint.locked) {
         (0, _) => Cell::new("rigid").tint(Tint::Quiet),
         (_, None) => Cell::new("?").tint(Tint::Doubtful),
         (_, Some(true)) => Cell::new("locked").tint(Tint::Notable),
+        (_, Some(false)) if !rests.is_empty() => {
+            Cell::new(format!("locked on {}", rests.join(", "))).tint(Tint::Notable)
+        }
         (_, Some(false)) if joint.locked_parts.is_empty() => Cell::new("moves"),
         (_, Some(false)) => {
             let parts: Vec<&str> = joint
@@ -244,40 +227,8 @@ fn space(cycle: &Cycle) -> String {
     }
 }
 
-fn unsure(count: Option<impl ToString>) -> String {
+pub(super) fn unsure(count: Option<impl ToString>) -> String {
     count.map_or_else(|| "?".to_owned(), |n| n.to_string())
-}
-
-/// How links move relative to one another.
-pub(super) fn motions(report: &Report, page: &mut Page) {
-    if report.motions.is_empty() {
-        return;
-    }
-    page.heading("Motions");
-    let several = report.branches.as_ref().is_some_and(|b| b.len() > 1);
-    let mut table = Table::new();
-    if several {
-        table = table.column("branch", Column::Words);
-    }
-    table = table
-        .column("link", Column::Shrinking)
-        .column("seen from", Column::Shrinking)
-        .column("freedom", Column::Numbers)
-        .column("moves by", Column::Shrinking);
-    for motion in &report.motions {
-        let mut cells = Vec::new();
-        if several {
-            cells.push(Cell::new(&motion.branch));
-        }
-        cells.extend([
-            Cell::new(&motion.link),
-            Cell::new(&motion.relative_to),
-            Cell::new(motion.freedom.to_string()),
-            Cell::new(format!("{}: {}", motion.class, motion.text)),
-        ]);
-        table.row(cells);
-    }
-    page.table(&table, "motions");
 }
 
 /// What to change.
@@ -428,7 +379,8 @@ fn rank_details(report: &Report, page: &mut Page) {
     page.paragraph(&text, Tint::Plain, "  ", "  ");
 }
 
-fn limit(page: &Page) -> usize {
+/// How many names a cell shows.
+pub(super) fn limit(page: &Page) -> usize {
     if page.layout().verbose {
         usize::MAX
     } else {

@@ -66,7 +66,7 @@ fn the_verdict_stands_first() {
         (samples::rigid(), "Rigid, but shaky"),
         (
             samples::undecided(),
-            "Undecided: between 0 and 1 finite freedom.",
+            "Undecided: between 0 and 1 finite freedom (D4); 1 at this pose.",
         ),
         (samples::unassembled(), "Does not assemble"),
     ] {
@@ -85,7 +85,9 @@ fn rounded_numbers_are_named_as_the_reason() {
     });
     let page = page(&report);
     assert!(
-        page.starts_with("Rigid: nothing can move.\nRigid only as written"),
+        page.starts_with(
+            "Rigid: nothing can move, not even for an instant (D3).\nMobile within 3e-7 m of the numbers written (D13)"
+        ),
         "{page}"
     );
     assert!(page.contains("3e-7 m"));

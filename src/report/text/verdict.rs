@@ -1,10 +1,13 @@
-//! The first paragraph: the answer, what it rests on, and what it is the answer for.
+//! The first paragraph: the answer, why it is not more, why it is not less, and what it is the answer for.
+//!
+//! Words with a definition carry its number, so that nobody has to guess what *shaky* or *paradoxical* stands for.
 
+use super::cite;
 use super::page::Page;
 use super::style::Tint;
 use super::words::{counted, figure, names};
-use crate::mobility::{CertificateLevel, MobilityClass, Verdict};
-use crate::report::schema::{Assembly, Report};
+use crate::mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
+use crate::report::schema::{Assembly, Branch, Report};
 
 /// Writes the verdict, its reasons and the line that says what was read.
 pub(super) fn write(report: &Report, page: &mut Page) {
@@ -15,59 +18,264 @@ pub(super) fn write(report: &Report, page: &mut Page) {
         Verdict::Unassembled => Tint::Bad,
     };
     page.paragraph(&sentence(report), tint, "", "");
-    if let Some(nominal) = &report.mobility.nominal {
-        let text = format!(
-            "Rigid only as written: a mechanism with {} lies within {} m of the numbers in the file, which are probably \
-             rounded.",
-            counted(nominal.finite, "finite freedom"),
-            figure(nominal.tolerance)
-        );
+    if let Some(text) = nominal(report) {
         page.paragraph(&text, Tint::Doubtful, "", "");
     }
-    if let Some(certificate) = &report.mobility.certificate {
-        let strength = match certificate.level {
-            CertificateLevel::Numeric => "By floating-point numbers with a margin",
-            CertificateLevel::Subgroup => "Proved by the group of displacements",
-            CertificateLevel::Exact => "Proved in exact arithmetic",
-        };
-        page.item(&format!("{strength}: {}", certificate.text), Tint::Plain);
+    for reason in [not_more(report), not_less(report)].into_iter().flatten() {
+        page.item(&reason, Tint::Plain);
     }
+    let open = report.mobility.verdict == Verdict::Undecided;
     for reason in &report.mobility.why {
-        page.item(reason, Tint::Plain);
+        let reason = if open {
+            format!("Open: {reason}.")
+        } else {
+            capitalised(reason)
+        };
+        page.item(&reason, Tint::Plain);
     }
     page.gap();
     page.paragraph(&identity(report), Tint::Plain, "", "");
 }
 
-fn sentence(report: &Report) -> String {
+/// The answer in one sentence.
+pub(super) fn sentence(report: &Report) -> String {
+    match report.mobility.verdict {
+        Verdict::Unassembled => unassembled(&report.assembly),
+        Verdict::Rigid => rigid(report),
+        Verdict::Mobile => mobile(report),
+        Verdict::Undecided => undecided(report),
+    }
+}
+
+fn mobile(report: &Report) -> String {
+    let mut text = format!("Mobile: {}", freedoms(report));
+    let instantaneous = report.home.instantaneous;
+    if instantaneous.is_some() && instantaneous != report.mobility.finite {
+        text.push_str(&format!("; {} at this pose", optional(instantaneous)));
+    }
+    if report.home.pose == Some(PoseKind::Singular) {
+        text.push_str(&format!(": {}.", singular(report)));
+        return text;
+    }
+    if without_loops(report) {
+        text.push_str(&format!(
+            ", since there is no loop and every joint is free ({}).",
+            cite::FREEDOM
+        ));
+        return text;
+    }
+    if let Some(class) = report.mobility.class {
+        let why = match class {
+            MobilityClass::Trivial if report.home.redundant == Some(0) => "as counting says",
+            MobilityClass::Trivial => {
+                "as counting says within the displacement subgroup of each loop"
+            }
+            MobilityClass::Exceptional => "explained by the displacement subgroups of its chains",
+            MobilityClass::Paradoxical => "owed to its special dimensions",
+        };
+        text.push_str(&format!(", {why} ({})", cite::class(class)));
+    }
+    text.push('.');
+    text
+}
+
+/// What happens at a singular pose of a mechanism that moves.
+fn singular(report: &Report) -> String {
+    let Some(kind) = report.home.kind else {
+        return format!(
+            "not every one of these can be followed (singular pose, {})",
+            cite::REGULAR
+        );
+    };
+    let branches = report.branches.as_deref().unwrap_or_default();
+    let many = match branches.len() {
+        0 | 1 => "branches".to_owned(),
+        2 => "two branches".to_owned(),
+        3 => "three branches".to_owned(),
+        n => format!("{n} branches"),
+    };
+    let what = match kind {
+        SingularKind::Bifurcation => format!("{many} cross here"),
+        SingularKind::Tangential => format!("{many} touch here, with one tangent"),
+        SingularKind::Cusp => "the motion stops here and turns back".to_owned(),
+        SingularKind::Kinematotropic if branches.len() > 1 => {
+            format!("branches of dimensions {} meet here", dimensions(branches))
+        }
+        SingularKind::Kinematotropic => "branches of different dimensions meet here".to_owned(),
+        SingularKind::Shaky => "it gives way in directions that lead nowhere".to_owned(),
+        SingularKind::PermanentlyShaky => {
+            "it gives way in more directions than it moves, here and all along the motion"
+                .to_owned()
+        }
+    };
+    format!("{what} ({})", cite::kind(kind))
+}
+
+/// `2, 1 and 1`.
+fn dimensions(branches: &[Branch]) -> String {
+    let each: Vec<String> = branches.iter().map(|b| b.dimension.to_string()).collect();
+    names(&each, 12)
+}
+
+fn rigid(report: &Report) -> String {
+    if without_loops(report) {
+        return format!("Rigid: no joint has any freedom ({}).", cite::FREEDOM);
+    }
+    let shaky = cite::KIND;
+    match report.home.instantaneous {
+        Some(1) => format!(
+            "Rigid, but shaky ({shaky}): it gives way in 1 direction at this pose, which leads nowhere."
+        ),
+        Some(many) if many > 1 => format!(
+            "Rigid, but shaky ({shaky}): it gives way in {many} directions at this pose, none of which leads anywhere."
+        ),
+        Some(_) => format!(
+            "Rigid: nothing can move, not even for an instant ({}).",
+            cite::INSTANTANEOUS
+        ),
+        None => format!("Rigid: nothing can move ({}).", cite::FINITE),
+    }
+}
+
+fn undecided(report: &Report) -> String {
+    let mut text = format!("Undecided: {} ({})", freedoms(report), cite::FINITE);
+    if let Some(instantaneous) = report.home.instantaneous {
+        text.push_str(&format!("; {instantaneous} at this pose"));
+    }
+    if report.home.pose == Some(PoseKind::Singular) {
+        text.push_str(&format!(", which is singular ({})", cite::REGULAR));
+    }
+    text.push('.');
+    text
+}
+
+/// A mechanism that moves only if its numbers are read as rounded.
+pub(super) fn nominal(report: &Report) -> Option<String> {
+    let nominal = report.mobility.nominal.as_ref()?;
+    let mut text = format!(
+        "Mobile within {} m of the numbers written ({}): they are probably rounded",
+        figure(nominal.tolerance),
+        cite::NOMINAL
+    );
+    match report.home.as_written {
+        Some(0) => text.push_str("; taken literally 0 freedoms: rigid."),
+        Some(literal) => text.push_str(&format!(
+            "; taken literally at most {}.",
+            counted(literal, "freedom")
+        )),
+        None if report.mobility.finite == Some(nominal.finite) => text.push('.'),
+        None => text.push_str(&format!(
+            "; what they stand for has {}.",
+            counted(nominal.finite, "finite freedom")
+        )),
+    }
+    Some(text)
+}
+
+/// Why the finite freedom is not larger.
+pub(super) fn not_more(report: &Report) -> Option<String> {
+    let mobility = &report.mobility;
+    let instantaneous = report.home.instantaneous;
+    let text = match (mobility.verdict, mobility.finite) {
+        (Verdict::Unassembled, _) => return None,
+        (Verdict::Undecided, _) => {
+            let most = mobility.bounds[1]?;
+            let definition = match report.home.pose {
+                Some(PoseKind::Singular) => cite::REGULAR,
+                _ => cite::INSTANTANEOUS,
+            };
+            match instantaneous {
+                Some(freedom) if most < freedom => format!(
+                    "Not more than {most}: of the {} at this pose not all can be followed, because the pose is singular \
+                     ({definition}).",
+                    counted(freedom, "freedom")
+                ),
+                _ => format!(
+                    "Not more than {most}: the rank of the closure equations at this pose leaves no more, and no motion \
+                     has more freedoms than its poses ({definition})."
+                ),
+            }
+        }
+        _ if without_loops(report) => return None,
+        (Verdict::Rigid, _) => format!("Why not more: {}.", proof(report)?),
+        (Verdict::Mobile, finite) => match (finite, instantaneous) {
+            (Some(finite), Some(at_pose)) if finite < at_pose => {
+                let mut text = match report.home.kind {
+                    Some(SingularKind::PermanentlyShaky) => format!(
+                        "Why not more: the pose is singular ({}): {} of its {} lead nowhere, here and at \
+                         every pose of the motion",
+                        cite::REGULAR,
+                        at_pose - finite,
+                        counted(at_pose, "freedom")
+                    ),
+                    _ => format!(
+                        "Why not more: the pose is singular ({}): its {} exist to first order only, and no branch \
+                         through it has more than {} ({})",
+                        cite::REGULAR,
+                        counted(at_pose, "freedom"),
+                        finite,
+                        cite::BRANCH
+                    ),
+                };
+                if mobility.complex_dimension == Some(finite) {
+                    text.push_str(&format!(
+                        "; over the complex numbers the dimension is {finite} too ({})",
+                        cite::EVIDENCE
+                    ));
+                }
+                text.push('.');
+                text
+            }
+            (Some(_), Some(at_pose)) => format!(
+                "Why not more: the rank of the closure equations leaves {} at this pose, and no motion has more freedoms \
+                 than its poses ({}).",
+                counted(at_pose, "freedom"),
+                cite::INSTANTANEOUS
+            ),
+            _ => return None,
+        },
+    };
+    Some(text)
+}
+
+/// Why the finite freedom is not smaller.
+pub(super) fn not_less(report: &Report) -> Option<String> {
     let mobility = &report.mobility;
     match mobility.verdict {
-        Verdict::Unassembled => unassembled(&report.assembly),
-        Verdict::Rigid => match report.home.instantaneous {
-            Some(1) => {
-                "Rigid, but shaky: it gives way in 1 direction at this pose, which leads nowhere."
-                    .to_owned()
-            }
-            Some(shaky) if shaky > 1 => format!(
-                "Rigid, but shaky: it gives way in {shaky} directions at this pose, none of which leads anywhere."
+        Verdict::Mobile => Some(format!("Why not less: {}.", proof(report)?)),
+        Verdict::Undecided => Some(match mobility.bounds[0]? {
+            0 => format!(
+                "Not less than 0: no motion has been proved ({}).",
+                cite::CERTIFICATE
             ),
-            _ => "Rigid: nothing can move.".to_owned(),
-        },
-        Verdict::Mobile => {
-            let class = match mobility.class {
-                Some(MobilityClass::Trivial) => ", as its joints' common subgroup says",
-                Some(MobilityClass::Exceptional) => {
-                    ", explained by the displacement groups of its chains"
-                }
-                Some(MobilityClass::Paradoxical) => {
-                    ", owed to its special dimensions (paradoxical)"
-                }
-                None => "",
-            };
-            format!("Mobile: {}{class}.", freedoms(report))
-        }
-        Verdict::Undecided => format!("Undecided: {}.", freedoms(report)),
+            least => format!(
+                "Not less than {least}: so many remain by the joints outside loops, the blocks that are decided and the \
+                 displacement subgroups of the others ({}).",
+                cite::CERTIFICATE
+            ),
+        }),
+        // Nothing has fewer freedoms than none.
+        Verdict::Rigid | Verdict::Unassembled => None,
     }
+}
+
+/// What the answer rests on, with its strength.
+fn proof(report: &Report) -> Option<String> {
+    let certificate = report.mobility.certificate.as_ref()?;
+    let strength = match certificate.level {
+        CertificateLevel::Numeric => "computed with a margin",
+        CertificateLevel::Subgroup => "proved by displacement subgroups",
+        CertificateLevel::Exact => "proved in exact arithmetic",
+    };
+    Some(format!(
+        "{strength} ({}): {}",
+        cite::level(certificate.level),
+        certificate.text.trim_end_matches('.')
+    ))
+}
+
+fn without_loops(report: &Report) -> bool {
+    report.size.loops == 0 && report.size.couplings == 0
 }
 
 /// The finite mobility, or what is known of it.
@@ -75,6 +283,9 @@ fn freedoms(report: &Report) -> String {
     let finite = |n| counted(n, "finite freedom");
     match (report.mobility.finite, report.mobility.bounds) {
         (Some(n), _) => finite(n),
+        (None, [Some(least), Some(most)]) if least == most => {
+            format!("{}, as far as is known", finite(least))
+        }
         (None, [Some(least), Some(most)]) => {
             format!("between {least} and {}", finite(most))
         }
@@ -84,6 +295,20 @@ fn freedoms(report: &Report) -> String {
     }
 }
 
+fn optional(count: Option<usize>) -> String {
+    count.map_or_else(|| "?".to_owned(), |n| n.to_string())
+}
+
+fn capitalised(sentence: &str) -> String {
+    let mut letters = sentence.chars();
+    let first: String = letters
+        .next()
+        .into_iter()
+        .flat_map(char::to_uppercase)
+        .collect();
+    format!("{first}{}.", letters.as_str().trim_end_matches('.'))
+}
+
 fn unassembled(assembly: &Assembly) -> String {
     let worst = assembly
         .gaps
@@ -91,14 +316,17 @@ fn unassembled(assembly: &Assembly) -> String {
         .max_by(|a, b| a.left_position.total_cmp(&b.left_position));
     match worst {
         Some(gap) => format!(
-            "Does not assemble: loop `{}` stays open by {} m and {}° however the joints are turned, so there is no pose \
-             to analyse.",
+            "Does not assemble ({}): loop `{}` stays open by {} m and {}° however the joints are turned, so there is no \
+             pose to analyse.",
+            cite::ASSEMBLED,
             gap.cycle,
             figure(gap.left_position),
             figure(gap.left_angle.to_degrees())
         ),
-        None => "Does not assemble: the loops cannot be closed, so there is no pose to analyse."
-            .to_owned(),
+        None => format!(
+            "Does not assemble ({}): the loops cannot be closed, so there is no pose to analyse.",
+            cite::ASSEMBLED
+        ),
     }
 }
 
@@ -127,3 +355,7 @@ fn identity(report: &Report) -> String {
         names(&parts, parts.len())
     )
 }
+
+#[cfg(test)]
+#[path = "verdict_tests.rs"]
+mod tests;
