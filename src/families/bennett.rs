@@ -44,10 +44,11 @@ fn isogram() -> [Axis; 4] {
 }
 
 /// A Bennett linkage with one hinge axis turned about a side by `atan(epsilon)`, about `epsilon` rad, so that the twist of
-/// that side is off by as much.
+/// that side is off by as much (and the axis no normal of the other side any more).
 ///
-/// It moves for `epsilon` = 0, and not at all for any other: then its four axes are independent, though closer to dependent
-/// the smaller `epsilon` is.
+/// It moves for `epsilon` = 0, and not at all for any other, since its four axes are independent then, though closer to
+/// dependent the smaller `epsilon` is: the lines that depend on the three other axes are one family of rulings of a
+/// hyperboloid, of which no two meet, so that turning the fourth about one of its points leaves the family at once.
 ///
 /// # Errors
 /// None in practice.
@@ -151,8 +152,57 @@ pub fn bennett_row(loops: usize) -> Result<Mechanism, MechanismError> {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
+    use super::super::drawn::tests::{gaps, side_squared};
     use super::*;
+    use crate::families::negative_power_of_ten;
     use crate::mobility::kutzbach_count;
+
+    /// Bennett's condition: opposite sides have the same length and the same twist, and lengths are as the sines of twists.
+    #[test]
+    fn the_isogram_meets_the_condition() {
+        let axes = isogram();
+        // Squares of the length and of the twist's sine.
+        let side = |i: usize| {
+            let (a, b) = (&axes[i], &axes[(i + 1) % 4]);
+            let length = minus(&b.at, &a.at);
+            for axis in [a, b] {
+                assert!(dot(&length, &axis.along).is_zero(), "a side is no normal");
+            }
+            let normal = cross(&a.along, &b.along);
+            let sine = over(
+                &dot(&normal, &normal),
+                &(&dot(&a.along, &a.along) * &dot(&b.along, &b.along)),
+            );
+            (dot(&length, &length), sine)
+        };
+        let equal = |a: &Number, b: &Number| (a - b).is_zero();
+        let sides: [_; 4] = std::array::from_fn(side);
+        for i in 0..2 {
+            assert!(equal(&sides[i].0, &sides[i + 2].0) && equal(&sides[i].1, &sides[i + 2].1));
+        }
+        assert!(equal(
+            &(&sides[0].0 * &sides[1].1),
+            &(&sides[1].0 * &sides[0].1)
+        ));
+    }
+
+    #[test]
+    fn a_spoiled_twist_spoils_no_length() {
+        for epsilon in [negative_power_of_ten(1), negative_power_of_ten(14)] {
+            let linkage = spoiled_bennett(&epsilon).unwrap();
+            assert!(gaps(&linkage)[0].iter().all(Number::is_zero));
+            for (a, b, square) in [("a", "b", 5), ("b", "c", 9), ("d", "c", 5), ("a", "d", 9)] {
+                let side = side_squared(&linkage, a, b);
+                assert!((&side - &Number::integer(square)).is_zero());
+            }
+            // The axis was turned about the side from a to d, so that it stays a normal of that side.
+            let axis = |name: &str| {
+                let joint = linkage.joint(linkage.joint_named(name).unwrap());
+                joint.axis.0.clone()
+            };
+            assert!(dot(&axis("a"), &integers(2, 1, -2)).is_zero());
+        }
+    }
 
     #[test]
     fn chains_have_the_links_that_are_told() {
@@ -161,6 +211,19 @@ mod tests {
             assert_eq!(chain.links().len(), 2 * loops + 2);
             assert_eq!(chain.joints().len(), 3 * loops + 1);
             assert_eq!(kutzbach_count(&chain), 1 - 3 * loops as i64);
+            assert_eq!(gaps(&chain).len(), loops);
+            assert!(gaps(&chain).iter().flatten().all(Number::is_zero));
+        }
+    }
+
+    #[test]
+    fn rows_have_the_links_that_are_told() {
+        for loops in [1, 4] {
+            let row = bennett_row(loops).unwrap();
+            assert_eq!(row.links().len(), 3 * loops + 1);
+            assert_eq!(row.joints().len(), 4 * loops);
+            assert_eq!(kutzbach_count(&row), -2 * loops as i64);
+            assert!(gaps(&row).iter().flatten().all(Number::is_zero));
         }
     }
 }

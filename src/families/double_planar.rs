@@ -32,3 +32,41 @@ pub fn double_planar(epsilon: &Number) -> Result<Mechanism, MechanismError> {
     ];
     hinged("double_planar", &hinges)
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::drawn::tests::gaps;
+    use super::super::drawn::{cross, dot};
+    use super::*;
+    use crate::families::negative_power_of_ten;
+
+    #[test]
+    fn three_axes_are_parallel_in_either_half_and_skewed_between() {
+        for (exponent, parallel) in [(Some(14), false), (None, true)] {
+            let epsilon = exponent.map_or_else(Number::zero, negative_power_of_ten);
+            let planes = double_planar(&epsilon).unwrap();
+            assert!(gaps(&planes)[0].iter().all(Number::is_zero));
+            let axis = |name: &str| {
+                let joint = planes.joint(planes.joint_named(name).unwrap());
+                joint.axis.0.clone()
+            };
+            let apart = |a: &str, b: &str| {
+                let normal = cross(&axis(a), &axis(b));
+                dot(&normal, &normal)
+            };
+            for (a, b) in [
+                ("one", "two"),
+                ("two", "three"),
+                ("six", "five"),
+                ("five", "four"),
+            ] {
+                assert!(apart(a, b).is_zero());
+            }
+            assert_eq!(apart("one", "six").is_zero(), parallel);
+            // Both directions are of unit length: the root of this is the sine of the skew.
+            let sine = apart("one", "six").value().sqrt();
+            assert!((sine - epsilon.value()).abs() <= 1e-12 * epsilon.value());
+        }
+    }
+}

@@ -111,3 +111,94 @@ pub(super) fn circle_point(t: &Number) -> (Number, Number) {
     let sine = over(&(&Number::integer(2) * t), &below);
     (cosine, sine)
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+pub(super) mod tests {
+    use super::*;
+    use crate::mechanism::Joint;
+
+    /// Where the links' frames are, as [`hinged`] places them: all parallel.
+    fn origins(mechanism: &Mechanism) -> BTreeMap<usize, Triple> {
+        let mut origins = BTreeMap::from([(
+            mechanism.ground().0,
+            std::array::from_fn(|_| Number::zero()),
+        )]);
+        for joint in mechanism.joints().iter().filter(|j| !j.closes_loop) {
+            let base = origins[&joint.predecessor.link.0].clone();
+            let here = plus(&base, &joint.predecessor.frame.position);
+            origins.insert(joint.successor.link.0, here);
+        }
+        origins
+    }
+
+    /// The two points of a joint at home, as its two links have it.
+    fn points(mechanism: &Mechanism, joint: &Joint) -> [Triple; 2] {
+        let origins = origins(mechanism);
+        [&joint.predecessor, &joint.successor]
+            .map(|side| plus(&origins[&side.link.0], &side.frame.position))
+    }
+
+    /// By how much every closing hinge is open at home.
+    pub fn gaps(mechanism: &Mechanism) -> Vec<Triple> {
+        let closing = mechanism.joints().iter().filter(|j| j.closes_loop);
+        closing
+            .map(|joint| {
+                let [first, second] = points(mechanism, joint);
+                minus(&second, &first)
+            })
+            .collect()
+    }
+
+    /// The square of the distance between two hinges, as the link that has both of them measures it; of a hinge drawn open
+    /// and one on neither of its links, as its first link has it.
+    pub fn side_squared(mechanism: &Mechanism, first: &str, second: &str) -> Number {
+        let [a, b] = [first, second].map(|name| {
+            let joint = mechanism.joint(mechanism.joint_named(name).unwrap());
+            let links = [joint.predecessor.link.0, joint.successor.link.0];
+            (links, points(mechanism, joint))
+        });
+        let on = |own: &[usize; 2], other: &[usize; 2]| {
+            own.iter()
+                .position(|link| other.contains(link))
+                .unwrap_or(0)
+        };
+        let side = minus(&b.1[on(&b.0, &a.0)], &a.1[on(&a.0, &b.0)]);
+        dot(&side, &side)
+    }
+
+    #[test]
+    fn hinges_stand_where_they_are_drawn() {
+        let hinge = |name: &str, first: &str, second: &str, x: i64, y: i64| {
+            let up = integers(0, 0, 1);
+            Hinge::new(name, first, second, integers(x, y, 0), up)
+        };
+        let mut closing = hinge("c", "two", "three", 3, 3);
+        closing.second_at = Some(integers(3, 3, 1));
+        let hinges = [
+            hinge("a", "one", "two", 1, 2),
+            hinge("b", "one", "three", 5, -1),
+            closing,
+        ];
+        let drawn = hinged("drawn", &hinges).unwrap();
+        assert_eq!(drawn.link(drawn.ground()).name, "one");
+        for (joint, hinge) in drawn.joints().iter().zip(&hinges) {
+            let [first, second] = points(&drawn, joint);
+            assert_eq!(joint.name, hinge.name);
+            assert!(minus(&first, &hinge.at).iter().all(Number::is_zero));
+            let there = hinge.second_at.as_ref().unwrap_or(&hinge.at);
+            assert!(minus(&second, there).iter().all(Number::is_zero));
+        }
+        let [x, y, z] = gaps(&drawn)[0].clone().map(|n| n.value());
+        assert_eq!([x, y, z], [0.0, 0.0, 1.0]);
+        assert_eq!(side_squared(&drawn, "a", "b").value(), 25.0);
+    }
+
+    #[test]
+    fn points_of_the_circle_are_exact() {
+        let t = Number::ratio(1, 3).unwrap();
+        let (x, y) = circle_point(&t);
+        assert!((&(&(&x * &x) + &(&y * &y)) - &Number::one()).is_zero());
+        assert_eq!((x.value(), y.value()), (0.8, 0.6));
+    }
+}
