@@ -159,7 +159,7 @@ fn titles(family: &str) -> (String, String) {
 
 // All measures in pixels.
 const COLUMNS: usize = 2;
-const PANEL: (f64, f64) = (460.0, 244.0);
+const PANEL: (f64, f64) = (460.0, 230.0);
 const HEAD: f64 = 64.0;
 /// The frame of the curves within a panel.
 const LEFT: f64 = 58.0;
@@ -168,12 +168,13 @@ const WIDTH: f64 = 384.0;
 const HEIGHT: f64 = 128.0;
 /// The strip of verdicts below it.
 const STRIP: f64 = 18.0;
-/// The axis of singular values goes from 1 down to 10 to the minus this.
+/// The axis of singular values goes from 1, a little below the frame's top, down to 10 to the minus this.
+const MARGIN: f64 = 8.0;
 const DECADES: f64 = 32.0;
 
 fn height_of(value: f64) -> f64 {
     let decades = (-value.max(1e-300).log10()).clamp(0.0, DECADES);
-    TOP + HEIGHT * decades / DECADES
+    TOP + MARGIN + (HEIGHT - MARGIN) * decades / DECADES
 }
 
 /// Draws the figure.
