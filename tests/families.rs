@@ -29,7 +29,7 @@ const MISTAKEN: [(&str, &[u32]); 2] = [("spoiled_parallelogram", &[14]), ("doubl
 
 fn members() -> &'static [Member] {
     static MEMBERS: OnceLock<Vec<Member>> = OnceLock::new();
-    MEMBERS.get_or_init(|| in_parallel(&cases(), |case| look(case).unwrap()))
+    MEMBERS.get_or_init(|| in_parallel(&cases().unwrap(), |case| look(case).unwrap()))
 }
 
 /// Lines of the members of a list, and of those with an outcome.
@@ -139,4 +139,24 @@ fn numbers(a: &str, b: &str) -> Option<(f64, f64)> {
     (letter(a) == letter(b))
         .then(|| Some((number(a).ok()?, number(b).ok()?)))
         .flatten()
+}
+
+/// The table beside the figure counts the same.
+#[test]
+fn the_table_in_the_documentation_counts_what_is_found_now() {
+    let page = std::fs::read_to_string(folder("docs/src/families.md")).unwrap();
+    for family in families_of(members()) {
+        let title = family.replace('_', " ").replace("bennett", "Bennett");
+        let mut rows = page
+            .lines()
+            .map(|row| row.split('|').map(str::trim).collect::<Vec<_>>());
+        let row = rows
+            .find(|cells| cells.get(1) == Some(&title.as_str()))
+            .unwrap_or_else(|| panic!("no row for {family}"));
+        let counts = ["right", "undecided", "wrong"].map(|word| {
+            let of = members().iter().filter(|m| m.family == family);
+            of.filter(|m| m.outcome.word() == word).count().to_string()
+        });
+        assert_eq!(row[row.len() - 4..row.len() - 1], counts, "{family}");
+    }
 }

@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let file = std::env::args()
         .nth(1)
         .unwrap_or_else(|| "docs/src/images/families.svg".to_owned());
-    let members = cases()
+    let members = cases()?
         .iter()
         .map(look)
         .collect::<Result<Vec<Member>, _>>()?;
