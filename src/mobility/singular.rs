@@ -10,8 +10,8 @@
 //! isolated zero, so a singular pose with δ = 1 is rigid.
 
 use super::chart::{ChartTest, Kernel};
-use super::germ::{Germ, complex_dimension, prestress_certificate};
-use super::germ_zeros::{GermBranch, GermZeroOptions, germ_zeros};
+use super::germ::{ComplexDimension, Germ, complex_dimension, prestress_certificate};
+use super::germ_zeros::{GermBranch, GermZeroOptions, GermZeros, germ_zeros};
 use super::part_mobility::{Evidence, PartBranch, PartFinding};
 use super::pose_rank::{PartRank, Pose};
 use super::tracing::{PartPose, Tangents, natural, orthonormal, tangents_at, walk};
@@ -90,6 +90,8 @@ pub(super) fn singular_finding(
     } else {
         rank
     };
+    // Dimensions of the branches that the last search found.
+    let mut before: Option<Vec<usize>> = None;
     let mut next = FIRST_DEGREE;
     while next <= LAST_DEGREE {
         let degree = next;
@@ -136,42 +138,20 @@ pub(super) fn singular_finding(
             scope: "a neighbourhood",
             bounds: (
                 0,
-                zeros
-                    .thin
-                    .is_none()
-                    .then(|| zeros.branches.iter().map(|b| b.dimension).max().unwrap_or(0)),
-            ),
-            text: format!(
-                "{} equations of order {order} in {freedom} variables to degree {degree}, margin {:.1e}; real zeros on spheres \
-                 of radius {}: {}; {} starts, seed {}{}",
-                germ.equations().len(),
-                germ.margin(),
-                zeros
-                    .radii
-                    .iter()
-                    .map(|r| format!("{r:.2}"))
-                    .collect::<Vec<_>>()
-                    .join(", "),
-                match zeros.branches.len() {
-                    0 => "none".to_owned(),
-                    _ => zeros
+                zeros.thin.is_none().then(|| {
+                    zeros
                         .branches
                         .iter()
-                        .map(|b| format!("a branch of dimension {}", b.dimension))
-                        .collect::<Vec<_>>()
-                        .join(", "),
-                },
-                zeros.starts,
-                zeros.seed,
-                complex.as_ref().map_or(String::new(), |c| format!(
-                    "; complex dimension {}, Hilbert function {:?}",
-                    c.dimension, c.hilbert
-                ))
+                        .map(|b| b.dimension)
+                        .max()
+                        .unwrap_or(0)
+                }),
             ),
+            text: germ_text(&germ, order, degree, &zeros, complex.as_ref()),
         });
         found.complex_dimension = complex.as_ref().map(|c| c.dimension);
         if let Some(thin) = &zeros.thin {
-            why.clone_from(thin);
+            why = refused(&mut evidence, thin.clone());
             continue;
         }
         if zeros.branches.is_empty() {
@@ -183,36 +163,47 @@ pub(super) fn singular_finding(
         }
         match lift_all(pose, part, rank, kernel, &germ, &zeros.branches)? {
             Ok(lifted) => {
-                let top = lifted.iter().map(|b| b.branch.dimension).max().unwrap_or(0);
+                let dimensions: Vec<usize> = lifted.iter().map(|b| b.branch.dimension).collect();
+                let top = dimensions.iter().copied().max().unwrap_or(0);
                 if complex.as_ref().is_some_and(|c| c.dimension < top) {
-                    why = "the dimension over the complex numbers contradicts the branches found"
-                        .to_owned();
+                    let reason =
+                        "the dimension over the complex numbers contradicts the branches found";
+                    why = refused(&mut evidence, reason.to_owned());
                     continue;
                 }
                 found.lower = top;
-                if complex.as_ref().is_some_and(|c| c.dimension > top) {
-                    // Real branches of smaller dimension than the complex ones exist, but so do branches overlooked.
-                    why = format!(
-                        "real branches of dimension {top} were found where the complex ones have {}",
-                        complex.as_ref().map_or(0, |c| c.dimension)
-                    );
+                // Where the complex dimension is larger real branches may have been overlooked, or there are none: y² + z² = 0.
+                // Two searches in series of different lengths that find the same are taken for the answer.
+                let explained = complex.as_ref().is_some_and(|c| c.dimension == top);
+                let again = before.as_ref() == Some(&dimensions);
+                before = Some(dimensions);
+                if !explained && !again {
+                    let reason = match &complex {
+                        Some(complex) => format!(
+                            "real branches of dimension {top} were found where the complex ones have {}",
+                            complex.dimension
+                        ),
+                        None => format!(
+                            "real branches of dimension {top} were found, and no dimension over the complex numbers confirms them"
+                        ),
+                    };
+                    why = refused(&mut evidence, reason);
                     continue;
                 }
                 found.upper = top;
                 found.kind = kind_of(&lifted, &zeros.branches);
                 found.certificate = format!(
-                    "the real zeros of the equations' power series give {}, and on each of them the loops close at finite \
-                     distances from this pose",
+                    "the real zeros of the equations' power series give {}, the loops close at finite distances from this pose",
                     if lifted.len() == 1 {
-                        "one branch".to_owned()
+                        "one branch, and on it".to_owned()
                     } else {
-                        format!("{} branches", lifted.len())
+                        format!("{} branches, and on each of them", lifted.len())
                     }
                 );
                 found.branches = Some(lifted.into_iter().map(|l| l.branch).collect());
                 break;
             }
-            Err(reason) => why = reason,
+            Err(reason) => why = refused(&mut evidence, reason),
         }
     }
     if found.branches.is_none() {
@@ -230,6 +221,67 @@ pub(super) fn singular_finding(
         found,
         more_evidence: evidence,
     })
+}
+
+/// What a search on the germ came to.
+fn germ_text(
+    germ: &Germ,
+    order: usize,
+    degree: usize,
+    zeros: &GermZeros,
+    complex: Option<&ComplexDimension>,
+) -> String {
+    let equations = match germ.equations().len() {
+        1 => "1 equation".to_owned(),
+        many => format!("{many} equations"),
+    };
+    let branches = zeros
+        .branches
+        .iter()
+        .map(|b| format!("a branch of dimension {}", b.dimension))
+        .collect::<Vec<_>>();
+    let found = if branches.is_empty() {
+        "none but the pose itself".to_owned()
+    } else {
+        branches.join(", ")
+    };
+    let spheres = zeros
+        .radii
+        .iter()
+        .fold(None::<(f64, f64)>, |range, r| match range {
+            None => Some((*r, *r)),
+            Some((low, high)) => Some((low.min(*r), high.max(*r))),
+        })
+        .map_or(String::new(), |(low, high)| {
+            format!(
+                " on {} spheres of radius {high:.1e} to {low:.1e}",
+                zeros.radii.len()
+            )
+        });
+    let complex = complex.map_or(String::new(), |c| {
+        format!(
+            "; complex dimension {}, Hilbert function {:?}",
+            c.dimension, c.hilbert
+        )
+    });
+    format!(
+        "{equations} of order {order} in {} variables to degree {degree}, margin {:.1e}; real zeros{spheres}: {found}; {} starts, \
+         seed {}{complex}",
+        germ.freedom(),
+        germ.margin(),
+        zeros.starts,
+        zeros.seed,
+    )
+}
+
+/// Marks the last search as one that nothing rests on; gives the reason back.
+fn refused(evidence: &mut [Evidence], reason: String) -> String {
+    if let Some(last) = evidence.last_mut() {
+        last.bounds = (0, None);
+        last.text.push_str("; not taken: ");
+        last.text.push_str(&reason);
+    }
+    reason
 }
 
 fn isolated(found: &mut PartFinding) {

@@ -197,3 +197,27 @@ pub fn as_a_double(number: &Number) -> Number {
     }
     read(&format!("{:?}", number.value()))
 }
+
+/// Any number written with so many decimals, all of them: of a decimal, its own digits rounded; of an exact number that is no
+/// decimal, its value. Whole numbers stay as they are.
+pub fn rounded(number: &Number, decimals: i32) -> Number {
+    if number.stated().is_some() {
+        return with_decimals(number, decimals);
+    }
+    if number.rational().is_some_and(|r| r.is_int()) {
+        return number.clone();
+    }
+    let scaled = number * &Number::integer(10).power(decimals).unwrap();
+    // The nearest double need not be the nearest whole number; what it misses by is small and so well known.
+    let mut whole = scaled.value().round() as i64;
+    whole += (&scaled - &Number::integer(whole)).value().round() as i64;
+    let digits = whole.unsigned_abs().to_string();
+    read(
+        &Digits {
+            negative: whole < 0,
+            digits: digits.bytes().map(|b| b - b'0').collect(),
+            exponent: -decimals,
+        }
+        .text(),
+    )
+}
