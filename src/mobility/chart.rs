@@ -23,10 +23,10 @@ use crate::matrix::{MatrixError, NullVectors, Real, SplitMix64, null_vectors};
 /// A germ whose leftover vanishes to a higher order than this is not told from none. Order 4 decides all that is known;
 /// two more are a margin, which rounded numbers do not have.
 const ORDERS_SEEN: i32 = 6;
-const ORDERS_SEEN_ROUNDED: i32 = 4;
+pub(super) const ORDERS_SEEN_ROUNDED: i32 = 4;
 
 /// The coefficient that a germ of that order is expected to have at least, with radii in units of the chart's size.
-const COEFFICIENT: f64 = 1e-2;
+pub(super) const COEFFICIENT: f64 = 1e-2;
 
 /// What exceeds the noise by this factor is no noise.
 const CLEAR: f64 = 100.0;
@@ -137,7 +137,7 @@ pub fn chart_test(
     rank: &PartRank,
     kernel: &Kernel,
 ) -> Result<ChartTest, MatrixError> {
-    let radius = (0.5 * rank.decision.kept.min(1.0)).clamp(1e-12, LARGEST_RADIUS);
+    let radius = first_radius(rank);
     // What the numbers leave open shifts every equation by about as much, whatever the radius.
     let test = climb(pose, more, part, rank, kernel, radius, rank.stated)?;
     // Coarse numbers of which both readings have the same rank satisfy whatever makes them special to the last digit: such
@@ -149,7 +149,15 @@ pub fn chart_test(
             .is_none_or(|written| Some(written) == rank.instantaneous)
     {
         let literal = climb(pose, more, part, rank, kernel, radius, 0.0)?;
-        if literal.outcome != ChartOutcome::Thin {
+        // Rounding leaves something over at second order too: its share of the curvature of the equations, and of that bound
+        // hardly a tenth, because roundings cancel. Less says nothing of what was meant.
+        let rounded = test.noise * literal.radius.powi(2);
+        let tells = match literal.outcome {
+            ChartOutcome::Regular => true,
+            ChartOutcome::Singular { .. } => literal.leftover > 0.1 * rounded,
+            ChartOutcome::Thin => false,
+        };
+        if tells {
             return Ok(ChartTest {
                 literal: true,
                 ..literal
@@ -157,6 +165,62 @@ pub fn chart_test(
         }
     }
     Ok(test)
+}
+
+/// What the numbers, taken literally, leave over at the radius of the chart test, if that is more than rounding: a rounded
+/// mechanism moves as meant, and as written it does not.
+///
+/// # Errors
+/// [`MatrixError`] where numbers overflow.
+pub(super) fn literal_leftover(
+    pose: &Pose<'_>,
+    more: &mut MoreDigits,
+    part: &Part,
+    rank: &PartRank,
+    kernel: &Kernel,
+) -> Result<Option<f64>, MatrixError> {
+    let radius = first_radius(rank);
+    let ways = directions(&kernel.basis);
+    let metric = &kernel.metric;
+    let section = |geometry| Section {
+        mechanism: pose.mechanism,
+        geometry,
+        part,
+        metric,
+    };
+    let double = probe(
+        &section(pose.geometry),
+        pose.states,
+        kernel,
+        &ways,
+        radius,
+        0.0,
+    )?;
+    if double.leftover > double.noise {
+        return Ok(Some(double.leftover));
+    }
+    // Finer rounding than doubles see.
+    let Some(bits) = LADDER
+        .into_iter()
+        .find(|bits| 0.5f64.powi(*bits as i32 - 12) < rank.stated)
+        .filter(|_| rank.unknowns() <= LADDER_UNKNOWNS)
+    else {
+        return Ok(None);
+    };
+    let (geometry, states) = more.polished(pose, part, !pose.as_drawn, bits)?;
+    let section = Section {
+        mechanism: pose.mechanism,
+        geometry,
+        part,
+        metric,
+    };
+    let fine = probe(&section, states, kernel, &ways, radius, 0.0)?;
+    Ok((fine.leftover > fine.noise).then_some(fine.leftover))
+}
+
+/// A chart reaches as far as the equations bend by less than the smallest singular value kept.
+fn first_radius(rank: &PartRank) -> f64 {
+    (0.5 * rank.decision.kept.min(1.0)).clamp(1e-12, LARGEST_RADIUS)
 }
 
 /// The test in as many digits as it takes, with what the stated precision leaves open.

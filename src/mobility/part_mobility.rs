@@ -9,16 +9,18 @@
 //!
 //! A verdict is never given on a thin margin: what an engine cannot tell, it leaves open and says why.
 
-use super::chart::{ChartOutcome, ChartTest, Kernel, chart_test};
+use super::chart::{
+    COEFFICIENT, ChartOutcome, ChartTest, Kernel, ORDERS_SEEN_ROUNDED, chart_test, literal_leftover,
+};
 use super::more_digits::MoreDigits;
 use super::pose_rank::{PartRank, Pose};
 use super::singular::{SingularFinding, singular_finding};
 use super::structure::Structure;
 use super::subgroup::subgroup_finding;
-use super::tracing::{KERNEL_LIMIT, PartPose, poses_of_regular_part};
+use super::tracing::{KERNEL_LIMIT, POSES, PartPose, WALKED_UNKNOWNS, poses_of_regular_part};
 use super::vocabulary::{CertificateLevel, MobilityClass, PoseKind, SingularKind};
-use crate::closure::Part;
-use crate::matrix::MatrixError;
+use crate::closure::{Part, Section};
+use crate::matrix::{MatrixError, Real};
 
 /// What one engine contributed.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -182,13 +184,17 @@ pub fn part_mobility(
         return Ok(found.with(evidence));
     }
     let kernel = Kernel::of(pose, rank, KERNEL_LIMIT)?;
-    let one_branch = |found: &mut PartFinding| -> Result<(), MatrixError> {
+    let one_branch = |found: &mut PartFinding, more: &mut MoreDigits| -> Result<(), MatrixError> {
         if let Some(kernel) = &kernel {
             found.branches = Some(vec![PartBranch {
                 dimension: freedom,
                 half_branches: (freedom == 1).then_some(2),
                 poses: poses_of_regular_part(pose, part, rank, kernel)?,
             }]);
+            if rank.stated > 0.0 && surplus < freedom as i64 && kernel.basis.complete {
+                found.nominal = literal_leftover(pose, more, part, rank, kernel)?
+                    .map(|left| left * rank.jacobian.length);
+            }
         }
         Ok(())
     };
@@ -221,7 +227,7 @@ pub fn part_mobility(
             CertificateLevel::Subgroup,
             subgroups.text.clone(),
         );
-        one_branch(&mut found)?;
+        one_branch(&mut found, more)?;
         return Ok(found.with(evidence));
     }
     if surplus == freedom as i64 {
@@ -233,7 +239,7 @@ pub fn part_mobility(
             CertificateLevel::Numeric,
             text.to_owned(),
         );
-        one_branch(&mut found)?;
+        one_branch(&mut found, more)?;
         return Ok(found.with(evidence));
     }
     // Fewer equations than unknowns leave a motion over the complex numbers, but not always a real one (x² + y² = 0).
@@ -244,7 +250,10 @@ pub fn part_mobility(
         );
         return Ok(PartFinding::open(lower, freedom, why).with(evidence));
     };
-    let chart = chart_test(pose, more, part, rank, kernel)?;
+    let mut chart = chart_test(pose, more, part, rank, kernel)?;
+    if rank.stated > 0.0 && !chart.literal {
+        confirm_on_the_way(pose, part, rank, kernel, &mut chart)?;
+    }
     evidence.push(chart_evidence(&chart, freedom));
     match chart.outcome {
         ChartOutcome::Regular => {
@@ -261,10 +270,7 @@ pub fn part_mobility(
                 CertificateLevel::Numeric,
                 text,
             );
-            if rank.as_written.is_some_and(|w| w < freedom) {
-                found.nominal = Some(chart.leftover * rank.jacobian.length);
-            }
-            one_branch(&mut found)?;
+            one_branch(&mut found, more)?;
             Ok(found.with(evidence))
         }
         ChartOutcome::Singular { .. } => {
@@ -292,6 +298,48 @@ pub fn part_mobility(
             Ok(PartFinding::open(lower, freedom, why).with(evidence))
         }
     }
+}
+
+/// Rounded numbers leave so much room that near the pose a small leftover is lost in it: whether a part moves shows farther
+/// away. Regular stays only what can be followed, and what can be followed far enough is regular.
+fn confirm_on_the_way(
+    pose: &Pose<'_>,
+    part: &Part,
+    rank: &PartRank,
+    kernel: &Kernel,
+    chart: &mut ChartTest,
+) -> Result<(), MatrixError> {
+    if rank.unknowns() > WALKED_UNKNOWNS
+        || matches!(chart.outcome, ChartOutcome::Singular { .. })
+        || chart.leftover > chart.noise
+    {
+        return Ok(());
+    }
+    let freedom = kernel.basis.vectors.len();
+    let poses = poses_of_regular_part(pose, part, rank, kernel)?;
+    let section = Section {
+        mechanism: pose.mechanism,
+        geometry: pose.geometry,
+        part,
+        metric: &kernel.metric,
+    };
+    let mut farthest: f64 = 0.0;
+    for there in &poses {
+        let mut states = pose.states.to_vec();
+        for (&joint, state) in part.joints.iter().zip(&there.states) {
+            states[joint] = state.clone();
+        }
+        let way = section.way_between(pose.states, &states);
+        farthest = farthest.max(0.0.norm(&way));
+    }
+    let followed = poses.len() == POSES && poses.iter().all(|p| p.instantaneous == Some(freedom));
+    let visible = COEFFICIENT * farthest.min(1.0).powi(ORDERS_SEEN_ROUNDED) > chart.noise;
+    chart.outcome = if followed && (visible || chart.outcome == ChartOutcome::Regular) {
+        ChartOutcome::Regular
+    } else {
+        ChartOutcome::Thin
+    };
+    Ok(())
 }
 
 fn chart_evidence(chart: &ChartTest, freedom: usize) -> Evidence {

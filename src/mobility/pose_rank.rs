@@ -36,8 +36,35 @@ const LADDER_UNKNOWNS: usize = 2000;
 /// have to be ten times as large. Unless even so the rank is clear, the numbers are taken literally, which the report says.
 const COARSEST_STATED: f64 = 0.05;
 
+/// Parts of at most so many unknowns are ranked in more digits though double precision is content with them, where their
+/// numbers call for it.
+const CHECKED_UNKNOWNS: usize = 400;
+
 /// Rounding leaves a zero at some per cent of its bound at most. What exceeds that share is looked at with more digits.
 const SUSPICIOUS: f64 = 0.05;
+
+/// Numbers of more bits than this (8 decimals) can hold offsets that double precision takes for rounding.
+const TALL: usize = 27;
+
+/// Bits of the longest number that places a part's joints (see [`Number::height`](crate::number::Number::height)).
+fn height(mechanism: &Mechanism, part: &Part) -> usize {
+    part.joints
+        .iter()
+        .map(|&joint| {
+            let joint = &mechanism.joints()[joint];
+            let sides = [&joint.predecessor.frame, &joint.successor.frame];
+            sides
+                .into_iter()
+                .flat_map(|frame| frame.position.iter().chain(&frame.roll_pitch_yaw))
+                .chain(&joint.axis.0)
+                .chain(&joint.axis2.0)
+                .map(crate::number::Number::height)
+                .max()
+                .unwrap_or(0)
+        })
+        .max()
+        .unwrap_or(0)
+}
 
 /// The rank of a part at a pose.
 #[derive(Clone, Debug)]
@@ -220,8 +247,21 @@ pub(super) fn rank_part_with(
     };
     let mut bits = 53;
     // Exact numbers can do better than call a singular value rounding that is far above what rounding usually leaves.
-    // (Of a sparse factorisation only bounds are known, which say nothing of the kind.)
-    let mut suspicious = stated == 0.0
+    // (Of a sparse factorisation only bounds are known, which say nothing of the kind.) What numbers of many digits leave
+    // may be meant, however small it is: then the arithmetic has to be finer than they are.
+    let mut suspicious = false;
+    let mut finest_needed = 0;
+    let deficient = nominal
+        .rank
+        .is_some_and(|rank| rank < columns.min(matrix.rows()));
+    if stated == 0.0 && deficient && columns <= CHECKED_UNKNOWNS {
+        let tall = height(pose.mechanism, part);
+        if tall > TALL {
+            suspicious = true;
+            finest_needed = 3 * tall;
+        }
+    }
+    suspicious |= stated == 0.0
         && !standing.moved
         && nominal.method == Method::Svd
         && nominal.dropped > SUSPICIOUS * nominal.accuracy;
@@ -229,6 +269,9 @@ pub(super) fn rank_part_with(
         let decided = nominal.rank.is_some() || written.rank.is_some();
         if (decided && !suspicious) || columns > LADDER_UNKNOWNS {
             break;
+        }
+        if (rung as usize) < finest_needed.min(LADDER[LADDER.len() - 1] as usize) {
+            continue;
         }
         suspicious = false;
         let finer = more.matrix(pose, part, standing.moved, rung)?;

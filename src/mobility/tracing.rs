@@ -30,7 +30,7 @@ pub(super) struct Tangents {
 }
 
 /// Poses to visit, and the length of a step between them in the metric: close to radians for hinges.
-const POSES: usize = 3;
+pub(super) const POSES: usize = 3;
 const STEP: f64 = 0.25;
 
 /// Steps are halved so often where the cycles do not close.

@@ -55,6 +55,7 @@ pub use surd::Surd;
 pub use tree::Tree;
 
 use ball::{Ball, Clear};
+use dashu::base::BitTest;
 use dashu::float::FBig;
 use dashu::float::round::mode::HalfEven;
 use dashu::rational::RBig;
@@ -279,6 +280,28 @@ impl Number {
     #[must_use]
     pub fn coarsest_input(&self) -> Option<i32> {
         self.0.coarsest
+    }
+
+    /// Bits of the longest integer the number is written with: how small an offset it can hold. `1/3` has 2, `1e-14` has 47;
+    /// expressions have that of their longest part.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        let of_fraction = |x: &RBig| x.numerator().bit_len().max(x.denominator().bit_len());
+        match &self.0.form {
+            Form::Exact(Exact::Rational(x)) => of_fraction(x),
+            Form::Exact(Exact::Surd(surd)) => surd
+                .terms()
+                .map(|(root, factor)| of_fraction(factor).max(root.bit_len()))
+                .max()
+                .unwrap_or(0),
+            Form::Exact(Exact::Angle(angle)) => angle
+                .parts()
+                .map(|(direction, factor)| of_fraction(factor).max(direction.cos().height()))
+                .fold(of_fraction(angle.pi_multiple()), usize::max),
+            Form::Exact(Exact::Algebraic(tree)) | Form::Symbolic(tree) => {
+                tree.operands.iter().map(Self::height).max().unwrap_or(0)
+            }
+        }
     }
 
     /// Size as an expression: 1 for anything in a closed normal form.
