@@ -23,10 +23,10 @@ use crate::matrix::{MatrixError, NullVectors, Real, SplitMix64, null_vectors};
 /// A germ whose leftover vanishes to a higher order than this is not told from none. Order 4 decides all that is known;
 /// two more are a margin, which rounded numbers do not have.
 const ORDERS_SEEN: i32 = 6;
-pub(super) const ORDERS_SEEN_ROUNDED: i32 = 4;
+const ORDERS_SEEN_ROUNDED: i32 = 4;
 
 /// The coefficient that a germ of that order is expected to have at least, with radii in units of the chart's size.
-pub(super) const COEFFICIENT: f64 = 1e-2;
+const COEFFICIENT: f64 = 1e-2;
 
 /// What exceeds the noise by this factor is no noise.
 const CLEAR: f64 = 100.0;

@@ -9,15 +9,13 @@
 //!
 //! A verdict is never given on a thin margin: what an engine cannot tell, it leaves open and says why.
 
-use super::chart::{
-    COEFFICIENT, ChartOutcome, ChartTest, Kernel, ORDERS_SEEN_ROUNDED, chart_test, literal_leftover,
-};
+use super::chart::{ChartOutcome, ChartTest, Kernel, chart_test, literal_leftover};
 use super::more_digits::MoreDigits;
 use super::pose_rank::{PartRank, Pose};
 use super::singular::{SingularFinding, singular_finding};
 use super::structure::Structure;
 use super::subgroup::subgroup_finding;
-use super::tracing::{KERNEL_LIMIT, POSES, PartPose, WALKED_UNKNOWNS, poses_of_regular_part};
+use super::tracing::{KERNEL_LIMIT, PartPose, poses_of_regular_part, walk};
 use super::vocabulary::{CertificateLevel, MobilityClass, PoseKind, SingularKind};
 use crate::closure::{Part, Section};
 use crate::matrix::{MatrixError, Real};
@@ -300,8 +298,18 @@ pub fn part_mobility(
     }
 }
 
+/// A rounded part is followed so many steps of a quarter radian.
+const FOLLOWED: usize = 10;
+
+/// The least coefficient of the leftover's fourth order that would show on the way. Those of known singular poses are
+/// 1e-5 and more.
+const LEAST_COEFFICIENT: f64 = 1e-5;
+
+/// Parts with more unknowns are not followed, and stay with what the chart test says.
+const FOLLOWED_UNKNOWNS: usize = 400;
+
 /// Rounded numbers leave so much room that near the pose a small leftover is lost in it: whether a part moves shows farther
-/// away. Regular stays only what can be followed, and what can be followed far enough is regular.
+/// away. Regular is what can be followed so far that a leftover would show; a way that ends leaves it open.
 fn confirm_on_the_way(
     pose: &Pose<'_>,
     part: &Part,
@@ -309,20 +317,21 @@ fn confirm_on_the_way(
     kernel: &Kernel,
     chart: &mut ChartTest,
 ) -> Result<(), MatrixError> {
-    if rank.unknowns() > WALKED_UNKNOWNS
+    if rank.unknowns() > FOLLOWED_UNKNOWNS
         || matches!(chart.outcome, ChartOutcome::Singular { .. })
         || chart.leftover > chart.noise
     {
         return Ok(());
     }
-    let freedom = kernel.basis.vectors.len();
-    let poses = poses_of_regular_part(pose, part, rank, kernel)?;
     let section = Section {
         mechanism: pose.mechanism,
         geometry: pose.geometry,
         part,
         metric: &kernel.metric,
     };
+    let tangents = kernel.basis.vectors.clone();
+    let freedom = tangents.len();
+    let poses = walk(&section, pose.states, tangents, None, rank.stated, FOLLOWED)?;
     let mut farthest: f64 = 0.0;
     for there in &poses {
         let mut states = pose.states.to_vec();
@@ -332,9 +341,10 @@ fn confirm_on_the_way(
         let way = section.way_between(pose.states, &states);
         farthest = farthest.max(0.0.norm(&way));
     }
-    let followed = poses.len() == POSES && poses.iter().all(|p| p.instantaneous == Some(freedom));
-    let visible = COEFFICIENT * farthest.min(1.0).powi(ORDERS_SEEN_ROUNDED) > chart.noise;
-    chart.outcome = if followed && (visible || chart.outcome == ChartOutcome::Regular) {
+    let followed =
+        poses.len() == FOLLOWED && poses.iter().all(|p| p.instantaneous == Some(freedom));
+    let visible = LEAST_COEFFICIENT * farthest.min(2.0).powi(4) > chart.noise;
+    chart.outcome = if followed && visible {
         ChartOutcome::Regular
     } else {
         ChartOutcome::Thin

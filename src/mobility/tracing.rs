@@ -144,7 +144,7 @@ fn onward(random: &mut SplitMix64, basis: &[Vec<f64>], before: Option<&[f64]>) -
     (length != 0.0).then(|| direction.iter().map(|x| x / length).collect())
 }
 
-/// Walks along a branch from a pose where its tangent space is known, to a few generic poses. Fewer than asked for, or
+/// Walks along a branch from a pose where its tangent space is known, to as many generic poses as are `wanted`. Fewer, or
 /// none, where the cycles do not close on the way.
 ///
 /// # Errors
@@ -155,6 +155,7 @@ pub(super) fn walk(
     tangents: Vec<Vec<f64>>,
     toward: Option<Vec<f64>>,
     stated: f64,
+    wanted: usize,
 ) -> Result<Vec<PartPose>, MatrixError> {
     let dimension = tangents.len();
     let mut random = SplitMix64::new(SEED + 1);
@@ -171,7 +172,7 @@ pub(super) fn walk(
             .collect()
     };
     let mut attempts = 0;
-    while poses.len() < POSES && attempts < 2 * POSES {
+    while poses.len() < wanted && attempts < 2 * wanted {
         attempts += 1;
         let Some(direction) = onward(&mut random, &basis, before.as_deref()) else {
             break;
@@ -233,7 +234,7 @@ pub fn poses_of_regular_part(
     let mut poses = Vec::new();
     if rank.unknowns() <= WALKED_UNKNOWNS && kernel.basis.complete {
         let tangents = kernel.basis.vectors.clone();
-        poses = walk(&section, pose.states, tangents, None, rank.stated)?;
+        poses = walk(&section, pose.states, tangents, None, rank.stated, POSES)?;
     }
     if poses.is_empty() {
         poses.push(PartPose {

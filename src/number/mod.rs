@@ -55,7 +55,7 @@ pub use surd::Surd;
 pub use tree::Tree;
 
 use ball::{Ball, Clear};
-use dashu::base::BitTest;
+use dashu::base::{BitTest, PowerOfTwo};
 use dashu::float::FBig;
 use dashu::float::round::mode::HalfEven;
 use dashu::rational::RBig;
@@ -282,11 +282,21 @@ impl Number {
         self.0.coarsest
     }
 
-    /// Bits of the longest integer the number is written with: how small an offset it can hold. `1/3` has 2, `1e-14` has 47;
-    /// expressions have that of their longest part.
+    /// Bits of the longest integer the number is written with: how small an offset can be meant by it. `1/3` has 2, `1e-14`
+    /// has 47; expressions have that of their longest part. Nothing is meant by the last bits of a double or of what was
+    /// computed from decimals: these have 0.
     #[must_use]
     pub fn height(&self) -> usize {
-        let of_fraction = |x: &RBig| x.numerator().bit_len().max(x.denominator().bit_len());
+        if self.0.coarsest.is_some() {
+            return 0;
+        }
+        let of_fraction = |x: &RBig| {
+            let double = x.denominator().is_power_of_two() && x.numerator().bit_len() <= 53;
+            if double {
+                return 0;
+            }
+            x.numerator().bit_len().max(x.denominator().bit_len())
+        };
         match &self.0.form {
             Form::Exact(Exact::Rational(x)) => of_fraction(x),
             Form::Exact(Exact::Surd(surd)) => surd
