@@ -91,11 +91,7 @@ fn few_digits_never_give_a_plain_wrong_answer() {
                 wrong.push(format!("{home:?} leaves out {freedom}"));
             }
         }
-        if analysis
-            .mobility
-            .finite()
-            .is_some_and(|found| found != 1)
-        {
+        if analysis.mobility.finite().is_some_and(|found| found != 1) {
             let verdict = analysis.mobility.verdict.word();
             wrong.push(format!("{verdict}, though more digits could say otherwise"));
         }

@@ -161,8 +161,11 @@ pub fn part_mobility(
         } else {
             rank.candidates.1
         };
-        let why = "the numbers as they are stated leave the rank at this pose open; more digits would decide it";
-        return Ok(PartFinding::open(0, upper, why.to_owned()).with(vec![rank_evidence]));
+        let why = match &rank.note {
+            Some(note) if rank.stated == 0.0 && !held_by_rounding => note.clone(),
+            _ => "the numbers as they are stated leave the rank at this pose open; more digits would decide it".to_owned(),
+        };
+        return Ok(PartFinding::open(0, upper, why).with(vec![rank_evidence]));
     };
     // The rank was decided one way, but the precision stated allows another: the numbers have to be better.
     if rank.candidates.0 != rank.candidates.1

@@ -251,6 +251,7 @@ pub(super) fn rank_part_with(
     // may be meant, however small it is: then the arithmetic has to be finer than they are.
     let mut suspicious = false;
     let mut finest_needed = 0;
+    let mut stays_open = None;
     let deficient = nominal
         .rank
         .is_some_and(|rank| rank < columns.min(matrix.rows()));
@@ -289,9 +290,20 @@ pub(super) fn rank_part_with(
         } else {
             written.clone()
         };
-        if finer.residual > 1e3 * finer.rounding && written.rank.is_none() {
+        if finer.residual > 1e3 * finer.rounding {
             // The numbers as written do not close any better, so that more digits are of no use.
-            break;
+            if finest_needed > 0 {
+                // And they were meant: no pose is closed here to their last digit, and what the rank is at one nearby is open.
+                stays_open = Some(finer.residual);
+                for decision in [&mut written, &mut nominal] {
+                    decision.rank = None;
+                    decision.candidates.1 = columns.min(matrix.rows());
+                }
+                break;
+            }
+            if written.rank.is_none() {
+                break;
+            }
         }
     }
     let freedom = |rank: usize| columns - rank;
@@ -326,6 +338,14 @@ pub(super) fn rank_part_with(
                 candidates.0, candidates.1, written.kept, nominal.tolerance
             );
             (Some(literal), written, Some(note))
+        }
+        (None, None) if stays_open.is_some() => {
+            let note = format!(
+                "in as many digits as the numbers have, the loops stay open by {:.1e}: the pose drawn is not closed, and at a \
+                 closed one nearby the rank may be another",
+                stays_open.unwrap_or(0.0)
+            );
+            (None, nominal, Some(note))
         }
         (None, None) => {
             let note = format!(
