@@ -241,7 +241,7 @@ fn cutting_links_and_welding_them_changes_nothing() {
 fn joints_taken_apart_into_hinges_and_slides_change_nothing() {
     check_change(
         |base| combine::with_simple_joints(base.draft.clone()).map(|draft| (draft, 0, 0)),
-        &["wren_platform_6US"],
+        &[],
     );
 }
 

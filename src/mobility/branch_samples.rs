@@ -65,16 +65,24 @@ impl Sample {
         Self::new(ring(&places, [0.0; 3], Written::Exactly), poses.into())
     }
 
-    /// A loop of two coaxial sleeves: the link between slides and turns on the shaft.
+    /// A link that slides and turns on a shaft whose ends are joined.
     pub fn sleeve() -> Self {
         let sleeve = |x| (JointKind::Cylindrical, [x, 0.5, 0.0], [1.0, 0.0, 0.0]);
         let poses = [0.3, 0.8].map(|way: f64| {
-            let values = vec![vec![way, 2.0 * way], vec![-way, -2.0 * way]];
+            let values = vec![vec![way, 2.0 * way], vec![-way, -2.0 * way], vec![]];
             let tangents = vec![vec![1.0, 0.0, -1.0, 0.0], vec![1.0, 1.0, -1.0, -1.0]];
             (values, tangents)
         });
         Self::new(
-            ring(&[sleeve(0.0), sleeve(1.0)], [0.0; 3], Written::Exactly),
+            ring(
+                &[
+                    sleeve(0.0),
+                    sleeve(1.0),
+                    (JointKind::Fixed, [0.0, 1.0, 0.0], [0.0; 3]),
+                ],
+                [0.0; 3],
+                Written::Exactly,
+            ),
             poses.into(),
         )
     }

@@ -202,7 +202,7 @@ pub(super) fn singular_finding(
                 found.upper = top;
                 found.kind = kind_of(&lifted, &zeros.branches);
                 found.certificate = format!(
-                    "the real zeros of the equations' power series give {}, the loops close at finite distances from this pose",
+                    "the real zeros of the equations' power series give {} the loops close at finite distances from this pose",
                     if lifted.len() == 1 {
                         "one branch, and on it".to_owned()
                     } else {
@@ -504,10 +504,10 @@ fn kind_of(lifted: &[Lifted], zeros: &[GermBranch]) -> Option<SingularKind> {
     {
         return Some(SingularKind::Kinematotropic);
     }
-    if lifted.iter().all(|l| l.shaky) {
-        return Some(SingularKind::PermanentlyShaky);
-    }
     if lifted.len() == 1 {
+        if first.shaky {
+            return Some(SingularKind::PermanentlyShaky);
+        }
         let halves = &zeros.first()?.half_branches;
         return match halves.as_slice() {
             [a, b] if along(&a.tangent, &b.tangent) > SAME_DIRECTION => Some(SingularKind::Cusp),
