@@ -15,7 +15,9 @@ use kutzbach::number::Number;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use support::rewrite::Draft;
-use support::{assert_none, folder, in_parallel, is_locked, zoo, zoo_mechanism};
+use support::{
+    analysis, assert_none, folder, in_parallel, is_locked, own_mechanisms, zoo, zoo_mechanism,
+};
 
 fn expected() -> Value {
     let text = std::fs::read_to_string(folder("tests/zoo/expected.json")).unwrap();
@@ -424,4 +426,21 @@ fn facts_do_not_depend_on_the_description() {
         wrong
     });
     assert_none(&wrong.concat());
+}
+
+/// Two branches with one tangent part by the square of the way only: following the one must not end on the other.
+#[test]
+fn branches_that_touch_are_followed_apart() {
+    let (_, spindle) = own_mechanisms()
+        .into_iter()
+        .find(|(name, _)| name == "spindle_on_plane")
+        .unwrap();
+    let branches = analysis(&spindle).branches.unwrap();
+    let mut at_rest: Vec<BTreeSet<String>> = branches
+        .iter()
+        .map(|branch| locked(&spindle, &branch.roles))
+        .collect();
+    at_rest.sort();
+    let spinning = ["plane", "second_hinge"].map(str::to_owned);
+    assert_eq!(at_rest, [BTreeSet::new(), BTreeSet::from(spinning)]);
 }

@@ -29,6 +29,7 @@ mod germ;
 mod germ_zeros;
 mod idle;
 mod kutzbach;
+mod lifting;
 mod link_twists;
 mod more_digits;
 mod one_sided;

@@ -334,7 +334,15 @@ fn confirm_on_the_way(
     };
     let tangents = kernel.basis.vectors.clone();
     let freedom = tangents.len();
-    let poses = walk(&section, pose.states, tangents, None, rank.stated, FOLLOWED)?;
+    let poses = walk(
+        &section,
+        pose.states,
+        tangents,
+        None,
+        rank.stated,
+        FOLLOWED,
+        f64::INFINITY,
+    )?;
     let mut farthest: f64 = 0.0;
     for there in &poses {
         let mut states = pose.states.to_vec();

@@ -12,12 +12,12 @@
 use super::chart::{ChartTest, Kernel};
 use super::germ::{ComplexDimension, Germ, complex_dimension, prestress_certificate};
 use super::germ_zeros::{GermBranch, GermZeroOptions, GermZeros, germ_zeros};
-use super::part_mobility::{Evidence, PartBranch, PartFinding};
+use super::lifting::{Lifted, Start, along, lift_all};
+use super::part_mobility::{Evidence, PartFinding};
 use super::pose_rank::{PartRank, Pose};
-use super::tracing::{POSES, PartPose, Tangents, natural, orthonormal, tangents_at, walk};
 use super::vocabulary::{CertificateLevel, PoseKind, SingularKind};
-use crate::closure::{JointState, Part, Section};
-use crate::matrix::{MatrixError, Real};
+use crate::closure::Part;
+use crate::matrix::MatrixError;
 
 /// Degrees to which the series are computed: the first, and the last tried.
 const FIRST_DEGREE: usize = 4;
@@ -28,9 +28,6 @@ const STARTS: usize = 600;
 
 /// Branches whose directions differ by less (cosine) share a tangent.
 const SAME_DIRECTION: f64 = 0.999;
-
-/// A lifted point may move by this share of its distance from the pose while all equations are closed.
-const POLISHING: f64 = 0.35;
 
 /// What is known of a singular pose.
 pub(super) struct SingularFinding {
@@ -170,7 +167,14 @@ pub(super) fn singular_finding(
             isolated(&mut found);
             break;
         }
-        match lift_all(pose, part, rank, kernel, &germ, &zeros.branches)? {
+        let start = Start {
+            pose,
+            part,
+            rank,
+            kernel,
+            germ: &germ,
+        };
+        match lift_all(&start, &zeros.branches)? {
             Ok(lifted) => {
                 let dimensions: Vec<usize> = lifted.iter().map(|b| b.branch.dimension).collect();
                 let top = dimensions.iter().copied().max().unwrap_or(0);
@@ -300,201 +304,6 @@ fn isolated(found: &mut PartFinding) {
     found.branches = Some(Vec::new());
 }
 
-/// A branch that the mechanism really has.
-struct Lifted {
-    branch: PartBranch,
-    /// Whether its instantaneous freedom at a generic pose is more than its dimension.
-    shaky: bool,
-}
-
-fn lift_all(
-    pose: &Pose<'_>,
-    part: &Part,
-    rank: &PartRank,
-    kernel: &Kernel,
-    germ: &Germ,
-    branches: &[GermBranch],
-) -> Result<Result<Vec<Lifted>, String>, MatrixError> {
-    let mut lifted = Vec::new();
-    for branch in branches {
-        let mut best = None;
-        for point in &branch.points {
-            if let Some(found) = lift(pose, part, rank, kernel, germ, branch, point)? {
-                best = Some(found);
-                break;
-            }
-        }
-        let Some(found) = best else {
-            return Ok(Err(format!(
-                "a branch of dimension {} of the power series does not close on all equations at a finite distance",
-                branch.dimension
-            )));
-        };
-        lifted.push(found);
-    }
-    Ok(Ok(lifted))
-}
-
-fn lift(
-    pose: &Pose<'_>,
-    part: &Part,
-    rank: &PartRank,
-    kernel: &Kernel,
-    germ: &Germ,
-    branch: &GermBranch,
-    point: &[f64],
-) -> Result<Option<Lifted>, MatrixError> {
-    let metric = &kernel.metric;
-    let section = Section {
-        mechanism: pose.mechanism,
-        geometry: pose.geometry,
-        part,
-        metric,
-    };
-    let z: Vec<f64> = germ
-        .increments(point)
-        .iter()
-        .zip(&metric.weights)
-        .map(|(q, weight)| q * weight)
-        .collect();
-    let away = 0.0.norm(&z);
-    let mut states = pose.states.to_vec();
-    section.advance_by(&mut states, &z);
-    let closing = section.close(&mut states, &[], 80)?;
-    if closing.residual > 4.0 * closing.rounding + rank.stated || closing.way > POLISHING * away {
-        return Ok(None);
-    }
-    // Along a branch on which an equation enters squared, a residual of ρ leaves a pose off by √ρ: a singular value of this
-    // size is zero there, and nowhere else so close to it.
-    let blur = closing.residual.max(closing.rounding).sqrt();
-    let dimension = branch.dimension;
-    let sharp = tangents_at(&section, &states, rank.stated, dimension)?;
-    let blurred = tangents_at(&section, &states, rank.stated + 10.0 * blur, dimension)?;
-    let tells = |seen: &Option<Tangents>| seen.as_ref().and_then(|t| t.instantaneous);
-    let [sharp, blurred] = [sharp, blurred].map(|seen| seen.map(|(tangents, _)| tangents));
-    // Where the two differ the singular values are small for one of two reasons, and the series tell which: the branch is
-    // not simple, or the pose that singular values grow from is near.
-    let shaky_there = !branch.reduced && tells(&blurred).is_some_and(|freedom| freedom > dimension);
-    let Some(there) = (if shaky_there || tells(&sharp).is_none() {
-        blurred
-    } else {
-        sharp
-    }) else {
-        return Ok(None);
-    };
-    let Some(instantaneous) = there.instantaneous else {
-        return Ok(None);
-    };
-    if instantaneous < dimension {
-        return Ok(None);
-    }
-    let direction: Vec<f64> = z.iter().map(|x| x / away).collect();
-    let poses = if instantaneous == branch.dimension {
-        walk(
-            &section,
-            &states,
-            there.basis,
-            Some(direction),
-            rank.stated,
-            POSES,
-        )?
-    } else {
-        secant_poses(
-            &section,
-            &states,
-            &there.basis,
-            branch.dimension,
-            instantaneous,
-            rank.stated,
-        )?
-    };
-    if poses.is_empty() {
-        return Ok(None);
-    }
-    let shaky = poses
-        .iter()
-        .all(|p| p.instantaneous.is_some_and(|i| i > branch.dimension));
-    Ok(Some(Lifted {
-        branch: PartBranch {
-            dimension: branch.dimension,
-            half_branches: (branch.dimension == 1).then_some(branch.half_branches.len()),
-            poses,
-        },
-        shaky,
-    }))
-}
-
-/// How far a secant reaches (metric). Its error falls with the fourth power, and grows with the pose's, of 1e-8, over it.
-const SECANT: f64 = 0.02;
-
-/// Poses on a branch whose tangents are fewer than its instantaneous motions: tangents are taken from neighbours on the
-/// branch, found by stepping along every instantaneous motion and closing the loops.
-fn secant_poses(
-    section: &Section<'_, f64>,
-    start: &[JointState<f64>],
-    kernel: &[Vec<f64>],
-    dimension: usize,
-    instantaneous: usize,
-    stated: f64,
-) -> Result<Vec<PartPose>, MatrixError> {
-    let neighbour = |direction: &[f64], size: f64| -> Result<Option<Vec<f64>>, MatrixError> {
-        let mut states = start.to_vec();
-        let z: Vec<f64> = direction.iter().map(|x| x * size).collect();
-        section.advance_by(&mut states, &z);
-        let closing = section.close(&mut states, &[], 80)?;
-        let closed = closing.residual <= 4.0 * closing.rounding + stated;
-        Ok(closed.then(|| section.way_between(start, &states)))
-    };
-    // The first tangents come from directions that mostly lead off the branch, where closing is slow and coarse, or fails;
-    // the second from the first.
-    let mut basis = kernel.to_vec();
-    for _ in 0..2 {
-        let mut slopes = Vec::new();
-        for direction in &basis {
-            // Central differences over one and two steps together are exact to the fourth order.
-            let mut slope = Some(vec![0.0; direction.len()]);
-            for (steps, weight) in [(1.0, 2.0 / 3.0), (2.0, -1.0 / 12.0)] {
-                for side in [1.0, -1.0] {
-                    let way = neighbour(direction, side * steps * SECANT)?;
-                    slope = slope.zip(way).map(|(sum, way)| {
-                        let weight = side * weight / SECANT;
-                        sum.iter().zip(way).map(|(s, x)| s + weight * x).collect()
-                    });
-                }
-            }
-            slopes.extend(slope.map(|slope| projected(&slope, kernel)));
-        }
-        // The longest ones span the tangent space.
-        slopes.sort_by(|a, b| 0.0.norm(b).total_cmp(&0.0.norm(a)));
-        basis = Vec::new();
-        for slope in slopes {
-            let mut trial = basis.clone();
-            trial.push(slope.clone());
-            let spanned = orthonormal(trial);
-            let new = spanned.len() > basis.len();
-            let reach = spanned.last().map_or(0.0, |v| along(v, &slope));
-            if new && reach.abs() > 0.05 && basis.len() < dimension {
-                basis = spanned;
-            }
-        }
-    }
-    if basis.len() != dimension {
-        return Ok(Vec::new());
-    }
-    let (columns, rows) = (section.metric.weights.len(), 6 * section.part.cycles.len());
-    Ok(vec![PartPose {
-        states: section
-            .part
-            .joints
-            .iter()
-            .map(|&j| start[j].clone())
-            .collect(),
-        tangents: basis.iter().map(|v| natural(section.metric, v)).collect(),
-        instantaneous: Some(instantaneous),
-        surplus: columns as i64 - (rows + section.part.couplings.len()) as i64,
-    }])
-}
-
 /// D7, from the branches through the pose.
 fn kind_of(lifted: &[Lifted], zeros: &[GermBranch]) -> Option<SingularKind> {
     let first = lifted.first()?;
@@ -526,21 +335,4 @@ fn kind_of(lifted: &[Lifted], zeros: &[GermBranch]) -> Option<SingularKind> {
     } else {
         SingularKind::Bifurcation
     })
-}
-
-/// The part of a vector in the span of an orthonormal basis.
-fn projected(vector: &[f64], basis: &[Vec<f64>]) -> Vec<f64> {
-    let mut inside = vec![0.0; vector.len()];
-    for direction in basis {
-        let share = along(vector, direction);
-        inside
-            .iter_mut()
-            .zip(direction)
-            .for_each(|(sum, x)| *sum += share * x);
-    }
-    inside
-}
-
-fn along(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }

@@ -33,6 +33,10 @@ pub(super) struct Tangents {
 pub(super) const POSES: usize = 3;
 const STEP: f64 = 0.25;
 
+/// Closer than this (metric) to a pose where branches meet, a pose is not generic; so many short steps lead away.
+const FAR: f64 = 0.3;
+const APPROACHES: usize = 20;
+
 /// Steps are halved so often where the cycles do not close.
 const HALVINGS: usize = 8;
 
@@ -147,6 +151,9 @@ fn onward(random: &mut SplitMix64, basis: &[Vec<f64>], before: Option<&[f64]>) -
 /// Walks along a branch from a pose where its tangent space is known, to as many generic poses as are `wanted`. Fewer, or
 /// none, where the cycles do not close on the way.
 ///
+/// `away` is how far a pose is where other branches pass, in the metric. Branches that touch there part by a power of the
+/// distance only, so that a step is at most half as long; infinite where there are none.
+///
 /// # Errors
 /// [`MatrixError`] where numbers overflow.
 pub(super) fn walk(
@@ -156,6 +163,7 @@ pub(super) fn walk(
     toward: Option<Vec<f64>>,
     stated: f64,
     wanted: usize,
+    mut away: f64,
 ) -> Result<Vec<PartPose>, MatrixError> {
     let dimension = tangents.len();
     let mut random = SplitMix64::new(SEED + 1);
@@ -171,14 +179,15 @@ pub(super) fn walk(
             .map(|&j| states[j].clone())
             .collect()
     };
-    let mut attempts = 0;
-    while poses.len() < wanted && attempts < 2 * wanted {
-        attempts += 1;
+    // Short steps lead to no generic pose yet.
+    let mut attempts = 2 * wanted + if away < FAR { APPROACHES } else { 0 };
+    while poses.len() < wanted && attempts > 0 {
+        attempts -= 1;
         let Some(direction) = onward(&mut random, &basis, before.as_deref()) else {
             break;
         };
         let from = keep(&states);
-        let mut size = STEP;
+        let mut size = STEP.min(0.5 * away);
         let mut reached = false;
         for _ in 0..HALVINGS {
             let z: Vec<f64> = direction.iter().map(|x| x * size).collect();
@@ -200,11 +209,15 @@ pub(super) fn walk(
             break;
         };
         before = Some(direction);
+        away += size;
         if there.basis.len() != dimension {
             // A special pose on the way: the old directions serve to leave it again.
             continue;
         }
         basis = there.basis;
+        if away < FAR {
+            continue;
+        }
         poses.push(PartPose {
             states: keep(&states),
             tangents: basis.iter().map(|b| natural(section.metric, b)).collect(),
@@ -234,7 +247,15 @@ pub fn poses_of_regular_part(
     let mut poses = Vec::new();
     if rank.unknowns() <= WALKED_UNKNOWNS && kernel.basis.complete {
         let tangents = kernel.basis.vectors.clone();
-        poses = walk(&section, pose.states, tangents, None, rank.stated, POSES)?;
+        poses = walk(
+            &section,
+            pose.states,
+            tangents,
+            None,
+            rank.stated,
+            POSES,
+            f64::INFINITY,
+        )?;
     }
     if poses.is_empty() {
         poses.push(PartPose {

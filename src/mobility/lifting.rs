@@ -1,0 +1,260 @@
+//! Branches of a germ, lifted to the mechanism: only what closes on all equations at a finite distance is a branch.
+//!
+//! The germ is cut off at some degree and says nothing beyond a neighbourhood. So a point of each of its branches is closed on
+//! all equations, where it may move by a share of its distance from other branches only; the kernel there is compared with
+//! the branch's dimension; and the branch is followed to generic poses.
+//!
+//! Where the equations have a multiple zero along the branch, as they do on a permanently shaky one, the kernel is larger
+//! than the branch, and tangents are found by going: see [`secant_poses`].
+
+use super::chart::Kernel;
+use super::germ::Germ;
+use super::germ_zeros::GermBranch;
+use super::part_mobility::PartBranch;
+use super::pose_rank::{PartRank, Pose};
+use super::tracing::{POSES, PartPose, Tangents, natural, orthonormal, tangents_at, walk};
+use crate::closure::{JointState, Part, Section};
+use crate::matrix::{MatrixError, Real};
+
+/// A lifted point may move by this share of its distance from the pose, and from other branches, while all equations are
+/// closed.
+const POLISHING: f64 = 0.35;
+
+/// A branch that the mechanism really has.
+pub(super) struct Lifted {
+    pub branch: PartBranch,
+    /// Whether its instantaneous freedom at a generic pose is more than its dimension.
+    pub shaky: bool,
+}
+
+/// The pose, and the germ there.
+pub(super) struct Start<'a> {
+    pub pose: &'a Pose<'a>,
+    pub part: &'a Part,
+    pub rank: &'a PartRank,
+    pub kernel: &'a Kernel,
+    pub germ: &'a Germ,
+}
+
+/// Lifts all branches of a germ, or says which one cannot be.
+///
+/// # Errors
+/// [`MatrixError`] where numbers overflow.
+pub(super) fn lift_all(
+    start: &Start<'_>,
+    branches: &[GermBranch],
+) -> Result<Result<Vec<Lifted>, String>, MatrixError> {
+    let mut lifted = Vec::new();
+    for (index, branch) in branches.iter().enumerate() {
+        let mut best = None;
+        for point in &branch.points {
+            let others = branches.iter().enumerate().filter(|(i, _)| *i != index);
+            let apart = others
+                .flat_map(|(_, other)| &other.points)
+                .map(|other| distance(point, other))
+                .fold(f64::INFINITY, f64::min);
+            if let Some(found) = lift(start, branch, point, apart)? {
+                best = Some(found);
+                break;
+            }
+        }
+        let Some(found) = best else {
+            return Ok(Err(format!(
+                "a branch of dimension {} of the power series does not close on all equations at a finite distance",
+                branch.dimension
+            )));
+        };
+        lifted.push(found);
+    }
+    Ok(Ok(lifted))
+}
+
+/// Lifts one point of a branch; `apart` is how far points of other branches are.
+fn lift(
+    start: &Start<'_>,
+    branch: &GermBranch,
+    point: &[f64],
+    apart: f64,
+) -> Result<Option<Lifted>, MatrixError> {
+    let Start {
+        pose,
+        part,
+        rank,
+        kernel,
+        germ,
+    } = *start;
+    let metric = &kernel.metric;
+    let section = Section {
+        mechanism: pose.mechanism,
+        geometry: pose.geometry,
+        part,
+        metric,
+    };
+    let z: Vec<f64> = germ
+        .increments(point)
+        .iter()
+        .zip(&metric.weights)
+        .map(|(q, weight)| q * weight)
+        .collect();
+    let away = 0.0.norm(&z);
+    let mut states = pose.states.to_vec();
+    section.advance_by(&mut states, &z);
+    let closing = section.close(&mut states, &[], 80)?;
+    if closing.residual > 4.0 * closing.rounding + rank.stated
+        || closing.way > POLISHING * away.min(apart)
+    {
+        return Ok(None);
+    }
+    // Along a branch on which an equation enters squared, a residual of ρ leaves a pose off by √ρ: a singular value of this
+    // size is zero there, and nowhere else so close to it.
+    let blur = closing.residual.max(closing.rounding).sqrt();
+    let dimension = branch.dimension;
+    let sharp = tangents_at(&section, &states, rank.stated, dimension)?;
+    let blurred = tangents_at(&section, &states, rank.stated + 10.0 * blur, dimension)?;
+    let tells = |seen: &Option<Tangents>| seen.as_ref().and_then(|t| t.instantaneous);
+    let [sharp, blurred] = [sharp, blurred].map(|seen| seen.map(|(tangents, _)| tangents));
+    // Where the two differ the singular values are small for one of two reasons, and the series tell which: the branch is
+    // not simple, or the pose that singular values grow from is near.
+    let shaky_there = !branch.reduced && tells(&blurred).is_some_and(|freedom| freedom > dimension);
+    let Some(there) = (if shaky_there || tells(&sharp).is_none() {
+        blurred
+    } else {
+        sharp
+    }) else {
+        return Ok(None);
+    };
+    let Some(instantaneous) = there.instantaneous else {
+        return Ok(None);
+    };
+    if instantaneous < dimension {
+        return Ok(None);
+    }
+    let direction: Vec<f64> = z.iter().map(|x| x / away).collect();
+    let poses = if instantaneous == branch.dimension {
+        walk(
+            &section,
+            &states,
+            there.basis,
+            Some(direction),
+            rank.stated,
+            POSES,
+            away,
+        )?
+    } else {
+        secant_poses(
+            &section,
+            &states,
+            &there.basis,
+            branch.dimension,
+            instantaneous,
+            rank.stated,
+        )?
+    };
+    if poses.is_empty() {
+        return Ok(None);
+    }
+    let shaky = poses
+        .iter()
+        .all(|p| p.instantaneous.is_some_and(|i| i > branch.dimension));
+    Ok(Some(Lifted {
+        branch: PartBranch {
+            dimension: branch.dimension,
+            half_branches: (branch.dimension == 1).then_some(branch.half_branches.len()),
+            poses,
+        },
+        shaky,
+    }))
+}
+
+/// How far a secant reaches (metric). Its error falls with the fourth power, and grows with the pose's, of 1e-8, over it.
+const SECANT: f64 = 0.02;
+
+/// Poses on a branch whose tangents are fewer than its instantaneous motions: tangents are taken from neighbours on the
+/// branch, found by stepping along every instantaneous motion and closing the loops.
+fn secant_poses(
+    section: &Section<'_, f64>,
+    start: &[JointState<f64>],
+    kernel: &[Vec<f64>],
+    dimension: usize,
+    instantaneous: usize,
+    stated: f64,
+) -> Result<Vec<PartPose>, MatrixError> {
+    let neighbour = |direction: &[f64], size: f64| -> Result<Option<Vec<f64>>, MatrixError> {
+        let mut states = start.to_vec();
+        let z: Vec<f64> = direction.iter().map(|x| x * size).collect();
+        section.advance_by(&mut states, &z);
+        let closing = section.close(&mut states, &[], 80)?;
+        let closed = closing.residual <= 4.0 * closing.rounding + stated;
+        Ok(closed.then(|| section.way_between(start, &states)))
+    };
+    // The first tangents come from directions that mostly lead off the branch, where closing is slow and coarse, or fails;
+    // the second from the first.
+    let mut basis = kernel.to_vec();
+    for _ in 0..2 {
+        let mut slopes = Vec::new();
+        for direction in &basis {
+            // Central differences over one and two steps together are exact to the fourth order.
+            let mut slope = Some(vec![0.0; direction.len()]);
+            for (steps, weight) in [(1.0, 2.0 / 3.0), (2.0, -1.0 / 12.0)] {
+                for side in [1.0, -1.0] {
+                    let way = neighbour(direction, side * steps * SECANT)?;
+                    slope = slope.zip(way).map(|(sum, way)| {
+                        let weight = side * weight / SECANT;
+                        sum.iter().zip(way).map(|(s, x)| s + weight * x).collect()
+                    });
+                }
+            }
+            slopes.extend(slope.map(|slope| projected(&slope, kernel)));
+        }
+        // The longest ones span the tangent space.
+        slopes.sort_by(|a, b| 0.0.norm(b).total_cmp(&0.0.norm(a)));
+        basis = Vec::new();
+        for slope in slopes {
+            let mut trial = basis.clone();
+            trial.push(slope.clone());
+            let spanned = orthonormal(trial);
+            let new = spanned.len() > basis.len();
+            let reach = spanned.last().map_or(0.0, |v| along(v, &slope));
+            if new && reach.abs() > 0.05 && basis.len() < dimension {
+                basis = spanned;
+            }
+        }
+    }
+    if basis.len() != dimension {
+        return Ok(Vec::new());
+    }
+    let (columns, rows) = (section.metric.weights.len(), 6 * section.part.cycles.len());
+    Ok(vec![PartPose {
+        states: section
+            .part
+            .joints
+            .iter()
+            .map(|&j| start[j].clone())
+            .collect(),
+        tangents: basis.iter().map(|v| natural(section.metric, v)).collect(),
+        instantaneous: Some(instantaneous),
+        surplus: columns as i64 - (rows + section.part.couplings.len()) as i64,
+    }])
+}
+
+/// The part of a vector in the span of an orthonormal basis.
+fn projected(vector: &[f64], basis: &[Vec<f64>]) -> Vec<f64> {
+    let mut inside = vec![0.0; vector.len()];
+    for direction in basis {
+        let share = along(vector, direction);
+        inside
+            .iter_mut()
+            .zip(direction)
+            .for_each(|(sum, x)| *sum += share * x);
+    }
+    inside
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    let difference: Vec<f64> = a.iter().zip(b).map(|(x, y)| x - y).collect();
+    0.0.norm(&difference)
+}
+
+pub(super) fn along(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
