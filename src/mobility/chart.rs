@@ -35,10 +35,13 @@ const CLEAR: f64 = 100.0;
 const LARGEST_RADIUS: f64 = 0.3;
 
 /// The parts with more unknowns than this are moved in double precision only.
-const LADDER_UNKNOWNS: usize = 400;
+pub(super) const LADDER_UNKNOWNS: usize = 400;
 
 /// At most so many directions are tried.
 const DIRECTIONS: usize = 6;
+
+/// Significant digits with which programs print doubles, at least.
+const DIGITS_OF_A_DOUBLE: u32 = 16;
 
 /// The seed of the directions.
 pub const SEED: u64 = 20;
@@ -72,6 +75,8 @@ pub struct ChartTest {
     pub directions: usize,
     /// Bits of the arithmetic that decided.
     pub bits: u32,
+    /// How far the motion was followed (metric), where the neighbourhood of the pose did not suffice; zero elsewhere.
+    pub followed: f64,
     /// Whether the numbers had to be taken literally, their stated precision being too coarse to decide anything.
     pub literal: bool,
 }
@@ -168,7 +173,8 @@ pub fn chart_test(
 }
 
 /// What the numbers, taken literally, leave over at the radius of the chart test, if that is more than rounding: a rounded
-/// mechanism moves as meant, and as written it does not.
+/// mechanism moves as meant, and as written it does not. Numbers with all the digits of a double are what a program
+/// computed, and nobody asks whether their last digits move too.
 ///
 /// # Errors
 /// [`MatrixError`] where numbers overflow.
@@ -179,6 +185,9 @@ pub(super) fn literal_leftover(
     rank: &PartRank,
     kernel: &Kernel,
 ) -> Result<Option<f64>, MatrixError> {
+    if pose.mechanism.precision().significant >= DIGITS_OF_A_DOUBLE {
+        return Ok(None);
+    }
     let radius = first_radius(rank);
     let ways = directions(&kernel.basis);
     let metric = &kernel.metric;
@@ -335,6 +344,7 @@ fn probe<R: Real>(
         noise,
         directions: ways.len(),
         bits: section.geometry.one.bits(),
+        followed: 0.0,
         literal: false,
     })
 }

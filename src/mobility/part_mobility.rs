@@ -9,13 +9,15 @@
 //!
 //! A verdict is never given on a thin margin: what an engine cannot tell, it leaves open and says why.
 
-use super::chart::{ChartOutcome, ChartTest, Kernel, chart_test, literal_leftover};
+use super::chart::{
+    ChartOutcome, ChartTest, Kernel, LADDER_UNKNOWNS, chart_test, literal_leftover,
+};
 use super::more_digits::MoreDigits;
 use super::pose_rank::{PartRank, Pose};
 use super::singular::{SingularFinding, singular_finding};
 use super::structure::Structure;
 use super::subgroup::subgroup_finding;
-use super::tracing::{KERNEL_LIMIT, PartPose, poses_of_regular_part, walk};
+use super::tracing::{KERNEL_LIMIT, PartPose, WALKED_UNKNOWNS, poses_of_regular_part, walk};
 use super::vocabulary::{CertificateLevel, MobilityClass, PoseKind, SingularKind};
 use crate::closure::{Part, Section};
 use crate::matrix::{MatrixError, Real};
@@ -252,7 +254,9 @@ pub fn part_mobility(
         return Ok(PartFinding::open(lower, freedom, why).with(evidence));
     };
     let mut chart = chart_test(pose, more, part, rank, kernel)?;
-    if rank.stated > 0.0 && !chart.literal {
+    // More digits would show a leftover near the pose; neither rounded numbers nor large parts have them.
+    let rounded = rank.stated > 0.5 * chart.noise && !chart.literal;
+    if rounded || rank.unknowns() > LADDER_UNKNOWNS {
         confirm_on_the_way(pose, part, rank, kernel, &mut chart)?;
     }
     evidence.push(chart_evidence(&chart, freedom));
@@ -260,10 +264,15 @@ pub fn part_mobility(
         ChartOutcome::Regular => {
             let text = format!(
                 "the loops close at finite distances from this pose in all directions of its {freedom} instantaneous \
-                 freedom{}: what is left over is {:.1e} where {:.1e} is noise",
+                 freedom{}: what is left over is {:.1e} where {:.1e} is noise{}",
                 if freedom == 1 { "" } else { "s" },
                 chart.leftover,
-                chart.noise
+                chart.noise,
+                if chart.followed > 0.0 {
+                    ", and the motion goes on as far as it was followed"
+                } else {
+                    ""
+                }
             );
             let mut found = PartFinding::regular(
                 freedom,
@@ -308,9 +317,6 @@ const FOLLOWED: usize = 10;
 /// 1e-5 and more.
 const LEAST_COEFFICIENT: f64 = 1e-5;
 
-/// Parts with more unknowns are not followed, and stay with what the chart test says.
-const FOLLOWED_UNKNOWNS: usize = 400;
-
 /// Rounded numbers leave so much room that near the pose a small leftover is lost in it: whether a part moves shows farther
 /// away. Regular is what can be followed so far that a leftover would show; a way that ends leaves it open.
 fn confirm_on_the_way(
@@ -320,7 +326,7 @@ fn confirm_on_the_way(
     kernel: &Kernel,
     chart: &mut ChartTest,
 ) -> Result<(), MatrixError> {
-    if rank.unknowns() > FOLLOWED_UNKNOWNS
+    if rank.unknowns() > WALKED_UNKNOWNS
         || matches!(chart.outcome, ChartOutcome::Singular { .. })
         || chart.leftover > chart.noise
     {
@@ -355,6 +361,7 @@ fn confirm_on_the_way(
     let followed =
         poses.len() == FOLLOWED && poses.iter().all(|p| p.instantaneous == Some(freedom));
     let visible = LEAST_COEFFICIENT * farthest.min(2.0).powi(4) > chart.noise;
+    chart.followed = farthest;
     chart.outcome = if followed && visible {
         ChartOutcome::Regular
     } else {
@@ -377,13 +384,18 @@ fn chart_evidence(chart: &ChartTest, freedom: usize) -> Evidence {
         scope: "a neighbourhood",
         bounds,
         text: format!(
-            "{what}; radius {:.2e}, {} directions, left over {:.2e}, noise {:.2e}; {} bits; seed {}{}",
+            "{what}; radius {:.2e}, {} directions, left over {:.2e}, noise {:.2e}; {} bits; seed {}{}{}",
             chart.radius,
             chart.directions,
             chart.leftover,
             chart.noise,
             chart.bits,
             super::chart::SEED,
+            if chart.followed > 0.0 {
+                format!("; followed for {:.2}", chart.followed)
+            } else {
+                String::new()
+            },
             if chart.literal {
                 "; numbers taken literally"
             } else {
