@@ -27,13 +27,14 @@ pub(super) struct Lifted {
     pub shaky: bool,
 }
 
-/// The pose, and the germ there.
+/// The pose where branches start.
 pub(super) struct Start<'a> {
     pub pose: &'a Pose<'a>,
     pub part: &'a Part,
     pub rank: &'a PartRank,
     pub kernel: &'a Kernel,
-    pub germ: &'a Germ,
+    /// Directions that are idle at all poses, orthonormal in the metric: every branch has these too.
+    pub idle: &'a [Vec<f64>],
 }
 
 /// Lifts all branches of a germ, or says which one cannot be.
@@ -42,6 +43,7 @@ pub(super) struct Start<'a> {
 /// [`MatrixError`] where numbers overflow.
 pub(super) fn lift_all(
     start: &Start<'_>,
+    germ: &Germ,
     branches: &[GermBranch],
 ) -> Result<Result<Vec<Lifted>, String>, MatrixError> {
     let mut lifted = Vec::new();
@@ -53,7 +55,7 @@ pub(super) fn lift_all(
                 .flat_map(|(_, other)| &other.points)
                 .map(|other| distance(point, other))
                 .fold(f64::INFINITY, f64::min);
-            if let Some(found) = lift(start, branch, point, apart)? {
+            if let Some(found) = lift(start, germ, branch, point, apart)? {
                 best = Some(found);
                 break;
             }
@@ -72,6 +74,7 @@ pub(super) fn lift_all(
 /// Lifts one point of a branch; `apart` is how far points of other branches are.
 fn lift(
     start: &Start<'_>,
+    germ: &Germ,
     branch: &GermBranch,
     point: &[f64],
     apart: f64,
@@ -81,7 +84,7 @@ fn lift(
         part,
         rank,
         kernel,
-        germ,
+        idle,
     } = *start;
     let metric = &kernel.metric;
     let section = Section {
@@ -108,7 +111,7 @@ fn lift(
     // Along a branch on which an equation enters squared, a residual of ρ leaves a pose off by √ρ: a singular value of this
     // size is zero there, and nowhere else so close to it.
     let blur = closing.residual.max(closing.rounding).sqrt();
-    let dimension = branch.dimension;
+    let dimension = branch.dimension + idle.len();
     let sharp = tangents_at(&section, &states, rank.stated, dimension)?;
     let blurred = tangents_at(&section, &states, rank.stated + 10.0 * blur, dimension)?;
     let tells = |seen: &Option<Tangents>| seen.as_ref().and_then(|t| t.instantaneous);
@@ -130,7 +133,7 @@ fn lift(
         return Ok(None);
     }
     let direction: Vec<f64> = z.iter().map(|x| x / away).collect();
-    let poses = if instantaneous == branch.dimension {
+    let poses = if instantaneous == dimension {
         walk(
             &section,
             &states,
@@ -145,7 +148,7 @@ fn lift(
             &section,
             &states,
             &there.basis,
-            branch.dimension,
+            dimension,
             instantaneous,
             rank.stated,
         )?
@@ -155,15 +158,58 @@ fn lift(
     }
     let shaky = poses
         .iter()
-        .all(|p| p.instantaneous.is_some_and(|i| i > branch.dimension));
+        .all(|p| p.instantaneous.is_some_and(|i| i > dimension));
     Ok(Some(Lifted {
         branch: PartBranch {
-            dimension: branch.dimension,
-            half_branches: (branch.dimension == 1).then_some(branch.half_branches.len()),
+            dimension,
+            half_branches: (dimension == 1).then_some(branch.half_branches.len()),
             poses,
         },
         shaky,
     }))
+}
+
+/// How far the idle freedoms are turned to a generic pose (metric).
+const IDLE_STEP: f64 = 0.5;
+
+/// The branch along which only what is idle moves. Its instantaneous freedom is that of the pose.
+///
+/// # Errors
+/// [`MatrixError`] where numbers overflow.
+pub(super) fn idle_branch(start: &Start<'_>) -> Result<PartBranch, MatrixError> {
+    let metric = &start.kernel.metric;
+    let section = Section {
+        mechanism: start.pose.mechanism,
+        geometry: start.pose.geometry,
+        part: start.part,
+        metric,
+    };
+    let dimension = start.idle.len();
+    let mut states = start.pose.states.to_vec();
+    let share = IDLE_STEP / (dimension.max(1) as f64).sqrt();
+    for direction in start.idle {
+        let z: Vec<f64> = direction.iter().map(|x| x * share).collect();
+        section.advance_by(&mut states, &z);
+    }
+    section.close(&mut states, &[], 80)?;
+    let freedom = start.kernel.basis.nullity;
+    let there = tangents_at(&section, &states, start.rank.stated, freedom)?;
+    let poses = match there {
+        Some((tangents, _)) => secant_poses(
+            &section,
+            &states,
+            &tangents.basis,
+            dimension,
+            tangents.instantaneous.unwrap_or(freedom),
+            start.rank.stated,
+        )?,
+        None => Vec::new(),
+    };
+    Ok(PartBranch {
+        dimension,
+        half_branches: (dimension == 1).then_some(2),
+        poses,
+    })
 }
 
 /// How far a secant reaches (metric). Its error falls with the fourth power, and grows with the pose's, of 1e-8, over it.

@@ -28,6 +28,7 @@ mod generic;
 mod germ;
 mod germ_zeros;
 mod idle;
+mod idle_directions;
 mod kutzbach;
 mod lifting;
 mod link_twists;

@@ -12,7 +12,8 @@
 use super::chart::{ChartTest, Kernel};
 use super::germ::{ComplexDimension, Germ, complex_dimension, prestress_certificate};
 use super::germ_zeros::{GermBranch, GermZeroOptions, GermZeros, germ_zeros};
-use super::lifting::{Lifted, Start, along, lift_all};
+use super::idle_directions::idle_directions;
+use super::lifting::{Lifted, Start, along, idle_branch, lift_all};
 use super::part_mobility::{Evidence, PartFinding};
 use super::pose_rank::{PartRank, Pose};
 use super::vocabulary::{CertificateLevel, PoseKind, SingularKind};
@@ -64,18 +65,6 @@ pub(super) fn singular_finding(
         evidence: Vec::new(),
         nominal: None,
     };
-    if freedom == 1 {
-        "along the only direction that the equations allow to first order they fail at higher order, and an equation in one \
-         variable that does not vanish identically has an isolated solution"
-            .clone_into(&mut found.certificate);
-        isolated(&mut found);
-        found.complex_dimension = Some(0);
-        return Ok(SingularFinding {
-            found,
-            more_evidence: evidence,
-        });
-    }
-    let mut why = "its power series are too many to follow".to_owned();
     // Numbers taken literally close the loops exactly. The coefficients of the series are not for that reason beyond doubt:
     // rounding shifts them by its share of the curvature, of which hardly a tenth remains.
     let doubtful = PartRank {
@@ -96,13 +85,39 @@ pub(super) fn singular_finding(
     } else {
         rank
     };
+    // What is idle at all poses is a factor of the configuration space.
+    let idle = idle_directions(pose.mechanism, part, kernel);
+    let taken_out = match idle.len() {
+        0 => String::new(),
+        1 => ", 1 idle freedom taken out".to_owned(),
+        many => format!(", {many} idle freedoms taken out"),
+    };
+    let start = Start {
+        pose,
+        part,
+        rank,
+        kernel,
+        idle: &idle,
+    };
+    if freedom == 1 + idle.len() {
+        "along the only direction that the equations allow to first order they fail at higher order, and an equation in one \
+         variable that does not vanish identically has an isolated solution"
+            .clone_into(&mut found.certificate);
+        isolated(&mut found, &start)?;
+        found.complex_dimension = Some(idle.len());
+        return Ok(SingularFinding {
+            found,
+            more_evidence: evidence,
+        });
+    }
+    let mut why = "its power series are too many to follow".to_owned();
     // Dimensions of the branches that the last search found.
     let mut before: Option<Vec<usize>> = None;
     let mut next = FIRST_DEGREE;
     while next <= LAST_DEGREE {
         let degree = next;
         next += 2;
-        let Some(germ) = Germ::of_part(pose.mechanism, &doubtful, degree)? else {
+        let Some(germ) = Germ::of_part_across(pose.mechanism, &doubtful, degree, &idle)? else {
             break;
         };
         let Some(order) = germ.order() else {
@@ -115,23 +130,23 @@ pub(super) fn singular_finding(
             evidence.push(Evidence {
                 engine: "second order",
                 scope: "a neighbourhood, real",
-                bounds: (0, Some(0)),
+                bounds: (0, Some(idle.len())),
                 text: format!(
-                    "a self-stress makes the second-order form definite: smallest eigenvalue {:.2e}, noise {:.2e}",
+                    "a self-stress makes the second-order form definite: smallest eigenvalue {:.2e}, noise {:.2e}{taken_out}",
                     stress.smallest_eigenvalue, stress.noise
                 ),
             });
             "a self-stress blocks every motion at second order (its quadratic form on the velocities is definite)"
                 .clone_into(&mut found.certificate);
-            isolated(&mut found);
+            isolated(&mut found, &start)?;
             found.complex_dimension =
-                complex_dimension(germ.equations(), freedom, germ.noise_by_degree())
-                    .map(|c| c.dimension);
+                complex_dimension(germ.equations(), germ.freedom(), germ.noise_by_degree())
+                    .map(|c| c.dimension + idle.len());
             break;
         }
-        let complex = complex_dimension(germ.equations(), freedom, germ.noise_by_degree());
+        let complex = complex_dimension(germ.equations(), germ.freedom(), germ.noise_by_degree());
         let zeros = germ_zeros(
-            freedom,
+            germ.freedom(),
             germ.equations(),
             germ.noise(order),
             &GermZeroOptions {
@@ -153,9 +168,13 @@ pub(super) fn singular_finding(
                         .unwrap_or(0)
                 }),
             ),
-            text: germ_text(&germ, order, degree, &zeros, complex.as_ref()),
+            text: format!(
+                "{}{taken_out}",
+                germ_text(&germ, order, degree, &zeros, complex.as_ref())
+            ),
         });
-        found.complex_dimension = complex.as_ref().map(|c| c.dimension);
+        let complex = complex.map(|c| c.dimension + idle.len());
+        found.complex_dimension = complex;
         if let Some(thin) = &zeros.thin {
             why = refused(&mut evidence, thin.clone());
             continue;
@@ -164,21 +183,14 @@ pub(super) fn singular_finding(
             "near this pose the closure equations have no other real solution: what the power series leave over stays away from \
              zero on small spheres"
                 .clone_into(&mut found.certificate);
-            isolated(&mut found);
+            isolated(&mut found, &start)?;
             break;
         }
-        let start = Start {
-            pose,
-            part,
-            rank,
-            kernel,
-            germ: &germ,
-        };
-        match lift_all(&start, &zeros.branches)? {
+        match lift_all(&start, &germ, &zeros.branches)? {
             Ok(lifted) => {
                 let dimensions: Vec<usize> = lifted.iter().map(|b| b.branch.dimension).collect();
                 let top = dimensions.iter().copied().max().unwrap_or(0);
-                if complex.as_ref().is_some_and(|c| c.dimension < top) {
+                if complex.is_some_and(|c| c < top) {
                     let reason =
                         "the dimension over the complex numbers contradicts the branches found";
                     why = refused(&mut evidence, reason.to_owned());
@@ -187,14 +199,13 @@ pub(super) fn singular_finding(
                 found.lower = top;
                 // Where the complex dimension is larger real branches may have been overlooked, or there are none: y² + z² = 0.
                 // Two searches in series of different lengths that find the same are taken for the answer.
-                let explained = complex.as_ref().is_some_and(|c| c.dimension == top);
+                let explained = complex == Some(top);
                 let again = before.as_ref() == Some(&dimensions);
                 before = Some(dimensions);
                 if !explained && !again {
-                    let reason = match &complex {
+                    let reason = match complex {
                         Some(complex) => format!(
-                            "real branches of dimension {top} were found where the complex ones have {}",
-                            complex.dimension
+                            "real branches of dimension {top} were found where the complex ones have {complex}"
                         ),
                         None => format!(
                             "real branches of dimension {top} were found, and no dimension over the complex numbers confirms them"
@@ -297,11 +308,20 @@ fn refused(evidence: &mut [Evidence], reason: String) -> String {
     reason
 }
 
-fn isolated(found: &mut PartFinding) {
-    found.lower = 0;
-    found.upper = 0;
-    found.kind = Some(SingularKind::Shaky);
-    found.branches = Some(Vec::new());
+/// Nothing moves but what is idle.
+fn isolated(found: &mut PartFinding, start: &Start<'_>) -> Result<(), MatrixError> {
+    let dimension = start.idle.len();
+    found.lower = dimension;
+    found.upper = dimension;
+    if dimension == 0 {
+        found.kind = Some(SingularKind::Shaky);
+        found.branches = Some(Vec::new());
+    } else {
+        found.kind = Some(SingularKind::PermanentlyShaky);
+        found.certificate.push_str("; only what is idle moves");
+        found.branches = Some(vec![idle_branch(start)?]);
+    }
+    Ok(())
 }
 
 /// D7, from the branches through the pose.

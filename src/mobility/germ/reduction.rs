@@ -51,7 +51,27 @@ impl Germ {
         rank: &PartRank,
         degree: usize,
     ) -> Result<Option<Self>, MatrixError> {
-        let Some(freedom) = rank.instantaneous else {
+        Self::of_part_across(mechanism, rank, degree, &[])
+    }
+
+    /// [`of_part`](Self::of_part) on the part of the kernel across some of its directions: orthonormal vectors, one number
+    /// per column of the Jacobian with unit columns. The variables y are fewer by as many.
+    ///
+    /// Where the mechanism has motions in these directions at all poses nearby, its configuration space is the product of
+    /// these motions and of what this germ describes.
+    ///
+    /// # Errors
+    /// As [`of_part`](Self::of_part).
+    pub fn of_part_across(
+        mechanism: &Mechanism,
+        rank: &PartRank,
+        degree: usize,
+        directions: &[Vec<f64>],
+    ) -> Result<Option<Self>, MatrixError> {
+        let Some(freedom) = rank
+            .instantaneous
+            .and_then(|freedom| freedom.checked_sub(directions.len()))
+        else {
             return Ok(None);
         };
         let degree = degree.max(2);
@@ -63,7 +83,11 @@ impl Germ {
             return Ok(None);
         }
         let equations = LoopEquations::new(mechanism, rank);
-        let splitting = Splitting::of(&rank.matrix, unknowns.saturating_sub(freedom))?;
+        let mut splitting = Splitting::of(
+            &rank.matrix,
+            unknowns.saturating_sub(freedom + directions.len()),
+        )?;
+        splitting.leave_out(directions);
         let Some(reduced) = reduce(&equations, &splitting, unknowns, degree) else {
             return Ok(None);
         };
@@ -104,7 +128,7 @@ impl Germ {
         }))
     }
 
-    /// δ: the dimension of the kernel and the number of variables y.
+    /// The number of variables y: δ, the dimension of the kernel, less the directions left out.
     #[must_use]
     pub fn freedom(&self) -> usize {
         self.monomials.variables()

@@ -80,6 +80,39 @@ impl Splitting {
         })
     }
 
+    /// Shrinks the kernel to what is across some orthonormal vectors in it.
+    pub(super) fn leave_out(&mut self, directions: &[Vec<f64>]) {
+        if directions.is_empty() {
+            return;
+        }
+        let wanted = self.kernel.len().saturating_sub(directions.len());
+        // Every vector of the kernel without its share along the directions and those taken already; the longest first.
+        let mut across: Vec<Vec<f64>> = Vec::with_capacity(wanted);
+        while across.len() < wanted {
+            let longest = self
+                .kernel
+                .iter()
+                .map(|vector| {
+                    let mut rest = vector.clone();
+                    for _ in 0..2 {
+                        for taken in directions.iter().chain(&across) {
+                            let along = dot(taken, &rest);
+                            rest.iter_mut()
+                                .zip(taken)
+                                .for_each(|(r, t)| *r -= along * t);
+                        }
+                    }
+                    rest
+                })
+                .max_by(|a, b| dot(a, a).total_cmp(&dot(b, b)));
+            let Some(mut vector) = longest else { break };
+            let length = dot(&vector, &vector).sqrt();
+            vector.iter_mut().for_each(|x| *x /= length);
+            across.push(vector);
+        }
+        self.kernel = canonical(across);
+    }
+
     /// The rank.
     pub(super) fn rank(&self) -> usize {
         self.kept.len()
