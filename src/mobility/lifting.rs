@@ -12,7 +12,9 @@ use super::germ::Germ;
 use super::germ_zeros::GermBranch;
 use super::part_mobility::PartBranch;
 use super::pose_rank::{PartRank, Pose};
-use super::tracing::{POSES, PartPose, Tangents, natural, orthonormal, tangents_at, walk};
+use super::tracing::{
+    APPROACHES, FAR, POSES, PartPose, Tangents, natural, orthonormal, tangents_at, walk,
+};
 use crate::closure::{JointState, Part, Section};
 use crate::matrix::{MatrixError, Real};
 
@@ -144,10 +146,21 @@ fn lift(
             away,
         )?
     } else {
+        // Near the pose branches that touch to a high order are one double zero; farther away they are two.
+        let Some((there, blur)) = extended(&section, pose.states, states, rank.stated)? else {
+            return Ok(None);
+        };
+        let stated = rank.stated + 10.0 * blur;
+        let Some((tangents, _)) = tangents_at(&section, &there, stated, instantaneous)? else {
+            return Ok(None);
+        };
+        if tangents.instantaneous != Some(instantaneous) {
+            return Ok(None);
+        }
         secant_poses(
             &section,
-            &states,
-            &there.basis,
+            &there,
+            &tangents.basis,
             dimension,
             instantaneous,
             rank.stated,
@@ -167,6 +180,33 @@ fn lift(
         },
         shaky,
     }))
+}
+
+/// A pose of a branch through the pose `home`, carried on along the chord from there until it is far from it, and how
+/// uncertain it is if an equation enters squared. `None` where the loops do not close on the way.
+fn extended(
+    section: &Section<'_, f64>,
+    home: &[JointState<f64>],
+    mut states: Vec<JointState<f64>>,
+    stated: f64,
+) -> Result<Option<(Vec<JointState<f64>>, f64)>, MatrixError> {
+    let mut blur: f64 = 0.0;
+    for _ in 0..APPROACHES {
+        let way = section.way_between(home, &states);
+        let away = 0.0.norm(&way);
+        if away >= FAR {
+            return Ok(Some((states, blur)));
+        }
+        let longer: Vec<f64> = way.iter().map(|x| 1.5 * x).collect();
+        states = home.to_vec();
+        section.advance_by(&mut states, &longer);
+        let closing = section.close(&mut states, &[], 80)?;
+        if closing.residual > 4.0 * closing.rounding + stated || closing.way > POLISHING * away {
+            return Ok(None);
+        }
+        blur = closing.residual.max(closing.rounding).sqrt();
+    }
+    Ok(None)
 }
 
 /// How far the idle freedoms are turned to a generic pose (metric).
@@ -301,6 +341,6 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
     0.0.norm(&difference)
 }
 
-pub(super) fn along(a: &[f64], b: &[f64]) -> f64 {
+fn along(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }

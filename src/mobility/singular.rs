@@ -13,7 +13,7 @@ use super::chart::{ChartTest, Kernel};
 use super::germ::{ComplexDimension, Germ, complex_dimension, prestress_certificate};
 use super::germ_zeros::{GermBranch, GermZeroOptions, GermZeros, germ_zeros};
 use super::idle_directions::idle_directions;
-use super::lifting::{Lifted, Start, along, idle_branch, lift_all};
+use super::lifting::{Lifted, Start, idle_branch, lift_all};
 use super::part_mobility::{Evidence, PartFinding};
 use super::pose_rank::{PartRank, Pose};
 use super::vocabulary::{CertificateLevel, PoseKind, SingularKind};
@@ -27,8 +27,9 @@ const LAST_DEGREE: usize = 8;
 /// More starts than this are not made on a germ of many variables.
 const STARTS: usize = 600;
 
-/// Branches whose directions differ by less (cosine) share a tangent.
-const SAME_DIRECTION: f64 = 0.999;
+/// Branches whose directions differ by less than the first (rad) share a tangent, from the second on they do not. Directions
+/// are known to some 1e-5.
+const SAME_DIRECTION: [f64; 2] = [1e-4, 3e-3];
 
 /// What is known of a singular pose.
 pub(super) struct SingularFinding {
@@ -339,20 +340,34 @@ fn kind_of(lifted: &[Lifted], zeros: &[GermBranch]) -> Option<SingularKind> {
         }
         let halves = &zeros.first()?.half_branches;
         return match halves.as_slice() {
-            [a, b] if along(&a.tangent, &b.tangent) > SAME_DIRECTION => Some(SingularKind::Cusp),
+            [a, b] if angle(&a.tangent, &b.tangent) < 0.1 => Some(SingularKind::Cusp),
             _ => None,
         };
     }
     let line = |branch: &GermBranch| branch.half_branches.first().map(|h| h.tangent.clone());
     let lines: Option<Vec<Vec<f64>>> = zeros.iter().map(line).collect();
-    let tangential = lines.is_some_and(|lines| {
-        lines
-            .iter()
-            .all(|l| along(l, &lines[0]).abs() > SAME_DIRECTION)
-    });
-    Some(if tangential {
-        SingularKind::Tangential
+    let Some(lines) = lines else {
+        return Some(SingularKind::Bifurcation);
+    };
+    // Which way a branch is run through does not matter.
+    let widest = lines
+        .iter()
+        .map(|line| {
+            let angle = angle(line, &lines[0]);
+            angle.min(std::f64::consts::PI - angle)
+        })
+        .fold(0.0, f64::max);
+    if widest < SAME_DIRECTION[0] {
+        Some(SingularKind::Tangential)
+    } else if widest > SAME_DIRECTION[1] {
+        Some(SingularKind::Bifurcation)
     } else {
-        SingularKind::Bifurcation
-    })
+        None
+    }
+}
+
+/// The angle between two unit vectors (rad), small ones without loss of digits.
+fn angle(a: &[f64], b: &[f64]) -> f64 {
+    let half: f64 = a.iter().zip(b).map(|(x, y)| (x - y).powi(2)).sum();
+    2.0 * (0.5 * half.sqrt()).min(1.0).asin()
 }

@@ -34,8 +34,8 @@ pub(super) const POSES: usize = 3;
 const STEP: f64 = 0.25;
 
 /// Closer than this (metric) to a pose where branches meet, a pose is not generic; so many short steps lead away.
-const FAR: f64 = 0.3;
-const APPROACHES: usize = 20;
+pub(super) const FAR: f64 = 0.3;
+pub(super) const APPROACHES: usize = 20;
 
 /// Steps are halved so often where the cycles do not close.
 const HALVINGS: usize = 8;
