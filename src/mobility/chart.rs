@@ -34,6 +34,9 @@ const CLEAR: f64 = 100.0;
 /// Largest radius (rad, part lengths): beyond, other branches interfere.
 const LARGEST_RADIUS: f64 = 0.3;
 
+/// Directions whose singular value is smaller cannot be followed.
+const LEAST_KEPT: f64 = 1e-8;
+
 /// The parts with more unknowns than this are moved in double precision only.
 pub(super) const LADDER_UNKNOWNS: usize = 400;
 
@@ -243,10 +246,15 @@ fn climb(
     stated: f64,
 ) -> Result<ChartTest, MatrixError> {
     let ways = directions(&kernel.basis);
-    let mut bits = 53;
+    // Exact numbers that needed more digits for the rank need them here too: what they leave over may be as small as they are.
+    let mut bits = if stated == 0.0 && rank.unknowns() <= LADDER_UNKNOWNS {
+        rank.bits
+    } else {
+        53
+    };
     let moved = !pose.as_drawn;
     let mut test;
-    let mut rungs = LADDER.iter();
+    let mut rungs = LADDER.iter().filter(|rung| **rung > rank.bits);
     loop {
         test = if bits == 53 {
             let section = Section {
@@ -267,6 +275,12 @@ fn climb(
             probe(&section, states, kernel, &ways, radius, stated)?
         };
         test.bits = bits;
+        // Steps are computed in double precision, where a singular value this small is damped away: closing then fails at
+        // regular poses too.
+        if matches!(test.outcome, ChartOutcome::Singular { .. }) && rank.decision.kept < LEAST_KEPT
+        {
+            test.outcome = ChartOutcome::Thin;
+        }
         if test.outcome != ChartOutcome::Thin || rank.unknowns() > LADDER_UNKNOWNS {
             break;
         }

@@ -10,13 +10,14 @@
 use super::chart::Kernel;
 use super::germ::Germ;
 use super::germ_zeros::GermBranch;
+use super::more_digits::MoreDigits;
 use super::part_mobility::PartBranch;
-use super::pose_rank::{PartRank, Pose};
+use super::pose_rank::{LADDER, PartRank, Pose, TALL, height};
 use super::tracing::{
     APPROACHES, FAR, POSES, PartPose, Tangents, natural, orthonormal, tangents_at, walk,
 };
-use crate::closure::{JointState, Part, Section};
-use crate::matrix::{MatrixError, Real};
+use crate::closure::{JointState, Part, Section, jacobian};
+use crate::matrix::{MatrixError, Real, decide};
 
 /// A lifted point may move by this share of its distance from the pose, and from other branches, while all equations are
 /// closed.
@@ -154,7 +155,9 @@ fn lift(
         let Some((tangents, _)) = tangents_at(&section, &there, stated, instantaneous)? else {
             return Ok(None);
         };
-        if tangents.instantaneous != Some(instantaneous) {
+        if tangents.instantaneous != Some(instantaneous)
+            || !stays_multiple(start, &section, &there, instantaneous)?
+        {
             return Ok(None);
         }
         secant_poses(
@@ -208,6 +211,46 @@ fn extended(
     }
     Ok(None)
 }
+
+/// Whether the kernel at a pose has the dimension found also in as many digits as exact numbers call for: what double
+/// precision takes for a double zero may be two, or none, as close as the numbers are long.
+fn stays_multiple(
+    start: &Start<'_>,
+    section: &Section<'_, f64>,
+    states: &[JointState<f64>],
+    freedom: usize,
+) -> Result<bool, MatrixError> {
+    let tall = height(start.pose.mechanism, start.part);
+    if start.rank.stated > 0.0 || tall <= TALL {
+        return Ok(true);
+    }
+    let Some(bits) = LADDER.into_iter().find(|bits| *bits as usize >= 3 * tall) else {
+        return Ok(false);
+    };
+    let mut more = MoreDigits::new();
+    let pose = start.pose;
+    let (geometry, home) = more.polished(pose, start.part, !pose.as_drawn, bits)?;
+    let finer = Section {
+        mechanism: pose.mechanism,
+        geometry,
+        part: start.part,
+        metric: section.metric,
+    };
+    let mut there = home.to_vec();
+    finer.advance_by(&mut there, &section.way_between(pose.states, states));
+    let closing = finer.close(&mut there, &[], 200)?;
+    if closing.residual > CLOSED_IN_MORE_DIGITS {
+        return Ok(false);
+    }
+    let here = jacobian(pose.mechanism, geometry, &there, start.part)?;
+    let mut matrix = here.matrix;
+    matrix.scale_columns();
+    let accuracy = 10.0 * closing.residual.sqrt() + closing.rounding;
+    Ok(decide(&matrix, accuracy)?.nullity() == Some(freedom))
+}
+
+/// A double zero is found to so much only, because directions are computed in double precision.
+const CLOSED_IN_MORE_DIGITS: f64 = 1e-18;
 
 /// How far the idle freedoms are turned to a generic pose (metric).
 const IDLE_STEP: f64 = 0.5;

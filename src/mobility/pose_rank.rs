@@ -44,10 +44,10 @@ const CHECKED_UNKNOWNS: usize = 400;
 const SUSPICIOUS: f64 = 0.05;
 
 /// Numbers of more bits than this (8 decimals) can hold offsets that double precision takes for rounding.
-const TALL: usize = 27;
+pub(super) const TALL: usize = 27;
 
 /// Bits of the longest number that places a part's joints (see [`Number::height`](crate::number::Number::height)).
-fn height(mechanism: &Mechanism, part: &Part) -> usize {
+pub(super) fn height(mechanism: &Mechanism, part: &Part) -> usize {
     part.joints
         .iter()
         .map(|&joint| {
