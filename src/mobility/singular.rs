@@ -200,11 +200,16 @@ pub(super) fn singular_finding(
                 found.lower = top;
                 // Where the complex dimension is larger real branches may have been overlooked, or there are none: y² + z² = 0.
                 // Two searches in series of different lengths that find the same are taken for the answer.
-                let explained = complex == Some(top);
+                // Rounded numbers may open, or hide, what touches: there too two searches have to agree.
+                let explained = complex == Some(top) && doubtful.stated <= rank.accuracy;
                 let again = before.as_ref() == Some(&dimensions);
                 before = Some(dimensions);
                 if !explained && !again {
                     let reason = match complex {
+                        Some(complex) if complex == top => {
+                            "the numbers are rounded, and no second search has found the same yet"
+                                .to_owned()
+                        }
                         Some(complex) => format!(
                             "real branches of dimension {top} were found where the complex ones have {complex}"
                         ),
