@@ -44,7 +44,7 @@ pub(super) const LADDER_UNKNOWNS: usize = 400;
 const DIRECTIONS: usize = 6;
 
 /// Significant digits with which programs print doubles, at least.
-const DIGITS_OF_A_DOUBLE: u32 = 16;
+const DIGITS_OF_A_DOUBLE: u32 = 17;
 
 /// The seed of the directions.
 pub const SEED: u64 = 20;

@@ -185,8 +185,8 @@ fn lift(
     }))
 }
 
-/// A pose of a branch through the pose `home`, carried on along the chord from there until it is far from it, and how
-/// uncertain it is if an equation enters squared. `None` where the loops do not close on the way.
+/// A pose of a branch through the pose `home`, carried on along the chord from there until it is far from it or the branch
+/// bends, and how uncertain it is if an equation enters squared. `None` where the loops do not close on the way.
 fn extended(
     section: &Section<'_, f64>,
     home: &[JointState<f64>],
@@ -201,12 +201,17 @@ fn extended(
             return Ok(Some((states, blur)));
         }
         let longer: Vec<f64> = way.iter().map(|x| 1.5 * x).collect();
-        states = home.to_vec();
-        section.advance_by(&mut states, &longer);
-        let closing = section.close(&mut states, &[], 80)?;
-        if closing.residual > 4.0 * closing.rounding + stated || closing.way > POLISHING * away {
+        let mut there = home.to_vec();
+        section.advance_by(&mut there, &longer);
+        let closing = section.close(&mut there, &[], 80)?;
+        if closing.residual > 4.0 * closing.rounding + stated {
             return Ok(None);
         }
+        if closing.way > POLISHING * away {
+            // The branch bends away from the chord, which tells nothing against it.
+            return Ok(Some((states, blur)));
+        }
+        states = there;
         blur = closing.residual.max(closing.rounding).sqrt();
     }
     Ok(None)
