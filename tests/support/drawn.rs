@@ -129,6 +129,7 @@ fn write_joint(text: &mut String, joint: &[String]) {
         "R" => "revolute",
         "P" => "prismatic",
         "C" => "cylindrical",
+        "H" => "screw",
         "S" => "spherical",
         "U" => "universal",
         "E" => "planar",
@@ -153,6 +154,10 @@ fn write_joint(text: &mut String, joint: &[String]) {
         ("distance" | "spherical" | "translational", _) => {}
         ("point_on_plane", 3) => {
             let _ = writeln!(text, "<axis2 xyz=\"{}\"/>", rest.join(" "));
+        }
+        ("screw", 4) => {
+            let _ = writeln!(text, "<axis xyz=\"{}\"/>", rest[..3].join(" "));
+            let _ = writeln!(text, "<screw lead=\"{}\"/>", rest[3]);
         }
         (_, 3 | 6) => {
             let _ = writeln!(text, "<axis xyz=\"{}\"/>", rest[..3].join(" "));
