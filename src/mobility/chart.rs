@@ -338,3 +338,7 @@ fn probe<R: Real>(
         literal: false,
     })
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;

@@ -392,3 +392,7 @@ fn chart_evidence(chart: &ChartTest, freedom: usize) -> Evidence {
         ),
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;

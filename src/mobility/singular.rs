@@ -336,3 +336,7 @@ fn kind_of(lifted: &[Lifted], zeros: &[GermBranch]) -> Option<SingularKind> {
         SingularKind::Bifurcation
     })
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;

@@ -276,3 +276,7 @@ pub fn poses_of_regular_part(
     }
     Ok(poses)
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;
