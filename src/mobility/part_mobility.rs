@@ -137,10 +137,18 @@ pub fn part_mobility(
     rank: &PartRank,
 ) -> Result<PartFinding, MatrixError> {
     let surplus = rank.unknowns() as i64 - rank.equations() as i64;
+    // A special mechanism written with too few digits is, taken literally, a generic one: that more equations than unknowns
+    // then hold it fast may be due to the digits left out.
+    let held_by_rounding = rank.taken_literally && rank.instantaneous == Some(0) && surplus < 0;
+    let upper = if held_by_rounding {
+        rank.unknowns()
+    } else {
+        rank.candidates.1
+    };
     let rank_evidence = Evidence {
         engine: "rank",
         scope: "this pose",
-        bounds: (0, Some(rank.candidates.1)),
+        bounds: (0, Some(upper)),
         text: format!(
             "{} equations in {} unknowns; smallest singular value kept {:.2e}, largest dropped {:.2e}, tolerance {:.2e}; \
              {} bits",
@@ -152,15 +160,7 @@ pub fn part_mobility(
             rank.bits
         ),
     };
-    // A special mechanism written with too few digits is, taken literally, a generic one: that more equations than unknowns
-    // then hold it fast may be due to the digits left out.
-    let held_by_rounding = rank.taken_literally && rank.instantaneous == Some(0) && surplus < 0;
     let Some(freedom) = rank.instantaneous.filter(|_| !held_by_rounding) else {
-        let upper = if held_by_rounding {
-            rank.unknowns()
-        } else {
-            rank.candidates.1
-        };
         let why = match &rank.note {
             Some(note) if rank.stated == 0.0 && !held_by_rounding => note.clone(),
             _ => "the numbers as they are stated leave the rank at this pose open; more digits would decide it".to_owned(),

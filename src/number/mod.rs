@@ -291,11 +291,12 @@ impl Number {
             return 0;
         }
         let of_fraction = |x: &RBig| {
-            let double = x.denominator().is_power_of_two() && x.numerator().bit_len() <= 53;
-            if double {
+            let numerator = x.numerator();
+            let significant = numerator.bit_len() - numerator.trailing_zeros().unwrap_or(0);
+            if x.denominator().is_power_of_two() && significant <= 53 {
                 return 0;
             }
-            x.numerator().bit_len().max(x.denominator().bit_len())
+            numerator.bit_len().max(x.denominator().bit_len())
         };
         match &self.0.form {
             Form::Exact(Exact::Rational(x)) => of_fraction(x),

@@ -53,8 +53,16 @@ fn what_singular_poses_leave_over_falls_like_its_power() {
     for (name, posed, expected) in [
         ("flat", Posed::new(flat_parallelogram()), 2.0),
         ("triangle", Posed::new(shaky_triangle()), 2.0),
-        ("contact of order 3", Posed::known("rsc_contact3_shaky"), 3.0),
-        ("platform of order 4", Posed::known("wren_platform_6US"), 4.0),
+        (
+            "contact of order 3",
+            Posed::known("rsc_contact3_shaky"),
+            3.0,
+        ),
+        (
+            "platform of order 4",
+            Posed::known("wren_platform_6US"),
+            4.0,
+        ),
     ] {
         let (_, test) = tested(&posed);
         assert!(
@@ -73,7 +81,11 @@ fn the_radius_shrinks_with_the_smallest_singular_value() {
     for exponent in [1, 2, 3] {
         let epsilon = negative_power_of_ten(exponent);
         let (rank, test) = tested(&Posed::new(flattening_parallelogram(&epsilon).unwrap()));
-        assert_eq!(test.outcome, ChartOutcome::Regular, "1e-{exponent}: {test:?}");
+        assert_eq!(
+            test.outcome,
+            ChartOutcome::Regular,
+            "1e-{exponent}: {test:?}"
+        );
         assert!(test.radius <= rank.decision.kept, "1e-{exponent}: {test:?}");
         assert!(test.radius < 0.2 * before, "1e-{exponent}: {test:?}");
         before = test.radius;
@@ -97,7 +109,10 @@ fn rounded_numbers_are_regular_within_their_noise() {
     assert!(rank.stated > 1e-8);
     assert_eq!(test.outcome, ChartOutcome::Regular, "{test:?}");
     // Not closed to rounding, but to what the digits say.
-    assert!(test.leftover > 1e-12 && test.leftover <= test.noise, "{test:?}");
+    assert!(
+        test.leftover > 1e-12 && test.leftover <= test.noise,
+        "{test:?}"
+    );
     assert!(test.noise >= rank.stated);
 }
 
@@ -159,8 +174,7 @@ fn literally_left(mechanism: Mechanism) -> (PartRank, Option<f64>) {
 fn literally_left_of(posed: &Posed) -> (PartRank, Option<f64>) {
     let rank = posed.rank();
     let kernel = posed.kernel(&rank);
-    let left =
-        literal_leftover(&posed.pose(), &mut fresh(), posed.part(), &rank, &kernel).unwrap();
+    let left = literal_leftover(&posed.pose(), &mut fresh(), posed.part(), &rank, &kernel).unwrap();
     (rank, left)
 }
 
@@ -170,18 +184,30 @@ fn rounding_a_special_shape_leaves_something_over() {
     for decimals in [6, 9] {
         let (rank, left) = literally_left(bennett(Written::Decimals(decimals)));
         let left = left.unwrap();
-        assert!(left < rank.stated, "{decimals}: {left:e} of {:e}", rank.stated);
+        assert!(
+            left < rank.stated,
+            "{decimals}: {left:e} of {:e}",
+            rank.stated
+        );
         assert!(left < 0.1 * before, "{decimals}: {left:e}");
         before = left;
     }
     // Finer than doubles see: more digits see it, down to those of the file.
     let (rank, left) = literally_left(bennett(Written::Decimals(18)));
     let left = left.unwrap();
-    assert!(left < 1e-16 && left > 1e-21, "{left:e} of {:e}", rank.stated);
+    assert!(
+        left < 1e-16 && left > 1e-21,
+        "{left:e} of {:e}",
+        rank.stated
+    );
     let posed = Posed::known("bennett_generic");
     let (rank, left) = literally_left_of(&posed);
     let left = left.unwrap();
-    assert!(left < rank.stated && left > 1e-70, "{left:e} of {:e}", rank.stated);
+    assert!(
+        left < rank.stated && left > 1e-70,
+        "{left:e} of {:e}",
+        rank.stated
+    );
 }
 
 #[test]

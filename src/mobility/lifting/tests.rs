@@ -131,9 +131,14 @@ fn a_point_that_is_no_solution_is_refused() {
     // Over the complex numbers two lines pass through this pose, over the reals none.
     let taut = Singular::new(Posed::new(stretched()));
     assert!(taut.zeros.branches.is_empty());
-    let borrowed = Singular::new(Posed::new(flat_parallelogram())).zeros.branches;
+    let borrowed = Singular::new(Posed::new(flat_parallelogram()))
+        .zeros
+        .branches;
     let refused = taut.lift(&borrowed[..1]).map(|l| l.len()).unwrap_err();
-    assert!(refused.contains("dimension 1") && refused.contains("does not close"), "{refused}");
+    assert!(
+        refused.contains("dimension 1") && refused.contains("does not close"),
+        "{refused}"
+    );
 }
 
 #[test]
@@ -154,7 +159,11 @@ fn one_false_branch_spoils_the_answer() {
     // A sole branch has no other to be near to.
     assert!(flat.lift(&branches[..1]).is_ok());
     let lifted = flat.lift(&branches);
-    assert!(lifted.is_err(), "{} branches", lifted.map_or(0, |l| l.len()));
+    assert!(
+        lifted.is_err(),
+        "{} branches",
+        lifted.map_or(0, |l| l.len())
+    );
 }
 
 #[test]
@@ -197,7 +206,10 @@ fn a_strap_drawn_taut_is_shaky_all_along() {
         assert!(shaky.value(pose, "M_s1_s2").abs() < 1e-7);
         let tangent = &pose.tangents[0];
         let size = 0.0.norm(tangent);
-        assert!(tangent[column("M_s1_s2")].abs() < 1e-5 * size, "{tangent:?}");
+        assert!(
+            tangent[column("M_s1_s2")].abs() < 1e-5 * size,
+            "{tangent:?}"
+        );
         let apart = tangent[column("A_c1_s1")] - tangent[column("A_c1_k")];
         assert!(apart.abs() < 1e-5 * size, "{tangent:?}");
         assert!(tangent[column("A0_ground_c1")].abs() > 0.1 * size);
@@ -213,7 +225,11 @@ fn secants_of_a_simple_branch_are_its_tangent() {
     for branch in &lifted {
         for pose in &branch.branch.poses {
             let states = flat.posed.with(&pose.states);
-            let basis = tangents_at(&section, &states, 0.0, 1).unwrap().unwrap().0.basis;
+            let basis = tangents_at(&section, &states, 0.0, 1)
+                .unwrap()
+                .unwrap()
+                .0
+                .basis;
             // With a direction added that leads off the branch.
             let mut across = vec![0.0; basis[0].len()];
             across[0] = 1.0;

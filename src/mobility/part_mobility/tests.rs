@@ -59,11 +59,51 @@ fn engines_are_asked_from_cheap_to_dear_until_one_knows() {
     let germ = vec!["rank", "subgroup", "chart", "germ"];
     for (name, mechanism, asked, finite, level, class, branches) in [
         ("rigid", general_four(), &rank, 0, Numeric, None, 0),
-        ("four-bar", four_bar(), &subgroup, 1, Subgroup, Some(Trivial), 1),
-        ("five-bar", five_bar(), &subgroup, 2, Subgroup, Some(Trivial), 1),
-        ("sarrus", sarrus(), &subgroup, 1, Subgroup, Some(Exceptional), 1),
-        ("cylinders", cylinders(), &subgroup, 1, Numeric, Some(Trivial), 1),
-        ("Bennett", bennett_row(1).unwrap(), &chart, 1, Numeric, Some(Paradoxical), 1),
+        (
+            "four-bar",
+            four_bar(),
+            &subgroup,
+            1,
+            Subgroup,
+            Some(Trivial),
+            1,
+        ),
+        (
+            "five-bar",
+            five_bar(),
+            &subgroup,
+            2,
+            Subgroup,
+            Some(Trivial),
+            1,
+        ),
+        (
+            "sarrus",
+            sarrus(),
+            &subgroup,
+            1,
+            Subgroup,
+            Some(Exceptional),
+            1,
+        ),
+        (
+            "cylinders",
+            cylinders(),
+            &subgroup,
+            1,
+            Subgroup,
+            Some(Trivial),
+            1,
+        ),
+        (
+            "Bennett",
+            bennett_row(1).unwrap(),
+            &chart,
+            1,
+            Numeric,
+            Some(Paradoxical),
+            1,
+        ),
         ("triangle", shaky_triangle(), &chart, 0, Numeric, None, 0),
         ("stretched", stretched(), &second, 0, Numeric, None, 0),
         ("flat", flat_parallelogram(), &germ, 1, Numeric, None, 2),
@@ -73,7 +113,11 @@ fn engines_are_asked_from_cheap_to_dear_until_one_knows() {
         assert_eq!(&engines(&found), asked, "{name}");
         assert_eq!((found.lower, found.upper), (finite, finite), "{name}");
         assert_eq!((found.level, found.class), (level, class), "{name}");
-        assert_eq!(found.branches.as_ref().map(Vec::len), Some(branches), "{name}");
+        assert_eq!(
+            found.branches.as_ref().map(Vec::len),
+            Some(branches),
+            "{name}"
+        );
         assert_eq!((found.open, found.nominal), (None, None), "{name}");
         let pose = match asked.len() {
             4 => PoseKind::Singular,
@@ -91,11 +135,29 @@ fn certificates_say_what_they_rest_on() {
         assert!(found.certificate.contains(words), "{}", found.certificate);
     };
     says(general_four(), "no velocity at all");
-    says(cylinders(), "implicit function theorem");
+    says(cylinders(), "six equations are independent");
     says(bennett_row(1).unwrap(), "close at finite distances");
     says(shaky_triangle(), "one variable");
     says(stretched(), "self-stress");
     says(flat_parallelogram(), "2 branches");
+}
+
+#[test]
+fn independent_equations_make_a_manifold_where_groups_are_not_asked() {
+    // Decided only with the numbers taken literally, which is not plain enough for subgroups.
+    let posed = Posed::new(cylinders());
+    let found = found_with(&posed, |rank| {
+        rank.as_written = rank.instantaneous;
+        rank.note = Some("literally".to_owned());
+    });
+    check("cylinders", &found);
+    assert_eq!(engines(&found), ["rank", "subgroup"]);
+    assert!(found.certificate.contains("implicit function theorem"));
+    assert_eq!((found.lower, found.upper, &found.open), (1, 1, &None));
+    assert_eq!(
+        (found.level, found.class),
+        (CertificateLevel::Numeric, Some(MobilityClass::Trivial))
+    );
 }
 
 #[test]
@@ -118,11 +180,18 @@ fn rounded_numbers_move_as_meant_and_say_how_far_they_miss() {
     for decimals in [6, 9, 12] {
         let found = found(&Posed::new(bennett(Written::Decimals(decimals))));
         check("rounded Bennett", &found);
-        assert_eq!((found.lower, found.upper, &found.open), (1, 1, &None), "{decimals}");
+        assert_eq!(
+            (found.lower, found.upper, &found.open),
+            (1, 1, &None),
+            "{decimals}"
+        );
         assert_eq!(engines(&found), ["rank", "subgroup", "chart"]);
         // In metres, of sides of 3 m.
         let miss = found.nominal.unwrap();
-        assert!(miss < 100.0 * 0.1f64.powi(decimals as i32), "{decimals}: {miss:e}");
+        assert!(
+            miss < 100.0 * 0.1f64.powi(decimals as i32),
+            "{decimals}: {miss:e}"
+        );
         assert!(miss < 0.1 * before, "{decimals}: {miss:e}");
         before = miss;
     }
@@ -186,20 +255,27 @@ fn what_digits_left_out_hold_fast_is_not_called_rigid() {
 
 #[test]
 fn a_margin_too_thin_is_open_and_says_what_would_decide() {
-    // A flat parallelogram stated to a few thousandths: beside the flat pose or at it?
+    // A flat parallelogram stated so coarsely that one beside it could be meant as well.
     let posed = Posed::new(flat_parallelogram());
-    for (stated, advice) in [(0.02, "more digits in the file"), (0.0, "")] {
-        let found = found_with(&posed, |rank| rank.stated = stated);
-        check("thin", &found);
-        if stated > 0.0 {
-            assert_eq!((found.lower, found.upper, found.pose), (0, 2, None));
-            let why = found.open.unwrap();
-            assert!(why.contains("too thin") && why.contains(advice), "{why}");
-            assert!(found.evidence.last().unwrap().text.contains("margin too thin"));
-        } else {
-            assert_eq!(found.open, None);
-        }
-    }
+    let found = found_with(&posed, |rank| {
+        rank.stated = 0.02;
+        rank.as_written = Some(1);
+    });
+    check("thin", &found);
+    assert_eq!((found.lower, found.upper, found.pose), (0, 2, None));
+    let why = found.open.unwrap();
+    assert!(
+        why.contains("too thin") && why.contains("more digits in the file"),
+        "{why}"
+    );
+    let chart = found.evidence.last().unwrap();
+    assert_eq!((chart.engine, chart.bounds), ("chart", (0, Some(2))));
+    assert!(chart.text.contains("margin too thin"), "{}", chart.text);
+    // Where both readings have the same rank, the numbers were chosen to be flat.
+    let found = found_with(&posed, |rank| rank.stated = 0.02);
+    check("literal", &found);
+    assert_eq!((found.lower, found.upper, found.open), (1, 1, None));
+    assert!(found.evidence[2].text.contains("taken literally"));
 }
 
 #[test]
@@ -207,7 +283,10 @@ fn rank_is_evidence_with_its_figures() {
     let posed = Posed::new(four_bar());
     let found = found(&posed);
     let rank = &found.evidence[0];
-    assert_eq!((rank.engine, rank.scope, rank.bounds), ("rank", "this pose", (0, Some(1))));
+    assert_eq!(
+        (rank.engine, rank.scope, rank.bounds),
+        ("rank", "this pose", (0, Some(1)))
+    );
     assert!(rank.text.starts_with("6 equations in 4 unknowns") && rank.text.ends_with("53 bits"));
     assert_eq!(found.evidence[1].scope, "every pose");
 }

@@ -61,7 +61,10 @@ fn a_definite_form_is_a_certificate() {
     check(&finding, 2);
     assert_eq!(finding.more_evidence.len(), 1);
     let evidence = &finding.more_evidence[0];
-    assert_eq!((evidence.engine, evidence.bounds), ("second order", (0, Some(0))));
+    assert_eq!(
+        (evidence.engine, evidence.bounds),
+        ("second order", (0, Some(0)))
+    );
     assert!(finding.found.certificate.contains("self-stress"));
     assert_eq!(finding.found.kind, Some(SingularKind::Shaky));
     assert!(finding.found.branches.unwrap().is_empty());
@@ -72,12 +75,32 @@ fn a_definite_form_is_a_certificate() {
 #[test]
 fn kinds_of_known_poses() {
     for (name, freedom, dimensions, kind) in [
-        ("planar_parallelogram_flat", 2, vec![1, 1], SingularKind::Bifurcation),
+        (
+            "planar_parallelogram_flat",
+            2,
+            vec![1, 1],
+            SingularKind::Bifurcation,
+        ),
         ("planar_kite_flat", 2, vec![1, 1], SingularKind::Bifurcation),
         ("csrr_cusp", 2, vec![1], SingularKind::Cusp),
-        ("csrr_tacnode_outer", 2, vec![1, 1], SingularKind::Tangential),
-        ("rrsrr_kinematotropic", 3, vec![2, 1], SingularKind::Kinematotropic),
-        ("permanently_shaky_fourbar", 2, vec![1], SingularKind::PermanentlyShaky),
+        (
+            "csrr_tacnode_outer",
+            2,
+            vec![1, 1],
+            SingularKind::Tangential,
+        ),
+        (
+            "rrsrr_kinematotropic",
+            3,
+            vec![2, 1],
+            SingularKind::Kinematotropic,
+        ),
+        (
+            "permanently_shaky_fourbar",
+            2,
+            vec![1],
+            SingularKind::PermanentlyShaky,
+        ),
     ] {
         let finding = found(&Posed::known(name));
         check(&finding, freedom);
@@ -90,7 +113,11 @@ fn kinds_of_known_poses() {
         expected.sort_unstable_by(|a, b| b.cmp(a));
         assert_eq!(found_dimensions, expected, "{name}");
         let germ = finding.more_evidence.last().unwrap();
-        assert_eq!((germ.engine, germ.bounds), ("germ", (0, Some(found.upper))), "{name}");
+        assert_eq!(
+            (germ.engine, germ.bounds),
+            ("germ", (0, Some(found.upper))),
+            "{name}"
+        );
         assert!(!germ.text.contains("not taken"), "{name}: {}", germ.text);
     }
 }

@@ -68,7 +68,10 @@ fn poses_are_closed_and_their_tangents_span_the_kernel() {
         // Every step is of a quarter in the metric: nothing but closing is added to it.
         for way in ways(&posed, &poses) {
             let length = 0.0.norm(&way);
-            assert!((0.9 * STEP..1.6 * STEP).contains(&length), "{name}: {length}");
+            assert!(
+                (0.9 * STEP..1.6 * STEP).contains(&length),
+                "{name}: {length}"
+            );
         }
     }
 }
@@ -127,7 +130,10 @@ fn short_steps_lead_away_from_where_branches_meet() {
     };
     for pose in &poses {
         let [a, b] = ["A", "B"].map(|name| pose.states[of(name)].values[0]);
-        assert!(a.abs() > 0.05 && (a + b).abs() < 1e-10, "the coupler turned: {a} {b}");
+        assert!(
+            a.abs() > 0.05 && (a + b).abs() < 1e-10,
+            "the coupler turned: {a} {b}"
+        );
     }
 }
 
@@ -144,9 +150,12 @@ fn the_freedom_expected_is_taken_where_the_margin_is_thin() {
     let clear = seen(0.0, 1).unwrap().0;
     assert_eq!((clear.instantaneous, clear.basis.len()), (Some(0), 0));
     // An accuracy like the offset leaves it open.
-    let thin = seen(rank.decision.kept, 1).unwrap().0;
+    let thin = seen(0.3 * rank.decision.kept, 1).unwrap().0;
     assert_eq!((thin.instantaneous, thin.basis.len()), (None, 1));
-    assert!(seen(rank.decision.kept, 5).is_none(), "more than there are unknowns");
+    assert!(
+        seen(0.3 * rank.decision.kept, 5).is_none(),
+        "more than there are unknowns"
+    );
 }
 
 #[test]
