@@ -5,7 +5,10 @@
 //! | rank | finite ≤ δ; = δ where no equation is redundant (implicit function theorem); = 0 where δ = 0 | done already |
 //! | subgroup | exact, at every pose, where displacement subgroups explain the motion | a few brackets a cycle |
 //! | chart | regular: finite = δ; singular: finite ≤ δ − 1 | some dozen closures |
+//! | second order | finite = 0 at a singular pose with a definite form | power series |
 //! | germ and its zeros | the branches through a singular pose, each confirmed by closing all equations on it | power series |
+//!
+//! Of rounded numbers, a chart is believed only where the part can be followed farther away as well.
 //!
 //! A verdict is never given on a thin margin: what an engine cannot tell, it leaves open and says why.
 

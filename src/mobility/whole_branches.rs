@@ -14,7 +14,7 @@ const MOST_BRANCHES: usize = 256;
 /// Tangents are kept as full vectors as long as they need no more than this many numbers.
 const MOST_NUMBERS: usize = 20_000_000;
 
-/// Free joints are turned by up to this much (rad or m) between poses, so that no pose of theirs is special.
+/// Free joints are turned by up to this much (rad or m) from the pose, each time anew, so that no pose of theirs is special.
 const FREE_WAY: f64 = 0.4;
 
 /// The branches through the pose, with what moves along each; `None` where some part is open, or where there are too many
@@ -145,7 +145,7 @@ fn whole_poses(
     if tangents.saturating_mul(variables) > MOST_NUMBERS {
         return Vec::new();
     }
-    // As many poses as the part that was followed least, but two at least where free joints make every pose generic.
+    // As many as the part has that was followed farthest; the others repeat theirs. Free joints alone are drawn three times.
     let count = chosen
         .iter()
         .flatten()
