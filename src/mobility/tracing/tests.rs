@@ -96,13 +96,17 @@ fn the_way_goes_on_and_not_back() {
 fn directions_lean_on_the_one_before() {
     let basis = [vec![1.0, 0.0, 0.0], vec![0.0, 1.0, 0.0]];
     let before = [0.6, -0.8, 0.0];
+    let mut sum = 0.0;
     for seed in 0..200 {
         let mut random = SplitMix64::new(seed);
         let direction = onward(&mut random, &basis, Some(&before)).unwrap();
         assert!((0.0.norm(&direction) - 1.0).abs() < 1e-14);
         assert!(along(&direction, &before) > 0.0, "{seed}: {direction:?}");
         assert_eq!(direction[2], 0.0);
+        sum += along(&direction, &before);
     }
+    // Mostly straight on: a direction at random, turned forward, would make it 2/π.
+    assert!(sum / 200.0 > 0.85, "{}", sum / 200.0);
     assert_eq!(onward(&mut SplitMix64::new(1), &[], None), None);
 }
 
