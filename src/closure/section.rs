@@ -112,8 +112,12 @@ impl<R: Real> Section<'_, R> {
     }
 
     /// Newton steps of least length that close the cycles and do not move along the `held` directions (orthonormal in the
-    /// metric). Stops where the equations hold to rounding, where no progress is made, or after `limit` steps. Where the
-    /// equations cannot be met the pose is one that meets them best, nearby.
+    /// metric). Stops where the equations hold to rounding, where the largest of them does not get smaller, or after `limit`
+    /// steps. Where the equations cannot be met the pose is one nearby where no step makes the largest one smaller.
+    ///
+    /// Held directions are those of every single step. Turns of a ball do not commute, so that the sum of several steps may
+    /// lead along such a direction by what is of higher order. Where equations depend on one another at closed poses only,
+    /// nothing but holding the kernel keeps steps from leading far along it.
     ///
     /// The residual is exact to the arithmetic; directions are solved in double precision.
     ///
@@ -230,3 +234,7 @@ impl<R: Real> Section<'_, R> {
         SparseMatrix::from_triplets(rows + held.len(), columns, 0.0, triplets)
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;

@@ -10,7 +10,9 @@
 //! - *singular* where what is left is far above the noise and falls like a power of the radius;
 //! - otherwise more digits decide, or nothing does.
 //!
-//! The noise is rounding, and for rounded numbers what their stated precision leaves open. Radii follow the smallest
+//! The noise is rounding, and for rounded numbers what their stated precision leaves open. Where that is too coarse to decide
+//! anything, but the numbers have the same rank taken literally, they are taken literally here too, which the test says
+//! ([`ChartTest::literal`]), unless what they leave over then could be rounding of second order. Radii follow the smallest
 //! singular value σ kept: a chart reaches as far as the equations bend by less than σ.
 //!
 //! A finite number of directions and orders proves nothing about all of them: the certificate is numeric.
@@ -134,7 +136,8 @@ fn directions(kernel: &NullVectors<f64>) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Tests whether the kernel's coordinates are a chart of the configuration space.
+/// Tests whether the kernel's coordinates are a chart of the configuration space. With random members of a large kernel only
+/// ([`NullVectors::complete`] is false) it says nothing of the others.
 ///
 /// # Errors
 /// [`MatrixError`] where numbers overflow.
@@ -362,3 +365,7 @@ fn probe<R: Real>(
         literal: false,
     })
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;

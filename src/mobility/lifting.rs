@@ -392,3 +392,7 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 fn along(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;

@@ -35,6 +35,9 @@ mod link_twists;
 mod more_digits;
 mod one_sided;
 mod part_mobility;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod part_samples;
 mod pose_rank;
 mod redundancy;
 mod relative_motion;

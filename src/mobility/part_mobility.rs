@@ -5,7 +5,10 @@
 //! | rank | finite ≤ δ; = δ where no equation is redundant (implicit function theorem); = 0 where δ = 0 | done already |
 //! | subgroup | exact, at every pose, where displacement subgroups explain the motion | a few brackets a cycle |
 //! | chart | regular: finite = δ; singular: finite ≤ δ − 1 | some dozen closures |
+//! | second order | finite = 0 at a singular pose with a definite form | power series |
 //! | germ and its zeros | the branches through a singular pose, each confirmed by closing all equations on it | power series |
+//!
+//! Of rounded numbers, a chart is believed only where the part can be followed farther away as well.
 //!
 //! A verdict is never given on a thin margin: what an engine cannot tell, it leaves open and says why.
 
@@ -139,10 +142,18 @@ pub fn part_mobility(
     rank: &PartRank,
 ) -> Result<PartFinding, MatrixError> {
     let surplus = rank.unknowns() as i64 - rank.equations() as i64;
+    // A special mechanism written with too few digits is, taken literally, a generic one: that more equations than unknowns
+    // then hold it fast may be due to the digits left out.
+    let held_by_rounding = rank.taken_literally && rank.instantaneous == Some(0) && surplus < 0;
+    let upper = if held_by_rounding {
+        rank.unknowns()
+    } else {
+        rank.candidates.1
+    };
     let rank_evidence = Evidence {
         engine: "rank",
         scope: "this pose",
-        bounds: (0, Some(rank.candidates.1)),
+        bounds: (0, Some(upper)),
         text: format!(
             "{} equations in {} unknowns; smallest singular value kept {:.2e}, largest dropped {:.2e}, tolerance {:.2e}; \
              {} bits",
@@ -154,15 +165,7 @@ pub fn part_mobility(
             rank.bits
         ),
     };
-    // A special mechanism written with too few digits is, taken literally, a generic one: that more equations than unknowns
-    // then hold it fast may be due to the digits left out.
-    let held_by_rounding = rank.taken_literally && rank.instantaneous == Some(0) && surplus < 0;
     let Some(freedom) = rank.instantaneous.filter(|_| !held_by_rounding) else {
-        let upper = if held_by_rounding {
-            rank.unknowns()
-        } else {
-            rank.candidates.1
-        };
         let why = match &rank.note {
             Some(note) if rank.stated == 0.0 && !held_by_rounding => note.clone(),
             _ => "the numbers as they are stated leave the rank at this pose open; more digits would decide it".to_owned(),
@@ -404,3 +407,7 @@ fn chart_evidence(chart: &ChartTest, freedom: usize) -> Evidence {
         ),
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;

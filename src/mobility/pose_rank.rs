@@ -7,7 +7,8 @@
 //! 2. *As written.* The numbers taken literally, uncertain by rounding only. It differs from the first for a mechanism
 //!    whose special geometry was rounded, and then both are reported.
 //! 3. Where double precision decides neither, the geometry is evaluated again from the file's own digits with 106, 212
-//!    and more bits: true zeros fall with the arithmetic, small values stay.
+//!    and more bits: true zeros fall with the arithmetic, small values stay. So it is where exact numbers have many digits
+//!    and double precision sees a zero, which they may have been chosen to miss: with three times as many bits as they have.
 //!
 //! # Poses that were assembled
 //! A pose drawn closed is exact. One that was found by iteration closes to some residual ρ only, and how far that is from

@@ -376,3 +376,7 @@ fn angle(a: &[f64], b: &[f64]) -> f64 {
     let half: f64 = a.iter().zip(b).map(|(x, y)| (x - y).powi(2)).sum();
     2.0 * (0.5 * half.sqrt()).min(1.0).asin()
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;

@@ -1,7 +1,8 @@
 //! Walking along a branch to generic poses of its own.
 //!
-//! What a branch allows is asked where nothing is special: some tenths of a radian away from the pose, in a random
-//! direction of the branch, three times. At each pose the cycles are closed to rounding and the kernel is taken anew.
+//! What a branch allows is asked where nothing is special: a quarter radian and more away from the pose, in random
+//! directions of the branch that go on and not back, three times. At each pose the cycles are closed, as far as rounding and
+//! stated precision tell, and the kernel is taken anew.
 
 use super::chart::{Kernel, SEED};
 use super::pose_rank::{PartRank, Pose};
@@ -149,7 +150,7 @@ fn onward(random: &mut SplitMix64, basis: &[Vec<f64>], before: Option<&[f64]>) -
 }
 
 /// Walks along a branch from a pose where its tangent space is known, to as many generic poses as are `wanted`. Fewer, or
-/// none, where the cycles do not close on the way.
+/// none, where the cycles do not close on the way. The first step leans on `toward`, a unit vector in the metric.
 ///
 /// `away` is how far a pose is where other branches pass, in the metric. Branches that touch there part by a power of the
 /// distance only, so that a step is at most half as long; infinite where there are none.
@@ -276,3 +277,7 @@ pub fn poses_of_regular_part(
     }
     Ok(poses)
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;

@@ -37,6 +37,7 @@ mod error;
 mod evaluate;
 mod expression;
 mod functions;
+mod height;
 mod magnitude;
 mod roots;
 mod separation;
@@ -55,7 +56,6 @@ pub use surd::Surd;
 pub use tree::Tree;
 
 use ball::{Ball, Clear};
-use dashu::base::{BitTest, PowerOfTwo};
 use dashu::float::FBig;
 use dashu::float::round::mode::HalfEven;
 use dashu::rational::RBig;
@@ -280,38 +280,6 @@ impl Number {
     #[must_use]
     pub fn coarsest_input(&self) -> Option<i32> {
         self.0.coarsest
-    }
-
-    /// Bits of the longest integer the number is written with: how small an offset can be meant by it. `1/3` has 2, `1e-14`
-    /// has 47; expressions have that of their longest part. Nothing is meant by the last bits of a double or of what was
-    /// computed from decimals: these have 0.
-    #[must_use]
-    pub fn height(&self) -> usize {
-        if self.0.coarsest.is_some() {
-            return 0;
-        }
-        let of_fraction = |x: &RBig| {
-            let double = x.denominator().is_power_of_two() && x.numerator().bit_len() <= 53;
-            if double {
-                return 0;
-            }
-            x.numerator().bit_len().max(x.denominator().bit_len())
-        };
-        match &self.0.form {
-            Form::Exact(Exact::Rational(x)) => of_fraction(x),
-            Form::Exact(Exact::Surd(surd)) => surd
-                .terms()
-                .map(|(root, factor)| of_fraction(factor).max(root.bit_len()))
-                .max()
-                .unwrap_or(0),
-            Form::Exact(Exact::Angle(angle)) => angle
-                .parts()
-                .map(|(direction, factor)| of_fraction(factor).max(direction.cos().height()))
-                .fold(of_fraction(angle.pi_multiple()), usize::max),
-            Form::Exact(Exact::Algebraic(tree)) | Form::Symbolic(tree) => {
-                tree.operands.iter().map(Self::height).max().unwrap_or(0)
-            }
-        }
     }
 
     /// Size as an expression: 1 for anything in a closed normal form.

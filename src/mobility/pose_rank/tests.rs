@@ -4,8 +4,12 @@ use crate::closure::samples::{
     sarrus_places, spherical,
 };
 use crate::closure::{Arithmetic, assemble};
-use crate::mechanism::JointKind;
+use crate::families::{
+    bennett_row, double_planar, flattening_parallelogram, negative_power_of_ten, spoiled_bennett,
+};
+use crate::mechanism::{Direction, Frame, JointBuilder, JointKind, MechanismBuilder};
 use crate::mobility::Structure;
+use crate::number::Number;
 
 /// The rank of a one-part mechanism at its assembled pose.
 fn ranked(mechanism: &Mechanism) -> PartRank {
@@ -148,9 +152,7 @@ fn stretched(short: f64) -> Mechanism {
 fn a_singular_pose_found_by_iteration_is_no_regular_one() {
     // Drawn bent, with lengths that close on one line only: the iteration comes near it as √ρ, where a small singular
     // value looks decided. It is the flat four-bar with two freedoms, and nothing else may be claimed.
-    let mut builder = crate::mechanism::MechanismBuilder::new("taut");
-    use crate::mechanism::{Direction, Frame, JointBuilder};
-    use crate::number::Number;
+    let mut builder = MechanismBuilder::new("taut");
     let n = |x: f64| Number::from_f64(x).unwrap();
     builder
         .link("ground")
@@ -256,4 +258,130 @@ fn two_accuracies_must_agree() {
     let doubtful = decide_twice(&matrix, 1e-14, 1e-7).unwrap();
     assert_eq!((doubtful.rank, doubtful.candidates), (None, (1, 2)));
     assert_eq!(decide_twice(&matrix, 1e-14, 1e-10).unwrap().rank, Some(2));
+}
+
+/// The rank of a mechanism and the height of its numbers.
+fn ranked_by_height(mechanism: &Mechanism) -> (usize, PartRank) {
+    let structure = Structure::new(mechanism);
+    (height(mechanism, &structure.parts[0]), ranked(mechanism))
+}
+
+#[test]
+fn doubles_and_decimals_are_never_tall() {
+    for written in [Written::Exactly, Written::Decimals(15)] {
+        let (height, rank) = ranked_by_height(&ring(&sarrus_places(), [0.0; 3], written));
+        assert_eq!((height, rank.bits), (0, 53), "{written:?}");
+    }
+}
+
+#[test]
+fn tall_numbers_are_ranked_in_more_bits_than_they_have() {
+    // The smallest offsets are far below what doubles would call rounding.
+    for exponent in [9, 14, 40] {
+        let epsilon = negative_power_of_ten(exponent);
+        for (name, mechanism, freedom) in [
+            ("Bennett", spoiled_bennett(&epsilon).unwrap(), 0),
+            ("flattening", flattening_parallelogram(&epsilon).unwrap(), 1),
+            ("planes", double_planar(&epsilon).unwrap(), 1),
+        ] {
+            let (height, rank) = ranked_by_height(&mechanism);
+            assert!(height > TALL, "{name} 1e-{exponent}: {height}");
+            assert_eq!(
+                rank.instantaneous,
+                Some(freedom),
+                "{name} 1e-{exponent}: {:?}",
+                rank.note
+            );
+            // What doubles see to be independent needs no more of them.
+            let seen = freedom == 0 && exponent < 13;
+            let enough = if seen { 53 } else { (3 * height).min(848) };
+            assert!(
+                rank.bits as usize >= enough && (rank.bits == 53) == seen,
+                "{name} 1e-{exponent}: {} bits for {height}",
+                rank.bits
+            );
+            assert_eq!(rank.candidates, (freedom, freedom), "{name} 1e-{exponent}");
+        }
+    }
+}
+
+#[test]
+fn short_exact_numbers_are_left_to_doubles() {
+    for mechanism in [
+        bennett_row(1).unwrap(),
+        spoiled_bennett(&Number::zero()).unwrap(),
+        spoiled_bennett(&negative_power_of_ten(3)).unwrap(),
+    ] {
+        let (height, rank) = ranked_by_height(&mechanism);
+        assert!(height <= TALL, "{height}");
+        assert_eq!(rank.bits, 53);
+    }
+}
+
+#[test]
+fn tall_numbers_of_full_rank_ask_for_nothing() {
+    // Nothing was dropped that could have been meant: a triangle with an offset in its last corner.
+    let number = |x: f64| Number::from_f64(x).unwrap();
+    let offset = |x: f64| &number(x) + &negative_power_of_ten(14);
+    let mut builder = MechanismBuilder::new("tall");
+    let z = || Direction([Number::zero(), Number::zero(), Number::one()]);
+    builder.link("ground");
+    let mut before = "ground".to_owned();
+    let at = |x: f64, y: f64| Frame::at([offset(x), number(y), Number::zero()]);
+    for (i, (x, y)) in [(0.0, 0.0), (0.5, 2.0)].into_iter().enumerate() {
+        let link = format!("link_{i}");
+        builder.link(&link);
+        let joint = JointBuilder::tree(&format!("j{i}"), JointKind::Revolute, &before, &link);
+        builder.joint(joint.origin(at(x, y)).axis(z()));
+        before = link;
+    }
+    let third = Frame::at([number(3.0), number(-2.0), Number::zero()]);
+    let there = Frame::at([
+        &(&number(3.5) + &negative_power_of_ten(14)) + &negative_power_of_ten(14),
+        Number::zero(),
+        Number::zero(),
+    ]);
+    let closing = JointBuilder::closing("last", JointKind::Revolute, &before, "ground");
+    builder.joint(closing.origin(third).successor_origin(there).axis(z()));
+    let (height, rank) = ranked_by_height(&builder.build().unwrap());
+    assert!(height > TALL);
+    assert_eq!(
+        (rank.instantaneous, rank.bits),
+        (Some(0), 53),
+        "{:?}",
+        rank.note
+    );
+}
+
+#[test]
+fn tall_numbers_that_stay_open_leave_the_rank_open() {
+    // A four-bar whose last side is off across the plane: closed to doubles, and to more digits at no pose.
+    let number = |x: f64| Number::from_f64(x).unwrap();
+    let mut builder = MechanismBuilder::new("open");
+    builder.link("ground");
+    let z = || Direction([Number::zero(), Number::zero(), Number::one()]);
+    let mut before = "ground".to_owned();
+    let steps = [(0.0, 0.0), (0.0, 2.0), (4.0, 3.0)];
+    for (i, (x, y)) in steps.into_iter().enumerate() {
+        let link = format!("link_{i}");
+        builder.link(&link);
+        let joint = JointBuilder::tree(&format!("j{i}"), JointKind::Revolute, &before, &link);
+        let at = Frame::at([number(x), number(y), Number::zero()]);
+        builder.joint(joint.origin(at).axis(z()));
+        before = link;
+    }
+    let here = Frame::at([number(0.0), number(-5.0), Number::zero()]);
+    let there = Frame::at([number(4.0), number(0.0), negative_power_of_ten(20)]);
+    let closing = JointBuilder::closing("last", JointKind::Revolute, &before, "ground");
+    builder.joint(closing.origin(here).successor_origin(there).axis(z()));
+    let (height, rank) = ranked_by_height(&builder.build().unwrap());
+    assert_eq!(height, 67);
+    assert_eq!(rank.instantaneous, None, "{:?}", rank.decision);
+    assert!(
+        rank.candidates.0 <= 1 && rank.candidates.1 >= 1,
+        "{:?}",
+        rank.candidates
+    );
+    let note = rank.note.unwrap();
+    assert!(note.contains("stay open by"), "{note}");
 }
