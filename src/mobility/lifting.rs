@@ -148,7 +148,11 @@ fn lift(
         )?
     } else {
         // Near the pose branches that touch to a high order are one double zero; farther away they are two.
-        let Some((there, blur)) = extended(&section, pose.states, states, rank.stated)? else {
+        let Some(Extended {
+            states: there,
+            blur,
+        }) = extended(&section, pose.states, states, blur, rank.stated)?
+        else {
             return Ok(None);
         };
         let stated = rank.stated + 10.0 * blur;
@@ -185,20 +189,26 @@ fn lift(
     }))
 }
 
+/// A pose farther along a branch, and how uncertain it is if an equation enters squared.
+struct Extended {
+    states: Vec<JointState<f64>>,
+    blur: f64,
+}
+
 /// A pose of a branch through the pose `home`, carried on along the chord from there until it is far from it or the branch
 /// bends, and how uncertain it is if an equation enters squared. `None` where the loops do not close on the way.
 fn extended(
     section: &Section<'_, f64>,
     home: &[JointState<f64>],
     mut states: Vec<JointState<f64>>,
+    mut blur: f64,
     stated: f64,
-) -> Result<Option<(Vec<JointState<f64>>, f64)>, MatrixError> {
-    let mut blur: f64 = 0.0;
+) -> Result<Option<Extended>, MatrixError> {
     for _ in 0..APPROACHES {
         let way = section.way_between(home, &states);
         let away = 0.0.norm(&way);
         if away >= FAR {
-            return Ok(Some((states, blur)));
+            return Ok(Some(Extended { states, blur }));
         }
         let longer: Vec<f64> = way.iter().map(|x| 1.5 * x).collect();
         let mut there = home.to_vec();
@@ -209,7 +219,7 @@ fn extended(
         }
         if closing.way > POLISHING * away {
             // The branch bends away from the chord, which tells nothing against it.
-            return Ok(Some((states, blur)));
+            return Ok(Some(Extended { states, blur }));
         }
         states = there;
         blur = closing.residual.max(closing.rounding).sqrt();

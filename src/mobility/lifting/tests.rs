@@ -39,9 +39,9 @@ impl Singular {
             part: self.posed.part(),
             rank: &self.rank,
             kernel: &self.kernel,
-            germ: &self.germ,
+            idle: &[],
         };
-        lift_all(&start, branches).unwrap()
+        lift_all(&start, &self.germ, branches).unwrap()
     }
 
     /// The value of a hinge at a pose.

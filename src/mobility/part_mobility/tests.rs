@@ -301,6 +301,7 @@ fn what_cannot_be_followed_far_is_not_called_regular() {
     };
     let kernel = posed.kernel(&rank);
     let mut chart = ChartTest {
+        followed: 0.0,
         outcome: ChartOutcome::Regular,
         radius: 1e-3,
         leftover: 1e-6,
