@@ -138,3 +138,21 @@ fn every_file_is_drawn_closed_and_decided_without_reservation() {
     });
     assert_none(&wrong.concat());
 }
+
+/// Everything that is known of the reference mechanisms, as the program itself compares it: all of it is decided, and right.
+#[test]
+fn every_known_fact_is_found() {
+    let run = std::process::Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+        .args(["check", "--format", "json", "tests/zoo"])
+        .current_dir(folder(""))
+        .output()
+        .unwrap();
+    let told: Value = serde_json::from_slice(&run.stdout).unwrap();
+    let count = |what: &str| told[what].as_u64().unwrap();
+    assert_eq!(count("files"), 132);
+    for what in ["without_expectation", "unreadable"] {
+        assert_eq!(told[what].as_array().unwrap().len(), 0, "{what}");
+    }
+    assert_eq!((count("wrong"), count("open")), (0, 0), "{told:#}");
+    assert!(count("right") >= 769, "{} facts", count("right"));
+}

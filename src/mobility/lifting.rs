@@ -151,6 +151,7 @@ fn lift(
         let Some(Extended {
             states: there,
             blur,
+            far,
         }) = extended(&section, pose.states, states, blur, rank.stated)?
         else {
             return Ok(None);
@@ -160,7 +161,7 @@ fn lift(
             return Ok(None);
         };
         if tangents.instantaneous != Some(instantaneous)
-            || !stays_multiple(start, &section, &there, instantaneous)?
+            || !stays_multiple(start, &section, &there, instantaneous, far)?
         {
             return Ok(None);
         }
@@ -193,6 +194,8 @@ fn lift(
 struct Extended {
     states: Vec<JointState<f64>>,
     blur: f64,
+    /// Whether branches that touch would have parted there.
+    far: bool,
 }
 
 /// A pose of a branch through the pose `home`, carried on along the chord from there until it is far from it or the branch
@@ -208,7 +211,11 @@ fn extended(
         let way = section.way_between(home, &states);
         let away = 0.0.norm(&way);
         if away >= FAR {
-            return Ok(Some(Extended { states, blur }));
+            return Ok(Some(Extended {
+                states,
+                blur,
+                far: true,
+            }));
         }
         let longer: Vec<f64> = way.iter().map(|x| 1.5 * x).collect();
         let mut there = home.to_vec();
@@ -219,7 +226,11 @@ fn extended(
         }
         if closing.way > POLISHING * away {
             // The branch bends away from the chord, which tells nothing against it.
-            return Ok(Some(Extended { states, blur }));
+            return Ok(Some(Extended {
+                states,
+                blur,
+                far: false,
+            }));
         }
         states = there;
         blur = closing.residual.max(closing.rounding).sqrt();
@@ -227,17 +238,23 @@ fn extended(
     Ok(None)
 }
 
-/// Whether the kernel at a pose has the dimension found also in as many digits as exact numbers call for: what double
-/// precision takes for a double zero may be two, or none, as close as the numbers are long.
+/// Whether the kernel at a pose has the dimension found also in many digits. What double precision takes for a double zero may
+/// be two that are close: because exact numbers of many digits put them there, or, at a pose that is not `far`, because
+/// branches touch.
 fn stays_multiple(
     start: &Start<'_>,
     section: &Section<'_, f64>,
     states: &[JointState<f64>],
     freedom: usize,
+    far: bool,
 ) -> Result<bool, MatrixError> {
     let tall = height(start.pose.mechanism, start.part);
-    if start.rank.stated > 0.0 || tall <= TALL {
+    let rounded = start.rank.stated > start.rank.accuracy;
+    if far && (rounded || tall <= TALL) {
         return Ok(true);
+    }
+    if rounded {
+        return Ok(false);
     }
     let Some(bits) = LADDER.into_iter().find(|bits| *bits as usize >= 3 * tall) else {
         return Ok(false);
@@ -265,7 +282,7 @@ fn stays_multiple(
 }
 
 /// A double zero is found to so much only, because directions are computed in double precision.
-const CLOSED_IN_MORE_DIGITS: f64 = 1e-18;
+const CLOSED_IN_MORE_DIGITS: f64 = 1e-16;
 
 /// How far the idle freedoms are turned to a generic pose (metric).
 const IDLE_STEP: f64 = 0.5;
