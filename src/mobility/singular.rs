@@ -24,8 +24,21 @@ use crate::matrix::MatrixError;
 const FIRST_DEGREE: usize = 4;
 const LAST_DEGREE: usize = 8;
 
-/// More starts than this are not made on a germ of many variables.
+/// More starts than this are not made on a germ of many variables, and fewer where each is dear: all of them together may
+/// evaluate about as many terms of series, which takes a second or so.
 const STARTS: usize = 600;
+const TERMS: usize = 1_000_000;
+
+/// How many starts a search on a germ may make.
+fn most_starts(germ: &Germ) -> usize {
+    let variables = germ.freedom();
+    let terms: usize = germ
+        .equations()
+        .iter()
+        .map(|equation| equation.coefficients().len())
+        .sum();
+    (TERMS / (variables * terms).max(1)).min(STARTS)
+}
 
 /// Branches whose directions differ by less than the first (rad) share a tangent, from the second on they do not. Directions
 /// are known to some 1e-5.
@@ -151,7 +164,7 @@ pub(super) fn singular_finding(
             germ.equations(),
             germ.noise(order),
             &GermZeroOptions {
-                most_starts: STARTS,
+                most_starts: most_starts(&germ),
                 ..GermZeroOptions::default()
             },
         );
