@@ -6,8 +6,8 @@
 //! branch. What bounds the mobility from above is the search for zeros, which is numeric, and where it can be had the
 //! dimension over the complex numbers.
 //!
-//! One variable (δ = 1) needs none of it: an analytic function of one variable that does not vanish identically has an
-//! isolated zero, so a singular pose with δ = 1 is rigid.
+//! What is idle at every pose is taken out first ([`idle_directions`]). One variable left needs no search: an analytic
+//! function of one variable that does not vanish identically has an isolated zero, so that only what is idle moves.
 
 use super::chart::{ChartTest, Kernel};
 use super::germ::{ComplexDimension, Germ, complex_dimension, prestress_certificate};
