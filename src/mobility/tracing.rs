@@ -23,7 +23,7 @@ pub struct PartPose {
 }
 
 /// Where the walk stands: a tangent space and where it goes.
-pub(super) struct Tangents {
+pub(crate) struct Tangents {
     /// Orthonormal in the metric.
     pub basis: Vec<Vec<f64>>,
     /// Instantaneous freedom.
@@ -81,7 +81,7 @@ pub(super) fn orthonormal(vectors: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
 
 /// The kernel of the equations at some pose of the part, in the metric. `expected` is the freedom taken where the margin
 /// of the rank is thin.
-pub(super) fn tangents_at(
+pub(crate) fn tangents_at(
     section: &Section<'_, f64>,
     states: &[JointState<f64>],
     stated: f64,

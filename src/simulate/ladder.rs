@@ -1,0 +1,321 @@
+//! What a ladder of ever finer simulations says about a predicted motion.
+//!
+//! A simulation that moves proves nothing: its joints are held by forces that give way a little, and a loop that does not
+//! fit by a thousandth turns all the same. What tells is how the closure error behaves when the substeps get finer. The
+//! integration is of second order: where the loops do close along the motion, all of the error is the integrator's, and
+//! falls as the square of the substep. Where they do not, what falls is that share only, and the geometric defect stays:
+//!
+//! `error(n) = defect + c n⁻²`.
+//!
+//! Two neighbouring rungs give the defect by Richardson's extrapolation (Richardson 1911, *Phil. Trans. R. Soc. A* 210,
+//! section 1), and three give the order, which has to be seen before the extrapolation is believed.
+
+use serde::Serialize;
+
+/// The order at which the closure error of a true motion falls.
+pub const EXPECTED_ORDER: f64 = 2.0;
+
+/// An order from here on counts as the expected one. Halfway between a first-order method (1) and the second (2): what
+/// falls this fast for two rungs running does not level off between them.
+pub const LEAST_ORDER: f64 = 1.5;
+
+/// Below this order over two rungs the error has levelled off: a rung that doubles the work gains less than a factor of √2.
+pub const LEVEL_ORDER: f64 = 0.5;
+
+/// Errors below this are rounding and the solver's own residual: no order is asked of them (parts of the characteristic
+/// length; a turn of 10⁴ substeps adds up 10⁴ roundings of 1e-16, and the sums of the solver lose about as much again).
+pub const ROUNDING: f64 = 1e-9;
+
+/// A motion is confirmed only down to errors of this size: what a loop misses by less than this cannot be told from
+/// a loop that closes. Smaller than any play a joint has.
+pub const FINE_ENOUGH: f64 = 3e-5;
+
+/// One simulation of the ladder.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Rung {
+    /// Substeps per step.
+    pub substeps: usize,
+    /// Largest gap of any joint on the way: the distance in characteristic lengths, or the angle in rad.
+    pub closure_error: f64,
+    /// Largest distance from the predicted motion on the way, same units.
+    pub distance: f64,
+    /// How much of the way the drive was to go was gone.
+    pub progress: f64,
+    /// Order at which the closure error fell since the rung before; `None` on the first, and between errors that are
+    /// rounding.
+    pub order: Option<f64>,
+    /// Seconds on the clock that this simulation took.
+    #[serde(skip)]
+    pub wall_time: f64,
+}
+
+/// What a verification came to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Outcome {
+    /// The simulation shows what was predicted, and gets closer to it the finer it is.
+    Confirmed,
+    /// The simulation shows that the prediction fails.
+    Contradicted,
+    /// Neither can be said from these rungs.
+    Inconclusive,
+}
+
+impl Outcome {
+    /// The word for it.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Confirmed => "confirmed",
+            Self::Contradicted => "contradicted",
+            Self::Inconclusive => "inconclusive",
+        }
+    }
+}
+
+/// An outcome and the sentence that gives the reason.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Finding {
+    /// The outcome.
+    pub outcome: Outcome,
+    /// Why, in one sentence.
+    pub why: String,
+}
+
+impl Finding {
+    pub(super) fn new(outcome: Outcome, why: impl Into<String>) -> Self {
+        Self {
+            outcome,
+            why: why.into(),
+        }
+    }
+}
+
+/// log(coarse / fine) / log(n_fine / n_coarse).
+#[must_use]
+pub fn order_between(coarse: (usize, f64), fine: (usize, f64)) -> Option<f64> {
+    let (n, error) = coarse;
+    let (more, less) = fine;
+    let meaningful = more > n && error > ROUNDING && less > 0.0;
+    meaningful.then(|| (error / less).ln() / (more as f64 / n as f64).ln())
+}
+
+/// The part of the error that does not go away with finer substeps, by extrapolation at the expected order.
+#[must_use]
+pub fn defect(coarse: (usize, f64), fine: (usize, f64)) -> f64 {
+    let ratio = (fine.0 as f64 / coarse.0 as f64).powf(EXPECTED_ORDER);
+    ((ratio * fine.1 - coarse.1) / (ratio - 1.0)).max(0.0)
+}
+
+/// Where the drive has to have come to count as having gone its way.
+pub const ARRIVED: f64 = 0.9;
+
+/// A drive that has not come this far has not turned anything.
+const STALLED: f64 = 0.5;
+
+/// Errors that grow past this (rad, characteristic lengths) are a simulation that came apart, and say nothing.
+const APART: f64 = 0.3;
+
+/// Judges the rungs so far, coarse to fine; `None` where another rung may still decide.
+#[must_use]
+pub fn judge_motion(rungs: &[Rung]) -> Option<Finding> {
+    let [.., before, last] = rungs else {
+        // One rung decides only where there is no error at all: no loop is held by force.
+        let last = rungs.last()?;
+        return (last.closure_error <= ROUNDING
+            && last.distance <= ROUNDING
+            && last.progress >= ARRIVED)
+            .then(|| {
+                Finding::new(
+                    Outcome::Confirmed,
+                    "the simulated mechanism went the whole way on the predicted motion, to rounding",
+                )
+            });
+    };
+    if !(last.closure_error < APART) {
+        return None;
+    }
+    if before.progress < STALLED && last.progress < STALLED && last.closure_error < FINE_ENOUGH {
+        return Some(Finding::new(
+            Outcome::Contradicted,
+            format!(
+                "the drive stalls after {:.0} % of its way with the loops closed to {:.1e}",
+                100.0 * last.progress,
+                last.closure_error
+            ),
+        ));
+    }
+    let orders: Vec<f64> = rungs.iter().rev().take(2).filter_map(|r| r.order).collect();
+    let rounded = last.closure_error <= ROUNDING && before.closure_error <= ROUNDING;
+    let falls = rounded || orders.len() == 2 && orders.iter().all(|o| *o >= LEAST_ORDER);
+    let near = last.distance <= FINE_ENOUGH.max(10.0 * last.closure_error);
+    if falls && last.progress >= ARRIVED && last.closure_error <= FINE_ENOUGH && near {
+        let why = if rounded {
+            "the simulated mechanism went the whole way on the predicted motion, to rounding".into()
+        } else {
+            format!(
+                "the closure error falls with the power {:.1} of the substeps, to {:.1e} of the \
+                 characteristic length, and the simulated mechanism stays within {:.1e} of the \
+                 predicted motion",
+                orders[0], last.closure_error, last.distance
+            )
+        };
+        return Some(Finding::new(Outcome::Confirmed, why));
+    }
+    let levels = orders.len() == 2 && orders.iter().all(|o| *o < LEVEL_ORDER);
+    if levels && last.closure_error > FINE_ENOUGH {
+        let left = defect(
+            (before.substeps, before.closure_error),
+            (last.substeps, last.closure_error),
+        );
+        return Some(Finding::new(
+            Outcome::Contradicted,
+            format!(
+                "the closure error levels off at {:.1e} of the characteristic length (extrapolated: \
+                 {left:.1e}): it turns because the simulated joints give way, not because the loops close",
+                last.closure_error
+            ),
+        ));
+    }
+    if levels && falls_off(last) {
+        return Some(Finding::new(
+            Outcome::Contradicted,
+            format!(
+                "the loops close to {:.1e}, yet the simulated mechanism is {:.1e} off the predicted motion",
+                last.closure_error, last.distance
+            ),
+        ));
+    }
+    None
+}
+
+fn falls_off(rung: &Rung) -> bool {
+    rung.distance > 100.0 * rung.closure_error.max(FINE_ENOUGH)
+}
+
+/// The sentence for a ladder that ended without a decision.
+#[must_use]
+pub fn undecided(rungs: &[Rung]) -> Finding {
+    let why = match rungs.last() {
+        None => "nothing was simulated".to_owned(),
+        Some(last) if !(last.closure_error < APART) => format!(
+            "the simulation came apart at {} substeps: closure error {:.1e}",
+            last.substeps, last.closure_error
+        ),
+        Some(last) if last.progress < ARRIVED => format!(
+            "the drive came {:.0} % of its way; closure error {:.1e} at {} substeps",
+            100.0 * last.progress,
+            last.closure_error,
+            last.substeps
+        ),
+        Some(last) => format!(
+            "the closure error is {:.1e} at {} substeps{}; finer substeps may decide",
+            last.closure_error,
+            last.substeps,
+            last.order
+                .map_or(String::new(), |o| format!(" and fell with the power {o:.1}")),
+        ),
+    };
+    Finding::new(Outcome::Inconclusive, why)
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    /// Rungs with the given errors at 4, 8, 16, … substeps.
+    fn rungs(errors: &[f64]) -> Vec<Rung> {
+        let mut rungs: Vec<Rung> = Vec::new();
+        for (index, &closure_error) in errors.iter().enumerate() {
+            let substeps = 4 << index;
+            let order = rungs.last().and_then(|before: &Rung| {
+                order_between(
+                    (before.substeps, before.closure_error),
+                    (substeps, closure_error),
+                )
+            });
+            rungs.push(Rung {
+                substeps,
+                closure_error,
+                distance: closure_error,
+                progress: 1.0,
+                order,
+                wall_time: 0.0,
+            });
+        }
+        rungs
+    }
+
+    fn outcome(errors: &[f64]) -> Option<Outcome> {
+        judge_motion(&rungs(errors)).map(|f| f.outcome)
+    }
+
+    fn with_defect(defect: f64, rungs: i32) -> Vec<f64> {
+        (0..rungs).map(|i| defect + 1e-3 * 0.25f64.powi(i)).collect()
+    }
+
+    #[test]
+    fn an_error_of_second_order_confirms_once_it_is_small() {
+        assert_eq!(outcome(&with_defect(0.0, 2)), None);
+        assert_eq!(outcome(&with_defect(0.0, 3)), None, "still too large");
+        assert_eq!(outcome(&with_defect(0.0, 4)), Some(Outcome::Confirmed));
+    }
+
+    #[test]
+    fn a_defect_is_never_confirmed_and_in_the_end_contradicted() {
+        for defect in [1e-2, 1e-3, 1e-4] {
+            let found: Vec<_> = (1..=9).map(|n| outcome(&with_defect(defect, n))).collect();
+            assert!(!found.contains(&Some(Outcome::Confirmed)), "{defect}");
+            assert_eq!(found[8], Some(Outcome::Contradicted), "{defect}");
+        }
+    }
+
+    #[test]
+    fn the_defect_is_extrapolated() {
+        let errors = with_defect(1e-4, 3);
+        let found = defect((8, errors[1]), (16, errors[2]));
+        assert!((found - 1e-4).abs() < 1e-12);
+        assert_eq!(defect((8, 4.0), (16, 1.0)), 0.0);
+    }
+
+    #[test]
+    fn first_order_is_not_enough() {
+        let errors: Vec<f64> = (0..12).map(|i| 1e-3 * 0.5f64.powi(i)).collect();
+        assert_eq!(outcome(&errors), None);
+    }
+
+    #[test]
+    fn a_drive_that_stalls_with_the_loops_closed_contradicts() {
+        let mut stuck = rungs(&[1e-6, 1e-6]);
+        stuck.iter_mut().for_each(|r| r.progress = 0.01);
+        assert_eq!(
+            judge_motion(&stuck).unwrap().outcome,
+            Outcome::Contradicted
+        );
+        // Half way is neither.
+        stuck.iter_mut().for_each(|r| r.progress = 0.7);
+        assert_eq!(judge_motion(&stuck), None);
+    }
+
+    #[test]
+    fn closed_loops_off_the_predicted_motion_are_not_confirmed() {
+        let mut off = rungs(&with_defect(0.0, 5));
+        off.iter_mut().for_each(|r| r.distance = 0.2);
+        assert_eq!(judge_motion(&off), None);
+        let last = undecided(&off);
+        assert_eq!(last.outcome, Outcome::Inconclusive);
+    }
+
+    #[test]
+    fn what_came_apart_says_nothing() {
+        assert_eq!(outcome(&[1.0, 2.0, f64::NAN]), None);
+        assert!(undecided(&rungs(&[1.0, f64::NAN])).why.contains("came apart"));
+    }
+
+    #[test]
+    fn a_tree_has_no_error_and_needs_no_ladder() {
+        assert_eq!(outcome(&[0.0]), Some(Outcome::Confirmed));
+        assert_eq!(outcome(&[1e-15, 1e-15]), Some(Outcome::Confirmed));
+    }
+}

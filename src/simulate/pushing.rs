@@ -1,0 +1,317 @@
+//! Pushing what is said to be rigid.
+//!
+//! Every freedom of every joint is pushed in turn, one way and the other, by a drive with a capped force, from rest at the
+//! home pose. A mechanism that can move yields: in the time given the drive would turn free links a good part of a radian.
+//! One that is rigid stays, but for what the simulated joints give way: a gap that the solver leaves lets a joint move by
+//! as much as the gap over the lever it acts on, and at a shaky pose by the square root of it.
+
+use super::ladder::{Finding, Outcome};
+use super::observer::{Moment, Observer, Passage};
+use super::{Drive, Solver, VerificationError, World, WorldOptions};
+use crate::closure::{Geometry, JointState};
+use crate::mechanism::{FreedomPart, Mechanism};
+use serde::Serialize;
+
+/// Seconds that a push lasts.
+const DURATION: f64 = 0.5;
+
+/// Rate that the drive goes for (rad/s, characteristic lengths per s).
+const RATE: f64 = 1.0;
+
+/// Largest torque, in moments of inertia of the whole mechanism (mass × length²) per s²: enough to bring it to speed in
+/// a fifth of the time if it can move at all.
+const EFFORT: f64 = 10.0;
+
+/// A joint that has moved by less than this (rad, characteristic lengths) has stayed. Free ones go ten times as far.
+pub const STAYED: f64 = 0.03;
+
+/// A joint that goes this far with all gaps below [`TIGHT`] is free: even where gaps hold it by their fourth root only,
+/// as at the flattest isolated poses known, it would have to open them by 0.2⁴ to go so far.
+const WENT_FREELY: f64 = 0.2;
+
+/// Gaps (characteristic lengths, rad) that explain no motion of [`WENT_FREELY`].
+const TIGHT: f64 = 1e-5;
+
+/// Moments of a push that an observer sees.
+const MOMENTS: usize = 12;
+
+/// All pushes at one number of substeps.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PushRung {
+    /// Substeps per step.
+    pub substeps: usize,
+    /// The push that moved something farthest: name of the freedom pushed, with the sign of the way.
+    pub farthest: String,
+    /// How far any joint moved then (rad, characteristic lengths).
+    pub moved: f64,
+    /// Largest gap of any joint in that push (characteristic lengths, rad).
+    pub closure_error: f64,
+    /// Pushes made.
+    pub pushes: usize,
+    /// Seconds on the clock.
+    #[serde(skip)]
+    pub wall_time: f64,
+}
+
+/// What pushing every joint came to.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Pushing {
+    /// The ladder of substeps, coarse to fine.
+    pub rungs: Vec<PushRung>,
+    /// What follows.
+    pub finding: Finding,
+    /// Whether an observer broke it off.
+    pub stopped: bool,
+}
+
+/// What is pushed: where, with which settings.
+pub(super) struct Pushed<'a> {
+    pub mechanism: &'a Mechanism,
+    pub geometry: &'a Geometry<f64>,
+    pub states: &'a [JointState<f64>],
+    pub solver: Solver,
+    pub time_step: f64,
+    pub ladder: &'a [usize],
+    /// Characteristic length (m).
+    pub length: f64,
+}
+
+/// How one push went.
+struct Push {
+    moved: f64,
+    closure_error: f64,
+    stopped: bool,
+}
+
+impl Pushed<'_> {
+    /// Pushes every freedom both ways, at finer and finer substeps until everything stays.
+    ///
+    /// # Errors
+    /// Where no world can be made, or it diverges.
+    pub fn push_all(&self, observer: &mut dyn Observer) -> Result<Pushing, VerificationError> {
+        let mut rungs: Vec<PushRung> = Vec::new();
+        for &substeps in self.ladder {
+            let begun = std::time::Instant::now();
+            let mut rung = PushRung {
+                substeps,
+                farthest: String::new(),
+                moved: 0.0,
+                closure_error: 0.0,
+                pushes: 0,
+                wall_time: 0.0,
+            };
+            for (joint, definition) in self.mechanism.joints().iter().enumerate() {
+                for freedom in 0..definition.freedom() {
+                    for (sign, way) in [(1.0, '+'), (-1.0, '−')] {
+                        let title = format!("{way}{}", definition.freedom_name(freedom));
+                        let push = self.push(joint, freedom, sign, substeps, &title, observer)?;
+                        rung.pushes += 1;
+                        // What is not a number must not pass for small.
+                        if !(push.moved <= rung.moved) || rung.pushes == 1 {
+                            rung.moved = push.moved;
+                            rung.closure_error = push.closure_error;
+                            rung.farthest = title;
+                        }
+                        if push.stopped {
+                            rung.wall_time = begun.elapsed().as_secs_f64();
+                            rungs.push(rung);
+                            return Ok(Pushing {
+                                rungs,
+                                finding: Finding::new(
+                                    Outcome::Inconclusive,
+                                    "broken off before every joint was pushed",
+                                ),
+                                stopped: true,
+                            });
+                        }
+                    }
+                }
+            }
+            rung.wall_time = begun.elapsed().as_secs_f64();
+            rungs.push(rung);
+            if let Some(finding) = judge_pushing(&rungs) {
+                return Ok(Pushing {
+                    rungs,
+                    finding,
+                    stopped: false,
+                });
+            }
+        }
+        let finding = gave_way(&rungs);
+        Ok(Pushing {
+            rungs,
+            finding,
+            stopped: false,
+        })
+    }
+
+    fn push(
+        &self,
+        joint: usize,
+        freedom: usize,
+        sign: f64,
+        substeps: usize,
+        title: &str,
+        observer: &mut dyn Observer,
+    ) -> Result<Push, VerificationError> {
+        let options = WorldOptions {
+            solver: self.solver,
+            time_step: self.time_step,
+            substeps,
+            ..WorldOptions::default()
+        };
+        let mut world = World::new(self.mechanism, self.geometry, self.states, &options)?;
+        let (_, effort) = world.scale();
+        // A force on a slider does the work of a torque on a lever of the characteristic length.
+        let unit = match self.mechanism.joints()[joint].kind.freedoms()[freedom] {
+            FreedomPart::Translation => self.length,
+            FreedomPart::Rotation | FreedomPart::Screw => 1.0,
+        };
+        world.drive(Drive {
+            joint,
+            freedom,
+            velocity: sign * RATE * unit,
+            largest_force: EFFORT * effort / unit,
+        })?;
+        let mut push = Push {
+            moved: 0.0,
+            closure_error: 0.0,
+            stopped: false,
+        };
+        push.stopped = observer
+            .begin(&Passage {
+                title: format!("push {title}"),
+                driven: Some(joint),
+                substeps,
+                duration: DURATION,
+            })
+            .is_break();
+        let home = world.link_poses();
+        let steps = (DURATION / self.time_step).ceil().max(1.0) as usize;
+        let every = steps.div_ceil(MOMENTS);
+        for step in 1..=steps {
+            if push.stopped {
+                break;
+            }
+            world.step()?;
+            if step % every != 0 && step != steps {
+                continue;
+            }
+            let gaps = world.gaps();
+            let states = world.states(self.states);
+            let closure_error = super::largest_gap(&gaps, self.length);
+            let moved = self.moved(&states);
+            for (most, now) in [
+                (&mut push.moved, moved),
+                (&mut push.closure_error, closure_error),
+            ] {
+                if !(now <= *most) {
+                    *most = now;
+                }
+            }
+            push.stopped = observer
+                .moment(&Moment {
+                    time: world.time(),
+                    done: step as f64 / steps as f64,
+                    simulated: &world.link_poses(),
+                    states: &states,
+                    predicted: &home,
+                    predicted_states: self.states,
+                    gaps: &gaps,
+                    closure_error,
+                    distance: moved,
+                })
+                .is_break();
+        }
+        Ok(push)
+    }
+
+    /// How far any joint is from where it started (rad, characteristic lengths).
+    fn moved(&self, states: &[JointState<f64>]) -> f64 {
+        let mut largest: f64 = 0.0;
+        let joints = self.mechanism.joints().iter().zip(states).enumerate();
+        for (index, (joint, state)) in joints {
+            let increments =
+                self.geometry.displacements[index].increments(&self.states[index], state);
+            for (part, increment) in joint.kind.freedoms().iter().zip(increments) {
+                let way = match part {
+                    FreedomPart::Translation => increment.abs() / self.length,
+                    FreedomPart::Rotation | FreedomPart::Screw => increment.abs(),
+                };
+                if !(way <= largest) {
+                    largest = way;
+                }
+            }
+        }
+        largest
+    }
+}
+
+/// Judges the rungs so far; `None` where finer substeps may still decide.
+#[must_use]
+pub fn judge_pushing(rungs: &[PushRung]) -> Option<Finding> {
+    let last = rungs.last()?;
+    if last.moved <= STAYED {
+        return Some(Finding::new(
+            Outcome::Confirmed,
+            match last.pushes {
+                0 => "there is no joint that could be pushed".to_owned(),
+                pushes => format!(
+                    "in {pushes} pushes, every freedom of every joint both ways, nothing moved by \
+                     more than {:.1e} ({})",
+                    last.moved, last.farthest
+                ),
+            },
+        ));
+    }
+    if last.moved >= WENT_FREELY && last.closure_error <= TIGHT {
+        return Some(Finding::new(
+            Outcome::Contradicted,
+            format!(
+                "pushed at {}, it moved by {:.2} with all gaps below {:.1e}",
+                last.farthest, last.moved, last.closure_error
+            ),
+        ));
+    }
+    None
+}
+
+/// The sentence for pushes that moved something at every number of substeps.
+fn gave_way(rungs: &[PushRung]) -> Finding {
+    let why = rungs.last().map_or("nothing was pushed".to_owned(), |last| {
+        format!(
+            "pushed at {}, it moved by {:.2e} while its joints gave way by {:.1e}: the simulation is \
+             too soft, or the loops too close to fitting, to tell",
+            last.farthest, last.moved, last.closure_error
+        )
+    });
+    Finding::new(Outcome::Inconclusive, why)
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn rung(moved: f64, closure_error: f64) -> PushRung {
+        PushRung {
+            substeps: 4,
+            farthest: "+crank".to_owned(),
+            moved,
+            closure_error,
+            pushes: 8,
+            wall_time: 0.0,
+        }
+    }
+
+    #[test]
+    fn what_stays_is_rigid_and_what_runs_free_is_not() {
+        let of = |moved, error| judge_pushing(&[rung(moved, error)]).map(|f| f.outcome);
+        assert_eq!(of(1e-4, 1e-5), Some(Outcome::Confirmed));
+        assert_eq!(of(0.4, 1e-7), Some(Outcome::Contradicted));
+        assert_eq!(of(0.4, 1e-3), None);
+        assert_eq!(of(0.1, 1e-7), None);
+        assert_eq!(of(f64::NAN, 1e-7), None);
+        assert_eq!(gave_way(&[rung(0.4, 1e-3)]).outcome, Outcome::Inconclusive);
+    }
+}

@@ -1,0 +1,464 @@
+//! What a simulation says about a prediction.
+//!
+//! A prediction that something moves is put to the test branch by branch. The world starts at rest at a pose of the branch
+//! that is not singular, one joint is driven along it by a motor of limited torque, the other inputs are held, and the
+//! same is done over with finer and finer substeps until the ladder of errors decides ([`super::judge_motion`]). At a
+//! generic pose blows at random count the freedoms ([`super::count_freedoms`]). A prediction that nothing moves is put to
+//! the test by pushing every joint ([`super::Pushing`]). What is undecided or does not assemble is not simulated.
+//!
+//! None of it is a proof: it is evidence from physics that knows nothing of the analysis, and it is stated with the size
+//! of the defect that it could have missed.
+
+use super::driven_way::{DrivenWay, way_along};
+use super::ladder::{Finding, Outcome, Rung, judge_motion, order_between, undecided};
+use super::observer::{Moment, Observer, Passage};
+use super::prediction::Prediction;
+use super::pushing::{Pushed, Pushing};
+use super::{
+    Drive, FreedomCount, JointGap, Solver, VerificationError, World, WorldOptions, count_freedoms,
+};
+use crate::closure::{Geometry, JointState};
+use crate::mechanism::{FreedomPart, Mechanism};
+use crate::mobility::{Analysis, Branch, Verdict};
+use serde::Serialize;
+
+/// How to verify.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VerificationOptions {
+    /// Only this branch; all if `None`.
+    pub branch: Option<String>,
+    /// How trees are held.
+    pub solver: Solver,
+    /// Length of a step (s).
+    pub time_step: f64,
+    /// Substeps of a step, ascending: the rungs.
+    pub ladder: Vec<usize>,
+    /// Seed of the blows that count freedoms.
+    pub seed: u64,
+    /// Whether to go on to the end of the ladder after it has decided.
+    pub whole_ladder: bool,
+}
+
+impl Default for VerificationOptions {
+    /// Steps of 1/60 s with 4 to 256 substeps, tree as multibody, up to the rung that decides.
+    fn default() -> Self {
+        Self {
+            branch: None,
+            solver: Solver::Multibody,
+            time_step: 1.0 / 60.0,
+            ladder: vec![4, 8, 16, 32, 64, 128, 256],
+            seed: 1,
+            whole_ladder: false,
+        }
+    }
+}
+
+/// What simulation says about one branch.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BranchVerification {
+    /// The branch's name.
+    pub branch: String,
+    /// Its predicted dimension.
+    pub dimension: usize,
+    /// Name of the freedom that is driven.
+    pub driven: String,
+    /// Where the drive starts and where it goes (rad, m).
+    pub from: f64,
+    /// See [`Self::from`].
+    pub to: f64,
+    /// Names of the freedoms that are held.
+    pub held: Vec<String>,
+    /// Why the way is no longer.
+    pub ends: String,
+    /// Largest torque or force of the drive (N m, N).
+    pub largest_force: f64,
+    /// The ladder, coarse to fine.
+    pub rungs: Vec<Rung>,
+    /// What it says.
+    pub finding: Finding,
+    /// The freedoms counted at a generic pose; `None` where none was at hand.
+    pub freedoms: Option<FreedomCount>,
+}
+
+/// What simulation says about the whole prediction.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Verification {
+    /// What was predicted.
+    pub verdict: Verdict,
+    /// The branches simulated.
+    pub branches: Vec<BranchVerification>,
+    /// The pushes, where rigidity was predicted.
+    pub pushing: Option<Pushing>,
+    /// The outcome.
+    pub finding: Finding,
+    /// Whether an observer broke it off.
+    pub stopped: bool,
+    /// What a reader has to know of how the worlds were made.
+    pub notes: Vec<String>,
+}
+
+/// Largest rate of a drive (rad/s, characteristic lengths per second).
+const RATE: f64 = 1.0;
+
+/// Largest torque of a drive, in moments of inertia of the whole mechanism (mass × length²) per s². A mechanism of its own
+/// size and mass comes to speed in a tenth of a second.
+const EFFORT: f64 = 30.0;
+
+/// A drive comes to its rate over this time (s), smoothly: a jerk would excite the give of the joints.
+const START_UP: f64 = 0.25;
+
+/// Beyond the time that the way takes at full rate, a drive gets this much longer before it counts as stalled.
+const PATIENCE: f64 = 1.5;
+
+/// So many moments of a passage are measured and shown.
+const MOMENTS: usize = 240;
+
+/// The largest gap: distances in characteristic lengths, angles in rad.
+#[must_use]
+pub fn largest_gap(gaps: &[JointGap], length: f64) -> f64 {
+    gaps.iter().fold(0.0, |largest: f64, gap| {
+        let here = (gap.position / length).max(gap.angle);
+        // What is not a number must not pass for small.
+        if here <= largest { largest } else { here }
+    })
+}
+
+/// Puts a prediction to the test.
+///
+/// # Errors
+/// [`VerificationError`] where no world can be made, or a branch asked for does not exist.
+pub fn verify(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    analysis: &Analysis,
+    options: &VerificationOptions,
+    observer: &mut dyn Observer,
+) -> Result<Verification, VerificationError> {
+    let mut verification = Verification {
+        verdict: analysis.mobility.verdict,
+        branches: Vec::new(),
+        pushing: None,
+        finding: Finding::new(Outcome::Inconclusive, String::new()),
+        stopped: false,
+        notes: Vec::new(),
+    };
+    let length = super::mechanism_length(mechanism, geometry, &analysis.assembly.states);
+    match analysis.mobility.verdict {
+        Verdict::Unassembled => {
+            verification.finding.why = "it does not assemble: there is no pose to simulate".into();
+        }
+        Verdict::Undecided => {
+            verification.finding.why = "the mobility is undecided: nothing is predicted".into();
+        }
+        Verdict::Rigid => {
+            let pushed = Pushed {
+                mechanism,
+                geometry,
+                states: &analysis.assembly.states,
+                solver: options.solver,
+                time_step: options.time_step,
+                ladder: &options.ladder,
+                length,
+            };
+            let pushing = pushed.push_all(observer)?;
+            verification.finding = Finding::new(
+                pushing.finding.outcome,
+                format!("predicted rigid: {}", pushing.finding.why),
+            );
+            verification.stopped = pushing.stopped;
+            verification.pushing = Some(pushing);
+        }
+        Verdict::Mobile => {
+            let branches = analysis.branches.as_deref().unwrap_or_default();
+            let chosen = chosen(branches, options.branch.as_deref())?;
+            let test = Test {
+                mechanism,
+                geometry,
+                analysis,
+                options,
+                length,
+            };
+            for branch in chosen {
+                let found = test.branch(branch, observer)?;
+                verification.branches.push(found.0);
+                if found.1 {
+                    verification.stopped = true;
+                    break;
+                }
+            }
+            verification.finding = together(&verification.branches, verification.stopped);
+        }
+    }
+    let world = World::new(
+        mechanism,
+        geometry,
+        &analysis.assembly.states,
+        &WorldOptions {
+            solver: options.solver,
+            time_step: options.time_step,
+            substeps: options.ladder.first().copied().unwrap_or(1),
+            ..WorldOptions::default()
+        },
+    );
+    if let (Ok(world), true) = (world, analysis.assembly.closed) {
+        verification
+            .notes
+            .extend(world.notes().iter().map(ToString::to_string));
+    }
+    Ok(verification)
+}
+
+fn chosen<'a>(
+    branches: &'a [Branch],
+    name: Option<&str>,
+) -> Result<Vec<&'a Branch>, VerificationError> {
+    let Some(name) = name else {
+        return Ok(branches.iter().collect());
+    };
+    match branches.iter().find(|b| b.name == name) {
+        Some(branch) => Ok(vec![branch]),
+        None => Err(VerificationError::UnknownBranch {
+            name: name.to_owned(),
+            known: branches
+                .iter()
+                .map(|b| b.name.as_str())
+                .collect::<Vec<_>>()
+                .join(", "),
+        }),
+    }
+}
+
+/// The outcome of all branches: confirmed only where each is, its motion and its count of freedoms.
+fn together(branches: &[BranchVerification], stopped: bool) -> Finding {
+    let findings = || {
+        branches.iter().flat_map(|branch| {
+            std::iter::once((branch, &branch.finding)).chain(
+                branch
+                    .freedoms
+                    .iter()
+                    .map(move |count| (branch, &count.finding)),
+            )
+        })
+    };
+    for outcome in [Outcome::Contradicted, Outcome::Inconclusive] {
+        if let Some((branch, finding)) = findings().find(|(_, f)| f.outcome == outcome) {
+            return Finding::new(
+                outcome,
+                format!("branch {}: {}", branch.branch, finding.why),
+            );
+        }
+    }
+    match branches {
+        _ if stopped => Finding::new(Outcome::Inconclusive, "broken off before the end"),
+        [] => Finding::new(
+            Outcome::Inconclusive,
+            "the branches through the pose are not listed: none was simulated",
+        ),
+        [only] => Finding::new(Outcome::Confirmed, only.finding.why.clone()),
+        several => Finding::new(
+            Outcome::Confirmed,
+            format!("each of the {} branches was followed", several.len()),
+        ),
+    }
+}
+
+struct Test<'a> {
+    mechanism: &'a Mechanism,
+    geometry: &'a Geometry<f64>,
+    analysis: &'a Analysis,
+    options: &'a VerificationOptions,
+    length: f64,
+}
+
+impl Test<'_> {
+    fn branch(
+        &self,
+        branch: &Branch,
+        observer: &mut dyn Observer,
+    ) -> Result<(BranchVerification, bool), VerificationError> {
+        let mut found = BranchVerification {
+            branch: branch.name.clone(),
+            dimension: branch.dimension,
+            driven: String::new(),
+            from: 0.0,
+            to: 0.0,
+            held: Vec::new(),
+            ends: String::new(),
+            largest_force: 0.0,
+            rungs: Vec::new(),
+            finding: Finding::new(Outcome::Inconclusive, String::new()),
+            freedoms: None,
+        };
+        let way = match way_along(self.mechanism, self.geometry, self.analysis, branch) {
+            Ok(way) => way,
+            Err(why) => {
+                found.finding.why = why;
+                return Ok((found, false));
+            }
+        };
+        let name = |(joint, freedom): &(usize, usize)| {
+            self.mechanism.joints()[*joint].freedom_name(*freedom)
+        };
+        found.driven = name(&way.driven);
+        found.from = way.from;
+        found.to = way.to;
+        found.held = way.held.iter().map(name).collect();
+        found.ends = way.ends.clone();
+        let mut decided = None;
+        for &substeps in &self.options.ladder {
+            let mut climb = self.climb(&way, branch, substeps, observer)?;
+            found.largest_force = climb.largest_force;
+            climb.rung.order = found.rungs.last().and_then(|before| {
+                order_between(
+                    (before.substeps, before.closure_error),
+                    (climb.rung.substeps, climb.rung.closure_error),
+                )
+            });
+            found.rungs.push(climb.rung);
+            if climb.stopped {
+                found.finding.why = "broken off".to_owned();
+                return Ok((found, true));
+            }
+            decided = decided.or_else(|| judge_motion(&found.rungs));
+            if decided.is_some() && !self.options.whole_ladder {
+                break;
+            }
+        }
+        found.finding = decided.unwrap_or_else(|| undecided(&found.rungs));
+        if let (Some(pose), Some(expected)) = (branch.poses.first(), branch.instantaneous) {
+            found.freedoms = Some(count_freedoms(
+                self.mechanism,
+                self.geometry,
+                &pose.states,
+                expected,
+                self.options.seed,
+            )?);
+        }
+        Ok((found, false))
+    }
+
+    /// Goes the way once.
+    fn climb(
+        &self,
+        way: &DrivenWay,
+        branch: &Branch,
+        substeps: usize,
+        observer: &mut dyn Observer,
+    ) -> Result<Climb, VerificationError> {
+        let begun = std::time::Instant::now();
+        let options = WorldOptions {
+            solver: self.options.solver,
+            time_step: self.options.time_step,
+            substeps,
+            ..WorldOptions::default()
+        };
+        let mut world = World::new(self.mechanism, self.geometry, &way.start, &options)?;
+        let (_, effort) = world.scale();
+        let unit = |(joint, freedom): (usize, usize)| match self.mechanism.joints()[joint]
+            .kind
+            .freedoms()[freedom]
+        {
+            FreedomPart::Translation => self.length,
+            FreedomPart::Rotation | FreedomPart::Screw => 1.0,
+        };
+        let drive = |world: &mut World, input: (usize, usize), velocity: f64| {
+            world.drive(Drive {
+                joint: input.0,
+                freedom: input.1,
+                velocity: velocity * unit(input),
+                largest_force: EFFORT * effort / unit(input),
+            })
+        };
+        for &held in &way.held {
+            drive(&mut world, held, 0.0)?;
+        }
+        let travel = way.to - way.from;
+        let rate = RATE * travel.signum();
+        let full = travel.abs() / (RATE * unit(way.driven));
+        let duration = full + 0.5 * START_UP;
+        let mut climb = Climb {
+            rung: Rung {
+                substeps,
+                closure_error: 0.0,
+                distance: 0.0,
+                progress: 0.0,
+                order: None,
+                wall_time: 0.0,
+            },
+            largest_force: EFFORT * effort / unit(way.driven),
+            stopped: observer
+                .begin(&Passage {
+                    title: format!(
+                        "branch {}, {substeps} substeps",
+                        branch.name
+                    ),
+                    driven: Some(way.driven.0),
+                    substeps,
+                    duration,
+                })
+                .is_break(),
+        };
+        let mut prediction = Prediction::new(
+            self.mechanism,
+            self.geometry,
+            &self.analysis.structure,
+            &way.start,
+            way.loop_freedom,
+            self.length,
+        )?;
+        let mut states = way.start.clone();
+        let steps = (PATIENCE * duration / self.options.time_step).ceil() as usize;
+        let every = ((duration / self.options.time_step) as usize / MOMENTS).max(1);
+        for step in 1..=steps {
+            if climb.stopped || climb.rung.progress >= 1.0 {
+                break;
+            }
+            let ramp = ((world.time() + self.options.time_step) / START_UP).min(1.0);
+            let smooth = ramp * ramp * (3.0 - 2.0 * ramp);
+            drive(&mut world, way.driven, rate * smooth)?;
+            if world.step().is_err() {
+                climb.rung.closure_error = f64::NAN;
+                break;
+            }
+            if step % every != 0 {
+                continue;
+            }
+            states = world.states(&states);
+            prediction.follow(&states)?;
+            let poses = world.link_poses();
+            let gaps = world.gaps();
+            let closure_error = largest_gap(&gaps, self.length);
+            let distance = prediction.distance(&poses);
+            climb.rung.progress = way.progress(&states);
+            for (most, now) in [
+                (&mut climb.rung.closure_error, closure_error),
+                (&mut climb.rung.distance, distance),
+            ] {
+                if !(now <= *most) {
+                    *most = now;
+                }
+            }
+            climb.stopped = observer
+                .moment(&Moment {
+                    time: world.time(),
+                    done: climb.rung.progress.clamp(0.0, 1.0),
+                    simulated: &poses,
+                    states: &states,
+                    predicted: prediction.poses(),
+                    predicted_states: prediction.states(),
+                    gaps: &gaps,
+                    closure_error,
+                    distance,
+                })
+                .is_break();
+        }
+        climb.rung.wall_time = begun.elapsed().as_secs_f64();
+        Ok(climb)
+    }
+}
+
+struct Climb {
+    rung: Rung,
+    largest_force: f64,
+    stopped: bool,
+}
