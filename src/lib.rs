@@ -23,6 +23,7 @@ pub mod mechanism;
 pub mod mobility;
 pub mod number;
 pub mod report;
+pub mod simulate;
 
 /// The README's example is compiled and run with the documentation tests.
 #[cfg(doctest)]

@@ -1,0 +1,476 @@
+//! From a mechanism to the engine's bodies and joints.
+
+use super::WorldError;
+use super::convert::computable;
+use super::effects;
+use super::elementary::{Elementary, Handle, TakenApart, axes};
+use super::forest::{Branch, Forest};
+use super::inertia::{self, Mass};
+use super::options::{Note, Pieces, Solver, WorldOptions};
+use super::units::Units;
+use crate::closure::{
+    Geometry, JointState, PlacedScrew, Rigid, Uncertainty, characteristic_length, spanning_poses,
+};
+use crate::mechanism::Mechanism;
+use rapier3d_f64::prelude::{
+    GenericJoint, ImpulseJointHandle, JointAxesMask, MultibodyDofCoupling, MultibodyJointHandle,
+    PhysicsWorld, Pose, RigidBodyBuilder, RigidBodyHandle, SpringCoefficients,
+};
+
+/// What was built: handles into the engine, and what has to be remembered.
+#[derive(Debug, Default)]
+pub(super) struct Built {
+    /// The engine's body of every link and intermediate body.
+    pub bodies: Vec<RigidBodyHandle>,
+    /// `link_from_body`: a body's origin is its centre of mass.
+    pub offsets: Vec<Rigid<f64>>,
+    /// `None` for the ground.
+    pub masses: Vec<Option<Mass>>,
+    /// By joint and freedom.
+    pub handles: Vec<Vec<Handle>>,
+    pub pieces: Pieces,
+    pub notes: Vec<Note>,
+    pub not_simulated: Vec<String>,
+    pub hooks: effects::ApartHooks,
+    /// By elementary joint.
+    pub held: Vec<Option<Held>>,
+    /// For every intermediate body, a link that it connects.
+    near: Vec<usize>,
+}
+
+/// How an elementary joint came to be held.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Held {
+    /// By reduced coordinates; its coordinates count backwards where the second body is the parent.
+    Multibody {
+        handle: MultibodyJointHandle,
+        backwards: bool,
+    },
+    /// By impulses.
+    Impulse(ImpulseJointHandle),
+}
+
+impl Built {
+    /// The joint's two frames in the engine's bodies.
+    pub fn frames(&self, units: &Units, bodies: [usize; 2], frames: &[Rigid<f64>; 2]) -> [Pose; 2] {
+        [0, 1].map(|i| {
+            let body_from_link = self.offsets[bodies[i]].inverse();
+            units.pose(&body_from_link.compose(&frames[i]))
+        })
+    }
+
+    /// A link by which to name a body.
+    pub fn link_near(&self, body: usize, links: usize) -> usize {
+        match body.checked_sub(links) {
+            Some(intermediate) => self.near.get(intermediate).copied().unwrap_or(0),
+            None => body,
+        }
+    }
+
+    pub fn step(&self, physics: &mut PhysicsWorld) {
+        physics.step_with_events(&self.hooks, &());
+    }
+
+    pub fn note(&mut self, about: &str, text: impl Into<String>) {
+        self.notes.push(Note {
+            about: about.to_owned(),
+            text: text.into(),
+        });
+    }
+}
+
+/// Natural frequency of the springs that hold impulse joints (Hz). A substep corrects the share
+/// 1 − 1/(1 + ω h/2) of an error, so that from 1e6 Hz on it corrects all of it at any step in use.
+const SPRING_FREQUENCY: f64 = 1e6;
+
+/// Every world of this module is made here.
+pub(super) fn build(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    states: &[JointState<f64>],
+    options: &WorldOptions,
+) -> Result<(PhysicsWorld, Units, Built), WorldError> {
+    options.check()?;
+    let joints = mechanism.joints();
+    if states.len() != joints.len() {
+        return Err(WorldError::States {
+            wanted: joints.len(),
+            given: states.len(),
+        });
+    }
+    check_joints(mechanism, geometry, states)?;
+    let (poses, _) = spanning_poses(mechanism, geometry, states);
+    for (link, pose) in mechanism.links().iter().zip(&poses) {
+        if !computable(pose) {
+            return Err(WorldError::NotFinite {
+                what: "the pose",
+                name: link.name.clone(),
+            });
+        }
+    }
+    let length = size_of(mechanism, geometry, states, &poses);
+    let mut built = Built::default();
+    built.masses = inertia::of_links(mechanism, geometry, length, &mut built.notes);
+    let mut apart = TakenApart::new(mechanism, geometry, states, &poses);
+    let names = body_names(mechanism, &apart);
+    let joint_names = elementary_names(mechanism, &apart.joints);
+    let mut forest = Forest::grow(
+        mechanism.ground().0,
+        &names,
+        mechanism.links().len(),
+        &apart.joints,
+        &joint_names,
+    )?;
+    weld_chord_screws(&mut apart, &mut forest, &poses);
+    built.handles = std::mem::take(&mut apart.handles);
+
+    let units = Units {
+        length,
+        mass: typical_mass(&built.masses),
+    };
+    let mut physics = PhysicsWorld::new();
+    parameters(&mut physics, options, &units);
+    let mut builder = Builder {
+        mechanism,
+        options,
+        units,
+        apart,
+        poses,
+        physics,
+        built,
+    };
+    builder.bodies();
+    builder.hold(&forest)?;
+    effects::couplings(
+        mechanism,
+        &forest,
+        &builder.apart,
+        &mut builder.built,
+        &mut builder.physics,
+        &units,
+    );
+    let Builder {
+        apart,
+        mut physics,
+        mut built,
+        ..
+    } = builder;
+    effects::add(
+        mechanism,
+        states,
+        options,
+        &apart,
+        &units,
+        &mut built,
+        &mut physics,
+    );
+    built.pieces.bodies = physics.bodies.len();
+    built.pieces.impulse_joints = forest_impulses(&built);
+    Ok((physics, units, built))
+}
+
+fn forest_impulses(built: &Built) -> usize {
+    let held = built.held.iter().flatten();
+    held.filter(|held| matches!(held, Held::Impulse(_))).count()
+}
+
+fn check_joints(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    states: &[JointState<f64>],
+) -> Result<(), WorldError> {
+    for (index, (joint, state)) in mechanism.joints().iter().zip(states).enumerate() {
+        let displacement = &geometry.displacements[index];
+        let sound = geometry.sides[index].iter().all(computable)
+            && state.values.len() == joint.freedom()
+            && state.values.iter().all(|x| x.abs() < 1e100)
+            && computable(&displacement.displacement(state))
+            && displacement.axis().iter().all(|x| x.is_finite())
+            && displacement.second_axis().iter().all(|x| x.is_finite());
+        if !sound {
+            return Err(WorldError::NotFinite {
+                what: "the start pose",
+                name: joint.name.clone(),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// The characteristic length of the mechanism at the start (m).
+fn size_of(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    states: &[JointState<f64>],
+    poses: &[Rigid<f64>],
+) -> f64 {
+    let screws: Vec<PlacedScrew<f64>> = mechanism
+        .joints()
+        .iter()
+        .enumerate()
+        .flat_map(|(index, joint)| {
+            let frame = poses[joint.predecessor.link.0].compose(&geometry.sides[index][0]);
+            let screws = geometry.displacements[index].screws(&states[index]);
+            screws.into_iter().map(move |screw| screw.moved(&frame))
+        })
+        .collect();
+    let (_, length) = characteristic_length(
+        screws.iter(),
+        geometry.size,
+        geometry.least_length(),
+        &Uncertainty::default(),
+    );
+    if length > 1e-50 && length < 1e50 {
+        length
+    } else {
+        1.0
+    }
+}
+
+/// The geometric mean of all masses (kg).
+fn typical_mass(masses: &[Option<Mass>]) -> f64 {
+    let logarithms: Vec<f64> = masses.iter().flatten().map(|m| m.mass.ln()).collect();
+    if logarithms.is_empty() {
+        return 1.0;
+    }
+    (logarithms.iter().sum::<f64>() / logarithms.len() as f64).exp()
+}
+
+fn body_names(mechanism: &Mechanism, apart: &TakenApart) -> Vec<String> {
+    let links = mechanism.links().iter().map(|link| link.name.clone());
+    let intermediates = apart
+        .intermediates
+        .iter()
+        .map(|body| mechanism.joints()[body.joint].name.clone());
+    links.chain(intermediates).collect()
+}
+
+/// Joints held by two are told apart by a number behind a character that no name begins with.
+fn elementary_names(mechanism: &Mechanism, joints: &[Elementary]) -> Vec<String> {
+    let mut names: Vec<String> = Vec::with_capacity(joints.len());
+    for (index, joint) in joints.iter().enumerate() {
+        let again = index > 0 && joints[index - 1].joint == joint.joint;
+        let half = if again { "\u{1}2" } else { "" };
+        names.push(format!("{}{half}", mechanism.joints()[joint.joint].name));
+    }
+    names
+}
+
+/// A screw that closes a loop moves a small body instead, which is welded to the second body by impulses.
+fn weld_chord_screws(apart: &mut TakenApart, forest: &mut Forest, poses: &[Rigid<f64>]) {
+    for chord in &mut forest.chords {
+        let screw = apart.joints[*chord].clone();
+        if screw.pitch.is_none() {
+            continue;
+        }
+        let small = poses.len() + apart.intermediates.len();
+        // Both ends of a screw are links: only joints without a screw have intermediate bodies of their own.
+        let pose = poses[screw.bodies[0]].compose(&screw.frames[0]);
+        apart.intermediates.push(super::elementary::Intermediate {
+            joint: screw.joint,
+            pose,
+            length: 0.0,
+            links: screw.bodies,
+        });
+        let here = || Rigid::identity(&0.0);
+        let weld = Elementary {
+            bodies: [small, screw.bodies[1]],
+            frames: [here(), screw.frames[1].clone()],
+            free: 0,
+            pitch: None,
+            ..screw.clone()
+        };
+        forest.branches.push(Branch {
+            joint: *chord,
+            parent: screw.bodies[0],
+            child: small,
+        });
+        apart.joints[*chord] = Elementary {
+            bodies: [screw.bodies[0], small],
+            frames: [screw.frames[0].clone(), here()],
+            ..screw
+        };
+        *chord = apart.joints.len();
+        apart.joints.push(weld);
+    }
+}
+
+fn parameters(physics: &mut PhysicsWorld, options: &WorldOptions, units: &Units) {
+    let parameters = &mut physics.integration_parameters;
+    parameters.dt = options.time_step;
+    parameters.num_solver_iterations = options.substeps;
+    // No cap on speed: nothing here may depend on the step in hidden ways.
+    parameters.normalized_max_linear_velocity = f64::MAX;
+    let gravity = options.effects.gravity.unwrap_or_default();
+    physics.gravity = super::convert::vector(&gravity) / units.length;
+}
+
+struct Builder<'a> {
+    mechanism: &'a Mechanism,
+    options: &'a WorldOptions,
+    units: Units,
+    apart: TakenApart,
+    poses: Vec<Rigid<f64>>,
+    physics: PhysicsWorld,
+    built: Built,
+}
+
+impl Builder<'_> {
+    fn bodies(&mut self) {
+        for intermediate in &self.apart.intermediates {
+            let neighbours = intermediate
+                .links
+                .map(|link| self.built.masses[link].as_ref());
+            let mass = inertia::intermediate(neighbours, intermediate.length);
+            self.built.masses.push(Some(mass));
+            let [a, b] = intermediate.links;
+            let moving = if self.built.masses[a].is_some() { a } else { b };
+            self.built.near.push(moving);
+        }
+        self.built.pieces.intermediate_bodies = self.apart.intermediates.len();
+        let intermediate_poses = self.apart.intermediates.iter().map(|body| &body.pose);
+        for (pose, mass) in self
+            .poses
+            .iter()
+            .chain(intermediate_poses)
+            .zip(&self.built.masses)
+        {
+            let offset = inertia::offset(mass.as_ref());
+            let placed = self.units.pose(&pose.compose(&offset));
+            let body = match mass {
+                Some(mass) => moving(placed, mass, &self.units),
+                None => RigidBodyBuilder::fixed().pose(placed),
+            };
+            self.built.bodies.push(self.physics.bodies.insert(body));
+            self.built.offsets.push(offset);
+        }
+    }
+
+    fn hold(&mut self, forest: &Forest) -> Result<(), WorldError> {
+        self.built.held = vec![None; self.apart.joints.len()];
+        let coupled = !self.mechanism.couplings().is_empty();
+        let reduced = self.options.solver == Solver::Multibody || coupled;
+        if coupled && self.options.solver == Solver::Impulse {
+            self.built.note(
+                self.mechanism.name(),
+                "the tree is held by reduced coordinates, as couplings need them",
+            );
+        }
+        for branch in &forest.branches {
+            if reduced || self.apart.joints[branch.joint].pitch.is_some() {
+                self.reduce(branch, coupled)?;
+            } else {
+                self.pull(branch.joint);
+            }
+        }
+        for &chord in &forest.chords {
+            self.pull(chord);
+        }
+        for multibody in self.multibodies() {
+            if let Some(body) = self.physics.multibody_joints.get_multibody_mut(multibody) {
+                // The root's own freedoms are settled here, before rates are set or damping is cleared.
+                body.forward_kinematics(&self.physics.bodies, true);
+                // The engine damps turns by default; damping is an effect of its own here.
+                body.damping_mut().fill(0.0);
+            }
+        }
+        Ok(())
+    }
+
+    fn multibodies(&self) -> Vec<rapier3d_f64::prelude::MultibodyIndex> {
+        let mut found: Vec<rapier3d_f64::prelude::MultibodyIndex> = Vec::new();
+        for body in self.physics.bodies.iter().map(|(handle, _)| handle) {
+            if let Some(link) = self.physics.multibody_joints.rigid_body_link(body)
+                && link.id == 0
+            {
+                found.push(link.multibody);
+            }
+        }
+        found
+    }
+
+    /// The body that a joint's parent side is fixed to. Every subtree of the ground gets a fixed body of its own, so that
+    /// it becomes a multibody of its own: the engine factors a dense mass matrix for each.
+    fn parent_body(&mut self, parent: usize, shared: bool) -> RigidBodyHandle {
+        let handle = self.built.bodies[parent];
+        if self.built.masses[parent].is_some() || shared {
+            return handle;
+        }
+        let placed = self.units.pose(&self.poses[parent]);
+        self.physics
+            .bodies
+            .insert(RigidBodyBuilder::fixed().pose(placed))
+    }
+
+    fn reduce(&mut self, branch: &Branch, shared: bool) -> Result<(), WorldError> {
+        let joint = self.apart.joints[branch.joint].clone();
+        let backwards = joint.bodies[0] != branch.parent;
+        let [a, b] = self.built.frames(&self.units, joint.bodies, &joint.frames);
+        let (near, far) = if backwards { (b, a) } else { (a, b) };
+        let data = generic(joint.free, near, far);
+        let parent = self.parent_body(branch.parent, shared);
+        let child = self.built.bodies[branch.child];
+        let handle = self
+            .physics
+            .multibody_joints
+            .insert(parent, child, data, true)
+            .ok_or_else(|| {
+                WorldError::Refused(self.mechanism.joints()[joint.joint].name.clone())
+            })?;
+        self.built.pieces.multibody_joints += 1;
+        self.built.held[branch.joint] = Some(Held::Multibody { handle, backwards });
+        if let Some(pitch) = joint.pitch {
+            self.tie_travel(handle, &joint, pitch / self.units.length);
+        }
+        Ok(())
+    }
+
+    /// Travel along x = pitch × turn about x; the same seen from either side.
+    fn tie_travel(&mut self, handle: MultibodyJointHandle, joint: &Elementary, pitch: f64) {
+        if let Some((multibody, link)) = self.physics.multibody_joints.get_mut(handle) {
+            let turn = (joint.free & axes::TRANSLATIONS).count_ones() as usize;
+            multibody.add_dof_coupling(MultibodyDofCoupling {
+                link1: link,
+                dof1: turn,
+                axis1: 3,
+                link2: link,
+                dof2: 0,
+                axis2: 0,
+                coeff: pitch,
+                offset: 0.0,
+            });
+            self.built.pieces.couplings += 1;
+        }
+    }
+
+    /// Holds a joint by impulses.
+    fn pull(&mut self, index: usize) {
+        let joint = &self.apart.joints[index];
+        let [near, far] = self.built.frames(&self.units, joint.bodies, &joint.frames);
+        let mut data = generic(joint.free, near, far);
+        let _ = data.set_softness(SpringCoefficients::new(SPRING_FREQUENCY, 1.0));
+        let [a, b] = joint.bodies.map(|body| self.built.bodies[body]);
+        let handle = self.physics.impulse_joints.insert(a, b, data, true);
+        self.built.held[index] = Some(Held::Impulse(handle));
+    }
+}
+
+fn moving(placed: Pose, mass: &Mass, units: &Units) -> RigidBodyBuilder {
+    let own = Mass {
+        mass: mass.mass / units.mass,
+        centre: [0.0; 3],
+        inertia: mass.inertia / units.moment(),
+    };
+    RigidBodyBuilder::dynamic()
+        .pose(placed)
+        .additional_mass_properties(own.properties())
+        .can_sleep(false)
+        .allow_fast_rotation(true)
+}
+
+fn generic(free: u8, near: Pose, far: Pose) -> GenericJoint {
+    let locked = JointAxesMask::from_bits_truncate(!free & 0b11_1111);
+    let mut joint = GenericJoint::new(locked);
+    joint.set_local_frame1(near).set_local_frame2(far);
+    joint
+}
