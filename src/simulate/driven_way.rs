@@ -1,6 +1,6 @@
 //! Which way a drive goes along a branch.
 
-use crate::closure::{Geometry, JointState};
+use crate::closure::JointState;
 use crate::mechanism::{FreedomPart, Mechanism};
 use crate::mobility::{Analysis, Branch};
 
@@ -35,13 +35,12 @@ impl DrivenWay {
 /// A way along a branch.
 pub(super) fn way_along(
     mechanism: &Mechanism,
-    _geometry: &Geometry<f64>,
+    length: f64,
     analysis: &Analysis,
     branch: &Branch,
 ) -> Result<DrivenWay, String> {
     let pose = branch.poses.first().ok_or("no pose of it is at hand")?;
     let offsets = mechanism.variable_offsets();
-    let length = super::mechanism_length(mechanism, _geometry, &pose.states);
     let mut rows: Vec<((usize, usize), Vec<f64>)> = Vec::new();
     for (index, joint) in mechanism.joints().iter().enumerate() {
         for (freedom, part) in joint.kind.freedoms().iter().enumerate() {

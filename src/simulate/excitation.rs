@@ -5,32 +5,41 @@
 //! the tangent space of the configuration space there, and its rank the number of freedoms. Nothing of the prediction goes
 //! into the count but the pose.
 //!
-//! A blow is spread over one very short step of many substeps, in which nothing moves noticeably and the solver comes to
-//! the velocities that fit all joints.
+//! A blow is spread over one very short step. In the steps after it, as short, nothing moves noticeably while the solver,
+//! sweep by sweep, comes to the velocities that fit all joints; what still violates them is measured, joint by joint.
 
+use super::scale::LinkInertia;
 use super::{Finding, Outcome, Solver, VerificationError, World, WorldOptions};
-use crate::closure::{Geometry, JointState, Rigid};
+use crate::closure::{Geometry, JointState, Rigid, cross_product, spanning_poses};
 use crate::matrix::SplitMix64;
 use crate::mechanism::Mechanism;
 use faer::Mat;
+use nalgebra::Vector3;
 use serde::Serialize;
 
 /// Blows beyond the freedoms expected: so many singular values show what a direction without freedom responds with.
 const SPARE_BLOWS: usize = 4;
 
-/// A step so short (s) that at the speeds a blow gives, about one characteristic length per second, a link goes a
-/// millionth of a length.
-const SHORT: f64 = 1e-6;
+/// A step so short (s) that at the speeds a blow gives, about one characteristic length per second, a link goes some
+/// millionths of a length in [`SETTLING_STEPS`] of them: the tangent space turns by no more. Yet not so short that rounding
+/// in the poses, which the solver corrects within a substep, makes velocities: 1e-16 over a substep of 3e-10 s is 3e-7.
+const SHORT: f64 = 1e-8;
 
-/// Solver iterations of a blow.
-const SUBSTEPS: usize = 64;
+/// Solver iterations of a step.
+const SUBSTEPS: usize = 32;
 
-/// Responses in free directions have to stand out of those in locked ones by this factor. Blows of random direction
-/// through random inertia spread over less than a decade each for a handful of freedoms.
+/// Steps after which velocities that do not settle are given up.
+const SETTLING_STEPS: usize = 200;
+
+/// Velocities have settled when no joint's are off by more than this share of the largest velocity.
+const SETTLED: f64 = 1e-4;
+
+/// Responses in free directions have to stand out of those in locked ones by this factor. The singular values of random
+/// projections spread by about the number of blows over the spare ones, (n + 4)/4.
 const LEAST_GAP: f64 = 30.0;
 
-/// Responses below this share of the largest are the solver's rounding: no freedom is looked for there.
-const ROUNDING: f64 = 1e-10;
+/// Responses below this share of the largest are what has not settled: no freedom is looked for there.
+const ROUNDING: f64 = 0.1 * SETTLED;
 
 /// How many freedoms the simulated mechanism has at a pose.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -67,17 +76,27 @@ pub fn count_freedoms(
         ..WorldOptions::default()
     };
     let blows = expected + SPARE_BLOWS;
+    let joints = JointTwists::at(mechanism, geometry, states);
     let mut random = SplitMix64::new(seed);
     let mut responses = Vec::with_capacity(blows);
     for _ in 0..blows {
         let mut world = World::new(mechanism, geometry, states, &options)?;
         let poses = world.link_poses();
-        let (length, effort) = world.scale();
-        for link in 0..mechanism.links().len() {
-            world.push(link, blow(&mut random, &poses[link], length, effort / SHORT))?;
+        let (length, energy) = world.scale();
+        let bodies = world.link_inertias();
+        for (link, body) in bodies.iter().enumerate() {
+            if let Some(body) = body {
+                world.push(link, blow(&mut random, &poses[link], body, energy))?;
+            }
         }
-        world.step()?;
-        responses.push(response(&world, &poses, length));
+        for _ in 0..SETTLING_STEPS {
+            world.step()?;
+            let (off, largest) = joints.violation(&world.link_twists(), length);
+            if !(off > SETTLED * largest) {
+                break;
+            }
+        }
+        responses.push(response(&world, &poses, &bodies));
     }
     let rows = responses.first().map_or(0, Vec::len);
     let matrix = Mat::from_fn(rows, blows, |row, column| responses[column][row]);
@@ -85,42 +104,124 @@ pub fn count_freedoms(
     Ok(counted(&values, expected, seed))
 }
 
-/// A random wrench on a link: force and moment about the link's own origin of like effect.
-fn blow(random: &mut SplitMix64, pose: &Rigid<f64>, length: f64, effort: f64) -> [f64; 6] {
-    let mut three = || [0; 3].map(|_| random.symmetric());
-    let force = three().map(|x| x * effort / length);
-    let moment = three().map(|x| x * effort);
-    let p = &pose.translation;
-    let arm = crate::closure::cross_product(p, &force);
-    [
-        force[0],
-        force[1],
-        force[2],
-        moment[0] + arm[0],
-        moment[1] + arm[1],
-        moment[2] + arm[2],
-    ]
+/// What twists the joints allow at a pose: for each joint the two links and an orthonormal basis, angular parts in rad/s and
+/// linear ones, about the predecessor's joint frame, in characteristic lengths per second.
+struct JointTwists(Vec<AllowedTwists>);
+
+struct AllowedTwists {
+    links: [usize; 2],
+    about: [f64; 3],
+    screws: Vec<[f64; 6]>,
 }
 
-/// Angular velocities and velocities of the links' own origins in characteristic lengths.
-fn response(world: &World, poses: &[Rigid<f64>], length: f64) -> Vec<f64> {
-    world
-        .link_twists()
-        .iter()
-        .zip(poses)
-        .flat_map(|(twist, pose)| {
-            let [a, b, c, x, y, z] = *twist;
-            let turned = crate::closure::cross_product(&[a, b, c], &pose.translation);
-            [
-                a,
-                b,
-                c,
-                (x + turned[0]) / length,
-                (y + turned[1]) / length,
-                (z + turned[2]) / length,
-            ]
-        })
-        .collect()
+impl JointTwists {
+    fn at(mechanism: &Mechanism, geometry: &Geometry<f64>, states: &[JointState<f64>]) -> Self {
+        let (poses, _) = spanning_poses(mechanism, geometry, states);
+        Self(
+            mechanism
+                .joints()
+                .iter()
+                .enumerate()
+                .map(|(index, joint)| {
+                    let links = [joint.predecessor.link.0, joint.successor.link.0];
+                    let frame = poses[links[0]].compose(&geometry.sides[index][0]);
+                    let about = frame.translation;
+                    let screws = geometry.displacements[index]
+                        .screws(&states[index])
+                        .iter()
+                        .map(|screw| {
+                            let (angular, linear) = screw.moved(&frame).about(&about);
+                            six(angular, linear)
+                        })
+                        .collect();
+                    AllowedTwists {
+                        links,
+                        about,
+                        screws,
+                    }
+                })
+                .collect(),
+        )
+    }
+
+    /// The largest part of a relative velocity that a joint does not allow, and the largest velocity of all.
+    fn violation(&self, twists: &[[f64; 6]], length: f64) -> (f64, f64) {
+        let (mut off, mut largest) = (0.0f64, 0.0f64);
+        for joint in &self.0 {
+            let [predecessor, successor] = joint.links.map(|link| {
+                let [a, b, c, x, y, z] = twists[link];
+                let turned = cross_product(&[a, b, c], &joint.about);
+                [
+                    a,
+                    b,
+                    c,
+                    (x + turned[0]) / length,
+                    (y + turned[1]) / length,
+                    (z + turned[2]) / length,
+                ]
+            });
+            largest = largest.max(size(&predecessor)).max(size(&successor));
+            let mut relative: [f64; 6] = std::array::from_fn(|i| successor[i] - predecessor[i]);
+            let mut basis: Vec<[f64; 6]> = Vec::new();
+            for screw in &joint.screws {
+                let mut screw = *screw;
+                screw[3..].iter_mut().for_each(|x| *x /= length);
+                basis.iter().for_each(|b| remove(&mut screw, b));
+                let norm = size(&screw);
+                if norm > 0.0 {
+                    basis.push(screw.map(|x| x / norm));
+                }
+            }
+            basis.iter().for_each(|b| remove(&mut relative, b));
+            off = off.max(size(&relative));
+        }
+        (off, largest)
+    }
+}
+
+fn six(a: [f64; 3], b: [f64; 3]) -> [f64; 6] {
+    [a[0], a[1], a[2], b[0], b[1], b[2]]
+}
+
+fn size(x: &[f64; 6]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// Takes the part along a unit vector out.
+fn remove(x: &mut [f64; 6], along: &[f64; 6]) {
+    let part: f64 = x.iter().zip(along).map(|(a, b)| a * b).sum();
+    x.iter_mut().zip(along).for_each(|(x, a)| *x -= part * a);
+}
+
+/// A random impulse on a link as a wrench over one step: every component of like energy, whatever the link's inertia.
+fn blow(random: &mut SplitMix64, pose: &Rigid<f64>, body: &LinkInertia, energy: f64) -> [f64; 6] {
+    let mut three = || Vector3::from_fn(|_, _| random.symmetric()) * (energy.sqrt() / SHORT);
+    let force: [f64; 3] = (three() * body.mass.sqrt()).into();
+    let moment: [f64; 3] = (body.root * three()).into();
+    let centre = pose.apply(&body.centre);
+    let about_origin = cross_product(&centre, &force);
+    let moment = pose.rotate(&moment);
+    six(
+        force,
+        std::array::from_fn(|i| moment[i] + about_origin[i]),
+    )
+}
+
+/// Velocities, each weighted by the root of its inertia. With blows of like energy what the joints leave of them is then
+/// a projection: directions that are free answer with all of a blow, others with nothing.
+fn response(world: &World, poses: &[Rigid<f64>], bodies: &[Option<LinkInertia>]) -> Vec<f64> {
+    let mut rows = Vec::with_capacity(6 * poses.len());
+    for ((twist, pose), body) in world.link_twists().iter().zip(poses).zip(bodies) {
+        let Some(body) = body else { continue };
+        let [a, b, c, x, y, z] = *twist;
+        let centre = pose.apply(&body.centre);
+        let turned = cross_product(&[a, b, c], &centre);
+        let spin = body.root.transpose() * Vector3::from(pose.rotate_back(&[a, b, c]));
+        rows.extend(spin.iter());
+        let root = body.mass.sqrt();
+        rows.extend([x + turned[0], y + turned[1], z + turned[2]].map(|v| v * root));
+    }
+    rows
 }
 
 /// Reads the number of freedoms off the singular values, largest first.

@@ -67,7 +67,7 @@ impl<'a> Prediction<'a> {
             along: Vec::new(),
             freedom,
             states: start.to_vec(),
-            poses: spanning_poses(mechanism, geometry, start),
+            poses: spanning_poses(mechanism, geometry, start).0,
             length,
         };
         prediction.take_tangents()?;
@@ -102,7 +102,7 @@ impl<'a> Prediction<'a> {
             section.close(&mut self.states, &self.along, STEPS)?;
             self.take_tangents()?;
         }
-        self.poses = spanning_poses(self.mechanism, self.geometry, &self.states);
+        self.poses = spanning_poses(self.mechanism, self.geometry, &self.states).0;
         Ok(())
     }
 

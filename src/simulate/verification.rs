@@ -142,14 +142,34 @@ pub fn verify(
         stopped: false,
         notes: Vec::new(),
     };
-    let length = super::mechanism_length(mechanism, geometry, &analysis.assembly.states);
     match analysis.mobility.verdict {
         Verdict::Unassembled => {
             verification.finding.why = "it does not assemble: there is no pose to simulate".into();
+            return Ok(verification);
         }
         Verdict::Undecided => {
             verification.finding.why = "the mobility is undecided: nothing is predicted".into();
+            return Ok(verification);
         }
+        Verdict::Mobile | Verdict::Rigid => {}
+    }
+    let home = World::new(
+        mechanism,
+        geometry,
+        &analysis.assembly.states,
+        &WorldOptions {
+            solver: options.solver,
+            ..WorldOptions::default()
+        },
+    )?;
+    let (length, _) = home.scale();
+    verification.notes = home
+        .notes()
+        .iter()
+        .map(|note| format!("{}: {}", note.about, note.text))
+        .collect();
+    match analysis.mobility.verdict {
+        Verdict::Unassembled | Verdict::Undecided => {}
         Verdict::Rigid => {
             let pushed = Pushed {
                 mechanism,
@@ -188,22 +208,6 @@ pub fn verify(
             }
             verification.finding = together(&verification.branches, verification.stopped);
         }
-    }
-    let world = World::new(
-        mechanism,
-        geometry,
-        &analysis.assembly.states,
-        &WorldOptions {
-            solver: options.solver,
-            time_step: options.time_step,
-            substeps: options.ladder.first().copied().unwrap_or(1),
-            ..WorldOptions::default()
-        },
-    );
-    if let (Ok(world), true) = (world, analysis.assembly.closed) {
-        verification
-            .notes
-            .extend(world.notes().iter().map(ToString::to_string));
     }
     Ok(verification)
 }
@@ -289,7 +293,7 @@ impl Test<'_> {
             finding: Finding::new(Outcome::Inconclusive, String::new()),
             freedoms: None,
         };
-        let way = match way_along(self.mechanism, self.geometry, self.analysis, branch) {
+        let way = match way_along(self.mechanism, self.length, self.analysis, branch) {
             Ok(way) => way,
             Err(why) => {
                 found.finding.why = why;
