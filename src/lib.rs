@@ -21,6 +21,7 @@ pub mod group;
 pub mod matrix;
 pub mod mechanism;
 pub mod mobility;
+pub mod motion;
 pub mod number;
 pub mod report;
 pub mod simulate;

@@ -13,16 +13,16 @@ use crate::mechanism::JointKind;
 
 /// A generator through the origin of its factor's frame: (angular; linear).
 #[derive(Clone, Debug)]
-struct Generator<R> {
-    angular: Vector<R>,
-    linear: Vector<R>,
+pub(crate) struct Generator<R> {
+    pub(crate) angular: Vector<R>,
+    pub(crate) linear: Vector<R>,
 }
 
 #[derive(Clone, Debug)]
-struct Factor<R> {
+pub(crate) struct Factor<R> {
     /// Constant displacement before the factor.
-    before: Rigid<R>,
-    generators: Vec<Generator<R>>,
+    pub(crate) before: Rigid<R>,
+    pub(crate) generators: Vec<Generator<R>>,
 }
 
 /// The displacement set of one joint, in the arithmetic `R`: directions are unit vectors, the pitch is in metres per
@@ -45,7 +45,24 @@ pub struct JointState<R> {
     pub values: Vec<R>,
 }
 
+impl<R> JointState<R> {
+    /// A state from one displacement per factor and the values of the variables.
+    pub(crate) fn from_factors(factors: Vec<Rigid<R>>, values: Vec<R>) -> Self {
+        Self { factors, values }
+    }
+
+    /// The displacement of every factor.
+    pub(crate) fn factors(&self) -> &[Rigid<R>] {
+        &self.factors
+    }
+}
+
 impl<R: Real> JointDisplacement<R> {
+    /// The elementary factors, in order.
+    pub(crate) fn factors(&self) -> &[Factor<R>] {
+        &self.factors
+    }
+
     /// The displacement set of a kind. `axis` in the predecessor's frame and `axis2` in the successor's must not be zero
     /// where the kind uses them; `pitch` is metres per radian; `distance` is in metres.
     pub fn new(

@@ -26,6 +26,7 @@ mod section;
 
 pub use assembly::{Assembly, LoopGap, assemble, follow, refine, spanning_poses};
 pub use cycle::{Walk, WalkedCycle, WalkedJoint, characteristic_length};
+pub(crate) use displacement::Factor;
 pub use displacement::{JointDisplacement, JointState};
 pub use geometry::{Arithmetic, Geometry, Uncertainty};
 pub(crate) use jacobian::linearised;

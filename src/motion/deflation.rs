@@ -1,0 +1,196 @@
+//! Branches that are shaky all along: at every pose the loops give way in more directions than lead anywhere.
+//!
+//! There the Jacobian A of the equations has rank r everywhere on the branch and more beside it, so that its kernel does not
+//! tell the tangent and Newton's method slows down: the equations are satisfied to second order by what is wrong to first.
+//! The rank itself is the missing equation. With A bordered by bases U, V of its left and right kernel at a pose nearby,
+//!
+//! ```text
+//! ⎡ A   U ⎤ ⎡ X ⎤   ⎡ 0 ⎤
+//! ⎣ Vᵀ  0 ⎦ ⎣ G ⎦ = ⎣ 1 ⎦
+//! ```
+//!
+//! the matrix G(z) vanishes exactly where A(z) has rank r (Griewank & Reddien 1984; Govaerts 2000, section 3.3), to first
+//! order in the distance. Its entries are added to the equations: deflation by bordering (Leykin, Verschelde & Zhao 2006
+//! add the same information with more unknowns). Where even these leave more than one direction, the branch cannot be
+//! followed by this means.
+//!
+//! Derivatives of G are taken by symmetric differences with steps of 1e-5, off by about 1e-10 of themselves. That does not
+//! matter to the poses, which the values of G decide; tangents are as good as that.
+
+use super::system::{Evaluation, LoopSystem, SystemPose};
+use nalgebra::{DMatrix, DVector};
+
+const DIFFERENCE: f64 = 1e-5;
+
+/// Parts with more unknowns are not deflated: the derivative costs their fourth power.
+const MOST_UNKNOWNS: usize = 60;
+
+/// The equations that say that the rank is what it is all along the branch.
+#[derive(Clone, Debug)]
+pub(super) struct Deflation {
+    /// Left and right kernels at the anchor.
+    left: DMatrix<f64>,
+    right: DMatrix<f64>,
+    holds: Vec<(usize, f64)>,
+    rank: usize,
+}
+
+fn jacobian(system: &LoopSystem, pose: &SystemPose, holds: &[(usize, f64)]) -> DMatrix<f64> {
+    let n = system.unknowns();
+    let first = system.equations();
+    let mut evaluation = Evaluation::default();
+    system.evaluate(pose, &mut evaluation);
+    let mut rows = vec![0.0; (first + holds.len()) * n];
+    system.fill_dense(&evaluation, &mut rows);
+    for (index, (unknown, _)) in holds.iter().enumerate() {
+        let at = (first + index) * n;
+        system.value_row(pose, *unknown, &mut rows[at..at + n]);
+    }
+    DMatrix::from_row_slice(first + holds.len(), n, &rows)
+}
+
+impl Deflation {
+    /// `excess` is by how many the freedom at every pose exceeds the branch's dimension.
+    pub fn new(
+        system: &LoopSystem,
+        pose: &SystemPose,
+        holds: &[(usize, f64)],
+        excess: usize,
+    ) -> Option<Self> {
+        let n = system.unknowns();
+        let rank = n.checked_sub(1 + excess)?;
+        if n > MOST_UNKNOWNS || system.equations() + holds.len() < rank {
+            return None;
+        }
+        let mut deflation = Self {
+            left: DMatrix::zeros(0, 0),
+            right: DMatrix::zeros(0, 0),
+            holds: holds.to_vec(),
+            rank,
+        };
+        deflation.anchor(system, pose, holds);
+        Some(deflation)
+    }
+
+    /// Takes the kernels at another pose of the branch.
+    pub fn anchor(&mut self, system: &LoopSystem, pose: &SystemPose, holds: &[(usize, f64)]) {
+        let a = jacobian(system, pose, holds);
+        let size = a.nrows().max(a.ncols());
+        let (rows, columns) = a.shape();
+        // Squared off with zeros, so that both bases are complete.
+        let square = a.resize(size, size, 0.0);
+        let svd = square.svd(true, true);
+        let (Some(u), Some(v)) = (svd.u, svd.v_t) else {
+            return;
+        };
+        // Zeros that were added have kernels of their own; what belongs to A is orthonormalised anew.
+        let mut order: Vec<usize> = (0..size).collect();
+        order.sort_by(|a, b| svd.singular_values[*b].total_cmp(&svd.singular_values[*a]));
+        let range = &order[..self.rank];
+        let kept = DMatrix::from_fn(rows, self.rank, |i, j| u[(i, range[j])]);
+        self.left = complement(&kept);
+        let kept = DMatrix::from_fn(columns, self.rank, |i, j| v[(range[j], i)]);
+        self.right = complement(&kept);
+    }
+
+    /// Number of equations added.
+    pub fn equations(&self) -> usize {
+        self.left.ncols() * self.right.ncols()
+    }
+
+    fn value(&self, system: &LoopSystem, pose: &SystemPose) -> Option<DMatrix<f64>> {
+        let a = jacobian(system, pose, &self.holds);
+        let (rows, columns) = a.shape();
+        let size = rows + self.right.ncols();
+        let mut bordered = DMatrix::zeros(size, size);
+        bordered.view_mut((0, 0), (rows, columns)).copy_from(&a);
+        bordered
+            .view_mut((0, columns), (rows, self.left.ncols()))
+            .copy_from(&self.left);
+        bordered
+            .view_mut((rows, 0), (self.right.ncols(), columns))
+            .copy_from(&self.right.transpose());
+        let lu = bordered.lu();
+        let mut g = DMatrix::zeros(self.left.ncols(), self.right.ncols());
+        for column in 0..self.right.ncols() {
+            let mut unit = DVector::zeros(size);
+            unit[rows + column] = 1.0;
+            let x = lu.solve(&unit)?;
+            for row in 0..self.left.ncols() {
+                g[(row, column)] = x[columns + row];
+            }
+        }
+        Some(g)
+    }
+
+    /// Appends −G at a pose.
+    pub fn residual(&self, system: &LoopSystem, pose: &SystemPose, right: &mut Vec<f64>) {
+        match self.value(system, pose) {
+            Some(g) => right.extend(g.iter().map(|x| -x)),
+            None => right.extend(std::iter::repeat_n(f64::NAN, self.equations())),
+        }
+    }
+
+    /// Writes the derivatives of G, one row per equation.
+    pub fn rows(&self, system: &LoopSystem, pose: &SystemPose, rows: &mut [f64]) {
+        let n = system.unknowns();
+        rows.fill(0.0);
+        let mut z = vec![0.0; n];
+        for unknown in 0..n {
+            let mut at = |way: f64| {
+                z[unknown] = way;
+                let mut there = pose.clone();
+                system.advance(&mut there, &z);
+                z[unknown] = 0.0;
+                self.value(system, &there)
+            };
+            let (Some(ahead), Some(behind)) = (at(DIFFERENCE), at(-DIFFERENCE)) else {
+                continue;
+            };
+            for (equation, (a, b)) in ahead.iter().zip(behind.iter()).enumerate() {
+                rows[equation * n + unknown] = (a - b) / (2.0 * DIFFERENCE);
+            }
+        }
+    }
+}
+
+/// An orthonormal basis of what is orthogonal to orthonormal columns.
+fn complement(columns: &DMatrix<f64>) -> DMatrix<f64> {
+    let (size, count) = columns.shape();
+    let mut basis: Vec<DVector<f64>> = (0..count).map(|c| columns.column(c).into_owned()).collect();
+    let mut added = Vec::new();
+    let mut left: Vec<usize> = (0..size).collect();
+    while basis.len() < size && !left.is_empty() {
+        // The unit vector that is farthest from what is spanned already.
+        let (place, vector) = left
+            .iter()
+            .enumerate()
+            .map(|(place, &axis)| {
+                let mut v = DVector::zeros(size);
+                v[axis] = 1.0;
+                for _ in 0..2 {
+                    for b in &basis {
+                        let along = b.dot(&v);
+                        v.axpy(-along, b, 1.0);
+                    }
+                }
+                (place, v)
+            })
+            .fold((0, DVector::zeros(size)), |best, next| {
+                if next.1.norm() > best.1.norm() {
+                    next
+                } else {
+                    best
+                }
+            });
+        left.remove(place);
+        let length = vector.norm();
+        if !(length > 1e-8) {
+            break;
+        }
+        let unit = vector / length;
+        basis.push(unit.clone());
+        added.push(unit);
+    }
+    DMatrix::from_fn(size, added.len(), |i, j| added[j][i])
+}
