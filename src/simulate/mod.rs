@@ -1,14 +1,18 @@
 //! A mechanism as a world of a physics engine.
 mod build;
 mod convert;
+mod coupling;
 mod effects;
 mod elementary;
 mod error;
 mod forest;
 mod inertia;
+mod measure;
+mod motor;
 mod options;
 mod solids;
 mod units;
+mod velocities;
 mod world;
 
 pub use error::WorldError;
