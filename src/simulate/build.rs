@@ -2,6 +2,7 @@
 
 use super::WorldError;
 use super::convert::computable;
+use super::coupling;
 use super::effects;
 use super::elementary::{Elementary, Handle, TakenApart, axes};
 use super::forest::{Branch, Forest};
@@ -13,8 +14,9 @@ use crate::closure::{
 };
 use crate::mechanism::Mechanism;
 use rapier3d_f64::prelude::{
-    GenericJoint, ImpulseJointHandle, JointAxesMask, MultibodyDofCoupling, MultibodyJointHandle,
-    PhysicsWorld, Pose, RigidBodyBuilder, RigidBodyHandle, SpringCoefficients,
+    GenericJoint, ImpulseJointHandle, JointAxesMask, MultibodyDofCoupling, MultibodyIndex,
+    MultibodyJointHandle, PhysicsWorld, Pose, RigidBodyBuilder, RigidBodyHandle,
+    SpringCoefficients,
 };
 
 /// What was built: handles into the engine, and what has to be remembered.
@@ -34,6 +36,9 @@ pub(super) struct Built {
     pub hooks: effects::ApartHooks,
     /// By elementary joint.
     pub held: Vec<Option<Held>>,
+    /// The joints as they are held.
+    pub elementary: Vec<Elementary>,
+    ground: usize,
     /// For every intermediate body, a link that it connects.
     near: Vec<usize>,
 }
@@ -67,6 +72,23 @@ impl Built {
         }
     }
 
+    /// Index of the ground.
+    pub fn ground(&self) -> usize {
+        self.ground
+    }
+
+    /// Every multibody of the engine, in the order of their first bodies.
+    pub fn multibodies(&self, physics: &PhysicsWorld) -> Vec<MultibodyIndex> {
+        let joints = &physics.multibody_joints;
+        physics
+            .bodies
+            .iter()
+            .filter_map(|(body, _)| joints.rigid_body_link(body))
+            .filter(|link| link.id == 0)
+            .map(|link| link.multibody)
+            .collect()
+    }
+
     pub fn step(&self, physics: &mut PhysicsWorld) {
         physics.step_with_events(&self.hooks, &());
     }
@@ -79,9 +101,16 @@ impl Built {
     }
 }
 
-/// Natural frequency of the springs that hold impulse joints (Hz). A substep corrects the share
-/// 1 − 1/(1 + ω h/2) of an error, so that from 1e6 Hz on it corrects all of it at any step in use.
+/// Natural frequency of the critically damped springs that hold impulse joints (Hz). A substep h corrects the share
+/// 1 − 1/(1 + ω h/2) of an error. With 1e3 Hz that share falls with the substep and the closure error falls only in
+/// proportion to it; from 1e6 Hz on, all of an error is corrected at any substep in use, the closure error falls with its
+/// square, and a stiffer spring changes no digit that matters (measured: `docs/src/simulation.md`).
 const SPRING_FREQUENCY: f64 = 1e6;
+
+/// Sweeps of the solver over all constraints in a substep. One sweep leaves a loop's rows fighting each other, and a drive
+/// that starts with a jolt late by a radian; eight cost a tenth more time with multibodies, half as much again with
+/// impulses, where assembling the rows costs most, and bring the closure error close to what the substep alone leaves.
+const SWEEPS: usize = 8;
 
 /// Every world of this module is made here.
 pub(super) fn build(
@@ -141,13 +170,14 @@ pub(super) fn build(
     };
     builder.bodies();
     builder.hold(&forest)?;
-    effects::couplings(
+    coupling::add(
         mechanism,
-        &forest,
+        geometry,
+        states,
         &builder.apart,
+        &units,
         &mut builder.built,
         &mut builder.physics,
-        &units,
     );
     let Builder {
         apart,
@@ -165,11 +195,13 @@ pub(super) fn build(
         &mut physics,
     );
     built.pieces.bodies = physics.bodies.len();
-    built.pieces.impulse_joints = forest_impulses(&built);
+    built.pieces.impulse_joints += held_by_impulses(&built);
+    built.elementary = apart.joints;
+    built.ground = mechanism.ground().0;
     Ok((physics, units, built))
 }
 
-fn forest_impulses(built: &Built) -> usize {
+fn held_by_impulses(built: &Built) -> usize {
     let held = built.held.iter().flatten();
     held.filter(|held| matches!(held, Held::Impulse(_))).count()
 }
@@ -299,6 +331,8 @@ fn parameters(physics: &mut PhysicsWorld, options: &WorldOptions, units: &Units)
     let parameters = &mut physics.integration_parameters;
     parameters.dt = options.time_step;
     parameters.num_solver_iterations = options.substeps;
+    parameters.num_internal_pgs_iterations = SWEEPS;
+    parameters.length_unit = 1.0;
     // No cap on speed: nothing here may depend on the step in hidden ways.
     parameters.normalized_max_linear_velocity = f64::MAX;
     let gravity = options.effects.gravity.unwrap_or_default();
@@ -366,7 +400,7 @@ impl Builder<'_> {
         for &chord in &forest.chords {
             self.pull(chord);
         }
-        for multibody in self.multibodies() {
+        for multibody in self.built.multibodies(&self.physics) {
             if let Some(body) = self.physics.multibody_joints.get_multibody_mut(multibody) {
                 // The root's own freedoms are settled here, before rates are set or damping is cleared.
                 body.forward_kinematics(&self.physics.bodies, true);
@@ -375,18 +409,6 @@ impl Builder<'_> {
             }
         }
         Ok(())
-    }
-
-    fn multibodies(&self) -> Vec<rapier3d_f64::prelude::MultibodyIndex> {
-        let mut found: Vec<rapier3d_f64::prelude::MultibodyIndex> = Vec::new();
-        for body in self.physics.bodies.iter().map(|(handle, _)| handle) {
-            if let Some(link) = self.physics.multibody_joints.rigid_body_link(body)
-                && link.id == 0
-            {
-                found.push(link.multibody);
-            }
-        }
-        found
     }
 
     /// The body that a joint's parent side is fixed to. Every subtree of the ground gets a fixed body of its own, so that

@@ -1,12 +1,11 @@
-//! The effects beside joints: limits, dry friction, damping, contact, couplings. Each adds its own pieces only.
+//! The effects beside joints: limits, dry friction, damping, contact. Each adds its own pieces only.
 
 use super::build::{Built, Held};
 use super::elementary::TakenApart;
-use super::forest::Forest;
+use super::motor::{Gain, Motor, motor_joint};
 use super::options::WorldOptions;
 use super::solids::solid;
 use super::units::Units;
-use super::world::{Gain, Motor, motor_joint};
 use crate::closure::JointState;
 use crate::mechanism::{Joint, Mechanism};
 use rapier3d_f64::prelude::{
@@ -210,21 +209,5 @@ fn contact(mechanism: &Mechanism, units: &Units, built: &mut Built, physics: &mu
                 .colliders
                 .insert_with_parent(collider, body, &mut physics.bodies);
         }
-    }
-}
-
-/// Couplings between joints.
-pub(super) fn couplings(
-    mechanism: &Mechanism,
-    _forest: &Forest,
-    apart: &TakenApart,
-    built: &mut Built,
-    physics: &mut PhysicsWorld,
-    units: &Units,
-) {
-    let _ = (apart, physics, units);
-    for coupling in mechanism.couplings() {
-        built.note(&coupling.name, "this coupling is not simulated");
-        built.not_simulated.push(coupling.name.clone());
     }
 }

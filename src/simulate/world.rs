@@ -4,21 +4,15 @@ use super::WorldError;
 use super::build::Built;
 use super::convert::vector;
 use super::elementary::Handle;
-use super::options::{Drive, Energy, JointGap, Note, Pieces, WorldOptions};
+use super::motor::{Gain, Motor, motor_joint};
+use super::options::{Drive, Note, Pieces, WorldOptions};
 use super::units::Units;
 use crate::closure::{Geometry, JointDisplacement, JointState, Rigid};
-use crate::mechanism::{FreedomPart, JointKind, Mechanism};
+use crate::mechanism::Mechanism;
 use rapier3d_f64::prelude::{
-    GenericJoint, ImpulseJointHandle, JointAxesMask, JointAxis, MotorModel, PhysicsWorld, Pose,
-    RigidBodyHandle, Vector as Vec3,
+    ImpulseJointHandle, PhysicsWorld, Pose, RigidBodyHandle, Vector as Vec3,
 };
 use std::collections::BTreeMap;
-
-/// A motor so stiff that only its largest force gives way: the engine's gain is 1/(step × this), far below rounding.
-const STIFF: f64 = 1e20;
-
-/// A largest force that nothing in the range of numbers reaches; the engine multiplies it by a step.
-const UNLIMITED: f64 = 1e30;
 
 /// A mechanism as a world of the physics engine.
 pub struct World {
@@ -195,7 +189,7 @@ impl World {
         self.steps as f64 * self.options.time_step
     }
 
-    fn body_pose(&self, body: usize) -> Pose {
+    pub(super) fn body_pose(&self, body: usize) -> Pose {
         self.physics
             .bodies
             .get(self.built.bodies[body])
@@ -204,7 +198,7 @@ impl World {
 
     /// Velocity of the centre of mass and angular velocity, in the engine's units. The engine leaves the velocities of
     /// multibody links one substep behind; they are computed from the coordinates' rates here.
-    fn body_velocity(&self, body: usize) -> (Vec3, Vec3) {
+    pub(super) fn body_velocity(&self, body: usize) -> (Vec3, Vec3) {
         let handle = self.built.bodies[body];
         let joints = &self.physics.multibody_joints;
         if let Some(id) = joints.rigid_body_link(handle)
@@ -273,89 +267,6 @@ impl World {
         Ok(())
     }
 
-    /// How every joint stands: its displacement fitted into its set. Angles about fixed axes are continued from `before`
-    /// over whole turns; balls are given by the shortest rotation.
-    #[must_use]
-    pub fn states(&self, before: &[JointState<f64>]) -> Vec<JointState<f64>> {
-        let poses = self.link_poses();
-        let joints = self.displacements.iter().enumerate();
-        joints
-            .map(|(joint, displacement)| {
-                let fitted = displacement.fit(&self.relative(&poses, joint));
-                match before.get(joint) {
-                    Some(before) => continued(displacement, &fitted, before),
-                    None => fitted,
-                }
-            })
-            .collect()
-    }
-
-    /// For every joint, how far its two frames are from what it allows.
-    #[must_use]
-    pub fn gaps(&self) -> Vec<JointGap> {
-        let poses = self.link_poses();
-        let joints = self.displacements.iter().enumerate();
-        joints
-            .map(|(joint, displacement)| {
-                let relative = self.relative(&poses, joint);
-                let nearest = displacement.displacement(&displacement.fit(&relative));
-                let off = nearest.inverse().compose(&relative);
-                JointGap {
-                    position: norm(&off.translation),
-                    angle: norm(&off.rotation_vector()),
-                }
-            })
-            .collect()
-    }
-
-    fn relative(&self, poses: &[Rigid<f64>], joint: usize) -> Rigid<f64> {
-        let [p, s] = [0, 1].map(|i| poses[self.ends[joint][i]].compose(&self.sides[joint][i]));
-        p.inverse().compose(&s)
-    }
-
-    /// Kinetic and potential energy of all links and intermediate bodies but the ground.
-    #[must_use]
-    pub fn energy(&self) -> Energy {
-        let mut energy = Energy::default();
-        let gravity = self.physics.gravity;
-        for (body, mass) in self.built.masses.iter().enumerate() {
-            let Some(mass) = mass else { continue };
-            let (linear, angular) = self.body_velocity(body);
-            let pose = self.body_pose(body);
-            let local = pose.rotation.inverse() * angular;
-            let spin = nalgebra::Vector3::new(local.x, local.y, local.z);
-            energy.kinetic += 0.5
-                * (mass.mass / self.units.mass * linear.length_squared()
-                    + (spin.transpose() * (mass.inertia / self.units.moment()) * spin)[0]);
-            energy.potential -= mass.mass / self.units.mass * gravity.dot(pose.translation);
-        }
-        energy.kinetic *= self.units.moment();
-        energy.potential *= self.units.moment();
-        energy
-    }
-
-    /// Number of pairs of shapes that touch.
-    #[must_use]
-    pub fn contacts(&self) -> usize {
-        let pairs = self.physics.narrow_phase.contact_pairs();
-        pairs.filter(|pair| pair.has_any_active_contact()).count()
-    }
-
-    /// By how much every joint with a `<limit>` is beyond it (m, rad); zero within. Measured whether limits are simulated
-    /// or not; joints without a limit are left out.
-    #[must_use]
-    pub fn limit_violations(&self) -> Vec<(usize, f64)> {
-        let states = self.states(&self.start);
-        let joints = self.limits.iter().zip(&states).enumerate();
-        joints
-            .filter_map(|(joint, (limit, state))| {
-                let [lower, upper] = (*limit)?;
-                let value = *state.values.first()?;
-                Some((joint, (lower - value).max(value - upper).max(0.0)))
-            })
-            .collect()
-    }
-
     /// What the world consists of.
     #[must_use]
     pub fn pieces(&self) -> Pieces {
@@ -377,95 +288,4 @@ impl World {
     pub fn not_simulated(&self) -> &[String] {
         &self.built.not_simulated
     }
-}
-
-/// How a motor reacts.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Gain {
-    /// As hard as it takes, up to a largest force (N, N m).
-    Stiff { largest: f64 },
-    /// By a force for each unit of rate (N s/m, N m s).
-    Viscous { damping: f64 },
-}
-
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Motor {
-    /// rad/s, m/s.
-    pub velocity: f64,
-    pub gain: Gain,
-}
-
-/// A joint that locks nothing and has a motor on one axis.
-pub(super) fn motor_joint(
-    built: &Built,
-    units: &Units,
-    handle: &Handle,
-    motor: Motor,
-) -> GenericJoint {
-    const AXES: [JointAxis; 6] = [
-        JointAxis::LinX,
-        JointAxis::LinY,
-        JointAxis::LinZ,
-        JointAxis::AngX,
-        JointAxis::AngY,
-        JointAxis::AngZ,
-    ];
-    let mut joint = GenericJoint::new(JointAxesMask::empty());
-    joint.contacts_enabled = true;
-    let [a, b] = built.frames(units, handle.bodies, &handle.frames);
-    joint.set_local_frame1(a).set_local_frame2(b);
-    let axis = AXES[handle.axis.min(5)];
-    let velocity = handle.sign * motor.velocity / units.travel(handle.axis);
-    match motor.gain {
-        Gain::Stiff { largest } => {
-            joint.set_motor_model(axis, MotorModel::AccelerationBased);
-            joint.set_motor_velocity(axis, velocity, STIFF);
-            let largest = (largest / units.effort(handle.axis)).min(UNLIMITED);
-            joint.set_motor_max_force(axis, largest);
-        }
-        Gain::Viscous { damping } => {
-            joint.set_motor_model(axis, MotorModel::ForceBased);
-            joint.set_motor_velocity(axis, velocity, damping / units.damping(handle.axis));
-            joint.set_motor_max_force(axis, UNLIMITED);
-        }
-    }
-    joint
-}
-
-fn norm(v: &[f64; 3]) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-/// A fitted state with its angles about fixed axes brought within half a turn of those before.
-fn continued(
-    displacement: &JointDisplacement<f64>,
-    fitted: &JointState<f64>,
-    before: &JointState<f64>,
-) -> JointState<f64> {
-    use JointKind as K;
-    match displacement.kind() {
-        K::Revolute
-        | K::Cylindrical
-        | K::Universal
-        | K::Planar
-        | K::Schoenflies
-        | K::LineOnPlane => {}
-        _ => return fitted.clone(),
-    }
-    let parts = displacement.kind().freedoms();
-    let pairs = fitted.values.iter().zip(&before.values).zip(parts);
-    let values: Vec<f64> = pairs
-        .map(|((&now, &then), part)| {
-            let turns = ((then - now) / std::f64::consts::TAU).round();
-            if *part == FreedomPart::Rotation && turns.is_finite() {
-                now + turns * std::f64::consts::TAU
-            } else {
-                now
-            }
-        })
-        .collect();
-    if values == fitted.values {
-        return fitted.clone();
-    }
-    displacement.at(&values)
 }

@@ -1,6 +1,6 @@
 //! The size and weight of a mechanism, in which distances, forces and velocities are measured.
 
-use super::World;
+use crate::simulate::World;
 use nalgebra::Matrix3;
 
 /// Inertia of a link.

@@ -7,7 +7,8 @@
 
 use super::ladder::{Finding, Outcome};
 use super::observer::{Moment, Observer, Passage};
-use super::{Drive, Solver, VerificationError, World, WorldOptions};
+use super::VerificationError;
+use crate::simulate::{Drive, Solver, World, WorldOptions};
 use crate::closure::{Geometry, JointState};
 use crate::mechanism::{FreedomPart, Mechanism};
 use serde::Serialize;

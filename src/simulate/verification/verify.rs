@@ -9,17 +9,17 @@
 //! None of it is a proof: it is evidence from physics that knows nothing of the analysis, and it is stated with the size
 //! of the defect that it could have missed.
 
-use super::driven_way::{DrivenWay, way_along};
+use super::driven_way::{DrivenWay, value, ways_along};
 use super::ladder::{Finding, Outcome, Rung, judge_motion, order_between, undecided};
 use super::observer::{Moment, Observer, Passage};
 use super::prediction::Prediction;
 use super::pushing::{Pushed, Pushing};
-use super::{
-    Drive, FreedomCount, JointGap, Solver, VerificationError, World, WorldOptions, count_freedoms,
-};
-use crate::closure::{Geometry, JointState};
+use super::{FreedomCount, VerificationError, count_freedoms};
+use crate::closure::Geometry;
 use crate::mechanism::{FreedomPart, Mechanism};
 use crate::mobility::{Analysis, Branch, Verdict};
+use crate::motion::Variable;
+use crate::simulate::{Drive, JointGap, Solver, World, WorldOptions};
 use serde::Serialize;
 
 /// How to verify.
@@ -27,8 +27,12 @@ use serde::Serialize;
 pub struct VerificationOptions {
     /// Only this branch; all if `None`.
     pub branch: Option<String>,
-    /// How trees are held.
-    pub solver: Solver,
+    /// The configuration that was analysed; the home pose if `None`.
+    pub configuration: Option<String>,
+    /// Name of the variable to drive; one that serves if `None`.
+    pub drive: Option<String>,
+    /// How trees are held, in the order of trying: the next one is tried where the one before does not confirm.
+    pub solvers: Vec<Solver>,
     /// Length of a step (s).
     pub time_step: f64,
     /// Substeps of a step, ascending: the rungs.
@@ -40,17 +44,42 @@ pub struct VerificationOptions {
 }
 
 impl Default for VerificationOptions {
-    /// Steps of 1/60 s with 4 to 256 substeps, tree as multibody, up to the rung that decides.
+    /// Steps of 1/60 s with 4 to 256 substeps up to the rung that decides, trees first as multibodies, then by impulses.
     fn default() -> Self {
         Self {
             branch: None,
-            solver: Solver::Multibody,
+            configuration: None,
+            drive: None,
+            solvers: vec![Solver::Multibody, Solver::Impulse],
             time_step: 1.0 / 60.0,
             ladder: vec![4, 8, 16, 32, 64, 128, 256],
             seed: 1,
             whole_ladder: false,
         }
     }
+}
+
+/// One way along a branch, simulated with one solver.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Ladder {
+    /// How trees were held.
+    pub solver: Solver,
+    /// Name of the variable that is driven.
+    pub driven: String,
+    /// Where the drive starts and where it goes (rad, m).
+    pub from: f64,
+    /// See [`Self::from`].
+    pub to: f64,
+    /// Why it goes no farther.
+    pub ends: String,
+    /// Names of the variables that are held.
+    pub held: Vec<String>,
+    /// Largest torque or force of the drive (N m, N).
+    pub largest_force: f64,
+    /// The rungs, coarse to fine.
+    pub rungs: Vec<Rung>,
+    /// What they say.
+    pub finding: Finding,
 }
 
 /// What simulation says about one branch.
@@ -60,24 +89,12 @@ pub struct BranchVerification {
     pub branch: String,
     /// Its predicted dimension.
     pub dimension: usize,
-    /// Name of the freedom that is driven.
-    pub driven: String,
-    /// Where the drive starts and where it goes (rad, m).
-    pub from: f64,
-    /// See [`Self::from`].
-    pub to: f64,
-    /// Names of the freedoms that are held.
-    pub held: Vec<String>,
-    /// Why the way is no longer.
-    pub ends: String,
-    /// Largest torque or force of the drive (N m, N).
-    pub largest_force: f64,
-    /// The ladder, coarse to fine.
-    pub rungs: Vec<Rung>,
-    /// What it says.
-    pub finding: Finding,
+    /// What was simulated.
+    pub ladders: Vec<Ladder>,
     /// The freedoms counted at a generic pose; `None` where none was at hand.
     pub freedoms: Option<FreedomCount>,
+    /// What follows of all that.
+    pub finding: Finding,
 }
 
 /// What simulation says about the whole prediction.
@@ -158,7 +175,7 @@ pub fn verify(
         geometry,
         &analysis.assembly.states,
         &WorldOptions {
-            solver: options.solver,
+            solver: options.solvers.first().copied().unwrap_or_default(),
             ..WorldOptions::default()
         },
     )?;
@@ -171,16 +188,30 @@ pub fn verify(
     match analysis.mobility.verdict {
         Verdict::Unassembled | Verdict::Undecided => {}
         Verdict::Rigid => {
-            let pushed = Pushed {
-                mechanism,
-                geometry,
-                states: &analysis.assembly.states,
-                solver: options.solver,
-                time_step: options.time_step,
-                ladder: &options.ladder,
-                length,
+            let mut best: Option<Pushing> = None;
+            for &solver in &options.solvers {
+                let pushed = Pushed {
+                    mechanism,
+                    geometry,
+                    states: &analysis.assembly.states,
+                    solver,
+                    time_step: options.time_step,
+                    ladder: &options.ladder,
+                    length,
+                };
+                let pushing = pushed.push_all(observer)?;
+                let enough = pushing.stopped || pushing.finding.outcome == Outcome::Confirmed;
+                if enough || best.is_none() {
+                    best = Some(pushing);
+                }
+                if enough {
+                    break;
+                }
+            }
+            let Some(pushing) = best else {
+                verification.finding.why = "no solver to simulate with was given".into();
+                return Ok(verification);
             };
-            let pushing = pushed.push_all(observer)?;
             verification.finding = Finding::new(
                 pushing.finding.outcome,
                 format!("predicted rigid: {}", pushing.finding.why),
@@ -232,23 +263,13 @@ fn chosen<'a>(
     }
 }
 
-/// The outcome of all branches: confirmed only where each is, its motion and its count of freedoms.
+/// The outcome of all branches: confirmed only where each is.
 fn together(branches: &[BranchVerification], stopped: bool) -> Finding {
-    let findings = || {
-        branches.iter().flat_map(|branch| {
-            std::iter::once((branch, &branch.finding)).chain(
-                branch
-                    .freedoms
-                    .iter()
-                    .map(move |count| (branch, &count.finding)),
-            )
-        })
-    };
     for outcome in [Outcome::Contradicted, Outcome::Inconclusive] {
-        if let Some((branch, finding)) = findings().find(|(_, f)| f.outcome == outcome) {
+        if let Some(branch) = branches.iter().find(|b| b.finding.outcome == outcome) {
             return Finding::new(
                 outcome,
-                format!("branch {}: {}", branch.branch, finding.why),
+                format!("branch {}: {}", branch.branch, branch.finding.why),
             );
         }
     }
@@ -258,12 +279,22 @@ fn together(branches: &[BranchVerification], stopped: bool) -> Finding {
             Outcome::Inconclusive,
             "the branches through the pose are not listed: none was simulated",
         ),
-        [only] => Finding::new(Outcome::Confirmed, only.finding.why.clone()),
+        [only] => only.finding.clone(),
         several => Finding::new(
             Outcome::Confirmed,
             format!("each of the {} branches was followed", several.len()),
         ),
     }
+}
+
+/// The outcome of one way, from the solvers tried: one that confirms is enough, since a solver can fail to move what moves
+/// but not close what does not fit; a contradiction has to come from all of them.
+fn of_one_way(ladders: &[Ladder]) -> Finding {
+    let with = |outcome| ladders.iter().find(|l| l.finding.outcome == outcome);
+    let found = with(Outcome::Confirmed)
+        .or_else(|| with(Outcome::Inconclusive))
+        .or_else(|| ladders.last());
+    found.map_or_else(|| undecided(&[]), |ladder| ladder.finding.clone())
 }
 
 struct Test<'a> {
@@ -275,6 +306,7 @@ struct Test<'a> {
 }
 
 impl Test<'_> {
+    /// Tests one branch; also whether an observer broke it off.
     fn branch(
         &self,
         branch: &Branch,
@@ -283,62 +315,102 @@ impl Test<'_> {
         let mut found = BranchVerification {
             branch: branch.name.clone(),
             dimension: branch.dimension,
-            driven: String::new(),
-            from: 0.0,
-            to: 0.0,
-            held: Vec::new(),
-            ends: String::new(),
-            largest_force: 0.0,
-            rungs: Vec::new(),
-            finding: Finding::new(Outcome::Inconclusive, String::new()),
+            ladders: Vec::new(),
             freedoms: None,
+            finding: Finding::new(Outcome::Inconclusive, String::new()),
         };
-        let way = match way_along(self.mechanism, self.length, self.analysis, branch) {
-            Ok(way) => way,
+        let ways = match ways_along(
+            self.mechanism,
+            self.geometry,
+            self.analysis,
+            branch,
+            self.options.configuration.as_deref(),
+            self.options.drive.as_deref(),
+        ) {
+            Ok(ways) => ways,
             Err(why) => {
                 found.finding.why = why;
                 return Ok((found, false));
             }
         };
-        let name = |(joint, freedom): &(usize, usize)| {
-            self.mechanism.joints()[*joint].freedom_name(*freedom)
-        };
-        found.driven = name(&way.driven);
-        found.from = way.from;
-        found.to = way.to;
-        found.held = way.held.iter().map(name).collect();
-        found.ends = way.ends.clone();
-        let mut decided = None;
-        for &substeps in &self.options.ladder {
-            let mut climb = self.climb(&way, branch, substeps, observer)?;
-            found.largest_force = climb.largest_force;
-            climb.rung.order = found.rungs.last().and_then(|before| {
-                order_between(
-                    (before.substeps, before.closure_error),
-                    (climb.rung.substeps, climb.rung.closure_error),
-                )
-            });
-            found.rungs.push(climb.rung);
-            if climb.stopped {
-                found.finding.why = "broken off".to_owned();
-                return Ok((found, true));
+        let mut findings = Vec::new();
+        for way in &ways {
+            let begun = found.ladders.len();
+            for &solver in &self.options.solvers {
+                let (ladder, stopped) = self.ladder(way, branch, solver, observer)?;
+                let confirmed = ladder.finding.outcome == Outcome::Confirmed;
+                found.ladders.push(ladder);
+                if stopped {
+                    found.finding.why = "broken off".to_owned();
+                    return Ok((found, true));
+                }
+                if confirmed && !self.options.whole_ladder {
+                    break;
+                }
             }
-            decided = decided.or_else(|| judge_motion(&found.rungs));
-            if decided.is_some() && !self.options.whole_ladder {
-                break;
-            }
+            findings.push(of_one_way(&found.ladders[begun..]));
         }
-        found.finding = decided.unwrap_or_else(|| undecided(&found.rungs));
         if let (Some(pose), Some(expected)) = (branch.poses.first(), branch.instantaneous) {
-            found.freedoms = Some(count_freedoms(
+            let count = count_freedoms(
                 self.mechanism,
                 self.geometry,
                 &pose.states,
                 expected,
                 self.options.seed,
-            )?);
+            )?;
+            findings.push(count.finding.clone());
+            found.freedoms = Some(count);
+        }
+        let of = |outcome| findings.iter().find(|f| f.outcome == outcome);
+        if let Some(finding) = of(Outcome::Contradicted)
+            .or_else(|| of(Outcome::Inconclusive))
+            .or_else(|| findings.first())
+        {
+            found.finding = finding.clone();
         }
         Ok((found, false))
+    }
+
+    fn ladder(
+        &self,
+        way: &DrivenWay,
+        branch: &Branch,
+        solver: Solver,
+        observer: &mut dyn Observer,
+    ) -> Result<(Ladder, bool), VerificationError> {
+        let mut ladder = Ladder {
+            solver,
+            driven: way.driven.name.clone(),
+            from: way.from,
+            to: way.to,
+            ends: way.ends.clone(),
+            held: way.held.iter().map(|v| v.name.clone()).collect(),
+            largest_force: 0.0,
+            rungs: Vec::new(),
+            finding: Finding::new(Outcome::Inconclusive, String::new()),
+        };
+        let mut decided = None;
+        for &substeps in &self.options.ladder {
+            let mut climb = self.climb(way, branch, solver, substeps, observer)?;
+            ladder.largest_force = climb.largest_force;
+            climb.rung.order = ladder.rungs.last().and_then(|before| {
+                order_between(
+                    (before.substeps, before.closure_error),
+                    (climb.rung.substeps, climb.rung.closure_error),
+                )
+            });
+            ladder.rungs.push(climb.rung);
+            if climb.stopped {
+                ladder.finding.why = "broken off".to_owned();
+                return Ok((ladder, true));
+            }
+            decided = decided.or_else(|| judge_motion(&ladder.rungs));
+            if decided.is_some() && !self.options.whole_ladder {
+                break;
+            }
+        }
+        ladder.finding = decided.unwrap_or_else(|| undecided(&ladder.rungs));
+        Ok((ladder, false))
     }
 
     /// Goes the way once.
@@ -346,39 +418,39 @@ impl Test<'_> {
         &self,
         way: &DrivenWay,
         branch: &Branch,
+        solver: Solver,
         substeps: usize,
         observer: &mut dyn Observer,
     ) -> Result<Climb, VerificationError> {
         let begun = std::time::Instant::now();
         let options = WorldOptions {
-            solver: self.options.solver,
+            solver,
             time_step: self.options.time_step,
             substeps,
             ..WorldOptions::default()
         };
         let mut world = World::new(self.mechanism, self.geometry, &way.start, &options)?;
         let (_, effort) = world.scale();
-        let unit = |(joint, freedom): (usize, usize)| match self.mechanism.joints()[joint]
-            .kind
-            .freedoms()[freedom]
-        {
-            FreedomPart::Translation => self.length,
-            FreedomPart::Rotation | FreedomPart::Screw => 1.0,
+        let unit = |input: &Variable| {
+            match self.mechanism.joints()[input.joint].kind.freedoms()[input.freedom] {
+                FreedomPart::Translation => self.length,
+                FreedomPart::Rotation | FreedomPart::Screw => 1.0,
+            }
         };
-        let drive = |world: &mut World, input: (usize, usize), velocity: f64| {
+        let drive = |world: &mut World, input: &Variable, velocity: f64| {
             world.drive(Drive {
-                joint: input.0,
-                freedom: input.1,
+                joint: input.joint,
+                freedom: input.freedom,
                 velocity: velocity * unit(input),
                 largest_force: EFFORT * effort / unit(input),
             })
         };
-        for &held in &way.held {
+        for held in &way.held {
             drive(&mut world, held, 0.0)?;
         }
         let travel = way.to - way.from;
         let rate = RATE * travel.signum();
-        let full = travel.abs() / (RATE * unit(way.driven));
+        let full = travel.abs() / (RATE * unit(&way.driven));
         let duration = full + 0.5 * START_UP;
         let mut climb = Climb {
             rung: Rung {
@@ -389,14 +461,14 @@ impl Test<'_> {
                 order: None,
                 wall_time: 0.0,
             },
-            largest_force: EFFORT * effort / unit(way.driven),
+            largest_force: EFFORT * effort / unit(&way.driven),
             stopped: observer
                 .begin(&Passage {
                     title: format!(
-                        "branch {}, {substeps} substeps",
-                        branch.name
+                        "branch {}: `{}`, {substeps} substeps",
+                        branch.name, way.driven.name
                     ),
-                    driven: Some(way.driven.0),
+                    driven: Some(way.driven.joint),
                     substeps,
                     duration,
                 })
@@ -407,7 +479,7 @@ impl Test<'_> {
             self.geometry,
             &self.analysis.structure,
             &way.start,
-            way.loop_freedom,
+            self.loop_freedom(branch),
             self.length,
         )?;
         let mut states = way.start.clone();
@@ -419,7 +491,7 @@ impl Test<'_> {
             }
             let ramp = ((world.time() + self.options.time_step) / START_UP).min(1.0);
             let smooth = ramp * ramp * (3.0 - 2.0 * ramp);
-            drive(&mut world, way.driven, rate * smooth)?;
+            drive(&mut world, &way.driven, rate * smooth)?;
             if world.step().is_err() {
                 climb.rung.closure_error = f64::NAN;
                 break;
@@ -433,7 +505,8 @@ impl Test<'_> {
             let gaps = world.gaps();
             let closure_error = largest_gap(&gaps, self.length);
             let distance = prediction.distance(&poses);
-            climb.rung.progress = way.progress(&states);
+            climb.rung.progress =
+                (value(self.geometry, &way.driven, &way.start, &states) - way.from) / travel;
             for (most, now) in [
                 (&mut climb.rung.closure_error, closure_error),
                 (&mut climb.rung.distance, distance),
@@ -458,6 +531,20 @@ impl Test<'_> {
         }
         climb.rung.wall_time = begun.elapsed().as_secs_f64();
         Ok(climb)
+    }
+}
+
+impl Test<'_> {
+    /// Instantaneous freedom of the parts with loops at a generic pose of the branch.
+    fn loop_freedom(&self, branch: &Branch) -> usize {
+        let structure = &self.analysis.structure;
+        let free: usize = structure
+            .free_joints
+            .iter()
+            .map(|&j| self.mechanism.joints()[j].freedom())
+            .sum();
+        let all = branch.instantaneous.unwrap_or(branch.dimension);
+        all.saturating_sub(free + 6 * structure.loose_pieces)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Why a verification cannot be made.
 
-use super::WorldError;
+use crate::simulate::WorldError;
 use crate::matrix::MatrixError;
 use thiserror::Error;
 

@@ -1,6 +1,6 @@
 //! Watching a simulation while it runs: logs and progress bars.
 
-use super::JointGap;
+use crate::simulate::JointGap;
 use crate::closure::{JointState, Rigid};
 use std::ops::ControlFlow;
 

@@ -9,7 +9,8 @@
 //! sweep by sweep, comes to the velocities that fit all joints; what still violates them is measured, joint by joint.
 
 use super::scale::LinkInertia;
-use super::{Finding, Outcome, Solver, VerificationError, World, WorldOptions};
+use super::{Finding, Outcome, VerificationError};
+use crate::simulate::{Solver, World, WorldOptions};
 use crate::closure::{Geometry, JointState, Rigid, cross_product, spanning_poses};
 use crate::matrix::SplitMix64;
 use crate::mechanism::Mechanism;

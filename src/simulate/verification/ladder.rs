@@ -135,7 +135,9 @@ pub fn judge_motion(rungs: &[Rung]) -> Option<Finding> {
     if !(last.closure_error < APART) {
         return None;
     }
-    if before.progress < STALLED && last.progress < STALLED && last.closure_error < FINE_ENOUGH {
+    // A drive that comes farther the finer the substeps are is held up by the solver, not by the loops.
+    let stalls = last.progress < STALLED && last.progress <= before.progress.max(0.01);
+    if stalls && last.closure_error < FINE_ENOUGH {
         return Some(Finding::new(
             Outcome::Contradicted,
             format!(
