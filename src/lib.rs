@@ -11,7 +11,8 @@
 //! 7. [`closure`]: the equations of the cycles: residual, Jacobian, assembly.
 //! 8. [`mobility`]: engines and the verdict.
 //! 9. [`families`]: mechanisms of any size for examples, benches and tests.
-//! 10. [`report`]: what a person or a program reads.
+//! 10. [`record`]: motions as logs for viewers.
+//! 11. [`report`]: what a person or a program reads.
 
 pub mod closure;
 pub mod families;
@@ -22,6 +23,7 @@ pub mod matrix;
 pub mod mechanism;
 pub mod mobility;
 pub mod number;
+pub mod record;
 pub mod report;
 
 /// The README's example is compiled and run with the documentation tests.
