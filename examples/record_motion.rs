@@ -1,8 +1,13 @@
-//! Records the motion of a one-loop mechanism as a log: `cargo run --example record_motion -- FILE OUT.mcap`.
+//! Turns a joint of a mechanism step by step and records the motion as a log for a viewer.
 //!
-//! The first joint is turned step by step; after every step the other joints close the loop again.
+//! ```text
+//! cargo run --example record_motion -- mechanisms/bennett.urdf bennett.mcap [JOINT]
+//! ```
+//!
+//! The second motion in the log is the first one with a loop pulled open a little, as a simulation would show it.
 
-use kutzbach::closure::{Arithmetic, Geometry, Rigid, assemble, spanning_poses};
+use kutzbach::closure::{Arithmetic, Geometry, assemble, spanning_poses};
+use kutzbach::mobility::Structure;
 use kutzbach::record::{
     Closure, ClosureError, Gap, Header, Level, Motion, Prediction, Recorder, Role, Roles,
 };
@@ -13,102 +18,108 @@ use std::path::Path;
 const SAMPLES: usize = 240;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let mut arguments = std::env::args().skip(1);
-    let file = arguments
-        .next()
-        .unwrap_or_else(|| "mechanisms/bennett.urdf".to_owned());
-    let out = arguments
-        .next()
-        .unwrap_or_else(|| "target/bennett.mcap".to_owned());
-    let source = std::fs::read_to_string(&file)?;
-    let mechanism = kutzbach::format::read(&source)?;
-    let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
-    let mut roles = Roles {
-        links: Vec::new(),
-        joints: vec![Role::Moving; mechanism.joints().len()],
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [file, out, joint @ ..] = arguments.as_slice() else {
+        return Err("needed a mechanism file and a log: record_motion FILE OUT [JOINT]".into());
     };
-    roles.joints[0] = Role::Driven;
-    let mut facts = BTreeMap::new();
-    facts.insert("verdict".to_owned(), "mobile".to_owned());
-    let name = Path::new(&file).file_name().unwrap_or_default();
+    let mechanism = kutzbach::format::read_file(file, &[])?.mechanism;
+    let mut geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
+    let parts = Structure::new(&mechanism).parts;
+    let drive = match joint.first() {
+        Some(name) => mechanism.joint_named(name).ok_or("no such joint")?.0,
+        None => 0,
+    };
+    let mut roles = Roles::default();
+    roles.joints = vec![Role::Moving; mechanism.joints().len()];
+    roles.joints[drive] = Role::Driven;
+
+    let name = Path::new(file).file_name().unwrap_or_default();
     let header = Header {
         mechanism: &mechanism,
-        geometry: &geometry,
+        geometry: &geometry.clone(),
         source_name: &name.to_string_lossy(),
-        source: source.as_bytes(),
+        source: &std::fs::read(file)?,
         report: None,
-        facts: &facts,
+        facts: &BTreeMap::from([("verdict".to_owned(), "mobile".to_owned())]),
         roles: &roles,
         simulated_at: None,
     };
-    let mut recorder = Recorder::create(Path::new(&out), &header)?;
-    recorder.log(0.0, Level::Info, "one turn of the first joint")?;
-    let mut states = geometry.states.clone();
+    let mut recorder = Recorder::create(Path::new(out), &header)?;
+    recorder.log(0.0, Level::Info, "one turn of the driven joint")?;
+    let step = std::f64::consts::TAU / SAMPLES as f64;
     for sample in 0..=SAMPLES {
         let time = sample as f64 / 60.0;
-        let step = std::f64::consts::TAU / SAMPLES as f64;
         if sample > 0 {
-            geometry.displacements[0].advance(&mut states[0], &[step]);
-            // The others close the loop from where they stood.
-            let held = BTreeSet::from([0]);
-            let closed = close(&mechanism, &geometry, &states, &held)?;
-            let Some(closed) = closed else {
-                recorder.finish_early("the loop does not close here")?;
+            // The driven joint goes on; the others close the loops from where they stood.
+            let mut increments = vec![0.0; mechanism.joints()[drive].freedom()];
+            increments[0] = step;
+            geometry.displacements[drive].advance(&mut geometry.states[drive], &increments);
+            let held = BTreeSet::from([drive]);
+            let assembly = assemble(&mechanism, &geometry, &parts, &held)?;
+            if !assembly.closed {
+                let summary = recorder.finish_early("the loops do not close beyond this pose")?;
+                println!("{out}: {} moments", summary.moments);
                 return Ok(());
-            };
-            states = closed;
+            }
+            geometry.states = assembly.states;
         }
-        let (poses, _) = spanning_poses(&mechanism, &geometry, &states);
-        let values: Vec<Vec<f64>> = states.iter().map(|state| state.values.clone()).collect();
+        let (poses, _) = spanning_poses(&mechanism, &geometry, &geometry.states);
+        let values: Vec<Vec<f64>> = geometry.states.iter().map(|s| s.values.clone()).collect();
         let predicted = Motion {
-            links: &poses,
             joints: &values,
-            rates: &[],
-            gaps: &[],
+            ..Motion::of_links(&poses)
         };
-        // A second motion beside the first: the last link hangs back, and its joint opens.
-        let mut pulled: Vec<Rigid<f64>> = poses.clone();
-        let shift = 0.05 * geometry.size * (time * 2.0).sin();
+
+        let mut pulled = poses.clone();
         let mut gaps = Vec::new();
-        if let Some(index) = (0..mechanism.joints().len()).rev().find(|i| mechanism.joints()[*i].closes_loop) {
-            let joint = &mechanism.joints()[index];
-            let link = joint.successor.link.0;
-            pulled[link].translation[2] += shift;
-            let [a, b] = &geometry.sides[index];
+        let shift = 0.1 * geometry.size * time.sin();
+        let closing = mechanism.joints().iter().rposition(|j| j.closes_loop);
+        if let Some(index) = closing {
+            let links = [
+                mechanism.joints()[index].predecessor.link.0,
+                mechanism.joints()[index].successor.link.0,
+            ];
+            pulled[links[1]].translation[2] += shift;
+            let [predecessor, successor] =
+                [0, 1].map(|i| pulled[links[i]].apply(&geometry.sides[index][i].translation));
             gaps.push(Gap {
                 joint: index,
-                predecessor: pulled[joint.predecessor.link.0].apply(&a.translation),
-                successor: pulled[link].apply(&b.translation),
+                predecessor,
+                successor,
             });
         }
         let simulated = Motion {
-            links: &pulled,
             joints: &values,
-            rates: &[],
             gaps: &gaps,
+            ..Motion::of_links(&pulled)
         };
         recorder.moment(time, Some(&predicted), Some(&simulated))?;
+        let simulated = ClosureError {
+            position: shift.abs(),
+            ..ClosureError::default()
+        };
         recorder.closure(
             time,
             &Closure {
                 predicted: Some(ClosureError::default()),
-                simulated: Some(ClosureError {
-                    position: shift.abs(),
-                    ..ClosureError::default()
-                }),
+                simulated: Some(simulated),
             },
         )?;
         recorder.prediction(
             time,
             &Prediction {
                 branch: "A".to_owned(),
-                drive: mechanism.joints()[0].name.clone(),
+                parameter: sample as f64 * step,
+                drive: mechanism.joints()[drive].name.clone(),
                 predicted: sample as f64 * step,
                 ..Prediction::default()
             },
         )?;
     }
     let summary = recorder.finish()?;
-    println!("{out}: {} moments, {} messages", summary.moments, summary.messages);
+    println!(
+        "{out}: {} moments, {} messages",
+        summary.moments, summary.messages
+    );
     Ok(())
 }
