@@ -90,9 +90,9 @@ pub struct Drawing {
 }
 
 /// Radius of a joint's symbol, in units of the usual distance between joints of a link.
-const RADIUS_BY_DISTANCE: f64 = 0.05;
+const RADIUS_BY_DISTANCE: f64 = 0.07;
 /// However far or close joints are: bounds of the radius in units of the mechanism's extent.
-const RADIUS_BY_EXTENT: [f64; 2] = [0.002, 0.015];
+const RADIUS_BY_EXTENT: [f64; 2] = [0.002, 0.02];
 
 impl Drawing {
     /// Draws every link and joint of a mechanism at its home pose.

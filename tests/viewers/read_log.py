@@ -12,7 +12,7 @@ Keys of the answer:
     joint_states  [{time, topic, joints: {name: [position, velocity]}}]
     closure, prediction, log
                   [{time, ...fields as in the message}]
-    scene         [{time, entities: {id: {frame, shapes}}}]
+    scene         [{time, entities: {id: {frame, shapes, centres}}}]
     gaps          [{time, stream, segments: [[from, to]]}]
     descriptions  {topic: URDF}
     attachments   {name: {media_type, size, crc, text}}
@@ -189,12 +189,12 @@ def read(path):
             elif channel.topic == "/scene":
                 entities = {}
                 for entity in decoded.entities:
-                    shapes = [entity.arrows, entity.cubes, entity.spheres, entity.cylinders]
-                    shapes += [entity.lines, entity.texts]
+                    solids = [*entity.arrows, *entity.cubes, *entity.spheres, *entity.cylinders]
                     assert entity.id not in entities, "two entities of one name"
                     entities[entity.id] = {
                         "frame": entity.frame_id,
-                        "shapes": sum(len(kind) for kind in shapes),
+                        "shapes": len(solids) + len(entity.lines) + len(entity.texts),
+                        "centres": [xyz(solid.pose.position) for solid in solids],
                     }
                 answer["scene"].append({"time": time, "entities": entities})
             else:
