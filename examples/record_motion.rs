@@ -48,7 +48,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     recorder.log(0.0, Level::Info, "one turn of the driven joint")?;
     let step = std::f64::consts::TAU / SAMPLES as f64;
     for sample in 0..=SAMPLES {
-        let time = sample as f64 / 60.0;
+        let time = sample as f64 / 24.0;
         if sample > 0 {
             // The driven joint goes on; the others close the loops from where they stood.
             let mut increments = vec![0.0; mechanism.joints()[drive].freedom()];

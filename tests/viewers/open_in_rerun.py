@@ -49,8 +49,8 @@ def camera(places):
     high = [max(place[i] for place in places) for i in range(3)]
     middle = [(a + b) / 2 for a, b in zip(low, high)]
     extent = math.dist(low, high) or 1.0
-    direction = (-0.35, -1.0, 0.75)
-    scale = 0.62 * extent / math.hypot(*direction)
+    direction = (0.1, -0.9, 1.2)
+    scale = 0.55 * extent / math.hypot(*direction)
     return rrb.EyeControls3D(
         position=[m + scale * d for m, d in zip(middle, direction)],
         look_target=middle,
@@ -71,12 +71,18 @@ def series(name, component, selector, colour):
 
 def layout(log):
     blue, amber = [90, 150, 240], [245, 190, 50]
-    # The log's own texts are attached to every topic; the views below ask for what they show.
     mechanism = rrb.Spatial3DView(
         name="predicted (left) and simulated (right)",
         origin="/",
         contents=["$origin/**"],
         eye_controls=camera(places_of(log)),
+        line_grid=False,
+        background=[250, 250, 250],
+        # Primitive shapes of a robot description are drawn as wires unless the view says otherwise.
+        defaults=[
+            kind.from_fields(fill_mode=rr.components.FillMode.Solid)
+            for kind in (rr.Boxes3D, rr.Cylinders3D, rr.Ellipsoids3D)
+        ],
     )
     closure = rrb.TimeSeriesView(
         name="/mobility/closure: largest gap (m)",
@@ -154,10 +160,10 @@ def main():
         sys.exit("the viewer took no picture")
     if arguments.check and not shows_the_mechanism(arguments.picture):
         sys.exit("the picture does not show the mechanism")
-    # The viewer draws two pixels for each one asked for; a palette is enough for a dark window with few colours.
+    # The viewer draws two pixels for each one asked for.
     size = tuple(int(x) for x in arguments.size.split("x"))
     picture = Image.open(arguments.picture).convert("RGB").resize(size, Image.Resampling.LANCZOS)
-    picture.quantize(256, dither=Image.Dither.NONE).save(arguments.picture, optimize=True)
+    picture.save(arguments.picture, optimize=True)
 
 
 if __name__ == "__main__":
