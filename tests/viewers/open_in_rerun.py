@@ -43,16 +43,39 @@ def places_of(log):
     return places
 
 
+def unit(v):
+    return [x / math.hypot(*v) for x in v]
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
 def camera(places):
-    """A view from the side and above, from where everything fits."""
+    """A view from the front and above, as close as everything fits."""
     low = [min(place[i] for place in places) for i in range(3)]
     high = [max(place[i] for place in places) for i in range(3)]
     middle = [(a + b) / 2 for a, b in zip(low, high)]
     extent = math.dist(low, high) or 1.0
-    direction = (0.1, -0.9, 1.2)
-    scale = 0.55 * extent / math.hypot(*direction)
+    back = unit((0.1, -0.9, 1.2))
+    right = unit(cross([0.0, 0.0, 1.0], back))
+    up = cross(back, right)
+
+    def fits(distance):
+        # The viewer's eye opens to 55 degrees from top to bottom; the view is more than twice as wide as high.
+        half = math.tan(math.radians(55) / 2)
+        for place in places:
+            x, y, z = (sum((p - m) * e for p, m, e in zip(place, middle, axis)) for axis in (right, up, back))
+            depth = distance - z
+            if depth <= 0 or abs(y) > 0.8 * half * depth or abs(x) > 1.7 * half * depth:
+                return False
+        return True
+
+    distance = 0.3 * extent
+    while not fits(distance):
+        distance *= 1.05
     return rrb.EyeControls3D(
-        position=[m + scale * d for m, d in zip(middle, direction)],
+        position=[m + distance * d for m, d in zip(middle, back)],
         look_target=middle,
         eye_up=[0.0, 0.0, 1.0],
     )
