@@ -11,7 +11,8 @@
 //! 7. [`closure`]: the equations of the cycles: residual, Jacobian, assembly.
 //! 8. [`mobility`]: engines and the verdict.
 //! 9. [`families`]: mechanisms of any size for examples, benches and tests.
-//! 10. [`report`]: what a person or a program reads.
+//! 10. [`record`]: motions as logs for viewers.
+//! 11. [`report`]: what a person or a program reads.
 
 pub mod closure;
 pub mod families;
@@ -23,6 +24,7 @@ pub mod mechanism;
 pub mod mobility;
 pub mod motion;
 pub mod number;
+pub mod record;
 pub mod report;
 pub mod simulate;
 

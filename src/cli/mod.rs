@@ -7,8 +7,12 @@ mod excerpt;
 mod explain;
 mod failure;
 mod graph;
+#[allow(dead_code)] // for commands that take long
+mod interrupt;
 mod load;
 mod output;
+#[allow(dead_code)] // for commands that take long
+mod progress;
 mod report;
 mod terminal;
 

@@ -1,0 +1,317 @@
+//! Logs in the hands of readers that share nothing with this crate: the Python packages `mcap` and
+//! `mcap-protobuf-support`, and the Rerun viewer.
+//!
+//! `KUTZBACH_PYTHON` names an interpreter that has the packages of `tests/viewers/requirements.txt`; where it is set, a
+//! missing package is a failure. Without it, `python3` is tried, and the tests say that they were skipped where it lacks
+//! them. The viewer is asked for a picture where `KUTZBACH_VIEWER` is set.
+
+#![allow(clippy::unwrap_used)]
+
+mod support;
+
+use kutzbach::closure::{Arithmetic, Geometry, Rigid};
+use kutzbach::record::{
+    Closure, ClosureError, Gap, Header, JointClosure, Level, Motion, Prediction, Recorder, Roles,
+};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use support::folder;
+
+/// The interpreter to use; `None`, with a note, where there is none with the packages.
+fn python() -> Option<PathBuf> {
+    let named = std::env::var_os("KUTZBACH_PYTHON").filter(|name| !name.is_empty());
+    let insisted = named.is_some();
+    let python = PathBuf::from(named.unwrap_or_else(|| "python3".into()));
+    let tried = Command::new(&python)
+        .args(["-c", "import mcap, mcap_protobuf"])
+        .output();
+    let reason = match tried {
+        Ok(run) if run.status.success() => return Some(python),
+        Ok(run) => String::from_utf8_lossy(&run.stderr).trim().to_owned(),
+        Err(error) => error.to_string(),
+    };
+    assert!(!insisted, "{}: {reason}", python.display());
+    eprintln!(
+        "skipped: {} has no mcap-protobuf-support ({}); see tests/viewers/requirements.txt",
+        python.display(),
+        reason.lines().last().unwrap_or_default()
+    );
+    None
+}
+
+/// What the independent reader says of a log.
+fn read_log(python: &Path, log: &Path) -> Value {
+    let run = Command::new(python)
+        .arg(folder("tests/viewers/read_log.py"))
+        .arg(log)
+        .env("PYTHONDONTWRITEBYTECODE", "1")
+        .output()
+        .unwrap();
+    assert!(
+        run.status.success(),
+        "{}",
+        String::from_utf8_lossy(&run.stderr)
+    );
+    serde_json::from_slice(&run.stdout).unwrap()
+}
+
+const MOMENTS: usize = 80;
+
+/// What is logged as the poses of a moment: the four-bar carried around as a whole, each link with a drift of its own.
+fn poses(home: &[Rigid<f64>], moment: usize, simulated: bool) -> Vec<Rigid<f64>> {
+    let angle = 0.05 * moment as f64 + if simulated { 1e-3 } else { 0.0 };
+    home.iter()
+        .enumerate()
+        .map(|(link, pose)| {
+            let drift = angle * (1.0 + link as f64);
+            Rigid::exponential(&[0.2, -angle, drift], &[angle, 1.0, 0.0]).compose(pose)
+        })
+        .collect()
+}
+
+/// Seconds that decimals say exactly: the reader of JSON here rounds in the last digit.
+fn time(moment: usize) -> f64 {
+    moment as f64 / 32.0
+}
+
+struct Recorded {
+    log: PathBuf,
+    source: Vec<u8>,
+    links: Vec<String>,
+    joints: Vec<String>,
+    home: Vec<Rigid<f64>>,
+}
+
+fn recorded(name: &str) -> Recorded {
+    let file = folder("mechanisms/planar_four_bar.urdf");
+    let source = std::fs::read(&file).unwrap();
+    let mechanism = kutzbach::format::read_file(&file, &[]).unwrap().mechanism;
+    let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
+    let facts = BTreeMap::from([
+        ("verdict".to_owned(), "mobile".to_owned()),
+        ("finite".to_owned(), "1".to_owned()),
+    ]);
+    let header = Header {
+        mechanism: &mechanism,
+        geometry: &geometry,
+        source_name: "planar_four_bar.urdf",
+        source: &source,
+        report: Some("{\"schema\": \"kutzbach-report-1\"}"),
+        facts: &facts,
+        roles: &Roles::default(),
+        simulated_at: Some([12.5, 0.0, -1.0]),
+    };
+    let log = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let mut recorder = Recorder::create(&log, &header).unwrap();
+    recorder.log(0.0, Level::Warning, "größer als 0").unwrap();
+    for moment in 0..MOMENTS {
+        let predicted = poses(&geometry.home, moment, false);
+        let simulated = poses(&geometry.home, moment, true);
+        let values: Vec<Vec<f64>> = (0..4).map(|j| vec![j as f64 + time(moment)]).collect();
+        let rates = vec![vec![1.0]; 4];
+        let gaps = [Gap {
+            joint: 3,
+            predecessor: [1.0, 2.0, 3.0],
+            successor: [1.0, 2.0, 3.0 + time(moment)],
+        }];
+        let first = Motion {
+            joints: &values,
+            ..Motion::of_links(&predicted)
+        };
+        let second = Motion {
+            links: &simulated,
+            joints: &values,
+            rates: &rates,
+            gaps: &gaps,
+        };
+        recorder
+            .moment(time(moment), Some(&first), Some(&second))
+            .unwrap();
+        let error = ClosureError {
+            position: time(moment),
+            angle: 1e-9,
+            relative: 0.25,
+            joints: vec![JointClosure {
+                joint: mechanism.joints()[3].name.clone(),
+                position: time(moment),
+                angle: 0.0,
+            }],
+        };
+        let closure = Closure {
+            predicted: None,
+            simulated: Some(error),
+        };
+        recorder.closure(time(moment), &closure).unwrap();
+        let prediction = Prediction {
+            branch: "A".to_owned(),
+            parameter: time(moment),
+            drive: mechanism.joints()[0].name.clone(),
+            predicted: -time(moment),
+            simulated: (moment % 2 == 1).then_some(0.5),
+            event: if moment == 40 { "dead centre" } else { "" }.to_owned(),
+            ..Prediction::default()
+        };
+        recorder.prediction(time(moment), &prediction).unwrap();
+    }
+    recorder.finish().unwrap();
+    Recorded {
+        log,
+        source,
+        links: mechanism.links().iter().map(|l| l.name.clone()).collect(),
+        joints: mechanism.joints().iter().map(|j| j.name.clone()).collect(),
+        home: geometry.home.clone(),
+    }
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    let all = value.as_array().unwrap().iter();
+    all.map(|x| x.as_f64().unwrap()).collect()
+}
+
+/// Where a pose takes the corners of a tetrahedron, from the reader's translation and quaternion.
+fn corners(pose: &Value) -> Vec<[f64; 3]> {
+    let t = numbers(&pose["translation"]);
+    let q = numbers(&pose["rotation"]);
+    let [x, y, z, w] = [q[0], q[1], q[2], q[3]];
+    let points = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    points
+        .iter()
+        .map(|p| {
+            // p + 2 v × (v × p + w p)
+            let cross = |a: [f64; 3], b: [f64; 3]| {
+                [
+                    a[1] * b[2] - a[2] * b[1],
+                    a[2] * b[0] - a[0] * b[2],
+                    a[0] * b[1] - a[1] * b[0],
+                ]
+            };
+            let v = [x, y, z];
+            let inner = cross(v, *p);
+            let inner = [0, 1, 2].map(|i| inner[i] + w * p[i]);
+            let outer = cross(v, inner);
+            [0, 1, 2].map(|i| p[i] + 2.0 * outer[i] + t[i])
+        })
+        .collect()
+}
+
+#[test]
+fn python_reads_what_was_recorded() {
+    let Some(python) = python() else { return };
+    let recorded = recorded("read_by_python.mcap");
+    let answer = read_log(&python, &recorded.log);
+
+    let found = answer["poses"].as_array().unwrap();
+    assert_eq!(found.len(), 2 * MOMENTS);
+    for (index, at) in found.iter().enumerate() {
+        let (moment, simulated) = (index / 2, index % 2 == 1);
+        assert!((at["time"].as_f64().unwrap() - time(moment)).abs() < 1e-9);
+        assert_eq!(
+            at["stream"],
+            if simulated { "simulated" } else { "predicted" }
+        );
+        let links = at["links"].as_object().unwrap();
+        assert_eq!(links.len(), recorded.links.len());
+        for (name, pose) in recorded
+            .links
+            .iter()
+            .zip(poses(&recorded.home, moment, simulated))
+        {
+            for (corner, point) in corners(&links[name]).iter().zip([
+                [0.0; 3],
+                [1.0, 0.0, 0.0],
+                [0.0, 1.0, 0.0],
+                [0.0, 0.0, 1.0],
+            ]) {
+                let wanted = pose.apply(&point);
+                // Coordinates up to ten through three frames: some tens of roundings of 1e-15.
+                let off = (0..3).map(|i| (corner[i] - wanted[i]).abs());
+                assert!(off.fold(0.0, f64::max) < 1e-13, "{name} at {moment}");
+            }
+        }
+    }
+    assert_eq!(numbers(&answer["offsets"]["predicted"]), [0.0; 3]);
+    assert_eq!(numbers(&answer["offsets"]["simulated"]), [12.5, 0.0, -1.0]);
+
+    let states = answer["joint_states"].as_array().unwrap();
+    assert_eq!(states.len(), 2 * MOMENTS);
+    for (index, at) in states.iter().enumerate() {
+        let simulated = at["topic"] == "/simulated/joint_states";
+        for (joint, name) in recorded.joints.iter().enumerate() {
+            let value = &at["joints"][name];
+            assert_eq!(value[0].as_f64(), Some(joint as f64 + time(index / 2)));
+            assert_eq!(value[1].as_f64(), simulated.then_some(1.0));
+        }
+    }
+
+    for (moment, at) in answer["closure"].as_array().unwrap().iter().enumerate() {
+        assert!(at.get("predicted").is_none());
+        assert_eq!(at["simulated"]["position"].as_f64(), Some(time(moment)));
+        assert_eq!(at["simulated"]["relative"].as_f64(), Some(0.25));
+        assert_eq!(at["simulated"]["joints"][0]["joint"], recorded.joints[3]);
+    }
+    for (moment, at) in answer["prediction"].as_array().unwrap().iter().enumerate() {
+        assert_eq!(at["branch"], "A");
+        assert_eq!(at["predicted"].as_f64(), Some(-time(moment)));
+        let simulated = at.get("simulated").and_then(Value::as_f64);
+        assert_eq!(simulated, (moment % 2 == 1).then_some(0.5));
+        assert_eq!(at["event"], if moment == 40 { "dead centre" } else { "" });
+    }
+    for (index, at) in answer["gaps"].as_array().unwrap().iter().enumerate() {
+        let moment = index / 2;
+        let expected = match (index % 2, moment) {
+            (0, _) | (_, 0) => serde_json::json!([]),
+            _ => serde_json::json!([[[1.0, 2.0, 3.0], [1.0, 2.0, 3.0 + time(moment)]]]),
+        };
+        assert_eq!(at["segments"], expected);
+    }
+
+    let text = String::from_utf8(recorded.source).unwrap();
+    assert_eq!(answer["attachments"]["planar_four_bar.urdf"]["text"], text);
+    let report = &answer["attachments"]["report.json"];
+    assert_eq!(report["text"], "{\"schema\": \"kutzbach-report-1\"}");
+    assert_eq!(report["media_type"], "application/json");
+    assert_eq!(answer["metadata"]["mobility"]["finite"], "1");
+    assert_eq!(answer["log"][0]["message"], "größer als 0");
+    assert_eq!(answer["log"][0]["level"], "WARNING");
+    assert_eq!(answer["times"]["first"], 0);
+    let entities = answer["scene"][0]["entities"].as_object().unwrap();
+    for link in &recorded.links {
+        for stream in ["predicted", "simulated"] {
+            let entity = &entities[&format!("{stream}/link/{link}")];
+            assert_eq!(entity["frame"], format!("{stream}/{link}"));
+            assert!(entity["shapes"].as_u64().unwrap() >= 1);
+        }
+    }
+    let description = answer["descriptions"]["/robot_description"].as_str();
+    let robot = urdf_rs::read_from_string(description.unwrap()).unwrap();
+    assert_eq!(robot.links.len(), recorded.links.len() + 1);
+    let topic = &answer["topics"]["/tf"];
+    assert_eq!(topic["schema"], "foxglove.FrameTransforms");
+    assert_eq!(topic["messages"], MOMENTS);
+}
+
+#[test]
+fn the_viewer_shows_the_mechanism() {
+    if std::env::var_os("KUTZBACH_VIEWER").is_none() {
+        eprintln!("skipped: KUTZBACH_VIEWER is not set; see tests/viewers/open_in_rerun.sh");
+        return;
+    }
+    let recorded = recorded("seen_in_a_viewer.mcap");
+    let picture = recorded.log.with_extension("png");
+    let _ = std::fs::remove_file(&picture);
+    let run = Command::new("bash")
+        .arg(folder("tests/viewers/open_in_rerun.sh"))
+        .args([&recorded.log, &picture])
+        .arg("--check")
+        .output()
+        .unwrap();
+    assert!(
+        run.status.success(),
+        "{}\n{}",
+        String::from_utf8_lossy(&run.stdout),
+        String::from_utf8_lossy(&run.stderr)
+    );
+    assert!(picture.exists());
+}
