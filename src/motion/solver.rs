@@ -270,6 +270,7 @@ impl Solver {
             // Rounding: residuals are off by some 1e-16 per joint passed, so that steps do not fall below about as much.
             let stalled = length >= 0.5 * before && before < 1e-11;
             if length < 1e-15 || stalled {
+                before = before.min(length);
                 break;
             }
             if length > 1e-2 && before < 1e-3 {
