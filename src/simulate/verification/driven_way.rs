@@ -6,7 +6,7 @@
 //! prediction.
 
 use crate::closure::{Geometry, JointState};
-use crate::mechanism::Mechanism;
+use crate::mechanism::{FreedomPart, JointKind, Mechanism};
 use crate::mobility::{Analysis, Branch};
 use crate::motion::{Curve, EndReason, EventKind, Motion, Trace, TraceOptions, Variable, trace};
 use std::f64::consts::TAU;
@@ -26,7 +26,38 @@ pub(super) struct DrivenWay {
     pub to: f64,
     /// Why it goes no farther, for people.
     pub ends: String,
+    /// (time, value of the driven variable) along the way at a pace at which no joint goes faster than [`RATE`]; times
+    /// ascend from zero.
+    schedule: Vec<(f64, f64)>,
 }
+
+impl DrivenWay {
+    /// Seconds that the way takes.
+    pub fn duration(&self) -> f64 {
+        self.schedule.last().map_or(0.0, |(time, _)| *time)
+    }
+
+    /// Where the driven variable is to be at a time, and how fast: (rad, rad/s) or (m, m/s).
+    pub fn target(&self, time: f64) -> (f64, f64) {
+        let after = self.schedule.partition_point(|(t, _)| *t <= time);
+        if after == 0 || after >= self.schedule.len() {
+            return (if after == 0 { self.from } else { self.to }, 0.0);
+        }
+        let ((t0, v0), (t1, v1)) = (self.schedule[after - 1], self.schedule[after]);
+        let rate = (v1 - v0) / (t1 - t0);
+        (v0 + rate * (time - t0), rate)
+    }
+}
+
+/// The fastest joint of a way goes at this rate (rad/s, characteristic lengths per second). Inertia forces grow with its
+/// square, so that a drive of limited force, and those that hold, keep their places.
+pub(super) const RATE: f64 = 1.0;
+
+/// Ways that would take longer (s) are cut short.
+const LONGEST: f64 = 20.0;
+
+/// Poses that the schedule of a way is made from.
+const SCHEDULED: usize = 400;
 
 /// What is gone of the arclength to a pose that ends the way: the rest is where the drive has ever less leverage.
 const SHARE: f64 = 0.85;
@@ -37,8 +68,18 @@ const SHORTEST: f64 = 0.02;
 /// Longest way of a freedom of a ball (rad): its rotation vector is unambiguous up to half a turn.
 const BALL_WAY: f64 = 2.0;
 
-/// Halvings that place the end of a way.
-const HALVINGS: usize = 50;
+/// Whether a variable is one of a ball's: a component of its rotation.
+fn turns_a_ball(geometry: &Geometry<f64>, variable: &Variable) -> bool {
+    let kind = geometry.displacements[variable.joint].kind();
+    let rotations = kind
+        .freedoms()
+        .iter()
+        .filter(|part| **part == FreedomPart::Rotation)
+        .count();
+    kind != JointKind::Universal
+        && rotations > 1
+        && kind.freedoms()[variable.freedom] == FreedomPart::Rotation
+}
 
 /// The value of a joint variable; that of a ball is its rotation since the start.
 pub(super) fn value(
@@ -48,17 +89,14 @@ pub(super) fn value(
     states: &[JointState<f64>],
 ) -> f64 {
     let (joint, freedom) = (variable.joint, variable.freedom);
-    let counted = states[joint].values.get(freedom).copied();
-    counted.unwrap_or_else(|| {
-        geometry.displacements[joint]
-            .increments(&start[joint], &states[joint])
-            .get(freedom)
-            .copied()
-            .unwrap_or(0.0)
-    })
+    if turns_a_ball(geometry, variable) {
+        geometry.displacements[joint].increments(&start[joint], &states[joint])[freedom]
+    } else {
+        states[joint].values[freedom]
+    }
 }
 
-/// The ways along a branch, one for each part of the mechanism that has loops and moves; one in all for mechanisms without
+/// The ways along a branch of a mechanism of some characteristic length (m), one for each part of the mechanism that has loops and moves; one in all for mechanisms without
 /// loops.
 ///
 /// # Errors
@@ -66,13 +104,14 @@ pub(super) fn value(
 pub(super) fn ways_along(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
+    length: f64,
     analysis: &Analysis,
     branch: &Branch,
     configuration: Option<&str>,
     drive: Option<&str>,
 ) -> Result<Vec<DrivenWay>, String> {
     let first = motion_of(mechanism, analysis, branch, configuration, drive)?;
-    let mut ways = vec![way_of(geometry, first)?];
+    let mut ways = vec![way_of(mechanism, geometry, length, first)?];
     if drive.is_some() {
         return Ok(ways);
     }
@@ -103,7 +142,7 @@ pub(super) fn ways_along(
             configuration,
             Some(&variable.name),
         )?;
-        ways.push(way_of(geometry, motion)?);
+        ways.push(way_of(mechanism, geometry, length, motion)?);
     }
     Ok(ways)
 }
@@ -135,63 +174,129 @@ struct Barrier {
     what: String,
 }
 
-fn way_of(geometry: &Geometry<f64>, mut motion: Motion) -> Result<DrivenWay, String> {
-    let start = states_at(&mut motion.curve, 0.0).ok_or("no pose of the branch is found")?;
+/// A way to one side, as far as it was looked at.
+struct Side {
+    to: f64,
+    ends: String,
+    schedule: Vec<(f64, f64)>,
+}
+
+fn way_of(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    length: f64,
+    mut motion: Motion,
+) -> Result<DrivenWay, String> {
+    let nothing = "no pose of the branch is found";
+    let start = states_at(&mut motion.curve, 0.0).ok_or(nothing)?;
     let driven = motion.driven.clone();
-    let at = |curve: &mut Curve, arclength: f64| {
-        states_at(curve, arclength).map(|states| value(geometry, &driven, &start, &states))
-    };
-    let from = at(&mut motion.curve, 0.0).ok_or("no pose of the branch is found")?;
-    let scalar = start[driven.joint].values.get(driven.freedom).is_some();
-    let mut best: Option<(f64, String)> = None;
+    let from = value(geometry, &driven, &start, &start);
+    let units = units(mechanism, length);
+    let mut best: Option<Side> = None;
     for side in [1.0, -1.0] {
         let barrier = barrier(&motion, side);
-        let mut reach = barrier.arclength;
-        let mut what = barrier.what;
-        // A turn is enough, and half of one for a ball.
-        let longest = if scalar { TAU } else { BALL_WAY };
-        let travelled = |curve: &mut Curve, s: f64| at(curve, s).map(|v| (v - from).abs());
-        if travelled(&mut motion.curve, reach).is_none_or(|t| t > longest) {
-            let (mut low, mut high) = (0.0, reach);
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (low + high);
-                match travelled(&mut motion.curve, middle) {
-                    Some(t) if t <= longest => low = middle,
-                    _ => high = middle,
-                }
-            }
-            reach = low;
-            what = "a full turn".to_owned();
-            if !scalar {
-                what = "as far as a ball is driven".to_owned();
-            }
-        }
-        let Some(to) = at(&mut motion.curve, reach) else {
-            continue;
-        };
+        let found = side_of(geometry, &units, &start, &driven, &mut motion.curve, &barrier);
         if best
             .as_ref()
-            .is_none_or(|(other, _)| (to - from).abs() > 1.001 * (other - from).abs())
+            .is_none_or(|other| (found.to - from).abs() > 1.001 * (other.to - from).abs())
         {
-            best = Some((to, what));
+            best = Some(found);
         }
     }
+    let joint = &mechanism.joints()[driven.joint];
+    let unit = match joint.kind.freedoms()[driven.freedom] {
+        FreedomPart::Translation => length,
+        FreedomPart::Rotation | FreedomPart::Screw => 1.0,
+    };
     match best {
-        Some((to, ends)) if (to - from).abs() > SHORTEST * motion.length_unit.min(1.0) => {
-            Ok(DrivenWay {
-                start,
-                driven,
-                held: motion.held.into_iter().map(|h| h.variable).collect(),
-                from,
-                to,
-                ends,
-            })
-        }
+        Some(best) if (best.to - from).abs() > SHORTEST * unit => Ok(DrivenWay {
+            start,
+            driven,
+            held: motion.held.into_iter().map(|h| h.variable).collect(),
+            from,
+            to: best.to,
+            ends: best.ends,
+            schedule: best.schedule,
+        }),
         _ => Err(format!(
             "no stretch of the branch is long enough to drive `{}` along",
             driven.name
         )),
     }
+}
+
+/// Radians or characteristic lengths per unit of every joint variable, joint by joint.
+fn units(mechanism: &Mechanism, length: f64) -> Vec<Vec<f64>> {
+    mechanism
+        .joints()
+        .iter()
+        .map(|joint| {
+            joint
+                .kind
+                .freedoms()
+                .iter()
+                .map(|part| match part {
+                    FreedomPart::Translation => 1.0 / length,
+                    FreedomPart::Rotation | FreedomPart::Screw => 1.0,
+                })
+                .collect()
+        })
+        .collect()
+}
+
+/// Follows the curve to one side until the barrier, a full turn, or the time is over.
+fn side_of(
+    geometry: &Geometry<f64>,
+    units: &[Vec<f64>],
+    start: &[JointState<f64>],
+    driven: &Variable,
+    curve: &mut Curve,
+    barrier: &Barrier,
+) -> Side {
+    let from = value(geometry, driven, start, start);
+    let (longest, turn) = if turns_a_ball(geometry, driven) {
+        (BALL_WAY, "as far as a ball is driven")
+    } else {
+        (TAU, "a full turn")
+    };
+    let mut found = Side {
+        to: from,
+        ends: barrier.what.clone(),
+        schedule: vec![(0.0, from)],
+    };
+    let mut before = start.to_vec();
+    let mut time = 0.0;
+    for step in 1..=SCHEDULED {
+        let arclength = barrier.arclength * step as f64 / SCHEDULED as f64;
+        let Some(states) = states_at(curve, arclength) else {
+            found.ends = "short of where the branch is followed to".to_owned();
+            break;
+        };
+        let mut fastest: f64 = 0.0;
+        for (joint, units) in units.iter().enumerate() {
+            let displacement = &geometry.displacements[joint];
+            let increments = displacement.increments(&before[joint], &states[joint]);
+            for (increment, unit) in increments.iter().zip(units) {
+                fastest = fastest.max((increment * unit).abs());
+            }
+        }
+        let to = value(geometry, driven, start, &states);
+        if (to - from).abs() > 1.0001 * longest {
+            found.ends = turn.to_owned();
+            break;
+        }
+        time += fastest / RATE;
+        if time > LONGEST {
+            found.ends = "far enough".to_owned();
+            break;
+        }
+        if fastest > 0.0 {
+            found.schedule.push((time, to));
+            found.to = to;
+        }
+        before = states;
+    }
+    found
 }
 
 /// The first pose on one side that a drive should not reach.

@@ -1,5 +1,6 @@
 //! Watching a simulation while it runs: logs and progress bars.
 
+use crate::motion::Variable;
 use crate::simulate::JointGap;
 use crate::closure::{JointState, Rigid};
 use std::ops::ControlFlow;
@@ -15,10 +16,8 @@ pub struct Moment<'a> {
     pub simulated: &'a [Rigid<f64>],
     /// State of every joint as simulated, by joint index.
     pub states: &'a [JointState<f64>],
-    /// `world_from_link` of every link as predicted.
-    pub predicted: &'a [Rigid<f64>],
-    /// State of every joint as predicted.
-    pub predicted_states: &'a [JointState<f64>],
+    /// `world_from_link` of every link and the state of every joint as predicted, where anything is.
+    pub predicted: Option<(&'a [Rigid<f64>], &'a [JointState<f64>])>,
     /// How far every joint is from what it allows, by joint index.
     pub gaps: &'a [JointGap],
     /// The largest gap (characteristic lengths, rad).
@@ -32,8 +31,10 @@ pub struct Moment<'a> {
 pub struct Passage {
     /// What is shown, for people.
     pub title: String,
-    /// Joint that is driven, by index.
-    pub driven: Option<usize>,
+    /// Name of the branch that is followed; empty where none is.
+    pub branch: String,
+    /// What is driven, if anything.
+    pub driven: Option<Variable>,
     /// Substeps per step.
     pub substeps: usize,
     /// Seconds it is to last.

@@ -8,6 +8,7 @@
 use super::ladder::{Finding, Outcome};
 use super::observer::{Moment, Observer, Passage};
 use super::VerificationError;
+use crate::motion::Variable;
 use crate::simulate::{Drive, Solver, World, WorldOptions};
 use crate::closure::{Geometry, JointState};
 use crate::mechanism::{FreedomPart, Mechanism};
@@ -182,7 +183,8 @@ impl Pushed<'_> {
         push.stopped = observer
             .begin(&Passage {
                 title: format!("push {title}"),
-                driven: Some(joint),
+                branch: String::new(),
+                driven: Some(Variable::of(self.mechanism, joint, freedom)),
                 substeps,
                 duration: DURATION,
             })
@@ -216,8 +218,7 @@ impl Pushed<'_> {
                     done: step as f64 / steps as f64,
                     simulated: &world.link_poses(),
                     states: &states,
-                    predicted: &home,
-                    predicted_states: self.states,
+                    predicted: Some((&home, self.states)),
                     gaps: &gaps,
                     closure_error,
                     distance: moved,

@@ -9,7 +9,7 @@
 //! None of it is a proof: it is evidence from physics that knows nothing of the analysis, and it is stated with the size
 //! of the defect that it could have missed.
 
-use super::driven_way::{DrivenWay, value, ways_along};
+use super::driven_way::{DrivenWay, RATE, value, ways_along};
 use super::ladder::{Finding, Outcome, Rung, judge_motion, order_between, undecided};
 use super::observer::{Moment, Observer, Passage};
 use super::prediction::Prediction;
@@ -114,17 +114,23 @@ pub struct Verification {
     pub notes: Vec<String>,
 }
 
-/// Largest rate of a drive (rad/s, characteristic lengths per second).
-const RATE: f64 = 1.0;
-
 /// Largest torque of a drive, in moments of inertia of the whole mechanism (mass × length²) per s². A mechanism of its own
-/// size and mass comes to speed in a tenth of a second.
+/// size and mass comes to speed in a thirtieth of a second.
 const EFFORT: f64 = 30.0;
 
-/// A drive comes to its rate over this time (s), smoothly: a jerk would excite the give of the joints.
+/// What holds an input gets ten times as much: it has to stand what the drive does.
+const HOLDING_EFFORT: f64 = 300.0;
+
+/// A drive comes to its pace over this time (s), smoothly: a jerk would excite the give of the joints.
 const START_UP: f64 = 0.25;
 
-/// Beyond the time that the way takes at full rate, a drive gets this much longer before it counts as stalled.
+/// A drive that is off its schedule, or an input off its place, is to be back in this time (s).
+const CATCH_UP: f64 = 0.1;
+
+/// While catching up, no drive is asked for more than this (rad/s, characteristic lengths per second).
+const FASTEST: f64 = 3.0 * RATE;
+
+/// Beyond the time that the way takes, a drive gets so many times as long before it counts as stalled.
 const PATIENCE: f64 = 1.5;
 
 /// So many moments of a passage are measured and shown.
@@ -322,6 +328,7 @@ impl Test<'_> {
         let ways = match ways_along(
             self.mechanism,
             self.geometry,
+            self.length,
             self.analysis,
             branch,
             self.options.configuration.as_deref(),
@@ -437,21 +444,22 @@ impl Test<'_> {
                 FreedomPart::Rotation | FreedomPart::Screw => 1.0,
             }
         };
-        let drive = |world: &mut World, input: &Variable, velocity: f64| {
+        let drive = |world: &mut World, input: &Variable, velocity: f64, effort: f64| {
+            let fastest = FASTEST * unit(input);
             world.drive(Drive {
                 joint: input.joint,
                 freedom: input.freedom,
-                velocity: velocity * unit(input),
-                largest_force: EFFORT * effort / unit(input),
+                velocity: velocity.clamp(-fastest, fastest),
+                largest_force: effort / unit(input),
             })
         };
-        for held in &way.held {
-            drive(&mut world, held, 0.0)?;
-        }
+        let places: Vec<f64> = way
+            .held
+            .iter()
+            .map(|held| value(self.geometry, held, &way.start, &way.start))
+            .collect();
         let travel = way.to - way.from;
-        let rate = RATE * travel.signum();
-        let full = travel.abs() / (RATE * unit(&way.driven));
-        let duration = full + 0.5 * START_UP;
+        let duration = way.duration() + 0.5 * START_UP;
         let mut climb = Climb {
             rung: Rung {
                 substeps,
@@ -468,7 +476,8 @@ impl Test<'_> {
                         "branch {}: `{}`, {substeps} substeps",
                         branch.name, way.driven.name
                     ),
-                    driven: Some(way.driven.joint),
+                    branch: branch.name.clone(),
+                    driven: Some(way.driven.clone()),
                     substeps,
                     duration,
                 })
@@ -486,20 +495,25 @@ impl Test<'_> {
         let steps = (PATIENCE * duration / self.options.time_step).ceil() as usize;
         let every = ((duration / self.options.time_step) as usize / MOMENTS).max(1);
         for step in 1..=steps {
-            if climb.stopped || climb.rung.progress >= 1.0 {
+            if climb.stopped || climb.rung.progress >= 0.999 {
                 break;
             }
-            let ramp = ((world.time() + self.options.time_step) / START_UP).min(1.0);
-            let smooth = ramp * ramp * (3.0 - 2.0 * ramp);
-            drive(&mut world, &way.driven, rate * smooth)?;
+            let (place, rate) = way.target(pace(world.time() + self.options.time_step));
+            let now = value(self.geometry, &way.driven, &way.start, &states);
+            let velocity = rate + (place - now) / CATCH_UP;
+            drive(&mut world, &way.driven, velocity, EFFORT * effort)?;
+            for (held, place) in way.held.iter().zip(&places) {
+                let off = value(self.geometry, held, &way.start, &states) - place;
+                drive(&mut world, held, -off / CATCH_UP, HOLDING_EFFORT * effort)?;
+            }
             if world.step().is_err() {
                 climb.rung.closure_error = f64::NAN;
                 break;
             }
+            states = world.states(&states);
             if step % every != 0 {
                 continue;
             }
-            states = world.states(&states);
             prediction.follow(&states)?;
             let poses = world.link_poses();
             let gaps = world.gaps();
@@ -521,8 +535,7 @@ impl Test<'_> {
                     done: climb.rung.progress.clamp(0.0, 1.0),
                     simulated: &poses,
                     states: &states,
-                    predicted: prediction.poses(),
-                    predicted_states: prediction.states(),
+                    predicted: Some((prediction.poses(), prediction.states())),
                     gaps: &gaps,
                     closure_error,
                     distance,
@@ -531,6 +544,17 @@ impl Test<'_> {
         }
         climb.rung.wall_time = begun.elapsed().as_secs_f64();
         Ok(climb)
+    }
+}
+
+/// The time on the schedule at a time of the simulation: it starts from rest.
+fn pace(time: f64) -> f64 {
+    if time < START_UP {
+        // The integral of the smooth step 3 x² − 2 x³.
+        let x = time / START_UP;
+        START_UP * (x.powi(3) - 0.5 * x.powi(4))
+    } else {
+        time - 0.5 * START_UP
     }
 }
 
