@@ -267,15 +267,17 @@ fn attempt(solver: &mut Solver, here: &Node, predictor: &Predictor, step: f64) -
     })
 }
 
-/// Follows the curve from a start in the direction of its tangent. The start is the first node of the result.
+/// Follows the curve from a node in the direction of its tangent. That node is the first of the result; `start` is the
+/// one at which a closed curve is recognised.
 pub(super) fn follow(
     solver: &mut Solver,
     start: &Node,
+    from: &Node,
     bounds: &[Bounds],
 ) -> (Vec<Node>, Stop) {
-    let mut nodes = vec![start.clone()];
-    solver.anchor(&start.pose);
-    let mut step = FIRST_STEP * longest(&start.tangent);
+    let mut nodes = vec![from.clone()];
+    solver.anchor(&from.pose);
+    let mut step = FIRST_STEP * longest(&from.tangent);
     loop {
         let here = nodes[nodes.len() - 1].clone();
         if nodes.len() > MOST_NODES || far_enough(solver, start, &here) {
@@ -338,7 +340,7 @@ pub(super) fn follow(
             }
             return (nodes, stop);
         }
-        if nodes.len() > 2
+        if (nodes.len() > 2 || from.arc > start.arc)
             && let Some(last) = closes(solver, start, &here, &node)
         {
             nodes.push(last);

@@ -1,0 +1,282 @@
+//! Cusps: where a curve turns back on its other half.
+//!
+//! Near a cusp the curve is `z = c τ² + b τ³ + …` (or τ⁵, τ⁷): one direction c, gone to its end and back again. No pose lies
+//! beyond, so that a predictor along c finds nothing; but every coordinate is a power series in τ, the square root of the
+//! distance left along c. So
+//!
+//! 1. the half that was followed is fitted by a polynomial in τ, and its values at −τ predict the other half, where poses
+//!    are corrected;
+//! 2. the square of the distance between both halves at the same place along c falls as an odd power of what is left; its
+//!    root of that order is a power series with a simple zero at the cusp, which interpolation finds;
+//! 3. the polynomial in τ through poses on both halves passes the cusp, at τ = 0.
+
+use super::follow::{Node, dot, finish, length};
+use super::singular::{Bridge, Singular, horner, interpolate, kernels};
+use super::solver::{Along, Solver};
+use super::system::SystemPose;
+
+/// Places of poses on one half, in units of the largest τ: the nearest is at a seventh of it.
+const PLACES: [f64; 7] = [0.15, 0.28, 0.42, 0.56, 0.71, 0.86, 1.0];
+
+/// The passage reaches as far as the curve has turned by about this much (rad) on the way to the cusp.
+const TURNED: f64 = 0.35;
+
+/// Exponents that are recognised.
+const POWERS: [f64; 3] = [3.0, 5.0, 7.0];
+
+struct Near<'n> {
+    nodes: &'n [Node],
+    reference: SystemPose,
+    /// The direction in which the curve comes to its end.
+    chord: Vec<f64>,
+}
+
+impl Near<'_> {
+    fn chart(&self, solver: &Solver, pose: &SystemPose) -> Vec<f64> {
+        let mut z = vec![0.0; self.chord.len()];
+        solver.system.way(&self.reference, pose, &mut z);
+        z
+    }
+
+    /// A pose near a prediction, cut across the chord at a place along it.
+    fn corrected(
+        &self,
+        solver: &mut Solver,
+        mut prediction: Vec<f64>,
+        along: f64,
+    ) -> Option<(SystemPose, Vec<f64>)> {
+        let off = along - dot(&self.chord, &prediction);
+        prediction
+            .iter_mut()
+            .zip(&self.chord)
+            .for_each(|(p, c)| *p += off * c);
+        let mut pose = self.reference.clone();
+        solver.system.advance(&mut pose, &prediction);
+        solver.correct(&mut pose, Along::Across(&self.chord))?;
+        let z = self.chart(solver, &pose);
+        Some((pose, z))
+    }
+}
+
+/// The passage through a cusp at the end of a list of nodes, and how many of the nodes stay.
+pub(super) fn pass_cusp(solver: &mut Solver, nodes: &[Node]) -> Option<(usize, Singular)> {
+    let last = nodes.last()?;
+    if nodes.len() < 6 {
+        return None;
+    }
+    // From where the direction still differs from that at the end.
+    let turned = |node: &Node| dot(&node.tangent, &last.tangent).clamp(-1.0, 1.0).acos();
+    let far = nodes.iter().rposition(|n| turned(n) > TURNED).unwrap_or(0);
+    if far + 5 > nodes.len() {
+        return None;
+    }
+    let near = Near {
+        nodes: &nodes[far..],
+        reference: last.pose.clone(),
+        chord: last.tangent.clone(),
+    };
+    // What is left beyond the last node is less than the shortest step.
+    let places: Vec<f64> = near
+        .nodes
+        .iter()
+        .map(|n| dot(&near.chord, &near.chart(solver, &n.pose)))
+        .collect();
+    let mut end = first_guess(&near, &places)?;
+    let reach = (end - places[0]).sqrt();
+    let mut halves = None;
+    for _ in 0..6 {
+        let fitted = fit(solver, &near, &places, end)?;
+        let found = both_halves(solver, &near, &fitted, end, 0.95 * reach)?;
+        let better = turning_place(&found, end)?;
+        let moved = (better - end).abs();
+        end = better;
+        halves = Some(found);
+        if moved < 1e-13 * reach {
+            break;
+        }
+    }
+    let halves = halves?;
+    let scale = halves.iter().map(|h| (end - h.along).sqrt()).fold(0.0, f64::max);
+    let root = |half: &Half| (end - half.along).max(0.0).sqrt() / scale;
+    let mut points: Vec<f64> = halves.iter().rev().map(|h| -root(h)).collect();
+    points.extend(halves.iter().map(root));
+    let mut values: Vec<Vec<f64>> = halves.iter().rev().map(|h| h.before.1.clone()).collect();
+    values.extend(halves.iter().map(|h| h.after.1.clone()));
+    if !points.windows(2).all(|p| p[0] < p[1]) {
+        return None;
+    }
+    let bridge = Bridge::through(near.reference.clone(), &points, &values);
+    let pose = bridge.pose(solver, bridge.middle());
+    let outermost = halves.last()?;
+    let along = outermost.along;
+    let kept = far + places.iter().position(|p| *p >= along).unwrap_or(0);
+    let base = &nodes[kept.checked_sub(1)?];
+    let before = finish(solver, outermost.before.0.clone(), &bridge.direction(0.0), base)?;
+    let mut after = finish(solver, outermost.after.0.clone(), &bridge.direction(1.0), base)?;
+    after.arc = before.arc + bridge.arc();
+    let (_, freedom) = kernels(solver, &pose);
+    Some((
+        kept,
+        Singular {
+            pose,
+            freedom,
+            crosses: false,
+            cusp: true,
+            bridge,
+            before,
+            after,
+        },
+    ))
+}
+
+/// Where the curve ends along the chord: the square of the angle of the tangent falls linearly there for a cusp of the
+/// lowest order, and the last node is close for all.
+fn first_guess(near: &Near<'_>, places: &[f64]) -> Option<f64> {
+    let count = near.nodes.len();
+    let last = places[count - 1];
+    let turned = |i: usize| {
+        let off: Vec<f64> = near.nodes[i]
+            .tangent
+            .iter()
+            .zip(&near.nodes[count - 2].tangent)
+            .map(|(a, b)| a - b)
+            .collect();
+        length(&off)
+    };
+    let (far, middle) = (0, count / 2);
+    let ratio = turned(far) / turned(middle).max(1e-300);
+    // (√(e − p₀) − √(e − p₂)) / (√(e − p₁) − √(e − p₂)) = ratio, for e beyond the last place.
+    let value = |e: f64| {
+        let r = |i: usize| (e - places[i]).max(0.0).sqrt();
+        (r(far) - r(count - 2)) / (r(middle) - r(count - 2)) - ratio
+    };
+    let span = last - places[0];
+    if !(span > 0.0) {
+        return None;
+    }
+    let (mut low, mut high) = (last, last + span);
+    if (value(low) < 0.0) == (value(high) < 0.0) {
+        return Some(last);
+    }
+    for _ in 0..60 {
+        let e = 0.5 * (low + high);
+        if (value(e) < 0.0) == (value(low) < 0.0) {
+            low = e;
+        } else {
+            high = e;
+        }
+    }
+    Some(low)
+}
+
+/// The half that was followed, as a polynomial in τ.
+fn fit(solver: &Solver, near: &Near<'_>, places: &[f64], end: f64) -> Option<Vec<Vec<f64>>> {
+    let reach = (end - places[0]).max(0.0).sqrt();
+    if !(reach > 0.0) {
+        return None;
+    }
+    // Nodes spread evenly over τ.
+    let mut chosen: Vec<usize> = Vec::new();
+    for step in (0..PLACES.len()).rev() {
+        let wanted = reach * (step as f64 + 0.5) / PLACES.len() as f64;
+        let nearest = (0..places.len()).min_by(|a, b| {
+            let off = |i: usize| ((end - places[i]).max(0.0).sqrt() - wanted).abs();
+            off(*a).total_cmp(&off(*b))
+        })?;
+        if !chosen.contains(&nearest) {
+            chosen.push(nearest);
+        }
+    }
+    let taus: Vec<f64> = chosen
+        .iter()
+        .map(|&i| (end - places[i]).max(0.0).sqrt())
+        .collect();
+    let values: Vec<Vec<f64>> = chosen
+        .iter()
+        .map(|&i| near.chart(solver, &near.nodes[i].pose))
+        .collect();
+    if chosen.len() < 4 {
+        return None;
+    }
+    Some(interpolate(&taus, &values))
+}
+
+/// Poses of both halves at one place along the chord.
+struct Half {
+    along: f64,
+    before: (SystemPose, Vec<f64>),
+    after: (SystemPose, Vec<f64>),
+}
+
+fn both_halves(
+    solver: &mut Solver,
+    near: &Near<'_>,
+    fitted: &[Vec<f64>],
+    end: f64,
+    reach: f64,
+) -> Option<Vec<Half>> {
+    let mut halves = Vec::new();
+    for place in PLACES {
+        let tau = place * reach;
+        let along = end - tau * tau;
+        let before = near.corrected(solver, horner(fitted, tau), along)?;
+        let predicted = horner(fitted, -tau);
+        let after = near.corrected(solver, predicted.clone(), along)?;
+        let apart = |a: &[f64], b: &[f64]| {
+            let off: Vec<f64> = a.iter().zip(b).map(|(x, y)| x - y).collect();
+            length(&off)
+        };
+        // On the half it was meant for.
+        if apart(&after.1, &predicted) > 0.5 * apart(&after.1, &before.1) {
+            return None;
+        }
+        halves.push(Half {
+            along,
+            before,
+            after,
+        });
+    }
+    Some(halves)
+}
+
+/// The place along the chord where both halves meet.
+fn turning_place(halves: &[Half], end: f64) -> Option<f64> {
+    let square = |h: &Half| {
+        h.before
+            .1
+            .iter()
+            .zip(&h.after.1)
+            .map(|(a, b)| (a - b).powi(2))
+            .sum::<f64>()
+    };
+    let (first, last) = (halves.first()?, halves.last()?);
+    let slope = (square(last) / square(first)).ln() / ((end - last.along) / (end - first.along)).ln();
+    let power = POWERS
+        .into_iter()
+        .min_by(|a, b| (a - slope).abs().total_cmp(&(b - slope).abs()))?;
+    if (power - slope).abs() > 0.8 {
+        return None;
+    }
+    let span = end - last.along;
+    let places: Vec<f64> = halves.iter().map(|h| (h.along - end) / span).collect();
+    let roots: Vec<Vec<f64>> = halves
+        .iter()
+        .map(|h| vec![square(h).powf(1.0 / power)])
+        .collect();
+    let polynomial = interpolate(&places, &roots);
+    let value = |x: f64| horner(&polynomial, x)[0];
+    let mut x = 0.0;
+    for _ in 0..50 {
+        let h = 1e-4;
+        let slope = (value(x + h) - value(x - h)) / (2.0 * h);
+        let step = value(x) / slope;
+        x -= step;
+        if !(x.abs() < 0.2) {
+            return None;
+        }
+        if step.abs() < 1e-16 {
+            break;
+        }
+    }
+    Some(end + x * span)
+}
