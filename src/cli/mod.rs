@@ -11,6 +11,7 @@ mod load;
 mod output;
 mod report;
 mod terminal;
+mod trace;
 
 use clap::{Parser, Subcommand};
 use failure::Failure;
@@ -41,6 +42,7 @@ enum Command {
     Report(report::Arguments),
     Check(check::Arguments),
     Graph(graph::Arguments),
+    Trace(trace::Arguments),
     Explain(explain::Arguments),
 }
 
@@ -50,6 +52,7 @@ pub fn run() -> ExitCode {
         Command::Report(arguments) => report::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Graph(arguments) => graph::run(&arguments),
+        Command::Trace(arguments) => trace::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
     };
     match outcome {

@@ -59,7 +59,12 @@ impl Near<'_> {
 }
 
 /// The passage through a cusp at the end of a list of nodes, and how many of the nodes stay.
-pub(super) fn pass_cusp(solver: &mut Solver, nodes: &[Node]) -> Option<(usize, Singular)> {
+/// `start` is a node that the passage must not jump over.
+pub(super) fn pass_cusp(
+    solver: &mut Solver,
+    nodes: &[Node],
+    start: &Node,
+) -> Option<(usize, Singular)> {
     let last = nodes.last()?;
     if nodes.len() < 6 {
         return None;
@@ -82,7 +87,13 @@ pub(super) fn pass_cusp(solver: &mut Solver, nodes: &[Node]) -> Option<(usize, S
         .map(|n| dot(&near.chord, &near.chart(solver, &n.pose)))
         .collect();
     let mut end = first_guess(&near, &places)?;
-    let reach = (end - places[0]).sqrt();
+    let mut reach = (end - places[0]).sqrt();
+    let again = solver.system.wound_towards(&start.pose, &near.reference);
+    let to_start = near.chart(solver, &again);
+    let along_start = dot(&near.chord, &to_start);
+    if length(&to_start) < 2.0 * (end - places[0]) && along_start < end && nodes[0].arc > start.arc {
+        reach = reach.min(0.9 * (end - along_start).sqrt());
+    }
     let mut halves = None;
     for _ in 0..6 {
         let fitted = fit(solver, &near, &places, end)?;

@@ -24,7 +24,10 @@ const PLACES: [f64; 6] = [0.25, 0.38, 0.53, 0.7, 0.86, 1.0];
 
 /// So often a window is narrowed, and the agreement sought, in steps of the curve.
 const ROUNDS: usize = 9;
-const AGREEMENT: f64 = 1e-10;
+const AGREEMENT: f64 = 1e-11;
+
+/// Where inner and outer poses disagree by more than this about the root, in steps of the curve, none is believed.
+const DOUBTFUL: f64 = 1e-6;
 
 /// Nearer to the middle than this, in units of the half width, poses are interpolated and not corrected.
 const BESIDE: f64 = 0.3;
@@ -323,7 +326,8 @@ fn locate_in(
     if !(half > 1e-7 * step) {
         return None;
     }
-    // The window is halved about the root until its inner and outer poses agree on where that is.
+    // The window is narrowed about the root as long as its inner and outer poses agree better and better on where that is.
+    let mut best: Option<(f64, Vec<Reading>, Bridge, bool)> = None;
     for _ in 0..ROUNDS {
         half = half
             .min(centre - first.arc)
@@ -331,23 +335,26 @@ fn locate_in(
             .min(centre - clear.0)
             .min(clear.1 - centre);
         if !(half > 1e-7 * step) {
-            return None;
+            break;
         }
-        let mut readings = Vec::new();
-        for place in PLACES.iter().rev() {
-            readings.push(probe.read(centre - place * half)?);
-        }
-        for place in PLACES {
-            readings.push(probe.read(centre + place * half)?);
-        }
+        let Some(readings) = window(&mut probe, centre, half) else {
+            break;
+        };
         let origin = 0.5 * (readings[5].place + readings[6].place);
         let places: Vec<f64> = readings.iter().map(|r| (r.place - origin) / half).collect();
         if !places.windows(2).all(|p| p[0] < p[1]) {
-            return None;
+            break;
         }
         let values: Vec<Vec<f64>> = readings.iter().map(|r| vec![r.g]).collect();
         let largest = readings.iter().fold(0.0f64, |m, r| m.max(r.g.abs()));
-        let crosses = (readings[5].g < 0.0) != (readings[6].g < 0.0);
+        let change = (1..readings.len())
+            .filter(|&i| (readings[i - 1].g < 0.0) != (readings[i].g < 0.0))
+            .min_by_key(|i| i.abs_diff(6));
+        let crosses = change.is_some();
+        let guess = change.map_or(0.0, |i| {
+            let (a, b) = (&readings[i - 1], &readings[i]);
+            places[i - 1] + (places[i] - places[i - 1]) * a.g / (a.g - b.g)
+        });
         let through = |range: std::ops::Range<usize>| -> Vec<f64> {
             interpolate(&places[range.clone()], &values[range])
                 .iter()
@@ -355,33 +362,50 @@ fn locate_in(
                 .collect()
         };
         let g = through(0..12);
-        let root = root_near_zero(&g, crosses)?;
-        let inner = root_near_zero(&through(1..11), crosses)?;
-        if root.abs() > 0.6 {
-            return None;
-        }
-        // What the outer two poses change is far more than what further ones would.
-        let agrees = (root - inner).abs() * half < AGREEMENT * step && root.abs() < 0.1;
-        if !agrees {
-            // The places of arclength and chord agree to first order.
-            centre += root * half;
-            half *= 0.6;
-            continue;
-        }
-        let polynomial = |x: f64| g.iter().rev().fold(0.0, |s, c| s * x + c);
-        if polynomial(root).abs() > 1e-7 * largest {
-            return None;
-        }
-        let shifted: Vec<f64> = places.iter().map(|p| p - root).collect();
-        let values: Vec<Vec<f64>> = readings.iter().map(|r| r.z.clone()).collect();
-        let bridge = Bridge {
-            reference: probe.reference.clone(),
-            window: (shifted[0], shifted[11]),
-            coefficients: interpolate(&shifted, &values),
+        let (Some(root), Some(inner)) = (
+            root_near(&g, guess, crosses),
+            root_near(&through(1..11), guess, crosses),
+        ) else {
+            break;
         };
-        return conclude(probe, readings, bridge, crosses);
+        // What the outer two poses change is far more than what further ones would.
+        let disagreement = (root - inner).abs() * half / step;
+        let polynomial = |x: f64| g.iter().rev().fold(0.0, |s, c| s * x + c);
+        let vanishes = polynomial(root).abs() < 1e-6 * largest;
+        if vanishes
+            && root.abs() < 0.2
+            && best.as_ref().is_none_or(|(known, ..)| disagreement < *known)
+        {
+            let shifted: Vec<f64> = places.iter().map(|p| p - root).collect();
+            let values: Vec<Vec<f64>> = readings.iter().map(|r| r.z.clone()).collect();
+            let bridge = Bridge {
+                reference: probe.reference.clone(),
+                window: (shifted[0], shifted[11]),
+                coefficients: interpolate(&shifted, &values),
+            };
+            best = Some((disagreement, readings, bridge, crosses));
+            if disagreement < AGREEMENT {
+                break;
+            }
+        }
+        // The places of arclength and chord agree to first order.
+        centre += root * half;
+        half *= 0.6;
     }
-    None
+    let (_, readings, bridge, crosses) = best.filter(|(d, ..)| *d < DOUBTFUL)?;
+    conclude(probe, readings, bridge, crosses)
+}
+
+/// Readings on both sides of a place.
+fn window(probe: &mut Probe<'_>, centre: f64, half: f64) -> Option<Vec<Reading>> {
+    let mut readings = Vec::with_capacity(2 * PLACES.len());
+    for place in PLACES.iter().rev() {
+        readings.push(probe.read(centre - place * half)?);
+    }
+    for place in PLACES {
+        readings.push(probe.read(centre + place * half)?);
+    }
+    Some(readings)
 }
 
 fn conclude(
@@ -455,8 +479,8 @@ fn rough_root(seen: &[(f64, f64)]) -> Option<f64> {
     (root > x0 && root < x2).then_some(root)
 }
 
-/// The root of a polynomial near zero; where it does not change sign, that of its derivative.
-fn root_near_zero(coefficients: &[f64], crosses: bool) -> Option<f64> {
+/// The root of a polynomial near a guess; where it does not change sign, that of its derivative.
+fn root_near(coefficients: &[f64], guess: f64, crosses: bool) -> Option<f64> {
     let derivative = |c: &[f64]| -> Vec<f64> {
         c.iter()
             .enumerate()
@@ -471,7 +495,7 @@ fn root_near_zero(coefficients: &[f64], crosses: bool) -> Option<f64> {
     };
     let slope = derivative(&own);
     let value = |c: &[f64], x: f64| c.iter().rev().fold(0.0, |s, c| s * x + c);
-    let mut x = 0.0f64;
+    let mut x = guess;
     for _ in 0..60 {
         let step = value(&own, x) / value(&slope, x);
         x -= step;

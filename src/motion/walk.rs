@@ -29,7 +29,7 @@ fn one_way(solver: &mut Solver, start: &Node, bounds: &[Bounds]) -> (Vec<Leg>, S
         let (mut nodes, stop) = follow(solver, start, &from, bounds);
         if stop == Stop::Stuck
             && legs.len() < MOST_CUSPS
-            && let Some((kept, cusp)) = pass_cusp(solver, &nodes)
+            && let Some((kept, cusp)) = pass_cusp(solver, &nodes, start)
         {
             nodes.truncate(kept);
             nodes.push(cusp.before.clone());
