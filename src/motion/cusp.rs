@@ -4,19 +4,19 @@
 //! beyond, so that a predictor along c finds nothing; but every coordinate is a power series in τ, the square root of the
 //! distance left along c. So
 //!
-//! 1. the half that was followed is fitted by a polynomial in τ, and its values at −τ predict the other half, where poses
-//!    are corrected;
+//! 1. the polynomial in τ through poses of the half that was followed predicts, at −τ, poses of the other half, which are
+//!    corrected: from the cusp outwards, each by all that are known;
 //! 2. the square of the distance between both halves at the same place along c falls as an odd power of what is left; its
 //!    root of that order is a power series with a simple zero at the cusp, which interpolation finds;
 //! 3. the polynomial in τ through poses on both halves passes the cusp, at τ = 0.
 
-use super::follow::{Node, dot, finish, length};
+use super::follow::{Cubic, Node, dot, finish, length};
 use super::singular::{Bridge, Singular, horner, interpolate, kernels};
 use super::solver::{Along, Solver};
 use super::system::SystemPose;
 
-/// Places of poses on one half, in units of the largest τ: the nearest is at a seventh of it.
-const PLACES: [f64; 7] = [0.15, 0.28, 0.42, 0.56, 0.71, 0.86, 1.0];
+/// Places of poses on one half, in units of the largest τ: the nearest is at a fifth of it.
+const PLACES: [f64; 7] = [0.22, 0.35, 0.48, 0.61, 0.74, 0.87, 1.0];
 
 /// The passage reaches as far as the curve has turned by about this much (rad) on the way to the cusp.
 const TURNED: f64 = 0.35;
@@ -86,18 +86,17 @@ pub(super) fn pass_cusp(
         .iter()
         .map(|n| dot(&near.chord, &near.chart(solver, &n.pose)))
         .collect();
-    let mut end = first_guess(&near, &places)?;
+    let mut end = *places.last()?;
     let mut reach = (end - places[0]).sqrt();
     let again = solver.system.wound_towards(&start.pose, &near.reference);
     let to_start = near.chart(solver, &again);
     let along_start = dot(&near.chord, &to_start);
-    if length(&to_start) < 2.0 * (end - places[0]) && along_start < end && nodes[0].arc > start.arc {
+    if length(&to_start) < 2.0 * (end - places[0]) && along_start < end {
         reach = reach.min(0.9 * (end - along_start).sqrt());
     }
     let mut halves = None;
     for _ in 0..6 {
-        let fitted = fit(solver, &near, &places, end)?;
-        let found = both_halves(solver, &near, &fitted, end, 0.95 * reach)?;
+        let found = both_halves(solver, &near, &places, end, 0.95 * reach)?;
         let better = turning_place(&found, end)?;
         let moved = (better - end).abs();
         end = better;
@@ -140,78 +139,6 @@ pub(super) fn pass_cusp(
     ))
 }
 
-/// Where the curve ends along the chord: the square of the angle of the tangent falls linearly there for a cusp of the
-/// lowest order, and the last node is close for all.
-fn first_guess(near: &Near<'_>, places: &[f64]) -> Option<f64> {
-    let count = near.nodes.len();
-    let last = places[count - 1];
-    let turned = |i: usize| {
-        let off: Vec<f64> = near.nodes[i]
-            .tangent
-            .iter()
-            .zip(&near.nodes[count - 2].tangent)
-            .map(|(a, b)| a - b)
-            .collect();
-        length(&off)
-    };
-    let (far, middle) = (0, count / 2);
-    let ratio = turned(far) / turned(middle).max(1e-300);
-    // (√(e − p₀) − √(e − p₂)) / (√(e − p₁) − √(e − p₂)) = ratio, for e beyond the last place.
-    let value = |e: f64| {
-        let r = |i: usize| (e - places[i]).max(0.0).sqrt();
-        (r(far) - r(count - 2)) / (r(middle) - r(count - 2)) - ratio
-    };
-    let span = last - places[0];
-    if !(span > 0.0) {
-        return None;
-    }
-    let (mut low, mut high) = (last, last + span);
-    if (value(low) < 0.0) == (value(high) < 0.0) {
-        return Some(last);
-    }
-    for _ in 0..60 {
-        let e = 0.5 * (low + high);
-        if (value(e) < 0.0) == (value(low) < 0.0) {
-            low = e;
-        } else {
-            high = e;
-        }
-    }
-    Some(low)
-}
-
-/// The half that was followed, as a polynomial in τ.
-fn fit(solver: &Solver, near: &Near<'_>, places: &[f64], end: f64) -> Option<Vec<Vec<f64>>> {
-    let reach = (end - places[0]).max(0.0).sqrt();
-    if !(reach > 0.0) {
-        return None;
-    }
-    // Nodes spread evenly over τ.
-    let mut chosen: Vec<usize> = Vec::new();
-    for step in (0..PLACES.len()).rev() {
-        let wanted = reach * (step as f64 + 0.5) / PLACES.len() as f64;
-        let nearest = (0..places.len()).min_by(|a, b| {
-            let off = |i: usize| ((end - places[i]).max(0.0).sqrt() - wanted).abs();
-            off(*a).total_cmp(&off(*b))
-        })?;
-        if !chosen.contains(&nearest) {
-            chosen.push(nearest);
-        }
-    }
-    let taus: Vec<f64> = chosen
-        .iter()
-        .map(|&i| (end - places[i]).max(0.0).sqrt())
-        .collect();
-    let values: Vec<Vec<f64>> = chosen
-        .iter()
-        .map(|&i| near.chart(solver, &near.nodes[i].pose))
-        .collect();
-    if chosen.len() < 4 {
-        return None;
-    }
-    Some(interpolate(&taus, &values))
-}
-
 /// Poses of both halves at one place along the chord.
 struct Half {
     along: f64,
@@ -222,25 +149,43 @@ struct Half {
 fn both_halves(
     solver: &mut Solver,
     near: &Near<'_>,
-    fitted: &[Vec<f64>],
+    places: &[f64],
     end: f64,
     reach: f64,
 ) -> Option<Vec<Half>> {
-    let mut halves = Vec::new();
+    // The half that was followed, between its nodes.
+    let mut points: Vec<f64> = Vec::new();
+    let mut values: Vec<Vec<f64>> = Vec::new();
+    let mut before = Vec::new();
     for place in PLACES {
         let tau = place * reach;
         let along = end - tau * tau;
-        let before = near.corrected(solver, horner(fitted, tau), along)?;
-        let predicted = horner(fitted, -tau);
+        let after = places.partition_point(|p| *p <= along);
+        let segment = after.saturating_sub(1).min(near.nodes.len() - 2);
+        let (a, b) = (&near.nodes[segment], &near.nodes[segment + 1]);
+        let cubic = Cubic::between(solver, a, b);
+        let gap = places[segment + 1] - places[segment];
+        let u = ((along - places[segment]) / gap).clamp(0.0, 1.0);
+        let mut guess = a.pose.clone();
+        solver.system.advance(&mut guess, &cubic.at(u));
+        let prediction = near.chart(solver, &guess);
+        let found = near.corrected(solver, prediction, along)?;
+        points.push(tau);
+        values.push(found.1.clone());
+        before.push((along, found));
+    }
+    // The other half, from the middle outwards, each predicted by all that are known.
+    let mut halves = Vec::new();
+    for (place, (along, before)) in PLACES.into_iter().zip(before) {
+        let tau = -place * reach;
+        let predicted = horner(&interpolate(&points, &values), tau);
         let after = near.corrected(solver, predicted.clone(), along)?;
-        let apart = |a: &[f64], b: &[f64]| {
-            let off: Vec<f64> = a.iter().zip(b).map(|(x, y)| x - y).collect();
-            length(&off)
-        };
         // On the half it was meant for.
-        if apart(&after.1, &predicted) > 0.5 * apart(&after.1, &before.1) {
+        if apart(&after.1, &predicted) > 0.4 * apart(&after.1, &before.1) {
             return None;
         }
+        points.insert(0, tau);
+        values.insert(0, after.1.clone());
         halves.push(Half {
             along,
             before,
@@ -248,6 +193,11 @@ fn both_halves(
         });
     }
     Some(halves)
+}
+
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    let off: Vec<f64> = a.iter().zip(b).map(|(x, y)| x - y).collect();
+    length(&off)
 }
 
 /// The place along the chord where both halves meet.

@@ -61,6 +61,13 @@ pub(super) fn walk(solver: &mut Solver, start: &Node, bounds: &[Bounds]) -> Walk
         reverse(&mut back);
         (behind, stops[0]) = one_way(solver, &back, bounds);
     }
+    // Where a cusp stands in the way ahead, the way back may come round: then it is all there is.
+    let round_behind = !closed && stops[0] == Stop::Closed;
+    if round_behind {
+        ahead.clear();
+        stops[1] = Stop::Closed;
+    }
+    let closed = closed || round_behind;
     // The stretch with the start in it, put together from both sides.
     let mut at = 0;
     let mut legs: Vec<Leg> = Vec::new();
@@ -83,11 +90,13 @@ pub(super) fn walk(solver: &mut Solver, start: &Node, bounds: &[Bounds]) -> Walk
             legs.push((nodes, cusp));
         }
         debug_assert_eq!(legs.len(), count);
-        if let (Some((nodes, cusp)), false) = (legs.last_mut(), ahead.is_empty()) {
-            let first = ahead.remove(0);
+        if let Some((nodes, cusp)) = legs.last_mut() {
             at = nodes.len() - 1;
-            nodes.extend(first.0.into_iter().skip(1));
-            *cusp = first.1;
+            if !ahead.is_empty() {
+                let first = ahead.remove(0);
+                nodes.extend(first.0.into_iter().skip(1));
+                *cusp = first.1;
+            }
         }
     }
     let own = legs.len().saturating_sub(1);
