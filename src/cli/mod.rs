@@ -15,6 +15,7 @@ mod output;
 mod progress;
 mod report;
 mod terminal;
+mod trace;
 
 use clap::{Parser, Subcommand};
 use failure::Failure;
@@ -45,6 +46,7 @@ enum Command {
     Report(report::Arguments),
     Check(check::Arguments),
     Graph(graph::Arguments),
+    Trace(trace::Arguments),
     Explain(explain::Arguments),
 }
 
@@ -54,6 +56,7 @@ pub fn run() -> ExitCode {
         Command::Report(arguments) => report::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Graph(arguments) => graph::run(&arguments),
+        Command::Trace(arguments) => trace::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
     };
     match outcome {

@@ -12,6 +12,9 @@ use crate::closure::{Geometry, JointState, Rigid, spanning_poses};
 use crate::mechanism::Mechanism;
 use std::sync::Arc;
 
+/// An interpolated pose that is closed better than this (rad, cycle lengths) is left as it is.
+const WELL_CLOSED: f64 = 1e-14;
+
 /// What predicts the poses between two nodes.
 #[derive(Clone, Debug)]
 pub(super) enum Shape {
@@ -173,6 +176,14 @@ impl Curve {
                     pose,
                     closure,
                 };
+                if best.closure > WELL_CLOSED {
+                    let mut tried = best.pose.clone();
+                    let closure = self.solver.polish(&mut tried);
+                    if closure < best.closure {
+                        best.pose = tried;
+                        best.closure = closure;
+                    }
+                }
                 let mut tried = best.pose.clone();
                 if bridge.is_beside(u)
                     && let Some(done) = self

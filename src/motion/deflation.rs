@@ -98,43 +98,61 @@ impl Deflation {
         self.left.ncols() * self.right.ncols()
     }
 
-    fn value(&self, system: &LoopSystem, pose: &SystemPose) -> Option<DMatrix<f64>> {
-        let a = jacobian(system, pose, &self.holds);
+    /// The bordered matrix, factored, with the number of rows and columns of A.
+    fn bordered(&self, a: &DMatrix<f64>) -> DMatrix<f64> {
         let (rows, columns) = a.shape();
         let size = rows + self.right.ncols();
         let mut bordered = DMatrix::zeros(size, size);
-        bordered.view_mut((0, 0), (rows, columns)).copy_from(&a);
+        bordered.view_mut((0, 0), (rows, columns)).copy_from(a);
         bordered
             .view_mut((0, columns), (rows, self.left.ncols()))
             .copy_from(&self.left);
         bordered
             .view_mut((rows, 0), (self.right.ncols(), columns))
             .copy_from(&self.right.transpose());
-        let lu = bordered.lu();
-        let mut g = DMatrix::zeros(self.left.ncols(), self.right.ncols());
-        for column in 0..self.right.ncols() {
-            let mut unit = DVector::zeros(size);
-            unit[rows + column] = 1.0;
-            let x = lu.solve(&unit)?;
-            for row in 0..self.left.ncols() {
-                g[(row, column)] = x[columns + row];
-            }
-        }
-        Some(g)
+        bordered
     }
 
     /// Appends −G at a pose.
     pub fn residual(&self, system: &LoopSystem, pose: &SystemPose, right: &mut Vec<f64>) {
-        match self.value(system, pose) {
-            Some(g) => right.extend(g.iter().map(|x| -x)),
+        let a = jacobian(system, pose, &self.holds);
+        let (rows, columns) = a.shape();
+        let size = rows + self.right.ncols();
+        let mut unit = DMatrix::zeros(size, self.right.ncols());
+        for column in 0..self.right.ncols() {
+            unit[(rows + column, column)] = 1.0;
+        }
+        match self.bordered(&a).lu().solve(&unit) {
+            Some(x) => right.extend(x.rows(columns, self.left.ncols()).iter().map(|x| -x)),
             None => right.extend(std::iter::repeat_n(f64::NAN, self.equations())),
         }
     }
 
-    /// Writes the derivatives of G, one row per equation.
-    pub fn rows(&self, system: &LoopSystem, pose: &SystemPose, rows: &mut [f64]) {
+    /// Writes the derivatives of G, one row per equation: dG = −W dA X, where X solves the bordered system and W its
+    /// transpose.
+    pub fn rows(&self, system: &LoopSystem, pose: &SystemPose, into: &mut [f64]) {
         let n = system.unknowns();
-        rows.fill(0.0);
+        into.fill(0.0);
+        let a = jacobian(system, pose, &self.holds);
+        let (rows, columns) = a.shape();
+        let size = rows + self.right.ncols();
+        let bordered = self.bordered(&a);
+        let mut unit = DMatrix::zeros(size, self.right.ncols());
+        for column in 0..self.right.ncols() {
+            unit[(rows + column, column)] = 1.0;
+        }
+        let mut turned = DMatrix::zeros(size, self.left.ncols());
+        for column in 0..self.left.ncols() {
+            turned[(columns + column, column)] = 1.0;
+        }
+        let (Some(x), Some(w)) = (
+            bordered.clone().lu().solve(&unit),
+            bordered.transpose().lu().solve(&turned),
+        ) else {
+            return;
+        };
+        let x = x.rows(0, columns).into_owned();
+        let w = w.rows(0, rows).transpose();
         let mut z = vec![0.0; n];
         for unknown in 0..n {
             let mut at = |way: f64| {
@@ -142,13 +160,12 @@ impl Deflation {
                 let mut there = pose.clone();
                 system.advance(&mut there, &z);
                 z[unknown] = 0.0;
-                self.value(system, &there)
+                jacobian(system, &there, &self.holds)
             };
-            let (Some(ahead), Some(behind)) = (at(DIFFERENCE), at(-DIFFERENCE)) else {
-                continue;
-            };
-            for (equation, (a, b)) in ahead.iter().zip(behind.iter()).enumerate() {
-                rows[equation * n + unknown] = (a - b) / (2.0 * DIFFERENCE);
+            let change = (at(DIFFERENCE) - at(-DIFFERENCE)) / (2.0 * DIFFERENCE);
+            let g = &w * (change * &x);
+            for (equation, value) in g.iter().enumerate() {
+                into[equation * n + unknown] = -value;
             }
         }
     }

@@ -60,6 +60,9 @@ const MOST_TURNS: f64 = 12.0;
 /// More poses are not computed.
 const MOST_NODES: usize = 20_000;
 
+/// Nor these, where every one takes the derivative of a rank.
+const MOST_DEFLATED_NODES: usize = 600;
+
 /// Where the margin falls below this share of the one before, longer steps are tried: so many times as long.
 const FALLING: f64 = 0.4;
 const JUMPS: [f64; 4] = [1.0, 1.7, 2.6, 3.6];
@@ -267,18 +270,25 @@ fn attempt(solver: &mut Solver, here: &Node, predictor: &Predictor, step: f64) -
     })
 }
 
-/// Follows the curve from a start in the direction of its tangent. The start is the first node of the result.
+/// Follows the curve from a node in the direction of its tangent. That node is the first of the result; `start` is the
+/// one at which a closed curve is recognised.
 pub(super) fn follow(
     solver: &mut Solver,
     start: &Node,
+    from: &Node,
     bounds: &[Bounds],
 ) -> (Vec<Node>, Stop) {
-    let mut nodes = vec![start.clone()];
-    solver.anchor(&start.pose);
-    let mut step = FIRST_STEP * longest(&start.tangent);
+    let mut nodes = vec![from.clone()];
+    solver.anchor(&from.pose);
+    let mut step = FIRST_STEP * longest(&from.tangent);
     loop {
         let here = nodes[nodes.len() - 1].clone();
-        if nodes.len() > MOST_NODES || far_enough(solver, start, &here) {
+        let most = if solver.is_deflated() {
+            MOST_DEFLATED_NODES
+        } else {
+            MOST_NODES
+        };
+        if nodes.len() > most || far_enough(solver, start, &here) {
             return (nodes, Stop::Budget);
         }
         let before = (nodes.len() > 1).then(|| nodes[nodes.len() - 2].clone());
@@ -338,7 +348,7 @@ pub(super) fn follow(
             }
             return (nodes, stop);
         }
-        if nodes.len() > 2
+        if (nodes.len() > 2 || from.arc > start.arc)
             && let Some(last) = closes(solver, start, &here, &node)
         {
             nodes.push(last);

@@ -1,6 +1,7 @@
 //! Predicted motion.
 
 mod curve;
+mod cusp;
 mod dead_centres;
 mod deflation;
 mod follow;
@@ -14,6 +15,7 @@ mod solver;
 mod sparse_rows;
 mod system;
 mod trace;
+mod walk;
 mod wishes;
 
 pub use curve::{Curve, CurvePose};

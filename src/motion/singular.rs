@@ -22,6 +22,13 @@ use nalgebra::DMatrix;
 /// Places of the poses in a window, on either side, in units of its half width.
 const PLACES: [f64; 6] = [0.25, 0.38, 0.53, 0.7, 0.86, 1.0];
 
+/// So often a window is narrowed, and the agreement sought, in steps of the curve.
+const ROUNDS: usize = 9;
+const AGREEMENT: f64 = 1e-11;
+
+/// Where inner and outer poses disagree by more than this about the root, in steps of the curve, none is believed.
+const DOUBTFUL: f64 = 1e-6;
+
 /// Nearer to the middle than this, in units of the half width, poses are interpolated and not corrected.
 const BESIDE: f64 = 0.3;
 
@@ -61,6 +68,13 @@ impl Bridge {
         pose
     }
 
+    /// The same passage, with turns counted on by this much.
+    pub fn shift(&mut self, around: &[f64]) {
+        for (value, way) in self.reference.values.iter_mut().zip(around) {
+            *value += way;
+        }
+    }
+
     /// The velocity in the chart of the reference, per unit of `u`.
     pub fn velocity(&self, u: f64) -> Vec<f64> {
         let x = self.x(u);
@@ -77,12 +91,17 @@ impl Bridge {
 
     pub fn direction(&self, u: f64) -> Vec<f64> {
         let mut v = self.velocity(u);
-        let size = length(&v);
+        let mut size = length(&v);
+        if !(size > 1e-12) {
+            // At a cusp: as just behind it.
+            v = self.velocity(u + 1e-6);
+            size = length(&v);
+        }
         v.iter_mut().for_each(|x| *x /= size);
         v
     }
 
-    /// Length of the passage in the metric, by Gauss quadrature in ten pieces.
+    /// Length of the passage in the metric, by Gauss quadrature with three points in ten pieces.
     pub fn arc(&self) -> f64 {
         let root = 0.6f64.sqrt() / 2.0;
         (0..10)
@@ -93,9 +112,29 @@ impl Bridge {
             .map(|(u, weight)| length(&self.velocity(u)) * weight)
             .sum()
     }
+
+    /// A passage through poses at places in `[−1, 1]`, the singular one at zero.
+    pub fn through(reference: SystemPose, places: &[f64], values: &[Vec<f64>]) -> Self {
+        Self {
+            reference,
+            window: (
+                places.first().copied().unwrap_or(-1.0),
+                places.last().copied().unwrap_or(1.0),
+            ),
+            coefficients: interpolate(places, values),
+        }
+    }
+
+    /// The same passage, the other way.
+    pub fn reverse(&mut self) {
+        self.window = (-self.window.1, -self.window.0);
+        for coefficient in self.coefficients.iter_mut().skip(1).step_by(2) {
+            coefficient.iter_mut().for_each(|c| *c = -*c);
+        }
+    }
 }
 
-fn horner(coefficients: &[Vec<f64>], x: f64) -> Vec<f64> {
+pub(super) fn horner(coefficients: &[Vec<f64>], x: f64) -> Vec<f64> {
     let size = coefficients.first().map_or(0, Vec::len);
     coefficients.iter().rev().fold(vec![0.0; size], |sum, c| {
         sum.iter().zip(c).map(|(s, c)| s * x + c).collect()
@@ -103,7 +142,7 @@ fn horner(coefficients: &[Vec<f64>], x: f64) -> Vec<f64> {
 }
 
 /// The polynomial through values at places, by divided differences (Higham 2002, section 5.3).
-fn interpolate(places: &[f64], values: &[Vec<f64>]) -> Vec<Vec<f64>> {
+pub(super) fn interpolate(places: &[f64], values: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let count = places.len();
     let mut table = values.to_vec();
     for order in 1..count {
@@ -141,6 +180,8 @@ pub(super) struct Singular {
     pub freedom: usize,
     /// Whether the bordered function changes its sign.
     pub crosses: bool,
+    /// Whether the curve turns back there.
+    pub cusp: bool,
     /// How to pass.
     pub bridge: Bridge,
     /// The nodes at both ends of the passage.
@@ -285,52 +326,86 @@ fn locate_in(
     if !(half > 1e-7 * step) {
         return None;
     }
-    // Twice, the second time about the root that the first has found.
-    for round in 0..3 {
+    // The window is narrowed about the root as long as its inner and outer poses agree better and better on where that is.
+    let mut best: Option<(f64, Vec<Reading>, Bridge, bool)> = None;
+    for _ in 0..ROUNDS {
         half = half
             .min(centre - first.arc)
             .min(last.arc - centre)
             .min(centre - clear.0)
             .min(clear.1 - centre);
         if !(half > 1e-7 * step) {
-            return None;
+            break;
         }
-        let mut readings = Vec::new();
-        for place in PLACES.iter().rev() {
-            readings.push(probe.read(centre - place * half)?);
-        }
-        for place in PLACES {
-            readings.push(probe.read(centre + place * half)?);
-        }
+        let Some(readings) = window(&mut probe, centre, half) else {
+            break;
+        };
         let origin = 0.5 * (readings[5].place + readings[6].place);
         let places: Vec<f64> = readings.iter().map(|r| (r.place - origin) / half).collect();
         if !places.windows(2).all(|p| p[0] < p[1]) {
-            return None;
+            break;
         }
         let values: Vec<Vec<f64>> = readings.iter().map(|r| vec![r.g]).collect();
-        let g: Vec<f64> = interpolate(&places, &values).iter().map(|c| c[0]).collect();
         let largest = readings.iter().fold(0.0f64, |m, r| m.max(r.g.abs()));
-        let crosses = (readings[5].g < 0.0) != (readings[6].g < 0.0);
-        let root = root_near_zero(&g, crosses)?;
-        let polynomial = |x: f64| g.iter().rev().fold(0.0, |s, c| s * x + c);
-        if root.abs() > 0.6 || polynomial(root).abs() > 1e-5 * largest {
-            return None;
-        }
-        if round < 2 && root.abs() > 0.05 {
-            // The places of arclength and chord agree to first order.
-            centre += root * half;
-            continue;
-        }
-        let shifted: Vec<f64> = places.iter().map(|p| p - root).collect();
-        let values: Vec<Vec<f64>> = readings.iter().map(|r| r.z.clone()).collect();
-        let bridge = Bridge {
-            reference: probe.reference.clone(),
-            window: (shifted[0], shifted[11]),
-            coefficients: interpolate(&shifted, &values),
+        let change = (1..readings.len())
+            .filter(|&i| (readings[i - 1].g < 0.0) != (readings[i].g < 0.0))
+            .min_by_key(|i| i.abs_diff(6));
+        let crosses = change.is_some();
+        let guess = change.map_or(0.0, |i| {
+            let (a, b) = (&readings[i - 1], &readings[i]);
+            places[i - 1] + (places[i] - places[i - 1]) * a.g / (a.g - b.g)
+        });
+        let through = |range: std::ops::Range<usize>| -> Vec<f64> {
+            interpolate(&places[range.clone()], &values[range])
+                .iter()
+                .map(|c| c[0])
+                .collect()
         };
-        return conclude(probe, readings, bridge, crosses);
+        let g = through(0..12);
+        let (Some(root), Some(inner)) = (
+            root_near(&g, guess, crosses),
+            root_near(&through(1..11), guess, crosses),
+        ) else {
+            break;
+        };
+        // What the outer two poses change is far more than what further ones would.
+        let disagreement = (root - inner).abs() * half / step;
+        let polynomial = |x: f64| g.iter().rev().fold(0.0, |s, c| s * x + c);
+        let vanishes = polynomial(root).abs() < 1e-6 * largest;
+        if vanishes
+            && root.abs() < 0.2
+            && best.as_ref().is_none_or(|(known, ..)| disagreement < *known)
+        {
+            let shifted: Vec<f64> = places.iter().map(|p| p - root).collect();
+            let values: Vec<Vec<f64>> = readings.iter().map(|r| r.z.clone()).collect();
+            let bridge = Bridge {
+                reference: probe.reference.clone(),
+                window: (shifted[0], shifted[11]),
+                coefficients: interpolate(&shifted, &values),
+            };
+            best = Some((disagreement, readings, bridge, crosses));
+            if disagreement < AGREEMENT {
+                break;
+            }
+        }
+        // The places of arclength and chord agree to first order.
+        centre += root * half;
+        half *= 0.6;
     }
-    None
+    let (_, readings, bridge, crosses) = best.filter(|(d, ..)| *d < DOUBTFUL)?;
+    conclude(probe, readings, bridge, crosses)
+}
+
+/// Readings on both sides of a place.
+fn window(probe: &mut Probe<'_>, centre: f64, half: f64) -> Option<Vec<Reading>> {
+    let mut readings = Vec::with_capacity(2 * PLACES.len());
+    for place in PLACES.iter().rev() {
+        readings.push(probe.read(centre - place * half)?);
+    }
+    for place in PLACES {
+        readings.push(probe.read(centre + place * half)?);
+    }
+    Some(readings)
 }
 
 fn conclude(
@@ -342,20 +417,11 @@ fn conclude(
     let Probe { solver, nodes, .. } = probe;
     solver.fix(None);
     let pose = bridge.pose(solver, bridge.middle());
-    let held = solver.holds().len();
-    let rows = solver.dense_jacobian(&pose);
-    let columns = solver.system.unknowns();
-    let kernel = |rows: &[f64]| {
-        let matrix = DMatrix::from_row_slice(rows.len() / columns.max(1), columns, rows);
-        let values = matrix.singular_values();
-        let largest = values.iter().fold(0.0f64, |m, s| m.max(*s));
-        columns - values.iter().filter(|s| **s > KERNEL * largest).count()
-    };
-    if kernel(&rows) < 2 {
+    let (with_holds, freedom) = kernels(solver, &pose);
+    if with_holds < 2 {
         // The chosen equations depend on one another there, all of them together do not.
         return None;
     }
-    let freedom = kernel(&rows[..rows.len() - held * columns]);
     let last = readings.pop()?;
     let first = readings.into_iter().next()?;
     let base = &nodes[0];
@@ -366,6 +432,7 @@ fn conclude(
         pose,
         freedom,
         crosses,
+        cusp: false,
         bridge,
         before,
         after,
@@ -375,6 +442,20 @@ fn conclude(
 /// Singular values below this share of the largest vanish at a singular pose: the pose is known to about 1e-12, ordinary
 /// margins are above 1e-3, and a margin that falls as the square of a distance of 1e-12 is not told from one that vanishes.
 const KERNEL: f64 = 1e-8;
+
+/// Dimensions of the kernel at a pose: with what is held, and with nothing held.
+pub(super) fn kernels(solver: &mut Solver, pose: &SystemPose) -> (usize, usize) {
+    let held = solver.holds().len();
+    let rows = solver.dense_jacobian(pose);
+    let columns = solver.system.unknowns();
+    let kernel = |rows: &[f64]| {
+        let matrix = DMatrix::from_row_slice(rows.len() / columns.max(1), columns, rows);
+        let values = matrix.singular_values();
+        let largest = values.iter().fold(0.0f64, |m, s| m.max(*s));
+        columns - values.iter().filter(|s| **s > KERNEL * largest).count()
+    };
+    (kernel(&rows), kernel(&rows[..rows.len() - held * columns]))
+}
 
 /// Where g vanishes between readings, or comes closest to zero.
 fn rough_root(seen: &[(f64, f64)]) -> Option<f64> {
@@ -398,8 +479,8 @@ fn rough_root(seen: &[(f64, f64)]) -> Option<f64> {
     (root > x0 && root < x2).then_some(root)
 }
 
-/// The root of a polynomial near zero; where it does not change sign, that of its derivative.
-fn root_near_zero(coefficients: &[f64], crosses: bool) -> Option<f64> {
+/// The root of a polynomial near a guess; where it does not change sign, that of its derivative.
+fn root_near(coefficients: &[f64], guess: f64, crosses: bool) -> Option<f64> {
     let derivative = |c: &[f64]| -> Vec<f64> {
         c.iter()
             .enumerate()
@@ -414,7 +495,7 @@ fn root_near_zero(coefficients: &[f64], crosses: bool) -> Option<f64> {
     };
     let slope = derivative(&own);
     let value = |c: &[f64], x: f64| c.iter().rev().fold(0.0, |s, c| s * x + c);
-    let mut x = 0.0f64;
+    let mut x = guess;
     for _ in 0..60 {
         let step = value(&own, x) / value(&slope, x);
         x -= step;
@@ -428,13 +509,67 @@ fn root_near_zero(coefficients: &[f64], crosses: bool) -> Option<f64> {
     Some(x)
 }
 
-/// Puts the singular poses that a list of nodes passes into it, each with its bridge. `start` is the index of the start,
-/// which stays a node. Returns the shapes between the nodes, and what was found with its arclength.
-pub(super) fn bridge_all(
-    solver: &mut Solver,
-    nodes: &mut Vec<Node>,
-    start: &mut usize,
-) -> (Vec<Shape>, Vec<(f64, Singular)>) {
+/// The nodes of a curve, each with the passage that begins at it.
+pub(super) type Pieces = Vec<(Node, Option<Singular>)>;
+
+/// The pieces of a closed curve without cusps, given by its nodes from the start to the start. It is cut open where it is
+/// most regular, so that no passage lies across the cut, and put together again.
+pub(super) fn bridge_closed(solver: &mut Solver, nodes: &[Node]) -> Pieces {
+    let (Some(first), Some(last)) = (nodes.first(), nodes.last()) else {
+        return Vec::new();
+    };
+    let around: Vec<f64> = first
+        .pose
+        .values
+        .iter()
+        .zip(&last.pose.values)
+        .map(|(a, b)| b - a)
+        .collect();
+    let cut = (0..nodes.len() - 1)
+        .max_by(|a, b| nodes[*a].margin.total_cmp(&nodes[*b].margin).then(b.cmp(a)))
+        .unwrap_or(0);
+    let span = last.arc - first.arc;
+    let mut turned: Vec<Node> = nodes[cut..].to_vec();
+    turned.extend(nodes[1..=cut].iter().map(|node| {
+        let mut node = node.clone();
+        node.arc += span;
+        shift(&mut node, &around);
+        node
+    }));
+    let mut start = nodes.len() - 1 - cut;
+    let pieces = bridge_open(solver, &turned, &mut start);
+    if cut == 0 {
+        return pieces;
+    }
+    // The start first again; what came before it comes last, counted on.
+    let back: Vec<f64> = around.iter().map(|x| -x).collect();
+    let mut whole: Pieces = Vec::with_capacity(pieces.len());
+    for (mut node, singular) in pieces[start..pieces.len() - 1].iter().cloned() {
+        shift(&mut node, &back);
+        let singular = singular.map(|mut s| {
+            s.bridge.shift(&back);
+            shift_pose(&mut s.pose, &back);
+            s
+        });
+        whole.push((node, singular));
+    }
+    whole.extend(pieces[..=start].iter().cloned());
+    whole
+}
+
+fn shift(node: &mut Node, around: &[f64]) {
+    shift_pose(&mut node.pose, around);
+}
+
+fn shift_pose(pose: &mut SystemPose, around: &[f64]) {
+    for (value, way) in pose.values.iter_mut().zip(around) {
+        *value += way;
+    }
+}
+
+/// The pieces of a list of nodes: those inside a passage left out, and every passage with the node it begins at. `start` is
+/// the index of a node that stays one.
+pub(super) fn bridge_open(solver: &mut Solver, nodes: &[Node], start: &mut usize) -> Pieces {
     let margins: Vec<f64> = nodes.iter().map(|n| n.margin).collect();
     let mut candidates: Vec<usize> = (1..nodes.len().saturating_sub(1))
         .filter(|&i| margins[i] <= margins[i - 1] && margins[i] < margins[i + 1])
@@ -453,28 +588,26 @@ pub(super) fn bridge_all(
         if let Some(last) = found.last() {
             clear.0 = last.after.arc;
         }
-        // The start stays outside.
-        if nodes[at].arc > begin {
-            clear.0 = clear.0.max(begin);
-        } else if nodes[at].arc < begin {
-            clear.1 = begin;
-        } else {
-            // At the start itself: on the side where it is less regular.
-            if at > 0 && margins[at - 1] < margins[at + 1] {
-                clear.1 = begin;
-            } else {
-                clear.0 = clear.0.max(begin);
-            }
-        }
-        let Some(mut singular) = locate(solver, nodes, at, clear) else {
-            continue;
+        // The start stays outside; where it is the candidate itself, both sides of it are looked at.
+        let sides = match nodes[at].arc.total_cmp(&begin) {
+            std::cmp::Ordering::Greater if at <= *start + 2 => vec![(begin, clear.1), (clear.0, begin)],
+            std::cmp::Ordering::Greater => vec![(clear.0.max(begin), clear.1)],
+            std::cmp::Ordering::Less if at + 2 >= *start => vec![(clear.0, begin), (begin, clear.1)],
+            std::cmp::Ordering::Less => vec![(clear.0, begin)],
+            std::cmp::Ordering::Equal => vec![(clear.0, begin), (begin, clear.1)],
         };
-        place(solver, nodes, &mut singular);
-        if found
-            .last()
-            .is_none_or(|l| singular.before.arc >= l.after.arc - 1e-12)
-        {
-            found.push(singular);
+        for side in sides {
+            let Some(mut singular) = locate(solver, nodes, at, side) else {
+                continue;
+            };
+            place(solver, nodes, &mut singular);
+            if found
+                .last()
+                .is_none_or(|l| singular.before.arc >= l.after.arc - 1e-12)
+            {
+                found.push(singular);
+                break;
+            }
         }
     }
     let mut kept: Vec<(Node, Option<Singular>)> = Vec::new();
@@ -492,7 +625,7 @@ pub(super) fn bridge_all(
             .last()
             .is_some_and(|(last, _)| node.arc <= last.arc + 1e-9 * (1.0 + last.arc.abs()));
         if index == *start {
-            if inside && kept.last().is_some_and(|(_, s)| s.is_none()) {
+            if inside && kept.len() > 1 && kept.last().is_some_and(|(_, s)| s.is_none()) {
                 kept.pop();
             }
             new_start = kept.len();
@@ -501,19 +634,34 @@ pub(super) fn bridge_all(
             kept.push((node.clone(), None));
         }
     }
+    *start = new_start;
+    kept
+}
+
+/// What a curve consists of.
+pub(super) struct Assembled {
+    pub nodes: Vec<Node>,
+    /// Between neighbouring nodes.
+    pub shapes: Vec<Shape>,
+    /// Singular poses with their arclengths.
+    pub singular: Vec<(f64, Singular)>,
+}
+
+/// Arclengths along the pieces, counted from the start; shapes between nodes.
+pub(super) fn assemble(solver: &Solver, pieces: Pieces, start: usize) -> Assembled {
     let mut shapes = Vec::new();
-    let mut told = Vec::new();
+    let mut singular = Vec::new();
     let mut arc = 0.0;
     let mut arcs = vec![0.0];
-    for pair in 0..kept.len().saturating_sub(1) {
-        let (shape, gap) = match &kept[pair].1 {
-            Some(singular) => {
-                let length = singular.bridge.arc();
-                told.push((arc + singular.bridge.middle() * length, singular.clone()));
-                (Shape::Bridge(Box::new(singular.bridge.clone())), length)
+    for pair in pieces.windows(2) {
+        let (shape, gap) = match &pair[0].1 {
+            Some(passed) => {
+                let length = passed.bridge.arc();
+                singular.push((arc + passed.bridge.middle() * length, passed.clone()));
+                (Shape::Bridge(Box::new(passed.bridge.clone())), length)
             }
             None => {
-                let (a, b) = (&kept[pair].0, &kept[pair + 1].0);
+                let (a, b) = (&pair[0].0, &pair[1].0);
                 (
                     Shape::Cubic(Cubic::between(solver, a, b)),
                     arc_between(solver, a, b),
@@ -524,8 +672,11 @@ pub(super) fn bridge_all(
         arc += gap;
         arcs.push(arc);
     }
-    let zero = arcs[new_start.min(arcs.len() - 1)];
-    *nodes = kept
+    let zero = arcs.get(start).copied().unwrap_or(0.0);
+    for entry in &mut singular {
+        entry.0 -= zero;
+    }
+    let nodes = pieces
         .into_iter()
         .zip(&arcs)
         .map(|((mut node, _), arc)| {
@@ -533,17 +684,16 @@ pub(super) fn bridge_all(
             node
         })
         .collect();
-    *start = new_start;
-    for entry in &mut told {
-        entry.0 -= zero;
+    Assembled {
+        nodes,
+        shapes,
+        singular,
     }
-    (shapes, told)
 }
 
 /// The arclengths of a passage on the curve it belongs to.
 fn place(solver: &Solver, nodes: &[Node], singular: &mut Singular) {
     let nearest = |node: &Node| {
-        // The node before which the pose lies: the last from which it lies ahead.
         let mut way = vec![0.0; node.tangent.len()];
         let mut best = nodes[0].arc;
         let mut least = f64::INFINITY;

@@ -24,6 +24,9 @@ const STEP_LIMIT: usize = 16;
 /// A step longer than this (metric) is no correction.
 const LONGEST_STEP: f64 = 1.0;
 
+/// Singular values below this share of the largest ask for no step in [`Solver::polish`].
+const NEARLY_VANISHING: f64 = 1e-3;
+
 #[derive(Clone, Debug)]
 enum Rows {
     Dense(DenseRows),
@@ -217,6 +220,29 @@ impl Solver {
         self.evaluation.largest()
     }
 
+    /// One step of least length on all equations at once, close to a singular pose: what nearly vanishing singular values
+    /// would ask for is left out, so that the step is short and closes the loops without moving the pose along the curve
+    /// or off it.
+    pub fn polish(&mut self, pose: &mut SystemPose) -> f64 {
+        let rows = self.dense_jacobian(pose);
+        self.look(pose);
+        let n = self.system.unknowns();
+        let count = rows.len() / n.max(1);
+        let size = count.max(n);
+        let matrix = nalgebra::DMatrix::from_row_slice(count, n, &rows).resize(size, n, 0.0);
+        let right = nalgebra::DVector::from_fn(size, |i, _| {
+            if i < count { self.right[i] } else { 0.0 }
+        });
+        let svd = matrix.svd(true, true);
+        let least = NEARLY_VANISHING * svd.singular_values.max();
+        if let Ok(step) = svd.solve(&right, least) {
+            let mut there = pose.clone();
+            self.system.advance(&mut there, step.as_slice());
+            *pose = there;
+        }
+        self.closure_of(pose)
+    }
+
     /// The Jacobian of the loop equations and held variables at a pose, row by row.
     pub fn dense_jacobian(&mut self, pose: &SystemPose) -> Vec<f64> {
         let n = self.system.unknowns();
@@ -229,6 +255,11 @@ impl Solver {
             self.system.value_row(pose, *unknown, &mut rows[at..at + n]);
         }
         rows
+    }
+
+    /// Whether the branch is shaky all along.
+    pub fn is_deflated(&self) -> bool {
+        self.deflation.is_some()
     }
 
     /// Takes a pose of the branch as the one about which directions of a shaky branch are told apart.

@@ -523,6 +523,13 @@ impl LoopSystem {
                 wound.values[unknown] += turns * std::f64::consts::TAU;
             }
         }
+        for (index, factor) in self.factors.iter().enumerate() {
+            if matches!(factor.elementary, Elementary::Ball) {
+                let own = factor.first..factor.first + factor.generators.len();
+                wound.values[own.clone()].copy_from_slice(&to.values[own]);
+                self.settle(&mut wound, index, false);
+            }
+        }
         wound
     }
 

@@ -2,7 +2,8 @@
 
 use super::curve::{Curve, CurvePose, WholeFrame};
 use super::dead_centres::{DeadCentre, LOCKED, dead_centres};
-use super::follow::{Bounds, Node, SAME, Stop, follow, node_at};
+use super::follow::{Bounds, SAME, Stop, node_at};
+use super::walk::{Walked, walk};
 use super::inputs::{Variable, choose_inputs};
 use super::ranges::ranges;
 use super::result::{
@@ -10,7 +11,7 @@ use super::result::{
     TraceOptions,
 };
 use super::sampling::sample;
-use super::singular::{Singular, bridge_all};
+use super::singular::Singular;
 use super::solver::Solver;
 use super::system::{LoopSystem, SystemPose};
 use super::wishes::{Wishes, read_wishes};
@@ -108,7 +109,6 @@ pub(super) struct Found {
     pub starts_at_home: bool,
     pub home: SystemPose,
     pub notes: Vec<String>,
-    pub cusps: Vec<f64>,
 }
 
 impl<'a> Tracer<'a> {
@@ -511,30 +511,18 @@ impl<'a> Tracer<'a> {
         };
         let mut notes = Vec::new();
         let bounds = self.bounds(stage, system, &start.pose, &mut notes);
-        let (mut nodes, stop) = follow(&mut solver, &start, &bounds);
-        let closed = stop == Stop::Closed;
-        let mut stops = [stop.clone(), stop];
-        let mut at = 0;
-        if !closed {
-            let mut back = start.clone();
-            back.tangent.iter_mut().for_each(|t| *t = -*t);
-            let (behind, stop) = follow(&mut solver, &back, &bounds);
-            stops[0] = stop;
-            at = behind.len() - 1;
-            let mut all: Vec<Node> = behind
-                .into_iter()
-                .skip(1)
-                .rev()
-                .map(|mut node| {
-                    node.arc = -node.arc;
-                    node.tangent.iter_mut().for_each(|t| *t = -*t);
-                    node
-                })
-                .collect();
-            all.append(&mut nodes);
-            nodes = all;
-        }
-        let (shapes, singular) = bridge_all(&mut solver, &mut nodes, &mut at);
+        let walked = walk(&mut solver, &start, &bounds);
+        let Walked {
+            assembled,
+            start: at,
+            stops,
+            closed,
+        } = walked;
+        let super::singular::Assembled {
+            nodes,
+            shapes,
+            singular,
+        } = assembled;
         let home = system.pose(&self.analysis.assembly.states);
         let mut states = self.analysis.assembly.states.clone();
         if let Some(pose) = self.branch.poses.first().filter(|_| !starts_at_home) {
@@ -567,7 +555,6 @@ impl<'a> Tracer<'a> {
             starts_at_home,
             home,
             notes,
-            cusps: Vec::new(),
             curve,
         }))
     }
@@ -732,11 +719,16 @@ impl<'a> Tracer<'a> {
                 .iter()
                 .find(|s| s.part.joints.contains(&variables[0].0))
                 .map_or(1, |s| s.dimension + self.excess(s));
-            let kind = EventKind::Singular {
-                freedom: singular.freedom,
-                excess: singular.freedom.saturating_sub(beside),
-                crosses: singular.crosses,
-                home: system.separation(&singular.pose, &found.home) < 10.0 * SAME,
+            let home = system.separation(&singular.pose, &found.home) < 10.0 * SAME;
+            let kind = if singular.cusp {
+                EventKind::Cusp { home }
+            } else {
+                EventKind::Singular {
+                    freedom: singular.freedom,
+                    excess: singular.freedom.saturating_sub(beside),
+                    crosses: singular.crosses,
+                    home,
+                }
             };
             let at = CurvePose {
                 arclength: *arc,
@@ -744,12 +736,6 @@ impl<'a> Tracer<'a> {
                 closure: 0.0,
             };
             events.push(tell(&found.curve, kind, at));
-        }
-        for arc in found.cusps.clone() {
-            if let Some(at) = found.curve.pose_at_arclength(arc) {
-                let home = system.separation(&at.pose, &found.home) < 10.0 * SAME;
-                events.push(tell(&found.curve, EventKind::Cusp { home }, at));
-            }
         }
         for (index, stop) in found.stops.iter().enumerate() {
             let node = if index == 0 {

@@ -1,0 +1,124 @@
+//! `kutzbach trace FILE`: the predicted motion along a branch.
+
+mod table;
+
+use super::failure::Failure;
+use super::{DONE, load, output};
+use clap::{Args, ValueEnum};
+use kutzbach::mobility::{AnalysisOptions, analyse};
+use kutzbach::motion::{TraceOptions, trace};
+use std::path::PathBuf;
+
+/// Follow a branch: poses, ranges of the joints, dead centres, singular poses
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// Mechanism file
+    file: PathBuf,
+    /// Name of the branch; the first if not given
+    #[arg(long)]
+    branch: Option<String>,
+    /// Joint that is driven, and the values wanted (rad, m), such as `crank=0..6.283`
+    #[arg(long, value_name = "JOINT[=FROM..TO]", value_parser = drive, allow_hyphen_values = true)]
+    drive: Option<Drive>,
+    /// Joint that is held, where the branch has more than one freedom; may be repeated
+    #[arg(long = "hold", value_name = "JOINT")]
+    hold: Vec<String>,
+    /// Number of poses
+    #[arg(long, default_value_t = 100)]
+    samples: usize,
+    /// Form of the answer
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+    /// Write to this file instead of standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Give a property of the file another value, a number or an expression; may be repeated
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = load::setting)]
+    settings: Vec<(String, String)>,
+    /// Start at a configuration of the file instead of the home pose
+    #[arg(long, value_name = "CONFIGURATION")]
+    at: Option<String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// What was traced, what was met, and the range of every joint
+    Text,
+    /// One row per pose
+    Csv,
+    /// Everything, for a program
+    Json,
+}
+
+/// What `--drive` says.
+#[derive(Clone, Debug)]
+struct Drive {
+    joint: String,
+    range: Option<(f64, f64)>,
+}
+
+/// Reads `joint` or `joint=from..to`.
+fn drive(text: &str) -> Result<Drive, String> {
+    let wrong = || "write it as joint=from..to, for example `crank=0..6.283`".to_owned();
+    let Some((joint, range)) = text.split_once('=') else {
+        return Ok(Drive {
+            joint: text.to_owned(),
+            range: None,
+        });
+    };
+    let (from, to) = range.split_once("..").ok_or_else(wrong)?;
+    let number = |part: &str| {
+        part.trim()
+            .parse::<f64>()
+            .ok()
+            .filter(|x| x.is_finite())
+            .ok_or_else(wrong)
+    };
+    Ok(Drive {
+        joint: joint.trim().to_owned(),
+        range: Some((number(from)?, number(to)?)),
+    })
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Where the file cannot be read, has no such configuration, branch or joint, or the output cannot be written.
+pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let reading = load::mechanism(&arguments.file, &arguments.settings)?;
+    let mechanism = &reading.mechanism;
+    let configuration = arguments.at.clone().filter(|name| name != "home");
+    let plain = |message: String, help: String| Failure::Plain {
+        message: format!("{}: {message}", arguments.file.display()),
+        help: Some(help),
+    };
+    let analysis = analyse(
+        mechanism,
+        &AnalysisOptions {
+            configuration: configuration.clone(),
+        },
+    )
+    .map_err(|error| {
+        plain(
+            error.to_string(),
+            "`kutzbach report FILE` tells more".to_owned(),
+        )
+    })?;
+    let options = TraceOptions {
+        branch: arguments.branch.clone(),
+        drive: arguments.drive.as_ref().map(|d| d.joint.clone()),
+        range: arguments.drive.as_ref().and_then(|d| d.range),
+        hold: arguments.hold.clone(),
+        samples: arguments.samples,
+        configuration,
+    };
+    let traced = trace(mechanism, &analysis, &options)
+        .map_err(|error| plain(error.to_string(), error.help()))?;
+    let text = match arguments.format {
+        Format::Text => table::text(mechanism, &traced),
+        Format::Csv => table::csv(mechanism, &traced),
+        Format::Json => output::json(&table::json(mechanism, &traced))?,
+    };
+    output::put(&text, arguments.output.as_deref())?;
+    Ok(DONE)
+}

@@ -1,0 +1,427 @@
+//! A trace as text, as comma-separated rows and as JSON.
+
+use kutzbach::closure::Rigid;
+use kutzbach::mechanism::{FreedomPart, Mechanism};
+use kutzbach::motion::{EndReason, EventKind, Motion, Spacing, Trace, Variable};
+use kutzbach::report::text::visible;
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// The version of the JSON.
+const SCHEMA: &str = "kutzbach-trace-1";
+
+fn unit(mechanism: &Mechanism, variable: &Variable) -> &'static str {
+    match mechanism.joints()[variable.joint].kind.freedoms()[variable.freedom] {
+        FreedomPart::Translation => "m",
+        FreedomPart::Rotation | FreedomPart::Screw => "rad",
+    }
+}
+
+/// Six digits behind the point; zero without a sign.
+fn short(value: f64) -> String {
+    let text = format!("{value:.6}");
+    if text.trim_start_matches('-').chars().all(|c| c == '0' || c == '.') {
+        "0.000000".to_owned()
+    } else {
+        text
+    }
+}
+
+fn end_reason(reason: &EndReason) -> String {
+    match reason {
+        EndReason::JointLimit { variable, value } => {
+            format!("joint limit of {} at {}", variable.name, short(*value))
+        }
+        EndReason::GoesOn => "it goes on; followed far enough".to_owned(),
+        EndReason::CannotGoOn => "no pose is found beyond".to_owned(),
+    }
+}
+
+fn event_text(kind: &EventKind) -> String {
+    let at_home = |home: &bool| if *home { ", the pose analysed" } else { "" };
+    match kind {
+        EventKind::DeadCentre {
+            variable,
+            value,
+            greatest,
+        } => format!(
+            "dead centre of {}: {} {}",
+            variable.name,
+            if *greatest { "greatest" } else { "least" },
+            short(*value)
+        ),
+        EventKind::JointLimit { variable, value } => {
+            format!("joint limit of {}: {}", variable.name, short(*value))
+        }
+        EventKind::Singular {
+            freedom,
+            excess: 0,
+            home,
+            ..
+        } => format!(
+            "what is held leaves the motion open here (freedom {freedom}){}",
+            at_home(home)
+        ),
+        EventKind::Singular {
+            freedom,
+            crosses,
+            home,
+            ..
+        } => format!(
+            "singular pose, freedom {freedom}: {}{}",
+            if *crosses {
+                "branches cross (bifurcation)"
+            } else {
+                "branches touch (tangential)"
+            },
+            at_home(home)
+        ),
+        EventKind::Cusp { home } => {
+            format!("cusp: the motion turns back on its other half{}", at_home(home))
+        }
+    }
+}
+
+fn extent(motion: &Motion) -> String {
+    match motion.closed {
+        Some(length) => format!("closed, arclength {} once around", short(length)),
+        None => {
+            let ends: Vec<String> = motion
+                .ends
+                .iter()
+                .map(|end| {
+                    format!(
+                        "at {} = {}: {}",
+                        motion.driven.name,
+                        short(end.drive),
+                        end_reason(&end.reason)
+                    )
+                })
+                .collect();
+            format!("with two ends; {}", ends.join("; "))
+        }
+    }
+}
+
+/// A page for a person.
+pub fn text(mechanism: &Mechanism, trace: &Trace) -> String {
+    let mut page = String::new();
+    // Writing into a string does not fail.
+    let mut line = |text: String| {
+        let _ = writeln!(page, "{}", visible(&text));
+    };
+    let motion = match trace {
+        Trace::Still(still) => {
+            line(format!("{}: {}.", mechanism.name(), still.reason));
+            return page;
+        }
+        Trace::Moving(motion) => motion,
+    };
+    line(format!(
+        "{}: branch {} of {}, freedom {}; {}.",
+        mechanism.name(),
+        motion.branch,
+        motion.branches.len(),
+        motion.dimension,
+        extent(motion)
+    ));
+    for note in &motion.notes {
+        line(format!("  • {note}"));
+    }
+    line(format!(
+        "  • driven: {} ({})",
+        motion.driven.name,
+        unit(mechanism, &motion.driven)
+    ));
+    for held in &motion.held {
+        line(format!(
+            "  • held: {} = {} {}",
+            held.variable.name,
+            short(held.value),
+            unit(mechanism, &held.variable)
+        ));
+    }
+    if !motion.starts_at_home {
+        line("  • starts at a generic pose of the branch: the pose analysed is singular".to_owned());
+    }
+    for unreached in &motion.unreached {
+        line(format!(
+            "  • {} = {} is not reached, only {}: {}",
+            motion.driven.name,
+            short(unreached.wanted),
+            short(unreached.reached),
+            unreached.reason
+        ));
+    }
+    line(format!(
+        "  • {} samples, equidistant in {}; largest closure {:.0e} of a loop's length (allowed {:.0e})",
+        motion.samples.len(),
+        match motion.spacing {
+            Spacing::Drive => motion.driven.name.as_str(),
+            Spacing::Arclength => "arclength",
+        },
+        round_up(motion.largest_closure),
+        motion.allowed_closure
+    ));
+    line(String::new());
+    if motion.events.is_empty() {
+        line("Met on the way: nothing".to_owned());
+    } else {
+        line("Met on the way".to_owned());
+        let rows: Vec<Vec<String>> = std::iter::once(vec![
+            "arclength".to_owned(),
+            motion.driven.name.clone(),
+            "event".to_owned(),
+        ])
+        .chain(motion.events.iter().map(|event| {
+            vec![
+                short(event.arclength),
+                short(event.drive),
+                event_text(&event.kind),
+            ]
+        }))
+        .collect();
+        aligned(&rows, &[true, true, false]).into_iter().for_each(&mut line);
+    }
+    line(String::new());
+    line("Ranges".to_owned());
+    let header = ["joint", "unit", "from", "to", "travel", "turns", "dead centres"];
+    let rows: Vec<Vec<String>> = std::iter::once(header.map(str::to_owned).to_vec())
+        .chain(motion.ranges.iter().map(|range| {
+            let mut row = vec![
+                range.variable.name.clone(),
+                unit(mechanism, &range.variable).to_owned(),
+                short(range.min),
+                short(range.max),
+                short(range.travel),
+                range.turns.to_string(),
+                range.dead_centres.to_string(),
+            ];
+            if !range.moves {
+                row[4] = "rests".to_owned();
+            }
+            row
+        }))
+        .collect();
+    aligned(&rows, &[false, false, true, true, true, true, true])
+        .into_iter()
+        .for_each(&mut line);
+    page
+}
+
+/// One digit, never below the value: what rounding does to the last bits of a closure is nobody's concern.
+fn round_up(value: f64) -> f64 {
+    if value > 0.0 {
+        10f64.powi(value.log10().ceil() as i32)
+    } else {
+        0.0
+    }
+}
+
+fn aligned(rows: &[Vec<String>], right: &[bool]) -> Vec<String> {
+    let widths: Vec<usize> = (0..right.len())
+        .map(|c| rows.iter().map(|r| r[c].chars().count()).max().unwrap_or(0))
+        .collect();
+    rows.iter()
+        .map(|row| {
+            let cells: Vec<String> = row
+                .iter()
+                .zip(&widths)
+                .zip(right)
+                .map(|((cell, width), right)| {
+                    if *right {
+                        format!("{cell:>width$}")
+                    } else {
+                        format!("{cell:<width$}")
+                    }
+                })
+                .collect();
+            format!("  {}", cells.join("  ").trim_end())
+        })
+        .collect()
+}
+
+/// The rotation of a pose as a unit quaternion (w, x, y, z) with w ≥ 0 (Shepperd 1978).
+fn quaternion(pose: &Rigid<f64>) -> [f64; 4] {
+    let r = &pose.rotation;
+    let trace = r[0][0] + r[1][1] + r[2][2];
+    let squares = [
+        1.0 + trace,
+        1.0 + 2.0 * r[0][0] - trace,
+        1.0 + 2.0 * r[1][1] - trace,
+        1.0 + 2.0 * r[2][2] - trace,
+    ];
+    let largest = (0..4).fold(0, |best, i| if squares[i] > squares[best] { i } else { best });
+    let root = squares[largest].max(0.0).sqrt();
+    let half = 0.5 / root;
+    let q = match largest {
+        0 => [
+            0.5 * root,
+            (r[2][1] - r[1][2]) * half,
+            (r[0][2] - r[2][0]) * half,
+            (r[1][0] - r[0][1]) * half,
+        ],
+        1 => [
+            (r[2][1] - r[1][2]) * half,
+            0.5 * root,
+            (r[0][1] + r[1][0]) * half,
+            (r[0][2] + r[2][0]) * half,
+        ],
+        2 => [
+            (r[0][2] - r[2][0]) * half,
+            (r[0][1] + r[1][0]) * half,
+            0.5 * root,
+            (r[1][2] + r[2][1]) * half,
+        ],
+        _ => [
+            (r[1][0] - r[0][1]) * half,
+            (r[0][2] + r[2][0]) * half,
+            (r[1][2] + r[2][1]) * half,
+            0.5 * root,
+        ],
+    };
+    if q[0] < 0.0 { q.map(|x| -x) } else { q }
+}
+
+/// A field of a row: quoted where a name has a comma, a quotation mark or a line break in it (RFC 4180).
+fn field(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
+}
+
+/// One row per pose: drive value, arclength, closure, joint variables by name, then x y z and qw qx qy qz of every link.
+/// Nothing but the header where nothing moves.
+pub fn csv(mechanism: &Mechanism, trace: &Trace) -> String {
+    let mut header = vec!["drive".to_owned(), "arclength".to_owned(), "closure".to_owned()];
+    header.extend(Variable::all(mechanism).iter().map(|v| field(&v.name)));
+    for link in mechanism.links() {
+        for part in ["x", "y", "z", "qw", "qx", "qy", "qz"] {
+            header.push(field(&format!("{}.{part}", link.name)));
+        }
+    }
+    let mut text = header.join(",");
+    text.push('\n');
+    for sample in trace.motion().iter().flat_map(|m| &m.samples) {
+        let mut row = vec![sample.drive, sample.arclength, sample.closure];
+        row.extend(&sample.values);
+        for pose in &sample.links {
+            row.extend(pose.translation);
+            row.extend(quaternion(pose));
+        }
+        // The shortest digits that give the same number back.
+        let row: Vec<String> = row.iter().map(|x| format!("{x:?}")).collect();
+        text.push_str(&row.join(","));
+        text.push('\n');
+    }
+    text
+}
+
+fn event_json(kind: &EventKind) -> Value {
+    match kind {
+        EventKind::DeadCentre {
+            variable,
+            value,
+            greatest,
+        } => json!({"kind": "dead_centre", "joint": variable.name, "value": value, "greatest": greatest}),
+        EventKind::JointLimit { variable, value } => {
+            json!({"kind": "joint_limit", "joint": variable.name, "value": value})
+        }
+        EventKind::Singular {
+            freedom,
+            excess,
+            crosses,
+            home,
+        } => {
+            let kind = match (excess, crosses) {
+                (0, _) => "input_singularity",
+                (_, true) => "bifurcation",
+                (_, false) => "tangential",
+            };
+            json!({"kind": kind, "freedom": freedom, "home": home})
+        }
+        EventKind::Cusp { home } => json!({"kind": "cusp", "home": home}),
+    }
+}
+
+fn reason_json(reason: &EndReason) -> Value {
+    match reason {
+        EndReason::JointLimit { variable, value } => {
+            json!({"kind": "joint_limit", "joint": variable.name, "value": value})
+        }
+        EndReason::GoesOn => json!({"kind": "goes_on"}),
+        EndReason::CannotGoOn => json!({"kind": "cannot_go_on"}),
+    }
+}
+
+/// Everything, with the names of columns once.
+pub fn json(mechanism: &Mechanism, trace: &Trace) -> Value {
+    let motion = match trace {
+        Trace::Still(still) => {
+            return json!({
+                "schema": SCHEMA,
+                "mechanism": mechanism.name(),
+                "moves": false,
+                "reason": still.reason,
+                "branch": still.branch,
+            });
+        }
+        Trace::Moving(motion) => motion,
+    };
+    let variables = Variable::all(mechanism);
+    let samples: Vec<Value> = motion
+        .samples
+        .iter()
+        .map(|sample| {
+            let links: Vec<Value> = sample
+                .links
+                .iter()
+                .map(|pose| json!({"position": pose.translation, "quaternion": quaternion(pose)}))
+                .collect();
+            json!({
+                "drive": sample.drive,
+                "arclength": sample.arclength,
+                "closure": sample.closure,
+                "values": sample.values,
+                "links": links,
+            })
+        })
+        .collect();
+    json!({
+        "schema": SCHEMA,
+        "mechanism": mechanism.name(),
+        "moves": true,
+        "branch": motion.branch,
+        "branches": motion.branches,
+        "dimension": motion.dimension,
+        "driven": {"joint": motion.driven.name, "unit": unit(mechanism, &motion.driven)},
+        "held": motion.held.iter().map(|h| json!({
+            "joint": h.variable.name, "value": h.value, "unit": unit(mechanism, &h.variable),
+        })).collect::<Vec<_>>(),
+        "starts_at_home": motion.starts_at_home,
+        "closed": motion.closed,
+        "ends": motion.ends.iter().map(|e| json!({
+            "arclength": e.arclength, "drive": e.drive, "reason": reason_json(&e.reason),
+        })).collect::<Vec<_>>(),
+        "events": motion.events.iter().map(|e| json!({
+            "arclength": e.arclength, "drive": e.drive, "event": event_json(&e.kind), "values": e.values,
+        })).collect::<Vec<_>>(),
+        "ranges": motion.ranges.iter().map(|r| json!({
+            "joint": r.variable.name, "unit": unit(mechanism, &r.variable), "min": r.min, "max": r.max,
+            "travel": r.travel, "turns": r.turns, "moves": r.moves, "dead_centres": r.dead_centres,
+        })).collect::<Vec<_>>(),
+        "spacing": match motion.spacing { Spacing::Drive => "drive", Spacing::Arclength => "arclength" },
+        "unreached": motion.unreached.iter().map(|u| json!({
+            "wanted": u.wanted, "reached": u.reached, "reason": u.reason,
+        })).collect::<Vec<_>>(),
+        "length_unit": motion.length_unit,
+        "largest_closure": motion.largest_closure,
+        "allowed_closure": motion.allowed_closure,
+        "notes": motion.notes,
+        "columns": variables.iter().map(|v| json!({"joint": v.name, "unit": unit(mechanism, v)})).collect::<Vec<_>>(),
+        "links": mechanism.links().iter().map(|l| l.name.as_str()).collect::<Vec<_>>(),
+        "samples": samples,
+    })
+}
