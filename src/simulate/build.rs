@@ -30,6 +30,8 @@ pub(super) struct Built {
     pub masses: Vec<Option<Mass>>,
     /// By joint and freedom.
     pub handles: Vec<Vec<Handle>>,
+    /// The idle spin that a joint has beside its freedoms.
+    pub spins: Vec<Option<Handle>>,
     pub pieces: Pieces,
     pub notes: Vec<Note>,
     pub not_simulated: Vec<String>,
@@ -101,11 +103,12 @@ impl Built {
     }
 }
 
-/// Natural frequency of the critically damped springs that hold impulse joints (Hz). A substep h corrects the share
-/// 1 − 1/(1 + ω h/2) of an error. With 1e3 Hz that share falls with the substep and the closure error falls only in
-/// proportion to it; from 1e6 Hz on, all of an error is corrected at any substep in use, the closure error falls with its
-/// square, and a stiffer spring changes no digit that matters (measured: `docs/src/simulation.md`).
-const SPRING_FREQUENCY: f64 = 1e6;
+/// Natural frequency of the critically damped springs that hold impulse joints (Hz). Of an error, a substep h leaves the
+/// share 1/(1 + ω h/2), and of a push the square of that. At 1e3 Hz the share matters: the closure error falls only in
+/// proportion to the substep. From 1e6 Hz on it falls with the square, but a push still moves a locked axis by 2e-5 of what
+/// it does to a free one at 30 µs; at 1e9 Hz by 1e-11. Stiffer springs change nothing that can be measured
+/// (`docs/src/simulation.md`).
+const SPRING_FREQUENCY: f64 = 1e9;
 
 /// Sweeps of the solver over all constraints in a substep. One sweep leaves a loop's rows fighting each other, and a drive
 /// that starts with a jolt late by a radian; eight cost a tenth more time with multibodies, half as much again with
@@ -152,6 +155,7 @@ pub(super) fn build(
     )?;
     weld_chord_screws(&mut apart, &mut forest, &poses);
     built.handles = std::mem::take(&mut apart.handles);
+    built.spins = std::mem::take(&mut apart.spins);
 
     let units = Units {
         length,
@@ -362,6 +366,16 @@ impl Builder<'_> {
             self.built.near.push(moving);
         }
         self.built.pieces.intermediate_bodies = self.apart.intermediates.len();
+        for intermediate in &self.apart.intermediates {
+            let joint = &self.mechanism.joints()[intermediate.joint];
+            self.built.notes.push(Note {
+                about: joint.name.clone(),
+                text: format!(
+                    "held by two simpler joints and an intermediate body of {} of the lighter link's mass and least moment of inertia",
+                    inertia::INTERMEDIATE_RATIO
+                ),
+            });
+        }
         let intermediate_poses = self.apart.intermediates.iter().map(|body| &body.pose);
         for (pose, mass) in self
             .poses

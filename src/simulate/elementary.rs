@@ -77,6 +77,9 @@ pub(super) struct TakenApart {
     pub intermediates: Vec<Intermediate>,
     /// By joint and freedom.
     pub handles: Vec<Vec<Handle>>,
+    /// The idle spin of a distance joint's rod, by joint. It has no part in the joint's variables; while one of them is
+    /// driven it has to rest.
+    pub spins: Vec<Option<Handle>>,
 }
 
 impl TakenApart {
@@ -107,6 +110,7 @@ impl TakenApart {
             apart.joints.extend(part.joints);
             apart.intermediates.extend(part.intermediates);
             apart.handles.push(part.handles);
+            apart.spins.push(part.spin);
         }
         apart
     }
@@ -127,6 +131,7 @@ struct Part {
     joints: Vec<Elementary>,
     intermediates: Vec<Intermediate>,
     handles: Vec<Handle>,
+    spin: Option<Handle>,
 }
 
 impl Taking<'_> {
@@ -202,6 +207,7 @@ impl Taking<'_> {
         };
         let frames = self.aligned(&with);
         Part {
+            spin: None,
             handles: felt
                 .iter()
                 .map(|&a| Self::felt(self.links, &frames, a))
@@ -223,6 +229,7 @@ impl Taking<'_> {
             handles.push(Self::felt(self.links, &frames, 3));
         }
         Part {
+            spin: None,
             joints: vec![self.elementary(self.links, frames, free, None)],
             intermediates: vec![],
             handles,
@@ -243,6 +250,7 @@ impl Taking<'_> {
     fn ball(&self) -> Part {
         let frames = self.frames();
         Part {
+            spin: None,
             handles: Self::ball_handles(self.links, &frames).collect(),
             joints: vec![self.elementary(self.links, frames, axes::ROTATIONS, None)],
             intermediates: vec![],
@@ -274,6 +282,7 @@ impl Taking<'_> {
             sign: -1.0,
         }));
         Part {
+            spin: None,
             joints: vec![Elementary {
                 reducible: false,
                 ..self.elementary(bodies, frames, free, None)
@@ -349,6 +358,7 @@ impl Taking<'_> {
         let mut handles = felt(before, &one, felt_one);
         handles.extend(felt(behind, &two, felt_two));
         Part {
+            spin: None,
             joints: vec![
                 self.elementary(before, one, free_one, None),
                 self.elementary(behind, two, free_two, None),
@@ -370,11 +380,12 @@ impl Taking<'_> {
         let one = [self.sides[0].compose(&swung), near];
         let rest = turn(&swung).inverse().compose(&turn(&reached));
         let two = [far.compose(&rest), self.sides[1].clone()];
-        let mut handles: Vec<Handle> = Self::ball_handles([bodies[0], bodies[1]], &one)
-            .skip(1)
-            .collect();
+        let mut turns = Self::ball_handles([bodies[0], bodies[1]], &one);
+        let spin = turns.next();
+        let mut handles: Vec<Handle> = turns.collect();
         handles.extend(Self::ball_handles([bodies[1], bodies[2]], &two));
         Part {
+            spin,
             joints: vec![
                 self.elementary([bodies[0], bodies[1]], one, axes::ROTATIONS, None),
                 self.elementary([bodies[1], bodies[2]], two, axes::ROTATIONS, None),

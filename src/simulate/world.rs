@@ -10,7 +10,7 @@ use super::units::Units;
 use crate::closure::{Geometry, JointDisplacement, JointState, Rigid};
 use crate::mechanism::Mechanism;
 use rapier3d_f64::prelude::{
-    ImpulseJointHandle, PhysicsWorld, Pose, RigidBodyHandle, Vector as Vec3,
+    GenericJoint, ImpulseJointHandle, PhysicsWorld, Pose, RigidBodyHandle, Vector as Vec3,
 };
 use std::collections::BTreeMap;
 
@@ -29,6 +29,8 @@ pub struct World {
     pub(super) built: Built,
     steps: u64,
     drives: BTreeMap<(usize, usize), ImpulseJointHandle>,
+    /// Idle spins held still while a freedom of their joint is driven.
+    spins: BTreeMap<usize, ImpulseJointHandle>,
     pushed: Vec<RigidBodyHandle>,
 }
 
@@ -63,6 +65,7 @@ impl World {
             built,
             steps: 0,
             drives: BTreeMap::new(),
+            spins: BTreeMap::new(),
             pushed: Vec::new(),
         })
     }
@@ -114,16 +117,37 @@ impl World {
             joint.data = motor;
             return Ok(());
         }
-        let [a, b] = handle.bodies.map(|body| self.built.bodies[body]);
-        let inserted = self.physics.impulse_joints.insert(a, b, motor, true);
+        let inserted = self.insert(&handle, motor);
         self.drives.insert(key, inserted);
+        if let Some(spin) = self.built.spins[drive.joint].clone()
+            && !self.spins.contains_key(&drive.joint)
+        {
+            let still = Motor {
+                velocity: 0.0,
+                gain: Gain::Stiff {
+                    largest: f64::INFINITY,
+                },
+            };
+            let motor = motor_joint(&self.built, &self.units, &spin, still);
+            let inserted = self.insert(&spin, motor);
+            self.spins.insert(drive.joint, inserted);
+        }
         Ok(())
+    }
+
+    fn insert(&mut self, handle: &Handle, motor: GenericJoint) -> ImpulseJointHandle {
+        let [a, b] = handle.bodies.map(|body| self.built.bodies[body]);
+        self.physics.impulse_joints.insert(a, b, motor, true)
     }
 
     /// Lets go of a driven freedom; nothing happens where it is not driven.
     pub fn release(&mut self, joint: usize, freedom: usize) {
         if let Some(handle) = self.drives.remove(&(joint, freedom)) {
             self.physics.impulse_joints.remove(handle, true);
+        }
+        let driven = self.drives.keys().any(|(driven, _)| *driven == joint);
+        if !driven && let Some(spin) = self.spins.remove(&joint) {
+            self.physics.impulse_joints.remove(spin, true);
         }
     }
 
