@@ -19,6 +19,8 @@
 //! however long the log.
 
 mod appearance;
+mod attachments;
+mod channels;
 mod error;
 mod joint_symbols;
 mod link_shapes;
