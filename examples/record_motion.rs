@@ -29,8 +29,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         Some(name) => mechanism.joint_named(name).ok_or("no such joint")?.0,
         None => 0,
     };
-    let mut roles = Roles::default();
-    roles.joints = vec![Role::Moving; mechanism.joints().len()];
+    let mut roles = Roles {
+        links: Vec::new(),
+        joints: vec![Role::Moving; mechanism.joints().len()],
+    };
     roles.joints[drive] = Role::Driven;
 
     let name = Path::new(file).file_name().unwrap_or_default();

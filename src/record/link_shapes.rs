@@ -5,8 +5,11 @@ use super::vectors::{Point, along, difference, norm, pose_of, sum, times};
 use crate::closure::Rigid;
 use crate::mechanism::{Geometry, Link};
 
+/// A solid with its pose in the link.
+pub type Solid = (Rigid<f64>, Primitive);
+
 /// The file's visuals, capsules taken apart; `None` where there is none that can be drawn (meshes are files of their own).
-pub fn visuals(link: &Link) -> Option<Vec<(Rigid<f64>, Primitive)>> {
+pub fn visuals(link: &Link) -> Option<Vec<Solid>> {
     let mut solids = Vec::new();
     for shape in &link.visuals {
         let pose = pose_of(&shape.origin);
@@ -34,7 +37,7 @@ pub fn visuals(link: &Link) -> Option<Vec<(Rigid<f64>, Primitive)>> {
             Geometry::Mesh { .. } => {}
         }
     }
-    let visible = |(_, primitive): &(Rigid<f64>, Primitive)| {
+    let visible = |(_, primitive): &Solid| {
         let size = primitive.size();
         size.iter().all(|x| *x > 0.0 && x.is_finite())
     };
@@ -44,7 +47,7 @@ pub fn visuals(link: &Link) -> Option<Vec<(Rigid<f64>, Primitive)>> {
 
 /// Rods that join points: one between two, the sides of a triangle, a star about the centroid of more; a ball where all
 /// are one point or there is none.
-pub fn joined(points: &[Point], radius: f64) -> Vec<(Rigid<f64>, Primitive)> {
+pub fn joined(points: &[Point], radius: f64) -> Vec<Solid> {
     // Points closer than a rod is thick are one to the eye.
     let mut distinct: Vec<Point> = Vec::new();
     for point in points {
@@ -86,7 +89,7 @@ pub fn joined(points: &[Point], radius: f64) -> Vec<(Rigid<f64>, Primitive)> {
     solids
 }
 
-fn rod(from: Point, to: Point, radius: f64) -> (Rigid<f64>, Primitive) {
+fn rod(from: Point, to: Point, radius: f64) -> Solid {
     let way = difference(to, from);
     let length = norm(way);
     let middle = sum(from, times(way, 0.5));

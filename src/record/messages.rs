@@ -1,8 +1,9 @@
 //! Numbers in, typed messages out.
 
 use super::error::RecordError;
-use super::vectors::{Point, quaternion};
+use super::vectors::{Point, is_finite, quaternion};
 use crate::closure::Rigid;
+use crate::mechanism::Mechanism;
 use foxglove::messages::{Pose, Quaternion, Timestamp, Vector3};
 
 /// One motion at one moment.
@@ -28,6 +29,62 @@ impl<'a> Motion<'a> {
             rates: &[],
             gaps: &[],
         }
+    }
+
+    /// Whether the numbers fit the mechanism and can be shown.
+    pub(super) fn check(&self, mechanism: &Mechanism) -> Result<(), RecordError> {
+        let count = |what, expected: usize, found: usize| {
+            if expected == found {
+                return Ok(());
+            }
+            Err(RecordError::Count {
+                what,
+                expected,
+                found,
+            })
+        };
+        let links = mechanism.links();
+        count("link poses", links.len(), self.links.len())?;
+        if let Some(bad) = self.links.iter().position(|pose| !is_finite(pose)) {
+            return Err(RecordError::NotFinite {
+                what: format!("the pose of link `{}`", links[bad].name),
+            });
+        }
+        let joints = mechanism.joints();
+        for (what, values) in [("joint values", self.joints), ("joint rates", self.rates)] {
+            if values.is_empty() {
+                continue;
+            }
+            count(what, joints.len(), values.len())?;
+            for (joint, values) in joints.iter().zip(values) {
+                count(what, joint.freedom(), values.len())?;
+                if !values.iter().all(|x| x.is_finite()) {
+                    return Err(RecordError::NotFinite {
+                        what: format!("a value of joint `{}`", joint.name),
+                    });
+                }
+            }
+        }
+        for gap in self.gaps {
+            let Some(joint) = joints.get(gap.joint) else {
+                return Err(RecordError::Count {
+                    what: "as the index of a joint with a gap",
+                    expected: joints.len(),
+                    found: gap.joint,
+                });
+            };
+            if !gap
+                .predecessor
+                .iter()
+                .chain(&gap.successor)
+                .all(|x| x.is_finite())
+            {
+                return Err(RecordError::NotFinite {
+                    what: format!("the gap at joint `{}`", joint.name),
+                });
+            }
+        }
+        Ok(())
     }
 }
 

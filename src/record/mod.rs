@@ -15,10 +15,12 @@
 //!
 //! [`Drawing`] turns a mechanism into plain coloured solids; it knows nothing of logs.
 //!
-//! Cost: linear in the number of links, joints and moments; about 200 bytes per link and moment. Memory stays at one chunk
+//! Cost: linear in the number of links, joints and moments; about 130 bytes per link, motion and moment. Memory stays at one chunk
 //! however long the log.
 
 mod appearance;
+mod attachments;
+mod channels;
 mod error;
 mod joint_symbols;
 mod link_shapes;

@@ -1,6 +1,8 @@
 //! The recorder: a mechanism first, then moment after moment.
 
 use super::appearance::Roles;
+use super::attachments::{attachment, media_type};
+use super::channels::{Channel, Channels};
 use super::error::RecordError;
 use super::log_file::LogFile;
 use super::messages::{Closure, Level, Motion, Prediction, nanoseconds, rotation, stamp, vector};
@@ -12,12 +14,9 @@ use super::vectors::is_finite;
 use crate::closure::{Geometry, Rigid};
 use crate::mechanism::{Mechanism, Placement};
 use foxglove::Encode;
-use foxglove::messages::{
-    FrameTransform, FrameTransforms, JointState, JointStates, Log, SceneUpdate,
-};
+use foxglove::messages::{FrameTransform, FrameTransforms, JointState, JointStates, Log};
 use mcap::records::MessageHeader;
 use mcap::write::{Metadata, NoSeek, WriteOptions};
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::Path;
@@ -63,26 +62,6 @@ pub struct Summary {
     pub messages: u64,
     /// The latest time recorded (s).
     pub until: f64,
-}
-
-/// A topic of the log.
-#[derive(Clone, Copy, Debug)]
-struct Channel {
-    id: u16,
-    sent: u32,
-}
-
-#[derive(Debug)]
-struct Channels {
-    transforms: Channel,
-    scene: Channel,
-    gaps: Channel,
-    closure: Channel,
-    prediction: Channel,
-    log: Channel,
-    /// By stream.
-    joint_states: [Channel; 2],
-    descriptions: [Channel; 2],
 }
 
 /// Writes a log as it happens. Memory: one chunk, and some bytes per chunk written.
@@ -224,7 +203,7 @@ impl<'a, W: Write> Recorder<'a, W> {
         let at = nanoseconds(time)?;
         let motions = [predicted, simulated];
         for motion in motions.into_iter().flatten() {
-            self.check(motion)?;
+            motion.check(self.mechanism)?;
         }
         let new = [0, 1].map(|i| motions[i].is_some() && !self.shown[i]);
         if new != [false; 2] {
@@ -377,65 +356,6 @@ impl<'a, W: Write> Recorder<'a, W> {
         Ok((summary, writer))
     }
 
-    /// Whether the numbers fit the mechanism and can be shown.
-    fn check(&self, motion: &Motion<'_>) -> Result<(), RecordError> {
-        let count = |what, expected: usize, found: usize| {
-            if expected == found {
-                return Ok(());
-            }
-            Err(RecordError::Count {
-                what,
-                expected,
-                found,
-            })
-        };
-        let links = self.mechanism.links();
-        count("link poses", links.len(), motion.links.len())?;
-        if let Some(bad) = motion.links.iter().position(|pose| !is_finite(pose)) {
-            return Err(RecordError::NotFinite {
-                what: format!("the pose of link `{}`", links[bad].name),
-            });
-        }
-        let joints = self.mechanism.joints();
-        for (what, values) in [
-            ("joint values", motion.joints),
-            ("joint rates", motion.rates),
-        ] {
-            if values.is_empty() {
-                continue;
-            }
-            count(what, joints.len(), values.len())?;
-            for (joint, values) in joints.iter().zip(values) {
-                count(what, joint.freedom(), values.len())?;
-                if !values.iter().all(|x| x.is_finite()) {
-                    return Err(RecordError::NotFinite {
-                        what: format!("a value of joint `{}`", joint.name),
-                    });
-                }
-            }
-        }
-        for gap in motion.gaps {
-            let Some(joint) = joints.get(gap.joint) else {
-                return Err(RecordError::Count {
-                    what: "as the index of a joint with a gap",
-                    expected: joints.len(),
-                    found: gap.joint,
-                });
-            };
-            if !gap
-                .predecessor
-                .iter()
-                .chain(&gap.successor)
-                .all(|x| x.is_finite())
-            {
-                return Err(RecordError::NotFinite {
-                    what: format!("the gap at joint `{}`", joint.name),
-                });
-            }
-        }
-        Ok(())
-    }
-
     /// The frames of one stream: its root in the world, and every link in its parent of the file's tree, as
     /// `/robot_description` has it.
     fn transforms(
@@ -561,71 +481,5 @@ impl<'a, W: Write> Recorder<'a, W> {
         self.messages += 1;
         self.until = self.until.max(at);
         Ok(())
-    }
-}
-
-impl Channels {
-    fn new<W: Write>(writer: &mut mcap::Writer<NoSeek<W>>) -> Result<Self, RecordError> {
-        let both = |name: &str, add: &mut dyn FnMut(&str) -> Result<Channel, RecordError>| {
-            let [predicted, simulated] = Stream::BOTH.map(|stream| stream.topic(name));
-            Ok::<_, RecordError>([add(&predicted)?, add(&simulated)?])
-        };
-        Ok(Self {
-            transforms: typed::<FrameTransforms, W>(writer, "/tf")?,
-            scene: typed::<SceneUpdate, W>(writer, "/scene")?,
-            gaps: typed::<SceneUpdate, W>(writer, "/scene/gaps")?,
-            closure: typed::<Closure, W>(writer, "/mobility/closure")?,
-            prediction: typed::<Prediction, W>(writer, "/mobility/prediction")?,
-            log: typed::<Log, W>(writer, "/log")?,
-            joint_states: both("joint_states", &mut |topic| {
-                typed::<JointStates, W>(writer, topic)
-            })?,
-            descriptions: both("robot_description", &mut |topic| {
-                let schema =
-                    writer.add_schema("std_msgs/msg/String", "ros2msg", b"string data\n")?;
-                add_channel(writer, schema, topic, "cdr")
-            })?,
-        })
-    }
-}
-
-/// A topic for messages of one type.
-fn typed<T: Encode, W: Write>(
-    writer: &mut mcap::Writer<NoSeek<W>>,
-    topic: &str,
-) -> Result<Channel, RecordError> {
-    let schema = match T::get_schema() {
-        Some(schema) => writer.add_schema(&schema.name, &schema.encoding, &schema.data)?,
-        None => 0,
-    };
-    add_channel(writer, schema, topic, &T::get_message_encoding())
-}
-
-fn add_channel<W: Write>(
-    writer: &mut mcap::Writer<NoSeek<W>>,
-    schema: u16,
-    topic: &str,
-    encoding: &str,
-) -> Result<Channel, RecordError> {
-    let id = writer.add_channel(schema, topic, encoding, &BTreeMap::new())?;
-    Ok(Channel { id, sent: 0 })
-}
-
-fn attachment<'a>(name: &str, media_type: &str, data: &'a [u8]) -> mcap::Attachment<'a> {
-    mcap::Attachment {
-        log_time: 0,
-        create_time: 0,
-        name: name.to_owned(),
-        media_type: media_type.to_owned(),
-        data: Cow::Borrowed(data),
-    }
-}
-
-fn media_type(name: &str) -> &'static str {
-    let ending = Path::new(name).extension();
-    match ending.and_then(|ending| ending.to_str()) {
-        Some("urdf" | "xml") => "application/xml",
-        Some("json") => "application/json",
-        _ => "application/octet-stream",
     }
 }

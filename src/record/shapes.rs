@@ -2,7 +2,7 @@
 
 use super::appearance::{AXIS, Colour, GROUND, Roles, joint_colour, link_colour};
 use super::joint_symbols::{Piece, axis_arrow, symbol};
-use super::link_shapes::{joined, visuals};
+use super::link_shapes::{Solid, joined, visuals};
 use super::vectors::{Point, difference, norm, pose_of, sum, times};
 use crate::closure::{Geometry, Rigid};
 use crate::mechanism::{JointKind, Mechanism};
@@ -102,8 +102,7 @@ impl Drawing {
     /// are drawn at unit distance along it. Cost: linear in the mechanism, but for sorting distances.
     #[must_use]
     pub fn new(mechanism: &Mechanism, geometry: &Geometry<f64>, roles: &Roles) -> Self {
-        let own: Vec<Option<Vec<(Rigid<f64>, Primitive)>>> =
-            mechanism.links().iter().map(visuals).collect();
+        let own: Vec<Option<Vec<Solid>>> = mechanism.links().iter().map(visuals).collect();
         let points = joint_points(mechanism, geometry);
         let mut incident: Vec<Vec<Point>> = vec![Vec::new(); mechanism.links().len()];
         for (joint, sides) in mechanism.joints().iter().zip(&points) {
@@ -223,7 +222,7 @@ fn joint_points(mechanism: &Mechanism, geometry: &Geometry<f64>) -> Vec<[Point; 
 fn bounds(
     geometry: &Geometry<f64>,
     incident: &[Vec<Point>],
-    own: &[Option<Vec<(Rigid<f64>, Primitive)>>],
+    own: &[Option<Vec<Solid>>],
 ) -> [Point; 2] {
     let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
     let mut include = |point: Point, reach: f64| {
@@ -261,5 +260,103 @@ fn symbol_radius(incident: &[Vec<Point>], extent: f64) -> f64 {
     match distances.get(distances.len() / 2) {
         Some(usual) => (RADIUS_BY_DISTANCE * usual).clamp(least, most),
         None => most,
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::closure::Arithmetic;
+
+    fn drawing(text: &str) -> (Mechanism, Geometry<f64>, Drawing) {
+        let mechanism = crate::format::read(text, "test", &[]).unwrap().mechanism;
+        let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
+        let drawing = Drawing::new(&mechanism, &geometry, &Roles::default());
+        (mechanism, geometry, drawing)
+    }
+
+    /// Where the shapes of a part are in the world, at home.
+    fn places(drawing: &Drawing, geometry: &Geometry<f64>, part: Part) -> Vec<Point> {
+        let shapes = drawing.shapes.iter().filter(|shape| shape.part == part);
+        shapes
+            .map(|shape| geometry.home[shape.link].compose(&shape.pose).translation)
+            .collect()
+    }
+
+    #[test]
+    fn a_rod_runs_from_joint_to_joint() {
+        let (_, geometry, drawing) = drawing(
+            r#"<robot name="arm"><link name="g"/><link name="a"/><link name="b"/>
+            <joint name="p" type="continuous"><parent link="g"/><child link="a"/>
+              <origin xyz="1 0 0"/><axis xyz="0 0 1"/></joint>
+            <joint name="q" type="continuous"><parent link="a"/><child link="b"/>
+              <origin xyz="0 2 0"/><axis xyz="0 0 1"/></joint></robot>"#,
+        );
+        let rod = drawing
+            .shapes
+            .iter()
+            .find(|s| s.link == 1 && matches!(s.primitive, Primitive::Cylinder { .. }))
+            .unwrap();
+        let Primitive::Cylinder { radius, length } = rod.primitive else {
+            panic!()
+        };
+        assert!((length - 2.0).abs() < 1e-15 && radius < 0.1);
+        let pose = geometry.home[1].compose(&rod.pose);
+        let ends = [-1.0, 1.0].map(|z| pose.apply(&[0.0, 0.0, z]));
+        for end in [[1.0, 0.0, 0.0], [1.0, 2.0, 0.0]] {
+            assert!(ends.iter().any(|e| norm(difference(*e, end)) < 1e-15));
+        }
+        assert!((drawing.extent - 2.0).abs() < 1e-15);
+        // The pin lies along the hinge's axis, at the joint.
+        assert_eq!(
+            places(&drawing, &geometry, Part::Joint(1)),
+            [[1.0, 2.0, 0.0]]
+        );
+    }
+
+    #[test]
+    fn axes_through_one_point_are_drawn_apart() {
+        let (mechanism, geometry, drawing) = drawing(
+            r#"<robot name="cross"><link name="g"/><link name="a"/><link name="b"/>
+            <joint name="p" type="continuous"><parent link="g"/><child link="a"/>
+              <axis xyz="0 0 1"/></joint>
+            <joint name="q" type="continuous"><parent link="a"/><child link="b"/>
+              <axis xyz="1 0 0"/></joint></robot>"#,
+        );
+        assert_eq!(mechanism.joints().len(), 2);
+        assert_eq!(
+            places(&drawing, &geometry, Part::Joint(0)),
+            [[0.0, 0.0, 1.0]]
+        );
+        assert_eq!(
+            places(&drawing, &geometry, Part::Joint(1)),
+            [[1.0, 0.0, 0.0]]
+        );
+        assert!(drawing.radius > 1e-3 && drawing.radius < 0.1);
+    }
+
+    #[test]
+    fn visuals_come_first_and_meshes_do_not_count() {
+        let (_, _, drawing) = drawing(
+            r#"<robot name="seen"><link name="g"><visual><geometry><mesh filename="m.stl"/></geometry></visual></link>
+            <link name="a"><visual><origin xyz="0 0 3"/><geometry><capsule radius="0.5" length="2"/></geometry></visual>
+              <visual><geometry><box size="0 1 1"/></geometry></visual></link>
+            <joint name="p" type="continuous"><parent link="g"/><child link="a"/><axis xyz="0 0 1"/></joint></robot>"#,
+        );
+        let of = |link: usize| {
+            let own = drawing.shapes.iter();
+            own.filter(move |s| s.link == link && s.part == Part::Link)
+        };
+        assert!(matches!(
+            of(0).next().unwrap().primitive,
+            Primitive::Sphere { .. }
+        ));
+        let heights: Vec<f64> = of(1).map(|s| s.pose.translation[2]).collect();
+        assert_eq!(
+            heights,
+            [2.0, 4.0, 3.0],
+            "two ends and a body; nothing flat"
+        );
     }
 }

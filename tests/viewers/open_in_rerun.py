@@ -34,7 +34,8 @@ def places_of(log):
         for entity in scene["entities"].values():
             centres.setdefault(entity["frame"], []).extend(entity["centres"])
     places = []
-    for moment in log["poses"][:: max(1, len(log["poses"]) // 50)]:
+    # Both streams have their turn: the step is odd.
+    for moment in log["poses"][:: len(log["poses"]) // 100 * 2 + 1]:
         offset = log["offsets"][moment["stream"]]
         for link, pose in moment["links"].items():
             for centre in centres.get(f"{moment['stream']}/{link}", []):

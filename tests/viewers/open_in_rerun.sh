@@ -22,6 +22,7 @@ fi
 command -v xvfb-run >/dev/null || { echo "needs xvfb-run: apt-get install xvfb" >&2; exit 1; }
 lavapipe=$(find /usr/share/vulkan/icd.d /etc/vulkan/icd.d -name 'lvp_icd*.json' 2>/dev/null | head -n 1)
 [ -n "$lavapipe" ] || { echo "needs software Vulkan: apt-get install mesa-vulkan-drivers" >&2; exit 1; }
+export PYTHONDONTWRITEBYTECODE=1
 export VK_DRIVER_FILES=$lavapipe VK_ICD_FILENAMES=$lavapipe WGPU_BACKEND=vulkan
 
 # The viewer keeps settings in the home folder and asks about statistics on first use: it gets an empty one of its own.
