@@ -93,6 +93,12 @@ impl Curve {
         &self.solver.system
     }
 
+    /// (arclength, margin) along the curve: the smallest singular value that the equations keep there, with what is held,
+    /// in the metric. Where it is small, a pose is known less well than its loops close.
+    pub fn margins(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.nodes.iter().map(|node| (node.arc, node.margin))
+    }
+
     /// The pose at an arclength; `None` beyond the ends of a curve that is not closed. On a closed curve angles go on
     /// counting.
     pub fn pose_at_arclength(&mut self, arclength: f64) -> Option<CurvePose> {

@@ -8,7 +8,7 @@
 use crate::closure::{Geometry, JointState};
 use crate::mechanism::{FreedomPart, JointKind, Mechanism};
 use crate::mobility::{Analysis, Branch};
-use crate::motion::{Curve, EndReason, EventKind, Motion, Trace, TraceOptions, Variable, trace};
+use crate::motion::{Curve, End, EndReason, EventKind, Motion, Trace, TraceOptions, Variable, trace};
 use std::f64::consts::TAU;
 
 /// A way along a branch that one driven freedom determines.
@@ -54,7 +54,7 @@ impl DrivenWay {
 pub(super) const RATE: f64 = 1.0;
 
 /// Ways that would take longer (s) are cut short.
-const LONGEST: f64 = 20.0;
+const LONGEST: f64 = 10.0;
 
 /// Poses that the schedule of a way is made from.
 const SCHEDULED: usize = 400;
@@ -168,8 +168,9 @@ fn motion_of(
     }
 }
 
-/// What ends a way, and at which arclength.
+/// What ends a way, at which arclength from its origin.
 struct Barrier {
+    origin: f64,
     arclength: f64,
     what: String,
 }
@@ -188,13 +189,15 @@ fn way_of(
     mut motion: Motion,
 ) -> Result<DrivenWay, String> {
     let nothing = "no pose of the branch is found";
-    let start = states_at(&mut motion.curve, 0.0).ok_or(nothing)?;
+    let least = least_margin(&motion.curve);
+    let origin = origin(&motion.curve, least);
+    let start = states_at(&mut motion.curve, origin).ok_or(nothing)?;
     let driven = motion.driven.clone();
     let from = value(geometry, &driven, &start, &start);
     let units = units(mechanism, length);
     let mut best: Option<Side> = None;
     for side in [1.0, -1.0] {
-        let barrier = barrier(&motion, side);
+        let barrier = barrier(&motion, origin, least, side);
         let found = side_of(geometry, &units, &start, &driven, &mut motion.curve, &barrier);
         if best
             .as_ref()
@@ -267,7 +270,7 @@ fn side_of(
     let mut before = start.to_vec();
     let mut time = 0.0;
     for step in 1..=SCHEDULED {
-        let arclength = barrier.arclength * step as f64 / SCHEDULED as f64;
+        let arclength = barrier.origin + barrier.arclength * step as f64 / SCHEDULED as f64;
         let Some(states) = states_at(curve, arclength) else {
             found.ends = "short of where the branch is followed to".to_owned();
             break;
@@ -299,36 +302,83 @@ fn side_of(
     found
 }
 
-/// The first pose on one side that a drive should not reach.
-fn barrier(motion: &Motion, side: f64) -> Barrier {
+/// Poses whose margin is below this share of the curve's median are kept away from: the same closure error leaves the
+/// simulated pose so many times as far off, and finer substeps are needed before the order shows.
+const WELL_CONDITIONED: f64 = 0.15;
+
+/// The margin that a pose of the way has to have.
+fn least_margin(curve: &Curve) -> f64 {
+    let mut margins: Vec<f64> = curve.margins().map(|(_, margin)| margin).collect();
+    margins.sort_by(f64::total_cmp);
+    margins.get(margins.len() / 2).copied().unwrap_or(0.0) * WELL_CONDITIONED
+}
+
+/// Where a way starts: where the trace does, unless that pose is ill-conditioned; then where the margin is greatest.
+fn origin(curve: &Curve, least: f64) -> f64 {
+    let near = curve
+        .margins()
+        .min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+    if near.is_none_or(|(_, margin)| margin >= least) {
+        return 0.0;
+    }
+    curve
+        .margins()
+        .max_by(|a, b| a.1.total_cmp(&b.1))
+        .map_or(0.0, |(arclength, _)| arclength)
+}
+
+/// The first pose on one side of an origin that a drive should not reach; arclengths are counted from the origin.
+fn barrier(motion: &Motion, origin: f64, least_margin: f64, side: f64) -> Barrier {
     let (first, last) = motion.curve.arclengths();
     let mut nearest = if let Some(around) = motion.closed {
         Barrier {
+            origin,
             arclength: side * around,
             what: "once around".to_owned(),
         }
     } else {
+        let arclength = if side > 0.0 { last } else { first };
         let end = motion
             .ends
             .iter()
-            .find(|end| end.arclength * side > 0.0 || end.arclength == 0.0 && side < 0.0);
-        let arclength = if side > 0.0 { last } else { first };
-        match end.map(|end| &end.reason) {
+            .min_by(|a, b| {
+                let off = |end: &End| (end.arclength - arclength).abs();
+                off(a).total_cmp(&off(b))
+            })
+            .map(|end| &end.reason);
+        let arclength = arclength - origin;
+        match end {
             Some(EndReason::GoesOn) => Barrier {
+                origin,
                 arclength,
                 what: "far enough".to_owned(),
             },
             Some(EndReason::JointLimit { variable, .. }) => Barrier {
+                origin,
                 arclength: SHARE * arclength,
                 what: format!("short of the limit of `{}`", variable.name),
             },
             Some(EndReason::CannotGoOn) | None => Barrier {
+                origin,
                 arclength: SHARE * arclength,
                 what: "short of where the branch is followed to".to_owned(),
             },
         }
     };
     let around = motion.closed.unwrap_or(0.0);
+    let mut meet = |arclength: f64, share: f64, what: &str| {
+        // On a closed curve what is met lies ahead both ways.
+        for arclength in [arclength, arclength - around, arclength + around] {
+            let ahead = (arclength - origin) * side;
+            if ahead > 0.0 && share * ahead < nearest.arclength * side {
+                nearest = Barrier {
+                    origin,
+                    arclength: share * (arclength - origin),
+                    what: what.to_owned(),
+                };
+            }
+        }
+    };
     for event in &motion.events {
         let what = match &event.kind {
             EventKind::DeadCentre { variable, .. } if *variable == motion.driven => {
@@ -341,15 +391,11 @@ fn barrier(motion: &Motion, side: f64) -> Barrier {
             EventKind::Singular { .. } => "short of a singular pose".to_owned(),
             EventKind::Cusp { .. } => "short of a cusp".to_owned(),
         };
-        // On a closed curve an event lies ahead both ways.
-        for arclength in [event.arclength, event.arclength - around, event.arclength + around] {
-            let ahead = arclength * side;
-            if ahead > 0.0 && SHARE * ahead < nearest.arclength * side {
-                nearest = Barrier {
-                    arclength: SHARE * arclength,
-                    what: what.clone(),
-                };
-            }
+        meet(event.arclength, SHARE, &what);
+    }
+    for (arclength, margin) in motion.curve.margins() {
+        if margin < least_margin {
+            meet(arclength, 1.0, "short of where the equations are ill-conditioned");
         }
     }
     nearest
