@@ -5,7 +5,7 @@ use super::convert::computable;
 use super::coupling;
 use super::effects;
 use super::elementary::{Elementary, Handle, TakenApart, axes};
-use super::forest::{Branch, Forest};
+use super::forest::{Branch, Forest, weld_chord_screws};
 use super::inertia::{self, Mass};
 use super::options::{Note, Pieces, Solver, WorldOptions};
 use super::units::Units;
@@ -290,45 +290,6 @@ fn elementary_names(mechanism: &Mechanism, joints: &[Elementary]) -> Vec<String>
         names.push(format!("{}{half}", mechanism.joints()[joint.joint].name));
     }
     names
-}
-
-/// A screw that closes a loop moves a small body instead, which is welded to the second body by impulses.
-fn weld_chord_screws(apart: &mut TakenApart, forest: &mut Forest, poses: &[Rigid<f64>]) {
-    for chord in &mut forest.chords {
-        let screw = apart.joints[*chord].clone();
-        if screw.pitch.is_none() {
-            continue;
-        }
-        let small = poses.len() + apart.intermediates.len();
-        // Both ends of a screw are links: only joints without a screw have intermediate bodies of their own.
-        let pose = poses[screw.bodies[0]].compose(&screw.frames[0]);
-        apart.intermediates.push(super::elementary::Intermediate {
-            joint: screw.joint,
-            pose,
-            length: 0.0,
-            links: screw.bodies,
-        });
-        let here = || Rigid::identity(&0.0);
-        let weld = Elementary {
-            bodies: [small, screw.bodies[1]],
-            frames: [here(), screw.frames[1].clone()],
-            free: 0,
-            pitch: None,
-            ..screw.clone()
-        };
-        forest.branches.push(Branch {
-            joint: *chord,
-            parent: screw.bodies[0],
-            child: small,
-        });
-        apart.joints[*chord] = Elementary {
-            bodies: [screw.bodies[0], small],
-            frames: [screw.frames[0].clone(), here()],
-            ..screw
-        };
-        *chord = apart.joints.len();
-        apart.joints.push(weld);
-    }
 }
 
 fn parameters(physics: &mut PhysicsWorld, options: &WorldOptions, units: &Units) {

@@ -178,6 +178,9 @@ fn resistances(
     }
 }
 
+/// Coefficient of friction between shapes: the format states none.
+const CONTACT_FRICTION: f64 = 0.5;
+
 fn contact(mechanism: &Mechanism, units: &Units, built: &mut Built, physics: &mut PhysicsWorld) {
     for joint in mechanism.joints() {
         let (a, b) = (
@@ -202,6 +205,8 @@ fn contact(mechanism: &Mechanism, units: &Units, built: &mut Built, physics: &mu
             let collider = ColliderBuilder::new(shape)
                 .position(body_from_link * placed)
                 .density(0.0)
+                .friction(CONTACT_FRICTION)
+                .restitution(0.0)
                 .active_hooks(ActiveHooks::FILTER_CONTACT_PAIRS)
                 .user_data(index as u128);
             let body = built.bodies[index];

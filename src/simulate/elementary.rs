@@ -409,3 +409,75 @@ fn swing(displacement: &JointDisplacement<f64>, state: &JointState<f64>) -> Rigi
         translation: [0.0; 3],
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::closure::Arithmetic;
+    use crate::mechanism::{Direction, JointBuilder, MechanismBuilder};
+    use crate::number::Number;
+
+    #[test]
+    fn at_any_pose_the_frames_of_every_joint_coincide_where_it_closes() {
+        let number = |x: f64| Number::from_f64(x).unwrap_or_else(Number::zero);
+        for kind in JointKind::ALL {
+            let mut builder = MechanismBuilder::new("one");
+            builder.link("a");
+            builder.link("b");
+            let mut joint = JointBuilder::tree("j", kind, "a", "b");
+            if kind.uses_axis() {
+                joint = joint.axis(Direction([1.0, -2.0, 0.5].map(number)));
+            }
+            if kind.uses_second_axis() {
+                joint = joint.axis2(Direction([0.25, 1.0, 2.0].map(number)));
+            }
+            if kind.uses_lead() {
+                joint = joint.lead(number(0.5));
+            }
+            if kind == JointKind::Distance {
+                joint = joint.distance(number(0.75));
+            }
+            builder.joint(joint);
+            let Ok(mechanism) = builder.build() else {
+                panic!("{kind}")
+            };
+            let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
+            let values: Vec<f64> = (0..kind.freedom()).map(|i| 0.3 + 0.2 * i as f64).collect();
+            let displacement = &geometry.displacements[0];
+            let state = displacement.at(&values);
+            let reached = displacement.displacement(&state);
+            let poses = [Rigid::identity(&0.0), reached];
+            let apart = TakenApart::new(&mechanism, &geometry, &[state], &poses);
+            let pose = |body: usize| match apart.intermediates.get(body.wrapping_sub(2)) {
+                Some(small) => &small.pose,
+                None => &poses[body],
+            };
+            let freedoms: u32 = apart
+                .joints
+                .iter()
+                .map(|joint| joint.free.count_ones() - u32::from(joint.pitch.is_some()))
+                .sum();
+            // The rod of a distance joint spins beside its five freedoms.
+            let spin = u32::from(kind == JointKind::Distance);
+            assert_eq!(freedoms as usize, kind.freedom() + spin as usize, "{kind}");
+            assert_eq!(apart.handles[0].len(), kind.freedom(), "{kind}");
+            for joint in &apart.joints {
+                let [a, b] = [0, 1].map(|i| pose(joint.bodies[i]).compose(&joint.frames[i]));
+                let off = a.inverse().compose(&b);
+                for axis in 0..3 {
+                    if joint.free >> axis & 1 == 0 {
+                        assert!(off.translation[axis].abs() < 1e-14, "{kind} {off:?}");
+                    }
+                }
+                if joint.reducible {
+                    let turn = off.rotation_vector();
+                    let numbers = off.translation.iter().chain(&turn);
+                    assert!(
+                        numbers.into_iter().all(|x| x.abs() < 1e-14),
+                        "{kind} {off:?}"
+                    );
+                }
+            }
+        }
+    }
+}

@@ -5,7 +5,8 @@
 //! what hangs on those alone floats, and they hold it like loops.
 
 use super::WorldError;
-use super::elementary::Elementary;
+use super::elementary::{Elementary, Intermediate, TakenApart};
+use crate::closure::Rigid;
 use crate::graph::{ConstraintGraph, EdgeSpec, NodeSpec, SpanningTree};
 
 /// One joint of the forest, seen from its root.
@@ -156,5 +157,127 @@ impl Clusters {
         let (a, b) = (self.find(a), self.find(b));
         self.0[a.max(b)] = a.min(b);
         a != b
+    }
+}
+
+/// A screw that closes a loop moves a small body instead, which is welded to the second body by impulses.
+pub(super) fn weld_chord_screws(apart: &mut TakenApart, forest: &mut Forest, poses: &[Rigid<f64>]) {
+    for chord in &mut forest.chords {
+        let screw = apart.joints[*chord].clone();
+        if screw.pitch.is_none() {
+            continue;
+        }
+        let small = poses.len() + apart.intermediates.len();
+        // Both ends of a screw are links: only joints without a screw have intermediate bodies of their own.
+        let pose = poses[screw.bodies[0]].compose(&screw.frames[0]);
+        apart.intermediates.push(Intermediate {
+            joint: screw.joint,
+            pose,
+            length: 0.0,
+            links: screw.bodies,
+        });
+        let here = || Rigid::identity(&0.0);
+        let weld = Elementary {
+            bodies: [small, screw.bodies[1]],
+            frames: [here(), screw.frames[1].clone()],
+            free: 0,
+            pitch: None,
+            ..screw.clone()
+        };
+        forest.branches.push(Branch {
+            joint: *chord,
+            parent: screw.bodies[0],
+            child: small,
+        });
+        apart.joints[*chord] = Elementary {
+            bodies: [screw.bodies[0], small],
+            frames: [screw.frames[0].clone(), here()],
+            ..screw
+        };
+        *chord = apart.joints.len();
+        apart.joints.push(weld);
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn joint(index: usize, bodies: [usize; 2], pitch: Option<f64>) -> Elementary {
+        let here = || Rigid::identity(&0.0);
+        Elementary {
+            joint: index,
+            bodies,
+            frames: [here(), here()],
+            free: 8,
+            pitch,
+            reducible: true,
+        }
+    }
+
+    fn names(prefix: &str, count: usize) -> Vec<String> {
+        (0..count).map(|i| format!("{prefix}{i}")).collect()
+    }
+
+    fn grown(ground: usize, bodies: usize, joints: &[Elementary]) -> Forest {
+        let names_of_joints = names("j", joints.len());
+        Forest::grow(
+            ground,
+            &names("b", bodies),
+            bodies,
+            joints,
+            &names_of_joints,
+        )
+        .unwrap()
+    }
+
+    #[test]
+    fn screws_are_in_the_tree_and_parents_come_first() {
+        // A ring 0 – 1 – 2 – 3 – 0 whose screw a tree by name alone would leave out.
+        let joints = [
+            joint(0, [0, 1], None),
+            joint(1, [1, 2], None),
+            joint(2, [3, 2], Some(0.1)),
+            joint(3, [0, 3], None),
+        ];
+        for ground in 0..4 {
+            let forest = grown(ground, 4, &joints);
+            assert_eq!(forest.branches.len(), 3);
+            assert_eq!(forest.chords.len(), 1);
+            assert!(!forest.chords.contains(&2));
+            let mut reached = vec![ground];
+            for branch in &forest.branches {
+                assert!(reached.contains(&branch.parent));
+                assert!(!reached.contains(&branch.child));
+                reached.push(branch.child);
+            }
+        }
+    }
+
+    #[test]
+    fn what_no_multibody_can_hold_is_left_to_impulses() {
+        let mut only = joint(0, [1, 0], None);
+        only.reducible = false;
+        let forest = grown(0, 3, &[only, joint(1, [1, 2], None)]);
+        assert_eq!(forest.chords, [0]);
+        assert_eq!(forest.branches.len(), 1);
+    }
+
+    #[test]
+    fn of_two_screws_side_by_side_one_is_welded() {
+        let mut apart = TakenApart {
+            joints: vec![joint(0, [0, 1], Some(0.1)), joint(1, [0, 1], Some(0.1))],
+            ..TakenApart::default()
+        };
+        let mut forest = grown(0, 2, &apart.joints);
+        assert_eq!(forest.chords, [1]);
+        let poses = vec![Rigid::identity(&0.0); 2];
+        weld_chord_screws(&mut apart, &mut forest, &poses);
+        assert_eq!(apart.intermediates.len(), 1);
+        assert_eq!(apart.joints[1].bodies, [0, 2]);
+        let weld = &apart.joints[forest.chords[0]];
+        assert_eq!((weld.bodies, weld.free, weld.pitch), ([2, 1], 0, None));
+        assert_eq!(forest.branches.last().unwrap().child, 2);
     }
 }

@@ -229,3 +229,56 @@ pub(super) fn intermediate(neighbours: [Option<&Mass>; 2], rod: f64) -> Mass {
 pub(super) fn offset(mass: Option<&Mass>) -> Rigid<f64> {
     Rigid::translation(mass.map_or([0.0; 3], |m| m.centre))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rod_between_two_joints_is_a_rod() {
+        // Two joints 2 m apart, far in units of the characteristic length: ball and radius hardly count.
+        let mass = of_rods(&[[0.0, 0.0, 1.0], [2.0, 0.0, 1.0]], 1e-3);
+        assert!((mass.centre[0] - 1.0).abs() < 1e-12 && (mass.centre[2] - 1.0).abs() < 1e-12);
+        let wanted = mass.mass * 4.0 / 12.0;
+        assert!((mass.inertia[(1, 1)] / wanted - 1.0).abs() < 1e-3);
+        assert!((mass.inertia[(2, 2)] / wanted - 1.0).abs() < 1e-3);
+        assert!(mass.usable());
+    }
+
+    #[test]
+    fn links_with_one_joint_or_none_have_a_body_too() {
+        for points in [&[][..], &[[1.0, 2.0, 3.0]], &[[1.0, 2.0, 3.0]; 4]] {
+            let mass = of_rods(points, 1.0);
+            assert!(mass.usable(), "{points:?}");
+        }
+    }
+
+    #[test]
+    fn masses_that_cannot_be_computed_with_are_not_used() {
+        let round = |mass: f64, moment: f64| Mass {
+            mass,
+            centre: [0.0; 3],
+            inertia: Matrix3::identity() * moment,
+        };
+        assert!(round(1.0, 0.1).usable());
+        for (mass, moment) in [
+            (0.0, 1.0),
+            (1.0, 0.0),
+            (f64::NAN, 1.0),
+            (1.0, f64::INFINITY),
+            (1.0, -1.0),
+        ] {
+            assert!(!round(mass, moment).usable(), "{mass} {moment}");
+        }
+    }
+
+    #[test]
+    fn an_intermediate_body_is_lighter_than_both_links() {
+        let heavy = of_rods(&[[0.0; 3], [1.0, 0.0, 0.0]], 1.0);
+        let light = of_rods(&[[0.0; 3]], 0.5);
+        let small = intermediate([Some(&heavy), Some(&light)], 0.0);
+        assert!(small.mass < light.mass && small.least_moment() < light.least_moment());
+        assert!(intermediate([None, None], 0.0).usable());
+        assert!(intermediate([Some(&heavy), None], 2.0).usable());
+    }
+}

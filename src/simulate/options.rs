@@ -78,17 +78,22 @@ impl Default for WorldOptions {
 /// More substeps than this are refused: a step would take longer than anyone waits.
 const MOST_SUBSTEPS: usize = 1 << 20;
 
+/// Steps that are refused as too short or too long (s): the engine divides by the square of a substep.
+const STEPS: std::ops::RangeInclusive<f64> = 1e-12..=1e6;
+
 impl WorldOptions {
     /// Whether a world can be stepped like this at all.
     ///
     /// # Errors
-    /// [`WorldError::Options`] where the time step is not a positive finite number, the substeps are none or more than
+    /// [`WorldError::Options`] where the time step is not between 1e-12 s and 1e6 s, the substeps are none or more than
     /// 2^20, or gravity is not finite.
     pub fn check(&self) -> Result<(), WorldError> {
         let refuse = |what: String| Err(WorldError::Options(what));
-        if !(self.time_step > 0.0 && self.time_step.is_finite()) {
+        if !STEPS.contains(&self.time_step) {
             return refuse(format!(
-                "the time step must be a positive number of seconds, but is {}",
+                "the time step must be between {:e} s and {:e} s, but is {:e} s",
+                STEPS.start(),
+                STEPS.end(),
                 self.time_step
             ));
         }

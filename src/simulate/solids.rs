@@ -5,14 +5,14 @@ use crate::mechanism::{Geometry, Shape};
 use crate::number::Number;
 use rapier3d_f64::prelude::{Pose, Rotation, SharedShape, Vector};
 
-/// A shape and `link_from_shape`, in units of `unit` metres; `None` for meshes and for sizes that are not positive finite
-/// numbers.
+/// A shape and `link_from_shape`, in units of `unit` metres; `None` for meshes and for sizes that are not positive
+/// numbers to compute with.
 pub(super) fn solid(shape: &Shape, unit: f64) -> Option<(Pose, SharedShape)> {
     let mut placed = pose(&frame(&shape.origin));
     placed.translation /= unit;
     let size = |number: &Number| -> Option<f64> {
         let value = number.value() / unit;
-        (value > 0.0 && value < 1e100).then_some(value)
+        (value > 1e-30 && value < 1e30).then_some(value)
     };
     if !placed.is_finite() {
         return None;
