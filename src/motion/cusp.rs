@@ -21,6 +21,9 @@ const PLACES: [f64; 7] = [0.22, 0.35, 0.48, 0.61, 0.74, 0.87, 1.0];
 /// The passage reaches as far as the curve has turned by about this much (rad) on the way to the cusp.
 const TURNED: f64 = 0.35;
 
+/// How far beyond the last node the cusp is guessed, in turn, in shares of the passage.
+const BEYOND: [f64; 9] = [0.0, 1e-4, 3e-4, 1e-3, 2e-3, 4e-3, 1e-2, 2e-2, 4e-2];
+
 /// Exponents that are recognised.
 const POWERS: [f64; 3] = [3.0, 5.0, 7.0];
 
@@ -95,13 +98,23 @@ pub(super) fn pass_cusp(
         reach = reach.min(0.9 * (end - along_start).sqrt());
     }
     let mut halves = None;
-    for _ in 0..6 {
+    for beyond in BEYOND {
+        let from = end + beyond * reach * reach;
+        if let Some(found) = both_halves(solver, &near, &places, from, 0.95 * reach)
+            && let Some(better) = turning_place(&found, from)
+        {
+            end = better;
+            halves = Some(found);
+            break;
+        }
+    }
+    for _ in 0..5 {
         let found = both_halves(solver, &near, &places, end, 0.95 * reach)?;
         let better = turning_place(&found, end)?;
         let moved = (better - end).abs();
         end = better;
         halves = Some(found);
-        if moved < 1e-13 * reach {
+        if moved < 1e-12 * reach {
             break;
         }
     }
