@@ -138,12 +138,7 @@ fn faults(name: &str, mechanism: &Mechanism, analysis: &Analysis, branch: &str) 
             .zip(&sample.values)
             .map(|(a, b)| (a - b).abs())
             .fold(0.0, f64::max);
-        // Poses asked for by drive value are told their arclength to the accuracy of the prediction.
-        let allowed = match motion.spacing {
-            Spacing::Arclength => 1e-9,
-            Spacing::Drive => 1e-4,
-        };
-        if !(off < allowed) {
+        if !(off < 1e-8) {
             wrong.push(format!("{name} {branch}: sample off the curve by {off:e}"));
             break;
         }

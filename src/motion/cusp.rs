@@ -15,8 +15,12 @@ use super::singular::{Bridge, Singular, horner, interpolate, kernels};
 use super::solver::{Along, Solver};
 use super::system::SystemPose;
 
-/// Places of poses on one half, in units of the largest τ: the nearest is at a fifth of it.
-const PLACES: [f64; 7] = [0.22, 0.35, 0.48, 0.61, 0.74, 0.87, 1.0];
+/// Places of poses on one half, in units of the largest τ.
+const PLACES: [f64; 8] = [0.12, 0.22, 0.35, 0.48, 0.61, 0.74, 0.87, 1.0];
+
+/// The nearest of them lead from one half to the other; there the equations have hardly any margin, and what is said of
+/// the cusp rests on the others.
+const LEADING: usize = 1;
 
 /// The passage reaches as far as the curve has turned by about this much (rad) on the way to the cusp.
 const TURNED: f64 = 0.35;
@@ -205,6 +209,7 @@ fn both_halves(
             after,
         });
     }
+    halves.drain(..LEADING);
     Some(halves)
 }
 

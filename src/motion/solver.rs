@@ -227,6 +227,9 @@ impl Solver {
         let rows = self.dense_jacobian(pose);
         self.look(pose);
         let n = self.system.unknowns();
+        if n > 2 * DENSE_UNKNOWNS {
+            return self.closure_of(pose);
+        }
         let count = rows.len() / n.max(1);
         let size = count.max(n);
         let matrix = nalgebra::DMatrix::from_row_slice(count, n, &rows).resize(size, n, 0.0);
