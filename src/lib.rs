@@ -10,8 +10,9 @@
 //! 6. [`graph`]: the spatial constraint graph, its blocks, spanning tree and cycles.
 //! 7. [`closure`]: the equations of the cycles: residual, Jacobian, assembly.
 //! 8. [`mobility`]: engines and the verdict.
-//! 9. [`families`]: mechanisms of any size for examples, benches and tests.
-//! 10. [`report`]: what a person or a program reads.
+//! 9. [`motion`]: a branch followed as a curve.
+//! 10. [`families`]: mechanisms of any size for examples, benches and tests.
+//! 11. [`report`]: what a person or a program reads.
 
 pub mod closure;
 pub mod families;

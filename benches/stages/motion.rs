@@ -11,7 +11,8 @@ const POSES: usize = 1000;
 
 fn curve(case: &str) -> Curve {
     let mechanism = mechanism(case);
-    let analysis = analyse(&mechanism, &AnalysisOptions::default()).expect("coordinates are in range");
+    let analysis =
+        analyse(&mechanism, &AnalysisOptions::default()).expect("coordinates are in range");
     let options = TraceOptions {
         samples: 2,
         ..TraceOptions::default()
@@ -32,7 +33,9 @@ fn poses(bencher: Bencher, case: &str) {
         let mut worst = 0.0f64;
         for index in 0..POSES {
             let arc = first + (last - first) * (index as f64 + 0.5) / POSES as f64;
-            let found = curve.pose_at_arclength(black_box(arc)).expect("on the curve");
+            let found = curve
+                .pose_at_arclength(black_box(arc))
+                .expect("on the curve");
             worst = worst.max(found.closure);
         }
         assert!(worst <= 1e-12);
@@ -44,7 +47,8 @@ fn poses(bencher: Bencher, case: &str) {
 #[divan::bench(args = ["four bar", "bennett", "steffen", "scissor 100"], sample_count = 3)]
 fn whole_curve(bencher: Bencher, case: &str) {
     let mechanism = mechanism(case);
-    let analysis = analyse(&mechanism, &AnalysisOptions::default()).expect("coordinates are in range");
+    let analysis =
+        analyse(&mechanism, &AnalysisOptions::default()).expect("coordinates are in range");
     bencher.bench_local(|| {
         trace(black_box(&mechanism), &analysis, &TraceOptions::default())
             .expect("nothing is asked for that is not there")

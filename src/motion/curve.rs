@@ -155,8 +155,8 @@ impl Curve {
 
     /// The pose at a place between two nodes, `u` from 0 to 1.
     pub(super) fn pose_between(&mut self, segment: usize, u: f64) -> Option<CurvePose> {
-        let arc = self.nodes[segment].arc
-            + u * (self.nodes[segment + 1].arc - self.nodes[segment].arc);
+        let arc =
+            self.nodes[segment].arc + u * (self.nodes[segment + 1].arc - self.nodes[segment].arc);
         match &self.shapes[segment] {
             Shape::Cubic(cubic) => {
                 let mut pose = self.nodes[segment].pose.clone();
@@ -331,7 +331,8 @@ impl Curve {
             let own = self.nodes[segment].pose.values[self.drive];
             let wanted = (value - own) * self.solver.system.weights()[self.drive];
             let rising = end.1 > start.1;
-            let mut u = low + (high - low) * ((value - start.1) / (end.1 - start.1)).clamp(0.0, 1.0);
+            let mut u =
+                low + (high - low) * ((value - start.1) / (end.1 - start.1)).clamp(0.0, 1.0);
             // Newton's steps on one cubic, kept inside by halving.
             for _ in 0..12 {
                 let off = cubic.component(self.drive, u) - wanted;
@@ -355,7 +356,9 @@ impl Curve {
             let mut pose = self.nodes[segment].pose.clone();
             self.solver.system.advance(&mut pose, &cubic.at(u));
             if cubic.speed(self.drive, u).abs() > 1e-3 * gap
-                && let Some(done) = self.solver.correct(&mut pose, Along::Value(self.drive, value))
+                && let Some(done) = self
+                    .solver
+                    .correct(&mut pose, Along::Value(self.drive, value))
                 && done.way < 0.1 * gap
             {
                 // Where the plane across the cubic at u passes through the pose found.
@@ -365,7 +368,12 @@ impl Curve {
                     .way(&self.nodes[segment].pose, &pose, &mut z);
                 for _ in 0..3 {
                     let (at, along) = (cubic.at(u), cubic.velocity(u));
-                    let off: f64 = z.iter().zip(&at).zip(&along).map(|((z, a), v)| (z - a) * v).sum();
+                    let off: f64 = z
+                        .iter()
+                        .zip(&at)
+                        .zip(&along)
+                        .map(|((z, a), v)| (z - a) * v)
+                        .sum();
                     u += off / dot(&along, &along);
                 }
                 return Some(CurvePose {

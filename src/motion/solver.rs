@@ -233,9 +233,8 @@ impl Solver {
         let count = rows.len() / n.max(1);
         let size = count.max(n);
         let matrix = nalgebra::DMatrix::from_row_slice(count, n, &rows).resize(size, n, 0.0);
-        let right = nalgebra::DVector::from_fn(size, |i, _| {
-            if i < count { self.right[i] } else { 0.0 }
-        });
+        let right =
+            nalgebra::DVector::from_fn(size, |i, _| if i < count { self.right[i] } else { 0.0 });
         let svd = matrix.svd(true, true);
         let least = NEARLY_VANISHING * svd.singular_values.max();
         if let Ok(step) = svd.solve(&right, least) {
