@@ -2,7 +2,7 @@
 
 use super::curve::{Curve, CurvePose, WholeFrame};
 use super::dead_centres::{DeadCentre, LOCKED, dead_centres};
-use super::follow::{Bounds, SAME, Stop, node_at};
+use super::follow::{Bounds, Node, SAME, Stop, follow, node_at};
 use super::inputs::{Variable, choose_inputs};
 use super::ranges::ranges;
 use super::result::{
@@ -527,6 +527,11 @@ impl<'a> Tracer<'a> {
         };
         let mut notes = Vec::new();
         let bounds = self.bounds(stage, system, &start.pose, &mut notes);
+        let start = if starts_at_home {
+            start
+        } else {
+            away_from_home(&mut solver, start, &bounds)
+        };
         let walked = walk(&mut solver, &start, &bounds);
         let Walked {
             assembled,
@@ -800,6 +805,27 @@ impl<'a> Tracer<'a> {
         events
     }
 }
+
+/// A generic pose of a branch may still be close to the singular pose at home: the most regular one on a stretch of the
+/// curve around it serves better as the start.
+fn away_from_home(solver: &mut Solver, start: Node, bounds: &[Bounds]) -> Node {
+    let mut best = start.clone();
+    let mut back = start.clone();
+    back.tangent.iter_mut().for_each(|t| *t = -*t);
+    for (from, sign) in [(&start, 1.0), (&back, -1.0)] {
+        for node in follow(solver, from, from, bounds).0 {
+            if node.arc < SEARCHED && node.margin > best.margin * (1.0 + 1e-6) {
+                best = node;
+                best.tangent.iter_mut().for_each(|t| *t *= sign);
+            }
+        }
+    }
+    best.arc = 0.0;
+    best
+}
+
+/// How far along the curve (metric) a better start is looked for.
+const SEARCHED: f64 = 4.0;
 
 /// The driven variable at every node and dead centre of its own.
 fn milestones(curve: &Curve, dead: &[DeadCentre]) -> Vec<(f64, f64)> {
