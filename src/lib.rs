@@ -10,9 +10,11 @@
 //! 6. [`graph`]: the spatial constraint graph, its blocks, spanning tree and cycles.
 //! 7. [`closure`]: the equations of the cycles: residual, Jacobian, assembly.
 //! 8. [`mobility`]: engines and the verdict.
-//! 9. [`families`]: mechanisms of any size for examples, benches and tests.
-//! 10. [`record`]: motions as logs for viewers.
-//! 11. [`report`]: what a person or a program reads.
+//! 9. [`motion`]: a branch followed as a curve: predicted motion.
+//! 10. [`simulate`]: a world of rigid bodies for a mechanism, and what it says about a prediction.
+//! 11. [`record`]: logs of both for viewers.
+//! 12. [`families`]: mechanisms of any size for examples, benches and tests.
+//! 13. [`report`]: what a person or a program reads.
 
 pub mod closure;
 pub mod families;

@@ -28,6 +28,7 @@ pub const ALL: [&str; 11] = [
 pub fn text(case: &str) -> String {
     match case {
         "bennett" => include_str!("../../mechanisms/bennett.urdf").to_owned(),
+        "four bar" => include_str!("../../mechanisms/planar_four_bar.urdf").to_owned(),
         "sarrus" => include_str!("../../mechanisms/sarrus.urdf").to_owned(),
         "stewart" => include_str!("../../mechanisms/stewart.urdf").to_owned(),
         "delta" => include_str!("../../mechanisms/delta.urdf").to_owned(),
@@ -38,7 +39,7 @@ pub fn text(case: &str) -> String {
 
 /// A case as a mechanism.
 pub fn mechanism(case: &str) -> Mechanism {
-    if case.contains(' ') {
+    if case.contains(' ') && case != "four bar" {
         of_family(case)
     } else {
         kutzbach::format::read(&text(case), case, &[])

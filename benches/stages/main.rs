@@ -12,6 +12,7 @@ mod analyse;
 mod assemble;
 mod cases;
 mod graph;
+mod motion;
 mod parse;
 mod rank;
 mod report;

@@ -15,6 +15,9 @@ use std::sync::Arc;
 /// An interpolated pose that is closed better than this (rad, cycle lengths) is left as it is.
 const WELL_CLOSED: f64 = 1e-14;
 
+/// Steps of least length where Newton's method does not serve: on shaky branches the closure falls to a quarter each time.
+const POLISHINGS: usize = 24;
+
 /// What predicts the poses between two nodes.
 #[derive(Clone, Debug)]
 pub(super) enum Shape {
@@ -158,8 +161,8 @@ impl Curve {
 
     /// The pose at a place between two nodes, `u` from 0 to 1.
     pub(super) fn pose_between(&mut self, segment: usize, u: f64) -> Option<CurvePose> {
-        let arc = self.nodes[segment].arc
-            + u * (self.nodes[segment + 1].arc - self.nodes[segment].arc);
+        let arc =
+            self.nodes[segment].arc + u * (self.nodes[segment + 1].arc - self.nodes[segment].arc);
         match &self.shapes[segment] {
             Shape::Cubic(cubic) => {
                 let mut pose = self.nodes[segment].pose.clone();
@@ -167,11 +170,27 @@ impl Curve {
                 let mut across = cubic.velocity(u);
                 let size = length(&across);
                 across.iter_mut().for_each(|x| *x /= size);
-                let done = self.solver.correct(&mut pose, Along::Across(&across))?;
-                Some(CurvePose {
+                let guess = pose.clone();
+                if let Some(done) = self.solver.correct(&mut pose, Along::Across(&across)) {
+                    return Some(CurvePose {
+                        arclength: arc,
+                        pose,
+                        closure: done.closure,
+                    });
+                }
+                // Hardly any margin: closed by short steps as well as can be.
+                pose = guess;
+                let mut closure = f64::INFINITY;
+                for _ in 0..POLISHINGS {
+                    closure = self.solver.polish(&mut pose);
+                    if closure < WELL_CLOSED {
+                        break;
+                    }
+                }
+                (closure <= self.solver.allowed).then_some(CurvePose {
                     arclength: arc,
                     pose,
-                    closure: done.closure,
+                    closure,
                 })
             }
             Shape::Bridge(bridge) => {
@@ -318,7 +337,8 @@ impl Curve {
             let own = self.nodes[segment].pose.values[self.drive];
             let wanted = (value - own) * self.solver.system.weights()[self.drive];
             let rising = end.1 > start.1;
-            let mut u = low + (high - low) * ((value - start.1) / (end.1 - start.1)).clamp(0.0, 1.0);
+            let mut u =
+                low + (high - low) * ((value - start.1) / (end.1 - start.1)).clamp(0.0, 1.0);
             // Newton's steps on one cubic, kept inside by halving.
             for _ in 0..12 {
                 let off = cubic.component(self.drive, u) - wanted;
@@ -342,9 +362,26 @@ impl Curve {
             let mut pose = self.nodes[segment].pose.clone();
             self.solver.system.advance(&mut pose, &cubic.at(u));
             if cubic.speed(self.drive, u).abs() > 1e-3 * gap
-                && let Some(done) = self.solver.correct(&mut pose, Along::Value(self.drive, value))
+                && let Some(done) = self
+                    .solver
+                    .correct(&mut pose, Along::Value(self.drive, value))
                 && done.way < 0.1 * gap
             {
+                // Where the plane across the cubic at u passes through the pose found.
+                let mut z = vec![0.0; self.solver.system.unknowns()];
+                self.solver
+                    .system
+                    .way(&self.nodes[segment].pose, &pose, &mut z);
+                for _ in 0..3 {
+                    let (at, along) = (cubic.at(u), cubic.velocity(u));
+                    let off: f64 = z
+                        .iter()
+                        .zip(&at)
+                        .zip(&along)
+                        .map(|((z, a), v)| (z - a) * v)
+                        .sum();
+                    u += off / dot(&along, &along);
+                }
                 return Some(CurvePose {
                     arclength: base + u * gap,
                     pose,

@@ -15,11 +15,18 @@ use super::singular::{Bridge, Singular, horner, interpolate, kernels};
 use super::solver::{Along, Solver};
 use super::system::SystemPose;
 
-/// Places of poses on one half, in units of the largest τ: the nearest is at a fifth of it.
-const PLACES: [f64; 7] = [0.22, 0.35, 0.48, 0.61, 0.74, 0.87, 1.0];
+/// Places of poses on one half, in units of the largest τ.
+const PLACES: [f64; 8] = [0.14, 0.22, 0.35, 0.48, 0.61, 0.74, 0.87, 1.0];
+
+/// The nearest of them lead from one half to the other; there the equations have hardly any margin, and what is said of
+/// the cusp rests on the others.
+const LEADING: usize = 1;
 
 /// The passage reaches as far as the curve has turned by about this much (rad) on the way to the cusp.
 const TURNED: f64 = 0.35;
+
+/// How far beyond the last node the cusp is guessed, in turn, in shares of the passage.
+const BEYOND: [f64; 9] = [0.0, 1e-4, 3e-4, 1e-3, 2e-3, 4e-3, 1e-2, 2e-2, 4e-2];
 
 /// Exponents that are recognised.
 const POWERS: [f64; 3] = [3.0, 5.0, 7.0];
@@ -95,18 +102,31 @@ pub(super) fn pass_cusp(
         reach = reach.min(0.9 * (end - along_start).sqrt());
     }
     let mut halves = None;
-    for _ in 0..6 {
+    for beyond in BEYOND {
+        let from = end + beyond * reach * reach;
+        if let Some(found) = both_halves(solver, &near, &places, from, 0.95 * reach)
+            && let Some(better) = turning_place(&found, from)
+        {
+            end = better;
+            halves = Some(found);
+            break;
+        }
+    }
+    for _ in 0..5 {
         let found = both_halves(solver, &near, &places, end, 0.95 * reach)?;
         let better = turning_place(&found, end)?;
         let moved = (better - end).abs();
         end = better;
         halves = Some(found);
-        if moved < 1e-13 * reach {
+        if moved < 1e-12 * reach {
             break;
         }
     }
     let halves = halves?;
-    let scale = halves.iter().map(|h| (end - h.along).sqrt()).fold(0.0, f64::max);
+    let scale = halves
+        .iter()
+        .map(|h| (end - h.along).sqrt())
+        .fold(0.0, f64::max);
     let root = |half: &Half| (end - half.along).max(0.0).sqrt() / scale;
     let mut points: Vec<f64> = halves.iter().rev().map(|h| -root(h)).collect();
     points.extend(halves.iter().map(root));
@@ -121,8 +141,18 @@ pub(super) fn pass_cusp(
     let along = outermost.along;
     let kept = far + places.iter().position(|p| *p >= along).unwrap_or(0);
     let base = &nodes[kept.checked_sub(1)?];
-    let before = finish(solver, outermost.before.0.clone(), &bridge.direction(0.0), base)?;
-    let mut after = finish(solver, outermost.after.0.clone(), &bridge.direction(1.0), base)?;
+    let before = finish(
+        solver,
+        outermost.before.0.clone(),
+        &bridge.direction(0.0),
+        base,
+    )?;
+    let mut after = finish(
+        solver,
+        outermost.after.0.clone(),
+        &bridge.direction(1.0),
+        base,
+    )?;
     after.arc = before.arc + bridge.arc();
     let (_, freedom) = kernels(solver, &pose);
     Some((
@@ -157,22 +187,19 @@ fn both_halves(
     let mut points: Vec<f64> = Vec::new();
     let mut values: Vec<Vec<f64>> = Vec::new();
     let mut before = Vec::new();
-    for place in PLACES {
+    for (index, place) in PLACES.into_iter().enumerate().rev() {
         let tau = place * reach;
         let along = end - tau * tau;
-        let after = places.partition_point(|p| *p <= along);
-        let segment = after.saturating_sub(1).min(near.nodes.len() - 2);
-        let (a, b) = (&near.nodes[segment], &near.nodes[segment + 1]);
-        let cubic = Cubic::between(solver, a, b);
-        let gap = places[segment + 1] - places[segment];
-        let u = ((along - places[segment]) / gap).clamp(0.0, 1.0);
-        let mut guess = a.pose.clone();
-        solver.system.advance(&mut guess, &cubic.at(u));
-        let prediction = near.chart(solver, &guess);
+        // Close to the cusp the polynomial in τ predicts better than what lies between nodes.
+        let prediction = if index < LEADING {
+            horner(&interpolate(&points, &values), tau)
+        } else {
+            between_nodes(solver, near, places, along)
+        };
         let found = near.corrected(solver, prediction, along)?;
-        points.push(tau);
-        values.push(found.1.clone());
-        before.push((along, found));
+        points.insert(0, tau);
+        values.insert(0, found.1.clone());
+        before.insert(0, (along, found));
     }
     // The other half, from the middle outwards, each predicted by all that are known.
     let mut halves = Vec::new();
@@ -192,7 +219,33 @@ fn both_halves(
             after,
         });
     }
+    halves.drain(..LEADING);
     Some(halves)
+}
+
+/// A prediction at a place along the chord, by the cubic between the nodes beside it.
+fn between_nodes(solver: &Solver, near: &Near<'_>, places: &[f64], along: f64) -> Vec<f64> {
+    let after = places.partition_point(|p| *p <= along);
+    let segment = after.saturating_sub(1).min(near.nodes.len() - 2);
+    let (a, b) = (&near.nodes[segment], &near.nodes[segment + 1]);
+    let cubic = Cubic::between(solver, a, b);
+    // The place is a cubic of the parameter too.
+    let weight = |z: Vec<f64>| dot(&near.chord, &z);
+    let wanted = along - places[segment];
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..40 {
+        let u = 0.5 * (low + high);
+        if weight(cubic.at(u)) < wanted {
+            low = u;
+        } else {
+            high = u;
+        }
+    }
+    let mut guess = a.pose.clone();
+    solver
+        .system
+        .advance(&mut guess, &cubic.at(0.5 * (low + high)));
+    near.chart(solver, &guess)
 }
 
 fn apart(a: &[f64], b: &[f64]) -> f64 {
@@ -211,7 +264,8 @@ fn turning_place(halves: &[Half], end: f64) -> Option<f64> {
             .sum::<f64>()
     };
     let (first, last) = (halves.first()?, halves.last()?);
-    let slope = (square(last) / square(first)).ln() / ((end - last.along) / (end - first.along)).ln();
+    let slope =
+        (square(last) / square(first)).ln() / ((end - last.along) / (end - first.along)).ln();
     let power = POWERS
         .into_iter()
         .min_by(|a, b| (a - slope).abs().total_cmp(&(b - slope).abs()))?;

@@ -192,7 +192,12 @@ impl Cubic {
         solver.system.way(&from.pose, &to.pose, &mut chord);
         let size = length(&chord);
         // The chord of an arc that turns by τ is shorter than the arc by a part of τ²/24.
-        let turned: Vec<f64> = from.tangent.iter().zip(&to.tangent).map(|(a, b)| a - b).collect();
+        let turned: Vec<f64> = from
+            .tangent
+            .iter()
+            .zip(&to.tangent)
+            .map(|(a, b)| a - b)
+            .collect();
         let arc = size * (1.0 + dot(&turned, &turned) / 24.0);
         let last = solver.system.chart_velocity(&chord, &to.tangent);
         Self {
@@ -368,7 +373,8 @@ fn far_enough(solver: &Solver, start: &Node, here: &Node) -> bool {
         .zip(weights)
         .map(|((a, b), w)| (b - a).abs() * w)
         .fold(0.0, f64::max);
-    far > MOST_TURNS * std::f64::consts::TAU || here.arc - start.arc > 40.0 * MOST_TURNS * std::f64::consts::TAU
+    far > MOST_TURNS * std::f64::consts::TAU
+        || here.arc - start.arc > 40.0 * MOST_TURNS * std::f64::consts::TAU
 }
 
 /// The pose between two nodes where an unknown first meets its limit.
@@ -422,7 +428,10 @@ pub(super) fn at_value(
     let mut pose = from.pose.clone();
     solver.system.advance(&mut pose, &cubic.at(u));
     let guess = pose.clone();
-    if solver.correct(&mut pose, Along::Value(unknown, value)).is_none() {
+    if solver
+        .correct(&mut pose, Along::Value(unknown, value))
+        .is_none()
+    {
         // Too close to a dead centre for the value to single out a pose: cut across the curve instead.
         pose = guess;
         let mut across = cubic.velocity(u);

@@ -80,7 +80,9 @@ pub(super) fn choose_inputs(
     let n = system.unknowns();
     let mut basis = orthonormal(tangents);
     // rows[i] are the coordinates of the i-th unknown on the tangent space.
-    let mut rows: Vec<Vec<f64>> = (0..n).map(|i| basis.iter().map(|b| b[i]).collect()).collect();
+    let mut rows: Vec<Vec<f64>> = (0..n)
+        .map(|i| basis.iter().map(|b| b[i]).collect())
+        .collect();
     let wanted = basis.len();
     basis.clear();
     let variables = system.variables();

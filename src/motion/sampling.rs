@@ -12,7 +12,10 @@ pub(super) struct Sampled {
 
 /// All values of all joints, one after another.
 pub(super) fn all_values(states: &[JointState<f64>]) -> Vec<f64> {
-    states.iter().flat_map(|s| s.values.iter().copied()).collect()
+    states
+        .iter()
+        .flat_map(|s| s.values.iter().copied())
+        .collect()
 }
 
 fn tell(curve: &Curve, found: CurvePose) -> Sample {

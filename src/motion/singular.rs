@@ -211,7 +211,9 @@ impl Probe<'_> {
     /// The pose and the value of g near an arclength.
     fn read(&mut self, arc: f64) -> Option<Reading> {
         let after = self.nodes.partition_point(|n| n.arc <= arc);
-        let segment = after.saturating_sub(1).min(self.cubics.len().checked_sub(1)?);
+        let segment = after
+            .saturating_sub(1)
+            .min(self.cubics.len().checked_sub(1)?);
         let (from, to) = (&self.nodes[segment], &self.nodes[segment + 1]);
         let u = (arc - from.arc) / (to.arc - from.arc);
         let mut pose = from.pose.clone();
@@ -278,7 +280,11 @@ fn locate_in(
     let size = length(&chord);
     chord.iter_mut().for_each(|c| *c /= size);
     // Equations are chosen where they are told apart best, and the bordering where they are not.
-    let best = if first.margin > last.margin { first } else { last };
+    let best = if first.margin > last.margin {
+        first
+    } else {
+        last
+    };
     solver.fix(None);
     if !solver.linearise(&best.pose) {
         return None;
@@ -374,7 +380,9 @@ fn locate_in(
         let vanishes = polynomial(root).abs() < 1e-6 * largest;
         if vanishes
             && root.abs() < 0.2
-            && best.as_ref().is_none_or(|(known, ..)| disagreement < *known)
+            && best
+                .as_ref()
+                .is_none_or(|(known, ..)| disagreement < *known)
         {
             let shifted: Vec<f64> = places.iter().map(|p| p - root).collect();
             let values: Vec<Vec<f64>> = readings.iter().map(|r| r.z.clone()).collect();
@@ -590,9 +598,13 @@ pub(super) fn bridge_open(solver: &mut Solver, nodes: &[Node], start: &mut usize
         }
         // The start stays outside; where it is the candidate itself, both sides of it are looked at.
         let sides = match nodes[at].arc.total_cmp(&begin) {
-            std::cmp::Ordering::Greater if at <= *start + 2 => vec![(begin, clear.1), (clear.0, begin)],
+            std::cmp::Ordering::Greater if at <= *start + 2 => {
+                vec![(begin, clear.1), (clear.0, begin)]
+            }
             std::cmp::Ordering::Greater => vec![(clear.0.max(begin), clear.1)],
-            std::cmp::Ordering::Less if at + 2 >= *start => vec![(clear.0, begin), (begin, clear.1)],
+            std::cmp::Ordering::Less if at + 2 >= *start => {
+                vec![(clear.0, begin), (begin, clear.1)]
+            }
             std::cmp::Ordering::Less => vec![(clear.0, begin)],
             std::cmp::Ordering::Equal => vec![(clear.0, begin), (begin, clear.1)],
         };
@@ -614,7 +626,10 @@ pub(super) fn bridge_open(solver: &mut Solver, nodes: &[Node], start: &mut usize
     let mut pending = found.into_iter().peekable();
     let mut new_start = 0;
     for (index, node) in nodes.iter().enumerate() {
-        while pending.peek().is_some_and(|s| s.before.arc <= node.arc - 1e-12) {
+        while pending
+            .peek()
+            .is_some_and(|s| s.before.arc <= node.arc - 1e-12)
+        {
             if let Some(singular) = pending.next() {
                 let after = singular.after.clone();
                 kept.push((singular.before.clone(), Some(singular)));

@@ -227,12 +227,14 @@ impl Solver {
         let rows = self.dense_jacobian(pose);
         self.look(pose);
         let n = self.system.unknowns();
+        if n > 2 * DENSE_UNKNOWNS {
+            return self.closure_of(pose);
+        }
         let count = rows.len() / n.max(1);
         let size = count.max(n);
         let matrix = nalgebra::DMatrix::from_row_slice(count, n, &rows).resize(size, n, 0.0);
-        let right = nalgebra::DVector::from_fn(size, |i, _| {
-            if i < count { self.right[i] } else { 0.0 }
-        });
+        let right =
+            nalgebra::DVector::from_fn(size, |i, _| if i < count { self.right[i] } else { 0.0 });
         let svd = matrix.svd(true, true);
         let least = NEARLY_VANISHING * svd.singular_values.max();
         if let Ok(step) = svd.solve(&right, least) {

@@ -475,7 +475,11 @@ impl LoopSystem {
                     z[first + offset] = angular.iter().zip(&turn).map(|(a, t)| a * t).sum();
                 }
                 if factor.generators.len() == 2 {
-                    spin = Some(swing_way(&from.frames[index], &to.frames[index], &mut z[first..]));
+                    spin = Some(swing_way(
+                        &from.frames[index],
+                        &to.frames[index],
+                        &mut z[first..],
+                    ));
                 } else if let Some(spin) = spin.take() {
                     let turn = spin
                         .compose(&from.frames[index])
@@ -553,9 +557,7 @@ impl LoopSystem {
             };
             let off = of(a).inverse().compose(&of(b));
             let turn = norm(&off.rotation_vector());
-            largest = largest
-                .max(turn)
-                .max(norm(&off.translation) / self.length);
+            largest = largest.max(turn).max(norm(&off.translation) / self.length);
         }
         largest
     }
@@ -639,19 +641,21 @@ impl LoopSystem {
         &'a self,
         evaluation: &'a Evaluation,
     ) -> impl Iterator<Item = (usize, usize, f64)> + 'a {
-        let cycles = self.pattern.iter().zip(&evaluation.entries).flat_map(
-            |(&(cycle, unknown), entry)| {
-                entry
-                    .iter()
-                    .enumerate()
-                    .map(move |(row, value)| (6 * cycle + row, unknown, *value))
-            },
-        );
+        let cycles =
+            self.pattern
+                .iter()
+                .zip(&evaluation.entries)
+                .flat_map(|(&(cycle, unknown), entry)| {
+                    entry
+                        .iter()
+                        .enumerate()
+                        .map(move |(row, value)| (6 * cycle + row, unknown, *value))
+                });
         let first = 6 * self.cycles.len();
         let couplings = self.couplings.iter().enumerate().flat_map(move |(i, c)| {
-            c.terms
-                .iter()
-                .map(move |(unknown, factor)| (first + i, *unknown, factor / self.weights[*unknown]))
+            c.terms.iter().map(move |(unknown, factor)| {
+                (first + i, *unknown, factor / self.weights[*unknown])
+            })
         });
         cycles.chain(couplings)
     }

@@ -2,18 +2,17 @@
 
 use super::curve::{Curve, CurvePose, WholeFrame};
 use super::dead_centres::{DeadCentre, LOCKED, dead_centres};
-use super::follow::{Bounds, SAME, Stop, node_at};
-use super::walk::{Walked, walk};
+use super::follow::{Bounds, Node, SAME, Stop, follow, node_at};
 use super::inputs::{Variable, choose_inputs};
 use super::ranges::ranges;
 use super::result::{
-    End, EndReason, Event, EventKind, Held, Motion, Still, Trace, TraceError,
-    TraceOptions,
+    End, EndReason, Event, EventKind, Held, Motion, Still, Trace, TraceError, TraceOptions,
 };
 use super::sampling::sample;
 use super::singular::Singular;
 use super::solver::Solver;
 use super::system::{LoopSystem, SystemPose};
+use super::walk::{Walked, walk};
 use super::wishes::{Wishes, read_wishes};
 use crate::closure::{Arithmetic, Geometry, JointState, Part};
 use crate::mechanism::Mechanism;
@@ -125,9 +124,11 @@ impl<'a> Tracer<'a> {
         let geometry = Geometry::new(mechanism, configuration, &Arithmetic::double());
         let offsets = mechanism.variable_offsets();
         let moves = |part: &Part, tangent: &[f64]| {
-            part.joints
-                .iter()
-                .any(|&j| tangent[offsets[j]..offsets[j + 1]].iter().any(|x| *x != 0.0))
+            part.joints.iter().any(|&j| {
+                tangent[offsets[j]..offsets[j + 1]]
+                    .iter()
+                    .any(|x| *x != 0.0)
+            })
         };
         let mut stages: Vec<Stage> = Vec::new();
         for (index, part) in analysis.structure.parts.iter().enumerate() {
@@ -202,7 +203,9 @@ impl<'a> Tracer<'a> {
             .map(|d| Variable::of(self.mechanism, d.joint.0, 0));
         let asked = wishes.drive.clone().or_else(|| {
             scene.filter(|v| {
-                !wishes.hold.contains(v) && self.locked(v) == Some(false) && self.stage_of(v.joint).is_some()
+                !wishes.hold.contains(v)
+                    && self.locked(v) == Some(false)
+                    && self.stage_of(v.joint).is_some()
             })
         });
         if let Some(drive) = &asked {
@@ -308,7 +311,9 @@ impl<'a> Tracer<'a> {
         }
         let pose = system.pose(&states);
         let tangents = self.tangents(stage, &system, &pose);
-        let held_first: Vec<usize> = std::iter::once(driven).chain(first.iter().copied()).collect();
+        let held_first: Vec<usize> = std::iter::once(driven)
+            .chain(first.iter().copied())
+            .collect();
         let (chosen, left_out) = choose_inputs(self.mechanism, &system, &tangents, &held_first);
         if let Some(&out) = left_out.first() {
             let (joint, freedom) = system.variables()[out];
@@ -321,7 +326,11 @@ impl<'a> Tracer<'a> {
                 } else {
                     TraceError::NothingLeft {
                         drive: drive.name.clone(),
-                        held: hold.iter().map(|v| v.name.as_str()).collect::<Vec<_>>().join(", "),
+                        held: hold
+                            .iter()
+                            .map(|v| v.name.as_str())
+                            .collect::<Vec<_>>()
+                            .join(", "),
                     }
                 });
             }
@@ -373,7 +382,10 @@ impl<'a> Tracer<'a> {
             } else {
                 (self.score(&found, &variable), variable)
             };
-            if best.as_ref().is_none_or(|(known, _, _)| score > known * (1.0 + 1e-9)) {
+            if best
+                .as_ref()
+                .is_none_or(|(known, _, _)| score > known * (1.0 + 1e-9))
+            {
                 let done = score.is_infinite();
                 best = Some((score, found, variable));
                 if done {
@@ -419,7 +431,11 @@ impl<'a> Tracer<'a> {
         // Marked ones first, then by name; the first of equals is kept.
         all.sort_by_key(|(_, v)| {
             let joint = &self.mechanism.joints()[v.joint];
-            (joint.independent != Some(true), joint.freedom() > 1, v.name.clone())
+            (
+                joint.independent != Some(true),
+                joint.freedom() > 1,
+                v.name.clone(),
+            )
         });
         let mut best: Option<(f64, Variable)> = None;
         for (_, variable) in all {
@@ -511,6 +527,11 @@ impl<'a> Tracer<'a> {
         };
         let mut notes = Vec::new();
         let bounds = self.bounds(stage, system, &start.pose, &mut notes);
+        let start = if starts_at_home {
+            start
+        } else {
+            away_from_home(&mut solver, start, &bounds)
+        };
         let walked = walk(&mut solver, &start, &bounds);
         let Walked {
             assembled,
@@ -594,14 +615,18 @@ impl<'a> Tracer<'a> {
         let mut bounds = Vec::new();
         for &joint in &stage.part.joints {
             let known = &self.mechanism.joints()[joint];
-            let (Some(limit), Some(range), 1) = (&known.limit, system.unknowns_of(joint), known.freedom())
+            let (Some(limit), Some(range), 1) =
+                (&known.limit, system.unknowns_of(joint), known.freedom())
             else {
                 continue;
             };
             let unknown = range.start;
             let own = Bounds {
                 unknown,
-                lower: limit.lower.as_ref().map_or(f64::NEG_INFINITY, |n| n.value()),
+                lower: limit
+                    .lower
+                    .as_ref()
+                    .map_or(f64::NEG_INFINITY, |n| n.value()),
                 upper: limit.upper.as_ref().map_or(f64::INFINITY, |n| n.value()),
             };
             let value = start.values[unknown];
@@ -769,7 +794,9 @@ impl<'a> Tracer<'a> {
         let mut first = 0;
         while first < events.len() {
             let mut last = first;
-            while last + 1 < events.len() && events[last + 1].arclength - events[last].arclength < 1e-8 {
+            while last + 1 < events.len()
+                && events[last + 1].arclength - events[last].arclength < 1e-8
+            {
                 last += 1;
             }
             events[first..=last].sort_by_cached_key(rank);
@@ -778,6 +805,27 @@ impl<'a> Tracer<'a> {
         events
     }
 }
+
+/// A generic pose of a branch may still be close to the singular pose at home: the most regular one on a stretch of the
+/// curve around it serves better as the start.
+fn away_from_home(solver: &mut Solver, start: Node, bounds: &[Bounds]) -> Node {
+    let mut best = start.clone();
+    let mut back = start.clone();
+    back.tangent.iter_mut().for_each(|t| *t = -*t);
+    for (from, sign) in [(&start, 1.0), (&back, -1.0)] {
+        for node in follow(solver, from, from, bounds).0 {
+            if node.arc < SEARCHED && node.margin > best.margin * (1.0 + 1e-6) {
+                best = node;
+                best.tangent.iter_mut().for_each(|t| *t *= sign);
+            }
+        }
+    }
+    best.arc = 0.0;
+    best
+}
+
+/// How far along the curve (metric) a better start is looked for.
+const SEARCHED: f64 = 4.0;
 
 /// The driven variable at every node and dead centre of its own.
 fn milestones(curve: &Curve, dead: &[DeadCentre]) -> Vec<(f64, f64)> {

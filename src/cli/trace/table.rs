@@ -20,7 +20,11 @@ fn unit(mechanism: &Mechanism, variable: &Variable) -> &'static str {
 /// Six digits behind the point; zero without a sign.
 fn short(value: f64) -> String {
     let text = format!("{value:.6}");
-    if text.trim_start_matches('-').chars().all(|c| c == '0' || c == '.') {
+    if text
+        .trim_start_matches('-')
+        .chars()
+        .all(|c| c == '0' || c == '.')
+    {
         "0.000000".to_owned()
     } else {
         text
@@ -77,7 +81,10 @@ fn event_text(kind: &EventKind) -> String {
             at_home(home)
         ),
         EventKind::Cusp { home } => {
-            format!("cusp: the motion turns back on its other half{}", at_home(home))
+            format!(
+                "cusp: the motion turns back on its other half{}",
+                at_home(home)
+            )
         }
     }
 }
@@ -142,7 +149,9 @@ pub fn text(mechanism: &Mechanism, trace: &Trace) -> String {
         ));
     }
     if !motion.starts_at_home {
-        line("  • starts at a generic pose of the branch: the pose analysed is singular".to_owned());
+        line(
+            "  • starts at a generic pose of the branch: the pose analysed is singular".to_owned(),
+        );
     }
     for unreached in &motion.unreached {
         line(format!(
@@ -181,11 +190,21 @@ pub fn text(mechanism: &Mechanism, trace: &Trace) -> String {
             ]
         }))
         .collect();
-        aligned(&rows, &[true, true, false]).into_iter().for_each(&mut line);
+        aligned(&rows, &[true, true, false])
+            .into_iter()
+            .for_each(&mut line);
     }
     line(String::new());
     line("Ranges".to_owned());
-    let header = ["joint", "unit", "from", "to", "travel", "turns", "dead centres"];
+    let header = [
+        "joint",
+        "unit",
+        "from",
+        "to",
+        "travel",
+        "turns",
+        "dead centres",
+    ];
     let rows: Vec<Vec<String>> = std::iter::once(header.map(str::to_owned).to_vec())
         .chain(motion.ranges.iter().map(|range| {
             let mut row = vec![
@@ -251,7 +270,10 @@ fn quaternion(pose: &Rigid<f64>) -> [f64; 4] {
         1.0 + 2.0 * r[1][1] - trace,
         1.0 + 2.0 * r[2][2] - trace,
     ];
-    let largest = (0..4).fold(0, |best, i| if squares[i] > squares[best] { i } else { best });
+    let largest = (0..4).fold(
+        0,
+        |best, i| if squares[i] > squares[best] { i } else { best },
+    );
     let root = squares[largest].max(0.0).sqrt();
     let half = 0.5 / root;
     let q = match largest {
@@ -295,7 +317,11 @@ fn field(text: &str) -> String {
 /// One row per pose: drive value, arclength, closure, joint variables by name, then x y z and qw qx qy qz of every link.
 /// Nothing but the header where nothing moves.
 pub fn csv(mechanism: &Mechanism, trace: &Trace) -> String {
-    let mut header = vec!["drive".to_owned(), "arclength".to_owned(), "closure".to_owned()];
+    let mut header = vec![
+        "drive".to_owned(),
+        "arclength".to_owned(),
+        "closure".to_owned(),
+    ];
     header.extend(Variable::all(mechanism).iter().map(|v| field(&v.name)));
     for link in mechanism.links() {
         for part in ["x", "y", "z", "qw", "qx", "qy", "qz"] {
@@ -325,7 +351,9 @@ fn event_json(kind: &EventKind) -> Value {
             variable,
             value,
             greatest,
-        } => json!({"kind": "dead_centre", "joint": variable.name, "value": value, "greatest": greatest}),
+        } => {
+            json!({"kind": "dead_centre", "joint": variable.name, "value": value, "greatest": greatest})
+        }
         EventKind::JointLimit { variable, value } => {
             json!({"kind": "joint_limit", "joint": variable.name, "value": value})
         }

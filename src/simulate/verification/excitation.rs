@@ -49,6 +49,8 @@ const ROUNDING: f64 = 0.1;
 pub struct FreedomCount {
     /// Instantaneous freedoms predicted at the pose.
     pub expected: usize,
+    /// Finite freedoms predicted there; fewer where the branch gives way in further directions to first order only.
+    pub finite: usize,
     /// Freedoms found.
     pub found: usize,
     /// Singular values of the responses, largest first, in parts of the largest.
@@ -61,7 +63,9 @@ pub struct FreedomCount {
     pub finding: Finding,
 }
 
-/// Strikes the mechanism at a closed pose and counts the directions in which it gives way.
+/// Strikes the mechanism at a closed pose and counts the directions in which it gives way: as many as there are finite
+/// freedoms at least, and instantaneous ones at most. Directions in which a pose gives way to first order only are
+/// blocked, stiffly, as soon as it has moved at all, or not, as the solver has it.
 ///
 /// # Errors
 /// Where no world can be made there, or it diverges.
@@ -69,18 +73,19 @@ pub fn count_freedoms(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
     states: &[JointState<f64>],
-    expected: usize,
+    (finite, expected): (usize, usize),
     seed: u64,
 ) -> Result<FreedomCount, VerificationError> {
+    let predicted = (finite.min(expected), expected);
     let [roughly, well] = SETTLED;
-    let first = count_settled(mechanism, geometry, states, expected, roughly, seed)?;
+    let first = count_settled(mechanism, geometry, states, predicted, roughly, seed)?;
     if first.finding.outcome == Outcome::Confirmed {
         return Ok(first);
     }
-    let mut second = count_settled(mechanism, geometry, states, expected, well, seed)?;
+    let mut second = count_settled(mechanism, geometry, states, predicted, well, seed)?;
     let steady = steady(&first.singular_values, &second.singular_values);
     if steady < second.found {
-        second.finding = if steady == expected {
+        second.finding = if (predicted.0..=expected).contains(&steady) {
             Finding::new(
                 Outcome::Confirmed,
                 format!(
@@ -121,7 +126,7 @@ fn count_settled(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
     states: &[JointState<f64>],
-    expected: usize,
+    predicted: (usize, usize),
     settled: f64,
     seed: u64,
 ) -> Result<FreedomCount, VerificationError> {
@@ -131,7 +136,7 @@ fn count_settled(
         substeps: SUBSTEPS,
         ..WorldOptions::default()
     };
-    let blows = expected + SPARE_BLOWS;
+    let blows = predicted.1 + SPARE_BLOWS;
     let joints = JointTwists::at(mechanism, geometry, states);
     let mut random = SplitMix64::new(seed);
     let mut responses = Vec::with_capacity(blows);
@@ -161,7 +166,7 @@ fn count_settled(
     let rows = responses.first().map_or(0, Vec::len);
     let matrix = Mat::from_fn(rows, blows, |row, column| responses[column][row]);
     let values = matrix.singular_values().unwrap_or_default();
-    Ok(counted(&values, expected, (unsettled, settled), seed))
+    Ok(counted(&values, predicted, (unsettled, settled), seed))
 }
 
 /// What twists the joints allow at a pose: for each joint the two links and an orthonormal basis, angular parts in rad/s and
@@ -286,7 +291,12 @@ fn response(world: &World, poses: &[Rigid<f64>], bodies: &[Option<LinkInertia>])
 
 /// Reads the number of freedoms off the singular values, largest first. What the velocities are still off by comes with what
 /// it was to be.
-fn counted(values: &[f64], expected: usize, (unsettled, wanted): (f64, f64), seed: u64) -> FreedomCount {
+fn counted(
+    values: &[f64],
+    (finite, expected): (usize, usize),
+    (unsettled, wanted): (f64, f64),
+    seed: u64,
+) -> FreedomCount {
     let largest = values.first().copied().unwrap_or(0.0);
     let singular_values: Vec<f64> = values
         .iter()
@@ -304,7 +314,8 @@ fn counted(values: &[f64], expected: usize, (unsettled, wanted): (f64, f64), see
             }
         }
     }
-    let finding = if !(unsettled <= wanted) && found != expected {
+    let agrees = (finite..=expected).contains(&found);
+    let finding = if !(unsettled <= wanted) && !agrees {
         Finding::new(
             Outcome::Inconclusive,
             format!(
@@ -321,6 +332,14 @@ fn counted(values: &[f64], expected: usize, (unsettled, wanted): (f64, f64), see
             Outcome::Confirmed,
             format!("blows at random leave velocities of rank {found}, as predicted"),
         )
+    } else if agrees {
+        Finding::new(
+            Outcome::Confirmed,
+            format!(
+                "blows at random leave velocities of rank {found}: the finite freedoms are {finite}, and \
+                 what gives way to first order only, {expected} in all, is blocked as it moves"
+            ),
+        )
     } else {
         Finding::new(
             Outcome::Contradicted,
@@ -329,6 +348,7 @@ fn counted(values: &[f64], expected: usize, (unsettled, wanted): (f64, f64), see
     };
     FreedomCount {
         expected,
+        finite,
         found,
         singular_values,
         gap,
@@ -344,12 +364,14 @@ mod tests {
 
     #[test]
     fn the_widest_gap_counts() {
-        let two = counted(&[3.0, 1.0, 1e-6, 1e-7], 2, (0.0, 1e-8), 1);
+        let two = counted(&[3.0, 1.0, 1e-6, 1e-7], (2, 2), (0.0, 1e-8), 1);
         assert_eq!((two.found, two.finding.outcome), (2, Outcome::Confirmed));
         assert!((two.gap - 1e6).abs() < 1.0);
-        let other = counted(&[3.0, 1.0, 1e-6, 1e-7], 1, (0.0, 1e-8), 1);
+        let other = counted(&[3.0, 1.0, 1e-6, 1e-7], (1, 1), (0.0, 1e-8), 1);
         assert_eq!(other.finding.outcome, Outcome::Contradicted);
-        let level = counted(&[3.0, 1.0, 0.3, 0.1], 2, (0.0, 1e-8), 1);
+        let shaky = counted(&[3.0, 1e-6, 1e-7], (1, 2), (0.0, 1e-8), 1);
+        assert_eq!((shaky.found, shaky.finding.outcome), (1, Outcome::Confirmed));
+        let level = counted(&[3.0, 1.0, 0.3, 0.1], (2, 2), (0.0, 1e-8), 1);
         assert_eq!(level.finding.outcome, Outcome::Inconclusive);
     }
 
@@ -361,7 +383,7 @@ mod tests {
 
     #[test]
     fn what_does_not_answer_has_no_freedom() {
-        let none = counted(&[0.0, 0.0], 0, (0.0, 1e-8), 1);
+        let none = counted(&[0.0, 0.0], (0, 0), (0.0, 1e-8), 1);
         assert_eq!((none.found, none.finding.outcome), (0, Outcome::Confirmed));
     }
 }

@@ -362,7 +362,7 @@ impl Test<'_> {
                 self.mechanism,
                 self.geometry,
                 &pose.states,
-                expected,
+                (branch.dimension, expected),
                 self.options.seed,
             )?;
             findings.push(count.finding.clone());
