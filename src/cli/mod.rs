@@ -7,13 +7,12 @@ mod excerpt;
 mod explain;
 mod failure;
 mod graph;
-#[allow(dead_code)] // for commands that take long
 mod interrupt;
 mod load;
 mod output;
-#[allow(dead_code)] // for commands that take long
 mod progress;
 mod report;
+mod simulate;
 mod terminal;
 mod trace;
 
@@ -45,6 +44,7 @@ struct Arguments {
 enum Command {
     Report(report::Arguments),
     Check(check::Arguments),
+    Simulate(Box<simulate::Arguments>),
     Graph(graph::Arguments),
     Trace(trace::Arguments),
     Explain(explain::Arguments),
@@ -55,6 +55,7 @@ pub fn run() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Report(arguments) => report::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Graph(arguments) => graph::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),

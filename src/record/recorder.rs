@@ -34,21 +34,21 @@ const SIDE_BY_SIDE: f64 = 1.5;
 
 /// What a log says once, before anything moves.
 #[derive(Clone, Copy, Debug)]
-pub struct Header<'a> {
+pub struct Header<'a, 'b> {
     /// The mechanism.
     pub mechanism: &'a Mechanism,
     /// Its frames at home.
     pub geometry: &'a Geometry<f64>,
     /// The file's name, as the attachment will have it.
-    pub source_name: &'a str,
+    pub source_name: &'b str,
     /// The mechanism file, byte for byte.
-    pub source: &'a [u8],
+    pub source: &'b [u8],
     /// The mobility report as JSON, if there is one: attached as `report.json`.
-    pub report: Option<&'a str>,
+    pub report: Option<&'b str>,
     /// What the metadata record `mobility` says: verdict, finite freedom, class, seed, settings.
-    pub facts: &'a BTreeMap<String, String>,
+    pub facts: &'b BTreeMap<String, String>,
     /// What links and joints do in the motion shown.
-    pub roles: &'a Roles,
+    pub roles: &'b Roles,
     /// Where the simulated motion is drawn, seen from the predicted one (m); `None` puts it beside.
     pub simulated_at: Option<[f64; 3]>,
 }
@@ -93,7 +93,7 @@ impl<'a> Recorder<'a, LogFile> {
     ///
     /// # Errors
     /// [`RecordError::Io`] where the file cannot be made, and those of [`to_writer`](Self::to_writer).
-    pub fn create(path: &Path, header: &Header<'a>) -> Result<Self, RecordError> {
+    pub fn create(path: &Path, header: &Header<'a, '_>) -> Result<Self, RecordError> {
         Self::to_writer(LogFile::create(path)?, header)
     }
 
@@ -122,7 +122,7 @@ impl<'a, W: Write> Recorder<'a, W> {
     ///
     /// # Errors
     /// [`RecordError::Io`] where writing fails, [`RecordError::NotFinite`] for an offset or a home pose that is not.
-    pub fn to_writer(writer: W, header: &Header<'a>) -> Result<Self, RecordError> {
+    pub fn to_writer(writer: W, header: &Header<'a, '_>) -> Result<Self, RecordError> {
         let not_finite = |what: &str| RecordError::NotFinite {
             what: what.to_owned(),
         };

@@ -17,7 +17,9 @@
 //! | `build`, `coupling` | the engine's bodies, joints and couplings |
 //! | `effects`, `motor` | limits, friction, damping, contact; drives |
 //! | `world`, `velocities`, `measure` | stepping, setting in motion, reading off |
+//! | `scene_run` | running a scene for a while |
 //! | `cost` | what each effect costs |
+//! | [`verification`] | what all that says about a prediction |
 //!
 //! # Accuracy
 //! A step is divided into substeps; in each, constraints are linearised anew and swept eight times. A loop's closure error
@@ -46,6 +48,7 @@ mod inertia;
 mod measure;
 mod motor;
 mod options;
+mod scene_run;
 mod solids;
 mod units;
 mod velocities;
@@ -55,4 +58,5 @@ mod world;
 pub use cost::{CostRow, cost_table};
 pub use error::WorldError;
 pub use options::{Drive, Effects, Energy, JointGap, Note, Pieces, Solver, WorldOptions};
+pub use scene_run::{SceneOptions, SceneRun, effect_names, run_scene, scene_drives};
 pub use world::World;

@@ -36,7 +36,7 @@ impl Subject {
         }
     }
 
-    pub fn header(&self) -> Header<'_> {
+    pub fn header(&self) -> Header<'_, '_> {
         Header {
             mechanism: &self.mechanism,
             geometry: &self.geometry,

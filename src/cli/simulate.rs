@@ -1,0 +1,216 @@
+//! `kutzbach simulate FILE`: what a physics engine says about the prediction, and the scene that the file calls for.
+
+mod choices;
+mod log;
+mod table;
+
+use super::failure::Failure;
+use super::{DISAGREEMENT, DONE, UNDECIDED, load, output, terminal};
+use choices::{Effect, Format, SolverChoice, substeps};
+use clap::Args;
+use kutzbach::closure::{Arithmetic, Geometry};
+use kutzbach::mobility::{AnalysisOptions, Verdict, analyse};
+use kutzbach::simulate::verification::{Outcome, VerificationOptions, verify};
+use kutzbach::simulate::{SceneOptions, WorldOptions, cost_table, run_scene, scene_drives};
+use log::Log;
+use std::path::PathBuf;
+use table::Simulated;
+
+/// Simulate a mechanism: is the predicted motion confirmed? Log it for viewers
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// Mechanism file
+    file: PathBuf,
+    /// Write predicted and simulated motion to this MCAP log
+    #[arg(long, value_name = "LOG")]
+    mcap: Option<PathBuf>,
+    /// Verify this branch only
+    #[arg(long)]
+    branch: Option<String>,
+    /// Joint to drive; one that serves if not given
+    #[arg(long, value_name = "JOINT")]
+    drive: Option<String>,
+    /// How trees of joints are held; `auto` tries multibodies, then impulses
+    #[arg(long, value_enum, default_value_t = SolverChoice::Auto)]
+    solver: SolverChoice,
+    /// Substeps of a step, ascending: the ladder of the verification
+    #[arg(long, value_name = "N,N,…", value_parser = substeps, default_value = "4,8,16,32,64,128,256")]
+    substeps: choices::Ladder,
+    /// Go on to the end of the ladder after it has decided
+    #[arg(long)]
+    whole_ladder: bool,
+    /// Length of a step (s)
+    #[arg(long, value_name = "SECONDS")]
+    time_step: Option<f64>,
+    /// Seed of the blows that count freedoms
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Add an effect to those of the file's scene; may be repeated
+    #[arg(long = "with", value_enum, value_name = "EFFECT")]
+    with: Vec<Effect>,
+    /// Leave an effect of the file's scene out; may be repeated
+    #[arg(long = "without", value_enum, value_name = "EFFECT")]
+    without: Vec<Effect>,
+    /// Simulated seconds of the scene
+    #[arg(long, value_name = "SECONDS", default_value_t = 2.0)]
+    duration: f64,
+    /// Say what each effect costs
+    #[arg(long)]
+    cost: bool,
+    /// Poses of the predicted motion in the log
+    #[arg(long, value_name = "N", default_value_t = 200)]
+    samples: usize,
+    /// Form of the answer
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+    /// Write to this file instead of standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Give a property of the file another value, a number or an expression; may be repeated
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = load::setting)]
+    settings: Vec<(String, String)>,
+    /// Start at a configuration of the file instead of the home pose
+    #[arg(long, value_name = "CONFIGURATION")]
+    at: Option<String>,
+    /// End with exit code 3 where nothing is decided
+    #[arg(long)]
+    strict: bool,
+    /// Show every detail
+    #[arg(long)]
+    verbose: bool,
+    /// Say in JSON too how long each simulation took
+    #[arg(long)]
+    timing: bool,
+}
+
+/// Steps that the cost of an effect is measured over.
+const COST_STEPS: usize = 500;
+
+/// Runs the command.
+///
+/// # Errors
+/// Where the file cannot be read, has no such configuration, branch or joint, no world can be made, or output cannot be
+/// written.
+pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let reading = load::mechanism(&arguments.file, &arguments.settings)?;
+    let mechanism = &reading.mechanism;
+    let configuration = arguments.at.clone().filter(|name| name != "home");
+    let plain = |message: String, help: Option<String>| Failure::Plain {
+        message: format!("{}: {message}", arguments.file.display()),
+        help,
+    };
+    let analysis = analyse(
+        mechanism,
+        &AnalysisOptions {
+            configuration: configuration.clone(),
+        },
+    )
+    .map_err(|error| {
+        plain(
+            error.to_string(),
+            Some("`kutzbach report FILE` tells more".to_owned()),
+        )
+    })?;
+    if let Some(name) = &arguments.drive {
+        kutzbach::motion::variable_named(mechanism, name)
+            .map_err(|error| plain(error.to_string(), Some(error.help())))?;
+    }
+    let geometry = Geometry::new(
+        mechanism,
+        configuration
+            .as_deref()
+            .and_then(|name| mechanism.configuration(name)),
+        &Arithmetic::double(),
+    );
+    let mut options = VerificationOptions {
+        branch: arguments.branch.clone(),
+        configuration: configuration.clone(),
+        drive: arguments.drive.clone(),
+        solvers: arguments.solver.solvers(),
+        ladder: arguments.substeps.0.clone(),
+        seed: arguments.seed,
+        whole_ladder: arguments.whole_ladder,
+        ..VerificationOptions::default()
+    };
+    if let Some(time_step) = arguments.time_step {
+        options.time_step = time_step;
+    }
+    let refused = |message: String| plain(message, Some("see `kutzbach simulate --help`".into()));
+    WorldOptions {
+        time_step: options.time_step,
+        ..WorldOptions::default()
+    }
+    .check()
+    .map_err(|error| refused(error.to_string()))?;
+
+    let effects = choices::effects(mechanism, &arguments.with, &arguments.without);
+    let drives = scene_drives(mechanism);
+    let world = WorldOptions {
+        solver: options.solvers.first().copied().unwrap_or_default(),
+        effects,
+        time_step: arguments.time_step.unwrap_or(1.0 / 240.0),
+        ..WorldOptions::default()
+    };
+    let called_for = !kutzbach::simulate::effect_names(&effects).is_empty() || !drives.is_empty();
+
+    let mut log = Log::begin(arguments, &reading, &geometry, &analysis, &options)?;
+    let verification = log.watch(|observer| {
+        verify(mechanism, &geometry, &analysis, &options, observer)
+            .map_err(|error| refused(error.to_string()))
+    })?;
+    let mut simulated = Simulated {
+        mechanism,
+        verification,
+        scene: None,
+        cost: None,
+        log: None,
+    };
+    let posed = analysis.mobility.verdict != Verdict::Unassembled;
+    if called_for && posed && !simulated.verification.stopped {
+        let scene = SceneOptions {
+            world,
+            drives: drives.clone(),
+            duration: arguments.duration,
+        };
+        simulated.scene = Some(log.watch(|observer| {
+            run_scene(
+                mechanism,
+                &geometry,
+                &analysis.assembly.states,
+                &scene,
+                observer,
+            )
+            .map_err(|error| refused(error.to_string()))
+        })?);
+    }
+    if arguments.cost && posed {
+        let rows = cost_table(
+            mechanism,
+            &geometry,
+            &analysis.assembly.states,
+            &world,
+            &drives,
+            COST_STEPS,
+        );
+        simulated.cost = Some(rows.map_err(|error| refused(error.to_string()))?);
+    }
+    let stopped = simulated.verification.stopped
+        || simulated
+            .scene
+            .as_ref()
+            .is_some_and(|run| run.ended_early.as_deref() == Some("broken off"));
+    simulated.log = log.finish(&simulated.verification.finding, stopped)?;
+    let text = match arguments.format {
+        Format::Text => table::text(
+            &simulated,
+            terminal::layout(arguments.output.is_some(), arguments.verbose),
+        ),
+        Format::Json => output::json(&table::json(&simulated, arguments.timing))?,
+    };
+    output::put(&text, arguments.output.as_deref())?;
+    Ok(match simulated.verification.finding.outcome {
+        Outcome::Contradicted => DISAGREEMENT,
+        Outcome::Inconclusive if arguments.strict => UNDECIDED,
+        Outcome::Inconclusive | Outcome::Confirmed => DONE,
+    })
+}

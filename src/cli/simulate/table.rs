@@ -1,0 +1,345 @@
+//! What a simulation said, as tables and as JSON.
+
+use kutzbach::mechanism::Mechanism;
+use kutzbach::record::Summary;
+use kutzbach::report::text::words::counted;
+use kutzbach::report::text::{Cell, Column, Layout, Page, Table, Tint};
+use kutzbach::simulate::verification::{
+    BranchVerification, Finding, Outcome, Pushing, Verification,
+};
+use kutzbach::simulate::{CostRow, SceneRun, Solver};
+use serde_json::{Value, json};
+
+/// The version of the JSON.
+const SCHEMA: &str = "kutzbach-simulation-1";
+
+/// Everything that was simulated.
+pub struct Simulated<'a> {
+    pub mechanism: &'a Mechanism,
+    pub verification: Verification,
+    pub scene: Option<SceneRun>,
+    pub cost: Option<Vec<CostRow>>,
+    pub log: Option<(String, Summary)>,
+}
+
+fn tint(outcome: Outcome) -> Tint {
+    match outcome {
+        Outcome::Confirmed => Tint::Good,
+        Outcome::Contradicted => Tint::Bad,
+        Outcome::Inconclusive => Tint::Doubtful,
+    }
+}
+
+fn sentence(finding: &Finding) -> String {
+    let mut word = finding.outcome.word().to_owned();
+    if let Some(first) = word.get_mut(..1) {
+        first.make_ascii_uppercase();
+    }
+    format!("{word}: {}.", finding.why)
+}
+
+fn solver_word(solver: Solver) -> &'static str {
+    match solver {
+        Solver::Multibody => "multibody",
+        Solver::Impulse => "impulse",
+    }
+}
+
+/// A duration in seconds, to three digits.
+fn seconds(time: f64) -> String {
+    if time < 1e-3 {
+        format!("{:.0} µs", time * 1e6)
+    } else if time < 1.0 {
+        format!("{:.1} ms", time * 1e3)
+    } else {
+        format!("{time:.2} s")
+    }
+}
+
+/// Pages for a person.
+pub fn text(simulated: &Simulated<'_>, layout: Layout) -> String {
+    let mut page = Page::new(layout);
+    let verification = &simulated.verification;
+    page.paragraph(
+        &sentence(&verification.finding),
+        tint(verification.finding.outcome),
+        "",
+        "",
+    );
+    page.paragraph(
+        &format!(
+            "{}: predicted {}.",
+            simulated.mechanism.name(),
+            verification.verdict.word()
+        ),
+        Tint::Plain,
+        "",
+        "",
+    );
+    for branch in &verification.branches {
+        branch_page(branch, &mut page);
+    }
+    if let Some(pushing) = &verification.pushing {
+        pushing_page(pushing, &mut page);
+    }
+    if let Some(run) = &simulated.scene {
+        scene_page(run, &mut page);
+    }
+    if let Some(rows) = &simulated.cost {
+        cost_page(rows, &mut page);
+    }
+    if !verification.notes.is_empty() {
+        page.heading("How the world was made");
+        let shown = if page.layout().verbose { usize::MAX } else { 3 };
+        for note in verification.notes.iter().take(shown) {
+            page.item(note, Tint::Quiet);
+        }
+        let left = verification.notes.len().saturating_sub(shown);
+        if left > 0 {
+            page.item(
+                &format!("… and {}: `--verbose` shows them", counted(left, "more note")),
+                Tint::Quiet,
+            );
+        }
+    }
+    if let Some((path, summary)) = &simulated.log {
+        page.gap();
+        page.paragraph(
+            &format!(
+                "{path}: {} in {:.1} s{}",
+                counted(summary.moments as usize, "moment"),
+                summary.until,
+                if verification.stopped {
+                    ", up to where it was broken off"
+                } else {
+                    ""
+                }
+            ),
+            Tint::Plain,
+            "",
+            "",
+        );
+    }
+    page.into_text()
+}
+
+fn branch_page(branch: &BranchVerification, page: &mut Page) {
+    page.heading(&format!(
+        "Branch {}, {}",
+        branch.branch,
+        counted(branch.dimension, "freedom")
+    ));
+    if branch.ladders.is_empty() {
+        page.paragraph(&sentence(&branch.finding), tint(branch.finding.outcome), "  ", "  ");
+    }
+    for ladder in &branch.ladders {
+        let held = if ladder.held.is_empty() {
+            String::new()
+        } else {
+            format!(", {} held", ladder.held.join(", "))
+        };
+        page.paragraph(
+            &format!(
+                "{} driven from {:.4} to {:.4} ({}){held}; trees held by {}",
+                ladder.driven,
+                ladder.from + 0.0,
+                ladder.to,
+                ladder.ends,
+                match ladder.solver {
+                    Solver::Multibody => "reduced coordinates (multibody)",
+                    Solver::Impulse => "impulses",
+                }
+            ),
+            Tint::Plain,
+            "  ",
+            "  ",
+        );
+        let mut table = Table::new()
+            .column("substeps", Column::Numbers)
+            .column("closure error", Column::Numbers)
+            .column("order", Column::Numbers)
+            .column("off the prediction", Column::Numbers)
+            .column("came", Column::Numbers)
+            .column("wall time", Column::Numbers);
+        for rung in &ladder.rungs {
+            table.row(vec![
+                Cell::new(rung.substeps.to_string()),
+                Cell::new(format!("{:.1e}", rung.closure_error)),
+                Cell::new(rung.order.map_or("–".to_owned(), |o| format!("{o:.1}"))),
+                Cell::new(format!("{:.1e}", rung.distance)),
+                Cell::new(format!("{:.0} %", 100.0 * rung.progress)),
+                Cell::new(seconds(rung.wall_time)),
+            ]);
+        }
+        page.table(&table, "rungs");
+        page.paragraph(&sentence(&ladder.finding), tint(ladder.finding.outcome), "  ", "  ");
+    }
+    if let Some(count) = &branch.freedoms {
+        page.paragraph(
+            &format!("Freedoms {}", lowercase(&sentence(&count.finding))),
+            tint(count.finding.outcome),
+            "  ",
+            "  ",
+        );
+    }
+}
+
+fn lowercase(sentence: &str) -> String {
+    let mut text = sentence.to_owned();
+    if let Some(first) = text.get_mut(..1) {
+        first.make_ascii_lowercase();
+    }
+    text
+}
+
+fn pushing_page(pushing: &Pushing, page: &mut Page) {
+    page.heading("Every joint pushed in turn");
+    let mut table = Table::new()
+        .column("substeps", Column::Numbers)
+        .column("pushes", Column::Numbers)
+        .column("moved at most", Column::Numbers)
+        .column("when pushed at", Column::Shrinking)
+        .column("closure error", Column::Numbers)
+        .column("wall time", Column::Numbers);
+    for rung in &pushing.rungs {
+        table.row(vec![
+            Cell::new(rung.substeps.to_string()),
+            Cell::new(rung.pushes.to_string()),
+            Cell::new(format!("{:.1e}", rung.moved)),
+            Cell::new(&rung.farthest),
+            Cell::new(format!("{:.1e}", rung.closure_error)),
+            Cell::new(seconds(rung.wall_time)),
+        ]);
+    }
+    page.table(&table, "rungs");
+}
+
+fn scene_page(run: &SceneRun, page: &mut Page) {
+    page.heading("Scene");
+    let effects = if run.effects.is_empty() {
+        "drives only".to_owned()
+    } else {
+        run.effects.join(", ")
+    };
+    page.paragraph(
+        &format!(
+            "{effects}; {:.2} s in steps of {:.2} ms with {}, {}; took {}",
+            run.time,
+            1e3 * run.time_step,
+            counted(run.substeps, "substep"),
+            solver_word(run.solver),
+            seconds(run.wall_time)
+        ),
+        Tint::Plain,
+        "  ",
+        "  ",
+    );
+    let mut facts = vec![
+        format!(
+            "energy at the end {:.4} J ({:.4} kinetic); {:+.4} J since the start",
+            run.kinetic_energy + run.potential_energy,
+            run.kinetic_energy,
+            run.energy_change
+        ),
+        format!("closure error at most {:.1e}", run.closure_error),
+    ];
+    if run.effects.contains(&"contact") {
+        facts.push(format!(
+            "{} touched at once at most",
+            counted(run.most_contacts, "pair of shapes").replace("shapess", "shapes")
+        ));
+    }
+    facts.push(match &run.beyond_limit {
+        Some((joint, beyond)) => format!("{joint} went {beyond:.2e} beyond its limit"),
+        None => "no joint went beyond a limit".to_owned(),
+    });
+    for fact in &facts {
+        page.item(fact, Tint::Plain);
+    }
+    for missing in &run.not_simulated {
+        page.item(&format!("not simulated: {missing}"), Tint::Bad);
+    }
+    if let Some(why) = &run.ended_early {
+        page.item(&format!("ended early: {why}"), Tint::Bad);
+    }
+}
+
+fn cost_page(rows: &[CostRow], page: &mut Page) {
+    page.heading("What effects cost");
+    let mut table = Table::new()
+        .column("effects", Column::Words)
+        .column("steps/s", Column::Numbers)
+        .column("per step", Column::Numbers)
+        .column("bodies", Column::Numbers)
+        .column("shapes", Column::Numbers)
+        .column("limits", Column::Numbers)
+        .column("frictions", Column::Numbers)
+        .column("dampings", Column::Numbers);
+    for row in rows {
+        table.row(vec![
+            Cell::new(row.effects),
+            Cell::new(format!("{:.0}", row.steps_per_second)),
+            Cell::new(seconds(row.step_time)),
+            Cell::new(row.pieces.bodies.to_string()),
+            Cell::new(row.pieces.colliders.to_string()),
+            Cell::new(row.pieces.limits.to_string()),
+            Cell::new(row.pieces.frictions.to_string()),
+            Cell::new(row.pieces.dampings.to_string()),
+        ]);
+    }
+    page.table(&table, "rows");
+}
+
+/// Everything, for a program. Times on the clock differ from run to run and are given on request only; `cost` is nothing
+/// but such times and was requested.
+pub fn json(simulated: &Simulated<'_>, timing: bool) -> Value {
+    let mut value = json!({
+        "schema": SCHEMA,
+        "mechanism": simulated.mechanism.name(),
+        "verification": simulated.verification,
+    });
+    if let Some(run) = &simulated.scene {
+        value["scene"] = json!(run);
+    }
+    if let Some(rows) = &simulated.cost {
+        value["cost"] = json!(rows);
+    }
+    if let Some((path, summary)) = &simulated.log {
+        value["log"] = json!({
+            "path": path,
+            "moments": summary.moments,
+            "messages": summary.messages,
+            "until": summary.until,
+        });
+    }
+    if timing {
+        value["timing"] = times(simulated);
+    }
+    value
+}
+
+fn times(simulated: &Simulated<'_>) -> Value {
+    let mut rows = Vec::new();
+    for branch in &simulated.verification.branches {
+        for ladder in &branch.ladders {
+            for rung in &ladder.rungs {
+                rows.push(json!({
+                    "branch": branch.branch,
+                    "driven": ladder.driven,
+                    "solver": ladder.solver,
+                    "substeps": rung.substeps,
+                    "wall_time": rung.wall_time,
+                }));
+            }
+        }
+    }
+    if let Some(pushing) = &simulated.verification.pushing {
+        for rung in &pushing.rungs {
+            rows.push(json!({ "substeps": rung.substeps, "wall_time": rung.wall_time }));
+        }
+    }
+    if let Some(run) = &simulated.scene {
+        rows.push(json!({ "scene": run.effects, "wall_time": run.wall_time }));
+    }
+    Value::Array(rows)
+}
