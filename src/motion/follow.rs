@@ -477,7 +477,8 @@ fn closes(solver: &mut Solver, start: &Node, from: &Node, to: &Node) -> Option<N
     let mut way = vec![0.0; n];
     solver.system.way(&from.pose, &again, &mut way);
     let along = dot(&chord, &way) / size;
-    if !(along > -1e-9 * size && along <= size * (1.0 + 1e-9)) || !(length(&way) < 1.5 * size) {
+    let inside = along > -1e-9 * size && along <= size * (1.0 + 1e-9);
+    if !(inside && length(&way) < 1.5 * size) {
         return None;
     }
     let cubic = Cubic::between(solver, from, to);

@@ -771,3 +771,85 @@ fn nearest_turn(
     let turns = ((along - angle) / std::f64::consts::TAU).round();
     axis.map(|a| a * (angle + turns * std::f64::consts::TAU))
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::closure::Arithmetic;
+    use crate::closure::samples::{Place, Written, ring};
+
+    /// A loop of joints of many kinds.
+    fn mixed() -> (Mechanism, Geometry<f64>, LoopSystem) {
+        let places: Vec<Place> = vec![
+            (JointKind::Revolute, [0.0, 0.0, 0.0], [0.0, 0.5, 1.0]),
+            (JointKind::Spherical, [1.0, 0.5, 0.0], [1.0, 0.0, 0.0]),
+            (JointKind::Cylindrical, [2.0, 0.0, 0.5], [1.0, 0.25, 0.0]),
+            (JointKind::Screw, [2.0, -1.0, 0.0], [0.0, 1.0, 1.0]),
+            (JointKind::Universal, [1.0, -2.0, 0.0], [0.5, 1.0, 0.0]),
+        ];
+        let mechanism = ring(&places, [0.0; 3], Written::Exactly);
+        let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
+        let joints: Vec<usize> = (0..mechanism.joints().len()).collect();
+        // Walked backward, so that both directions are met somewhere.
+        let part = Part {
+            cycles: vec![joints.iter().rev().map(|j| (*j, false)).collect()],
+            couplings: Vec::new(),
+            joints,
+        };
+        let system = LoopSystem::new(&mechanism, &geometry, &geometry.states, &part).unwrap();
+        (mechanism, geometry, system)
+    }
+
+    #[test]
+    fn rows_are_the_derivative_of_the_residual() {
+        let (_, geometry, system) = mixed();
+        let pose = system.pose(&geometry.states);
+        let n = system.unknowns();
+        let mut here = Evaluation::default();
+        system.evaluate(&pose, &mut here);
+        assert!(here.largest() < 1e-15, "closed as drawn");
+        let mut rows = vec![0.0; system.equations() * n];
+        system.fill_dense(&here, &mut rows);
+        for unknown in 0..n {
+            let at = |way: f64| {
+                let mut z = vec![0.0; n];
+                z[unknown] = way;
+                let mut there = pose.clone();
+                system.advance(&mut there, &z);
+                let mut found = Evaluation::default();
+                system.evaluate(&there, &mut found);
+                found.residual
+            };
+            let (ahead, behind) = (at(1e-5), at(-1e-5));
+            for row in 0..system.equations() {
+                let quotient = (ahead[row] - behind[row]) / 2e-5;
+                assert!((quotient - rows[row * n + unknown]).abs() < 1e-8);
+            }
+        }
+    }
+
+    #[test]
+    fn ways_lead_from_pose_to_pose() {
+        let (_, geometry, system) = mixed();
+        let from = system.pose(&geometry.states);
+        let z: Vec<f64> = (0..system.unknowns())
+            .map(|i| 0.3 * (i as f64).sin())
+            .collect();
+        let mut to = from.clone();
+        system.advance(&mut to, &z);
+        let mut way = vec![0.0; z.len()];
+        system.way(&from, &to, &mut way);
+        assert!(z.iter().zip(&way).all(|(a, b)| (a - b).abs() < 1e-14));
+        assert!(system.separation(&from, &to) > 0.1);
+        let mut states = geometry.states.clone();
+        system.put(&to, &mut states);
+        assert!(system.separation(&system.pose(&states), &to) < 1e-15);
+        // A turn of a hinge is the same pose, counted differently.
+        let mut turned = to.clone();
+        turned.values[0] += std::f64::consts::TAU;
+        let wound = system.wound_towards(&to, &turned);
+        assert_eq!(wound.values[0], turned.values[0]);
+        assert!(system.separation(&wound, &to) < 1e-15);
+    }
+}

@@ -208,13 +208,13 @@ impl<'a> Tracer<'a> {
                     && self.stage_of(v.joint).is_some()
             })
         });
-        if let Some(drive) = &asked {
-            if self.stage_of(drive.joint).is_none() || self.locked(drive) == Some(true) {
-                return still(format!(
-                    "nothing moves: `{}` does not move on branch {}",
-                    drive.name, self.branch.name
-                ));
-            }
+        if let Some(drive) = &asked
+            && (self.stage_of(drive.joint).is_none() || self.locked(drive) == Some(true))
+        {
+            return still(format!(
+                "nothing moves: `{}` does not move on branch {}",
+                drive.name, self.branch.name
+            ));
         }
         let found = match &asked {
             Some(drive) => self.curve_driven_by(drive, &wishes.hold)?,
