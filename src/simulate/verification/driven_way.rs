@@ -53,9 +53,6 @@ impl DrivenWay {
 /// square, so that a drive of limited force, and those that hold, keep their places.
 pub(super) const RATE: f64 = 1.0;
 
-/// Ways that would take longer (s) are cut short.
-const LONGEST: f64 = 10.0;
-
 /// Poses that the schedule of a way is made from.
 const SCHEDULED: usize = 400;
 
@@ -96,7 +93,7 @@ pub(super) fn value(
     }
 }
 
-/// The ways along a branch of a mechanism of some characteristic length (m), one for each part of the mechanism that has loops and moves; one in all for mechanisms without
+/// The ways along a branch of a mechanism of some characteristic length (m), cut short where they would take longer (s), one for each part of the mechanism that has loops and moves; one in all for mechanisms without
 /// loops.
 ///
 /// # Errors
@@ -104,14 +101,14 @@ pub(super) fn value(
 pub(super) fn ways_along(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
-    length: f64,
+    (length, longest): (f64, f64),
     analysis: &Analysis,
     branch: &Branch,
     configuration: Option<&str>,
     drive: Option<&str>,
 ) -> Result<Vec<DrivenWay>, String> {
     let first = motion_of(mechanism, analysis, branch, configuration, drive)?;
-    let mut ways = vec![way_of(mechanism, geometry, length, first)?];
+    let mut ways = vec![way_of(mechanism, geometry, (length, longest), first)?];
     if drive.is_some() {
         return Ok(ways);
     }
@@ -142,7 +139,7 @@ pub(super) fn ways_along(
             configuration,
             Some(&variable.name),
         )?;
-        ways.push(way_of(mechanism, geometry, length, motion)?);
+        ways.push(way_of(mechanism, geometry, (length, longest), motion)?);
     }
     Ok(ways)
 }
@@ -185,7 +182,7 @@ struct Side {
 fn way_of(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
-    length: f64,
+    (length, longest): (f64, f64),
     mut motion: Motion,
 ) -> Result<DrivenWay, String> {
     let nothing = "no pose of the branch is found";
@@ -198,7 +195,14 @@ fn way_of(
     let mut best: Option<Side> = None;
     for side in [1.0, -1.0] {
         let barrier = barrier(&motion, origin, least, side);
-        let found = side_of(geometry, &units, &start, &driven, &mut motion.curve, &barrier);
+        let found = side_of(
+            geometry,
+            (&units, longest),
+            &start,
+            &driven,
+            &mut motion.curve,
+            &barrier,
+        );
         if best
             .as_ref()
             .is_none_or(|other| (found.to - from).abs() > 1.001 * (other.to - from).abs())
@@ -250,14 +254,14 @@ fn units(mechanism: &Mechanism, length: f64) -> Vec<Vec<f64>> {
 /// Follows the curve to one side until the barrier, a full turn, or the time is over.
 fn side_of(
     geometry: &Geometry<f64>,
-    units: &[Vec<f64>],
+    (units, longest): (&[Vec<f64>], f64),
     start: &[JointState<f64>],
     driven: &Variable,
     curve: &mut Curve,
     barrier: &Barrier,
 ) -> Side {
     let from = value(geometry, driven, start, start);
-    let (longest, turn) = if turns_a_ball(geometry, driven) {
+    let (most, turn) = if turns_a_ball(geometry, driven) {
         (BALL_WAY, "as far as a ball is driven")
     } else {
         (TAU, "a full turn")
@@ -284,12 +288,12 @@ fn side_of(
             }
         }
         let to = value(geometry, driven, start, &states);
-        if (to - from).abs() > 1.0001 * longest {
+        if (to - from).abs() > 1.0001 * most {
             found.ends = turn.to_owned();
             break;
         }
         time += fastest / RATE;
-        if time > LONGEST {
+        if time > longest {
             found.ends = "far enough".to_owned();
             break;
         }

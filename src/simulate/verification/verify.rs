@@ -41,6 +41,8 @@ pub struct VerificationOptions {
     pub seed: u64,
     /// Whether to go on to the end of the ladder after it has decided.
     pub whole_ladder: bool,
+    /// Longest way that a drive goes along a branch, in seconds at a pace of a radian per second for the fastest joint.
+    pub longest: f64,
 }
 
 impl Default for VerificationOptions {
@@ -55,6 +57,7 @@ impl Default for VerificationOptions {
             ladder: vec![4, 8, 16, 32, 64, 128, 256],
             seed: 1,
             whole_ladder: false,
+            longest: 10.0,
         }
     }
 }
@@ -328,7 +331,7 @@ impl Test<'_> {
         let ways = match ways_along(
             self.mechanism,
             self.geometry,
-            self.length,
+            (self.length, self.options.longest),
             self.analysis,
             branch,
             self.options.configuration.as_deref(),
