@@ -77,7 +77,9 @@ fn every_prediction_for_the_reference_mechanisms_is_confirmed_or_listed() {
 
 #[test]
 fn families_of_overconstrained_mechanisms_are_confirmed() {
-    const FAMILIES: [&str; 6] = ["bennett", "bricard_", "goldberg", "oldham", "delta", "wohlhart"];
+    const FAMILIES: [&str; 6] = [
+        "bennett", "bricard_", "goldberg", "oldham", "delta", "wohlhart",
+    ];
     let files: Vec<_> = own_mechanisms()
         .into_iter()
         .filter(|(name, _)| FAMILIES.iter().any(|family| name.starts_with(family)))
@@ -110,7 +112,10 @@ fn spoiled_loops_are_not_confirmed_although_they_turn() {
         assert_eq!(found.verdict, Verdict::Rigid, "{name}");
         assert_eq!(found.finding.outcome, Outcome::Inconclusive, "{name}");
         let pushing = found.pushing.unwrap();
-        assert!(pushing.rungs.iter().all(|r| r.moved > 0.05), "{name}: {pushing:?}");
+        assert!(
+            pushing.rungs.iter().all(|r| r.moved > 0.05),
+            "{name}: {pushing:?}"
+        );
     }
 }
 
@@ -126,7 +131,8 @@ fn the_motion_of_a_genuine_loop_is_contradicted_by_a_spoiled_one() {
     for x in side.iter_mut() {
         *x *= 1.001;
     }
-    let moved = spoiled.sides[closing][1].translation != geometry(&genuine).sides[closing][1].translation;
+    let moved =
+        spoiled.sides[closing][1].translation != geometry(&genuine).sides[closing][1].translation;
     assert!(moved, "the closing joint's frame is at its link's origin");
     let claimed = analysis(&genuine);
     let found = verify(&genuine, &spoiled, &claimed, &short(), &mut Unobserved).unwrap();

@@ -35,7 +35,7 @@ mod verify;
 pub use error::VerificationError;
 pub use excitation::{FreedomCount, count_freedoms};
 pub use ladder::{Finding, Outcome, Rung, defect, judge_motion, order_between, undecided};
-pub use observer::{Moment, Observer, Passage, Unobserved};
+pub use observer::{Moment, Observer, Passage, PredictedPose, Unobserved};
 pub use prediction::Prediction;
 pub use pushing::{PushRung, Pushing, judge_pushing};
 pub use verify::{

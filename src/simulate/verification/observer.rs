@@ -1,9 +1,12 @@
 //! Watching a simulation while it runs: logs and progress bars.
 
+use crate::closure::{JointState, Rigid};
 use crate::motion::Variable;
 use crate::simulate::JointGap;
-use crate::closure::{JointState, Rigid};
 use std::ops::ControlFlow;
+
+/// A predicted pose: `world_from_link` by link, states by joint.
+pub type PredictedPose<'a> = (&'a [Rigid<f64>], &'a [JointState<f64>]);
 
 /// One moment of a simulation, and what was predicted for it.
 #[derive(Clone, Copy, Debug)]
@@ -17,7 +20,7 @@ pub struct Moment<'a> {
     /// State of every joint as simulated, by joint index.
     pub states: &'a [JointState<f64>],
     /// `world_from_link` of every link and the state of every joint as predicted, where anything is.
-    pub predicted: Option<(&'a [Rigid<f64>], &'a [JointState<f64>])>,
+    pub predicted: Option<PredictedPose<'a>>,
     /// How far every joint is from what it allows, by joint index.
     pub gaps: &'a [JointGap],
     /// The largest gap (characteristic lengths, rad).
