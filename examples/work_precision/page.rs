@@ -1,7 +1,7 @@
 //! The part of the page that is written by the program: tables, and the sentences that have numbers in them.
 
 use crate::measure::{POSES, Result, SOLVERS, STEPS, SUBJECTS, SUBSTEPS};
-use crate::record::{RUNS, Record, Simulation};
+use crate::record::{ROUNDS, Record, Simulation};
 use std::fmt::Write;
 
 /// Between these lines the page is replaced.
@@ -30,7 +30,7 @@ pub fn replaced(page: &str, record: &Record) -> Result<String> {
 #[must_use]
 pub fn measured(record: &Record) -> String {
     let mut text = format!(
-        "Measured on {} on {}, one thread, release build; wall times are the best of {RUNS} runs.\n\n",
+        "Measured on {} on {}, one thread, release build; wall times are the best of {ROUNDS} rounds.\n\n",
         record.date, record.machine
     );
     for subject in SUBJECTS {
@@ -136,26 +136,37 @@ fn compared(text: &mut String, record: &Record) {
         ) else {
             continue;
         };
-        say(
-            text,
+        let lines = [
             format!(
-                "*{}*: the simulation that comes below 1e-6 soonest ({}, {} substeps) takes {}. The trace of the whole turn \
-                 closes to {:.0e} at each of {} poses in {}, {:.1} times as fast, and at each of {} poses, one for every step, \
-                 in {}, {:.1} times as fast. Once the curve is known, it gives {} poses per second.\n",
+                "*{}*: the simulation that comes below 1e-6 soonest ({}, {} substeps) takes {}; with substeps made to measure",
                 subject.name,
                 simulation.solver,
                 simulation.substeps,
-                duration(simulation.wall_time),
+                duration(simulation.wall_time)
+            ),
+            format!(
+                "and steps for nothing it would be {}. The trace of the whole turn closes to {:.0e} and takes {} for {} poses,",
+                duration(record.least_time(subject.name, 1e-6)),
                 few.closure_error.max(many.closure_error),
-                few.poses,
                 duration(few.wall_time),
+                few.poses
+            ),
+            format!(
+                "{:.0} times less than the simulation, and {} for {} poses, one for every step, {:.0} times less. Once the",
                 simulation.wall_time / few.wall_time,
-                many.poses,
                 duration(many.wall_time),
-                simulation.wall_time / many.wall_time,
+                many.poses,
+                simulation.wall_time / many.wall_time
+            ),
+            format!(
+                "curve is known, it gives {} poses per second.",
                 thousands(many.poses_per_second)
             ),
-        );
+            String::new(),
+        ];
+        for line in lines {
+            say(text, line);
+        }
     }
     // The last paragraph has a line of its own already.
     text.truncate(text.trim_end().len());

@@ -3,9 +3,13 @@
 use crate::measure::{POSES, Ready, Result, SOLVERS, SUBJECTS, SUBSTEPS};
 use kutzbach::simulate::verification::order_between;
 use serde::{Deserialize, Serialize};
+use std::time::Instant;
 
-/// Wall times are the best of so many runs: what else the machine does only adds to them.
-pub const RUNS: usize = 7;
+/// Wall times are the best of so many rounds over all settings: what else the machine does only adds to them.
+pub const ROUNDS: usize = 9;
+
+/// In a round, what takes less than this (s) is run again until it is over.
+const SHORT: f64 = 0.05;
 
 /// All rows, with when and where the times were measured.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -57,56 +61,89 @@ pub struct Trace {
 }
 
 impl Record {
-    /// Measures every setting; `tell` is called after each.
+    /// Measures every setting: the errors once, the times in rounds over all settings, so that a slow minute of the machine
+    /// does not fall on one of them alone. `tell` is called before each round.
     pub fn measure(date: &str, machine: &str, mut tell: impl FnMut(&str)) -> Result<Self> {
+        tell("errors");
+        let all = SUBJECTS
+            .into_iter()
+            .map(Ready::new)
+            .collect::<Result<Vec<Ready>>>()?;
+        let mut record = Self::errors(&all)?;
+        record.date = date.to_owned();
+        record.machine = machine.to_owned();
+        for round in 1..=ROUNDS {
+            tell(&format!("times, round {round} of {ROUNDS}"));
+            record.times(&all)?;
+        }
+        Ok(record)
+    }
+
+    /// All rows without times.
+    fn errors(all: &[Ready]) -> Result<Self> {
         let mut record = Self {
-            date: date.to_owned(),
-            machine: machine.to_owned(),
+            date: String::new(),
+            machine: String::new(),
             simulations: Vec::new(),
             traces: Vec::new(),
         };
-        for subject in SUBJECTS {
-            let ready = Ready::new(subject)?;
-            let mechanism = subject.name.to_owned();
+        for ready in all {
             for (solver, solver_name) in SOLVERS {
                 for substeps in SUBSTEPS {
                     let shown = ready.simulate(solver, substeps)?;
-                    let mut wall_time = f64::INFINITY;
-                    for _ in 0..RUNS {
-                        wall_time = wall_time.min(ready.simulation_time(solver, substeps)?);
-                    }
                     record.simulations.push(Simulation {
-                        mechanism: mechanism.clone(),
+                        mechanism: ready.subject.name.to_owned(),
                         solver: solver_name.to_owned(),
                         substeps,
                         closure_error: digits(shown.closure_error),
                         distance: digits(shown.distance),
                         turned: digits(shown.turned),
-                        wall_time: digits(wall_time),
+                        wall_time: f64::INFINITY,
                     });
-                    tell(&format!("{mechanism}, {solver_name}, {substeps} substeps"));
                 }
             }
             for poses in POSES {
                 let traced = ready.trace(poses)?;
-                let (mut whole, mut alone) = (f64::INFINITY, f64::INFINITY);
-                for _ in 0..RUNS {
-                    let time = ready.trace_time(poses)?;
-                    whole = whole.min(time.whole);
-                    alone = alone.min(time.poses);
-                }
                 record.traces.push(Trace {
-                    mechanism: mechanism.clone(),
+                    mechanism: ready.subject.name.to_owned(),
                     poses,
                     closure_error: digits(traced.closure_error),
                     equations: digits(traced.equations),
-                    wall_time: digits(whole),
-                    poses_per_second: digits(poses as f64 / alone),
+                    wall_time: f64::INFINITY,
+                    poses_per_second: 0.0,
                 });
-                tell(&format!("{mechanism}, trace of {poses} poses"));
             }
         }
         Ok(record)
+    }
+
+    /// Times every setting once more; the best times stay.
+    fn times(&mut self, all: &[Ready]) -> Result<()> {
+        let of = |name: &str| -> Result<&Ready> {
+            let ready = all.iter().find(|ready| ready.subject.name == name);
+            Ok(ready.ok_or("a row of no mechanism")?)
+        };
+        for row in &mut self.simulations {
+            let ready = of(&row.mechanism)?;
+            let solver = SOLVERS.into_iter().find(|(_, name)| *name == row.solver);
+            let (solver, _) = solver.ok_or("a row of no solver")?;
+            again_and_again(|| {
+                let time = ready.simulation_time(solver, row.substeps)?;
+                row.wall_time = row.wall_time.min(digits(time));
+                Ok(())
+            })?;
+        }
+        for row in &mut self.traces {
+            let ready = of(&row.mechanism)?;
+            again_and_again(|| {
+                let time = ready.trace_time(row.poses)?;
+                row.wall_time = row.wall_time.min(digits(time.whole));
+                let speed = row.poses as f64 / time.poses;
+                row.poses_per_second = row.poses_per_second.max(digits(speed));
+                Ok(())
+            })?;
+        }
+        Ok(())
     }
 
     /// The simulations of one mechanism with one solver, from few substeps to many.
@@ -132,6 +169,27 @@ impl Record {
             .min_by(|a, b| a.wall_time.total_cmp(&b.wall_time))
     }
 
+    /// Seconds that a mechanism's simulation to an error would take with the solver and the step that suit it best, if steps
+    /// cost nothing beyond their substeps, which need not be whole numbers. The error falls with the square of the
+    /// substeps; the time of one is taken from ladders of sixteen and more.
+    pub fn least_time(&self, mechanism: &str, error: f64) -> f64 {
+        let of = |solver: &'static str| {
+            let fine = || {
+                self.ladder(mechanism, solver)
+                    .filter(|row| row.substeps >= 16)
+            };
+            let needed = fine()
+                .map(|row| row.substeps as f64 * (row.closure_error / error).sqrt())
+                .fold(f64::INFINITY, f64::min);
+            let each = fine()
+                .map(|row| row.wall_time / row.substeps as f64)
+                .fold(f64::INFINITY, f64::min);
+            needed * each
+        };
+        let all = SOLVERS.into_iter().map(|(_, solver)| of(solver));
+        all.fold(f64::INFINITY, f64::min)
+    }
+
     /// The order at which the closure error fell to a simulation from the one with half as many substeps.
     pub fn order(&self, row: &Simulation) -> Option<f64> {
         let before = self
@@ -147,4 +205,15 @@ impl Record {
 /// Four digits: more are noise, in times at least.
 fn digits(x: f64) -> f64 {
     format!("{x:.3e}").parse().unwrap_or(x)
+}
+
+/// Runs once, and again while little time has gone.
+fn again_and_again(mut run: impl FnMut() -> Result<()>) -> Result<()> {
+    let begun = Instant::now();
+    loop {
+        run()?;
+        if begun.elapsed().as_secs_f64() >= SHORT {
+            return Ok(());
+        }
+    }
 }
