@@ -131,7 +131,11 @@ fn a_trace_closes_to_rounding_at_every_pose() {
         let ready = Ready::new(subject).unwrap();
         for poses in POSES {
             let traced = ready.trace(poses).unwrap();
-            assert!(traced.closure_error <= 1e-12, "{}: {traced:?}", subject.name);
+            assert!(
+                traced.closure_error <= 1e-12,
+                "{}: {traced:?}",
+                subject.name
+            );
             assert!(traced.equations <= 1e-12, "{}: {traced:?}", subject.name);
         }
     }
@@ -235,14 +239,14 @@ fn the_words_of_the_page_are_true_of_the_record() {
     assert!(page.contains("four to five times as far for the four-bar, and nearly thirty times"));
     assert!(ratio("four-bar").iter().all(|r| (4.0..5.0).contains(r)));
     assert!(ratio("Bennett").iter().all(|r| (27.0..30.0).contains(r)));
-    assert!(page.contains("For a picture, 1e-4, four substeps are enough with reduced coordinates"));
+    assert!(page.contains("For a picture, 1e-4, two substeps are enough with reduced coordinates"));
     for subject in SUBJECTS {
         let reached = record
             .ladder(subject.name, "multibody")
             .filter(|row| row.closure_error <= 1e-4)
             .map(|row| row.substeps)
             .min();
-        assert!(reached <= Some(4), "{}", subject.name);
+        assert!(reached <= Some(2), "{}", subject.name);
         for trace in record.traces_of(subject.name) {
             let simulated = record.soonest(subject.name, 1e-6).unwrap();
             assert!(trace.closure_error <= 1e-12 && trace.wall_time < simulated.wall_time);

@@ -48,13 +48,10 @@ fn say(text: &mut String, line: String) {
 
 /// One mechanism: a row for every number of substeps, and one for every trace.
 fn table(text: &mut String, record: &Record, mechanism: &str) {
-    let mut head = format!("| {mechanism} |");
+    let mut head = format!("| {} |", capitalised(mechanism));
     let mut rule = "|---|".to_owned();
     for (_, solver) in SOLVERS {
-        let _ = write!(
-            head,
-            " {solver}: closure error | order | distance | wall time |"
-        );
+        let _ = write!(head, " {solver}: closure error | order | distance | time |");
         rule.push_str("---|---|---|---|");
     }
     say(text, head);
@@ -117,7 +114,7 @@ fn advice(text: &mut String, record: &Record) {
             let reaches = |row: &&Simulation| row.closure_error <= wanted;
             let cell = match record.ladder(mechanism, solver).find(reaches) {
                 Some(row) => format!("{}: {}", row.substeps, duration(row.wall_time)),
-                None => "more than 256".to_owned(),
+                None => "—".to_owned(),
             };
             let _ = write!(line, " {cell} |");
         }
@@ -138,28 +135,28 @@ fn compared(text: &mut String, record: &Record) {
         };
         let lines = [
             format!(
-                "*{}*: the simulation that comes below 1e-6 soonest ({}, {} substeps) takes {}; with substeps made to measure",
-                subject.name,
+                "**{}**: the simulation that comes below 1e-6 soonest ({}, {} substeps) takes {}; with substeps cut to fit",
+                capitalised(subject.name),
                 simulation.solver,
                 simulation.substeps,
                 duration(simulation.wall_time)
             ),
             format!(
-                "and steps for nothing it would be {}. The trace of the whole turn closes to {:.0e} and takes {} for {} poses,",
+                "and steps for nothing it would be {}. The trace of the turn closes to {:.0e}. It takes {} for {} poses, {:.1} times",
                 duration(record.least_time(subject.name, 1e-6)),
                 few.closure_error.max(many.closure_error),
                 duration(few.wall_time),
-                few.poses
+                few.poses,
+                simulation.wall_time / few.wall_time
             ),
             format!(
-                "{:.0} times less than the simulation, and {} for {} poses, one for every step, {:.0} times less. Once the",
-                simulation.wall_time / few.wall_time,
+                "less than that simulation, and {} for {} poses, one for every step, {:.1} times less. Once the curve is",
                 duration(many.wall_time),
                 many.poses,
                 simulation.wall_time / many.wall_time
             ),
             format!(
-                "curve is known, it gives {} poses per second.",
+                "known, it gives {} poses per second.",
                 thousands(many.poses_per_second)
             ),
             String::new(),
@@ -174,8 +171,10 @@ fn compared(text: &mut String, record: &Record) {
 }
 
 fn duration(seconds: f64) -> String {
-    if seconds < 0.0995 {
+    if seconds < 0.00995 {
         format!("{:.1} ms", seconds * 1e3)
+    } else if seconds < 0.9995 {
+        format!("{:.0} ms", seconds * 1e3)
     } else {
         format!("{seconds:.2} s")
     }
@@ -189,4 +188,12 @@ fn thousands(x: f64) -> String {
     } else {
         format!("{number},000")
     }
+}
+
+/// For the beginning of a sentence.
+fn capitalised(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map_or_else(String::new, |first| {
+        first.to_uppercase().chain(letters).collect()
+    })
 }
