@@ -4,6 +4,7 @@
 
 #[path = "../examples/work_precision/figure.rs"]
 mod figure;
+#[allow(dead_code)] // the example takes the times
 #[path = "../examples/work_precision/measure.rs"]
 mod measure;
 #[path = "../examples/work_precision/page.rs"]

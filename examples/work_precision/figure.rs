@@ -138,9 +138,8 @@ fn legend(svg: &mut String) {
             format!("<rect class=\"{class}\" x=\"{x:.1}\" y=\"36\" width=\"18\" height=\"10\"/>"),
         );
         text(svg, "", (x + 24.0, 45.0), words);
-        x += 104.0;
+        x += 100.0;
     }
-    x += 20.0;
     for (index, subject) in SUBJECTS.iter().enumerate() {
         mark(svg, "multibody", (x, 41.0), index, 4.0);
         text(svg, "", (x + 11.0, 45.0), subject.name);
@@ -150,7 +149,7 @@ fn legend(svg: &mut String) {
         svg,
         "end small",
         (RIGHT, 45.0),
-        "numbers: substeps, alike at about the same height",
+        "numbers: substeps, or poses of a turn",
     );
 }
 

@@ -17,6 +17,7 @@ mod figure;
 mod measure;
 mod page;
 mod record;
+mod rounds;
 
 use measure::Result;
 use record::Record;
@@ -33,14 +34,14 @@ fn main() -> Result<()> {
     match arguments.as_slice() {
         [] => print!(
             "{}",
-            page::measured(&Record::measure("this day", "this machine", tell)?)
+            page::measured(&rounds::measure("this day", "this machine", tell)?)
         ),
         ["--json"] => {
-            let record = Record::measure("", "", tell)?;
+            let record = rounds::measure("", "", tell)?;
             println!("{}", serde_json::to_string_pretty(&record)?);
         }
         ["--update", date, machine] => {
-            let record = Record::measure(date, machine, tell)?;
+            let record = rounds::measure(date, machine, tell)?;
             fs::write(RECORD, serde_json::to_string_pretty(&record)? + "\n")?;
             write(&record)?;
         }

@@ -29,8 +29,8 @@ pub struct Subject {
     pub crank: &'static str,
 }
 
-/// All that are measured: a planar loop, and a spatial one with three constraints more than a loop of its kind can bear in
-/// general.
+/// All that are measured: a planar loop and a spatial one. Both have three redundant constraints; only the spatial one needs
+/// particular lengths and twists for that.
 pub const SUBJECTS: [Subject; 2] = [
     Subject {
         name: "four-bar",

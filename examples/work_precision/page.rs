@@ -1,7 +1,7 @@
 //! The part of the page that is written by the program: tables, and the sentences that have numbers in them.
 
 use crate::measure::{POSES, Result, SOLVERS, STEPS, SUBJECTS, SUBSTEPS};
-use crate::record::{ROUNDS, Record, Simulation};
+use crate::record::{Record, Simulation};
 use std::fmt::Write;
 
 /// Between these lines the page is replaced.
@@ -30,8 +30,8 @@ pub fn replaced(page: &str, record: &Record) -> Result<String> {
 #[must_use]
 pub fn measured(record: &Record) -> String {
     let mut text = format!(
-        "Measured on {} on {}, one thread, release build; wall times are the best of {ROUNDS} rounds.\n\n",
-        record.date, record.machine
+        "Measured on {} on {}, one thread, release build; wall times are the best of {} rounds.\n\n",
+        record.date, record.machine, record.rounds
     );
     for subject in SUBJECTS {
         table(&mut text, record, subject.name);
@@ -142,7 +142,7 @@ fn compared(text: &mut String, record: &Record) {
                 duration(simulation.wall_time)
             ),
             format!(
-                "and steps for nothing it would be {}. The trace of the turn closes to {:.0e}. It takes {} for {} poses, {:.1} times",
+                "and steps for nothing it would be about {}. The trace of the turn closes to {:.0e}. It takes {} for {} poses, {:.1} times",
                 duration(record.least_time(subject.name, 1e-6)),
                 few.closure_error.max(many.closure_error),
                 duration(few.wall_time),
