@@ -21,7 +21,7 @@ const WORTH_TELLING: f64 = 0.01;
 
 /// Logs a simulation while it runs.
 pub struct SimulationLog<'r, 'a, W: Write> {
-    recorder: &'r mut Recorder<'a, W>,
+    recorder: Recorder<'a, W>,
     mechanism: &'a Mechanism,
     geometry: &'a Geometry<f64>,
     roles_of: &'r dyn Fn(&Passage) -> Roles,
@@ -36,7 +36,7 @@ pub struct SimulationLog<'r, 'a, W: Write> {
 impl<'r, 'a, W: Write> SimulationLog<'r, 'a, W> {
     /// A log that goes on at a time (s). `roles_of` says what links and joints do in a passage.
     pub fn new(
-        recorder: &'r mut Recorder<'a, W>,
+        recorder: Recorder<'a, W>,
         mechanism: &'a Mechanism,
         geometry: &'a Geometry<f64>,
         begins: f64,
@@ -54,12 +54,15 @@ impl<'r, 'a, W: Write> SimulationLog<'r, 'a, W> {
         }
     }
 
-    /// Latest time logged, or what stopped the log.
+    /// The recorder and the latest time logged (s), or what stopped the log.
     ///
     /// # Errors
     /// The recorder's first error.
-    pub fn finish(self) -> Result<f64, RecordError> {
-        self.error.map_or(Ok(self.until), Err)
+    pub fn finish(self) -> Result<(Recorder<'a, W>, f64), RecordError> {
+        match self.error {
+            None => Ok((self.recorder, self.until)),
+            Some(error) => Err(error),
+        }
     }
 
     fn keep(&mut self, result: Result<(), RecordError>) -> ControlFlow<()> {
@@ -82,13 +85,16 @@ impl<'r, 'a, W: Write> SimulationLog<'r, 'a, W> {
             ..Motion::of_links(moment.simulated)
         };
         let predicted_values = moment.predicted.map(|(_, states)| values_of(states));
-        let predicted = moment.predicted.zip(predicted_values.as_ref()).map(|((links, _), values)| {
-            Motion {
-                joints: values,
-                ..Motion::of_links(links)
-            }
-        });
-        self.recorder.moment(time, predicted.as_ref(), Some(&simulated))?;
+        let predicted =
+            moment
+                .predicted
+                .zip(predicted_values.as_ref())
+                .map(|((links, _), values)| Motion {
+                    joints: values,
+                    ..Motion::of_links(links)
+                });
+        self.recorder
+            .moment(time, predicted.as_ref(), Some(&simulated))?;
         self.until = self.until.max(time);
         let largest = |of: fn(&crate::simulate::JointGap) -> f64| {
             moment.gaps.iter().map(of).fold(0.0, f64::max)

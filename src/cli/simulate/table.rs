@@ -20,6 +20,8 @@ pub struct Simulated<'a> {
     pub scene: Option<SceneRun>,
     pub cost: Option<Vec<CostRow>>,
     pub log: Option<(String, Summary)>,
+    /// Whether Ctrl-C ended it.
+    pub stopped: bool,
 }
 
 fn tint(outcome: Outcome) -> Tint {
@@ -97,7 +99,10 @@ pub fn text(simulated: &Simulated<'_>, layout: Layout) -> String {
         let left = verification.notes.len().saturating_sub(shown);
         if left > 0 {
             page.item(
-                &format!("… and {}: `--verbose` shows them", counted(left, "more note")),
+                &format!(
+                    "… and {}: `--verbose` shows them",
+                    counted(left, "more note")
+                ),
                 Tint::Quiet,
             );
         }
@@ -109,7 +114,7 @@ pub fn text(simulated: &Simulated<'_>, layout: Layout) -> String {
                 "{path}: {} in {:.1} s{}",
                 counted(summary.moments as usize, "moment"),
                 summary.until,
-                if verification.stopped {
+                if simulated.stopped {
                     ", up to where it was broken off"
                 } else {
                     ""
@@ -130,7 +135,12 @@ fn branch_page(branch: &BranchVerification, page: &mut Page) {
         counted(branch.dimension, "freedom")
     ));
     if branch.ladders.is_empty() {
-        page.paragraph(&sentence(&branch.finding), tint(branch.finding.outcome), "  ", "  ");
+        page.paragraph(
+            &sentence(&branch.finding),
+            tint(branch.finding.outcome),
+            "  ",
+            "  ",
+        );
     }
     for ladder in &branch.ladders {
         let held = if ladder.held.is_empty() {
@@ -172,7 +182,12 @@ fn branch_page(branch: &BranchVerification, page: &mut Page) {
             ]);
         }
         page.table(&table, "rungs");
-        page.paragraph(&sentence(&ladder.finding), tint(ladder.finding.outcome), "  ", "  ");
+        page.paragraph(
+            &sentence(&ladder.finding),
+            tint(ladder.finding.outcome),
+            "  ",
+            "  ",
+        );
     }
     if let Some(count) = &branch.freedoms {
         page.paragraph(
@@ -245,8 +260,8 @@ fn scene_page(run: &SceneRun, page: &mut Page) {
     ];
     if run.effects.contains(&"contact") {
         facts.push(format!(
-            "{} touched at once at most",
-            counted(run.most_contacts, "pair of shapes").replace("shapess", "shapes")
+            "{} of shapes touched at once at most",
+            counted(run.most_contacts, "pair")
         ));
     }
     facts.push(match &run.beyond_limit {
