@@ -352,13 +352,16 @@ enum Told {
     Say(String),
 }
 
+/// Poses of links and states of joints.
+type Configuration = (Vec<Rigid<f64>>, Vec<JointState<f64>>);
+
 /// A [`Moment`] that owns what it is made of.
 struct Copied {
     time: f64,
     done: f64,
     simulated: Vec<Rigid<f64>>,
     states: Vec<JointState<f64>>,
-    predicted: Option<(Vec<Rigid<f64>>, Vec<JointState<f64>>)>,
+    predicted: Option<Configuration>,
     gaps: Vec<JointGap>,
     closure_error: f64,
     distance: f64,
