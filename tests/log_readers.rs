@@ -292,18 +292,224 @@ fn python_reads_what_was_recorded() {
     assert_eq!(topic["messages"], MOMENTS);
 }
 
+/// What `kutzbach` prints, run in the folder of the package.
+fn kutzbach(arguments: &[&str]) -> Vec<u8> {
+    let run = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+        .args(arguments)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .unwrap();
+    assert!(
+        run.status.success(),
+        "{arguments:?}: {}",
+        String::from_utf8_lossy(&run.stderr)
+    );
+    run.stdout
+}
+
+/// The log of `kutzbach simulate`, and what it printed as JSON.
+fn simulated(file: &str, log: &str) -> (PathBuf, Value) {
+    let log = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(log);
+    let path = log.to_str().unwrap();
+    let words = ["simulate", file, "--mcap", path, "--samples", "50"];
+    let printed = kutzbach(&[&words[..], &["--format", "json"]].concat());
+    (log, serde_json::from_slice(&printed).unwrap())
+}
+
+/// How far two poses are apart, in lengths or rad, whichever is more; quaternions as x, y, z, w.
+fn apart(a: (&[f64], &[f64]), b: (&[f64], &[f64]), length: f64) -> f64 {
+    let norm = |x: &mut dyn Iterator<Item = f64>| x.map(|x| x * x).sum::<f64>().sqrt();
+    let way = norm(&mut a.0.iter().zip(b.0).map(|(a, b)| a - b)) / length;
+    let [turned, opposite] =
+        [1.0, -1.0].map(|sign| norm(&mut a.1.iter().zip(b.1).map(|(a, b)| a - sign * b)));
+    way.max(2.0 * turned.min(opposite))
+}
+
+/// The poses of all links of an entry of the reader's `poses`.
+fn links_of(entry: &Value) -> BTreeMap<String, (Vec<f64>, Vec<f64>)> {
+    let links = entry["links"].as_object().unwrap().iter();
+    links
+        .map(|(name, pose)| {
+            let pose = (numbers(&pose["translation"]), numbers(&pose["rotation"]));
+            (name.clone(), pose)
+        })
+        .collect()
+}
+
+/// The first passage of a log against the samples of `trace`; returns the number of moments it has.
+fn assert_predicted_as_traced(file: &str, answer: &Value, trace: &Value) -> usize {
+    let length = trace["length_unit"].as_f64().unwrap();
+    let names = trace["links"].as_array().unwrap();
+    let arclength = |sample: &Value| sample["arclength"].as_f64().unwrap();
+    let mut samples: Vec<&Value> = trace["samples"].as_array().unwrap().iter().collect();
+    samples.sort_by(|a, b| arclength(a).total_cmp(&arclength(b)));
+    assert!(samples.len() >= 49, "{file}: {} samples", samples.len());
+    let entries = answer["poses"].as_array().unwrap();
+    let states = answer["joint_states"].as_array().unwrap();
+    let begins = arclength(samples[0]);
+    for (index, sample) in samples.iter().enumerate() {
+        let entry = &entries[index];
+        assert_eq!(entry["stream"], "predicted", "{file}: moment {index}");
+        let time = entry["time"].as_f64().unwrap();
+        // Times are whole nanoseconds.
+        assert!((time - (arclength(sample) - begins)).abs() < 2e-9);
+        let logged = links_of(entry);
+        assert_eq!(logged.len(), names.len());
+        for (name, pose) in names.iter().zip(sample["links"].as_array().unwrap()) {
+            let (t, q) = &logged[name.as_str().unwrap()];
+            let traced = numbers(&pose["quaternion"]);
+            let traced_q = [traced[1], traced[2], traced[3], traced[0]];
+            let off = apart((t, q), (&numbers(&pose["position"]), &traced_q), length);
+            assert!(off < 1e-9, "{file}: {name} is {off} off at moment {index}");
+        }
+        let joints = states[index]["joints"].as_object().unwrap();
+        let columns = trace["columns"].as_array().unwrap();
+        for (column, value) in columns.iter().zip(numbers(&sample["values"])) {
+            let name = column["joint"].as_str().unwrap();
+            let logged = joints[name][0].as_f64().unwrap();
+            let scale = if column["unit"] == "m" { length } else { 1.0 };
+            assert!(
+                (logged - value).abs() < 1e-9 * scale,
+                "{file}: {name} is {logged} and not {value} at moment {index}"
+            );
+        }
+    }
+    samples.len()
+}
+
+/// Every passage of the ladder keeps as near to the prediction as its row in the table says.
+fn assert_near_the_prediction(file: &str, answer: &Value, result: &Value, length: f64) {
+    let branches = result["verification"]["branches"].as_array().unwrap();
+    let rungs: Vec<&Value> = branches
+        .iter()
+        .flat_map(|branch| branch["ladders"].as_array().unwrap())
+        .flat_map(|ladder| ladder["rungs"].as_array().unwrap())
+        .collect();
+    let told = answer["log"].as_array().unwrap();
+    let starts: Vec<f64> = told
+        .iter()
+        .filter(|m| m["message"].as_str().unwrap().ends_with(" substeps"))
+        .map(|m| m["time"].as_f64().unwrap())
+        .collect();
+    assert_eq!(starts.len(), rungs.len(), "{file}: {told:?}");
+    let entries = answer["poses"].as_array().unwrap();
+    let mut seen = vec![0; rungs.len()];
+    for pair in entries.windows(2) {
+        let [first, second] = [&pair[0], &pair[1]];
+        if second["stream"] != "simulated" || first["time"] != second["time"] {
+            continue;
+        }
+        let time = second["time"].as_f64().unwrap();
+        let Some(rung) = starts.iter().rposition(|start| *start <= time) else {
+            panic!("{file}: something is simulated before it is announced");
+        };
+        let error = rungs[rung]["closure_error"].as_f64().unwrap();
+        let predicted = links_of(first);
+        for (name, (t, q)) in links_of(second) {
+            let (u, r) = &predicted[&name];
+            let off = apart((&t, &q), (u, r), length);
+            assert!(
+                off <= 100.0 * error + 1e-9,
+                "{file}: {name} is {off} off at {time} s, closure error {error}"
+            );
+        }
+        seen[rung] += 1;
+    }
+    assert!(seen.iter().all(|moments| *moments > 20), "{file}: {seen:?}");
+}
+
+#[test]
+fn python_sees_the_motion_that_trace_tells() {
+    let Some(python) = python() else { return };
+    // One revolute loop out of and one in the plane, one with sliders, one with balls.
+    for name in ["bennett", "planar_four_bar", "oldham", "rssr"] {
+        let file = format!("mechanisms/{name}.urdf");
+        let (log, result) = simulated(&file, &format!("simulated_{name}.mcap"));
+        let bytes = std::fs::read(&log).unwrap();
+        simulated(&file, &format!("simulated_{name}.mcap"));
+        assert_eq!(bytes, std::fs::read(&log).unwrap(), "{file}: other bytes");
+
+        let answer = read_log(&python, &log);
+        let trace = kutzbach(&["trace", &file, "--samples", "50", "--format", "json"]);
+        let trace: Value = serde_json::from_slice(&trace).unwrap();
+        let traced = assert_predicted_as_traced(&file, &answer, &trace);
+        let length = trace["length_unit"].as_f64().unwrap();
+        assert_near_the_prediction(&file, &answer, &result, length);
+
+        let attached = &answer["attachments"];
+        let source = std::fs::read_to_string(folder(&file)).unwrap();
+        assert_eq!(attached[format!("{name}.urdf")]["text"], source);
+        let report = kutzbach(&["report", &file, "--format", "json"]);
+        let report = String::from_utf8(report).unwrap();
+        assert_eq!(attached["report.json"]["text"], report);
+        let report: Value = serde_json::from_str(&report).unwrap();
+        let facts = &answer["metadata"]["mobility"];
+        assert_eq!(facts["verdict"], report["mobility"]["verdict"]);
+        assert_eq!(facts["finite"], trace["dimension"].to_string());
+        assert_eq!(facts["class"], report["mobility"]["class"]);
+        assert_eq!(facts["seed"], "1");
+
+        let told = answer["log"].as_array().unwrap();
+        assert_eq!(told[0]["message"], "predicted motion of branch A");
+        let last = told.last().unwrap()["message"].as_str().unwrap();
+        let finding = &result["verification"]["finding"];
+        let (outcome, why) = last.split_once(": ").unwrap();
+        assert_eq!(finding["outcome"], outcome);
+        assert_eq!(finding["why"], why);
+
+        assert_eq!(
+            answer["topics"]["/mobility/closure"]["schema"],
+            "closure.Closure"
+        );
+        let closures = answer["closure"].as_array().unwrap();
+        assert!(closures.len() > traced + 60);
+        for (index, at) in closures.iter().enumerate() {
+            let who = if index < traced {
+                "predicted"
+            } else {
+                "simulated"
+            };
+            for key in ["position", "angle", "relative"] {
+                assert!(at[who][key].as_f64().unwrap() < 1e-3, "{file}: {at}");
+            }
+        }
+        let topic = &answer["topics"]["/mobility/prediction"];
+        assert_eq!(topic["schema"], "prediction.Prediction");
+        assert_eq!(topic["message_encoding"], "protobuf");
+        for (index, at) in answer["prediction"].as_array().unwrap().iter().enumerate() {
+            assert!(at["predicted"].is_f64());
+            assert_eq!(at.get("simulated").is_some(), index >= traced, "{at}");
+        }
+
+        let topic = &answer["topics"]["/robot_description"];
+        assert_eq!(topic["schema"], "std_msgs/msg/String");
+        assert_eq!(topic["message_encoding"], "cdr");
+        let description = answer["descriptions"]["/robot_description"].as_str();
+        let robot = urdf_rs::read_from_string(description.unwrap()).unwrap();
+        let links = trace["links"].as_array().unwrap();
+        assert_eq!(robot.links.len(), links.len() + 1);
+        let scene = answer["scene"].as_array().unwrap().last().unwrap();
+        for link in links {
+            for stream in ["predicted", "simulated"] {
+                let id = format!("{stream}/link/{}", link.as_str().unwrap());
+                assert!(scene["entities"][&id]["shapes"].as_u64() >= Some(1), "{id}");
+            }
+        }
+    }
+}
+
 #[test]
 fn the_viewer_shows_the_mechanism() {
     if std::env::var_os("KUTZBACH_VIEWER").is_none() {
         eprintln!("skipped: KUTZBACH_VIEWER is not set; see tests/viewers/open_in_rerun.sh");
         return;
     }
-    let recorded = recorded("seen_in_a_viewer.mcap");
-    let picture = recorded.log.with_extension("png");
+    let (log, _) = simulated("mechanisms/bennett.urdf", "seen_in_a_viewer.mcap");
+    let picture = log.with_extension("png");
     let _ = std::fs::remove_file(&picture);
     let run = Command::new("bash")
         .arg(folder("tests/viewers/open_in_rerun.sh"))
-        .args([&recorded.log, &picture])
+        .args([&log, &picture])
         .arg("--check")
         .output()
         .unwrap();

@@ -1,11 +1,12 @@
 //! `kutzbach simulate FILE`: what a physics engine says about the prediction, and the scene that the file calls for.
 
+mod aside;
 mod choices;
 mod log;
 mod table;
 
 use super::failure::Failure;
-use super::{DISAGREEMENT, DONE, UNDECIDED, load, output, terminal};
+use super::{DISAGREEMENT, DONE, UNDECIDED, interrupt, load, output, terminal};
 use choices::{Effect, Format, SolverChoice, substeps};
 use clap::Args;
 use kutzbach::closure::{Arithmetic, Geometry};
@@ -142,6 +143,18 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     }
     .check()
     .map_err(|error| refused(error.to_string()))?;
+    if !(arguments.duration >= 0.0 && arguments.duration.is_finite()) {
+        return Err(refused(format!(
+            "a scene lasts a finite number of seconds, but {} were asked for",
+            arguments.duration
+        )));
+    }
+    if arguments.mcap.is_some() && !(2..=10_000_000).contains(&arguments.samples) {
+        return Err(refused(format!(
+            "{} samples; from 2 to 10000000 are possible",
+            arguments.samples
+        )));
+    }
 
     let effects = choices::effects(mechanism, &arguments.with, &arguments.without);
     let drives = scene_drives(mechanism);
@@ -154,16 +167,16 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let called_for = !kutzbach::simulate::effect_names(&effects).is_empty() || !drives.is_empty();
 
     let mut log = Log::begin(arguments, &reading, &geometry, &analysis, &options)?;
-    let verification = log.watch(|observer| {
-        verify(mechanism, &geometry, &analysis, &options, observer)
-            .map_err(|error| refused(error.to_string()))
-    })?;
+    let verification = log
+        .watch(|observer| verify(mechanism, &geometry, &analysis, &options, observer))?
+        .map_err(|error| refused(error.to_string()))?;
     let mut simulated = Simulated {
         mechanism,
         verification,
         scene: None,
         cost: None,
         log: None,
+        stopped: false,
     };
     let posed = analysis.mobility.verdict != Verdict::Unassembled;
     if called_for && posed && !simulated.verification.stopped {
@@ -172,18 +185,14 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             drives: drives.clone(),
             duration: arguments.duration,
         };
-        simulated.scene = Some(log.watch(|observer| {
-            run_scene(
-                mechanism,
-                &geometry,
-                &analysis.assembly.states,
-                &scene,
-                observer,
-            )
-            .map_err(|error| refused(error.to_string()))
-        })?);
+        let states = &analysis.assembly.states;
+        let run = log
+            .watch(|observer| run_scene(mechanism, &geometry, states, &scene, observer))?
+            .map_err(|error| refused(error.to_string()))?;
+        simulated.scene = Some(run);
     }
-    if arguments.cost && posed {
+    simulated.stopped = simulated.verification.stopped || interrupt::asked();
+    if arguments.cost && posed && !simulated.stopped {
         let rows = cost_table(
             mechanism,
             &geometry,
@@ -194,12 +203,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         );
         simulated.cost = Some(rows.map_err(|error| refused(error.to_string()))?);
     }
-    let stopped = simulated.verification.stopped
-        || simulated
-            .scene
-            .as_ref()
-            .is_some_and(|run| run.ended_early.as_deref() == Some("broken off"));
-    simulated.log = log.finish(&simulated.verification.finding, stopped)?;
+    simulated.log = log.finish(&simulated.verification.finding, simulated.stopped)?;
     let text = match arguments.format {
         Format::Text => table::text(
             &simulated,
@@ -208,6 +212,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         Format::Json => output::json(&table::json(&simulated, arguments.timing))?,
     };
     output::put(&text, arguments.output.as_deref())?;
+    if simulated.stopped {
+        return Ok(interrupt::INTERRUPTED);
+    }
     Ok(match simulated.verification.finding.outcome {
         Outcome::Contradicted => DISAGREEMENT,
         Outcome::Inconclusive if arguments.strict => UNDECIDED,

@@ -51,9 +51,12 @@ pub fn record_motion<W: Write>(
         recorder.closure(
             time,
             &Closure {
+                // The loop equations are not kept apart: each of the two is at most this.
                 predicted: Some(ClosureError {
+                    position: sample.closure * motion.length_unit,
+                    angle: sample.closure,
                     relative: sample.closure,
-                    ..ClosureError::default()
+                    joints: Vec::new(),
                 }),
                 simulated: None,
             },

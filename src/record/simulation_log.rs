@@ -21,7 +21,7 @@ const WORTH_TELLING: f64 = 0.01;
 
 /// Logs a simulation while it runs.
 pub struct SimulationLog<'r, 'a, W: Write> {
-    recorder: &'r mut Recorder<'a, W>,
+    recorder: Recorder<'a, W>,
     mechanism: &'a Mechanism,
     geometry: &'a Geometry<f64>,
     roles_of: &'r dyn Fn(&Passage) -> Roles,
@@ -36,7 +36,7 @@ pub struct SimulationLog<'r, 'a, W: Write> {
 impl<'r, 'a, W: Write> SimulationLog<'r, 'a, W> {
     /// A log that goes on at a time (s). `roles_of` says what links and joints do in a passage.
     pub fn new(
-        recorder: &'r mut Recorder<'a, W>,
+        recorder: Recorder<'a, W>,
         mechanism: &'a Mechanism,
         geometry: &'a Geometry<f64>,
         begins: f64,
@@ -54,12 +54,15 @@ impl<'r, 'a, W: Write> SimulationLog<'r, 'a, W> {
         }
     }
 
-    /// Latest time logged, or what stopped the log.
+    /// The recorder and the latest time logged (s), or what stopped the log.
     ///
     /// # Errors
     /// The recorder's first error.
-    pub fn finish(self) -> Result<f64, RecordError> {
-        self.error.map_or(Ok(self.until), Err)
+    pub fn finish(self) -> Result<(Recorder<'a, W>, f64), RecordError> {
+        match self.error {
+            None => Ok((self.recorder, self.until)),
+            Some(error) => Err(error),
+        }
     }
 
     fn keep(&mut self, result: Result<(), RecordError>) -> ControlFlow<()> {

@@ -135,7 +135,7 @@ def layout(log):
         ),
         rrb.BlueprintPanel(state="hidden"),
         rrb.SelectionPanel(state="hidden"),
-        rrb.TimePanel(state="collapsed", timeline="message_log_time", play_state="playing"),
+        rrb.TimePanel(state="collapsed", timeline="message_log_time", play_state="following"),
         auto_views=False,
         auto_layout=False,
     )

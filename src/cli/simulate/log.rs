@@ -1,23 +1,26 @@
 //! The log of a simulation: opened before anything is simulated, finished whatever happens.
 
 use super::Arguments;
+use super::aside::{Listener, Teller, aside};
 use crate::cli::failure::Failure;
 use crate::cli::progress::Progress;
-use crate::cli::{load, output};
-use kutzbach::closure::Geometry;
+use crate::cli::{BAD_INPUT, interrupt, load, output};
+use kutzbach::closure::{Geometry, JointState, Rigid};
 use kutzbach::format::Reading;
 use kutzbach::mechanism::Mechanism;
 use kutzbach::mobility::{Analysis, Branch};
-use kutzbach::motion::{TraceOptions, trace};
+use kutzbach::motion::{Trace, TraceOptions, trace};
 use kutzbach::record::{
     Header, Level, LogFile, RecordError, Recorder, Role, Roles, SimulationLog, Summary,
     record_motion,
 };
 use kutzbach::report::Options;
+use kutzbach::simulate::JointGap;
 use kutzbach::simulate::verification::{Finding, Moment, Observer, Passage, VerificationOptions};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Seconds between the predicted motion and what follows.
 const PAUSE: f64 = 0.5;
@@ -87,8 +90,7 @@ impl<'a> Log<'a> {
         )
         .map_err(|error| unwritten(path, &error))?;
         log.recorder = Some(recorder);
-        log.play(arguments, options)
-            .map_err(|error| unwritten(path, &error))?;
+        log.play(arguments, options)?;
         Ok(log)
     }
 
@@ -118,11 +120,18 @@ impl<'a> Log<'a> {
         &mut self,
         arguments: &Arguments,
         options: &VerificationOptions,
-    ) -> Result<(), RecordError> {
+    ) -> Result<(), Failure> {
+        let (Some(path), Some(mut recorder)) = (self.path, self.recorder.take()) else {
+            return Ok(());
+        };
+        let unwritten = |error: RecordError| unwritten(path, &error);
         let branches = self.analysis.branches.as_deref().unwrap_or_default();
         for branch in branches {
             if options.branch.as_ref().is_some_and(|b| *b != branch.name) {
                 continue;
+            }
+            if interrupt::asked() {
+                break;
             }
             let wanted = TraceOptions {
                 branch: Some(branch.name.clone()),
@@ -131,19 +140,43 @@ impl<'a> Log<'a> {
                 configuration: options.configuration.clone(),
                 ..TraceOptions::default()
             };
-            // What cannot be traced is told where it is verified.
-            let Ok(traced) = trace(self.mechanism, self.analysis, &wanted) else {
-                continue;
+            let (mechanism, analysis) = (self.mechanism, self.analysis);
+            let mut waiting = Waiting {
+                path,
+                recorder: Some(recorder),
             };
-            let Some(motion) = traced.into_motion() else {
-                continue;
+            let traced = aside(&mut waiting, |_| trace(mechanism, analysis, &wanted))
+                .map_err(|error| unwritten(RecordError::Io(error)))?;
+            // It is given back unless the process has ended.
+            let Some(back) = waiting.recorder else {
+                return Ok(());
+            };
+            recorder = back;
+            let missing =
+                |reason: String| format!("no predicted motion of branch {}: {reason}", branch.name);
+            let motion = match traced {
+                Ok(Trace::Moving(motion)) => motion,
+                Ok(Trace::Still(still)) => {
+                    let text = missing(still.reason);
+                    recorder
+                        .log(self.until, Level::Warning, &text)
+                        .map_err(unwritten)?;
+                    continue;
+                }
+                Err(error) => {
+                    let text = missing(error.to_string());
+                    recorder
+                        .log(self.until, Level::Warning, &text)
+                        .map_err(unwritten)?;
+                    continue;
+                }
             };
             let roles = self.roles(Some(branch), Some(motion.driven.joint));
-            if let Some(recorder) = &mut self.recorder {
-                recorder.set_roles(self.until, &roles)?;
-                self.until = record_motion(recorder, &motion, self.until)? + PAUSE;
-            }
+            recorder.set_roles(self.until, &roles).map_err(unwritten)?;
+            self.until =
+                record_motion(&mut recorder, &motion, self.until).map_err(unwritten)? + PAUSE;
         }
+        self.recorder = Some(recorder);
         Ok(())
     }
 
@@ -188,42 +221,51 @@ impl<'a> Log<'a> {
     /// Does something while it is logged and its progress shown; Ctrl-C breaks it off.
     ///
     /// # Errors
-    /// Those of the work; where the log cannot be written.
-    pub fn watch<T>(
+    /// Where the log cannot be written.
+    pub fn watch<T: Send>(
         &mut self,
-        work: impl FnOnce(&mut dyn Observer) -> Result<T, Failure>,
+        work: impl FnOnce(&mut dyn Observer) -> T + Send,
     ) -> Result<T, Failure> {
-        let mut progress = Progress::new("simulating");
-        let Some(mut recorder) = self.recorder.take() else {
-            let mut watcher = Watcher {
-                log: None,
-                progress: &mut progress,
-            };
-            return work(&mut watcher);
-        };
+        let path = self.path.unwrap_or(Path::new(""));
         let analysis = self.analysis;
+        let recorder = self.recorder.take();
         let roles_of = |passage: &Passage| {
             let branches = analysis.branches.as_deref().unwrap_or_default();
             let branch = branches.iter().find(|b| b.name == passage.branch);
             self.roles(branch, passage.driven.as_ref().map(|v| v.joint))
         };
-        let mut log = SimulationLog::new(
-            &mut recorder,
-            self.mechanism,
-            self.geometry,
-            self.until,
-            &roles_of,
-        );
+        let broken = AtomicBool::new(false);
         let mut watcher = Watcher {
-            log: Some(&mut log),
-            progress: &mut progress,
+            path,
+            log: recorder.map(|recorder| {
+                SimulationLog::new(
+                    recorder,
+                    self.mechanism,
+                    self.geometry,
+                    self.until,
+                    &roles_of,
+                )
+            }),
+            progress: Progress::new("simulating"),
+            broken: &broken,
         };
-        let done = work(&mut watcher);
-        let until = log.finish();
-        let path = self.path.unwrap_or(Path::new(""));
-        self.until = until.map_err(|error| unwritten(path, &error))? + PAUSE;
-        self.recorder = Some(recorder);
-        done
+        let done = aside(&mut watcher, |teller| {
+            work(&mut Relay {
+                teller,
+                broken: &broken,
+            })
+        })
+        .map_err(|error| Failure::Plain {
+            message: format!("cannot simulate: {error}"),
+            help: None,
+        })?;
+        watcher.progress.finish();
+        if let Some(log) = watcher.log {
+            let (recorder, until) = log.finish().map_err(|error| unwritten(path, &error))?;
+            self.until = until + PAUSE;
+            self.recorder = Some(recorder);
+        }
+        Ok(done)
     }
 
     /// Writes the outcome and closes the log; what was logged, where there is one.
@@ -260,34 +302,171 @@ fn unwritten(path: &Path, error: &RecordError) -> Failure {
     }
 }
 
+/// Ends the process after Ctrl-C where work does not end by itself: with a complete log, and words on standard error.
+fn end_early(path: &Path, recorder: Option<Recorder<'_, LogFile>>) -> ! {
+    let finished = recorder.map(|recorder| recorder.finish_early("interrupted"));
+    let (failure, code) = match finished {
+        Some(Err(error)) => (unwritten(path, &error), i32::from(BAD_INPUT)),
+        Some(Ok(summary)) => (
+            Failure::Plain {
+                message: format!(
+                    "broken off; {}: {} moments in {:.1} s",
+                    path.display(),
+                    summary.moments,
+                    summary.until
+                ),
+                help: None,
+            },
+            i32::from(interrupt::INTERRUPTED),
+        ),
+        None => (
+            Failure::Plain {
+                message: "broken off".to_owned(),
+                help: None,
+            },
+            i32::from(interrupt::INTERRUPTED),
+        ),
+    };
+    failure.tell();
+    std::process::exit(code)
+}
+
+/// Waits for work that tells nothing.
+struct Waiting<'p, 'a> {
+    path: &'p Path,
+    recorder: Option<Recorder<'a, LogFile>>,
+}
+
+impl Listener<()> for Waiting<'_, '_> {
+    fn hear(&mut self, (): ()) {}
+
+    fn abandon(&mut self) -> ! {
+        end_early(self.path, self.recorder.take())
+    }
+}
+
+/// What a simulation tells, with everything that belongs to it.
+enum Told {
+    Begin(Passage),
+    Moment(Box<Copied>),
+    Say(String),
+}
+
+/// Poses of links and states of joints.
+type Configuration = (Vec<Rigid<f64>>, Vec<JointState<f64>>);
+
+/// A [`Moment`] that owns what it is made of.
+struct Copied {
+    time: f64,
+    done: f64,
+    simulated: Vec<Rigid<f64>>,
+    states: Vec<JointState<f64>>,
+    predicted: Option<Configuration>,
+    gaps: Vec<JointGap>,
+    closure_error: f64,
+    distance: f64,
+}
+
+/// Stands by the simulation and tells everything on.
+struct Relay<'t, 'b> {
+    teller: &'t Teller<'t, Told>,
+    broken: &'b AtomicBool,
+}
+
+impl Relay<'_, '_> {
+    fn tell(&self, told: Told) -> ControlFlow<()> {
+        let heard = self.teller.tell(told);
+        if heard && !self.broken.load(Ordering::SeqCst) && !interrupt::asked() {
+            ControlFlow::Continue(())
+        } else {
+            ControlFlow::Break(())
+        }
+    }
+}
+
+impl Observer for Relay<'_, '_> {
+    fn begin(&mut self, passage: &Passage) -> ControlFlow<()> {
+        self.tell(Told::Begin(passage.clone()))
+    }
+
+    fn moment(&mut self, moment: &Moment<'_>) -> ControlFlow<()> {
+        self.tell(Told::Moment(Box::new(Copied {
+            time: moment.time,
+            done: moment.done,
+            simulated: moment.simulated.to_vec(),
+            states: moment.states.to_vec(),
+            predicted: moment
+                .predicted
+                .map(|(links, states)| (links.to_vec(), states.to_vec())),
+            gaps: moment.gaps.to_vec(),
+            closure_error: moment.closure_error,
+            distance: moment.distance,
+        })))
+    }
+
+    fn say(&mut self, text: &str) {
+        // Whether to go on is asked elsewhere.
+        let _ = self.tell(Told::Say(text.to_owned()));
+    }
+}
+
 /// Hands everything on to the log and the progress bar.
-struct Watcher<'w, 'r, 'a> {
-    log: Option<&'w mut SimulationLog<'r, 'a, LogFile>>,
-    progress: &'w mut Progress,
+struct Watcher<'p, 'r, 'a> {
+    path: &'p Path,
+    log: Option<SimulationLog<'r, 'a, LogFile>>,
+    progress: Progress,
+    /// Whether the log cannot be written any more.
+    broken: &'p AtomicBool,
 }
 
 /// Steps of a progress bar.
 const TICKS: f64 = 1000.0;
 
-impl Observer for Watcher<'_, '_, '_> {
-    fn begin(&mut self, passage: &Passage) -> ControlFlow<()> {
-        match &mut self.log {
-            Some(log) => log.begin(passage),
-            None => ControlFlow::Continue(()),
+impl Listener<Told> for Watcher<'_, '_, '_> {
+    fn hear(&mut self, told: Told) {
+        if let Told::Moment(moment) = &told {
+            let done = (moment.done.clamp(0.0, 1.0) * TICKS) as u64;
+            // Whoever simulates looks for Ctrl-C.
+            let _ = self.progress.tick(done, TICKS as u64);
+        }
+        let Some(log) = &mut self.log else { return };
+        if self.broken.load(Ordering::SeqCst) {
+            return;
+        }
+        let written = match &told {
+            Told::Begin(passage) => log.begin(passage),
+            Told::Moment(moment) => log.moment(&Moment {
+                time: moment.time,
+                done: moment.done,
+                simulated: &moment.simulated,
+                states: &moment.states,
+                predicted: moment
+                    .predicted
+                    .as_ref()
+                    .map(|(links, states)| (&links[..], &states[..])),
+                gaps: &moment.gaps,
+                closure_error: moment.closure_error,
+                distance: moment.distance,
+            }),
+            Told::Say(text) => {
+                log.say(text);
+                ControlFlow::Continue(())
+            }
+        };
+        if written.is_break() {
+            self.broken.store(true, Ordering::SeqCst);
         }
     }
 
-    fn moment(&mut self, moment: &Moment<'_>) -> ControlFlow<()> {
-        if let Some(log) = &mut self.log {
-            log.moment(moment)?;
-        }
-        let done = (moment.done.clamp(0.0, 1.0) * TICKS) as u64;
-        self.progress.tick(done, TICKS as u64)
-    }
-
-    fn say(&mut self, text: &str) {
-        if let Some(log) = &mut self.log {
-            log.say(text);
-        }
+    fn abandon(&mut self) -> ! {
+        let recorder = match self.log.take().map(SimulationLog::finish) {
+            None => None,
+            Some(Ok((recorder, _))) => Some(recorder),
+            Some(Err(error)) => {
+                unwritten(self.path, &error).tell();
+                std::process::exit(i32::from(BAD_INPUT))
+            }
+        };
+        end_early(self.path, recorder)
     }
 }

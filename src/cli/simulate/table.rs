@@ -20,6 +20,8 @@ pub struct Simulated<'a> {
     pub scene: Option<SceneRun>,
     pub cost: Option<Vec<CostRow>>,
     pub log: Option<(String, Summary)>,
+    /// Whether Ctrl-C ended it.
+    pub stopped: bool,
 }
 
 fn tint(outcome: Outcome) -> Tint {
@@ -112,7 +114,7 @@ pub fn text(simulated: &Simulated<'_>, layout: Layout) -> String {
                 "{path}: {} in {:.1} s{}",
                 counted(summary.moments as usize, "moment"),
                 summary.until,
-                if verification.stopped {
+                if simulated.stopped {
                     ", up to where it was broken off"
                 } else {
                     ""
@@ -258,8 +260,8 @@ fn scene_page(run: &SceneRun, page: &mut Page) {
     ];
     if run.effects.contains(&"contact") {
         facts.push(format!(
-            "{} touched at once at most",
-            counted(run.most_contacts, "pair of shapes").replace("shapess", "shapes")
+            "{} of shapes touched at once at most",
+            counted(run.most_contacts, "pair")
         ));
     }
     facts.push(match &run.beyond_limit {
