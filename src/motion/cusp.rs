@@ -10,10 +10,13 @@
 //!    root of that order is a power series with a simple zero at the cusp, which interpolation finds;
 //! 3. the polynomial in τ through poses on both halves passes the cusp, at τ = 0.
 
-use super::follow::{Cubic, Node, dot, finish, length};
-use super::singular::{Bridge, Singular, horner, interpolate, kernels};
+use super::bridge::{Bridge, horner, interpolate};
+use super::cubic::Cubic;
+use super::node::{Node, finish};
+use super::singular::{Singular, kernels};
 use super::solver::{Along, Solver};
 use super::system::SystemPose;
+use super::vectors::{dot, length};
 
 /// Places of poses on one half, in units of the largest τ.
 const PLACES: [f64; 8] = [0.14, 0.22, 0.35, 0.48, 0.61, 0.74, 0.87, 1.0];

@@ -8,20 +8,10 @@
 //! determined. Such a pose is never stepped onto: where the margin falls fast, longer steps are tried until the pose behind
 //! is as regular as the one before (Allgower & Georg 2003, chapter 8: jumping over simple bifurcations).
 
+use super::cubic::{Cubic, Predictor, arc_between};
+use super::node::{Node, SAME, at_value, finish};
 use super::solver::{Along, Solver};
-use super::system::SystemPose;
-
-/// A pose of a curve.
-#[derive(Clone, Debug)]
-pub(super) struct Node {
-    pub pose: SystemPose,
-    /// Arclength in the metric, from the start.
-    pub arc: f64,
-    /// Unit tangent in the metric, in the direction of growing arclength.
-    pub tangent: Vec<f64>,
-    /// Least singular value of the chosen equations.
-    pub margin: f64,
-}
+use super::vectors::{dot, length};
 
 /// Why a curve was followed no further.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,66 +57,9 @@ const MOST_DEFLATED_NODES: usize = 600;
 const FALLING: f64 = 0.4;
 const JUMPS: [f64; 4] = [1.0, 1.7, 2.6, 3.6];
 
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
-
-pub(super) fn length(a: &[f64]) -> f64 {
-    dot(a, a).sqrt()
-}
-
 fn longest(tangent: &[f64]) -> f64 {
     let largest = tangent.iter().fold(0.0f64, |m, t| m.max(t.abs()));
     LONGEST_WAY / largest.max(1e-6)
-}
-
-/// The cubic that leaves a pose with its tangent and came from the one before with that one's.
-struct Predictor {
-    first: Vec<f64>,
-    second: Vec<f64>,
-    third: Vec<f64>,
-}
-
-impl Predictor {
-    fn new(solver: &Solver, before: Option<&Node>, here: &Node) -> Self {
-        let n = here.tangent.len();
-        let mut predictor = Self {
-            first: here.tangent.clone(),
-            second: vec![0.0; n],
-            third: vec![0.0; n],
-        };
-        if let Some(before) = before {
-            let mut back = vec![0.0; n];
-            solver.system.way(&here.pose, &before.pose, &mut back);
-            let tangent = solver.system.chart_velocity(&back, &before.tangent);
-            let gap = here.arc - before.arc;
-            if gap.abs() > 1e-12 {
-                let gap = gap.abs();
-                for i in 0..n {
-                    let a = (back[i] + here.tangent[i] * gap) / (gap * gap);
-                    let b = (here.tangent[i] - tangent[i]) / gap;
-                    predictor.third[i] = (2.0 * a - b) / gap;
-                    predictor.second[i] = 3.0 * a - b;
-                }
-            }
-        }
-        predictor
-    }
-
-    fn at(&self, u: f64) -> Vec<f64> {
-        (0..self.first.len())
-            .map(|i| u * (self.first[i] + u * (self.second[i] + u * self.third[i])))
-            .collect()
-    }
-
-    fn direction(&self, u: f64) -> Vec<f64> {
-        let mut d: Vec<f64> = (0..self.first.len())
-            .map(|i| self.first[i] + u * (2.0 * self.second[i] + u * 3.0 * self.third[i]))
-            .collect();
-        let size = length(&d);
-        d.iter_mut().for_each(|x| *x /= size);
-        d
-    }
 }
 
 /// What one attempt at a step came to.
@@ -136,112 +69,6 @@ struct Attempt {
     turn: f64,
     /// Length of the correction.
     way: f64,
-}
-
-/// A pose of the branch as a node: corrected, with its tangent. `None` where that fails.
-pub(super) fn node_at(
-    solver: &mut Solver,
-    mut pose: SystemPose,
-    toward: &[f64],
-    arc: f64,
-) -> Option<Node> {
-    if !solver.linearise(&pose) {
-        return None;
-    }
-    let across = solver.tangent().to_vec();
-    solver.correct(&mut pose, Along::Across(&across))?;
-    solver.anchor(&pose);
-    if !solver.linearise(&pose) {
-        return None;
-    }
-    let mut tangent = solver.tangent().to_vec();
-    if dot(&tangent, toward) < 0.0 {
-        tangent.iter_mut().for_each(|t| *t = -*t);
-    }
-    Some(Node {
-        margin: solver.margin(),
-        pose,
-        arc,
-        tangent,
-    })
-}
-
-/// The length of the cubic between two nodes, in the chart of the first: Gauss quadrature with three points, off by the
-/// seventh power of the step.
-pub(super) fn arc_between(solver: &Solver, from: &Node, to: &Node) -> f64 {
-    let cubic = Cubic::between(solver, from, to);
-    let root = 0.6f64.sqrt() / 2.0;
-    [(0.5 - root, 5.0), (0.5, 8.0), (0.5 + root, 5.0)]
-        .into_iter()
-        .map(|(u, weight)| length(&cubic.velocity(u)) * weight / 18.0)
-        .sum()
-}
-
-/// The cubic Hermite interpolant between two nodes, in the chart of the first; `u` from 0 to 1.
-#[derive(Clone, Debug)]
-pub(super) struct Cubic {
-    first: Vec<f64>,
-    last: Vec<f64>,
-    chord: Vec<f64>,
-}
-
-impl Cubic {
-    pub fn between(solver: &Solver, from: &Node, to: &Node) -> Self {
-        let n = from.tangent.len();
-        let mut chord = vec![0.0; n];
-        solver.system.way(&from.pose, &to.pose, &mut chord);
-        let size = length(&chord);
-        // The chord of an arc that turns by τ is shorter than the arc by a part of τ²/24.
-        let turned: Vec<f64> = from
-            .tangent
-            .iter()
-            .zip(&to.tangent)
-            .map(|(a, b)| a - b)
-            .collect();
-        let arc = size * (1.0 + dot(&turned, &turned) / 24.0);
-        let last = solver.system.chart_velocity(&chord, &to.tangent);
-        Self {
-            first: from.tangent.iter().map(|t| t * arc).collect(),
-            last: last.iter().map(|t| t * arc).collect(),
-            chord,
-        }
-    }
-
-    pub fn at(&self, u: f64) -> Vec<f64> {
-        let (a, b, c) = (
-            u * (1.0 - u) * (1.0 - u),
-            u * u * (3.0 - 2.0 * u),
-            u * u * (u - 1.0),
-        );
-        (0..self.chord.len())
-            .map(|i| a * self.first[i] + b * self.chord[i] + c * self.last[i])
-            .collect()
-    }
-
-    /// One component of [`Self::at`].
-    pub fn component(&self, i: usize, u: f64) -> f64 {
-        u * (1.0 - u) * (1.0 - u) * self.first[i]
-            + u * u * (3.0 - 2.0 * u) * self.chord[i]
-            + u * u * (u - 1.0) * self.last[i]
-    }
-
-    /// One component of [`Self::velocity`].
-    pub fn speed(&self, i: usize, u: f64) -> f64 {
-        (1.0 - u) * (1.0 - 3.0 * u) * self.first[i]
-            + 6.0 * u * (1.0 - u) * self.chord[i]
-            + u * (3.0 * u - 2.0) * self.last[i]
-    }
-
-    pub fn velocity(&self, u: f64) -> Vec<f64> {
-        let (a, b, c) = (
-            (1.0 - u) * (1.0 - 3.0 * u),
-            6.0 * u * (1.0 - u),
-            u * (3.0 * u - 2.0),
-        );
-        (0..self.chord.len())
-            .map(|i| a * self.first[i] + b * self.chord[i] + c * self.last[i])
-            .collect()
-    }
 }
 
 fn attempt(solver: &mut Solver, here: &Node, predictor: &Predictor, step: f64) -> Option<Attempt> {
@@ -403,69 +230,6 @@ fn stopped_by_limit(
     first
 }
 
-/// The pose between two nodes at which an unknown has a value that lies between theirs.
-pub(super) fn at_value(
-    solver: &mut Solver,
-    from: &Node,
-    to: &Node,
-    unknown: usize,
-    value: f64,
-) -> Option<Node> {
-    let cubic = Cubic::between(solver, from, to);
-    let weight = solver.system.weights()[unknown];
-    let wanted = (value - from.pose.values[unknown]) * weight;
-    let (mut low, mut high) = (0.0, 1.0);
-    let rising = cubic.at(1.0)[unknown] > 0.0;
-    for _ in 0..40 {
-        let middle = 0.5 * (low + high);
-        if (cubic.at(middle)[unknown] < wanted) == rising {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    let u = 0.5 * (low + high);
-    let mut pose = from.pose.clone();
-    solver.system.advance(&mut pose, &cubic.at(u));
-    let guess = pose.clone();
-    if solver
-        .correct(&mut pose, Along::Value(unknown, value))
-        .is_none()
-    {
-        // Too close to a dead centre for the value to single out a pose: cut across the curve instead.
-        pose = guess;
-        let mut across = cubic.velocity(u);
-        let size = length(&across);
-        across.iter_mut().for_each(|x| *x /= size);
-        solver.correct(&mut pose, Along::Across(&across))?;
-    }
-    finish(solver, pose, &cubic.velocity(u), from)
-}
-
-/// The node at a pose between nodes.
-pub(super) fn finish(
-    solver: &mut Solver,
-    pose: SystemPose,
-    toward: &[f64],
-    from: &Node,
-) -> Option<Node> {
-    if !solver.linearise(&pose) {
-        return None;
-    }
-    let mut tangent = solver.tangent().to_vec();
-    if dot(&tangent, toward) < 0.0 {
-        tangent.iter_mut().for_each(|t| *t = -*t);
-    }
-    let mut node = Node {
-        margin: solver.margin(),
-        pose,
-        arc: from.arc,
-        tangent,
-    };
-    node.arc += arc_between(solver, from, &node);
-    Some(node)
-}
-
 /// Whether the start lies between two nodes, all joints compared and the tangent too; then the start once more, as it is
 /// counted at this end.
 fn closes(solver: &mut Solver, start: &Node, from: &Node, to: &Node) -> Option<Node> {
@@ -507,7 +271,3 @@ fn closes(solver: &mut Solver, start: &Node, from: &Node, to: &Node) -> Option<N
     }
     None
 }
-
-/// Poses closer than this (metric) are the same: above the accuracy of corrections at poses of ordinary margin, far below
-/// the distance between sheets of a curve that a step can tell apart.
-pub(super) const SAME: f64 = 1e-9;

@@ -24,12 +24,16 @@
 //! Cost: one pose of a single loop takes some microseconds; dense factorizations grow with the cube of a part's unknowns
 //! up to 150, sparse ones serve beyond.
 
+mod bridge;
+mod cubic;
 mod curve;
 mod cusp;
 mod dead_centres;
 mod deflation;
 mod follow;
 mod inputs;
+mod node;
+mod pieces;
 mod ranges;
 mod result;
 mod rows;
@@ -39,6 +43,7 @@ mod solver;
 mod sparse_rows;
 mod system;
 mod trace;
+mod vectors;
 mod walk;
 mod wishes;
 

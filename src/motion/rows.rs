@@ -11,6 +11,8 @@
 //!
 //! Cost: 2 n² m for n unknowns and m equations.
 
+use super::vectors::dot;
+
 /// A workspace for equations of up to a fixed number of unknowns, stored row by row.
 #[derive(Clone, Debug)]
 pub(super) struct DenseRows {
@@ -28,10 +30,6 @@ pub(super) struct DenseRows {
     fixed: Option<Vec<usize>>,
     /// The unit vector that no chosen equation sees.
     pub tangent: Vec<f64>,
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 impl DenseRows {

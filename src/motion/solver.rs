@@ -12,6 +12,7 @@ use super::deflation::Deflation;
 use super::rows::DenseRows;
 use super::sparse_rows::SparseRows;
 use super::system::{Evaluation, LoopSystem, SystemPose};
+use super::vectors::dot;
 use std::sync::Arc;
 
 /// Parts with more unknowns are factored sparsely.
@@ -65,10 +66,6 @@ pub(super) struct Solver {
     row: Vec<f64>,
     /// Largest closure that counts as closed: rounding, or what the file's digits leave.
     pub allowed: f64,
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 impl Solver {

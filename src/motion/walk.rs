@@ -1,8 +1,10 @@
 //! The whole curve through a start: both ways from it, through cusps, with the passages through singular poses.
 
 use super::cusp::pass_cusp;
-use super::follow::{Bounds, Node, Stop, follow};
-use super::singular::{Assembled, Pieces, Singular, assemble, bridge_closed, bridge_open};
+use super::follow::{Bounds, Stop, follow};
+use super::node::Node;
+use super::pieces::{Assembled, Pieces, assemble, bridge_closed, bridge_open};
+use super::singular::Singular;
 use super::solver::Solver;
 
 /// A curve and how it ends.
