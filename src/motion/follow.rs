@@ -7,6 +7,11 @@
 //! Where branches meet, the least singular value of the equations vanishes and neither the tangent nor a correction is
 //! determined. Such a pose is never stepped onto: where the margin falls fast, longer steps are tried until the pose behind
 //! is as regular as the one before (Allgower & Georg 2003, chapter 8: jumping over simple bifurcations).
+//!
+//! Where branches come close without meeting, the same step would lead from one to the other. Both cases change the sign
+//! of the determinant of fixed equations and the tangent. They are told apart on this side of the place: towards a pose
+//! where branches meet, the margin falls to nothing and the tangent stays; past a gap it does not. Gaps down to a
+//! thousandth of a step are seen.
 
 use super::cubic::{Cubic, Predictor, arc_between};
 use super::node::{Node, SAME, at_value, finish};
@@ -51,7 +56,7 @@ const MOST_TURNS: f64 = 12.0;
 const MOST_NODES: usize = 20_000;
 
 /// Nor these, where every one takes the derivative of a rank.
-const MOST_DEFLATED_NODES: usize = 600;
+const MOST_DEFLATED_NODES: usize = 250;
 
 /// Where the margin falls below this share of the one before, longer steps are tried: so many times as long.
 const FALLING: f64 = 0.4;
@@ -102,13 +107,63 @@ fn attempt(solver: &mut Solver, here: &Node, predictor: &Predictor, step: f64) -
     })
 }
 
+/// Steps shorter than this share of the longest are taken without asking what lies between.
+const FINEST_LOOK: f64 = 1e-3;
+
+/// A margin that falls below this share of the one at hand is taken to vanish.
+const VANISHES: f64 = 1e-4;
+
+/// Looks are taken so many times, each this share of the way to where the margin would vanish.
+const LOOKS: usize = 24;
+const APPROACH: f64 = 0.7;
+
+/// Whether a step leads across a gap between branches: the margin falls on the way, but not to nothing. `beyond` is the
+/// margin at its end.
+fn is_a_gap(
+    solver: &mut Solver,
+    here: &Node,
+    predictor: &Predictor,
+    step: f64,
+    beyond: f64,
+) -> bool {
+    let ordinary = 0.5 * here.margin.min(beyond);
+    let mut low = (0.0, here.margin);
+    let mut at = 0.5 * step * here.margin / (here.margin + beyond);
+    let mut missed = 0;
+    for _ in 0..LOOKS {
+        let found = attempt(solver, here, predictor, at).filter(|f| f.turn < 3.0 * TURN);
+        let margin = found.map_or(f64::INFINITY, |f| f.node.margin);
+        if margin < VANISHES * here.margin {
+            return false;
+        }
+        if margin > 0.9 * low.1 {
+            // Beyond the place, or past the least margin: nearer looks tell.
+            missed += 1;
+            if missed > 3 {
+                break;
+            }
+            at = low.0 + 0.4 * (at - low.0);
+            continue;
+        }
+        let zero = at + (at - low.0) * margin / (low.1 - margin);
+        low = (at, margin);
+        at += APPROACH * (zero - at);
+        if at >= step {
+            break;
+        }
+    }
+    low.1 < ordinary
+}
+
 /// Follows the curve from a node in the direction of its tangent. That node is the first of the result; `start` is the
-/// one at which a closed curve is recognised.
+/// one at which a closed curve is recognised. It ends with the first node that is farther than `farthest` (metric) from
+/// the start.
 pub(super) fn follow(
     solver: &mut Solver,
     start: &Node,
     from: &Node,
     bounds: &[Bounds],
+    farthest: f64,
 ) -> (Vec<Node>, Stop) {
     let mut nodes = vec![from.clone()];
     solver.anchor(&from.pose);
@@ -120,13 +175,17 @@ pub(super) fn follow(
         } else {
             MOST_NODES
         };
-        if nodes.len() > most || far_enough(solver, start, &here) {
+        if nodes.len() > most || here.arc - start.arc > farthest || far_enough(solver, start, &here)
+        {
             return (nodes, Stop::Budget);
         }
         let before = (nodes.len() > 1).then(|| nodes[nodes.len() - 2].clone());
         let predictor = Predictor::new(solver, before.as_ref(), &here);
         let limit = longest(&here.tangent);
         step = step.min(limit);
+        solver.linearise(&here.pose);
+        let chosen = solver.chosen();
+        let orientation = solver.orientation(&chosen, &here.pose, &here.tangent);
         let mut next = None;
         while step > SHORTEST_STEP * limit {
             let mut best: Option<Attempt> = None;
@@ -149,6 +208,16 @@ pub(super) fn follow(
                     .as_ref()
                     .is_none_or(|b| found.node.margin > 1.5 * b.node.margin);
                 if better {
+                    let turned = jump > 1.0
+                        || solver.orientation(&chosen, &found.node.pose, &found.node.tangent)
+                            != orientation;
+                    if turned
+                        && orientation != 0.0
+                        && step > FINEST_LOOK * limit
+                        && is_a_gap(solver, &here, &predictor, size, found.node.margin)
+                    {
+                        break;
+                    }
                     best = Some(found);
                 }
                 if !falling {
@@ -270,4 +339,93 @@ fn closes(solver: &mut Solver, start: &Node, from: &Node, to: &Node) -> Option<N
         solver.system.advance(&mut pose, &step);
     }
     None
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::closure::samples::{CRANK_ROCKER, Written, planar, ring};
+    use crate::motion::samples::at_home;
+    use std::f64::consts::{PI, TAU};
+
+    fn around(points: &[[f64; 2]]) -> (Vec<Node>, Stop, Solver) {
+        let mechanism = ring(&planar(points), [0.0; 3], Written::Exactly);
+        let (mut solver, start) = at_home(&mechanism);
+        let (nodes, stop) = follow(&mut solver, &start, &start, &[], f64::INFINITY);
+        (nodes, stop, solver)
+    }
+
+    #[test]
+    fn a_parallelogram_goes_round_through_both_flat_poses() {
+        let (nodes, stop, _) = around(&[[0.0, 0.0], [1.0, 2.0], [4.0, 2.0], [3.0, 0.0]]);
+        assert_eq!(stop, Stop::Closed);
+        // All four hinges turn alike: the arc is a circle's.
+        let last = nodes.last().unwrap();
+        assert!((last.arc - 2.0 * TAU).abs() < 1e-6, "{}", last.arc);
+        for node in &nodes {
+            let v = &node.pose.values;
+            for other in &v[1..] {
+                assert!((other.abs() - v[0].abs()).abs() < 1e-11, "{v:?}");
+            }
+            assert!((node.tangent[0].abs() - 0.5).abs() < 1e-9);
+        }
+        assert!(nodes.iter().any(|n| (n.pose.values[0] - PI).abs() < 0.3));
+    }
+
+    #[test]
+    fn a_gap_between_branches_is_not_crossed() {
+        // Close to a parallelogram: its two motions no longer meet, and coupler and rocker never stretch, so that each
+        // motion keeps the side on which their hinge lies. Grashof's margin is given.
+        for margin in [3e-1, 1e-2, 1e-3, 1e-4] {
+            let points = [[0.0, 0.0], [0.0, 1.0], [3.0, 1.0], [3.0, -margin]];
+            let (nodes, stop, solver) = around(&points);
+            assert_eq!(stop, Stop::Closed, "{margin}");
+            let turned = |p: [f64; 2], angle: f64| {
+                let (s, c) = angle.sin_cos();
+                [c * p[0] - s * p[1], s * p[0] + c * p[1]]
+            };
+            let sides: Vec<f64> = nodes
+                .iter()
+                .map(|node| {
+                    let v = &node.pose.values;
+                    let tip = turned(points[1], v[0]);
+                    let coupler = turned([3.0, 0.0], v[0] + v[1]);
+                    let end = [tip[0] + coupler[0], tip[1] + coupler[1]];
+                    let rocker = [points[3][0] - end[0], points[3][1] - end[1]];
+                    coupler[0] * rocker[1] - coupler[1] * rocker[0]
+                })
+                .collect();
+            assert!(
+                sides.iter().all(|s| (*s < 0.0) == (sides[0] < 0.0)),
+                "{margin}"
+            );
+            assert!((nodes.last().unwrap().pose.values[0] - TAU).abs() < 1e-9);
+            drop(solver);
+        }
+    }
+
+    #[test]
+    fn a_limit_ends_the_curve_where_it_is() {
+        let mechanism = ring(&planar(&CRANK_ROCKER), [0.0; 3], Written::Exactly);
+        let (mut solver, start) = at_home(&mechanism);
+        let bound = Bounds {
+            unknown: 0,
+            lower: -1.0,
+            upper: 0.75,
+        };
+        let (nodes, stop) = follow(&mut solver, &start, &start, &[bound], f64::INFINITY);
+        assert_eq!(
+            stop,
+            Stop::Limit {
+                unknown: 0,
+                value: 0.75
+            }
+        );
+        assert_eq!(nodes.last().unwrap().pose.values[0], 0.75);
+        let (nodes, stop) = follow(&mut solver, &start, &start, &[], 1.0);
+        assert_eq!(stop, Stop::Budget);
+        let arc = nodes.last().unwrap().arc;
+        assert!(arc > 1.0 && arc < 2.0);
+    }
 }

@@ -37,6 +37,9 @@ mod pieces;
 mod ranges;
 mod result;
 mod rows;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod samples;
 mod sampling;
 mod singular;
 mod solver;

@@ -138,6 +138,19 @@ impl DenseRows {
         sound
     }
 
+    /// The sign of the determinant of the chosen equations, in the order in which they were chosen, with a tangent as the
+    /// last row. It means something between poses only for equations chosen beforehand.
+    pub fn orientation(&self, tangent: &[f64]) -> f64 {
+        let turned = self.diagonal[..self.rank]
+            .iter()
+            .filter(|d| **d < 0.0)
+            .count()
+            % 2
+            == 1;
+        let along = dot(&self.tangent, tangent).signum();
+        if turned { -along } else { along }
+    }
+
     /// x ← Q x.
     fn rotate(&self, x: &mut [f64]) {
         let n = self.unknowns;

@@ -372,3 +372,51 @@ fn root_near(coefficients: &[f64], guess: f64, crosses: bool) -> Option<f64> {
     }
     Some(x)
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::closure::samples::{CRANK_ROCKER, Written, planar, ring};
+    use crate::motion::follow::follow;
+    use crate::motion::pieces::bridge_closed;
+    use crate::motion::samples::at_home;
+
+    fn met(points: &[[f64; 2]]) -> Vec<Singular> {
+        let mechanism = ring(&planar(points), [0.0; 3], Written::Exactly);
+        let (mut solver, start) = at_home(&mechanism);
+        let (nodes, _) = follow(&mut solver, &start, &start, &[], f64::INFINITY);
+        let pieces = bridge_closed(&mut solver, &nodes);
+        pieces.into_iter().filter_map(|(_, s)| s).collect()
+    }
+
+    #[test]
+    fn a_parallelogram_is_singular_where_it_is_flat() {
+        let found = met(&[[0.0, 0.0], [1.0, 2.0], [4.0, 2.0], [3.0, 0.0]]);
+        assert_eq!(found.len(), 2);
+        let crank = 2.0f64.atan2(1.0);
+        for singular in &found {
+            assert_eq!((singular.freedom, singular.crosses), (2, true));
+            let angle = crank + singular.pose.values[0];
+            assert!(angle.sin().abs() < 1e-11, "{angle}");
+        }
+    }
+
+    #[test]
+    fn a_crank_and_rocker_is_never_singular() {
+        assert!(met(&CRANK_ROCKER).is_empty());
+    }
+
+    #[test]
+    fn roots_are_those_of_the_polynomial() {
+        // (x − 0.1)(x + 3), and a square that touches zero at −0.05.
+        assert!((root_near(&[-0.3, 2.9, 1.0], 0.0, true).unwrap() - 0.1).abs() < 1e-15);
+        let touching = [0.0025, 0.1, 1.0];
+        assert!((root_near(&touching, 0.0, false).unwrap() + 0.05).abs() < 1e-15);
+        let seen = [(0.0, 4.0), (1.0, 1.0), (2.0, 0.5), (3.0, 2.0)];
+        let least = rough_root(&seen).unwrap();
+        assert!(least > 1.0 && least < 3.0);
+        assert_eq!(rough_root(&[(0.0, -1.0), (1.0, 3.0)]), Some(0.25));
+        assert_eq!(rough_root(&[(0.0, 1.0), (1.0, 2.0)]), None);
+    }
+}

@@ -84,7 +84,7 @@ struct CompiledJoint {
 ///
 /// Variables of hinges and slides are counted continuously (two turns are 4π). Those of a ball are the components of its
 /// rotation vector, continued from pose to pose.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct SystemPose {
     /// One value per unknown (rad, m).
     pub values: Vec<f64>,

@@ -28,7 +28,7 @@ fn one_way(solver: &mut Solver, start: &Node, bounds: &[Bounds]) -> (Vec<Leg>, S
     let mut legs: Vec<Leg> = Vec::new();
     let mut from = start.clone();
     loop {
-        let (mut nodes, stop) = follow(solver, start, &from, bounds);
+        let (mut nodes, stop) = follow(solver, start, &from, bounds, f64::INFINITY);
         if stop == Stop::Stuck
             && legs.len() < MOST_CUSPS
             && let Some((kept, cusp)) = pass_cusp(solver, &nodes, start)

@@ -126,6 +126,46 @@ impl LoopSystem {
         cycles.chain(couplings)
     }
 
+    /// How the Jacobian changes: calls `visit(first row, column, unknown, change)` for every column of a cycle and every
+    /// unknown that moves it, `change` being the derivative of the six entries from that row on.
+    ///
+    /// A joint on the way around a cycle carries along the screws of all joints behind it, so that the derivative of a
+    /// screw is the Lie bracket of both (Herve 1978; Selig 2005, section 4.3); couplings are linear.
+    pub(in crate::motion) fn visit_changes(
+        &self,
+        evaluation: &Evaluation,
+        mut visit: impl FnMut(usize, usize, usize, [f64; 6]),
+    ) {
+        let mut first = 0;
+        for (cycle, compiled) in self.cycles.iter().enumerate() {
+            // Place of every factor's screws among the entries; a ball passed forward carries along its own.
+            let mut passed: Vec<usize> = Vec::new();
+            let mut next = first;
+            for passage in &compiled.passages {
+                let own = next..next + self.factors[passage.factor].generators.len();
+                next = own.end;
+                if passage.forward {
+                    passed.extend(own.clone());
+                }
+                for column in own.clone() {
+                    for &by in &passed {
+                        let change = bracket(&evaluation.entries[by], &evaluation.entries[column]);
+                        visit(
+                            6 * cycle,
+                            self.pattern[column].1,
+                            self.pattern[by].1,
+                            change,
+                        );
+                    }
+                }
+                if !passage.forward {
+                    passed.extend(own);
+                }
+            }
+            first = next;
+        }
+    }
+
     /// The derivative of an unknown's *value* with respect to the metric unknowns, in the metric: a unit vector for hinges
     /// and slides; for a ball the row of the rotation vector's derivative. Written to `row`.
     pub fn value_row(&self, pose: &SystemPose, unknown: usize, row: &mut [f64]) {
@@ -154,4 +194,23 @@ impl LoopSystem {
             *slot = wanted.iter().zip(&image).map(|(w, i)| w * i).sum();
         }
     }
+}
+
+/// The Lie bracket of two twists (ω; v) about one point.
+fn bracket(a: &[f64; 6], b: &[f64; 6]) -> [f64; 6] {
+    let (turn_a, slide_a) = ([a[0], a[1], a[2]], [a[3], a[4], a[5]]);
+    let (turn_b, slide_b) = ([b[0], b[1], b[2]], [b[3], b[4], b[5]]);
+    let turn = cross_product(&turn_a, &turn_b);
+    let (one, two) = (
+        cross_product(&turn_a, &slide_b),
+        cross_product(&slide_a, &turn_b),
+    );
+    [
+        turn[0],
+        turn[1],
+        turn[2],
+        one[0] + two[0],
+        one[1] + two[1],
+        one[2] + two[2],
+    ]
 }

@@ -124,6 +124,10 @@ impl Tracer<'_> {
         let Some((_, found, variable)) = best else {
             return Ok(None);
         };
+        let own = found.curve.solver.system.unknowns_of(variable.joint);
+        if own.is_some_and(|r| r.start + variable.freedom == found.curve.drive) {
+            return Ok(Some((found, variable)));
+        }
         // Followed anew, so that the driven variable grows along the curve and its dead centres part the stretches.
         let again = self.curve_driven_by(&variable, hold)?;
         Ok(again.or(Some((found, variable))))

@@ -3,7 +3,7 @@
 use super::{Found, Stage, Tracer};
 use crate::motion::curve::{Curve, WholeFrame};
 use crate::motion::dead_centres::{DeadCentre, LOCKED, dead_centres};
-use crate::motion::follow::{Bounds, follow};
+use crate::motion::follow::{Bounds, Stop, follow};
 use crate::motion::node::{Node, SAME, node_at};
 use crate::motion::pieces::Assembled;
 use crate::motion::result::TraceError;
@@ -58,6 +58,12 @@ impl Tracer<'_> {
             shapes,
             singular,
         } = assembled;
+        if solver.is_deflated() && stops.contains(&Stop::Budget) {
+            notes.push(
+                "branch shaky all along: followed for a limited number of poses, each of which takes the derivative of a rank"
+                    .to_owned(),
+            );
+        }
         let home = system.pose(&self.analysis.assembly.states);
         let mut states = self.analysis.assembly.states.clone();
         if let Some(pose) = self.branch.poses.first().filter(|_| !starts_at_home) {
@@ -164,7 +170,7 @@ fn away_from_home(solver: &mut Solver, start: Node, bounds: &[Bounds]) -> Node {
     let mut back = start.clone();
     back.tangent.iter_mut().for_each(|t| *t = -*t);
     for (from, sign) in [(&start, 1.0), (&back, -1.0)] {
-        for node in follow(solver, from, from, bounds).0 {
+        for node in follow(solver, from, from, bounds, SEARCHED).0 {
             if node.arc < SEARCHED && node.margin > best.margin * (1.0 + 1e-6) {
                 best = node;
                 best.tangent.iter_mut().for_each(|t| *t *= sign);
