@@ -73,7 +73,7 @@ pub use relative_motion::{motions_to_ground, relative_motions};
 pub use roles::{JointRole, freedom_groups, roles_of_part};
 pub use structure::{Structure, constraint_graph};
 pub use subgroup::{SubgroupFinding, subgroup_finding};
-pub(crate) use tracing::tangents_at;
 pub use tracing::{PartPose, poses_of_regular_part};
+pub(crate) use tracing::tangents_at;
 pub use verdict::{Mobility, Nominal, judge, unassembled};
 pub use vocabulary::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};

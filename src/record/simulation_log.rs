@@ -82,16 +82,13 @@ impl<'r, 'a, W: Write> SimulationLog<'r, 'a, W> {
             ..Motion::of_links(moment.simulated)
         };
         let predicted_values = moment.predicted.map(|(_, states)| values_of(states));
-        let predicted =
-            moment
-                .predicted
-                .zip(predicted_values.as_ref())
-                .map(|((links, _), values)| Motion {
-                    joints: values,
-                    ..Motion::of_links(links)
-                });
-        self.recorder
-            .moment(time, predicted.as_ref(), Some(&simulated))?;
+        let predicted = moment.predicted.zip(predicted_values.as_ref()).map(|((links, _), values)| {
+            Motion {
+                joints: values,
+                ..Motion::of_links(links)
+            }
+        });
+        self.recorder.moment(time, predicted.as_ref(), Some(&simulated))?;
         self.until = self.until.max(time);
         let largest = |of: fn(&crate::simulate::JointGap) -> f64| {
             moment.gaps.iter().map(of).fold(0.0, f64::max)

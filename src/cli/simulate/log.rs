@@ -14,7 +14,9 @@ use kutzbach::record::{
     record_motion,
 };
 use kutzbach::report::Options;
-use kutzbach::simulate::verification::{Finding, Moment, Observer, Passage, VerificationOptions};
+use kutzbach::simulate::verification::{
+    Finding, Moment, Observer, Passage, VerificationOptions,
+};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -239,13 +241,15 @@ impl<'a> Log<'a> {
             return Ok(None);
         };
         let text = format!("{}: {}", finding.outcome.word(), finding.why);
-        let finished = recorder.log(self.until, Level::Info, &text).and_then(|()| {
-            if stopped {
-                recorder.finish_early("interrupted")
-            } else {
-                recorder.finish()
-            }
-        });
+        let finished = recorder
+            .log(self.until, Level::Info, &text)
+            .and_then(|()| {
+                if stopped {
+                    recorder.finish_early("interrupted")
+                } else {
+                    recorder.finish()
+                }
+            });
         match finished {
             Ok(summary) => Ok(Some((path.display().to_string(), summary))),
             Err(error) => Err(unwritten(path, &error)),

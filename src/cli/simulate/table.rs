@@ -97,10 +97,7 @@ pub fn text(simulated: &Simulated<'_>, layout: Layout) -> String {
         let left = verification.notes.len().saturating_sub(shown);
         if left > 0 {
             page.item(
-                &format!(
-                    "… and {}: `--verbose` shows them",
-                    counted(left, "more note")
-                ),
+                &format!("… and {}: `--verbose` shows them", counted(left, "more note")),
                 Tint::Quiet,
             );
         }
@@ -133,12 +130,7 @@ fn branch_page(branch: &BranchVerification, page: &mut Page) {
         counted(branch.dimension, "freedom")
     ));
     if branch.ladders.is_empty() {
-        page.paragraph(
-            &sentence(&branch.finding),
-            tint(branch.finding.outcome),
-            "  ",
-            "  ",
-        );
+        page.paragraph(&sentence(&branch.finding), tint(branch.finding.outcome), "  ", "  ");
     }
     for ladder in &branch.ladders {
         let held = if ladder.held.is_empty() {
@@ -180,12 +172,7 @@ fn branch_page(branch: &BranchVerification, page: &mut Page) {
             ]);
         }
         page.table(&table, "rungs");
-        page.paragraph(
-            &sentence(&ladder.finding),
-            tint(ladder.finding.outcome),
-            "  ",
-            "  ",
-        );
+        page.paragraph(&sentence(&ladder.finding), tint(ladder.finding.outcome), "  ", "  ");
     }
     if let Some(count) = &branch.freedoms {
         page.paragraph(

@@ -8,9 +8,7 @@
 use crate::closure::{Geometry, JointState};
 use crate::mechanism::{FreedomPart, JointKind, Mechanism};
 use crate::mobility::{Analysis, Branch};
-use crate::motion::{
-    Curve, End, EndReason, EventKind, Motion, Trace, TraceOptions, Variable, trace,
-};
+use crate::motion::{Curve, End, EndReason, EventKind, Motion, Trace, TraceOptions, Variable, trace};
 use std::f64::consts::TAU;
 
 /// A way along a branch that one driven freedom determines.
@@ -130,10 +128,7 @@ pub(super) fn ways_along(
         for &joint in &part.joints {
             for freedom in 0..mechanism.joints()[joint].freedom() {
                 let column = offsets[joint] + freedom;
-                let size = pose
-                    .tangents
-                    .iter()
-                    .fold(0.0f64, |m, t| m.max(t[column].abs()));
+                let size = pose.tangents.iter().fold(0.0f64, |m, t| m.max(t[column].abs()));
                 if size > 1.001 * best.as_ref().map_or(1e-9, |(most, _)| *most) {
                     best = Some((size, Variable::of(mechanism, joint, freedom)));
                 }
@@ -203,14 +198,7 @@ fn way_of(
     let mut best: Option<Side> = None;
     for side in [1.0, -1.0] {
         let barrier = barrier(&motion, origin, least, side);
-        let found = side_of(
-            geometry,
-            &units,
-            &start,
-            &driven,
-            &mut motion.curve,
-            &barrier,
-        );
+        let found = side_of(geometry, &units, &start, &driven, &mut motion.curve, &barrier);
         if best
             .as_ref()
             .is_none_or(|other| (found.to - from).abs() > 1.001 * (other.to - from).abs())
@@ -407,11 +395,7 @@ fn barrier(motion: &Motion, origin: f64, least_margin: f64, side: f64) -> Barrie
     }
     for (arclength, margin) in motion.curve.margins() {
         if margin < least_margin {
-            meet(
-                arclength,
-                1.0,
-                "short of where the equations are ill-conditioned",
-            );
+            meet(arclength, 1.0, "short of where the equations are ill-conditioned");
         }
     }
     nearest

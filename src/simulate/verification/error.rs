@@ -1,7 +1,7 @@
 //! Why a verification cannot be made.
 
-use crate::matrix::MatrixError;
 use crate::simulate::WorldError;
+use crate::matrix::MatrixError;
 use thiserror::Error;
 
 /// What stops a verification. That it does not confirm a prediction is an answer, not an error.

@@ -10,10 +10,10 @@
 
 use super::scale::LinkInertia;
 use super::{Finding, Outcome, VerificationError};
+use crate::simulate::{Solver, World, WorldOptions};
 use crate::closure::{Geometry, JointState, Rigid, cross_product, spanning_poses};
 use crate::matrix::SplitMix64;
 use crate::mechanism::Mechanism;
-use crate::simulate::{Solver, World, WorldOptions};
 use faer::Mat;
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -266,7 +266,10 @@ fn blow(random: &mut SplitMix64, pose: &Rigid<f64>, body: &LinkInertia, energy: 
     let centre = pose.apply(&body.centre);
     let about_origin = cross_product(&centre, &force);
     let moment = pose.rotate(&moment);
-    six(force, std::array::from_fn(|i| moment[i] + about_origin[i]))
+    six(
+        force,
+        std::array::from_fn(|i| moment[i] + about_origin[i]),
+    )
 }
 
 /// Velocities, each weighted by the root of its inertia. With blows of like energy what the joints leave of them is then
@@ -367,20 +370,14 @@ mod tests {
         let other = counted(&[3.0, 1.0, 1e-6, 1e-7], (1, 1), (0.0, 1e-8), 1);
         assert_eq!(other.finding.outcome, Outcome::Contradicted);
         let shaky = counted(&[3.0, 1e-6, 1e-7], (1, 2), (0.0, 1e-8), 1);
-        assert_eq!(
-            (shaky.found, shaky.finding.outcome),
-            (1, Outcome::Confirmed)
-        );
+        assert_eq!((shaky.found, shaky.finding.outcome), (1, Outcome::Confirmed));
         let level = counted(&[3.0, 1.0, 0.3, 0.1], (2, 2), (0.0, 1e-8), 1);
         assert_eq!(level.finding.outcome, Outcome::Inconclusive);
     }
 
     #[test]
     fn what_dies_away_is_no_freedom() {
-        assert_eq!(
-            steady(&[1.0, 0.3, 0.06, 1e-5], &[1.0, 0.29, 0.002, 1e-6]),
-            2
-        );
+        assert_eq!(steady(&[1.0, 0.3, 0.06, 1e-5], &[1.0, 0.29, 0.002, 1e-6]), 2);
         assert_eq!(steady(&[1.0, 0.3], &[1.0, 0.3]), 2);
     }
 

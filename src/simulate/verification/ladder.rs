@@ -183,9 +183,7 @@ pub fn judge_motion(rungs: &[Rung]) -> Option<Finding> {
                 "the closure error falls with the power {:.1} of the substeps, to {:.1e} of the \
                  characteristic length, and the simulated mechanism stays within {:.1e} of the \
                  predicted motion",
-                order.unwrap_or_default(),
-                last.closure_error,
-                last.distance
+                order.unwrap_or_default(), last.closure_error, last.distance
             )
         };
         return Some(Finding::new(Outcome::Confirmed, why));
@@ -223,11 +221,8 @@ fn keeps_near(rungs: &[Rung]) -> bool {
     let [.., first, _, last] = rungs else {
         return rungs.last().is_some_and(|r| r.distance <= FINE_ENOUGH);
     };
-    let falls = order_between(
-        (first.substeps, first.distance),
-        (last.substeps, last.distance),
-    )
-    .is_none_or(|order| order >= 0.5 * LEAST_ORDER);
+    let falls = order_between((first.substeps, first.distance), (last.substeps, last.distance))
+        .is_none_or(|order| order >= 0.5 * LEAST_ORDER);
     last.distance <= FINE_ENOUGH.max(10.0 * last.closure_error)
         || falls && last.distance <= 2.0 * last.closure_error.sqrt()
 }
@@ -255,9 +250,8 @@ pub fn undecided(rungs: &[Rung]) -> Finding {
             "the closure error is {:.1e} at {} substeps{}; finer substeps may decide",
             last.closure_error,
             last.substeps,
-            last.order.map_or(String::new(), |o| format!(
-                " and fell with the power {o:.1}"
-            )),
+            last.order
+                .map_or(String::new(), |o| format!(" and fell with the power {o:.1}")),
         ),
     };
     Finding::new(Outcome::Inconclusive, why)
@@ -296,9 +290,7 @@ mod tests {
     }
 
     fn with_defect(defect: f64, rungs: i32) -> Vec<f64> {
-        (0..rungs)
-            .map(|i| defect + 1e-3 * 0.25f64.powi(i))
-            .collect()
+        (0..rungs).map(|i| defect + 1e-3 * 0.25f64.powi(i)).collect()
     }
 
     #[test]
@@ -344,7 +336,10 @@ mod tests {
     fn a_drive_that_stalls_with_the_loops_closed_contradicts() {
         let mut stuck = rungs(&[1e-6, 1e-6]);
         stuck.iter_mut().for_each(|r| r.progress = 0.01);
-        assert_eq!(judge_motion(&stuck).unwrap().outcome, Outcome::Contradicted);
+        assert_eq!(
+            judge_motion(&stuck).unwrap().outcome,
+            Outcome::Contradicted
+        );
         // Half way is neither.
         stuck.iter_mut().for_each(|r| r.progress = 0.7);
         assert_eq!(judge_motion(&stuck), None);
@@ -362,11 +357,7 @@ mod tests {
     #[test]
     fn what_came_apart_says_nothing() {
         assert_eq!(outcome(&[1.0, 2.0, f64::NAN]), None);
-        assert!(
-            undecided(&rungs(&[1.0, f64::NAN]))
-                .why
-                .contains("came apart")
-        );
+        assert!(undecided(&rungs(&[1.0, f64::NAN])).why.contains("came apart"));
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! Watching a simulation while it runs: logs and progress bars.
 
-use crate::closure::{JointState, Rigid};
 use crate::motion::Variable;
 use crate::simulate::JointGap;
+use crate::closure::{JointState, Rigid};
 use std::ops::ControlFlow;
 
 /// One moment of a simulation, and what was predicted for it.

@@ -111,10 +111,7 @@ impl<'a> Prediction<'a> {
     pub fn distance(&self, simulated: &[Rigid<f64>]) -> f64 {
         let mut largest: f64 = 0.0;
         for (joint, sides) in self.mechanism.joints().iter().zip(&self.geometry.sides) {
-            for (side, frame) in [&joint.predecessor, &joint.successor]
-                .into_iter()
-                .zip(sides)
-            {
+            for (side, frame) in [&joint.predecessor, &joint.successor].into_iter().zip(sides) {
                 let here = &simulated[side.link.0];
                 let there = &self.poses[side.link.0];
                 let a = here.apply(&frame.translation);

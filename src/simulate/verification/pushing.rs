@@ -5,13 +5,13 @@
 //! One that is rigid stays, but for what the simulated joints give way: a gap that the solver leaves lets a joint move by
 //! as much as the gap over the lever it acts on, and at a shaky pose by the square root of it.
 
-use super::VerificationError;
 use super::ladder::{Finding, Outcome};
 use super::observer::{Moment, Observer, Passage};
-use crate::closure::{Geometry, JointState};
-use crate::mechanism::{FreedomPart, Mechanism};
+use super::VerificationError;
 use crate::motion::Variable;
 use crate::simulate::{Drive, Solver, World, WorldOptions};
+use crate::closure::{Geometry, JointState};
+use crate::mechanism::{FreedomPart, Mechanism};
 use serde::Serialize;
 
 /// Seconds that a push lasts.

@@ -438,11 +438,11 @@ impl Test<'_> {
         };
         let mut world = World::new(self.mechanism, self.geometry, &way.start, &options)?;
         let (_, effort) = world.scale();
-        let unit = |input: &Variable| match self.mechanism.joints()[input.joint].kind.freedoms()
-            [input.freedom]
-        {
-            FreedomPart::Translation => self.length,
-            FreedomPart::Rotation | FreedomPart::Screw => 1.0,
+        let unit = |input: &Variable| {
+            match self.mechanism.joints()[input.joint].kind.freedoms()[input.freedom] {
+                FreedomPart::Translation => self.length,
+                FreedomPart::Rotation | FreedomPart::Screw => 1.0,
+            }
         };
         let drive = |world: &mut World, input: &Variable, velocity: f64, effort: f64| {
             let fastest = FASTEST * unit(input);
