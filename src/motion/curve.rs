@@ -4,10 +4,12 @@
 //! Across a singular pose the shape is a polynomial through poses on either side, found away from it, and a pose close to
 //! the singular one is what it says, uncorrected.
 
-use super::follow::{Cubic, Node, dot, length};
-use super::singular::Bridge;
+use super::bridge::Bridge;
+use super::cubic::Cubic;
+use super::node::Node;
 use super::solver::{Along, Solver};
 use super::system::SystemPose;
+use super::vectors::{dot, length};
 use crate::closure::{Geometry, JointState, Rigid, spanning_poses};
 use crate::mechanism::Mechanism;
 use std::sync::Arc;

@@ -10,10 +10,13 @@
 //!    root of that order is a power series with a simple zero at the cusp, which interpolation finds;
 //! 3. the polynomial in τ through poses on both halves passes the cusp, at τ = 0.
 
-use super::follow::{Cubic, Node, dot, finish, length};
-use super::singular::{Bridge, Singular, horner, interpolate, kernels};
+use super::bridge::{Bridge, horner, interpolate};
+use super::cubic::Cubic;
+use super::node::{Node, finish};
+use super::singular::{Singular, kernels};
 use super::solver::{Along, Solver};
 use super::system::SystemPose;
+use super::vectors::{dot, length};
 
 /// Places of poses on one half, in units of the largest τ.
 const PLACES: [f64; 8] = [0.14, 0.22, 0.35, 0.48, 0.61, 0.74, 0.87, 1.0];
@@ -294,4 +297,53 @@ fn turning_place(halves: &[Half], end: f64) -> Option<f64> {
         }
     }
     Some(end + x * span)
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_halves_of_a_known_cusp_meet_where_they_should() {
+        // (x, y) = (e − τ², a τ³ (1 + τ²)): the halves at x lie ±y apart.
+        let (end, tip) = (0.3, 0.3017);
+        for power in [3, 5] {
+            let halves: Vec<Half> = PLACES
+                .iter()
+                .map(|place| {
+                    let along = end - (0.4 * place).powi(2);
+                    let tau: f64 = f64::sqrt(tip - along);
+                    let y = 0.7 * tau.powi(power) * (1.0 + tau * tau);
+                    let pose = || SystemPose::default();
+                    Half {
+                        along,
+                        before: (pose(), vec![along, y]),
+                        after: (pose(), vec![along, -y]),
+                    }
+                })
+                .collect();
+            let found = turning_place(&halves, end).unwrap();
+            assert!((found - tip).abs() < 1e-10, "{power}: {found}");
+        }
+    }
+
+    #[test]
+    fn an_end_that_is_no_cusp_is_not_taken_for_one() {
+        // An ordinary turning point: the halves part as the root of what is left.
+        let end = 0.3;
+        let halves: Vec<Half> = PLACES
+            .iter()
+            .map(|place| {
+                let tau = 0.4 * place;
+                let along = end - tau * tau;
+                Half {
+                    along,
+                    before: (SystemPose::default(), vec![along, tau]),
+                    after: (SystemPose::default(), vec![along, -tau]),
+                }
+            })
+            .collect();
+        assert!(turning_place(&halves, end).is_none());
+    }
 }

@@ -14,15 +14,18 @@
 //! add the same information with more unknowns). Where even these leave more than one direction, the branch cannot be
 //! followed by this means.
 //!
-//! Derivatives of G are taken by symmetric differences with steps of 1e-5, off by about 1e-10 of themselves. That does not
-//! matter to the poses, which the values of G decide; tangents are as good as that.
+//! Derivatives of G follow from those of A, which are Lie brackets of its columns; only the rows of held balls take
+//! symmetric differences, with steps of 1e-5, off by about 1e-10 of themselves. The chart of a rod turns about it on the
+//! way, which the derivative leaves out: that changes A by a factor from the right, and G not at all to first order where
+//! it vanishes.
 
 use super::system::{Evaluation, LoopSystem, SystemPose};
 use nalgebra::{DMatrix, DVector};
 
+/// Step of a difference (metric).
 const DIFFERENCE: f64 = 1e-5;
 
-/// Parts with more unknowns are not deflated: the derivative costs their fourth power.
+/// Parts with more unknowns are not deflated: the entries of G are products of two kernels and grow with them.
 const MOST_UNKNOWNS: usize = 60;
 
 /// The equations that say that the rank is what it is all along the branch.
@@ -153,19 +156,44 @@ impl Deflation {
         };
         let x = x.rows(0, columns).into_owned();
         let w = w.rows(0, rows).transpose();
+        let mut evaluation = Evaluation::default();
+        system.evaluate(pose, &mut evaluation);
+        let mut add = |row: usize, column: usize, unknown: usize, change: f64| {
+            for b in 0..x.ncols() {
+                let seen = change * x[(column, b)];
+                for a in 0..w.nrows() {
+                    into[(b * w.nrows() + a) * n + unknown] -= w[(a, row)] * seen;
+                }
+            }
+        };
+        system.visit_changes(&evaluation, |first, column, unknown, change| {
+            for (row, value) in change.into_iter().enumerate() {
+                add(first + row, column, unknown, value);
+            }
+        });
+        // The values of balls are no linear functions of a step; held ones change their rows.
         let mut z = vec![0.0; n];
-        for unknown in 0..n {
-            let mut at = |way: f64| {
+        for (index, (held, _)) in self.holds.iter().enumerate() {
+            if system.is_scalar(*held) {
+                continue;
+            }
+            let mut at = |unknown: usize, way: f64| {
                 z[unknown] = way;
                 let mut there = pose.clone();
                 system.advance(&mut there, &z);
                 z[unknown] = 0.0;
-                jacobian(system, &there, &self.holds)
+                let mut row = vec![0.0; n];
+                system.value_row(&there, *held, &mut row);
+                row
             };
-            let change = (at(DIFFERENCE) - at(-DIFFERENCE)) / (2.0 * DIFFERENCE);
-            let g = &w * (change * &x);
-            for (equation, value) in g.iter().enumerate() {
-                into[equation * n + unknown] = -value;
+            for unknown in 0..n {
+                let (ahead, behind) = (at(unknown, DIFFERENCE), at(unknown, -DIFFERENCE));
+                for (column, (p, q)) in ahead.iter().zip(&behind).enumerate() {
+                    let change = (p - q) / (2.0 * DIFFERENCE);
+                    if change != 0.0 {
+                        add(system.equations() + index, column, unknown, change);
+                    }
+                }
             }
         }
     }
@@ -210,4 +238,70 @@ fn complement(columns: &DMatrix<f64>) -> DMatrix<f64> {
         added.push(unit);
     }
     DMatrix::from_fn(size, added.len(), |i, j| added[j][i])
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::motion::samples::system;
+
+    fn shaky() -> (std::sync::Arc<LoopSystem>, SystemPose) {
+        let text = include_str!("../../tests/zoo/permanently_shaky_fourbar.urdf");
+        let mechanism = crate::format::read(text, "shaky", &[]).unwrap().mechanism;
+        system(&mechanism)
+    }
+
+    #[test]
+    fn the_bordered_matrix_vanishes_where_the_rank_is_what_it_was() {
+        let (system, pose) = shaky();
+        let deflation = Deflation::new(&system, &pose, &[], 1).unwrap();
+        assert!(deflation.equations() > 0);
+        let mut right = Vec::new();
+        deflation.residual(&system, &pose, &mut right);
+        assert_eq!(right.len(), deflation.equations());
+        assert!(right.iter().all(|g| g.abs() < 1e-13), "{right:?}");
+    }
+
+    #[test]
+    fn rows_are_the_derivative_of_the_bordered_matrix() {
+        let mechanism = crate::closure::samples::sarrus();
+        for (system, home) in [shaky(), system(&mechanism)] {
+            let n = system.unknowns();
+            let deflation = Deflation::new(&system, &home, &[], 1).unwrap();
+            let mut pose = home.clone();
+            let off: Vec<f64> = (0..n).map(|i| 0.03 * (i as f64 + 1.0).sin()).collect();
+            system.advance(&mut pose, &off);
+            let count = deflation.equations();
+            let mut rows = vec![0.0; count * n];
+            deflation.rows(&system, &pose, &mut rows);
+            for unknown in 0..n {
+                let at = |way: f64| {
+                    let mut z = vec![0.0; n];
+                    z[unknown] = way;
+                    let mut there = pose.clone();
+                    system.advance(&mut there, &z);
+                    let mut right = Vec::new();
+                    deflation.residual(&system, &there, &mut right);
+                    right
+                };
+                let (ahead, behind) = (at(1e-5), at(-1e-5));
+                for equation in 0..count {
+                    // `residual` is −G.
+                    let quotient = (behind[equation] - ahead[equation]) / 2e-5;
+                    let row = rows[equation * n + unknown];
+                    assert!((quotient - row).abs() < 1e-7, "{quotient} {row}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_complement_is_orthonormal() {
+        let columns = DMatrix::from_columns(&[DVector::from_vec(vec![0.6, 0.0, 0.8])]);
+        let rest = complement(&columns);
+        assert_eq!(rest.shape(), (3, 2));
+        let gram = rest.transpose() * &rest - DMatrix::identity(2, 2);
+        assert!(gram.norm() < 1e-14 && (columns.transpose() * rest).norm() < 1e-14);
+    }
 }

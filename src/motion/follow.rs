@@ -7,21 +7,16 @@
 //! Where branches meet, the least singular value of the equations vanishes and neither the tangent nor a correction is
 //! determined. Such a pose is never stepped onto: where the margin falls fast, longer steps are tried until the pose behind
 //! is as regular as the one before (Allgower & Georg 2003, chapter 8: jumping over simple bifurcations).
+//!
+//! Where branches come close without meeting, the same step would lead from one to the other. Both cases change the sign
+//! of the determinant of fixed equations and the tangent. They are told apart on this side of the place: towards a pose
+//! where branches meet, the margin falls to nothing and the tangent stays; past a gap it does not. Gaps down to
+//! about a fifth of a step are seen; a narrower one may be crossed.
 
+use super::cubic::{Cubic, Predictor, arc_between};
+use super::node::{Node, SAME, at_value, finish};
 use super::solver::{Along, Solver};
-use super::system::SystemPose;
-
-/// A pose of a curve.
-#[derive(Clone, Debug)]
-pub(super) struct Node {
-    pub pose: SystemPose,
-    /// Arclength in the metric, from the start.
-    pub arc: f64,
-    /// Unit tangent in the metric, in the direction of growing arclength.
-    pub tangent: Vec<f64>,
-    /// Least singular value of the chosen equations.
-    pub margin: f64,
-}
+use super::vectors::{dot, length};
 
 /// Why a curve was followed no further.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,72 +56,15 @@ const MOST_TURNS: f64 = 12.0;
 const MOST_NODES: usize = 20_000;
 
 /// Nor these, where every one takes the derivative of a rank.
-const MOST_DEFLATED_NODES: usize = 600;
+const MOST_DEFLATED_NODES: usize = 250;
 
 /// Where the margin falls below this share of the one before, longer steps are tried: so many times as long.
 const FALLING: f64 = 0.4;
 const JUMPS: [f64; 4] = [1.0, 1.7, 2.6, 3.6];
 
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
-
-pub(super) fn length(a: &[f64]) -> f64 {
-    dot(a, a).sqrt()
-}
-
 fn longest(tangent: &[f64]) -> f64 {
     let largest = tangent.iter().fold(0.0f64, |m, t| m.max(t.abs()));
     LONGEST_WAY / largest.max(1e-6)
-}
-
-/// The cubic that leaves a pose with its tangent and came from the one before with that one's.
-struct Predictor {
-    first: Vec<f64>,
-    second: Vec<f64>,
-    third: Vec<f64>,
-}
-
-impl Predictor {
-    fn new(solver: &Solver, before: Option<&Node>, here: &Node) -> Self {
-        let n = here.tangent.len();
-        let mut predictor = Self {
-            first: here.tangent.clone(),
-            second: vec![0.0; n],
-            third: vec![0.0; n],
-        };
-        if let Some(before) = before {
-            let mut back = vec![0.0; n];
-            solver.system.way(&here.pose, &before.pose, &mut back);
-            let tangent = solver.system.chart_velocity(&back, &before.tangent);
-            let gap = here.arc - before.arc;
-            if gap.abs() > 1e-12 {
-                let gap = gap.abs();
-                for i in 0..n {
-                    let a = (back[i] + here.tangent[i] * gap) / (gap * gap);
-                    let b = (here.tangent[i] - tangent[i]) / gap;
-                    predictor.third[i] = (2.0 * a - b) / gap;
-                    predictor.second[i] = 3.0 * a - b;
-                }
-            }
-        }
-        predictor
-    }
-
-    fn at(&self, u: f64) -> Vec<f64> {
-        (0..self.first.len())
-            .map(|i| u * (self.first[i] + u * (self.second[i] + u * self.third[i])))
-            .collect()
-    }
-
-    fn direction(&self, u: f64) -> Vec<f64> {
-        let mut d: Vec<f64> = (0..self.first.len())
-            .map(|i| self.first[i] + u * (2.0 * self.second[i] + u * 3.0 * self.third[i]))
-            .collect();
-        let size = length(&d);
-        d.iter_mut().for_each(|x| *x /= size);
-        d
-    }
 }
 
 /// What one attempt at a step came to.
@@ -136,112 +74,6 @@ struct Attempt {
     turn: f64,
     /// Length of the correction.
     way: f64,
-}
-
-/// A pose of the branch as a node: corrected, with its tangent. `None` where that fails.
-pub(super) fn node_at(
-    solver: &mut Solver,
-    mut pose: SystemPose,
-    toward: &[f64],
-    arc: f64,
-) -> Option<Node> {
-    if !solver.linearise(&pose) {
-        return None;
-    }
-    let across = solver.tangent().to_vec();
-    solver.correct(&mut pose, Along::Across(&across))?;
-    solver.anchor(&pose);
-    if !solver.linearise(&pose) {
-        return None;
-    }
-    let mut tangent = solver.tangent().to_vec();
-    if dot(&tangent, toward) < 0.0 {
-        tangent.iter_mut().for_each(|t| *t = -*t);
-    }
-    Some(Node {
-        margin: solver.margin(),
-        pose,
-        arc,
-        tangent,
-    })
-}
-
-/// The length of the cubic between two nodes, in the chart of the first: Gauss quadrature with three points, off by the
-/// seventh power of the step.
-pub(super) fn arc_between(solver: &Solver, from: &Node, to: &Node) -> f64 {
-    let cubic = Cubic::between(solver, from, to);
-    let root = 0.6f64.sqrt() / 2.0;
-    [(0.5 - root, 5.0), (0.5, 8.0), (0.5 + root, 5.0)]
-        .into_iter()
-        .map(|(u, weight)| length(&cubic.velocity(u)) * weight / 18.0)
-        .sum()
-}
-
-/// The cubic Hermite interpolant between two nodes, in the chart of the first; `u` from 0 to 1.
-#[derive(Clone, Debug)]
-pub(super) struct Cubic {
-    first: Vec<f64>,
-    last: Vec<f64>,
-    chord: Vec<f64>,
-}
-
-impl Cubic {
-    pub fn between(solver: &Solver, from: &Node, to: &Node) -> Self {
-        let n = from.tangent.len();
-        let mut chord = vec![0.0; n];
-        solver.system.way(&from.pose, &to.pose, &mut chord);
-        let size = length(&chord);
-        // The chord of an arc that turns by τ is shorter than the arc by a part of τ²/24.
-        let turned: Vec<f64> = from
-            .tangent
-            .iter()
-            .zip(&to.tangent)
-            .map(|(a, b)| a - b)
-            .collect();
-        let arc = size * (1.0 + dot(&turned, &turned) / 24.0);
-        let last = solver.system.chart_velocity(&chord, &to.tangent);
-        Self {
-            first: from.tangent.iter().map(|t| t * arc).collect(),
-            last: last.iter().map(|t| t * arc).collect(),
-            chord,
-        }
-    }
-
-    pub fn at(&self, u: f64) -> Vec<f64> {
-        let (a, b, c) = (
-            u * (1.0 - u) * (1.0 - u),
-            u * u * (3.0 - 2.0 * u),
-            u * u * (u - 1.0),
-        );
-        (0..self.chord.len())
-            .map(|i| a * self.first[i] + b * self.chord[i] + c * self.last[i])
-            .collect()
-    }
-
-    /// One component of [`Self::at`].
-    pub fn component(&self, i: usize, u: f64) -> f64 {
-        u * (1.0 - u) * (1.0 - u) * self.first[i]
-            + u * u * (3.0 - 2.0 * u) * self.chord[i]
-            + u * u * (u - 1.0) * self.last[i]
-    }
-
-    /// One component of [`Self::velocity`].
-    pub fn speed(&self, i: usize, u: f64) -> f64 {
-        (1.0 - u) * (1.0 - 3.0 * u) * self.first[i]
-            + 6.0 * u * (1.0 - u) * self.chord[i]
-            + u * (3.0 * u - 2.0) * self.last[i]
-    }
-
-    pub fn velocity(&self, u: f64) -> Vec<f64> {
-        let (a, b, c) = (
-            (1.0 - u) * (1.0 - 3.0 * u),
-            6.0 * u * (1.0 - u),
-            u * (3.0 * u - 2.0),
-        );
-        (0..self.chord.len())
-            .map(|i| a * self.first[i] + b * self.chord[i] + c * self.last[i])
-            .collect()
-    }
 }
 
 fn attempt(solver: &mut Solver, here: &Node, predictor: &Predictor, step: f64) -> Option<Attempt> {
@@ -275,13 +107,63 @@ fn attempt(solver: &mut Solver, here: &Node, predictor: &Predictor, step: f64) -
     })
 }
 
+/// Steps shorter than this share of the longest are taken without asking what lies between.
+const FINEST_LOOK: f64 = 1e-3;
+
+/// A margin that falls below this share of the one at hand is taken to vanish.
+const VANISHES: f64 = 1e-4;
+
+/// Looks are taken so many times, each this share of the way to where the margin would vanish.
+const LOOKS: usize = 24;
+const APPROACH: f64 = 0.7;
+
+/// Whether a step leads across a gap between branches: the margin falls on the way, but not to nothing. `beyond` is the
+/// margin at its end.
+fn is_a_gap(
+    solver: &mut Solver,
+    here: &Node,
+    predictor: &Predictor,
+    step: f64,
+    beyond: f64,
+) -> bool {
+    let ordinary = 0.5 * here.margin.min(beyond);
+    let mut low = (0.0, here.margin);
+    let mut at = 0.5 * step * here.margin / (here.margin + beyond);
+    let mut missed = 0;
+    for _ in 0..LOOKS {
+        let found = attempt(solver, here, predictor, at).filter(|f| f.turn < 3.0 * TURN);
+        let margin = found.map_or(f64::INFINITY, |f| f.node.margin);
+        if margin < VANISHES * here.margin {
+            return false;
+        }
+        if margin > 0.9 * low.1 {
+            // Beyond the place, or past the least margin: nearer looks tell.
+            missed += 1;
+            if missed > 3 {
+                break;
+            }
+            at = low.0 + 0.4 * (at - low.0);
+            continue;
+        }
+        let zero = at + (at - low.0) * margin / (low.1 - margin);
+        low = (at, margin);
+        at += APPROACH * (zero - at);
+        if at >= step {
+            break;
+        }
+    }
+    low.1 < ordinary
+}
+
 /// Follows the curve from a node in the direction of its tangent. That node is the first of the result; `start` is the
-/// one at which a closed curve is recognised.
+/// one at which a closed curve is recognised. It ends with the first node that is farther than `farthest` (metric) from
+/// the start.
 pub(super) fn follow(
     solver: &mut Solver,
     start: &Node,
     from: &Node,
     bounds: &[Bounds],
+    farthest: f64,
 ) -> (Vec<Node>, Stop) {
     let mut nodes = vec![from.clone()];
     solver.anchor(&from.pose);
@@ -293,13 +175,17 @@ pub(super) fn follow(
         } else {
             MOST_NODES
         };
-        if nodes.len() > most || far_enough(solver, start, &here) {
+        if nodes.len() > most || here.arc - start.arc > farthest || far_enough(solver, start, &here)
+        {
             return (nodes, Stop::Budget);
         }
         let before = (nodes.len() > 1).then(|| nodes[nodes.len() - 2].clone());
         let predictor = Predictor::new(solver, before.as_ref(), &here);
         let limit = longest(&here.tangent);
         step = step.min(limit);
+        solver.linearise(&here.pose);
+        let chosen = solver.chosen();
+        let orientation = solver.orientation(&chosen, &here.pose, &here.tangent);
         let mut next = None;
         while step > SHORTEST_STEP * limit {
             let mut best: Option<Attempt> = None;
@@ -322,6 +208,16 @@ pub(super) fn follow(
                     .as_ref()
                     .is_none_or(|b| found.node.margin > 1.5 * b.node.margin);
                 if better {
+                    let turned = jump > 1.0
+                        || solver.orientation(&chosen, &found.node.pose, &found.node.tangent)
+                            != orientation;
+                    if turned
+                        && orientation != 0.0
+                        && step > FINEST_LOOK * limit
+                        && is_a_gap(solver, &here, &predictor, size, found.node.margin)
+                    {
+                        break;
+                    }
                     best = Some(found);
                 }
                 if !falling {
@@ -403,69 +299,6 @@ fn stopped_by_limit(
     first
 }
 
-/// The pose between two nodes at which an unknown has a value that lies between theirs.
-pub(super) fn at_value(
-    solver: &mut Solver,
-    from: &Node,
-    to: &Node,
-    unknown: usize,
-    value: f64,
-) -> Option<Node> {
-    let cubic = Cubic::between(solver, from, to);
-    let weight = solver.system.weights()[unknown];
-    let wanted = (value - from.pose.values[unknown]) * weight;
-    let (mut low, mut high) = (0.0, 1.0);
-    let rising = cubic.at(1.0)[unknown] > 0.0;
-    for _ in 0..40 {
-        let middle = 0.5 * (low + high);
-        if (cubic.at(middle)[unknown] < wanted) == rising {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    let u = 0.5 * (low + high);
-    let mut pose = from.pose.clone();
-    solver.system.advance(&mut pose, &cubic.at(u));
-    let guess = pose.clone();
-    if solver
-        .correct(&mut pose, Along::Value(unknown, value))
-        .is_none()
-    {
-        // Too close to a dead centre for the value to single out a pose: cut across the curve instead.
-        pose = guess;
-        let mut across = cubic.velocity(u);
-        let size = length(&across);
-        across.iter_mut().for_each(|x| *x /= size);
-        solver.correct(&mut pose, Along::Across(&across))?;
-    }
-    finish(solver, pose, &cubic.velocity(u), from)
-}
-
-/// The node at a pose between nodes.
-pub(super) fn finish(
-    solver: &mut Solver,
-    pose: SystemPose,
-    toward: &[f64],
-    from: &Node,
-) -> Option<Node> {
-    if !solver.linearise(&pose) {
-        return None;
-    }
-    let mut tangent = solver.tangent().to_vec();
-    if dot(&tangent, toward) < 0.0 {
-        tangent.iter_mut().for_each(|t| *t = -*t);
-    }
-    let mut node = Node {
-        margin: solver.margin(),
-        pose,
-        arc: from.arc,
-        tangent,
-    };
-    node.arc += arc_between(solver, from, &node);
-    Some(node)
-}
-
 /// Whether the start lies between two nodes, all joints compared and the tangent too; then the start once more, as it is
 /// counted at this end.
 fn closes(solver: &mut Solver, start: &Node, from: &Node, to: &Node) -> Option<Node> {
@@ -508,6 +341,91 @@ fn closes(solver: &mut Solver, start: &Node, from: &Node, to: &Node) -> Option<N
     None
 }
 
-/// Poses closer than this (metric) are the same: above the accuracy of corrections at poses of ordinary margin, far below
-/// the distance between sheets of a curve that a step can tell apart.
-pub(super) const SAME: f64 = 1e-9;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::closure::samples::{CRANK_ROCKER, Written, planar, ring};
+    use crate::motion::samples::at_home;
+    use std::f64::consts::{PI, TAU};
+
+    fn around(points: &[[f64; 2]]) -> (Vec<Node>, Stop, Solver) {
+        let mechanism = ring(&planar(points), [0.0; 3], Written::Exactly);
+        let (mut solver, start) = at_home(&mechanism);
+        let (nodes, stop) = follow(&mut solver, &start, &start, &[], f64::INFINITY);
+        (nodes, stop, solver)
+    }
+
+    #[test]
+    fn a_parallelogram_goes_round_through_both_flat_poses() {
+        let (nodes, stop, _) = around(&[[0.0, 0.0], [1.0, 2.0], [4.0, 2.0], [3.0, 0.0]]);
+        assert_eq!(stop, Stop::Closed);
+        // All four hinges turn alike: the arc is a circle's.
+        let last = nodes.last().unwrap();
+        assert!((last.arc - 2.0 * TAU).abs() < 1e-6, "{}", last.arc);
+        for node in &nodes {
+            let v = &node.pose.values;
+            for other in &v[1..] {
+                assert!((other.abs() - v[0].abs()).abs() < 1e-11, "{v:?}");
+            }
+            assert!((node.tangent[0].abs() - 0.5).abs() < 1e-9);
+        }
+        assert!(nodes.iter().any(|n| (n.pose.values[0] - PI).abs() < 0.3));
+    }
+
+    #[test]
+    fn a_gap_between_branches_is_not_crossed() {
+        // Close to a parallelogram: its two motions no longer meet, and coupler and rocker never stretch, so that each
+        // motion keeps the side on which their hinge lies. Grashof's margin is given.
+        for margin in [3e-1, 1e-2, 1e-3] {
+            let points = [[0.0, 0.0], [0.0, 1.0], [3.0, 1.0], [3.0, -margin]];
+            let (nodes, stop, solver) = around(&points);
+            assert_eq!(stop, Stop::Closed, "{margin}");
+            let turned = |p: [f64; 2], angle: f64| {
+                let (s, c) = angle.sin_cos();
+                [c * p[0] - s * p[1], s * p[0] + c * p[1]]
+            };
+            let sides: Vec<f64> = nodes
+                .iter()
+                .map(|node| {
+                    let v = &node.pose.values;
+                    let tip = turned(points[1], v[0]);
+                    let coupler = turned([3.0, 0.0], v[0] + v[1]);
+                    let end = [tip[0] + coupler[0], tip[1] + coupler[1]];
+                    let rocker = [points[3][0] - end[0], points[3][1] - end[1]];
+                    coupler[0] * rocker[1] - coupler[1] * rocker[0]
+                })
+                .collect();
+            assert!(
+                sides.iter().all(|s| (*s < 0.0) == (sides[0] < 0.0)),
+                "{margin}"
+            );
+            assert!((nodes.last().unwrap().pose.values[0] - TAU).abs() < 1e-9);
+            drop(solver);
+        }
+    }
+
+    #[test]
+    fn a_limit_ends_the_curve_where_it_is() {
+        let mechanism = ring(&planar(&CRANK_ROCKER), [0.0; 3], Written::Exactly);
+        let (mut solver, start) = at_home(&mechanism);
+        let bound = Bounds {
+            unknown: 0,
+            lower: -1.0,
+            upper: 0.75,
+        };
+        let (nodes, stop) = follow(&mut solver, &start, &start, &[bound], f64::INFINITY);
+        assert_eq!(
+            stop,
+            Stop::Limit {
+                unknown: 0,
+                value: 0.75
+            }
+        );
+        assert_eq!(nodes.last().unwrap().pose.values[0], 0.75);
+        let (nodes, stop) = follow(&mut solver, &start, &start, &[], 1.0);
+        assert_eq!(stop, Stop::Budget);
+        let arc = nodes.last().unwrap().arc;
+        assert!(arc > 1.0 && arc < 2.0);
+    }
+}

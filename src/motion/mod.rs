@@ -14,31 +14,41 @@
 //!
 //! | file | says |
 //! |---|---|
-//! | `system` | the equations of a part, compiled ([`LoopSystem`]) |
+//! | `system`, `system/…` | the equations of a part, compiled ([`LoopSystem`]); its poses, values and derivatives |
 //! | `rows`, `sparse_rows`, `deflation`, `solver` | which equations are solved at a pose, and Newton's method on them |
-//! | `follow`, `cusp`, `singular`, `walk` | from pose to pose, through cusps, through singular poses, the whole curve |
+//! | `node`, `cubic`, `follow` | a pose with its tangent, what lies between two, from pose to pose |
+//! | `cusp`, `singular`, `bridge`, `pieces`, `walk` | cusps and singular poses, how they are passed, the whole curve |
 //! | `curve` | poses by arclength and by drive value ([`Curve`]) |
 //! | `dead_centres`, `ranges`, `sampling` | what is read off a curve |
-//! | `inputs`, `wishes`, `trace` | what is driven and held, and the way from an analysis to a [`Trace`] |
+//! | `inputs`, `wishes` | what is driven and held |
+//! | `trace`, `trace/…` | from an analysis to a [`Trace`]: where a part starts, which curve serves, what is told of it |
 //!
 //! Cost: one pose of a single loop takes some microseconds; dense factorizations grow with the cube of a part's unknowns
 //! up to 150, sparse ones serve beyond.
 
+mod bridge;
+mod cubic;
 mod curve;
 mod cusp;
 mod dead_centres;
 mod deflation;
 mod follow;
 mod inputs;
+mod node;
+mod pieces;
 mod ranges;
 mod result;
 mod rows;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod samples;
 mod sampling;
 mod singular;
 mod solver;
 mod sparse_rows;
 mod system;
 mod trace;
+mod vectors;
 mod walk;
 mod wishes;
 

@@ -11,6 +11,8 @@
 //!
 //! Cost: 2 n² m for n unknowns and m equations.
 
+use super::vectors::dot;
+
 /// A workspace for equations of up to a fixed number of unknowns, stored row by row.
 #[derive(Clone, Debug)]
 pub(super) struct DenseRows {
@@ -28,10 +30,6 @@ pub(super) struct DenseRows {
     fixed: Option<Vec<usize>>,
     /// The unit vector that no chosen equation sees.
     pub tangent: Vec<f64>,
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 impl DenseRows {
@@ -138,6 +136,19 @@ impl DenseRows {
         self.rotate(&mut tangent);
         self.tangent = tangent;
         sound
+    }
+
+    /// The sign of the determinant of the chosen equations, in the order in which they were chosen, with a tangent as the
+    /// last row. It means something between poses only for equations chosen beforehand.
+    pub fn orientation(&self, tangent: &[f64]) -> f64 {
+        let turned = self.diagonal[..self.rank]
+            .iter()
+            .filter(|d| **d < 0.0)
+            .count()
+            % 2
+            == 1;
+        let along = dot(&self.tangent, tangent).signum();
+        if turned { -along } else { along }
     }
 
     /// x ← Q x.

@@ -13,10 +13,12 @@
 //! the window has in the distance to the next complex singularity of the curve, times the product of the distances of the
 //! middle to the poses: below 1e-12 where steps turn by a tenth of a radian.
 
-use super::curve::Shape;
-use super::follow::{Cubic, Node, arc_between, dot, finish, length};
+use super::bridge::{Bridge, interpolate};
+use super::cubic::Cubic;
+use super::node::{Node, finish};
 use super::solver::{Along, Solver};
 use super::system::SystemPose;
+use super::vectors::{dot, length};
 use nalgebra::DMatrix;
 
 /// Places of the poses in a window, on either side, in units of its half width.
@@ -28,148 +30,6 @@ const AGREEMENT: f64 = 1e-11;
 
 /// Where inner and outer poses disagree by more than this about the root, in steps of the curve, none is believed.
 const DOUBTFUL: f64 = 1e-6;
-
-/// Nearer to the middle than this, in units of the half width, poses are interpolated and not corrected.
-const BESIDE: f64 = 0.3;
-
-/// A polynomial in one variable with vector coefficients, passing through a singular pose.
-#[derive(Clone, Debug)]
-pub(super) struct Bridge {
-    /// The pose whose chart the coefficients are in.
-    reference: SystemPose,
-    /// Where the window begins and ends, in its own unit; the singular pose is at zero.
-    window: (f64, f64),
-    /// Coefficients of 1, x, x², …
-    coefficients: Vec<Vec<f64>>,
-}
-
-impl Bridge {
-    fn x(&self, u: f64) -> f64 {
-        self.window.0 + u * (self.window.1 - self.window.0)
-    }
-
-    /// Whether a place is far enough from the middle for corrections.
-    pub fn is_beside(&self, u: f64) -> bool {
-        self.x(u).abs() > BESIDE * 0.5 * (self.window.1 - self.window.0)
-    }
-
-    /// Where the singular pose is, from 0 to 1.
-    pub fn middle(&self) -> f64 {
-        -self.window.0 / (self.window.1 - self.window.0)
-    }
-
-    fn at(&self, x: f64) -> Vec<f64> {
-        horner(&self.coefficients, x)
-    }
-
-    pub fn pose(&self, solver: &Solver, u: f64) -> SystemPose {
-        let mut pose = self.reference.clone();
-        solver.system.advance(&mut pose, &self.at(self.x(u)));
-        pose
-    }
-
-    /// The same passage, with turns counted on by this much.
-    pub fn shift(&mut self, around: &[f64]) {
-        for (value, way) in self.reference.values.iter_mut().zip(around) {
-            *value += way;
-        }
-    }
-
-    /// The velocity in the chart of the reference, per unit of `u`.
-    pub fn velocity(&self, u: f64) -> Vec<f64> {
-        let x = self.x(u);
-        let unit = self.window.1 - self.window.0;
-        let derivative: Vec<Vec<f64>> = self
-            .coefficients
-            .iter()
-            .enumerate()
-            .skip(1)
-            .map(|(k, c)| c.iter().map(|v| v * k as f64 * unit).collect())
-            .collect();
-        horner(&derivative, x)
-    }
-
-    pub fn direction(&self, u: f64) -> Vec<f64> {
-        let mut v = self.velocity(u);
-        let mut size = length(&v);
-        if !(size > 1e-12) {
-            // At a cusp: as just behind it.
-            v = self.velocity(u + 1e-6);
-            size = length(&v);
-        }
-        v.iter_mut().for_each(|x| *x /= size);
-        v
-    }
-
-    /// Length of the passage in the metric, by Gauss quadrature with three points in ten pieces.
-    pub fn arc(&self) -> f64 {
-        let root = 0.6f64.sqrt() / 2.0;
-        (0..10)
-            .flat_map(|piece| {
-                [(0.5 - root, 5.0), (0.5, 8.0), (0.5 + root, 5.0)]
-                    .map(|(u, weight)| ((f64::from(piece) + u) / 10.0, weight / 180.0))
-            })
-            .map(|(u, weight)| length(&self.velocity(u)) * weight)
-            .sum()
-    }
-
-    /// A passage through poses at places in `[−1, 1]`, the singular one at zero.
-    pub fn through(reference: SystemPose, places: &[f64], values: &[Vec<f64>]) -> Self {
-        Self {
-            reference,
-            window: (
-                places.first().copied().unwrap_or(-1.0),
-                places.last().copied().unwrap_or(1.0),
-            ),
-            coefficients: interpolate(places, values),
-        }
-    }
-
-    /// The same passage, the other way.
-    pub fn reverse(&mut self) {
-        self.window = (-self.window.1, -self.window.0);
-        for coefficient in self.coefficients.iter_mut().skip(1).step_by(2) {
-            coefficient.iter_mut().for_each(|c| *c = -*c);
-        }
-    }
-}
-
-pub(super) fn horner(coefficients: &[Vec<f64>], x: f64) -> Vec<f64> {
-    let size = coefficients.first().map_or(0, Vec::len);
-    coefficients.iter().rev().fold(vec![0.0; size], |sum, c| {
-        sum.iter().zip(c).map(|(s, c)| s * x + c).collect()
-    })
-}
-
-/// The polynomial through values at places, by divided differences (Higham 2002, section 5.3).
-pub(super) fn interpolate(places: &[f64], values: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let count = places.len();
-    let mut table = values.to_vec();
-    for order in 1..count {
-        for i in (order..count).rev() {
-            let gap = places[i] - places[i - order];
-            let (low, high) = table.split_at_mut(i);
-            for (entry, before) in high[0].iter_mut().zip(&low[i - 1]) {
-                *entry = (*entry - before) / gap;
-            }
-        }
-    }
-    let size = values.first().map_or(0, Vec::len);
-    let mut coefficients = vec![vec![0.0; size]; count];
-    for i in (0..count).rev() {
-        // p ← p (x − xᵢ) + dᵢ
-        for k in (1..count).rev() {
-            let (low, high) = coefficients.split_at_mut(k);
-            for (c, before) in high[0].iter_mut().zip(&low[k - 1]) {
-                *c = before - places[i] * *c;
-            }
-        }
-        for (c, d) in coefficients[0].iter_mut().zip(&table[i]) {
-            *c = d - places[i] * *c;
-        }
-    }
-    coefficients
-}
 
 /// A singular pose of the curve.
 #[derive(Clone, Debug)]
@@ -386,11 +246,7 @@ fn locate_in(
         {
             let shifted: Vec<f64> = places.iter().map(|p| p - root).collect();
             let values: Vec<Vec<f64>> = readings.iter().map(|r| r.z.clone()).collect();
-            let bridge = Bridge {
-                reference: probe.reference.clone(),
-                window: (shifted[0], shifted[11]),
-                coefficients: interpolate(&shifted, &values),
-            };
+            let bridge = Bridge::through(probe.reference.clone(), &shifted, &values);
             best = Some((disagreement, readings, bridge, crosses));
             if disagreement < AGREEMENT {
                 break;
@@ -517,212 +373,50 @@ fn root_near(coefficients: &[f64], guess: f64, crosses: bool) -> Option<f64> {
     Some(x)
 }
 
-/// The nodes of a curve, each with the passage that begins at it.
-pub(super) type Pieces = Vec<(Node, Option<Singular>)>;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::closure::samples::{CRANK_ROCKER, Written, planar, ring};
+    use crate::motion::follow::follow;
+    use crate::motion::pieces::bridge_closed;
+    use crate::motion::samples::at_home;
 
-/// The pieces of a closed curve without cusps, given by its nodes from the start to the start. It is cut open where it is
-/// most regular, so that no passage lies across the cut, and put together again.
-pub(super) fn bridge_closed(solver: &mut Solver, nodes: &[Node]) -> Pieces {
-    let (Some(first), Some(last)) = (nodes.first(), nodes.last()) else {
-        return Vec::new();
-    };
-    let around: Vec<f64> = first
-        .pose
-        .values
-        .iter()
-        .zip(&last.pose.values)
-        .map(|(a, b)| b - a)
-        .collect();
-    let cut = (0..nodes.len() - 1)
-        .max_by(|a, b| nodes[*a].margin.total_cmp(&nodes[*b].margin).then(b.cmp(a)))
-        .unwrap_or(0);
-    let span = last.arc - first.arc;
-    let mut turned: Vec<Node> = nodes[cut..].to_vec();
-    turned.extend(nodes[1..=cut].iter().map(|node| {
-        let mut node = node.clone();
-        node.arc += span;
-        shift(&mut node, &around);
-        node
-    }));
-    let mut start = nodes.len() - 1 - cut;
-    let pieces = bridge_open(solver, &turned, &mut start);
-    if cut == 0 {
-        return pieces;
+    fn met(points: &[[f64; 2]]) -> Vec<Singular> {
+        let mechanism = ring(&planar(points), [0.0; 3], Written::Exactly);
+        let (mut solver, start) = at_home(&mechanism);
+        let (nodes, _) = follow(&mut solver, &start, &start, &[], f64::INFINITY);
+        let pieces = bridge_closed(&mut solver, &nodes);
+        pieces.into_iter().filter_map(|(_, s)| s).collect()
     }
-    // The start first again; what came before it comes last, counted on.
-    let back: Vec<f64> = around.iter().map(|x| -x).collect();
-    let mut whole: Pieces = Vec::with_capacity(pieces.len());
-    for (mut node, singular) in pieces[start..pieces.len() - 1].iter().cloned() {
-        shift(&mut node, &back);
-        let singular = singular.map(|mut s| {
-            s.bridge.shift(&back);
-            shift_pose(&mut s.pose, &back);
-            s
-        });
-        whole.push((node, singular));
-    }
-    whole.extend(pieces[..=start].iter().cloned());
-    whole
-}
 
-fn shift(node: &mut Node, around: &[f64]) {
-    shift_pose(&mut node.pose, around);
-}
-
-fn shift_pose(pose: &mut SystemPose, around: &[f64]) {
-    for (value, way) in pose.values.iter_mut().zip(around) {
-        *value += way;
-    }
-}
-
-/// The pieces of a list of nodes: those inside a passage left out, and every passage with the node it begins at. `start` is
-/// the index of a node that stays one.
-pub(super) fn bridge_open(solver: &mut Solver, nodes: &[Node], start: &mut usize) -> Pieces {
-    let margins: Vec<f64> = nodes.iter().map(|n| n.margin).collect();
-    let mut candidates: Vec<usize> = (1..nodes.len().saturating_sub(1))
-        .filter(|&i| margins[i] <= margins[i - 1] && margins[i] < margins[i + 1])
-        .collect();
-    // A singular pose close to an end shows as the least margin there.
-    if nodes.len() > 3 && margins[0] < margins[1] {
-        candidates.insert(0, 1);
-    }
-    if nodes.len() > 3 && margins[nodes.len() - 1] < margins[nodes.len() - 2] {
-        candidates.push(nodes.len() - 2);
-    }
-    let mut found: Vec<Singular> = Vec::new();
-    let begin = nodes[*start].arc;
-    for at in candidates {
-        let mut clear = (f64::NEG_INFINITY, f64::INFINITY);
-        if let Some(last) = found.last() {
-            clear.0 = last.after.arc;
-        }
-        // The start stays outside; where it is the candidate itself, both sides of it are looked at.
-        let sides = match nodes[at].arc.total_cmp(&begin) {
-            std::cmp::Ordering::Greater if at <= *start + 2 => {
-                vec![(begin, clear.1), (clear.0, begin)]
-            }
-            std::cmp::Ordering::Greater => vec![(clear.0.max(begin), clear.1)],
-            std::cmp::Ordering::Less if at + 2 >= *start => {
-                vec![(clear.0, begin), (begin, clear.1)]
-            }
-            std::cmp::Ordering::Less => vec![(clear.0, begin)],
-            std::cmp::Ordering::Equal => vec![(clear.0, begin), (begin, clear.1)],
-        };
-        for side in sides {
-            let Some(mut singular) = locate(solver, nodes, at, side) else {
-                continue;
-            };
-            place(solver, nodes, &mut singular);
-            if found
-                .last()
-                .is_none_or(|l| singular.before.arc >= l.after.arc - 1e-12)
-            {
-                found.push(singular);
-                break;
-            }
+    #[test]
+    fn a_parallelogram_is_singular_where_it_is_flat() {
+        let found = met(&[[0.0, 0.0], [1.0, 2.0], [4.0, 2.0], [3.0, 0.0]]);
+        assert_eq!(found.len(), 2);
+        let crank = 2.0f64.atan2(1.0);
+        for singular in &found {
+            assert_eq!((singular.freedom, singular.crosses), (2, true));
+            let angle = crank + singular.pose.values[0];
+            assert!(angle.sin().abs() < 1e-11, "{angle}");
         }
     }
-    let mut kept: Vec<(Node, Option<Singular>)> = Vec::new();
-    let mut pending = found.into_iter().peekable();
-    let mut new_start = 0;
-    for (index, node) in nodes.iter().enumerate() {
-        while pending
-            .peek()
-            .is_some_and(|s| s.before.arc <= node.arc - 1e-12)
-        {
-            if let Some(singular) = pending.next() {
-                let after = singular.after.clone();
-                kept.push((singular.before.clone(), Some(singular)));
-                kept.push((after, None));
-            }
-        }
-        let inside = kept
-            .last()
-            .is_some_and(|(last, _)| node.arc <= last.arc + 1e-9 * (1.0 + last.arc.abs()));
-        if index == *start {
-            if inside && kept.len() > 1 && kept.last().is_some_and(|(_, s)| s.is_none()) {
-                kept.pop();
-            }
-            new_start = kept.len();
-            kept.push((node.clone(), None));
-        } else if !inside {
-            kept.push((node.clone(), None));
-        }
-    }
-    *start = new_start;
-    kept
-}
 
-/// What a curve consists of.
-pub(super) struct Assembled {
-    pub nodes: Vec<Node>,
-    /// Between neighbouring nodes.
-    pub shapes: Vec<Shape>,
-    /// Singular poses with their arclengths.
-    pub singular: Vec<(f64, Singular)>,
-}
+    #[test]
+    fn a_crank_and_rocker_is_never_singular() {
+        assert!(met(&CRANK_ROCKER).is_empty());
+    }
 
-/// Arclengths along the pieces, counted from the start; shapes between nodes.
-pub(super) fn assemble(solver: &Solver, pieces: Pieces, start: usize) -> Assembled {
-    let mut shapes = Vec::new();
-    let mut singular = Vec::new();
-    let mut arc = 0.0;
-    let mut arcs = vec![0.0];
-    for pair in pieces.windows(2) {
-        let (shape, gap) = match &pair[0].1 {
-            Some(passed) => {
-                let length = passed.bridge.arc();
-                singular.push((arc + passed.bridge.middle() * length, passed.clone()));
-                (Shape::Bridge(Box::new(passed.bridge.clone())), length)
-            }
-            None => {
-                let (a, b) = (&pair[0].0, &pair[1].0);
-                (
-                    Shape::Cubic(Cubic::between(solver, a, b)),
-                    arc_between(solver, a, b),
-                )
-            }
-        };
-        shapes.push(shape);
-        arc += gap;
-        arcs.push(arc);
+    #[test]
+    fn roots_are_those_of_the_polynomial() {
+        // (x − 0.1)(x + 3), and a square that touches zero at −0.05.
+        assert!((root_near(&[-0.3, 2.9, 1.0], 0.0, true).unwrap() - 0.1).abs() < 1e-15);
+        let touching = [0.0025, 0.1, 1.0];
+        assert!((root_near(&touching, 0.0, false).unwrap() + 0.05).abs() < 1e-15);
+        let seen = [(0.0, 4.0), (1.0, 1.0), (2.0, 0.5), (3.0, 2.0)];
+        let least = rough_root(&seen).unwrap();
+        assert!(least > 1.0 && least < 3.0);
+        assert_eq!(rough_root(&[(0.0, -1.0), (1.0, 3.0)]), Some(0.25));
+        assert_eq!(rough_root(&[(0.0, 1.0), (1.0, 2.0)]), None);
     }
-    let zero = arcs.get(start).copied().unwrap_or(0.0);
-    for entry in &mut singular {
-        entry.0 -= zero;
-    }
-    let nodes = pieces
-        .into_iter()
-        .zip(&arcs)
-        .map(|((mut node, _), arc)| {
-            node.arc = arc - zero;
-            node
-        })
-        .collect();
-    Assembled {
-        nodes,
-        shapes,
-        singular,
-    }
-}
-
-/// The arclengths of a passage on the curve it belongs to.
-fn place(solver: &Solver, nodes: &[Node], singular: &mut Singular) {
-    let nearest = |node: &Node| {
-        let mut way = vec![0.0; node.tangent.len()];
-        let mut best = nodes[0].arc;
-        let mut least = f64::INFINITY;
-        for known in nodes {
-            solver.system.way(&known.pose, &node.pose, &mut way);
-            let far = length(&way);
-            if far < least {
-                least = far;
-                let ahead = dot(&way, &known.tangent);
-                best = known.arc + far.copysign(ahead);
-            }
-        }
-        best
-    };
-    singular.before.arc = nearest(&singular.before);
-    singular.after.arc = nearest(&singular.after);
 }

@@ -12,6 +12,7 @@ use super::deflation::Deflation;
 use super::rows::DenseRows;
 use super::sparse_rows::SparseRows;
 use super::system::{Evaluation, LoopSystem, SystemPose};
+use super::vectors::dot;
 use std::sync::Arc;
 
 /// Parts with more unknowns are factored sparsely.
@@ -67,14 +68,22 @@ pub(super) struct Solver {
     pub allowed: f64,
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
-
 impl Solver {
     /// `None` where the equations cannot be chosen at `start`, a generic pose of the branch closed as well as can be.
     /// `excess` is by how many the instantaneous freedom exceeds the dimension all along the branch.
     pub fn new(
+        system: Arc<LoopSystem>,
+        start: &SystemPose,
+        holds: Vec<(usize, f64)>,
+        excess: usize,
+        allowed: f64,
+    ) -> Option<Self> {
+        Self::with_dense_up_to(DENSE_UNKNOWNS, system, start, holds, excess, allowed)
+    }
+
+    /// As [`Self::new`]; parts of more unknowns than `dense` are factored sparsely.
+    fn with_dense_up_to(
+        dense: usize,
         system: Arc<LoopSystem>,
         start: &SystemPose,
         holds: Vec<(usize, f64)>,
@@ -90,7 +99,7 @@ impl Solver {
             _ => Some(Deflation::new(&system, start, &holds, excess)?),
         };
         let equations = plain + deflation.as_ref().map_or(0, Deflation::equations);
-        let rows = if unknowns <= DENSE_UNKNOWNS || deflation.is_some() {
+        let rows = if unknowns <= dense || deflation.is_some() {
             Rows::Dense(DenseRows::new(unknowns, equations))
         } else {
             let mut sparse = SparseRows::new(unknowns, equations);
@@ -198,6 +207,21 @@ impl Solver {
     pub fn fix(&mut self, chosen: Option<Vec<usize>>) {
         if let Rows::Dense(dense) = &mut self.rows {
             dense.fix(chosen);
+        }
+    }
+
+    /// The sign of the determinant of certain equations at a pose, with the curve's tangent there as the last row: it
+    /// changes where an odd number of other branches cross. Zero where that is not known (large or shaky parts).
+    pub fn orientation(&mut self, chosen: &[usize], pose: &SystemPose, tangent: &[f64]) -> f64 {
+        if self.deflation.is_some() || matches!(self.rows, Rows::Sparse(_)) {
+            return 0.0;
+        }
+        self.fix(Some(chosen.to_vec()));
+        let sound = self.linearise(pose);
+        self.fix(None);
+        match &self.rows {
+            Rows::Dense(dense) if sound => dense.orientation(tangent),
+            _ => 0.0,
         }
     }
 
@@ -345,4 +369,47 @@ fn held_triplets(
         triplets.extend(filled.map(|(c, v)| (system.equations() + index, c, *v)));
     }
     triplets
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::families::{miura_sheet, scissor_lift};
+    use crate::motion::follow::follow;
+    use crate::motion::node::node_at;
+    use crate::motion::samples::system;
+
+    #[test]
+    fn a_curve_is_the_same_factored_densely_and_sparsely() {
+        for mechanism in [scissor_lift(6).unwrap(), miura_sheet(3, 3).unwrap()] {
+            let (system, home) = system(&mechanism);
+            let mut toward = vec![0.0; system.unknowns()];
+            toward[0] = 1.0;
+            let reached: Vec<Vec<f64>> = [usize::MAX, 0]
+                .into_iter()
+                .map(|dense| {
+                    let mut solver = Solver::with_dense_up_to(
+                        dense,
+                        Arc::clone(&system),
+                        &home,
+                        Vec::new(),
+                        0,
+                        1e-12,
+                    )
+                    .unwrap();
+                    assert_eq!(matches!(solver.rows, Rows::Sparse(_)), dense == 0);
+                    let start = node_at(&mut solver, home.clone(), &toward, 0.0).unwrap();
+                    let (nodes, _) = follow(&mut solver, &start, &start, &[], 0.5);
+                    let mut pose = nodes.last().unwrap().pose.clone();
+                    let value = home.values[0] + 0.1;
+                    solver.correct(&mut pose, Along::Value(0, value)).unwrap();
+                    pose.values
+                })
+                .collect();
+            for (a, b) in reached[0].iter().zip(&reached[1]) {
+                assert!((a - b).abs() < 1e-11, "{a} {b}");
+            }
+        }
+    }
 }

@@ -164,3 +164,52 @@ impl SparseRows {
         if least.is_finite() { least } else { 0.0 }
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::families::scissor_lift;
+    use crate::motion::rows::DenseRows;
+    use crate::motion::samples::system;
+    use crate::motion::system::Evaluation;
+
+    #[test]
+    fn sparse_rows_say_what_dense_rows_say() {
+        for stages in [1, 4, 12] {
+            let (system, pose) = system(&scissor_lift(stages).unwrap());
+            let (n, m) = (system.unknowns(), system.equations());
+            let mut evaluation = Evaluation::default();
+            system.evaluate(&pose, &mut evaluation);
+            let mut dense = DenseRows::new(n, m);
+            system.fill_dense(&evaluation, &mut dense.rows);
+            let rows = dense.rows.clone();
+            assert!(dense.factor());
+            let mut sparse = SparseRows::new(n, m);
+            assert!(sparse.choose(system.triplets(&evaluation)).unwrap());
+            assert!(sparse.factor(system.triplets(&evaluation)).unwrap());
+            assert_eq!(sparse.chosen().len(), n - 1);
+            let along: f64 = sparse
+                .tangent
+                .iter()
+                .zip(&dense.tangent)
+                .map(|(a, b)| a * b)
+                .sum();
+            assert!((along.abs() - 1.0).abs() < 1e-12, "{stages}: {along}");
+            // Right sides that agree with all equations have one shortest solution, whichever are chosen.
+            let wanted: Vec<f64> = (0..n).map(|i| (i as f64 + 0.5).sin()).collect();
+            let right: Vec<f64> = rows
+                .chunks_exact(n)
+                .map(|row| row.iter().zip(&wanted).map(|(a, b)| a * b).sum())
+                .collect();
+            let (mut one, mut two) = (vec![0.0; n], vec![0.0; n]);
+            dense.solve(&right, &mut one);
+            sparse.solve(&right, &mut two);
+            for (a, b) in one.iter().zip(&two) {
+                assert!((a - b).abs() < 1e-9, "{stages}: {a} {b}");
+            }
+            let (p, q) = (dense.least_singular_value(), sparse.least_singular_value());
+            assert!(p > 0.0 && q > 0.0);
+        }
+    }
+}

@@ -1,8 +1,10 @@
 //! The whole curve through a start: both ways from it, through cusps, with the passages through singular poses.
 
 use super::cusp::pass_cusp;
-use super::follow::{Bounds, Node, Stop, follow};
-use super::singular::{Assembled, Pieces, Singular, assemble, bridge_closed, bridge_open};
+use super::follow::{Bounds, Stop, follow};
+use super::node::Node;
+use super::pieces::{Assembled, Pieces, assemble, bridge_closed, bridge_open};
+use super::singular::Singular;
 use super::solver::Solver;
 
 /// A curve and how it ends.
@@ -26,7 +28,7 @@ fn one_way(solver: &mut Solver, start: &Node, bounds: &[Bounds]) -> (Vec<Leg>, S
     let mut legs: Vec<Leg> = Vec::new();
     let mut from = start.clone();
     loop {
-        let (mut nodes, stop) = follow(solver, start, &from, bounds);
+        let (mut nodes, stop) = follow(solver, start, &from, bounds, f64::INFINITY);
         if stop == Stop::Stuck
             && legs.len() < MOST_CUSPS
             && let Some((kept, cusp)) = pass_cusp(solver, &nodes, start)

@@ -1,0 +1,180 @@
+//! `kutzbach trace` as a user meets it.
+#![allow(clippy::unwrap_used)]
+
+mod support;
+
+use serde_json::Value;
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+use support::rewrite::Draft;
+use support::zoo_mechanism;
+
+/// A double rocker: the driven bar has no full turn.
+const ROCKER: &str = r#"<robot name="rocker"><link name="ground"/><link name="crank"/><link name="coupler"/><link name="rocker"/>
+  <joint name="O" type="revolute"><parent link="ground"/><child link="crank"/><axis xyz="0 0 1"/></joint>
+  <joint name="A" type="revolute"><parent link="crank"/><child link="coupler"/><origin xyz="0 3 0"/><axis xyz="0 0 1"/></joint>
+  <joint name="C" type="revolute"><parent link="ground"/><child link="rocker"/><origin xyz="3 0 0"/><axis xyz="0 0 1"/></joint>
+  <loop name="B" type="revolute"><predecessor link="coupler"><origin xyz="2 0 0"/></predecessor>
+  <successor link="rocker"><origin xyz="-1 3 0"/></successor><axis xyz="0 0 1"/></loop></robot>"#;
+
+/// A folder of its own for one test, with a mechanism in it.
+fn folder(test: &str, text: &str) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("trace_cli_{test}"));
+    let _ = fs::remove_dir_all(&path);
+    fs::create_dir_all(&path).unwrap();
+    fs::write(path.join("m.urdf"), text).unwrap();
+    path
+}
+
+fn zoo_text(name: &str) -> String {
+    fs::read_to_string(support::folder("tests/zoo").join(format!("{name}.urdf"))).unwrap()
+}
+
+fn traced(folder: &PathBuf, more: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+        .args(["trace", "m.urdf"])
+        .args(more)
+        .current_dir(folder)
+        .stdin(Stdio::null())
+        .output()
+        .unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+fn json(output: &Output) -> Value {
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[test]
+fn rows_name_their_columns_and_there_is_one_per_sample() {
+    for (name, joints) in [
+        ("bennett_generic", vec!["J1", "J4", "J2", "J3"]),
+        ("planar_4r_general", vec!["J1", "J2", "J3", "J4"]),
+    ] {
+        let folder = folder(&format!("csv_{name}"), &zoo_text(name));
+        let output = traced(&folder, &["--format", "csv", "--samples", "37"]);
+        assert_eq!(output.status.code(), Some(0));
+        let page = text(&output.stdout);
+        let mut lines = page.lines();
+        let header: Vec<&str> = lines.next().unwrap().split(',').collect();
+        assert_eq!(header[..3], ["drive", "arclength", "closure"]);
+        let mut found = header[3..7].to_vec();
+        found.sort_unstable();
+        let mut wanted = joints;
+        wanted.sort_unstable();
+        assert_eq!(found, wanted, "{name}");
+        for part in ["x", "y", "z", "qw", "qx", "qy", "qz"] {
+            let count = header.iter().filter(|h| h.ends_with(&format!(".{part}")));
+            assert_eq!(count.count(), 4, "one per link");
+        }
+        let rows: Vec<Vec<f64>> = lines
+            .map(|l| l.split(',').map(|x| x.parse().unwrap()).collect())
+            .collect();
+        assert_eq!(rows.len(), 37);
+        assert!(
+            rows.iter()
+                .all(|r| r.len() == header.len() && r[2] <= 1e-12)
+        );
+        assert!(rows.windows(2).all(|p| p[0][1] < p[1][1]));
+    }
+}
+
+#[test]
+fn json_has_its_schema_and_is_the_same_every_time() {
+    for name in ["bennett_generic", "planar_4r_general"] {
+        let folder = folder(&format!("json_{name}"), &zoo_text(name));
+        let more = ["--format", "json", "--samples", "12"];
+        let (once, again) = (traced(&folder, &more), traced(&folder, &more));
+        assert_eq!(once.stdout, again.stdout);
+        let found = json(&once);
+        assert_eq!(found["schema"], "kutzbach-trace-1");
+        assert_eq!(found["samples"].as_array().unwrap().len(), 12);
+        // In another order of the file: the same motion.
+        let mut draft = Draft::of(&zoo_mechanism(name));
+        draft.joints.reverse();
+        let text = kutzbach::format::write(&draft.build());
+        fs::write(folder.join("m.urdf"), text).unwrap();
+        let other = json(&traced(&folder, &more));
+        for key in ["schema", "branch", "closed"] {
+            let (a, b) = (&found[key], &other[key]);
+            match (a.as_f64(), b.as_f64()) {
+                (Some(a), Some(b)) => assert!((a - b).abs() < 1e-9, "{name} {key}"),
+                _ => assert_eq!(a, b, "{name} {key}"),
+            }
+        }
+        let drives = |v: &Value| -> Vec<f64> {
+            let samples = v["samples"].as_array().unwrap();
+            samples
+                .iter()
+                .map(|s| s["drive"].as_f64().unwrap())
+                .collect()
+        };
+        let (a, b) = (drives(&found), drives(&other));
+        assert!(
+            a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-9),
+            "{a:?} {b:?}"
+        );
+    }
+}
+
+#[test]
+fn an_unknown_joint_is_a_mistake_with_advice() {
+    let folder = folder("unknown", ROCKER);
+    for more in [["--drive", "OO"], ["--hold", "OO"]] {
+        let output = traced(&folder, &more);
+        assert_eq!(output.status.code(), Some(2));
+        let told = text(&output.stderr);
+        assert!(
+            told.contains("OO") && told.contains("did you mean `O`?"),
+            "{told}"
+        );
+        assert!(output.stdout.is_empty());
+    }
+}
+
+#[test]
+fn a_value_out_of_reach_is_an_answer() {
+    let folder = folder("unreached", ROCKER);
+    let more = ["--drive", "O=0..6.283"];
+    let output = traced(&folder, &more);
+    assert_eq!(output.status.code(), Some(0));
+    let page = text(&output.stdout);
+    assert!(
+        page.contains("is not reached") && page.contains("dead centre"),
+        "{page}"
+    );
+    let found = json(&traced(
+        &folder,
+        &[&more[..], &["--format", "json"]].concat(),
+    ));
+    let told = found["unreached"].to_string();
+    assert!(told.contains("dead centre"), "{told}");
+}
+
+#[test]
+fn what_is_rigid_is_told() {
+    let folder = folder("rigid", &zoo_text("triangle_3r_rigid"));
+    let output = traced(&folder, &[]);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(text(&output.stdout).contains("nothing moves: the mechanism is rigid"));
+    let found = json(&traced(&folder, &["--format", "json"]));
+    assert_eq!(found["schema"], "kutzbach-trace-1");
+    assert!(found.to_string().contains("rigid"));
+}
+
+#[test]
+fn output_goes_to_a_file() {
+    let folder = folder("output", ROCKER);
+    let shown = traced(&folder, &["--format", "csv"]);
+    let written = traced(&folder, &["--format", "csv", "--output", "poses.csv"]);
+    assert_eq!(written.status.code(), Some(0));
+    assert!(written.stdout.is_empty());
+    assert_eq!(fs::read(folder.join("poses.csv")).unwrap(), shown.stdout);
+    let missing = traced(&folder, &["--output", "no/such/folder/poses.csv"]);
+    assert_ne!(missing.status.code(), Some(0));
+}

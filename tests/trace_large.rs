@@ -1,0 +1,73 @@
+//! Motions of parts of many loops.
+#![allow(clippy::unwrap_used)]
+
+mod support;
+
+use kutzbach::families::{miura_sheet, scissor_lift};
+use kutzbach::mechanism::Mechanism;
+use kutzbach::motion::{Motion, TraceOptions, trace};
+use support::analysis;
+
+fn driven(mechanism: &Mechanism, joint: &str, range: (f64, f64), samples: usize) -> Motion {
+    let options = TraceOptions {
+        drive: Some(joint.to_owned()),
+        range: Some(range),
+        samples,
+        ..TraceOptions::default()
+    };
+    trace(mechanism, &analysis(mechanism), &options)
+        .unwrap()
+        .into_motion()
+        .unwrap()
+}
+
+#[test]
+fn a_scissor_lift_of_forty_stages_rises_as_its_bars_turn() {
+    let stages = 40;
+    let lift = scissor_lift(stages).unwrap();
+    // Bars of two metres, drawn at the angle of the 3-4-5 triangle.
+    let home = 0.6f64.atan2(0.8);
+    let motion = driven(&lift, "lower_pin", (-0.3, 0.4), 15);
+    assert_eq!((motion.samples.len(), motion.unreached.len()), (15, 0));
+    assert!(
+        motion.largest_closure <= 1e-12,
+        "{:e}",
+        motion.largest_closure
+    );
+    let platform = lift.link_named("platform").unwrap().0;
+    for sample in &motion.samples {
+        let height = 2.0 * stages as f64 * (home + sample.drive).sin();
+        let found = &sample.links[platform];
+        assert!(
+            (found.translation[1] - height).abs() < 1e-9,
+            "{}",
+            sample.drive
+        );
+        assert!(found.rotation_vector().iter().all(|x| x.abs() < 1e-10));
+    }
+}
+
+#[test]
+fn a_miura_sheet_folds_alike_everywhere() {
+    let sheet = miura_sheet(5, 4).unwrap();
+    let motion = driven(&sheet, "along_1_0", (-0.2, 0.3), 11);
+    assert_eq!((motion.samples.len(), motion.unreached.len()), (11, 0));
+    assert!(
+        motion.largest_closure <= 1e-12,
+        "{:e}",
+        motion.largest_closure
+    );
+    // Creases of one family turn by the same angle, to and fro.
+    let names: Vec<&str> = sheet.joints().iter().map(|j| j.name.as_str()).collect();
+    for sample in &motion.samples {
+        for (name, value) in names.iter().zip(&sample.values) {
+            if name.starts_with("along_") {
+                assert!(
+                    (value.abs() - sample.drive.abs()).abs() < 1e-10,
+                    "{name}: {value} at {}",
+                    sample.drive
+                );
+            }
+        }
+    }
+}
