@@ -129,3 +129,56 @@ fn cusps_are_passed_and_found() {
         }
     }
 }
+
+/// Crank and rod of equal length fold onto one another twice a turn, with the block over the crank's pivot: there the pair
+/// can turn as one while the block rests. Drawn with the crank along (0.6, 0.8).
+#[test]
+fn equal_crank_and_rod_fold_twice_a_turn() {
+    const FILE: &str = r#"<robot name="equal">
+      <link name="ground"/><link name="crank"/><link name="rod"/><link name="block"/>
+      <joint name="pivot" type="continuous">
+        <parent link="ground"/><child link="crank"/><axis xyz="0 0 1"/>
+      </joint>
+      <joint name="pin" type="continuous">
+        <parent link="crank"/><child link="rod"/><origin xyz="0.6 0.8 0"/><axis xyz="0 0 1"/>
+      </joint>
+      <joint name="rail" type="prismatic">
+        <parent link="ground"/><child link="block"/><origin xyz="1.2 0 0"/><axis xyz="1 0 0"/>
+      </joint>
+      <loop name="wrist" type="revolute">
+        <predecessor link="rod"><origin xyz="0.6 -0.8 0"/></predecessor>
+        <successor link="block"/><axis xyz="0 0 1"/>
+      </loop>
+    </robot>"#;
+    let mechanism = kutzbach::format::read(FILE, "equal.urdf", &[])
+        .unwrap()
+        .mechanism;
+    for (what, scale, mechanism) in rewritten(&mechanism) {
+        let motion = &motions(&mechanism)[0];
+        let met = singular(motion);
+        assert_eq!(met.len(), 2, "{what}");
+        let value = |event: &Event, name: &str| {
+            let at = motion.ranges.iter().position(|r| r.variable.name == name);
+            let joint = motion.ranges[at.unwrap()].variable.joint;
+            event.values[mechanism.variable_offsets()[joint]]
+        };
+        for event in met {
+            assert!(
+                matches!(
+                    event.kind,
+                    EventKind::Singular {
+                        freedom: 2,
+                        crosses: true,
+                        ..
+                    }
+                ),
+                "{what}: {event:?}"
+            );
+            // The crank stands upright, or hangs.
+            let crank = 0.8f64.atan2(0.6) + value(event, "pivot");
+            assert!(crank.cos().abs() < 1e-10, "{what}: {crank}");
+            let rail = value(event, "rail") / scale;
+            assert!((rail + 1.2).abs() < 1e-10, "{what}: {rail}");
+        }
+    }
+}

@@ -154,13 +154,7 @@ fn locate_in(
     if !solver.linearise(&reference) {
         return None;
     }
-    let u: Vec<f64> = (0..solver.equations())
-        .map(|i| 1.0 + 0.3 * ((i * i + 1) as f64).sin())
-        .collect();
-    let mut v = vec![0.0; n];
-    solver.shortest(&u, &mut v);
-    let size = length(&v);
-    v.iter_mut().for_each(|x| *x /= size);
+    let (u, v) = bordering(solver, &reference);
     let cubics: Vec<Cubic> = nodes
         .windows(2)
         .map(|pair| Cubic::between(solver, &pair[0], &pair[1]))
@@ -258,6 +252,41 @@ fn locate_in(
     }
     let (_, readings, bridge, crosses) = best.filter(|(d, ..)| *d < DOUBTFUL)?;
     conclude(probe, readings, bridge, crosses)
+}
+
+/// Up to so many unknowns singular vectors are computed.
+const BORDERED_UNKNOWNS: usize = 150;
+
+/// The fixed vectors u (by equation) and v of the bordered system: singular vectors of the chosen equations for their least
+/// singular value, which at the singular pose span what the equations lose (Govaerts 2000, section 3.2). With others g has
+/// poles, and one of them may be next to its zero. For large or shaky parts, where the singular vectors are not at hand, u is
+/// in general position and v what the equations make of it.
+fn bordering(solver: &mut Solver, reference: &SystemPose) -> (Vec<f64>, Vec<f64>) {
+    let n = solver.system.unknowns();
+    let chosen = solver.chosen();
+    let mut u: Vec<f64> = (0..solver.equations())
+        .map(|i| 1.0 + 0.3 * ((i * i + 1) as f64).sin())
+        .collect();
+    let mut v = vec![0.0; n];
+    if n <= BORDERED_UNKNOWNS && !solver.is_deflated() && chosen.len() < n {
+        let rows = solver.dense_jacobian(reference);
+        let matrix = faer::Mat::from_fn(chosen.len(), n, |i, j| rows[chosen[i] * n + j]);
+        // Singular values come in descending order; the least is the last.
+        if let (Ok(parts), Some(least)) = (matrix.svd(), chosen.len().checked_sub(1)) {
+            u.fill(0.0);
+            for (i, &equation) in chosen.iter().enumerate() {
+                u[equation] = parts.U()[(i, least)];
+            }
+            v.iter_mut()
+                .enumerate()
+                .for_each(|(j, x)| *x = parts.V()[(j, least)]);
+            return (u, v);
+        }
+    }
+    solver.shortest(&u, &mut v);
+    let size = length(&v);
+    v.iter_mut().for_each(|x| *x /= size);
+    (u, v)
 }
 
 /// Readings on both sides of a place.
