@@ -371,7 +371,9 @@ mod tests {
             (shaky.found, shaky.finding.outcome),
             (1, Outcome::Confirmed)
         );
-        let level = counted(&[3.0, 1.0, 0.3, 0.1], (2, 2), (0.0, 1e-8), 1);
+        let all = counted(&[3.0, 1.0, 0.3, 0.1], (2, 2), (0.0, 1e-8), 1);
+        assert_eq!((all.found, all.finding.outcome), (4, Outcome::Contradicted));
+        let level = counted(&[1.0, 0.2, 0.02, 2e-3, 2e-4, 2e-5], (2, 2), (0.0, 1e-5), 1);
         assert_eq!(level.finding.outcome, Outcome::Inconclusive);
     }
 
