@@ -147,7 +147,7 @@ fn settings_reach_the_file_and_bad_ones_are_refused() {
         (vec!["report", "bar.urdf", "--at", "open"], 2),
         (vec!["report", "missing.urdf"], 2),
         (vec!["report", "."], 2),
-        (vec!["trace", "bar.urdf"], 2),
+        (vec!["fold", "bar.urdf"], 2),
         (vec!["graph", "bar.urdf", "--set", "length=3"], 0),
     ] {
         let output = kutzbach(&folder, &arguments);
