@@ -47,7 +47,8 @@ impl<R: Real> CycleJacobian<R> {
     }
 }
 
-fn variable_unit(part: FreedomPart, length: f64) -> f64 {
+/// Radians, or metres, per unit of a variable where translations count in units of a length (m).
+pub(crate) fn variable_unit(part: FreedomPart, length: f64) -> f64 {
     match part {
         FreedomPart::Translation => length,
         FreedomPart::Rotation | FreedomPart::Screw => 1.0,

@@ -135,8 +135,8 @@ impl<'a, W: Write> Recorder<'a, W> {
         if !offset.iter().all(|x| x.is_finite()) {
             return Err(not_finite("the place of the simulated motion"));
         }
-        let options = WriteOptions::new()
-            .library(concat!("kutzbach ", env!("CARGO_PKG_VERSION")))
+        let writer_name = concat!("kutzbach ", env!("CARGO_PKG_VERSION"));
+        let options = WriteOptions::library(WriteOptions::new(), writer_name)
             .chunk_size(Some(CHUNK_SIZE))
             .compression(None)
             // A chunk is written when it is complete, and never touched again.

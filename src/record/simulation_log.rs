@@ -190,9 +190,4 @@ impl<W: Write> Observer for SimulationLog<'_, '_, W> {
         let written = self.write(moment);
         self.keep(written)
     }
-
-    fn say(&mut self, text: &str) {
-        let told = self.recorder.log(self.until, Level::Info, text);
-        let _ = self.keep(told);
-    }
 }

@@ -349,7 +349,6 @@ impl Listener<()> for Waiting<'_, '_> {
 enum Told {
     Begin(Passage),
     Moment(Box<Copied>),
-    Say(String),
 }
 
 /// Poses of links and states of joints.
@@ -403,11 +402,6 @@ impl Observer for Relay<'_, '_> {
             distance: moment.distance,
         })))
     }
-
-    fn say(&mut self, text: &str) {
-        // Whether to go on is asked elsewhere.
-        let _ = self.tell(Told::Say(text.to_owned()));
-    }
 }
 
 /// Hands everything on to the log and the progress bar.
@@ -448,10 +442,6 @@ impl Listener<Told> for Watcher<'_, '_, '_> {
                 closure_error: moment.closure_error,
                 distance: moment.distance,
             }),
-            Told::Say(text) => {
-                log.say(text);
-                ControlFlow::Continue(())
-            }
         };
         if written.is_break() {
             self.broken.store(true, Ordering::SeqCst);

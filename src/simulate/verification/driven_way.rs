@@ -5,7 +5,7 @@
 //! At such poses a drive either cannot go on or a simulation may leave the branch, and nothing would be learnt of the
 //! prediction.
 
-use crate::closure::{Geometry, JointState};
+use crate::closure::{Geometry, JointState, variable_unit};
 use crate::mechanism::{FreedomPart, JointKind, Mechanism};
 use crate::mobility::{Analysis, Branch};
 use crate::motion::{
@@ -216,10 +216,7 @@ fn way_of(
         }
     }
     let joint = &mechanism.joints()[driven.joint];
-    let unit = match joint.kind.freedoms()[driven.freedom] {
-        FreedomPart::Translation => length,
-        FreedomPart::Rotation | FreedomPart::Screw => 1.0,
-    };
+    let unit = variable_unit(joint.kind.freedoms()[driven.freedom], length);
     match best {
         Some(best) if (best.to - from).abs() > SHORTEST * unit => Ok(DrivenWay {
             start,
@@ -247,10 +244,7 @@ fn units(mechanism: &Mechanism, length: f64) -> Vec<Vec<f64>> {
                 .kind
                 .freedoms()
                 .iter()
-                .map(|part| match part {
-                    FreedomPart::Translation => 1.0 / length,
-                    FreedomPart::Rotation | FreedomPart::Screw => 1.0,
-                })
+                .map(|part| 1.0 / variable_unit(*part, length))
                 .collect()
         })
         .collect()

@@ -170,11 +170,13 @@ pub fn judge_motion(rungs: &[Rung]) -> Option<Finding> {
     let holds = (falls && last.closure_error <= FINE_ENOUGH) || small;
     if holds && last.progress >= ARRIVED && keeps_near(rungs) {
         let why = if !falls {
+            let most = rungs.iter().rev().take(3).map(|r| r.closure_error);
             format!(
                 "the loops stay closed to {:.1e} of the characteristic length at every number of \
                  substeps, and the simulated mechanism stays within {:.1e} of the predicted motion; \
                  a defect smaller than that would not show",
-                last.closure_error, last.distance
+                most.fold(0.0, f64::max),
+                last.distance
             )
         } else if rounded {
             "the simulated mechanism went the whole way on the predicted motion, to rounding".into()
@@ -322,7 +324,7 @@ mod tests {
         assert_eq!(outcome(&[2e-6, 6e-6]), None);
         let found = judge_motion(&rungs(&[2e-6, 6e-6, 1e-6])).unwrap();
         assert_eq!(found.outcome, Outcome::Confirmed);
-        assert!(found.why.contains("would not show"));
+        assert!(found.why.contains("closed to 6.0e-6") && found.why.contains("would not show"));
         assert_eq!(outcome(&[2e-5, 6e-5, 1e-5]), None);
     }
 

@@ -50,8 +50,6 @@ pub trait Observer {
     fn begin(&mut self, passage: &Passage) -> ControlFlow<()>;
     /// The simulation has come to a moment.
     fn moment(&mut self, moment: &Moment<'_>) -> ControlFlow<()>;
-    /// Something to be said, for people.
-    fn say(&mut self, text: &str);
 }
 
 /// Nobody watches.
@@ -66,6 +64,4 @@ impl Observer for Unobserved {
     fn moment(&mut self, _: &Moment<'_>) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
-
-    fn say(&mut self, _: &str) {}
 }

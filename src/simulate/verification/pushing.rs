@@ -8,8 +8,8 @@
 use super::VerificationError;
 use super::ladder::{Finding, LEVEL_ORDER, Outcome, order_between};
 use super::observer::{Moment, Observer, Passage};
-use crate::closure::{Geometry, JointState};
-use crate::mechanism::{FreedomPart, Mechanism};
+use crate::closure::{Geometry, JointState, variable_unit};
+use crate::mechanism::Mechanism;
 use crate::motion::Variable;
 use crate::simulate::{Drive, Solver, World, WorldOptions};
 use serde::Serialize;
@@ -176,10 +176,8 @@ impl Pushed<'_> {
         let mut world = World::new(self.mechanism, self.geometry, self.states, &options)?;
         let (_, effort) = world.scale();
         // A force on a slider does the work of a torque on a lever of the characteristic length.
-        let unit = match self.mechanism.joints()[joint].kind.freedoms()[freedom] {
-            FreedomPart::Translation => self.length,
-            FreedomPart::Rotation | FreedomPart::Screw => 1.0,
-        };
+        let parts = self.mechanism.joints()[joint].kind.freedoms();
+        let unit = variable_unit(parts[freedom], self.length);
         world.drive(Drive {
             joint,
             freedom,
@@ -247,10 +245,7 @@ impl Pushed<'_> {
             let increments =
                 self.geometry.displacements[index].increments(&self.states[index], state);
             for (part, increment) in joint.kind.freedoms().iter().zip(increments) {
-                let way = match part {
-                    FreedomPart::Translation => increment.abs() / self.length,
-                    FreedomPart::Rotation | FreedomPart::Screw => increment.abs(),
-                };
+                let way = increment.abs() / variable_unit(*part, self.length);
                 if !(way <= largest) {
                     largest = way;
                 }

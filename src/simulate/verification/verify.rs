@@ -15,8 +15,8 @@ use super::observer::{Moment, Observer, Passage};
 use super::prediction::Prediction;
 use super::pushing::{Pushed, Pushing};
 use super::{FreedomCount, VerificationError, count_freedoms};
-use crate::closure::Geometry;
-use crate::mechanism::{FreedomPart, Mechanism};
+use crate::closure::{Geometry, variable_unit};
+use crate::mechanism::Mechanism;
 use crate::mobility::{Analysis, Branch, Verdict};
 use crate::motion::Variable;
 use crate::simulate::{Drive, JointGap, Solver, World, WorldOptions};
@@ -169,17 +169,17 @@ pub fn verify(
         stopped: false,
         notes: Vec::new(),
     };
-    match analysis.mobility.verdict {
-        Verdict::Unassembled => {
-            verification.finding.why = "it does not assemble: there is no pose to simulate".into();
-            return Ok(verification);
-        }
-        Verdict::Undecided => {
-            verification.finding.why = "the mobility is undecided: nothing is predicted".into();
-            return Ok(verification);
-        }
-        Verdict::Mobile | Verdict::Rigid => {}
+    let unpredicted = match analysis.mobility.verdict {
+        Verdict::Unassembled => Some("it does not assemble: there is no pose to simulate"),
+        Verdict::Undecided => Some("the mobility is undecided: nothing is predicted"),
+        Verdict::Mobile | Verdict::Rigid => None,
+    };
+    if let Some(why) = unpredicted {
+        verification.finding.why = why.to_owned();
+        return Ok(verification);
     }
+    let branches = analysis.branches.as_deref().unwrap_or_default();
+    let chosen = chosen(branches, options.branch.as_deref())?;
     let home = World::new(
         mechanism,
         geometry,
@@ -195,62 +195,79 @@ pub fn verify(
         .iter()
         .map(|note| format!("{}: {}", note.about, note.text))
         .collect();
-    match analysis.mobility.verdict {
-        Verdict::Unassembled | Verdict::Undecided => {}
-        Verdict::Rigid => {
-            let mut best: Option<Pushing> = None;
-            for &solver in &options.solvers {
-                let pushed = Pushed {
-                    mechanism,
-                    geometry,
-                    states: &analysis.assembly.states,
-                    solver,
-                    time_step: options.time_step,
-                    ladder: &options.ladder,
-                    length,
-                };
-                let pushing = pushed.push_all(observer)?;
-                let enough = pushing.stopped || pushing.finding.outcome == Outcome::Confirmed;
-                if enough || best.is_none() {
-                    best = Some(pushing);
-                }
-                if enough {
-                    break;
-                }
-            }
-            let Some(pushing) = best else {
-                verification.finding.why = "no solver to simulate with was given".into();
-                return Ok(verification);
-            };
-            verification.finding = Finding::new(
-                pushing.finding.outcome,
-                format!("predicted rigid: {}", pushing.finding.why),
-            );
-            verification.stopped = pushing.stopped;
-            verification.pushing = Some(pushing);
-        }
-        Verdict::Mobile => {
-            let branches = analysis.branches.as_deref().unwrap_or_default();
-            let chosen = chosen(branches, options.branch.as_deref())?;
-            let test = Test {
-                mechanism,
-                geometry,
-                analysis,
-                options,
-                length,
-            };
-            for branch in chosen {
-                let found = test.branch(branch, observer)?;
-                verification.branches.push(found.0);
-                if found.1 {
-                    verification.stopped = true;
-                    break;
-                }
-            }
-            verification.finding = together(&verification.branches, verification.stopped);
-        }
+    if !home.not_simulated().is_empty() {
+        verification.finding.why = format!(
+            "the engine cannot hold {}: what it would simulate is another mechanism",
+            home.not_simulated().join(", ")
+        );
+        return Ok(verification);
     }
-    Ok(verification)
+    if analysis.mobility.verdict == Verdict::Rigid {
+        verify_rigid(mechanism, geometry, analysis, options, length, observer)
+            .map(|pushing| verification.with_pushing(pushing))
+    } else {
+        let test = Test {
+            mechanism,
+            geometry,
+            analysis,
+            options,
+            length,
+        };
+        for branch in chosen {
+            let (found, stopped) = test.branch(branch, observer)?;
+            verification.branches.push(found);
+            if stopped {
+                verification.stopped = true;
+                break;
+            }
+        }
+        verification.finding = together(&verification.branches, verification.stopped);
+        Ok(verification)
+    }
+}
+
+/// Pushes with one solver after the other until one shows that nothing moves; `None` where there is none to push with.
+fn verify_rigid(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    analysis: &Analysis,
+    options: &VerificationOptions,
+    length: f64,
+    observer: &mut dyn Observer,
+) -> Result<Option<Pushing>, VerificationError> {
+    let mut first = None;
+    for &solver in &options.solvers {
+        let pushed = Pushed {
+            mechanism,
+            geometry,
+            states: &analysis.assembly.states,
+            solver,
+            time_step: options.time_step,
+            ladder: &options.ladder,
+            length,
+        };
+        let pushing = pushed.push_all(observer)?;
+        if pushing.stopped || pushing.finding.outcome == Outcome::Confirmed {
+            return Ok(Some(pushing));
+        }
+        first.get_or_insert(pushing);
+    }
+    Ok(first)
+}
+
+impl Verification {
+    fn with_pushing(mut self, pushing: Option<Pushing>) -> Self {
+        match &pushing {
+            Some(pushing) => {
+                let why = format!("predicted rigid: {}", pushing.finding.why);
+                self.finding = Finding::new(pushing.finding.outcome, why);
+                self.stopped = pushing.stopped;
+            }
+            None => self.finding.why = "no solver to simulate with was given".to_owned(),
+        }
+        self.pushing = pushing;
+        self
+    }
 }
 
 fn chosen<'a>(
@@ -264,11 +281,13 @@ fn chosen<'a>(
         Some(branch) => Ok(vec![branch]),
         None => Err(VerificationError::UnknownBranch {
             name: name.to_owned(),
-            known: branches
-                .iter()
-                .map(|b| b.name.as_str())
-                .collect::<Vec<_>>()
-                .join(", "),
+            known: match branches {
+                [] => "none".to_owned(),
+                several => {
+                    let names: Vec<&str> = several.iter().map(|b| b.name.as_str()).collect();
+                    names.join(", ")
+                }
+            },
         }),
     }
 }
@@ -442,11 +461,9 @@ impl Test<'_> {
         };
         let mut world = World::new(self.mechanism, self.geometry, &way.start, &options)?;
         let (_, effort) = world.scale();
-        let unit = |input: &Variable| match self.mechanism.joints()[input.joint].kind.freedoms()
-            [input.freedom]
-        {
-            FreedomPart::Translation => self.length,
-            FreedomPart::Rotation | FreedomPart::Screw => 1.0,
+        let unit = |input: &Variable| {
+            let kind = self.mechanism.joints()[input.joint].kind;
+            variable_unit(kind.freedoms()[input.freedom], self.length)
         };
         let drive = |world: &mut World, input: &Variable, velocity: f64, effort: f64| {
             let fastest = FASTEST * unit(input);
