@@ -9,13 +9,15 @@
 //! 5. [`group`]: SE(3), twists, power series; the displacement subgroups.
 //! 6. [`graph`]: the spatial constraint graph, its blocks, spanning tree and cycles.
 //! 7. [`closure`]: the equations of the cycles: residual, Jacobian, assembly.
-//! 8. [`mobility`]: engines and the verdict.
-//! 9. [`motion`]: a branch followed as a curve: predicted motion.
-//! 10. [`simulate`]: a world of rigid bodies for a mechanism, and what it says about a prediction.
-//! 11. [`record`]: logs of both for viewers.
-//! 12. [`families`]: mechanisms of any size for examples, benches and tests.
-//! 13. [`report`]: what a person or a program reads.
+//! 8. [`algebra`]: the same equations as polynomials; Groebner bases.
+//! 9. [`mobility`]: engines and the verdict.
+//! 10. [`motion`]: a branch followed as a curve: predicted motion.
+//! 11. [`simulate`]: a world of rigid bodies for a mechanism, and what it says about a prediction.
+//! 12. [`record`]: logs of both for viewers.
+//! 13. [`families`]: mechanisms of any size for examples, benches and tests.
+//! 14. [`report`]: what a person or a program reads.
 
+pub mod algebra;
 pub mod closure;
 pub mod families;
 pub mod format;
