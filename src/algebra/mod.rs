@@ -11,5 +11,7 @@
 mod engine;
 mod polynomial;
 
-pub use engine::{Budget, Certificate, GroebnerBasis, Limits, MonomialOrder, Stop, groebner_basis};
+pub use engine::{
+    Budget, Certificate, GroebnerBasis, Limits, MonomialOrder, Progress, Stop, groebner_basis,
+};
 pub use polynomial::{Polynomial, Rational};
