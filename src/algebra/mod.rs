@@ -10,6 +10,8 @@
 
 mod engine;
 mod polynomial;
+mod univariate;
 
 pub use engine::{Budget, Certificate, GroebnerBasis, Limits, MonomialOrder, Stop, groebner_basis};
 pub use polynomial::{Polynomial, Rational};
+pub use univariate::{RealRoot, Univariate};
