@@ -9,9 +9,13 @@
 //! Everything that costs much takes a [`Budget`] and ends with an answer or a [`Stop`] that says why there is none.
 
 mod engine;
+mod factor;
 mod polynomial;
+mod univariate;
 
 pub use engine::{
     Budget, Certificate, GroebnerBasis, Limits, MonomialOrder, Progress, Stop, groebner_basis,
 };
+pub use factor::{Factorization, UnivariateFactors, factor};
 pub use polynomial::{Polynomial, Rational};
+pub use univariate::{RealRoot, Univariate};
