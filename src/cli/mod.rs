@@ -1,6 +1,6 @@
 //! The command line: words in, a call into the library, text out. One file per subcommand; no analysis in any of them.
 //!
-//! Exit codes: 0 done; 1 an expectation failed; 2 bad input; 3 undecided where `--strict` was given.
+//! Exit codes: 0 done; 1 an expectation or a verification failed; 2 bad input; 3 undecided where `--strict` was given; 130 interrupted.
 
 mod check;
 mod excerpt;
@@ -33,7 +33,7 @@ const UNDECIDED: u8 = 3;
 #[derive(Debug, Parser)]
 #[command(name = "kutzbach", version, about, max_term_width = 100)]
 #[command(
-    after_help = "Exit codes: 0 done, 1 an expectation failed, 2 bad input, 3 undecided under --strict."
+    after_help = "Exit codes: 0 done, 1 an expectation or a verification failed, 2 bad input, 3 undecided under --strict, 130 interrupted."
 )]
 struct Arguments {
     #[command(subcommand)]
