@@ -12,6 +12,8 @@ mod engine;
 mod polynomial;
 
 pub use engine::{
-    Budget, Certificate, GroebnerBasis, Limits, MonomialOrder, Progress, Stop, groebner_basis,
+    Budget, Certificate, GroebnerBasis, HilbertSeries, Limits, LocalRing, MonomialOrder, Progress,
+    ResidueTerms, Stop, eliminate, groebner_basis, local_dimension, local_dimension_is_at_most,
+    local_dimension_modulo, quotient, radical_contains, saturate,
 };
 pub use polynomial::{Polynomial, Rational};
