@@ -84,6 +84,9 @@ pub enum Stop {
     /// The rational numbers of the answer could not be found from their remainders.
     #[error("the coefficients of the answer are too large")]
     Coefficients,
+    /// The number to compute modulo is no prime.
+    #[error("the modulus is no prime number")]
+    Modulus,
 }
 
 /// Limits and what has been used of them. One budget serves all steps of a question.

@@ -45,6 +45,30 @@ pub(super) fn reduced_basis<C: Coefficient>(
     Ok((basis, f4.trace))
 }
 
+/// Leading monomials of a Groebner basis, some of them perhaps multiples of others; not all of them where `enough` says after a
+/// round that it needs no more.
+pub(super) fn leading_monomials_until<C: Coefficient>(
+    polynomials: &[Terms<C>],
+    variables: usize,
+    order: &MonomialOrder,
+    enough: impl Fn(&mut dyn Iterator<Item = &[u16]>) -> bool,
+    budget: &Budget,
+) -> Result<Vec<Box<[u16]>>, Stop> {
+    let mut f4 = F4::new(variables, order, false, budget);
+    f4.start(polynomials)?;
+    let mut known = 0;
+    loop {
+        let heads = &f4.pairs.heads;
+        let new = heads.len() > known;
+        known = heads.len();
+        if f4.pairs.is_empty() || new && enough(&mut heads.iter().map(|head| &*head.lead)) {
+            break;
+        }
+        f4.round()?;
+    }
+    Ok(f4.pairs.heads.into_iter().map(|head| head.lead).collect())
+}
+
 /// Whether all S-polynomials of monic polynomials reduce to zero, those that Buchberger's criteria dispense with left out.
 pub(super) fn is_basis<C: Coefficient>(
     polynomials: &[Terms<C>],
