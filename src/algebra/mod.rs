@@ -12,8 +12,10 @@ mod engine;
 mod factor;
 mod polynomial;
 mod univariate;
+mod zero_dimensional;
 
 pub use engine::{Budget, Certificate, GroebnerBasis, Limits, MonomialOrder, Stop, groebner_basis};
 pub use factor::{Factorization, UnivariateFactors, factor};
 pub use polynomial::{Polynomial, Rational};
 pub use univariate::{RealRoot, Univariate};
+pub use zero_dimensional::{FinitePoints, RealSolution, Representation, TraceForm};
