@@ -8,12 +8,17 @@
 //!
 //! Everything that costs much takes a [`Budget`] and ends with an answer or a [`Stop`] that says why there is none.
 
+mod components;
 mod engine;
 mod factor;
 mod polynomial;
 mod univariate;
 mod zero_dimensional;
 
+pub use components::{
+    AlgebraicNumber, Component, Decomposition, Hints, Incomplete, Irreducible, RealPoints,
+    components,
+};
 pub use engine::{Budget, Certificate, GroebnerBasis, Limits, MonomialOrder, Stop, groebner_basis};
 pub use factor::{Factorization, UnivariateFactors, factor};
 pub use polynomial::{Polynomial, Rational};
