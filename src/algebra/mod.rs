@@ -19,7 +19,9 @@ pub use components::{
     AlgebraicNumber, Component, Decomposition, Hints, Incomplete, Irreducible, RealPoints,
     components,
 };
-pub use engine::{Budget, Certificate, GroebnerBasis, Limits, MonomialOrder, Stop, groebner_basis};
+pub use engine::{
+    Budget, Certificate, GroebnerBasis, Limits, MonomialOrder, Progress, Stop, groebner_basis,
+};
 pub use factor::{Factorization, UnivariateFactors, factor};
 pub use polynomial::{Polynomial, Rational};
 pub use univariate::{RealRoot, Univariate};

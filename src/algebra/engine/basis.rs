@@ -1,25 +1,20 @@
 //! Groebner bases over the rationals.
 
 use super::budget::{Budget, Stop};
+use super::certificate::Certificate;
+use super::f4::{normal_forms, reduced_basis};
 use super::modular::rational_basis;
 use super::order::MonomialOrder;
+use super::terms::Terms;
 use crate::algebra::polynomial::{Polynomial, Rational};
-use groebner::PolynomialExt;
-use polycore::Poly;
-
-/// What was checked of a basis.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Certificate {
-    /// Primes modulo which the basis was found the same.
-    pub primes: usize,
-}
 
 /// A reduced Groebner basis: every polynomial primitive, no term of one divisible by the leading monomial of another.
 #[derive(Clone, Debug)]
 pub struct GroebnerBasis {
     order: MonomialOrder,
     variables: usize,
-    monic: Vec<Poly<Rational>>,
+    monic: Vec<Terms<Rational>>,
+    leads: Vec<Vec<u32>>,
     polynomials: Vec<Polynomial>,
     certificate: Certificate,
 }
@@ -34,16 +29,18 @@ pub fn groebner_basis(
     order: &MonomialOrder,
     budget: &Budget,
 ) -> Result<GroebnerBasis, Stop> {
-    let raw_order = order.raw(variables);
-    let (mut monic, certificate) = rational_basis(equations, &raw_order, budget)?;
-    monic.sort_by(|a, b| raw_order.compare(&a.terms[0].0, &b.terms[0].0));
+    let (monic, certificate) = rational_basis(equations, variables, order, budget)?;
     let polynomials = monic
         .iter()
-        .map(|p| Polynomial::from_raw(p).primitive())
+        .map(|p| p.polynomial(variables).primitive())
         .collect();
+    let leads = monic.iter().filter_map(Terms::lead);
     Ok(GroebnerBasis {
         order: order.clone(),
         variables,
+        leads: leads
+            .map(|m| m.iter().map(|&e| u32::from(e)).collect())
+            .collect(),
         monic,
         polynomials,
         certificate,
@@ -77,20 +74,71 @@ impl GroebnerBasis {
 
     /// The exponents of the leading monomials, in the order of [`Self::polynomials`].
     pub fn leading_monomials(&self) -> impl ExactSizeIterator<Item = &[u32]> {
-        self.monic.iter().map(|p| p.terms[0].0.exps())
+        self.leads.iter().map(Vec::as_slice)
     }
 
     /// Whether the equations contradict one another: no solution, not even a complex one.
     #[must_use]
     pub fn is_inconsistent(&self) -> bool {
-        self.monic.iter().any(Poly::is_constant)
+        self.leads.iter().any(|lead| lead.iter().all(|&e| e == 0))
     }
 
-    /// What remains of a polynomial modulo the ideal.
+    /// What remains of a polynomial modulo the ideal: no term is a multiple of a leading monomial.
+    ///
+    /// # Errors
+    /// [`Stop`] where the budget does not suffice.
+    pub fn normal_form_within(
+        &self,
+        polynomial: &Polynomial,
+        budget: &Budget,
+    ) -> Result<Polynomial, Stop> {
+        let polynomial = [Terms::of(polynomial, &self.order)?];
+        let rest = normal_forms(
+            &polynomial,
+            &self.monic,
+            self.variables,
+            &self.order,
+            budget,
+        )?;
+        let zero = Polynomial::zero(self.variables);
+        Ok(rest
+            .first()
+            .map_or(zero, |rest| rest.polynomial(self.variables)))
+    }
+
+    /// [`Self::normal_form_within`] without a limit: for polynomials of the degree of the equations, where it takes less time
+    /// than the basis did.
     #[must_use]
     pub fn normal_form(&self, polynomial: &Polynomial) -> Polynomial {
-        let ordered = polynomial.raw().reorder(self.order.raw(self.variables));
-        Polynomial::from_raw(&ordered.normal_form(&self.monic))
+        self.normal_form_within(polynomial, &Budget::unlimited())
+            .unwrap_or_else(|_| polynomial.clone())
+    }
+
+    /// Whether a polynomial is a combination of the equations.
+    #[must_use]
+    pub fn contains(&self, polynomial: &Polynomial) -> bool {
+        self.normal_form(polynomial).is_zero()
+    }
+
+    /// Computes the basis again over the rationals. `true`: it is the same, and the certificate says from now on that
+    /// nothing rests on primes. `false`: these are not the equations of this basis.
+    ///
+    /// Fractions grow much more in this computation than in its result; it is meant for small systems.
+    ///
+    /// # Errors
+    /// [`Stop`] where the budget does not suffice; nothing has changed then.
+    pub fn prove(&mut self, equations: &[Polynomial], budget: &Budget) -> Result<bool, Stop> {
+        let equations: Vec<Terms<Rational>> = equations
+            .iter()
+            .filter(|p| !p.is_zero())
+            .map(|p| Terms::of(p, &self.order))
+            .collect::<Result<_, Stop>>()?;
+        let (basis, _) = reduced_basis(&equations, self.variables, &self.order, false, budget)?;
+        let same = basis == self.monic;
+        if same {
+            self.certificate = Certificate::over_the_rationals();
+        }
+        Ok(same)
     }
 }
 

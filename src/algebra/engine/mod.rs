@@ -2,10 +2,18 @@
 
 mod basis;
 mod budget;
+mod certificate;
+mod f4;
+mod linear;
 mod modular;
+mod monomials;
 mod order;
-mod residue;
+mod pairs;
+mod symbolic;
+mod terms;
+mod trace;
 
-pub use basis::{Certificate, GroebnerBasis, groebner_basis};
-pub use budget::{Budget, Limits, Stop};
+pub use basis::{GroebnerBasis, groebner_basis};
+pub use budget::{Budget, Limits, Progress, Stop};
+pub use certificate::Certificate;
 pub use order::MonomialOrder;
