@@ -8,11 +8,17 @@
 //!
 //! Everything that costs much takes a [`Budget`] and ends with an answer or a [`Stop`] that says why there is none.
 
+mod components;
 mod engine;
 mod factor;
 mod polynomial;
 mod univariate;
+mod zero_dimensional;
 
+pub use components::{
+    AlgebraicNumber, Component, Decomposition, Hints, Incomplete, Irreducible, RealPoints,
+    components,
+};
 pub use engine::{
     Budget, Certificate, GroebnerBasis, HilbertSeries, Limits, LocalRing, MonomialOrder, Progress,
     ResidueTerms, Stop, eliminate, groebner_basis, local_dimension, local_dimension_is_at_most,
@@ -21,3 +27,4 @@ pub use engine::{
 pub use factor::{Factorization, UnivariateFactors, factor};
 pub use polynomial::{Polynomial, Rational};
 pub use univariate::{RealRoot, Univariate};
+pub use zero_dimensional::{FinitePoints, RealSolution, Representation, TraceForm};

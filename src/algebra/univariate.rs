@@ -9,6 +9,7 @@ pub(super) mod residues;
 mod roots;
 
 pub use roots::RealRoot;
+pub(super) use roots::to_f64;
 
 use super::polynomial::{Polynomial, Rational};
 use num_bigint::{BigInt, Sign};

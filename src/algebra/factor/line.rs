@@ -72,7 +72,7 @@ impl Line {
     }
 
     /// The polynomial in the coordinates t (in the place of the pivot) and y (the distance from the line along the others).
-    pub(super) fn into_coordinates(&self, polynomial: &Polynomial) -> Polynomial {
+    pub(super) fn to_coordinates(&self, polynomial: &Polynomial) -> Polynomial {
         let n = self.base.len();
         let t = Polynomial::variable(self.pivot, n);
         let replacements: Vec<Polynomial> = (0..n)
@@ -128,7 +128,7 @@ mod tests {
         let p = &(&(&x * &x) * &y) - &(&y + &Polynomial::integer(3, 2));
         for number in 0..4 {
             let line = Line::numbered(number, 2);
-            let moved = line.into_coordinates(&p);
+            let moved = line.to_coordinates(&p);
             assert_eq!(line.out_of_coordinates(&moved), p);
             // On the line the distance is zero.
             let restricted = line.restrict(&p);

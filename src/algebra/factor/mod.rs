@@ -216,7 +216,7 @@ fn combine(
     complete: &mut bool,
 ) -> Result<Option<Vec<(Polynomial, u32)>>, Stop> {
     let (line, variables) = (&restricted.line, polynomial.variables());
-    let moved = line.into_coordinates(polynomial);
+    let moved = line.to_coordinates(polynomial);
     let head = line
         .restrict(polynomial)
         .pop()
