@@ -10,6 +10,11 @@
 
 mod engine;
 mod polynomial;
+mod system;
 
 pub use engine::{Budget, Certificate, GroebnerBasis, Limits, MonomialOrder, Stop, groebner_basis};
 pub use polynomial::{Polynomial, Rational};
+pub use system::{
+    CycleEquations, Equation, Formulation, HomePose, Meaning, ModularSystem, Origin, PolynomialSystem,
+    Relaxation, SystemError, SystemOptions, Variable, polynomial_system,
+};
