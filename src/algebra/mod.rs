@@ -12,6 +12,8 @@ mod components;
 mod engine;
 mod factor;
 mod polynomial;
+mod strategy;
+mod system;
 mod univariate;
 mod zero_dimensional;
 
@@ -26,5 +28,14 @@ pub use engine::{
 };
 pub use factor::{Factorization, UnivariateFactors, factor};
 pub use polynomial::{Polynomial, Rational};
+pub use strategy::{
+    Case, Divided, Group, Incremental, Instance, Problem, Relation, RelationFinding,
+    RelationVerdict, Step, brute_force, divide_and_conquer, incremental_instancing,
+    relation_by_relation,
+};
+pub use system::{
+    CycleEquations, Equation, Formulation, HomePose, Meaning, ModularSystem, Origin,
+    PolynomialSystem, Relaxation, SystemError, SystemOptions, Variable, polynomial_system,
+};
 pub use univariate::{RealRoot, Univariate};
 pub use zero_dimensional::{FinitePoints, RealSolution, Representation, TraceForm};

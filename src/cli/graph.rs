@@ -3,11 +3,7 @@
 use super::failure::Failure;
 use super::{DONE, load, output};
 use clap::{Args, ValueEnum};
-use kutzbach::graph::{
-    ConstraintGraph, CycleBasis, EdgeSpec, ExtraRelation, GraphSummary, NodeSpec, SpanningTree,
-    to_dot, to_svg,
-};
-use kutzbach::mechanism::Mechanism;
+use kutzbach::graph::{ConstraintGraph, CycleBasis, GraphSummary, SpanningTree, to_dot, to_svg};
 use kutzbach::report::text::visible;
 
 /// Show links, joints, spanning tree and cycles
@@ -40,7 +36,7 @@ enum Format {
 /// Where the file cannot be read or the output cannot be written.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let reading = arguments.source.read()?;
-    let graph = constraint_graph(&reading.mechanism);
+    let graph = ConstraintGraph::of(&reading.mechanism);
     let tree = SpanningTree::low_depth(&graph);
     let summary = || GraphSummary::new(&graph, &tree, &CycleBasis::minimum(&graph, &tree));
     let text = match arguments.format {
@@ -51,28 +47,6 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     };
     arguments.destination.put(&text)?;
     Ok(DONE)
-}
-
-fn constraint_graph(mechanism: &Mechanism) -> ConstraintGraph {
-    let nodes = mechanism.links().iter().map(|link| NodeSpec {
-        name: link.name.clone(),
-    });
-    let edges = mechanism.joints().iter().map(|joint| EdgeSpec {
-        name: joint.name.clone(),
-        ends: [joint.predecessor.link.0, joint.successor.link.0],
-        freedom: joint.freedom(),
-        class: joint.kind.class().to_owned(),
-    });
-    let couplings = mechanism.couplings().iter().map(|coupling| ExtraRelation {
-        name: coupling.name.clone(),
-        edges: coupling.terms.iter().map(|term| term.joint.0).collect(),
-    });
-    ConstraintGraph::new(
-        mechanism.ground().0,
-        nodes.collect(),
-        edges.collect(),
-        couplings.collect(),
-    )
 }
 
 /// Names may hold terminal escapes: line by line, what would steer the terminal is written out.

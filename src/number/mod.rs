@@ -47,6 +47,7 @@ mod surd;
 mod tests;
 mod token;
 mod tree;
+mod view;
 
 pub use angle::{Angle, Direction};
 pub use decimal::Stated;
@@ -54,6 +55,7 @@ pub use error::{NumberError, Reason};
 pub use evaluate::ZeroTest;
 pub use surd::Surd;
 pub use tree::Tree;
+pub(crate) use view::View;
 
 use ball::{Ball, Clear};
 use dashu::float::FBig;

@@ -2,8 +2,9 @@
 
 use super::divide::{Clock, Step};
 use super::group::{Local, Problem};
-use crate::algebra::factor::factors;
-use crate::algebra::{Budget, GroebnerBasis, MonomialOrder, Polynomial, Stop, groebner_basis};
+use crate::algebra::{
+    Budget, GroebnerBasis, MonomialOrder, Polynomial, Stop, factor, groebner_basis,
+};
 
 /// Most cases that are carried side by side. Beyond it a choice stays an equation, and nothing is lost.
 const MOST_CASES: usize = 64;
@@ -86,7 +87,9 @@ pub fn incremental_instancing(problem: &Problem, budget: &Budget) -> Result<Incr
                 let local = Local::new(&equations, problem.variables);
                 let absent = problem.variables - local.variables.len();
                 let (n, m) = (local.variables.len(), equations.len());
-                result.steps.push(clock.step(&group.name, n, m, &first, absent));
+                result
+                    .steps
+                    .push(clock.step(&group.name, n, m, &first, absent));
             }
             if pieces.bases.is_empty() {
                 result.contradictions.push(group.name.clone());
@@ -132,7 +135,11 @@ impl Known {
     fn with(&self, equations: &[Polynomial]) -> Vec<Polynomial> {
         let mut reduced: Vec<Polynomial> = equations
             .iter()
-            .map(|p| self.instances.iter().fold(p.clone(), |p, i| replaced(&p, i)))
+            .map(|p| {
+                self.instances
+                    .iter()
+                    .fold(p.clone(), |p, i| replaced(&p, i))
+            })
             .filter(|p| !p.is_zero())
             .collect();
         let touched = |v: usize| reduced.iter().any(|p| p.mentions(v));
@@ -266,10 +273,12 @@ fn first_choice(basis: &GroebnerBasis, budget: &Budget) -> Result<Option<Vec<Pol
         if polynomial.degree() < 2 {
             continue;
         }
-        let factors = factors(polynomial, budget)?.factors;
+        let factors = factor(polynomial, budget)?.factors;
         let power = factors.iter().any(|(_, exponent)| *exponent > 1);
         if factors.len() > 1 || power {
-            return Ok(Some(factors.into_iter().map(|(factor, _)| factor).collect()));
+            return Ok(Some(
+                factors.into_iter().map(|(factor, _)| factor).collect(),
+            ));
         }
     }
     Ok(None)

@@ -123,8 +123,7 @@ mod tests {
             relation("first", &(&x - &one)),
             relation("second", &(&y + &one)),
         ];
-        let findings =
-            relation_by_relation(&[], &relations, 2, &Budget::unlimited()).unwrap();
+        let findings = relation_by_relation(&[], &relations, 2, &Budget::unlimited()).unwrap();
         let told: Vec<(RelationVerdict, usize)> =
             findings.iter().map(|f| (f.verdict, f.dimension)).collect();
         assert_eq!(
