@@ -50,18 +50,18 @@ impl Problem {
 }
 
 /// Some equations in the ring of just the variables that occur in them.
-pub(super) struct Local {
+pub(in crate::algebra) struct Local {
     /// The variables of the large ring, in its order.
-    pub(super) variables: Vec<usize>,
+    pub(in crate::algebra) variables: Vec<usize>,
     /// Number of variables of the large ring.
     all: usize,
     /// The equations in the small ring.
-    pub(super) equations: Vec<Polynomial>,
+    pub(in crate::algebra) equations: Vec<Polynomial>,
 }
 
 impl Local {
     /// Moves equations into the ring of their own variables.
-    pub(super) fn new(equations: &[Polynomial], all: usize) -> Self {
+    pub(in crate::algebra) fn new(equations: &[Polynomial], all: usize) -> Self {
         let variables: Vec<usize> = (0..all)
             .filter(|&v| equations.iter().any(|p| p.mentions(v)))
             .collect();
@@ -87,7 +87,7 @@ impl Local {
     }
 
     /// The basis of the equations, in the small ring.
-    pub(super) fn basis(
+    pub(in crate::algebra) fn basis(
         &self,
         order: &MonomialOrder,
         budget: &Budget,
@@ -96,7 +96,7 @@ impl Local {
     }
 
     /// A polynomial of the small ring in the large one.
-    pub(super) fn lift(&self, polynomial: &Polynomial) -> Polynomial {
+    pub(in crate::algebra) fn lift(&self, polynomial: &Polynomial) -> Polynomial {
         polynomial.moved(&self.variables, self.all)
     }
 }

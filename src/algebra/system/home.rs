@@ -40,6 +40,17 @@ impl HomePose {
     }
 }
 
+impl PolynomialSystem {
+    /// Whether a polynomial in the system's variables vanishes at the drawn pose, exactly; `None` where that pose is not
+    /// known exactly, or holds parameters.
+    #[must_use]
+    pub fn vanishes_at_home(&self, polynomial: &Polynomial) -> Option<bool> {
+        let point = self.construction.point.as_ref()?;
+        let value = value_at(polynomial, point, &self.construction.field);
+        Some(value.is_zero())
+    }
+}
+
 /// The value of a polynomial over the rationals at a point of a field.
 pub(super) fn value_at(polynomial: &Polynomial, point: &[Element], field: &Field) -> Element {
     let mut sum = Element::zero();
