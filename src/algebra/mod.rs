@@ -20,7 +20,9 @@ pub use components::{
     components,
 };
 pub use engine::{
-    Budget, Certificate, GroebnerBasis, Limits, MonomialOrder, Progress, Stop, groebner_basis,
+    Budget, Certificate, GroebnerBasis, HilbertSeries, Limits, LocalRing, MonomialOrder, Progress,
+    ResidueTerms, Stop, eliminate, groebner_basis, local_dimension, local_dimension_is_at_most,
+    local_dimension_modulo, quotient, radical_contains, saturate,
 };
 pub use factor::{Factorization, UnivariateFactors, factor};
 pub use polynomial::{Polynomial, Rational};

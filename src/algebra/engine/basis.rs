@@ -1,12 +1,18 @@
 //! Groebner bases over the rationals.
 
-use super::budget::{Budget, Stop};
+use super::budget::{Budget, Limits, Stop};
 use super::certificate::Certificate;
+use super::dimension::Supports;
 use super::f4::{normal_forms, reduced_basis};
+use super::hilbert::{HilbertSeries, small};
 use super::modular::rational_basis;
 use super::order::MonomialOrder;
 use super::terms::Terms;
 use crate::algebra::polynomial::{Polynomial, Rational};
+use groebner::Zp;
+
+/// Monomials handled before the degree of an ideal counts as too costly.
+const DEGREE_WORK: u64 = 20_000_000;
 
 /// A reduced Groebner basis: every polynomial primitive, no term of one divisible by the leading monomial of another.
 #[derive(Clone, Debug)]
@@ -81,6 +87,59 @@ impl GroebnerBasis {
     #[must_use]
     pub fn is_inconsistent(&self) -> bool {
         self.leads.iter().any(|lead| lead.iter().all(|&e| e == 0))
+    }
+
+    /// The dimension of the complex solution set; `None` where there is no solution.
+    #[must_use]
+    pub fn dimension(&self) -> Option<usize> {
+        self.supports().dimension()
+    }
+
+    /// Sets of variables that can be chosen freely almost everywhere on some part of highest dimension, as the leading
+    /// monomials show them: every one as large as the dimension, at most `limit` of them, in lexicographic order.
+    #[must_use]
+    pub fn independent_sets(&self, limit: usize) -> Vec<Vec<usize>> {
+        self.supports().independent_sets(limit)
+    }
+
+    /// Whether a variable belongs to some set of [`Self::independent_sets`]. Another monomial order may show others: `false`
+    /// does not mean that the variable is locked, for that see [`Self::univariate_in`].
+    #[must_use]
+    pub fn is_free(&self, variable: usize) -> bool {
+        variable < self.variables && self.supports().is_free(variable)
+    }
+
+    fn supports(&self) -> Supports {
+        Supports::new(self.leading_monomials(), self.variables)
+    }
+
+    /// The Hilbert series of the affine solution set; `None` where there is no solution, or where neither the order compares
+    /// degrees first nor the solutions are finitely many.
+    ///
+    /// # Errors
+    /// [`Stop`] where the budget does not suffice.
+    pub fn hilbert(&self, budget: &Budget) -> Result<Option<HilbertSeries>, Stop> {
+        if !self.order.is_graded() && self.dimension() != Some(0) {
+            return Ok(None);
+        }
+        HilbertSeries::of(self.leads.clone(), self.variables, budget)
+    }
+
+    /// The degree of the part of highest dimension, multiplicities counted; in dimension 0 the number of complex solutions
+    /// with multiplicity. `None` where [`Self::hilbert`] has none or would take more than some seconds.
+    #[must_use]
+    pub fn degree(&self) -> Option<usize> {
+        let budget = Budget::new(Limits {
+            work: Some(DEGREE_WORK),
+            ..Limits::default()
+        });
+        let series = self.hilbert(&budget).ok().flatten()?;
+        small(&series.degree())
+    }
+
+    /// The polynomials modulo a prime, monic; `None` where the prime divides a denominator.
+    pub(super) fn modulo(&self, prime: u64) -> Option<Vec<Terms<Zp>>> {
+        self.monic.iter().map(|p| p.modulo(prime)).collect()
     }
 
     /// What remains of a polynomial modulo the ideal: no term is a multiple of a leading monomial.

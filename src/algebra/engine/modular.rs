@@ -146,18 +146,15 @@ impl Search<'_> {
         let Some((trace, layout)) = &self.trace else {
             return self.compute(prime, input, true);
         };
-        let Some(tails) = trace.replay(input.clone(), self.budget)? else {
+        let Some(values) = trace.replay(input.clone(), prime, self.budget)? else {
             // A prime that behaves differently, or a trace of one that did: the newer trace replaces the older one, and
             // leading monomials decide which group grows.
             return self.compute(prime, input, true);
         };
         let basis = layout
             .iter()
-            .zip(tails)
-            .map(|(monomials, mut coefficients)| {
-                coefficients.insert(0, Zp::from_i64(1, prime));
-                Terms::without_zeros(monomials, coefficients)
-            })
+            .zip(values)
+            .map(|(monomials, values)| Terms::without_zeros(monomials, values))
             .collect();
         Ok(Image { prime, basis })
     }

@@ -24,6 +24,21 @@ impl<C: Clone> Terms<C> {
         }
     }
 
+    /// Sorted in another order; with it where each term was before.
+    pub(super) fn reordered(&self, order: &MonomialOrder) -> (Self, Vec<u32>) {
+        let mut places: Vec<u32> = (0..self.monomials.len() as u32).collect();
+        let monomial = |place: u32| &*self.monomials[place as usize];
+        places.sort_by(|&a, &b| order.compare(monomial(b), monomial(a)));
+        let sorted = Self {
+            monomials: places.iter().map(|&i| monomial(i).into()).collect(),
+            coefficients: places
+                .iter()
+                .map(|&i| self.coefficients[i as usize].clone())
+                .collect(),
+        };
+        (sorted, places)
+    }
+
     pub(super) fn lead(&self) -> Option<&[u16]> {
         self.monomials.first().map(|m| &**m)
     }
@@ -55,16 +70,6 @@ impl Terms<Rational> {
         let terms = self.monomials.iter().zip(&self.coefficients);
         let terms = terms.map(|(m, c)| (exponents(m), c.clone())).collect();
         Polynomial::from_terms(terms, variables)
-    }
-
-    /// Divided by the leading coefficient.
-    pub(super) fn monic(mut self) -> Self {
-        if let Some(lead) = self.coefficients.first().cloned() {
-            for c in &mut self.coefficients {
-                *c /= &lead;
-            }
-        }
-        self
     }
 
     /// The coefficients modulo a prime, zeros included; `None` where the prime divides a denominator or the leading
