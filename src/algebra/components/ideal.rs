@@ -2,6 +2,7 @@
 
 use crate::algebra::engine::{Budget, MonomialOrder, Stop, groebner_basis};
 use crate::algebra::polynomial::Polynomial;
+use std::cmp::Ordering;
 
 /// Most independent sets that are looked at.
 const MOST_SETS: usize = 4_000;
@@ -13,6 +14,14 @@ pub(super) fn head(polynomial: &Polynomial) -> Vec<u32> {
         .next()
         .map(|(exponents, _)| exponents.to_vec())
         .unwrap_or_default()
+}
+
+/// Degrevlex: by degree, ties by the smaller power of the last variable.
+pub(super) fn compare(a: &[u32], b: &[u32]) -> Ordering {
+    let total = |m: &[u32]| m.iter().sum::<u32>();
+    total(a)
+        .cmp(&total(b))
+        .then_with(|| b.iter().rev().cmp(a.iter().rev()))
 }
 
 /// The largest sets of variables of which no product is a head: the dimension is their size (Kredel and Weispfenning 1988).

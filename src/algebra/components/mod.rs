@@ -45,12 +45,15 @@ pub struct AlgebraicNumber {
 }
 
 /// What is known of the variables.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Hints {
     /// Variables that are cosine and sine of one angle.
     pub angles: Vec<(usize, usize)>,
     /// Variables that stand for algebraic numbers. Only points where they are the right roots count as real.
     pub numbers: Vec<AlgebraicNumber>,
+    /// Real points, one coordinate per variable, near which to look for real points first; they need not be exact. The
+    /// answer never rests on them.
+    pub points: Vec<Vec<f64>>,
 }
 
 /// A piece of the solution set.
@@ -199,7 +202,12 @@ fn remove_contained(found: &mut Vec<Whole>, budget: &Budget) -> Result<(), Stop>
 
 /// Whether all equations of the second piece vanish on the first.
 fn lies_in(first: &Whole, second: &Whole, budget: &Budget) -> Result<bool, Stop> {
-    for equation in second.piece.original_equations() {
+    let equations = second.piece.original_equations();
+    if first.free.len() == second.free.len() && first.prime && second.prime {
+        // Of two irreducible sets of the same dimension none contains the other; and reduced bases are unique.
+        return Ok(equations == first.piece.original_equations());
+    }
+    for equation in equations {
         let inside = first.piece.in_ring(&equation);
         if inside.is_zero() {
             continue;
@@ -211,3 +219,6 @@ fn lies_in(first: &Whole, second: &Whole, budget: &Budget) -> Result<bool, Stop>
     }
     Ok(true)
 }
+
+#[cfg(test)]
+mod tests;
