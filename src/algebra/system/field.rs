@@ -9,11 +9,11 @@
 //! `w·d = 1`; the equations are cleared of it at the end.
 
 use super::circle;
-use super::element::{Element, Exponents, gcd, product, to_dashu, trim};
-use crate::algebra::Rational;
+use super::element::{Element, Exponents, product, trim};
+use super::fraction::{self, Fraction, fraction, inverse, to_rational};
 use crate::number::Number;
-use num_bigint::BigInt;
-use num_traits::{One, Signed, Zero};
+use dashu::base::SquareRoot;
+use dashu::integer::UBig;
 
 /// Most square roots in one field: its degree doubles with each.
 const MAX_ROOTS: usize = 10;
@@ -82,7 +82,7 @@ impl Field {
         for (power, coefficient) in minimal[..degree].iter().enumerate() {
             let mut exponents = vec![power as u16];
             trim(&mut exponents);
-            tail.add_term(exponents, -Rational::from_integer(coefficient.clone()));
+            tail.add_term(exponents, -Fraction::from(coefficient.clone()));
         }
         let value = Number::integer(2) * circle::cosine_of_turn(1, denominator);
         field.circle = Some(denominator);
@@ -98,13 +98,7 @@ impl Field {
         Ok(field)
     }
 
-    fn push(
-        &mut self,
-        name: String,
-        value: Number,
-        relation: Relation,
-        parametric: bool,
-    ) -> Element {
+    fn push(&mut self, name: String, value: Number, relation: Relation, parametric: bool) -> Element {
         let index = self.generators.len();
         let taken = |name: &str| self.generators.iter().any(|g| g.name == name);
         let mut name = name;
@@ -177,7 +171,7 @@ impl Field {
                 continue;
             };
             loop {
-                let high: Vec<(Exponents, Rational)> = result
+                let high: Vec<(Exponents, Fraction)> = result
                     .0
                     .iter()
                     .filter(|(e, _)| e.get(index).is_some_and(|e| e >= degree))
@@ -212,7 +206,7 @@ impl Field {
 
     fn inverse_of_constant(&self, a: &Element) -> Result<Element, FieldLimit> {
         if let Some(x) = a.as_rational() {
-            return Ok(Element::rational(x.recip()));
+            return Ok(Element::rational(inverse(&x)));
         }
         let top = a.level() - 1;
         let Relation::Power { degree, tail } = &self.generators[top].relation else {
@@ -236,10 +230,10 @@ impl Field {
         let coefficient = |x: &Element, power: usize| {
             let mut exponents = vec![power as u16];
             trim(&mut exponents);
-            x.0.get(&exponents).cloned().unwrap_or_else(Rational::zero)
+            x.0.get(&exponents).cloned().unwrap_or(Fraction::ZERO)
         };
         // Column j holds a·gʲ; the last column is 1.
-        let mut rows = vec![vec![Rational::zero(); degree + 1]; degree];
+        let mut rows = vec![vec![Fraction::ZERO; degree + 1]; degree];
         let mut column = a.clone();
         let generator = Element::generator(0);
         for j in 0..degree {
@@ -248,11 +242,11 @@ impl Field {
             }
             column = self.multiply(&column, &generator);
         }
-        rows[0][degree] = Rational::one();
+        rows[0][degree] = Fraction::ONE;
         for pivot in 0..degree {
             let found = (pivot..degree).find(|&i| !rows[i][pivot].is_zero());
             rows.swap(pivot, found.ok_or(FieldLimit::Zero)?);
-            let lead = rows[pivot][pivot].recip();
+            let lead = inverse(&rows[pivot][pivot]);
             rows[pivot].iter_mut().for_each(|x| *x *= &lead);
             let pivot_row = rows[pivot].clone();
             for (i, row) in rows.iter_mut().enumerate() {
@@ -304,11 +298,11 @@ impl Field {
         }
         // With integral coefficients and square factors taken out: a = (h/L)²·radicand.
         let denominator = a.denominator();
-        let whole = a.scaled(&Rational::from_integer(&denominator * &denominator));
+        let whole = a.scaled(&Fraction::from(&denominator * &denominator));
         let (outside, _) = split_square(&whole.content());
-        let square = Rational::from_integer(&outside * &outside);
-        let radicand = whole.scaled(&square.recip());
-        let factor = Rational::new(outside, denominator);
+        let square = Fraction::from(&outside * &outside);
+        let radicand = whole.scaled(&inverse(&square));
+        let factor = Fraction::from_parts(outside.into(), denominator);
         let known = self.generators.iter().position(
             |g| matches!(&g.relation, Relation::Power { degree: 2, tail } if *tail == radicand),
         );
@@ -365,7 +359,7 @@ impl Field {
             return Ok(a
                 .as_rational()
                 .as_ref()
-                .and_then(rational_root)
+                .and_then(fraction::root)
                 .map(Element::rational));
         }
         let top = level - 1;
@@ -398,7 +392,7 @@ impl Field {
         let Some(c) = self.search(&norm, top)? else {
             return Ok(None);
         };
-        let half = Rational::new(1.into(), 2.into());
+        let half = fraction(1, 2);
         for c in [c.negated(), c] {
             let square = even.plus(&c).scaled(&half);
             if square.is_zero() {
@@ -408,7 +402,9 @@ impl Field {
                 let u = self
                     .multiply(odd, &self.inverse_of_constant(&r)?)
                     .scaled(&half);
-                return Ok(Some(r.plus(&self.multiply(&u, &Element::generator(top)))));
+                return Ok(Some(
+                    r.plus(&self.multiply(&u, &Element::generator(top))),
+                ));
             }
         }
         Ok(None)
@@ -418,7 +414,7 @@ impl Field {
     pub(super) fn number(&self, a: &Element) -> Number {
         let mut sum = Number::zero();
         for (exponents, coefficient) in &a.0 {
-            let mut term = Number::of_fraction(to_dashu(coefficient));
+            let mut term = Number::of_fraction(coefficient.clone());
             for (generator, &exponent) in self.generators.iter().zip(exponents) {
                 for _ in 0..exponent {
                     term = &term * &generator.value;
@@ -432,7 +428,7 @@ impl Field {
     /// The real value in doubles.
     pub(super) fn approximate(&self, a: &Element) -> f64 {
         if let Some(x) = a.as_rational() {
-            return super::element::to_f64(&x);
+            return fraction::to_f64(&x);
         }
         let values: Vec<f64> = self.generators.iter().map(|g| g.approximate).collect();
         a.approximate(&values)
@@ -442,54 +438,40 @@ impl Field {
     pub(super) fn text(&self, a: &Element) -> String {
         let names: Vec<String> = self.generators.iter().map(|g| g.name.clone()).collect();
         let count = names.len();
-        let terms =
-            a.0.iter()
-                .map(|(exponents, coefficient)| {
-                    let mut full: Vec<u32> = exponents.iter().map(|e| u32::from(*e)).collect();
-                    full.resize(count, 0);
-                    (full, coefficient.clone())
-                })
-                .collect();
+        let terms = a
+            .0
+            .iter()
+            .map(|(exponents, coefficient)| {
+                let mut full: Vec<u32> = exponents.iter().map(|e| u32::from(*e)).collect();
+                full.resize(count, 0);
+                (full, to_rational(coefficient))
+            })
+            .collect();
         crate::algebra::Polynomial::from_terms(terms, count).text(&names)
     }
 }
 
-/// The square root of a rational that is a square.
-pub(super) fn rational_root(x: &Rational) -> Option<Rational> {
-    if x.is_negative() {
-        return None;
-    }
-    let (n, d) = (x.numer().sqrt(), x.denom().sqrt());
-    (&n * &n == *x.numer() && &d * &d == *x.denom()).then(|| Rational::new(n, d))
-}
-
 /// `n = outside² · inside`, as far as primes below 1000 and a last look for a square show it.
-fn split_square(n: &BigInt) -> (BigInt, BigInt) {
-    let mut outside = BigInt::one();
+fn split_square(n: &UBig) -> (UBig, UBig) {
+    let mut outside = UBig::ONE;
     let mut inside = n.clone();
-    if inside.is_zero() {
+    if inside == UBig::ZERO {
         return (outside, inside);
     }
+    let mut rest = inside.clone();
     for p in 2u32..1000 {
-        let square = BigInt::from(p * p);
-        while (&inside % &square).is_zero() {
+        let square = UBig::from(p * p);
+        while (&inside % &square) == UBig::ZERO {
             inside /= &square;
             outside *= p;
         }
-    }
-    let root = inside.sqrt();
-    if &root * &root == inside {
-        return (outside * root, BigInt::one());
-    }
-    // One more square may hide in what small primes leave.
-    let mut rest = inside.clone();
-    for p in 2u32..1000 {
-        if gcd(rest.clone(), p.into()) > BigInt::one() && (&rest % p).is_zero() {
+        while (&rest % p) == 0 {
             rest /= p;
         }
     }
+    // One more square may hide in what small primes leave.
     let root = rest.sqrt();
-    if root > BigInt::one() && &root * &root == rest {
+    if root > UBig::ONE && &root * &root == rest {
         inside /= &rest;
         outside *= root;
     }
@@ -513,9 +495,9 @@ mod tests {
         let six = field.root(&int(6)).unwrap();
         assert_eq!(six, field.multiply(&two, &three));
         let twelve = field.root(&int(12)).unwrap();
-        assert_eq!(twelve, three.scaled(&Rational::from_integer(2.into())));
+        assert_eq!(twelve, three.scaled(&Fraction::from(2)));
         // √(5 + 2√6) = √2 + √3.
-        let nested = int(5).plus(&six.scaled(&Rational::from_integer(2.into())));
+        let nested = int(5).plus(&six.scaled(&Fraction::from(2)));
         assert_eq!(field.root(&nested).unwrap(), two.plus(&three));
         assert_eq!(field.generators().len(), 2);
     }
@@ -528,11 +510,8 @@ mod tests {
         let down = field.root(&int(2).minus(&two)).unwrap();
         assert_eq!(field.generators().len(), 2);
         assert_eq!(field.multiply(&up, &down), two);
-        let quarter = Rational::new(1.into(), 4.into());
-        let one = field
-            .square(&up)
-            .plus(&field.square(&down))
-            .scaled(&quarter);
+        let quarter = fraction(1, 4);
+        let one = field.square(&up).plus(&field.square(&down)).scaled(&quarter);
         assert_eq!(one, int(1));
         assert!(field.approximate(&down) > 0.0);
     }
@@ -555,12 +534,13 @@ mod tests {
     #[test]
     fn fractions_and_hidden_squares_come_out_of_roots() {
         let mut field = Field::default();
-        let x = Rational::new(8.into(), 27.into());
+        let x = fraction(8, 27);
         let root = field.root(&Element::rational(x.clone())).unwrap();
         assert_eq!(field.square(&root), Element::rational(x));
         assert_eq!(field.generators()[0].name, "sqrt(6)");
-        let large = BigInt::from(1_000_003u32);
-        assert_eq!(split_square(&(&large * &large * 3)), (large, 3.into()));
+        let large = UBig::from(1_000_003u32);
+        let three = UBig::from(3u8);
+        assert_eq!(split_square(&(&large * &large * &three)), (large, three));
     }
 
     #[test]

@@ -35,6 +35,7 @@ mod error;
 mod field;
 mod file_pose;
 mod flatten;
+mod fraction;
 mod home;
 mod implicit;
 mod model;

@@ -9,9 +9,7 @@ use super::PolynomialSystem;
 use super::element::Element;
 use super::field::{Field, Relation};
 use super::variables::Meaning;
-use crate::algebra::Rational;
-use num_bigint::BigInt;
-use num_traits::ToPrimitive;
+use super::fraction::{from_rational, multiply_modulo as multiply, power_modulo as power, residue};
 
 /// A system modulo a prime, the drawn pose at the origin.
 #[derive(Clone, Debug)]
@@ -78,7 +76,7 @@ impl PolynomialSystem {
         for equation in &self.equations {
             let mut terms = std::collections::BTreeMap::<Vec<u32>, u64>::new();
             for (exponents, coefficient) in equation.polynomial.terms() {
-                let mut partial = vec![(vec![0u32; variables.len()], residue(coefficient, p)?)];
+                let mut partial = vec![(vec![0u32; variables.len()], residue(&from_rational(coefficient), p)?)];
                 for (index, &exponent) in exponents.iter().enumerate().filter(|(_, e)| **e > 0) {
                     let place = variables.iter().position(|v| *v == index);
                     for _ in 0..exponent {
@@ -126,7 +124,7 @@ fn images(field: &Field, p: u64) -> Option<Vec<u64>> {
     let mut images: Vec<u64> = Vec::with_capacity(field.generators().len());
     for generator in field.generators() {
         let image = match &generator.relation {
-            Relation::Free => residue(&super::element::from_dashu(generator.value.rational()?), p)?,
+            Relation::Free => residue(generator.value.rational()?, p)?,
             Relation::Inverse(of) => {
                 let of = element_image(of, &images, p)?;
                 if of == 0 {
@@ -140,9 +138,9 @@ fn images(field: &Field, p: u64) -> Option<Vec<u64>> {
             Relation::Power { .. } => {
                 // 2 cos(2π/M) is ζ + 1/ζ with ζ of order M, which divides p − 1.
                 let m = u64::from(field.circle?);
-                let zeta = (2..p)
-                    .map(|g| power(g, (p - 1) / m, p))
-                    .find(|&z| (1..m).filter(|d| m % d == 0).all(|d| power(z, d, p) != 1))?;
+                let zeta = (2..p).map(|g| power(g, (p - 1) / m, p)).find(|&z| {
+                    (1..m).filter(|d| m % d == 0).all(|d| power(z, d, p) != 1)
+                })?;
                 (zeta + power(zeta, p - 2, p)) % p
             }
         };
@@ -161,31 +159,6 @@ fn element_image(a: &Element, images: &[u64], p: u64) -> Option<u64> {
         sum = (sum + term) % p;
     }
     Some(sum)
-}
-
-/// A rational modulo a prime; `None` where the prime divides the denominator.
-fn residue(x: &Rational, p: u64) -> Option<u64> {
-    let modulus = BigInt::from(p);
-    let image = |n: &BigInt| ((n % &modulus + &modulus) % &modulus).to_u64();
-    let (n, d) = (image(x.numer())?, image(x.denom())?);
-    (d != 0).then(|| multiply(n, power(d, p - 2, p), p))
-}
-
-fn multiply(a: u64, b: u64, p: u64) -> u64 {
-    // The remainder of a u64 is a u64.
-    (u128::from(a) * u128::from(b) % u128::from(p)) as u64
-}
-
-fn power(base: u64, mut exponent: u64, p: u64) -> u64 {
-    let (mut result, mut square) = (1 % p, base % p);
-    while exponent > 0 {
-        if exponent & 1 == 1 {
-            result = multiply(result, square, p);
-        }
-        square = multiply(square, square, p);
-        exponent >>= 1;
-    }
-    result
 }
 
 /// A square root modulo a prime, where there is one (Tonelli 1891, Shanks 1973).

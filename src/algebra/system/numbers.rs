@@ -1,12 +1,11 @@
 //! Exact numbers as elements of a field.
 
 use super::circle;
-use super::element::{Element, from_dashu};
+use super::element::Element;
 use super::error::SystemError;
 use super::field::{Field, FieldLimit};
-use crate::algebra::Rational;
+use super::fraction::fraction;
 use crate::number::{Angle, Number, View};
-use num_traits::ToPrimitive;
 
 /// Expressions beyond this size are refused.
 const MAX_NODES: u32 = 1_000;
@@ -169,13 +168,13 @@ fn turn_of(angle: &Angle, sine: bool) -> Option<(u32, u32)> {
     if angle.parts().len() > 0 {
         return None;
     }
-    let half = Rational::new(1.into(), 2.into());
-    let mut turn = from_dashu(angle.pi_multiple()) * &half;
+    let mut turn = angle.pi_multiple() * fraction(1, 2);
     if sine {
-        turn = &half * &half - turn;
+        turn = fraction(1, 4) - turn;
     }
-    turn = &turn - turn.floor();
-    Some((turn.numer().to_u32()?, turn.denom().to_u32()?))
+    turn = &turn - dashu::rational::RBig::from(turn.floor());
+    let numerator = u32::try_from(turn.numerator().clone()).ok()?;
+    Some((numerator, u32::try_from(turn.denominator().clone()).ok()?))
 }
 
 fn gcd(a: u64, b: u64) -> u64 {
@@ -193,13 +192,13 @@ impl Field {
 
     fn read_small(&mut self, number: &Number) -> Result<Element, Obstacle> {
         Ok(match number.view() {
-            View::Rational(x) => Element::rational(from_dashu(x)),
+            View::Rational(x) => Element::rational(x.clone()),
             View::Surd(surd) => {
                 let mut sum = Element::zero();
                 for (radicand, coefficient) in surd.terms() {
                     let radicand = dashu::rational::RBig::from(radicand.clone());
-                    let root = self.root(&Element::rational(from_dashu(&radicand)))?;
-                    sum = sum.plus(&root.scaled(&from_dashu(coefficient)));
+                    let root = self.root(&Element::rational(radicand))?;
+                    sum = sum.plus(&root.scaled(coefficient));
                 }
                 sum
             }
