@@ -67,7 +67,12 @@ impl Element {
     }
 
     pub(super) fn negated(&self) -> Self {
-        Self(self.0.iter().map(|(e, c)| (e.clone(), -c.clone())).collect())
+        Self(
+            self.0
+                .iter()
+                .map(|(e, c)| (e.clone(), -c.clone()))
+                .collect(),
+        )
     }
 
     /// Adds a multiple of a monomial.
