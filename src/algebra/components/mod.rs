@@ -25,9 +25,8 @@ mod split;
 pub use real::RealPoints;
 pub use split::Irreducible;
 
-use super::engine::{Budget, Stop};
+use super::engine::{Budget, Stop, radical_contains};
 use super::polynomial::{Polynomial, Rational};
-use ideal::vanishes_on;
 use piece::{Piece, Ring};
 use real::real_points;
 use split::{Step, Whole, step};
@@ -213,7 +212,7 @@ fn lies_in(first: &Whole, second: &Whole, budget: &Budget) -> Result<bool, Stop>
             continue;
         }
         let piece = &first.piece;
-        if !vanishes_on(&piece.equations, piece.variables(), &inside, budget)? {
+        if !radical_contains(&piece.equations, piece.variables(), &inside, budget)? {
             return Ok(false);
         }
     }

@@ -270,8 +270,8 @@ proptest! {
             let piece = alone(block)?;
             let mut contained = false;
             for (j, other) in blocks.iter().enumerate() {
-                let inside = other.iter().all(|p| vanishes_on(block, N, p, &budget).unwrap());
-                let same = block.iter().all(|p| vanishes_on(other, N, p, &budget).unwrap());
+                let inside = other.iter().all(|p| radical_contains(block, N, p, &budget).unwrap());
+                let same = block.iter().all(|p| radical_contains(other, N, p, &budget).unwrap());
                 contained |= inside && (!same || j < i);
             }
             if !contained {
