@@ -246,7 +246,7 @@ fn complex_dimension_is_not_real_dimension() {
     for (length, real) in [
         (2, RealPoints::FullDimension),
         (3, RealPoints::Some),
-        (4, RealPoints::NotFound),
+        (4, RealPoints::None),
     ] {
         let pieces = checked("four bars", &four_bar(length));
         assert_eq!(pieces.len(), 1);
