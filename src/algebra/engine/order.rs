@@ -75,8 +75,9 @@ fn degrevlex_key(exponents: &[u16]) -> u64 {
         return u64::MAX;
     };
     let last = exponents.iter().rev().copied().chain(std::iter::repeat(0));
-    last.take(3)
-        .fold(u64::from(degree), |key, e| key << 16 | u64::from(u16::MAX - e))
+    last.take(3).fold(u64::from(degree), |key, e| {
+        key << 16 | u64::from(u16::MAX - e)
+    })
 }
 
 fn degrevlex(a: &[u16], b: &[u16]) -> Ordering {
