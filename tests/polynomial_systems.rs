@@ -68,13 +68,27 @@ fn survey(name: &str, mechanism: &Mechanism) -> Vec<String> {
                 let (worst, at) = largest_residual(&system, &point);
                 let home = match &system.home {
                     HomePose::Exact(_) => "exact".to_owned(),
-                    HomePose::Open { left, equation } => format!("open {left:e} {:?}", system.equations[*equation].origin),
+                    HomePose::Open { left, equation } => {
+                        format!("open {left:e} {:?}", system.equations[*equation].origin)
+                    }
                     HomePose::NotAlgebraic(e) => format!("not algebraic {e}"),
                     other => format!("{other:?}"),
                 };
-                let terms: usize = system.equations.iter().map(|e| e.polynomial.terms().len()).sum();
-                let algebraic = system.variables.iter().filter(|v| v.meaning.is_algebraic_number()).count();
-                let bad = if analysis.assembly.closed && !(worst < 1e-9) { format!("BAD {worst:e} {:?}", system.equations[at].origin) } else { String::new() };
+                let terms: usize = system
+                    .equations
+                    .iter()
+                    .map(|e| e.polynomial.terms().len())
+                    .sum();
+                let algebraic = system
+                    .variables
+                    .iter()
+                    .filter(|v| v.meaning.is_algebraic_number())
+                    .count();
+                let bad = if analysis.assembly.closed && !(worst < 1e-9) {
+                    format!("BAD {worst:e} {:?}", system.equations[at].origin)
+                } else {
+                    String::new()
+                };
                 lines.push(format!(
                     "{name} {formulation:?}: {} variables ({algebraic} algebraic) {} equations {terms} terms {time} ms home {home} relaxed {} {bad}",
                     system.variables.len(), system.equations.len(), system.relaxations.len(),

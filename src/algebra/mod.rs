@@ -8,13 +8,39 @@
 //!
 //! Everything that costs much takes a [`Budget`] and ends with an answer or a [`Stop`] that says why there is none.
 
+mod answer;
+mod components;
 mod engine;
+mod factor;
 mod polynomial;
+mod strategy;
 mod system;
+mod univariate;
+mod zero_dimensional;
 
-pub use engine::{Budget, Certificate, GroebnerBasis, Limits, MonomialOrder, Stop, groebner_basis};
-pub use polynomial::{Polynomial, Rational};
-pub use system::{
-    CycleEquations, Equation, Formulation, HomePose, Meaning, ModularSystem, Origin, PolynomialSystem,
-    Relaxation, SystemError, SystemOptions, Variable, polynomial_system,
+pub use answer::{
+    CycleAnswer, ExactAnswer, ExactOptions, FixedVariable, Method, Piece, Solutions, exact_answer,
+    relations_of,
 };
+pub use components::{
+    AlgebraicNumber, Component, Decomposition, Hints, Incomplete, Irreducible, RealPoints,
+    components,
+};
+pub use engine::{
+    Budget, Certificate, GroebnerBasis, HilbertSeries, Limits, LocalRing, MonomialOrder, Progress,
+    ResidueTerms, Stop, eliminate, groebner_basis, local_dimension, local_dimension_is_at_most,
+    local_dimension_modulo, quotient, radical_contains, saturate,
+};
+pub use factor::{Factorization, UnivariateFactors, factor};
+pub use polynomial::{Polynomial, Rational};
+pub use strategy::{
+    Case, Divided, Group, Incremental, Instance, Problem, Relation, RelationFinding,
+    RelationVerdict, Step, brute_force, divide_and_conquer, incremental_instancing,
+    relation_by_relation,
+};
+pub use system::{
+    CycleEquations, Equation, Formulation, HomePose, Meaning, ModularSystem, Origin,
+    PolynomialSystem, Relaxation, SystemError, SystemOptions, Variable, polynomial_system,
+};
+pub use univariate::{RealRoot, Univariate};
+pub use zero_dimensional::{FinitePoints, RealSolution, Representation, TraceForm};

@@ -3,26 +3,19 @@
 use super::failure::Failure;
 use super::{DONE, load, output};
 use clap::{Args, ValueEnum};
-use kutzbach::graph::{
-    ConstraintGraph, CycleBasis, GraphSummary, SpanningTree, to_dot, to_svg,
-};
+use kutzbach::graph::{ConstraintGraph, CycleBasis, GraphSummary, SpanningTree, to_dot, to_svg};
 use kutzbach::report::text::visible;
-use std::path::PathBuf;
 
 /// Show links, joints, spanning tree and cycles
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// Mechanism file
-    file: PathBuf,
+    #[command(flatten)]
+    source: load::Source,
     /// Form of the answer
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-    /// Write to this file instead of standard output
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
-    /// Give a property of the file another value, a number or an expression; may be repeated
-    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = load::setting)]
-    settings: Vec<(String, String)>,
+    #[command(flatten)]
+    destination: output::Destination,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -42,7 +35,7 @@ enum Format {
 /// # Errors
 /// Where the file cannot be read or the output cannot be written.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let reading = load::mechanism(&arguments.file, &arguments.settings)?;
+    let reading = arguments.source.read()?;
     let graph = ConstraintGraph::of(&reading.mechanism);
     let tree = SpanningTree::low_depth(&graph);
     let summary = || GraphSummary::new(&graph, &tree, &CycleBasis::minimum(&graph, &tree));
@@ -52,7 +45,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         Format::Dot => to_dot(&graph, &tree),
         Format::Svg => to_svg(&graph, &tree),
     };
-    output::put(&text, arguments.output.as_deref())?;
+    arguments.destination.put(&text)?;
     Ok(DONE)
 }
 

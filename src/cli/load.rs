@@ -1,9 +1,30 @@
 //! From a path to a mechanism and its report.
 
 use super::failure::Failure;
+use clap::Args;
 use kutzbach::format::{Reading, read_file};
 use kutzbach::report::{Options, Report, report};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// Which mechanism: a file, and properties of it that are to differ.
+#[derive(Clone, Debug, Args)]
+pub struct Source {
+    /// Mechanism file
+    pub file: PathBuf,
+    /// Give a property of the file another value, a number or an expression; may be repeated
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = setting)]
+    pub settings: Vec<(String, String)>,
+}
+
+impl Source {
+    /// Reads the file.
+    ///
+    /// # Errors
+    /// What is wrong with it, and where.
+    pub fn read(&self) -> Result<Reading, Failure> {
+        mechanism(&self.file, &self.settings)
+    }
+}
 
 /// Reads a mechanism file.
 ///

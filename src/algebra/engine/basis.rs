@@ -1,25 +1,26 @@
 //! Groebner bases over the rationals.
 
-use super::budget::{Budget, Stop};
+use super::budget::{Budget, Limits, Stop};
+use super::certificate::Certificate;
+use super::dimension::Supports;
+use super::f4::{normal_forms, reduced_basis};
+use super::hilbert::{HilbertSeries, small};
 use super::modular::rational_basis;
 use super::order::MonomialOrder;
+use super::terms::Terms;
 use crate::algebra::polynomial::{Polynomial, Rational};
-use groebner::PolynomialExt;
-use polycore::Poly;
+use groebner::Zp;
 
-/// What was checked of a basis.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Certificate {
-    /// Primes modulo which the basis was found the same.
-    pub primes: usize,
-}
+/// Monomials handled before the degree of an ideal counts as too costly.
+const DEGREE_WORK: u64 = 20_000_000;
 
 /// A reduced Groebner basis: every polynomial primitive, no term of one divisible by the leading monomial of another.
 #[derive(Clone, Debug)]
 pub struct GroebnerBasis {
     order: MonomialOrder,
     variables: usize,
-    monic: Vec<Poly<Rational>>,
+    monic: Vec<Terms<Rational>>,
+    leads: Vec<Vec<u32>>,
     polynomials: Vec<Polynomial>,
     certificate: Certificate,
 }
@@ -34,16 +35,18 @@ pub fn groebner_basis(
     order: &MonomialOrder,
     budget: &Budget,
 ) -> Result<GroebnerBasis, Stop> {
-    let raw_order = order.raw(variables);
-    let (mut monic, certificate) = rational_basis(equations, &raw_order, budget)?;
-    monic.sort_by(|a, b| raw_order.compare(&a.terms[0].0, &b.terms[0].0));
+    let (monic, certificate) = rational_basis(equations, variables, order, budget)?;
     let polynomials = monic
         .iter()
-        .map(|p| Polynomial::from_raw(p).primitive())
+        .map(|p| p.polynomial(variables).primitive())
         .collect();
+    let leads = monic.iter().filter_map(Terms::lead);
     Ok(GroebnerBasis {
         order: order.clone(),
         variables,
+        leads: leads
+            .map(|m| m.iter().map(|&e| u32::from(e)).collect())
+            .collect(),
         monic,
         polynomials,
         certificate,
@@ -77,20 +80,124 @@ impl GroebnerBasis {
 
     /// The exponents of the leading monomials, in the order of [`Self::polynomials`].
     pub fn leading_monomials(&self) -> impl ExactSizeIterator<Item = &[u32]> {
-        self.monic.iter().map(|p| p.terms[0].0.exps())
+        self.leads.iter().map(Vec::as_slice)
     }
 
     /// Whether the equations contradict one another: no solution, not even a complex one.
     #[must_use]
     pub fn is_inconsistent(&self) -> bool {
-        self.monic.iter().any(Poly::is_constant)
+        self.leads.iter().any(|lead| lead.iter().all(|&e| e == 0))
     }
 
-    /// What remains of a polynomial modulo the ideal.
+    /// The dimension of the complex solution set; `None` where there is no solution.
+    #[must_use]
+    pub fn dimension(&self) -> Option<usize> {
+        self.supports().dimension()
+    }
+
+    /// Sets of variables that can be chosen freely almost everywhere on some part of highest dimension, as the leading
+    /// monomials show them: every one as large as the dimension, at most `limit` of them, in lexicographic order.
+    #[must_use]
+    pub fn independent_sets(&self, limit: usize) -> Vec<Vec<usize>> {
+        self.supports().independent_sets(limit)
+    }
+
+    /// Whether a variable belongs to some set of [`Self::independent_sets`]. Another monomial order may show others: `false`
+    /// does not mean that the variable is locked, for that see [`Self::univariate_in`].
+    #[must_use]
+    pub fn is_free(&self, variable: usize) -> bool {
+        variable < self.variables && self.supports().is_free(variable)
+    }
+
+    fn supports(&self) -> Supports {
+        Supports::new(self.leading_monomials(), self.variables)
+    }
+
+    /// The Hilbert series of the affine solution set; `None` where there is no solution, or where neither the order compares
+    /// degrees first nor the solutions are finitely many.
+    ///
+    /// # Errors
+    /// [`Stop`] where the budget does not suffice.
+    pub fn hilbert(&self, budget: &Budget) -> Result<Option<HilbertSeries>, Stop> {
+        if !self.order.is_graded() && self.dimension() != Some(0) {
+            return Ok(None);
+        }
+        HilbertSeries::of(self.leads.clone(), self.variables, budget)
+    }
+
+    /// The degree of the part of highest dimension, multiplicities counted; in dimension 0 the number of complex solutions
+    /// with multiplicity. `None` where [`Self::hilbert`] has none or would take more than some seconds.
+    #[must_use]
+    pub fn degree(&self) -> Option<usize> {
+        let budget = Budget::new(Limits {
+            work: Some(DEGREE_WORK),
+            ..Limits::default()
+        });
+        let series = self.hilbert(&budget).ok().flatten()?;
+        small(&series.degree())
+    }
+
+    /// The polynomials modulo a prime, monic; `None` where the prime divides a denominator.
+    pub(super) fn modulo(&self, prime: u64) -> Option<Vec<Terms<Zp>>> {
+        self.monic.iter().map(|p| p.modulo(prime)).collect()
+    }
+
+    /// What remains of a polynomial modulo the ideal: no term is a multiple of a leading monomial.
+    ///
+    /// # Errors
+    /// [`Stop`] where the budget does not suffice.
+    pub fn normal_form_within(
+        &self,
+        polynomial: &Polynomial,
+        budget: &Budget,
+    ) -> Result<Polynomial, Stop> {
+        let polynomial = [Terms::of(polynomial, &self.order)?];
+        let rest = normal_forms(
+            &polynomial,
+            &self.monic,
+            self.variables,
+            &self.order,
+            budget,
+        )?;
+        let zero = Polynomial::zero(self.variables);
+        Ok(rest
+            .first()
+            .map_or(zero, |rest| rest.polynomial(self.variables)))
+    }
+
+    /// [`Self::normal_form_within`] without a limit: for polynomials of the degree of the equations, where it takes less time
+    /// than the basis did.
     #[must_use]
     pub fn normal_form(&self, polynomial: &Polynomial) -> Polynomial {
-        let ordered = polynomial.raw().reorder(self.order.raw(self.variables));
-        Polynomial::from_raw(&ordered.normal_form(&self.monic))
+        self.normal_form_within(polynomial, &Budget::unlimited())
+            .unwrap_or_else(|_| polynomial.clone())
+    }
+
+    /// Whether a polynomial is a combination of the equations.
+    #[must_use]
+    pub fn contains(&self, polynomial: &Polynomial) -> bool {
+        self.normal_form(polynomial).is_zero()
+    }
+
+    /// Computes the basis again over the rationals. `true`: it is the same, and the certificate says from now on that
+    /// nothing rests on primes. `false`: these are not the equations of this basis.
+    ///
+    /// Fractions grow much more in this computation than in its result; it is meant for small systems.
+    ///
+    /// # Errors
+    /// [`Stop`] where the budget does not suffice; nothing has changed then.
+    pub fn prove(&mut self, equations: &[Polynomial], budget: &Budget) -> Result<bool, Stop> {
+        let equations: Vec<Terms<Rational>> = equations
+            .iter()
+            .filter(|p| !p.is_zero())
+            .map(|p| Terms::of(p, &self.order))
+            .collect::<Result<_, Stop>>()?;
+        let (basis, _) = reduced_basis(&equations, self.variables, &self.order, false, budget)?;
+        let same = basis == self.monic;
+        if same {
+            self.certificate = Certificate::over_the_rationals();
+        }
+        Ok(same)
     }
 }
 

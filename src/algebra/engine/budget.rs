@@ -1,8 +1,8 @@
 //! How long a computation may go on.
 
 use std::cell::Cell;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
@@ -17,6 +17,53 @@ pub struct Limits {
     pub entries: Option<u64>,
     /// Set from outside (another thread, a signal) to stop.
     pub cancelled: Option<Arc<AtomicBool>>,
+    /// Where the computation says how far it is.
+    pub progress: Option<Arc<Progress>>,
+}
+
+/// Entries of the largest matrix where only a time is given: about a gigabyte.
+const MOST_ENTRIES: u64 = 100_000_000;
+
+impl Limits {
+    /// So many seconds and a sensible bound of the memory. A time that is negative or no number is no time at all; one
+    /// too large for a clock is no limit.
+    #[must_use]
+    pub fn seconds(seconds: f64) -> Self {
+        let time = if seconds > 0.0 {
+            Duration::try_from_secs_f64(seconds).ok()
+        } else {
+            Some(Duration::ZERO)
+        };
+        Self {
+            time,
+            entries: Some(MOST_ENTRIES),
+            ..Self::default()
+        }
+    }
+}
+
+/// How far a computation is, to be read from another thread.
+#[derive(Debug, Default)]
+pub struct Progress {
+    work: AtomicU64,
+    phase: Mutex<String>,
+}
+
+impl Progress {
+    /// Work done so far, in matrix entries.
+    #[must_use]
+    pub fn work(&self) -> u64 {
+        self.work.load(Ordering::Relaxed)
+    }
+
+    /// What is being done, in a few words.
+    #[must_use]
+    pub fn phase(&self) -> String {
+        self.phase
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .clone()
+    }
 }
 
 /// Why a computation has no answer.
@@ -28,7 +75,7 @@ pub enum Stop {
     /// The work was used up.
     #[error("the work limit was reached")]
     Work,
-    /// A matrix would have been too large.
+    /// A matrix would have been too large, or an exponent above 65535.
     #[error("the memory limit was reached")]
     Memory,
     /// Somebody asked to stop.
@@ -37,6 +84,9 @@ pub enum Stop {
     /// The rational numbers of the answer could not be found from their remainders.
     #[error("the coefficients of the answer are too large")]
     Coefficients,
+    /// The number to compute modulo is no prime.
+    #[error("the modulus is no prime number")]
+    Modulus,
 }
 
 /// Limits and what has been used of them. One budget serves all steps of a question.
@@ -85,6 +135,9 @@ impl Budget {
     pub fn spend(&self, work: u64) -> Result<(), Stop> {
         self.work.set(self.work.get().saturating_add(work));
         let limits = &self.limits;
+        if let Some(progress) = &limits.progress {
+            progress.work.store(self.work.get(), Ordering::Relaxed);
+        }
         if limits
             .cancelled
             .as_ref()
@@ -104,9 +157,39 @@ impl Budget {
         Ok(())
     }
 
+    /// A copy with at most so much further work.
+    pub(super) fn with_work(&self, work: u64) -> Self {
+        let mut copy = self.clone();
+        let most = self.work.get().saturating_add(work);
+        copy.limits.work = Some(copy.limits.work.map_or(most, |limit| limit.min(most)));
+        copy
+    }
+
     /// Takes over the work done on a copy of this budget.
     pub(super) fn take_over(&self, copy: &Self) {
         self.work.set(copy.work.get());
+    }
+
+    /// Says what is being done, where somebody listens.
+    pub(crate) fn phase(&self, text: impl FnOnce() -> String) {
+        if let Some(progress) = &self.limits.progress {
+            *progress
+                .phase
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner) = text();
+        }
+    }
+
+    /// Whether a matrix may have this many entries, without counting them yet.
+    pub(super) fn check_entries(&self, entries: u64) -> Result<(), Stop> {
+        match self.limits.entries {
+            Some(most) if entries > most => return Err(Stop::Memory),
+            _ => {}
+        }
+        match self.limits.work {
+            Some(most) if self.work.get().saturating_add(entries) > most => Err(Stop::Work),
+            _ => Ok(()),
+        }
     }
 
     /// Adds the work of eliminating a matrix with this many entries, then tells whether to do it.
@@ -114,9 +197,7 @@ impl Budget {
     /// # Errors
     /// [`Stop`] with the first limit that was reached.
     pub fn spend_matrix(&self, entries: u64) -> Result<(), Stop> {
-        if self.limits.entries.is_some_and(|most| entries > most) {
-            return Err(Stop::Memory);
-        }
+        self.check_entries(entries)?;
         self.spend(entries)
     }
 }
@@ -152,5 +233,28 @@ mod tests {
         assert_eq!(stopped.check(), Ok(()));
         flag.store(true, Ordering::Relaxed);
         assert_eq!(stopped.check(), Err(Stop::Cancelled));
+    }
+
+    #[test]
+    fn seconds_that_are_none_leave_no_time() {
+        assert_eq!(Limits::seconds(f64::NAN).time, Some(Duration::ZERO));
+        assert_eq!(Limits::seconds(-1.0).time, Some(Duration::ZERO));
+        assert_eq!(Limits::seconds(1.5).time, Some(Duration::from_millis(1500)));
+        assert_eq!(Limits::seconds(f64::INFINITY).time, None);
+    }
+
+    #[test]
+    fn progress_is_seen_from_outside() {
+        let progress = Arc::new(Progress::default());
+        let budget = Budget::new(Limits {
+            progress: Some(Arc::clone(&progress)),
+            ..Limits::default()
+        });
+        assert_eq!(budget.spend(7), Ok(()));
+        budget.phase(|| "thinking".to_owned());
+        assert_eq!(
+            (progress.work(), progress.phase()),
+            (7, "thinking".to_owned())
+        );
     }
 }

@@ -2,10 +2,30 @@
 
 mod basis;
 mod budget;
+mod certificate;
+mod dimension;
+mod f4;
+mod hilbert;
+mod ideal;
+mod linear;
+mod local;
+mod minimal_polynomial;
 mod modular;
+mod monomials;
 mod order;
-mod residue;
+mod pairs;
+mod symbolic;
+mod terms;
+#[cfg(test)]
+mod testing;
+mod trace;
 
-pub use basis::{Certificate, GroebnerBasis, groebner_basis};
-pub use budget::{Budget, Limits, Stop};
+pub use basis::{GroebnerBasis, groebner_basis};
+pub use budget::{Budget, Limits, Progress, Stop};
+pub use certificate::Certificate;
+pub use hilbert::HilbertSeries;
+pub use ideal::{eliminate, quotient, radical_contains, saturate};
+pub use local::{
+    LocalRing, ResidueTerms, local_dimension, local_dimension_is_at_most, local_dimension_modulo,
+};
 pub use order::MonomialOrder;

@@ -1,148 +1,358 @@
 //! Rational bases from bases modulo primes: Chinese remainders and rational reconstruction.
 //!
-//! Arnold, "Modular algorithms for computing Groebner bases" (2003), section 7. A basis modulo a prime whose leading
-//! monomials disagree with the others comes from an unlucky prime and is outvoted.
+//! Arnold, "Modular algorithms for computing Groebner bases" (2003), section 7. The first prime is kept apart: it tests what
+//! the others suggest. The second one is computed in full and its trace replayed modulo the following ones. Bases are
+//! grouped by their leading monomials; the largest group decides, so that a few unlucky primes are outvoted.
 
-use super::basis::Certificate;
 use super::budget::{Budget, Stop};
-use super::residue::{Residue, basis_modulo_prime};
+use super::certificate::Certificate;
+use super::f4::{is_basis, normal_forms, reduced_basis};
+use super::order::MonomialOrder;
+use super::terms::Terms;
+use super::trace::Trace;
 use crate::algebra::polynomial::{Polynomial, Rational};
-use groebner::PolynomialExt;
-use polycore::crt::CrtAccumulator;
-use polycore::{Fp, Monomial, Order, Poly, Primes};
-use std::collections::HashMap;
+use groebner::Zp;
+use num_bigint::BigInt;
+use num_traits::{One, Zero};
+use polycore::Primes;
+use polycore::crt::{WangContext, try_garner};
 
 /// Most primes before the coefficients count as too large: about 120 000 bits.
 const MOST_PRIMES: usize = 2_000;
 
-type Layout = Vec<Vec<Monomial>>;
-
-/// Everything known from the primes that found one shape of basis.
-struct Images {
-    layout: Layout,
-    remainders: CrtAccumulator,
+/// A basis modulo a prime.
+struct Image {
+    prime: u64,
+    basis: Vec<Terms<Zp>>,
 }
 
-/// A basis over the rationals, with what was checked of it.
+/// A basis over the rationals, smallest leading monomial first, every polynomial monic, with what was checked of it.
 pub(super) fn rational_basis(
     equations: &[Polynomial],
-    order: &Order,
+    variables: usize,
+    order: &MonomialOrder,
     budget: &Budget,
-) -> Result<(Vec<Poly<Rational>>, Certificate), Stop> {
-    let equations: Vec<Poly<Rational>> = equations
+) -> Result<(Vec<Terms<Rational>>, Certificate), Stop> {
+    let equations: Vec<Terms<Rational>> = equations
         .iter()
         .filter(|p| !p.is_zero())
-        .map(|p| p.primitive().raw().reorder(order.clone()))
-        .collect();
+        .map(|p| Terms::of(&p.primitive(), order))
+        .collect::<Result<_, Stop>>()?;
     if equations.is_empty() {
-        return Ok((Vec::new(), Certificate::default()));
+        return Ok((Vec::new(), Certificate::over_the_rationals()));
     }
-    let mut shapes: HashMap<Layout, Images> = HashMap::new();
-    let mut next_attempt = 1;
-    for prime in Primes::new().take(MOST_PRIMES) {
-        let Some(image) = image(&equations, prime, budget)? else {
-            continue;
-        };
-        if let Some((candidate, primes)) = attempt(&shapes, next_attempt, order) {
-            next_attempt = primes + primes.div_ceil(4);
-            if agrees(&candidate, &image, prime) && holds_inputs(&candidate, &equations, budget)? {
-                let primes = primes + 1;
-                return Ok((candidate, Certificate { primes }));
+    Search {
+        equations,
+        variables,
+        order,
+        budget,
+        primes: Primes::new(),
+        groups: Vec::new(),
+        trace: None,
+    }
+    .run()
+}
+
+struct Search<'a> {
+    equations: Vec<Terms<Rational>>,
+    variables: usize,
+    order: &'a MonomialOrder,
+    budget: &'a Budget,
+    primes: Primes,
+    groups: Vec<Group>,
+    /// A computation to be replayed, with the terms of the basis that it finds.
+    trace: Option<(Trace, Vec<Vec<Box<[u16]>>>)>,
+}
+
+impl Search<'_> {
+    fn run(mut self) -> Result<(Vec<Terms<Rational>>, Certificate), Stop> {
+        let mut test = self.full_image(false)?;
+        // Small coefficients can be read off a single prime.
+        let mut alone = Group::of(&test);
+        alone.add(&test, self.order)?;
+        if let Some(candidate) = alone.candidate() {
+            let second = self.full_image(true)?;
+            if let Some(certificate) = self.accepts(&candidate, &second, 2)? {
+                return Ok((candidate, certificate));
+            }
+            self.add(&second)?;
+        }
+        let mut next_attempt = 1;
+        for _ in 0..MOST_PRIMES {
+            let image = self.image()?;
+            self.add(&image)?;
+            let Some(best) = self.best() else { continue };
+            let count = best.count;
+            if count < next_attempt {
+                continue;
+            }
+            next_attempt = count + count.div_ceil(8);
+            self.budget
+                .phase(|| format!("{count} primes, reconstruction"));
+            let Some(candidate) = best.candidate() else {
+                continue;
+            };
+            if let Some(certificate) = self.accepts(&candidate, &test, count + 1)? {
+                return Ok((candidate, certificate));
+            }
+            if !same_leads(&candidate, &test.basis) {
+                // Either the test or the group is unlucky: another prime tests, and this one votes.
+                let fresh = self.full_image(false)?;
+                if let Some(certificate) = self.accepts(&candidate, &fresh, count + 1)? {
+                    return Ok((candidate, certificate));
+                }
+                let old = std::mem::replace(&mut test, fresh);
+                self.add(&old)?;
             }
         }
-        add(&mut shapes, prime, &image)?;
+        Err(Stop::Coefficients)
     }
-    Err(Stop::Coefficients)
-}
 
-/// The reduced basis modulo a prime; `None` where the prime divides a leading coefficient or a denominator.
-fn image(
-    equations: &[Poly<Rational>],
-    prime: u64,
-    budget: &Budget,
-) -> Result<Option<Vec<Poly<Residue>>>, Stop> {
-    let reduced: Option<Vec<_>> = equations
-        .iter()
-        .map(|p| {
-            let image = p.try_map(|c| Fp::from_rational(c, prime).map(Residue))?;
-            (image.lm() == p.lm()).then_some(image)
-        })
-        .collect();
-    reduced
-        .map(|equations| basis_modulo_prime(equations, budget))
-        .transpose()
-}
-
-fn layout(image: &[Poly<Residue>]) -> Layout {
-    image.iter().map(Poly::support).collect()
-}
-
-/// Adds an image to those of the same shape. A prime that makes a coefficient vanish has a shape of its own.
-fn add(
-    shapes: &mut HashMap<Layout, Images>,
-    prime: u64,
-    image: &[Poly<Residue>],
-) -> Result<(), Stop> {
-    let layout = layout(image);
-    let images = shapes.entry(layout.clone()).or_insert_with(|| Images {
-        remainders: CrtAccumulator::new(layout.iter().map(Vec::len).sum()),
-        layout,
-    });
-    let values: Vec<u64> = image
-        .iter()
-        .flat_map(|p| p.terms.iter().map(|(_, c)| c.0.value()))
-        .collect();
-    images
-        .remainders
-        .add(prime, &values)
-        .map_err(|_| Stop::Coefficients)
-}
-
-/// The rational basis that the best supported shape suggests, once it has enough primes for a new attempt.
-fn attempt(
-    shapes: &HashMap<Layout, Images>,
-    at_least: usize,
-    order: &Order,
-) -> Option<(Vec<Poly<Rational>>, usize)> {
-    let images = shapes
-        .values()
-        .max_by_key(|images| images.remainders.image_count())?;
-    let count = images.remainders.image_count();
-    if count < at_least {
-        return None;
+    /// The equations modulo the next prime that divides no leading coefficient.
+    fn next_input(&mut self) -> Result<(u64, Vec<Vec<Zp>>), Stop> {
+        for prime in self.primes.by_ref().take(MOST_PRIMES) {
+            let residues: Option<Vec<_>> =
+                self.equations.iter().map(|p| p.residues(prime)).collect();
+            if let Some(residues) = residues {
+                return Ok((prime, residues));
+            }
+        }
+        Err(Stop::Coefficients)
     }
-    let mut values = images.remainders.reconstruct()?.into_iter();
-    let candidate = images
-        .layout
-        .iter()
-        .map(|monomials| {
-            let terms: Vec<_> = monomials.iter().cloned().zip(values.by_ref()).collect();
-            let variables = monomials[0].nvars();
-            Poly::new(terms, variables, order.clone())
-        })
-        .collect();
-    Some((candidate, count))
+
+    fn full_image(&mut self, learn: bool) -> Result<Image, Stop> {
+        let (prime, input) = self.next_input()?;
+        self.compute(prime, input, learn)
+    }
+
+    fn compute(&mut self, prime: u64, input: Vec<Vec<Zp>>, learn: bool) -> Result<Image, Stop> {
+        let input: Vec<Terms<Zp>> = self
+            .equations
+            .iter()
+            .zip(input)
+            .map(|(equation, residues)| Terms::without_zeros(&equation.monomials, residues))
+            .collect();
+        let (basis, trace) = reduced_basis(&input, self.variables, self.order, learn, self.budget)?;
+        if let Some(trace) = trace {
+            let layout = basis.iter().map(|p| p.monomials.clone()).collect();
+            self.trace = Some((trace, layout));
+        }
+        Ok(Image { prime, basis })
+    }
+
+    /// The basis modulo the next prime, by replay where that succeeds.
+    fn image(&mut self) -> Result<Image, Stop> {
+        let (prime, input) = self.next_input()?;
+        let Some((trace, layout)) = &self.trace else {
+            return self.compute(prime, input, true);
+        };
+        let Some(values) = trace.replay(input.clone(), prime, self.budget)? else {
+            // A prime that behaves differently, or a trace of one that did: the newer trace replaces the older one, and
+            // leading monomials decide which group grows.
+            return self.compute(prime, input, true);
+        };
+        let basis = layout
+            .iter()
+            .zip(values)
+            .map(|(monomials, values)| Terms::without_zeros(monomials, values))
+            .collect();
+        Ok(Image { prime, basis })
+    }
+
+    fn add(&mut self, image: &Image) -> Result<(), Stop> {
+        let known = self.groups.iter().position(|group| group.fits(image));
+        let at = known.unwrap_or_else(|| {
+            self.groups.push(Group::of(image));
+            self.groups.len() - 1
+        });
+        self.groups[at].add(image, self.order)
+    }
+
+    /// The largest group, the older one of two equal ones.
+    fn best(&self) -> Option<&Group> {
+        self.groups.iter().rev().max_by_key(|group| group.count)
+    }
+
+    /// What is known of a candidate, or `None` where it is wrong.
+    fn accepts(
+        &self,
+        candidate: &[Terms<Rational>],
+        fresh: &Image,
+        primes: usize,
+    ) -> Result<Option<Certificate>, Stop> {
+        let residues: Option<Vec<Terms<Zp>>> =
+            candidate.iter().map(|p| p.modulo(fresh.prime)).collect();
+        if residues.is_none_or(|residues| residues != fresh.basis) {
+            return Ok(None);
+        }
+        self.budget.phase(|| "certificate".to_owned());
+        if !is_basis(&fresh.basis, self.variables, self.order, self.budget)? {
+            return Ok(None);
+        }
+        let rest = normal_forms(
+            &self.equations,
+            candidate,
+            self.variables,
+            self.order,
+            self.budget,
+        )?;
+        if rest.iter().any(|p| !p.is_zero()) {
+            return Ok(None);
+        }
+        Ok(Some(Certificate {
+            primes,
+            fresh_prime: Some(fresh.prime),
+            proven: false,
+        }))
+    }
 }
 
-fn agrees(candidate: &[Poly<Rational>], image: &[Poly<Residue>], prime: u64) -> bool {
-    candidate.len() == image.len()
-        && candidate.iter().zip(image).all(|(p, residue)| {
-            p.try_map(|c| Fp::from_rational(c, prime).map(Residue))
-                .is_some_and(|p| p == *residue)
-        })
+fn same_leads(candidate: &[Terms<Rational>], image: &[Terms<Zp>]) -> bool {
+    let leads = image.iter().map(Terms::lead);
+    candidate.iter().map(Terms::lead).eq(leads)
 }
 
-/// Whether every equation reduces to zero over the rationals: the ideal of the basis holds the ideal of the equations.
-fn holds_inputs(
-    candidate: &[Poly<Rational>],
-    equations: &[Poly<Rational>],
-    budget: &Budget,
-) -> Result<bool, Stop> {
-    for equation in equations {
-        budget.spend(equation.terms.len() as u64)?;
-        if !equation.normal_form(candidate).is_zero() {
-            return Ok(false);
+/// Everything known from the primes that found the same leading monomials.
+struct Group {
+    /// The terms of each polynomial that occurred modulo any prime, largest first.
+    layout: Vec<Vec<Box<[u16]>>>,
+    /// Their coefficients modulo the product of the primes.
+    remainders: Vec<BigInt>,
+    modulus: BigInt,
+    count: usize,
+}
+
+impl Group {
+    fn of(image: &Image) -> Self {
+        let layout: Vec<_> = image.basis.iter().map(|p| p.monomials.clone()).collect();
+        Self {
+            remainders: vec![BigInt::zero(); layout.iter().map(Vec::len).sum()],
+            layout,
+            modulus: BigInt::one(),
+            count: 0,
         }
     }
-    Ok(true)
+
+    fn fits(&self, image: &Image) -> bool {
+        let leads = self.layout.iter().map(|monomials| &*monomials[0]);
+        image.basis.iter().map(Terms::lead).eq(leads.map(Some))
+    }
+
+    fn add(&mut self, image: &Image, order: &MonomialOrder) -> Result<(), Stop> {
+        if image
+            .basis
+            .iter()
+            .zip(&self.layout)
+            .any(|(p, monomials)| p.monomials != *monomials)
+        {
+            self.widen(image, order);
+        }
+        let mut values = Vec::with_capacity(self.remainders.len());
+        for (p, monomials) in image.basis.iter().zip(&self.layout) {
+            let mut terms = p.monomials.iter().zip(&p.coefficients).peekable();
+            for monomial in monomials {
+                let term = terms.next_if(|(m, _)| *m == monomial);
+                values.push(term.map_or(0, |(_, c)| c.value()));
+            }
+        }
+        try_garner(
+            &mut self.remainders,
+            &mut self.modulus,
+            &values,
+            image.prime,
+        )
+        .map_err(|_| Stop::Coefficients)?;
+        self.count += 1;
+        Ok(())
+    }
+
+    /// Makes room for terms that vanished modulo all primes so far.
+    fn widen(&mut self, image: &Image, order: &MonomialOrder) {
+        let mut old = std::mem::take(&mut self.remainders).into_iter();
+        for (monomials, p) in self.layout.iter_mut().zip(&image.basis) {
+            let known: Vec<_> = monomials.drain(..).zip(old.by_ref()).collect();
+            let mut known = known.into_iter().peekable();
+            let mut new = p.monomials.iter().peekable();
+            loop {
+                let use_known = match (known.peek(), new.peek()) {
+                    (Some((a, _)), Some(b)) => order.compare(a, b).is_ge(),
+                    (Some(_), None) => true,
+                    (None, Some(_)) => false,
+                    (None, None) => break,
+                };
+                if use_known {
+                    if let Some((monomial, value)) = known.next() {
+                        new.next_if(|m| **m == monomial);
+                        monomials.push(monomial);
+                        self.remainders.push(value);
+                    }
+                } else if let Some(monomial) = new.next() {
+                    monomials.push(monomial.clone());
+                    self.remainders.push(BigInt::zero());
+                }
+            }
+        }
+    }
+
+    /// The basis with the smallest fractions that leave these remainders, where there are any.
+    fn candidate(&self) -> Option<Vec<Terms<Rational>>> {
+        let context = WangContext::new(&self.modulus)?;
+        let mut values = context.reconstruct_many(&self.remainders)?.into_iter();
+        let basis = self.layout.iter().map(|monomials| {
+            let terms = monomials.iter().zip(values.by_ref());
+            let (monomials, coefficients) = terms
+                .filter(|(_, c)| !c.is_zero())
+                .map(|(m, c)| (m.clone(), c))
+                .unzip();
+            Terms {
+                monomials,
+                coefficients,
+            }
+        });
+        Some(basis.collect())
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    const ORDER: MonomialOrder = MonomialOrder::Lexicographic;
+
+    fn image(prime: u64, terms: &[(u16, i64)]) -> Image {
+        let monomials = terms.iter().map(|&(e, _)| vec![e].into()).collect();
+        let coefficients = terms.iter().map(|&(_, c)| Zp::from_i64(c, prime)).collect();
+        let basis = vec![Terms {
+            monomials,
+            coefficients,
+        }];
+        Image { prime, basis }
+    }
+
+    #[test]
+    fn a_coefficient_that_vanishes_modulo_one_prime_has_its_place() {
+        // x³ + 101 x + 5, of which x disappears modulo 101.
+        let first = image(101, &[(3, 1), (0, 5)]);
+        let mut group = Group::of(&first);
+        group.add(&first, &ORDER).unwrap();
+        for prime in [1009, 1013, 1019] {
+            let next = image(prime, &[(3, 1), (1, 101), (0, 5)]);
+            assert!(group.fits(&next));
+            group.add(&next, &ORDER).unwrap();
+        }
+        group
+            .add(&image(103, &[(3, 1), (1, 101), (0, 5)]), &ORDER)
+            .unwrap();
+        let candidate = group.candidate().unwrap();
+        let expected: Vec<Rational> = [1, 101, 5].map(|c| Rational::from_integer(c.into())).into();
+        assert_eq!(candidate[0].coefficients, expected);
+        assert_eq!(group.count, 5);
+    }
+
+    #[test]
+    fn other_leading_monomials_are_another_group() {
+        let group = Group::of(&image(101, &[(3, 1), (0, 5)]));
+        assert!(!group.fits(&image(103, &[(2, 1), (0, 5)])));
+    }
 }

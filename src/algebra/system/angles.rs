@@ -46,7 +46,8 @@ impl LinearAngle {
                 .or_insert((Fraction::ZERO, value));
             entry.0 = &entry.0 + &multiple;
         }
-        self.multiples.retain(|_, (multiple, _)| !multiple.is_zero());
+        self.multiples
+            .retain(|_, (multiple, _)| !multiple.is_zero());
         self.constant = &self.constant + &other.constant;
         self
     }
@@ -126,21 +127,31 @@ mod tests {
 
     fn read(text: &str) -> Result<Number, NumberError> {
         Number::expression(text, &mut |name| {
-            let value = Number::ratio(match name { "alpha" => 1, _ => 2 }, 3);
+            let value = Number::ratio(
+                match name {
+                    "alpha" => 1,
+                    _ => 2,
+                },
+                3,
+            );
             Ok(value.map(|value| Number::parameter(name, value)))
         })
     }
 
     #[test]
     fn sums_of_multiples_are_recognized() {
-        let angle = LinearAngle::of(&read("alpha/2 - 3*(beta - pi/4) + radians(30*alpha)").unwrap());
+        let angle =
+            LinearAngle::of(&read("alpha/2 - 3*(beta - pi/4) + radians(30*alpha)").unwrap());
         let angle = angle.unwrap();
         let multiples: Vec<String> = angle
             .multiples
             .iter()
             .map(|((name, half), (n, _))| format!("{n} {name} {half}"))
             .collect();
-        assert_eq!(multiples, ["1/2 alpha false", "1/6 alpha true", "-3 beta false"]);
+        assert_eq!(
+            multiples,
+            ["1/2 alpha false", "1/6 alpha true", "-3 beta false"]
+        );
         assert!((angle.constant.value() - 0.75 * std::f64::consts::PI).abs() < 1e-15);
         let none = LinearAngle::of(&read("alpha - alpha").unwrap()).unwrap();
         assert!(none.multiples.is_empty());

@@ -269,7 +269,11 @@ impl Writer<'_> {
         for (index, cycle) in cycles.iter().enumerate() {
             let joints = cycle.edges.iter().map(|&(edge, f)| (JointId(edge), f));
             self.draft.cycles.push(joints.collect());
-            if cycle.edges.iter().any(|(edge, _)| self.linear[*edge].is_some()) {
+            if cycle
+                .edges
+                .iter()
+                .any(|(edge, _)| self.linear[*edge].is_some())
+            {
                 for (row, equation) in coaxial::closure(self.field, &cycle.edges, self.linear)
                     .into_iter()
                     .enumerate()

@@ -142,10 +142,7 @@ pub(super) fn square_root(
         .filter(|&k| gcd(k, denominator) == 1)
         .map(|k| 2.0 * (f64::from(k) / f64::from(denominator) * std::f64::consts::TAU).cos())
         .collect();
-    let size = coefficients
-        .iter()
-        .map(|c| to_f64(c).abs())
-        .sum::<f64>();
+    let size = coefficients.iter().map(|c| to_f64(c).abs()).sum::<f64>();
     let squares: Vec<f64> = conjugates
         .iter()
         .map(|x| {
@@ -193,12 +190,11 @@ pub(super) fn square_root(
 }
 
 fn coefficients(a: &Element) -> Vec<Fraction> {
-    let degree = a
-        .0
-        .keys()
-        .map(|e| usize::from(e.first().copied().unwrap_or(0)))
-        .max()
-        .unwrap_or(0);
+    let degree =
+        a.0.keys()
+            .map(|e| usize::from(e.first().copied().unwrap_or(0)))
+            .max()
+            .unwrap_or(0);
     let mut result = vec![Fraction::ZERO; degree + 1];
     for (exponents, c) in &a.0 {
         result[usize::from(exponents.first().copied().unwrap_or(0))] = c.clone();
@@ -229,8 +225,7 @@ fn interpolation(points: &[f64]) -> Vec<Vec<f64>> {
 fn near_fraction(x: f64) -> Option<Fraction> {
     (1..=2_000u64).find_map(|d| {
         let n = (x * d as f64).round();
-        ((x * d as f64 - n).abs() < 1e-8 * d as f64 && n.abs() < 1e9)
-            .then(|| fraction(n as i64, d))
+        ((x * d as f64 - n).abs() < 1e-8 * d as f64 && n.abs() < 1e9).then(|| fraction(n as i64, d))
     })
 }
 

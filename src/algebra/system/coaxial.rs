@@ -75,9 +75,7 @@ pub(super) fn on_one_line(
         let apart = subtract(field, &frame.translation, first_point);
         let beside = cross(field, first_direction, &apart);
         let slides = model.kind == JointKind::Prismatic;
-        if !skew.iter().all(Element::is_zero)
-            || !(slides || beside.iter().all(Element::is_zero))
-        {
+        if !skew.iter().all(Element::is_zero) || !(slides || beside.iter().all(Element::is_zero)) {
             return None;
         }
         along[place] = field.approximate(&dot(field, first_direction, &direction)) > 0.0;
@@ -216,8 +214,14 @@ impl LinearJoint {
         let length = (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]).sqrt();
         let u = u.map(|x| x / length);
         let drawn = super::space::pose(&doubles, drawn);
-        let r = super::space::multiply(&doubles, &super::space::transpose(&drawn.rotation), &at.rotation);
-        let sine = (u[0] * (r[2][1] - r[1][2]) + u[1] * (r[0][2] - r[2][0]) + u[2] * (r[1][0] - r[0][1])) / 2.0;
+        let r = super::space::multiply(
+            &doubles,
+            &super::space::transpose(&drawn.rotation),
+            &at.rotation,
+        );
+        let sine =
+            (u[0] * (r[2][1] - r[1][2]) + u[1] * (r[0][2] - r[2][0]) + u[2] * (r[1][0] - r[0][1]))
+                / 2.0;
         let cosine = (r[0][0] + r[1][1] + r[2][2] - 1.0) / 2.0;
         let turns = sine.atan2(cosine) / std::f64::consts::TAU;
         let moved = subtract(&doubles, &at.translation, &drawn.translation);

@@ -50,9 +50,8 @@ fn ways(
     coupling: &Coupling,
     displacements: &[Displacement],
 ) -> Result<Poly, String> {
-    let read = |field: &mut Field, number: &Number| {
-        field.read(number).map_err(|_| not_algebraic(number))
-    };
+    let read =
+        |field: &mut Field, number: &Number| field.read(number).map_err(|_| not_algebraic(number));
     let offset = read(field, &coupling.offset)?;
     let mut sum = Poly::constant(offset.negated());
     for term in &coupling.terms {
@@ -115,9 +114,12 @@ fn angles(
 ) -> Result<Vec<Poly>, String> {
     let (multiples, scale) = coprime_multiples(coupling)?;
     let offset = Number::of_fraction(scale) * &coupling.offset;
-    let point = field
-        .point(&offset)
-        .map_err(|_| format!("its offset {} has no algebraic cosine", coupling.offset.source()))?;
+    let point = field.point(&offset).map_err(|_| {
+        format!(
+            "its offset {} has no algebraic cosine",
+            coupling.offset.source()
+        )
+    })?;
     // Negative multiples go to the other side, with the offset: that halves the degree.
     let mut sides = [
         (Poly::constant(Element::integer(1)), Poly::default()),

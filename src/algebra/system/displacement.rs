@@ -19,8 +19,15 @@ use crate::mechanism::{Joint, JointId, JointKind};
 #[derive(Clone, Debug)]
 enum Factor {
     Constant(Matrix<Element>),
-    Turn { axis: Axis, cosine: usize, sine: usize },
-    Slide { along: Vector<Element>, way: usize },
+    Turn {
+        axis: Axis,
+        cosine: usize,
+        sine: usize,
+    },
+    Slide {
+        along: Vector<Element>,
+        way: usize,
+    },
     Ball([usize; 4]),
 }
 
@@ -89,12 +96,7 @@ impl Maker<'_> {
         });
     }
 
-    fn slide(
-        &mut self,
-        along: &Vector<Element>,
-        square: &Element,
-        freedom: Option<usize>,
-    ) {
+    fn slide(&mut self, along: &Vector<Element>, square: &Element, freedom: Option<usize>) {
         let name = self.freedom_name(freedom, "trans");
         let unit = *square == Element::integer(1);
         let way = self.names.add(
@@ -242,7 +244,10 @@ impl Displacement {
             (JointKind::LineOnPlane, Some(a), Some(b)) => {
                 maker.turn(a, Some(0));
                 if let Some(constant) = &model.into_plane {
-                    maker.result.factors.push(Factor::Constant(constant.clone()));
+                    maker
+                        .result
+                        .factors
+                        .push(Factor::Constant(constant.clone()));
                 }
                 maker.slides_across(b, 1);
                 maker.turn(b, Some(3));
@@ -272,7 +277,11 @@ impl Displacement {
             Factor::Slide { along, way } => {
                 let way = Poly::variable(*way);
                 let moved = scale(&ring, &vector(&ring, along), &way);
-                let moved = if forward { moved } else { negate(&ring, &moved) };
+                let moved = if forward {
+                    moved
+                } else {
+                    negate(&ring, &moved)
+                };
                 place.translation = place.image(&ring, &moved);
             }
             other => {
@@ -318,7 +327,8 @@ pub(super) fn values_at<S: Scalars>(
 ) -> Option<Vec<S::Value>> {
     let r = &relative.rotation;
     let t = &relative.translation;
-    let fraction = |numerator: &S::Value, inverse: &Element| s.times(numerator, &s.constant(inverse));
+    let fraction =
+        |numerator: &S::Value, inverse: &Element| s.times(numerator, &s.constant(inverse));
     let along = |v: &Vector<S::Value>, d: &Vector<Element>, inverse: &Element| {
         fraction(&dot(s, v, &vector(s, d)), inverse)
     };
@@ -437,6 +447,10 @@ pub(super) fn relative<S: Scalars>(
     let back = transpose(&first.rotation);
     Pose {
         rotation: multiply(s, &back, &second.rotation),
-        translation: apply(s, &back, &subtract(s, &second.translation, &first.translation)),
+        translation: apply(
+            s,
+            &back,
+            &subtract(s, &second.translation, &first.translation),
+        ),
     }
 }

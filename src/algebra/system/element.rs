@@ -58,11 +58,21 @@ impl Element {
         if factor.is_zero() {
             return Self::zero();
         }
-        Self(self.0.iter().map(|(e, c)| (e.clone(), c * factor)).collect())
+        Self(
+            self.0
+                .iter()
+                .map(|(e, c)| (e.clone(), c * factor))
+                .collect(),
+        )
     }
 
     pub(super) fn negated(&self) -> Self {
-        Self(self.0.iter().map(|(e, c)| (e.clone(), -c.clone())).collect())
+        Self(
+            self.0
+                .iter()
+                .map(|(e, c)| (e.clone(), -c.clone()))
+                .collect(),
+        )
     }
 
     /// Adds a multiple of a monomial.

@@ -39,7 +39,9 @@ pub enum SystemError {
         joint: String,
     },
     /// The distance of a joint is that of the file's pose, which is not known exactly.
-    #[error("joint `{joint}`: its distance is that of the drawn pose, which is not algebraic; write `<distance value=...>`")]
+    #[error(
+        "joint `{joint}`: its distance is that of the drawn pose, which is not algebraic; write `<distance value=...>`"
+    )]
     UnknownDistance {
         /// The joint.
         joint: String,

@@ -103,7 +103,13 @@ impl Field {
         Ok(field)
     }
 
-    fn push(&mut self, name: String, value: Number, relation: Relation, parametric: bool) -> Element {
+    fn push(
+        &mut self,
+        name: String,
+        value: Number,
+        relation: Relation,
+        parametric: bool,
+    ) -> Element {
         let index = self.generators.len();
         let taken = |name: &str| self.generators.iter().any(|g| g.name == name);
         let mut name = name;
@@ -453,9 +459,7 @@ impl Field {
                 let u = self
                     .multiply(odd, &self.inverse_of_constant(&r)?)
                     .scaled(&half);
-                return Ok(Some(
-                    r.plus(&self.multiply(&u, &Element::generator(top))),
-                ));
+                return Ok(Some(r.plus(&self.multiply(&u, &Element::generator(top)))));
             }
         }
         Ok(None)
@@ -489,15 +493,14 @@ impl Field {
     pub(super) fn text(&self, a: &Element) -> String {
         let names: Vec<String> = self.generators.iter().map(|g| g.name.clone()).collect();
         let count = names.len();
-        let terms = a
-            .0
-            .iter()
-            .map(|(exponents, coefficient)| {
-                let mut full: Vec<u32> = exponents.iter().map(|e| u32::from(*e)).collect();
-                full.resize(count, 0);
-                (full, to_rational(coefficient))
-            })
-            .collect();
+        let terms =
+            a.0.iter()
+                .map(|(exponents, coefficient)| {
+                    let mut full: Vec<u32> = exponents.iter().map(|e| u32::from(*e)).collect();
+                    full.resize(count, 0);
+                    (full, to_rational(coefficient))
+                })
+                .collect();
         crate::algebra::Polynomial::from_terms(terms, count).text(&names)
     }
 }
@@ -562,7 +565,10 @@ mod tests {
         assert_eq!(field.generators().len(), 2);
         assert_eq!(field.multiply(&up, &down), two);
         let quarter = fraction(1, 4);
-        let one = field.square(&up).plus(&field.square(&down)).scaled(&quarter);
+        let one = field
+            .square(&up)
+            .plus(&field.square(&down))
+            .scaled(&quarter);
         assert_eq!(one, int(1));
         assert!(field.approximate(&down) > 0.0);
     }

@@ -74,26 +74,26 @@ fn displacement(
             .map(|inverse| scale(field, v, &inverse))
             .map_err(|limit| place.length(&joint.axis.0[0], limit.into()))
     };
-    let turn = |field: &mut Field, result: &mut Pose<Element>, u: &Vector<Element>, angle: &Number| {
-        let (c, s) = field
-            .point(angle)
-            .map_err(|obstacle| place.angle(angle, obstacle))?;
-        let one = Element::integer(1);
-        let turned: Matrix<Element> = rotation(field, u, &one, &c, &s, field);
-        result.rotation = multiply(field, &result.rotation, &turned);
-        Ok::<(), SystemError>(())
-    };
-    let slide = |field: &mut Field, result: &mut Pose<Element>, u: &Vector<Element>, way: &Number| {
-        let way = read_length(field, way, &place)?;
-        let moved = scale(field, u, &way);
-        result.translation = result.image(field, &moved);
-        Ok::<(), SystemError>(())
-    };
+    let turn =
+        |field: &mut Field, result: &mut Pose<Element>, u: &Vector<Element>, angle: &Number| {
+            let (c, s) = field
+                .point(angle)
+                .map_err(|obstacle| place.angle(angle, obstacle))?;
+            let one = Element::integer(1);
+            let turned: Matrix<Element> = rotation(field, u, &one, &c, &s, field);
+            result.rotation = multiply(field, &result.rotation, &turned);
+            Ok::<(), SystemError>(())
+        };
+    let slide =
+        |field: &mut Field, result: &mut Pose<Element>, u: &Vector<Element>, way: &Number| {
+            let way = read_length(field, way, &place)?;
+            let moved = scale(field, u, &way);
+            result.translation = result.image(field, &moved);
+            Ok::<(), SystemError>(())
+        };
     // The ball's rotation vector.
     let ball = |field: &mut Field, result: &mut Pose<Element>, vector: [Number; 3]| {
-        let square = vector
-            .iter()
-            .fold(Number::zero(), |sum, x| sum + x * x);
+        let square = vector.iter().fold(Number::zero(), |sum, x| sum + x * x);
         if square.is_zero() {
             return Ok(());
         }
@@ -199,12 +199,11 @@ fn displacement(
             }
         }
         (JointKind::Distance, ..) => {
-            ball(
-                field,
-                &mut result,
-                [Number::zero(), number(0), number(1)],
-            )?;
-            let rod = model.distance_square.as_ref().and_then(|d| field.root(d).ok());
+            ball(field, &mut result, [Number::zero(), number(0), number(1)])?;
+            let rod = model
+                .distance_square
+                .as_ref()
+                .and_then(|d| field.root(d).ok());
             let rod = rod.ok_or_else(|| SystemError::UnknownDistance {
                 joint: joint.name.clone(),
             })?;
@@ -236,7 +235,11 @@ fn screw(
     if let (Some(lead), Ok(turns)) = (&joint.lead, angle.checked_div(&full)) {
         let way = read_length(field, &(lead * &turns), place)?;
         let moved = scale(field, axis, &way);
-        result.translation = add(field, &result.translation, &super::space::apply(field, &result.rotation, &moved));
+        result.translation = add(
+            field,
+            &result.translation,
+            &super::space::apply(field, &result.rotation, &moved),
+        );
     }
     turn(field, result, axis, angle)
 }

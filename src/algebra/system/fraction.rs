@@ -86,7 +86,11 @@ pub(super) fn residue(x: &Fraction, p: u64) -> Option<u64> {
     let modulus = UBig::from(p);
     let image = |n: &UBig| u64::try_from(n % &modulus).ok();
     let (n, d) = (image(&numerator)?, image(x.denominator())?);
-    let n = if sign == Sign::Negative && n > 0 { p - n } else { n };
+    let n = if sign == Sign::Negative && n > 0 {
+        p - n
+    } else {
+        n
+    };
     (d != 0).then(|| multiply_modulo(n, power_modulo(d, p - 2, p), p))
 }
 

@@ -41,6 +41,17 @@ impl HomePose {
     }
 }
 
+impl PolynomialSystem {
+    /// Whether a polynomial in the system's variables vanishes at the drawn pose, exactly; `None` where that pose is not
+    /// known exactly, or holds parameters.
+    #[must_use]
+    pub fn vanishes_at_home(&self, polynomial: &Polynomial) -> Option<bool> {
+        let point = self.construction.point.as_ref()?;
+        let value = value_at(polynomial, point, &self.construction.field);
+        Some(value.is_zero())
+    }
+}
+
 /// The value of a polynomial over the rationals at a point of a field.
 pub(super) fn value_at(polynomial: &Polynomial, point: &[Element], field: &Field) -> Element {
     let mut sum = Element::zero();
@@ -128,7 +139,10 @@ pub(super) fn drawn_point(system: &mut PolynomialSystem, error: Option<SystemErr
                     let scale = Number::of_fraction(from_rational(&largest_coefficient(
                         &equation.polynomial,
                     )));
-                    field.number(&value).checked_div(&scale).map_or(f64::NAN, |x| x.value())
+                    field
+                        .number(&value)
+                        .checked_div(&scale)
+                        .map_or(f64::NAN, |x| x.value())
                 }
             };
             return HomePose::Open {

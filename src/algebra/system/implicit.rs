@@ -31,13 +31,21 @@ impl Implicit<'_> {
     /// A direction of the predecessor's joint frame.
     fn first(&self, v: &Vector<Element>) -> Vector<Poly> {
         let v = self.model.in_predecessor(self.field, v);
-        apply(&self.ring(), &self.predecessor.rotation, &vector(&self.ring(), &v))
+        apply(
+            &self.ring(),
+            &self.predecessor.rotation,
+            &vector(&self.ring(), &v),
+        )
     }
 
     /// A direction of the successor's joint frame.
     fn second(&self, v: &Vector<Element>) -> Vector<Poly> {
         let v = self.model.in_successor(self.field, v);
-        apply(&self.ring(), &self.successor.rotation, &vector(&self.ring(), &v))
+        apply(
+            &self.ring(),
+            &self.successor.rotation,
+            &vector(&self.ring(), &v),
+        )
     }
 
     /// The origins of the two joint frames.

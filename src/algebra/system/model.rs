@@ -102,7 +102,11 @@ fn simplified(field: &mut Field, direction: Vector<Element>) -> Vector<Element> 
     // One of the ratios is one, so that the integers are not all zero.
     let common = ratios.iter().fold(lcm.clone(), |all, x| {
         let whole = fraction::size(&(x * Fraction::from(lcm.clone())));
-        if whole == UBig::ZERO { all } else { all.gcd(&whole) }
+        if whole == UBig::ZERO {
+            all
+        } else {
+            all.gcd(&whole)
+        }
     });
     let negative = field.approximate(&first) < 0.0;
     let integers: Vec<IBig> = integers
@@ -244,11 +248,7 @@ pub(super) fn read_frame(
     })
 }
 
-fn read_axis(
-    field: &mut Field,
-    direction: &Direction,
-    place: &Place,
-) -> Result<Axis, SystemError> {
+fn read_axis(field: &mut Field, direction: &Direction, place: &Place) -> Result<Axis, SystemError> {
     let mut components = [Element::zero(), Element::zero(), Element::zero()];
     for (component, number) in components.iter_mut().zip(&direction.0) {
         *component = read_length(field, number, place)?;

@@ -8,8 +8,8 @@
 use super::PolynomialSystem;
 use super::element::Element;
 use super::field::{Field, Relation};
-use super::variables::Meaning;
 use super::fraction::{from_rational, multiply_modulo as multiply, power_modulo as power, residue};
+use super::variables::Meaning;
 
 /// A system modulo a prime, the drawn pose at the origin.
 #[derive(Clone, Debug)]
@@ -82,7 +82,10 @@ impl PolynomialSystem {
         for equation in &self.equations {
             let mut terms = std::collections::BTreeMap::<Vec<u32>, u64>::new();
             for (exponents, coefficient) in equation.polynomial.terms() {
-                let mut partial = vec![(vec![0u32; variables.len()], residue(&from_rational(coefficient), p)?)];
+                let mut partial = vec![(
+                    vec![0u32; variables.len()],
+                    residue(&from_rational(coefficient), p)?,
+                )];
                 for (index, &exponent) in exponents.iter().enumerate().filter(|(_, e)| **e > 0) {
                     let place = variables.iter().position(|v| *v == index);
                     for _ in 0..exponent {
@@ -139,9 +142,9 @@ fn images(field: &Field, p: u64) -> Option<Vec<u64>> {
             Relation::Power { .. } => {
                 // 2 cos(2π/M) is ζ + 1/ζ with ζ of order M, which divides p − 1.
                 let m = u64::from(field.circle?);
-                let zeta = (2..p).map(|g| power(g, (p - 1) / m, p)).find(|&z| {
-                    (1..m).filter(|d| m % d == 0).all(|d| power(z, d, p) != 1)
-                })?;
+                let zeta = (2..p)
+                    .map(|g| power(g, (p - 1) / m, p))
+                    .find(|&z| (1..m).filter(|d| m % d == 0).all(|d| power(z, d, p) != 1))?;
                 (zeta + power(zeta, p - 2, p)) % p
             }
         };

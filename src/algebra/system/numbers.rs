@@ -56,10 +56,17 @@ impl Place {
     pub(super) fn angle(&self, number: &Number, obstacle: Obstacle) -> SystemError {
         let advice = match near_fraction_of_pi(number.value()) {
             Some(text) => format!("write ${{{text}}}"),
-            None => "write a fraction of pi, or the angle by its cosine or tangent as in ${acos(3/5)}"
-                .to_owned(),
+            None => {
+                "write a fraction of pi, or the angle by its cosine or tangent as in ${acos(3/5)}"
+                    .to_owned()
+            }
         };
-        self.error(number, obstacle, "an angle without an algebraic cosine", advice)
+        self.error(
+            number,
+            obstacle,
+            "an angle without an algebraic cosine",
+            advice,
+        )
     }
 
     fn error(
@@ -105,7 +112,9 @@ fn near_fraction_of_pi(value: f64) -> Option<String> {
         .into_iter()
         .map(|n| ((ratio * n as f64).round(), n))
         .find(|(k, n)| {
-            *k != 0.0 && k.abs() < 1e6 && (value - k / *n as f64 * std::f64::consts::PI).abs() < 1e-3
+            *k != 0.0
+                && k.abs() < 1e6
+                && (value - k / *n as f64 * std::f64::consts::PI).abs() < 1e-3
         })?;
     let sign = if k < 0.0 { "-" } else { "" };
     let times = if k.abs() == 1.0 {
@@ -143,10 +152,13 @@ pub(super) fn common_turn<'a>(numbers: impl Iterator<Item = &'a Number>) -> (u32
                         continue;
                     };
                     let needs_sine = !matches!(number.view(), View::Cosine(_));
-                    for turn in [Some(turn_of(angle, false)), needs_sine.then(|| turn_of(angle, true))]
-                        .into_iter()
-                        .flatten()
-                        .flatten()
+                    for turn in [
+                        Some(turn_of(angle, false)),
+                        needs_sine.then(|| turn_of(angle, true)),
+                    ]
+                    .into_iter()
+                    .flatten()
+                    .flatten()
                     {
                         let denominator = u64::from(turn.1);
                         lcm = (lcm / gcd(lcm, denominator)).saturating_mul(denominator);
@@ -324,7 +336,10 @@ mod tests {
             let (field, element) = read(text);
             let expected = number(text).value();
             let found = field.approximate(&element);
-            assert!((found - expected).abs() < 1e-9, "{text}: {found} {expected}");
+            assert!(
+                (found - expected).abs() < 1e-9,
+                "{text}: {found} {expected}"
+            );
             assert!((field.number(&element) - number(text)).is_zero(), "{text}");
         }
     }

@@ -157,7 +157,11 @@ pub(super) fn rotation<S: Scalars>(
         [0, 1, 2].map(|j| {
             let square = field.multiply(&field.multiply(&axis[i], &axis[j]), inverse_square);
             let entry = s.times(&s.constant(&square), &versine);
-            if i == j { s.plus(&entry, cosine) } else { entry }
+            if i == j {
+                s.plus(&entry, cosine)
+            } else {
+                entry
+            }
         })
     });
     for (i, j, k) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {

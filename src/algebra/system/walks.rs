@@ -27,7 +27,8 @@ impl Walker<'_> {
     fn walk(&self, path: impl Iterator<Item = (usize, bool)>) -> Result<Pose<Poly>, SystemError> {
         let mut place = Pose::identity(&Polynomials(self.field));
         for (joint, forward) in path {
-            place = self.displacements[joint].pass(self.field, &self.models[joint], &place, forward);
+            place =
+                self.displacements[joint].pass(self.field, &self.models[joint], &place, forward);
             let entries = place.rotation.iter().flatten().chain(&place.translation);
             if entries.map(|p| p.terms().len()).sum::<usize>() > MAX_TERMS {
                 return Err(SystemError::TooLarge {
