@@ -8,6 +8,7 @@
 //! Parameters are generators without a relation. A quotient by something that holds a parameter is a generator `w` with
 //! `w·d = 1`; the equations are cleared of it at the end.
 
+use super::angles::Divisors;
 use super::circle;
 use super::element::{Element, Exponents, product, trim};
 use super::fraction::{self, Fraction, fraction, inverse, to_rational};
@@ -53,6 +54,8 @@ pub(super) struct Generator {
     pub(super) relation: Relation,
     /// Whether it depends on a parameter.
     pub(super) parametric: bool,
+    /// Whether it is the cosine or sine of an angle that is a parameter.
+    pub(super) of_angle: bool,
     approximate: f64,
 }
 
@@ -62,6 +65,8 @@ pub(super) struct Field {
     generators: Vec<Generator>,
     /// M where generator 0 is 2 cos(2π/M).
     pub(super) circle: Option<u32>,
+    /// By which parameters are divided in angles.
+    pub(super) divisors: Divisors,
     roots: usize,
 }
 
@@ -117,6 +122,7 @@ impl Field {
             value,
             relation,
             parametric,
+            of_angle: false,
         });
         Element::generator(index)
     }
@@ -143,7 +149,52 @@ impl Field {
         }
         let tail = Element::integer(1).minus(&self.multiply(&c, &c));
         let s = self.push(name, sin, Relation::Power { degree: 2, tail }, true);
+        for generator in self.generators.iter_mut().rev().take(2) {
+            generator.of_angle = true;
+        }
         (c, s)
+    }
+
+    /// Whether any parameter has been met.
+    pub(super) fn has_parameters(&self) -> bool {
+        self.generators.iter().any(|g| g.parametric)
+    }
+
+    /// Elements without parameters in place of all generators: the parameters at their values in the file. `None` where
+    /// such a value is not algebraic.
+    pub(super) fn at_values(&mut self) -> Option<Vec<Element>> {
+        let mut values = Vec::with_capacity(self.generators.len());
+        for index in 0..self.generators.len() {
+            let generator = self.generators[index].clone();
+            values.push(match &generator.relation {
+                _ if !generator.parametric => Element::generator(index),
+                Relation::Inverse(of) => {
+                    let of = self.substitute(of, &values);
+                    self.inverse(&of).ok()?
+                }
+                Relation::Power { tail, .. } if !generator.of_angle => {
+                    let tail = self.substitute(tail, &values);
+                    self.root(&tail).ok()?
+                }
+                _ => self.read(&generator.value).ok()?,
+            });
+        }
+        Some(values)
+    }
+
+    /// An element with others in place of the generators.
+    pub(super) fn substitute(&self, a: &Element, values: &[Element]) -> Element {
+        let mut sum = Element::zero();
+        for (exponents, coefficient) in &a.0 {
+            let mut term = Element::rational(coefficient.clone());
+            for (value, &exponent) in values.iter().zip(exponents) {
+                for _ in 0..exponent {
+                    term = self.multiply(&term, value);
+                }
+            }
+            sum = sum.plus(&term);
+        }
+        sum
     }
 
     /// Whether an element depends on a parameter.

@@ -182,9 +182,7 @@ pub(super) fn system(
             continue;
         }
         let g = &field.generators()[generator];
-        let meaning = match g.parametric && !matches!(g.relation, Relation::Power { .. })
-            || g.name.starts_with("sin(")
-        {
+        let meaning = match g.of_angle || matches!(g.relation, Relation::Free) {
             true => Meaning::Parameter {
                 value: g.value.clone(),
             },

@@ -80,6 +80,7 @@ fn largest_coefficient(polynomial: &Polynomial) -> Rational {
 
 /// The drawn pose of a system; remembers the point in the field.
 pub(super) fn drawn_point(system: &mut PolynomialSystem, error: Option<SystemError>) -> HomePose {
+    let values = system.construction.field.at_values();
     let construction = &system.construction;
     let field = &construction.field;
     let Some(drawn) = &construction.drawn else {
@@ -120,19 +121,28 @@ pub(super) fn drawn_point(system: &mut PolynomialSystem, error: Option<SystemErr
             point[index] = Element::generator(generator);
         }
     }
+    if field.has_parameters() {
+        // The drawn pose is that of the parameters' values, not of any.
+        let Some(values) = values else {
+            return HomePose::Unknown;
+        };
+        for x in &mut point {
+            *x = field.substitute(x, &values);
+        }
+    }
     for (index, equation) in system.equations.iter().enumerate() {
         let value = value_at(&equation.polynomial, &point, field);
         if !value.is_zero() {
-            // A quotient by parameters may hide a zero: the number decides.
-            let number = field.number(&value);
             let left = match value.as_rational() {
                 Some(x) => to_f64(&(x / from_rational(&largest_coefficient(&equation.polynomial)))),
-                None if field.is_parametric(&value) && number.is_zero() => continue,
                 None => {
                     let scale = Number::of_fraction(from_rational(&largest_coefficient(
                         &equation.polynomial,
                     )));
-                    number.checked_div(&scale).map_or(f64::NAN, |x| x.value())
+                    field
+                        .number(&value)
+                        .checked_div(&scale)
+                        .map_or(f64::NAN, |x| x.value())
                 }
             };
             return HomePose::Open {

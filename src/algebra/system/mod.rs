@@ -25,6 +25,7 @@
 //! Equations of a cycle of n hinges have up to 3^(n/2) terms, so that long cycles are refused ([`SystemError::TooLarge`]).
 //! Otherwise milliseconds.
 
+mod angles;
 mod build;
 mod circle;
 mod coaxial;

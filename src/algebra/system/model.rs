@@ -194,8 +194,8 @@ pub(super) fn circle_field(
     configuration: Option<&Configuration>,
 ) -> Result<Field, SystemError> {
     let numbers = all_numbers(mechanism, configuration);
-    let common = common_turn(numbers.iter());
-    Field::with_circle(common).map_err(|_| SystemError::Degree {
+    let (common, divisors) = common_turn(numbers.iter());
+    let mut field = Field::with_circle(common).map_err(|_| SystemError::Degree {
         entity: format!("mechanism `{}`", mechanism.name()),
         element: "angles".to_owned(),
         number: format!("their common denominator, {common} to a turn,"),
@@ -203,7 +203,9 @@ pub(super) fn circle_field(
             "2cos(2pi/{common}) has degree {}; write angles that have a small common denominator",
             circle::totient(common.min(100_000)) / 2
         ),
-    })
+    })?;
+    field.divisors = divisors;
+    Ok(field)
 }
 
 pub(super) fn read_length(

@@ -16,7 +16,8 @@ use super::variables::Meaning;
 pub struct ModularSystem {
     /// The prime, below 2⁶².
     pub prime: u64,
-    /// Indices of the unknowns in [`PolynomialSystem::variables`]; algebraic numbers have been replaced by their images.
+    /// Indices of the unknowns in [`PolynomialSystem::variables`]; algebraic numbers have been replaced by their images,
+    /// parameters by those of their values in the file.
     pub variables: Vec<usize>,
     /// Left sides as terms: exponents (one per unknown) and coefficient. None has a constant term.
     pub equations: Vec<Vec<(Vec<u32>, u64)>>,
@@ -69,7 +70,12 @@ impl PolynomialSystem {
             .variables
             .iter()
             .enumerate()
-            .filter(|(_, v)| !matches!(v.meaning, Meaning::Algebraic { .. }))
+            .filter(|(_, v)| {
+                !matches!(
+                    v.meaning,
+                    Meaning::Algebraic { .. } | Meaning::Parameter { .. }
+                )
+            })
             .map(|(index, _)| index)
             .collect();
         let mut equations = Vec::with_capacity(self.equations.len());
@@ -127,14 +133,9 @@ fn images(field: &Field, p: u64) -> Option<Vec<u64>> {
     let mut images: Vec<u64> = Vec::with_capacity(field.generators().len());
     for generator in field.generators() {
         let image = match &generator.relation {
-            Relation::Free => residue(generator.value.rational()?, p)?,
-            Relation::Inverse(of) => {
-                let of = element_image(of, &images, p)?;
-                if of == 0 {
-                    return None;
-                }
-                power(of, p - 2, p)
-            }
+            // The point was made for values of the parameters and does not speak of them.
+            _ if generator.parametric => 0,
+            Relation::Free | Relation::Inverse(_) => return None,
             Relation::Power { degree: 2, tail } if !tail.mentions(images.len()) => {
                 square_root(element_image(tail, &images, p)?, p)?
             }
