@@ -203,7 +203,7 @@ fn is_prime(n: u64) -> bool {
     if n < 2 {
         return false;
     }
-    if let Some(small) = BASES.iter().find(|&&b| n % b == 0) {
+    if let Some(small) = BASES.iter().find(|&&b| n.is_multiple_of(b)) {
         return n == *small;
     }
     let twos = (n - 1).trailing_zeros();

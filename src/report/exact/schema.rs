@@ -336,7 +336,7 @@ fn steps(answer: &ExactAnswer, timing: bool) -> Vec<StepRow> {
             basis: step.basis,
             dimension: step.dimension,
             work: step.work,
-            seconds: timing.then(|| step.time.as_secs_f64()),
+            seconds: timing.then_some(step.time.as_secs_f64()),
         })
         .collect()
 }
