@@ -262,7 +262,10 @@ fn is_no_square(coefficients: &[Fraction], denominator: u32) -> bool {
 }
 
 fn is_small_prime(n: u64) -> bool {
-    n > 1 && (2..).take_while(|d| d * d <= n).all(|d| !n.is_multiple_of(d))
+    n > 1
+        && (2..)
+            .take_while(|d| d * d <= n)
+            .all(|d| !n.is_multiple_of(d))
 }
 
 #[cfg(test)]
