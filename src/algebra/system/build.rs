@@ -145,6 +145,7 @@ pub fn polynomial_system(
     };
     let charts = charts(&draft.names, mechanism);
     let mut system = flatten::system(draft, construction, joint_variables, charts);
+    system.rounded_numbers = !mechanism.precision().is_exact();
     system.home = home::drawn_point(&mut system, not_drawn);
     Ok(system)
 }

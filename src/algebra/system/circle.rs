@@ -60,7 +60,7 @@ fn cyclotomic(n: u32) -> Vec<IBig> {
     let mut result = vec![IBig::ZERO; n as usize + 1];
     result[0] = -IBig::ONE;
     result[n as usize] = IBig::ONE;
-    for d in (1..n).filter(|d| n % d == 0) {
+    for d in (1..n).filter(|d| n.is_multiple_of(*d)) {
         result = divided(&result, &cyclotomic(d));
     }
     result
@@ -244,7 +244,7 @@ fn is_no_square(coefficients: &[Fraction], denominator: u32) -> bool {
         let Some(images) = images else { continue };
         let Some(zeta) = (2..p).map(|g| power_modulo(g, (p - 1) / m, p)).find(|&z| {
             (1..=m)
-                .filter(|d| m % d == 0 && *d < m)
+                .filter(|d| m.is_multiple_of(*d) && *d < m)
                 .all(|d| power_modulo(z, d, p) != 1)
         }) else {
             continue;
@@ -262,7 +262,10 @@ fn is_no_square(coefficients: &[Fraction], denominator: u32) -> bool {
 }
 
 fn is_small_prime(n: u64) -> bool {
-    n > 1 && (2..).take_while(|d| d * d <= n).all(|d| n % d != 0)
+    n > 1
+        && (2..)
+            .take_while(|d| d * d <= n)
+            .all(|d| !n.is_multiple_of(d))
 }
 
 #[cfg(test)]
