@@ -3,10 +3,8 @@
 //! Linear equations are used up at once: a variable that is a linear function of others leaves the ring. Mechanisms are full
 //! of them, and everything later gets cheaper with every variable that is gone.
 
-use super::ideal::{
-    compare, degree, degrevlex, head, independent_sets, is_one, local_degree, saturate,
-};
-use crate::algebra::engine::{Budget, Stop};
+use super::ideal::{compare, degree, degrevlex, head, independent_sets, is_one, local_degree};
+use crate::algebra::engine::{Budget, Stop, saturate};
 use crate::algebra::polynomial::{Polynomial, Rational};
 use crate::algebra::zero_dimensional::FinitePoints;
 

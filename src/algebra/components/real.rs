@@ -27,15 +27,16 @@ pub enum RealPoints {
     Some,
     /// None was found over the values that were tried. That is no proof: there may be a few, or outside of these values.
     NotFound,
-    /// There are none: an equation of the piece has no real solution.
+    /// There are none: an equation of the piece has no real solution, or none with cosines and sines between -1 and 1.
     None,
     /// Not looked for.
     Unknown,
 }
 
-/// Looks for real points.
+/// Looks for real points of a piece, whose equations in all variables are given too.
 pub(super) fn real_points(
     whole: &Whole,
+    equations: &[Polynomial],
     hints: &Hints,
     budget: &Budget,
 ) -> Result<RealPoints, Stop> {
@@ -53,6 +54,9 @@ pub(super) fn real_points(
         if contradicts_reality(equation, budget)? {
             return Ok(RealPoints::None);
         }
+    }
+    if equations.iter().any(|p| is_out_of_reach(p, hints)) {
+        return Ok(RealPoints::None);
     }
     let mut found = RealPoints::NotFound;
     for values in samples(whole, hints) {
@@ -94,6 +98,28 @@ fn contradicts_reality(equation: &Polynomial, budget: &Budget) -> Result<bool, S
     let positive = equation.terms().all(|(_, c)| c.is_positive());
     let negative = equation.terms().all(|(_, c)| c.is_negative());
     Ok(even && constant && (positive || negative))
+}
+
+/// Whether an equation among cosines and sines has no solution with all of them between -1 and 1: its links do not reach.
+fn is_out_of_reach(equation: &Polynomial, hints: &Hints) -> bool {
+    let on_circle = |v: usize| hints.angles.iter().any(|&(c, s)| c == v || s == v);
+    let (mut low, mut high) = (Rational::zero(), Rational::zero());
+    for (exponents, c) in equation.terms() {
+        let mut used = exponents.iter().enumerate().filter(|(_, e)| **e > 0);
+        if !used.all(|(v, _)| on_circle(v)) {
+            return false;
+        }
+        let constant = exponents.iter().all(|&e| e == 0);
+        let even = exponents.iter().all(|e| e.is_multiple_of(2));
+        // A product of even powers is between 0 and 1, another product between -1 and 1.
+        if constant || c.is_positive() || !even {
+            high += if constant { c.clone() } else { c.abs() };
+        }
+        if constant || c.is_negative() || !even {
+            low += if constant { c.clone() } else { -c.abs() };
+        }
+    }
+    low.is_positive() || high.is_negative()
 }
 
 /// Values of the free variables, near the known points first.

@@ -1,9 +1,9 @@
 //! One step of the decomposition: a piece falls into smaller ones, or it is done.
 
 use super::fibre::{self, Fibre};
-use super::ideal::{compare, local_degree, vanishes_on, with_front};
+use super::ideal::{compare, local_degree, with_front};
 use super::piece::Piece;
-use crate::algebra::engine::{Budget, Stop};
+use crate::algebra::engine::{Budget, Stop, radical_contains};
 use crate::algebra::factor::factor;
 use crate::algebra::polynomial::{Polynomial, Rational};
 
@@ -156,20 +156,24 @@ fn is_solved_for_a_variable(equation: &Polynomial) -> bool {
 fn split(piece: &Piece, factors: &[Polynomial], budget: &Budget) -> Result<Vec<Piece>, Stop> {
     let mut pieces = Vec::new();
     let mut rest = Some(piece.clone());
-    for f in factors {
+    for (index, f) in factors.iter().enumerate() {
         let Some(remaining) = rest else { break };
         let f = f.substitute(&embedding_between(piece, &remaining));
-        if let Some(constant) = f.as_constant() {
-            if constant == Rational::from_integer(0.into()) {
-                pieces.push(remaining);
-                rest = None;
-            } else {
-                rest = Some(remaining);
-            }
+        if f.is_zero() {
+            pieces.push(remaining);
+            return Ok(pieces);
+        }
+        if f.as_constant().is_some() {
+            rest = Some(remaining);
             continue;
         }
         pieces.extend(remaining.with(&f, budget)?);
-        rest = remaining.without(&f, budget)?;
+        // Nothing is left when the last factor is taken out, too.
+        rest = if index + 1 < factors.len() {
+            remaining.without(&f, budget)?
+        } else {
+            None
+        };
     }
     pieces.extend(rest);
     Ok(pieces)
@@ -303,7 +307,7 @@ fn outside(
         };
         let equation = equation.substitute(&embedding_between(earlier, &current));
         if equation.is_zero()
-            || vanishes_on(&current.equations, current.variables(), &equation, budget)?
+            || radical_contains(&current.equations, current.variables(), &equation, budget)?
         {
             inside = Some(current);
             continue;

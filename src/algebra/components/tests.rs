@@ -151,6 +151,43 @@ fn algebraic_numbers_are_the_right_roots() {
     assert_eq!(free(&squares + &z), RealPoints::NotFound);
 }
 
+/// What is between -1 and 1 does not reach farther, with or without squares; what is no angle may reach anywhere.
+#[test]
+fn cosines_do_not_reach_far() {
+    let (x, y, z) = (variable(0), variable(1), variable(2));
+    let hints = Hints {
+        angles: vec![(0, 1)],
+        ..Hints::default()
+    };
+    let real = |equation: &Polynomial| {
+        let circle = &(&(&x * &x) + &(&y * &y)) - &integer(1);
+        decompose(&[circle, equation.clone()], &hints).pieces[0].real
+    };
+    // z·x and z reach anywhere.
+    assert_eq!(real(&(&(&z * &x) - &integer(9))), RealPoints::FullDimension);
+    let square = &(&z * &z) - &integer(2);
+    assert_eq!(real(&(&square - &x)), RealPoints::FullDimension);
+    assert_eq!(real(&(&square + &integer(3))), RealPoints::None);
+    // Four angles, and four bars that are too long to close: one equation shows it.
+    let n = 4;
+    let v = |i| Polynomial::variable(i, n);
+    let unit = |i| &(&v(i).power(2) + &v(i + 1).power(2)) - &Polynomial::one(n);
+    let hints = Hints {
+        angles: vec![(0, 1), (2, 3)],
+        ..Hints::default()
+    };
+    for (value, expected) in [
+        (1, RealPoints::FullDimension),
+        (3, RealPoints::None),
+        (-2, RealPoints::None),
+    ] {
+        let equation = &(&v(0).power(2) + &v(2)) - &Polynomial::integer(value, n);
+        let equations = [unit(0), unit(2), equation];
+        let found = components(&equations, n, &hints, &Budget::unlimited()).unwrap();
+        assert!(found.pieces.iter().all(|p| p.real == expected), "{value}");
+    }
+}
+
 #[test]
 fn known_points_show_where_to_look() {
     let (x, y, z) = (variable(0), variable(1), variable(2));
@@ -270,8 +307,8 @@ proptest! {
             let piece = alone(block)?;
             let mut contained = false;
             for (j, other) in blocks.iter().enumerate() {
-                let inside = other.iter().all(|p| vanishes_on(block, N, p, &budget).unwrap());
-                let same = block.iter().all(|p| vanishes_on(other, N, p, &budget).unwrap());
+                let inside = other.iter().all(|p| radical_contains(block, N, p, &budget).unwrap());
+                let same = block.iter().all(|p| radical_contains(other, N, p, &budget).unwrap());
                 contained |= inside && (!same || j < i);
             }
             if !contained {

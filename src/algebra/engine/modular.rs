@@ -20,6 +20,9 @@ use polycore::crt::{WangContext, try_garner};
 /// Most primes before the coefficients count as too large: about 120 000 bits.
 const MOST_PRIMES: usize = 2_000;
 
+/// The monomials of every polynomial of a basis, largest first.
+type Layout = Vec<Vec<Box<[u16]>>>;
+
 /// A basis modulo a prime.
 struct Image {
     prime: u64,
@@ -61,7 +64,7 @@ struct Search<'a> {
     primes: Primes,
     groups: Vec<Group>,
     /// A computation to be replayed, with the terms of the basis that it finds.
-    trace: Option<(Trace, Vec<Vec<Box<[u16]>>>)>,
+    trace: Option<(Trace, Layout)>,
 }
 
 impl Search<'_> {
@@ -215,7 +218,7 @@ fn same_leads(candidate: &[Terms<Rational>], image: &[Terms<Zp>]) -> bool {
 /// Everything known from the primes that found the same leading monomials.
 struct Group {
     /// The terms of each polynomial that occurred modulo any prime, largest first.
-    layout: Vec<Vec<Box<[u16]>>>,
+    layout: Layout,
     /// Their coefficients modulo the product of the primes.
     remainders: Vec<BigInt>,
     modulus: BigInt,

@@ -5,6 +5,7 @@ use super::order::MonomialOrder;
 use crate::algebra::polynomial::{Polynomial, Rational};
 use groebner::Zp;
 use num_traits::Zero;
+use polycore::{Monomial, Order, Poly};
 
 /// The terms of a polynomial, largest monomial first, no coefficient zero.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,17 +60,22 @@ pub(super) fn exponents(exponents: &[u32]) -> Result<Box<[u16]>, Stop> {
 impl Terms<Rational> {
     pub(super) fn of(polynomial: &Polynomial, order: &MonomialOrder) -> Result<Self, Stop> {
         let terms: Result<Vec<_>, Stop> = polynomial
-            .terms()
-            .map(|(monomial, c)| Ok((exponents(monomial)?, c.clone())))
+            .raw()
+            .terms
+            .iter()
+            .map(|(monomial, c)| Ok((exponents(monomial.exps())?, c.clone())))
             .collect();
         Ok(Self::sorted(terms?, order))
     }
 
     pub(super) fn polynomial(&self, variables: usize) -> Polynomial {
-        let exponents = |m: &[u16]| m.iter().map(|&e| u32::from(e)).collect();
+        let monomial = |m: &[u16]| {
+            let exponents: Vec<u32> = m.iter().map(|&e| u32::from(e)).collect();
+            Monomial::new(exponents)
+        };
         let terms = self.monomials.iter().zip(&self.coefficients);
-        let terms = terms.map(|(m, c)| (exponents(m), c.clone())).collect();
-        Polynomial::from_terms(terms, variables)
+        let terms = terms.map(|(m, c)| (monomial(m), c.clone())).collect();
+        Polynomial::from_raw(&Poly::new(terms, variables, Order::GRevLex))
     }
 
     /// The coefficients modulo a prime, zeros included; `None` where the prime divides a denominator or the leading

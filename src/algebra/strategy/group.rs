@@ -33,6 +33,23 @@ impl Problem {
             .collect()
     }
 
+    /// The groups, those with the fewest variables first: what a short cycle determines makes the longer ones small.
+    pub fn smallest_first(&self) -> Vec<&Group> {
+        let size = |group: &&Group| {
+            (0..self.variables)
+                .filter(|&v| {
+                    let equations = group.equations.iter();
+                    equations
+                        .filter_map(|&e| self.equations.get(e))
+                        .any(|p| p.mentions(v))
+                })
+                .count()
+        };
+        let mut groups: Vec<&Group> = self.groups.iter().collect();
+        groups.sort_by_key(size);
+        groups
+    }
+
     /// The equations that belong to no group.
     pub fn ungrouped(&self) -> Vec<Polynomial> {
         let grouped: BTreeSet<usize> = self
@@ -47,6 +64,20 @@ impl Problem {
             .map(|(_, equation)| equation.clone())
             .collect()
     }
+}
+
+/// Those polynomials that hold no other variables than `equations` do: what they say may be used together with these.
+pub(super) fn about_the_same<'a>(
+    polynomials: impl IntoIterator<Item = &'a Polynomial>,
+    equations: &[Polynomial],
+) -> Vec<Polynomial> {
+    let touched = |v: usize| equations.iter().any(|p| p.mentions(v));
+    polynomials
+        .into_iter()
+        .filter(|p| (0..p.variables()).all(|v| !p.mentions(v) || touched(v)))
+        .filter(|p| !equations.contains(p))
+        .cloned()
+        .collect()
 }
 
 /// Some equations in the ring of just the variables that occur in them.

@@ -39,12 +39,15 @@ mod flatten;
 mod fraction;
 mod home;
 mod implicit;
+mod joint_form;
 mod model;
 mod modular;
 mod numbers;
 mod poly;
 mod positional;
+mod roots;
 mod space;
+mod spanning;
 mod variables;
 mod walks;
 

@@ -123,9 +123,9 @@ fn bring_pivot(matrix: &mut [Vec<BigInt>], step: usize) -> bool {
         return false;
     };
     // With zeros on the diagonal, adding the j-th vector to the i-th gives twice the entry.
-    for k in 0..n {
-        let value = matrix[j][k].clone();
-        matrix[i][k] += value;
+    let added = matrix[j].clone();
+    for (entry, value) in matrix[i].iter_mut().zip(&added) {
+        *entry += value;
     }
     for row in matrix.iter_mut() {
         let value = row[j].clone();

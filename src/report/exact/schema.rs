@@ -166,6 +166,9 @@ pub struct ExactReport {
     pub charts: Vec<String>,
     /// What the equations leave out of the mechanism; dimensions are then upper bounds.
     pub relaxations: Vec<String>,
+    /// Whether the file's decimals were taken as exact fractions although they look rounded: what holds of the fractions
+    /// need not hold of the mechanism that was meant.
+    pub rounded_numbers_taken_literally: bool,
     /// The equations, where they were asked for.
     pub equations: Option<Vec<String>>,
     /// The basis, where it was asked for.
@@ -233,6 +236,7 @@ pub fn exact_report(mechanism: &Mechanism, answer: &ExactAnswer, request: &Reque
         certificate: basis.map(|b| b.certificate().text()),
         charts: system.charts.clone(),
         relaxations: system.relaxations.iter().map(ToString::to_string).collect(),
+        rounded_numbers_taken_literally: !mechanism.precision().is_exact(),
         equations: request.equations.then(|| {
             let text = |p: &crate::algebra::Polynomial| p.text(&names);
             system
@@ -332,7 +336,7 @@ fn steps(answer: &ExactAnswer, timing: bool) -> Vec<StepRow> {
             basis: step.basis,
             dimension: step.dimension,
             work: step.work,
-            seconds: timing.then(|| step.time.as_secs_f64()),
+            seconds: timing.then_some(step.time.as_secs_f64()),
         })
         .collect()
 }

@@ -21,6 +21,14 @@ pub fn render(report: &ExactReport, layout: Layout) -> String {
     if let Some(sentence) = at_home(report) {
         page.item(&sentence, Tint::Plain);
     }
+    if report.rounded_numbers_taken_literally {
+        page.item(
+            "the decimals of the file are taken literally, as fractions: what is special about the mechanism that was \
+             meant (a length equal to a square root, say) is lost with the digits left out; write such numbers as \
+             expressions",
+            Tint::Notable,
+        );
+    }
     for relaxation in &report.relaxations {
         page.item(
             &format!("{relaxation}; dimensions are upper bounds"),
