@@ -244,7 +244,7 @@ fn is_no_square(coefficients: &[Fraction], denominator: u32) -> bool {
         let Some(images) = images else { continue };
         let Some(zeta) = (2..p).map(|g| power_modulo(g, (p - 1) / m, p)).find(|&z| {
             (1..=m)
-                .filter(|d| m % d == 0 && *d < m)
+                .filter(|d| m.is_multiple_of(*d) && *d < m)
                 .all(|d| power_modulo(z, d, p) != 1)
         }) else {
             continue;

@@ -251,6 +251,7 @@ pub(super) fn system(
         joint_variables,
         charts,
         relaxations,
+        rounded_numbers: false,
         home: HomePose::Unknown,
         construction,
     };

@@ -142,9 +142,11 @@ fn images(field: &Field, p: u64) -> Option<Vec<u64>> {
             Relation::Power { .. } => {
                 // 2 cos(2π/M) is ζ + 1/ζ with ζ of order M, which divides p − 1.
                 let m = u64::from(field.circle?);
-                let zeta = (2..p)
-                    .map(|g| power(g, (p - 1) / m, p))
-                    .find(|&z| (1..m).filter(|d| m % d == 0).all(|d| power(z, d, p) != 1))?;
+                let zeta = (2..p).map(|g| power(g, (p - 1) / m, p)).find(|&z| {
+                    (1..m)
+                        .filter(|d| m.is_multiple_of(*d))
+                        .all(|d| power(z, d, p) != 1)
+                })?;
                 (zeta + power(zeta, p - 2, p)) % p
             }
         };
