@@ -54,6 +54,7 @@ pub(super) fn rational_basis(
         primes: Primes::new(),
         groups: Vec::new(),
         trace: None,
+        can_learn: true,
     }
     .run()
 }
@@ -67,6 +68,8 @@ struct Search<'a> {
     groups: Vec<Group>,
     /// A computation to be replayed, with the terms of the basis that it finds.
     trace: Option<(Trace, Layout)>,
+    /// Whether traces of this computation fit the memory.
+    can_learn: bool,
 }
 
 impl Search<'_> {
@@ -75,7 +78,7 @@ impl Search<'_> {
         // Small coefficients can be read off a single prime.
         let mut alone = Group::of(&test);
         alone.add(&test, self.order)?;
-        if let Some(candidate) = alone.candidate() {
+        if let Some(candidate) = alone.candidate(self.budget)? {
             let second = self.full_image(true)?;
             match self.verdict(&candidate, &second, 2)? {
                 Verdict::Accepted(certificate) => return Ok((candidate, certificate)),
@@ -95,7 +98,7 @@ impl Search<'_> {
             next_attempt = count + count.div_ceil(8);
             self.budget
                 .phase(|| format!("{count} primes, reconstruction"));
-            let Some(candidate) = best.candidate() else {
+            let Some(candidate) = best.candidate(self.budget)? else {
                 continue;
             };
             match self.verdict(&candidate, &test, count + 1)? {
@@ -145,6 +148,8 @@ impl Search<'_> {
         if let Some(trace) = trace {
             let layout = basis.iter().map(|p| p.monomials.clone()).collect();
             self.trace = Some((trace, layout));
+        } else if learn {
+            self.can_learn = false;
         }
         Ok(Image { prime, basis })
     }
@@ -153,7 +158,7 @@ impl Search<'_> {
     fn image(&mut self) -> Result<Image, Stop> {
         let (prime, input) = self.next_input()?;
         let Some((trace, layout)) = &self.trace else {
-            return self.compute(prime, input, true);
+            return self.compute(prime, input, self.can_learn);
         };
         let Some(values) = trace.replay(input.clone(), prime, self.budget)? else {
             // A prime that behaves differently, or a trace of one that did: the newer trace replaces the older one, and
@@ -318,9 +323,19 @@ impl Group {
     }
 
     /// The basis with the smallest fractions that leave these remainders, where there are any.
-    fn candidate(&self) -> Option<Vec<Terms<Rational>>> {
-        let context = WangContext::new(&self.modulus)?;
-        let mut values = context.reconstruct_many(&self.remainders)?.into_iter();
+    fn candidate(&self, budget: &Budget) -> Result<Option<Vec<Terms<Rational>>>, Stop> {
+        let Some(context) = WangContext::new(&self.modulus) else {
+            return Ok(None);
+        };
+        let mut values = Vec::with_capacity(self.remainders.len());
+        for remainders in self.remainders.chunks(512) {
+            budget.check()?;
+            let Some(some) = context.reconstruct_many(remainders) else {
+                return Ok(None);
+            };
+            values.extend(some);
+        }
+        let mut values = values.into_iter();
         let basis = self.layout.iter().map(|monomials| {
             let terms = monomials.iter().zip(values.by_ref());
             let (monomials, coefficients) = terms
@@ -332,7 +347,7 @@ impl Group {
                 coefficients,
             }
         });
-        Some(basis.collect())
+        Ok(Some(basis.collect()))
     }
 }
 
@@ -367,7 +382,7 @@ mod tests {
         group
             .add(&image(103, &[(3, 1), (1, 101), (0, 5)]), &ORDER)
             .unwrap();
-        let candidate = group.candidate().unwrap();
+        let candidate = group.candidate(&Budget::unlimited()).unwrap().unwrap();
         let expected: Vec<Rational> = [1, 101, 5].map(|c| Rational::from_integer(c.into())).into();
         assert_eq!(candidate[0].coefficients, expected);
         assert_eq!(group.count, 5);
