@@ -18,6 +18,7 @@ use num_bigint::BigInt;
 use num_traits::{One, Zero};
 use polycore::Primes;
 use polycore::crt::{WangContext, try_garner};
+use polycore::lehmer;
 
 /// Most primes before the coefficients count as too large: about 120 000 bits.
 const MOST_PRIMES: usize = 2_000;
@@ -327,28 +328,63 @@ impl Group {
         let Some(context) = WangContext::new(&self.modulus) else {
             return Ok(None);
         };
-        let mut values = Vec::with_capacity(self.remainders.len());
-        for remainders in self.remainders.chunks(512) {
+        let bound = (&self.modulus / 2_u32).sqrt();
+        let mut basis = Vec::with_capacity(self.layout.len());
+        let mut rest = &self.remainders[..];
+        for monomials in &self.layout {
             budget.check()?;
-            let Some(some) = context.reconstruct_many(remainders) else {
+            let (remainders, others) = rest.split_at(monomials.len());
+            rest = others;
+            let Some(values) = fractions(remainders, &context, &self.modulus, &bound) else {
                 return Ok(None);
             };
-            values.extend(some);
-        }
-        let mut values = values.into_iter();
-        let basis = self.layout.iter().map(|monomials| {
-            let terms = monomials.iter().zip(values.by_ref());
+            let terms = monomials.iter().zip(values);
             let (monomials, coefficients) = terms
                 .filter(|(_, c)| !c.is_zero())
                 .map(|(m, c)| (m.clone(), c))
                 .unzip();
-            Terms {
+            basis.push(Terms {
                 monomials,
                 coefficients,
-            }
-        });
-        Ok(Some(basis.collect()))
+            });
+        }
+        Ok(Some(basis))
     }
+}
+
+/// The fractions with numerators and denominators up to `bound` that leave these remainders. The coefficients of one polynomial
+/// mostly share their denominator, so that after the first one a multiplication finds what takes a division algorithm else.
+fn fractions(
+    remainders: &[BigInt],
+    context: &WangContext,
+    modulus: &BigInt,
+    bound: &BigInt,
+) -> Option<Vec<Rational>> {
+    let half = modulus / 2_u32;
+    let mut denominator = BigInt::one();
+    let fraction = |remainder: &BigInt| {
+        let mut numerator = remainder * &denominator % modulus;
+        if numerator > half {
+            numerator -= modulus;
+        }
+        if numerator.magnitude() <= bound.magnitude() {
+            // Both parts are within the bound, and there is only one such fraction.
+            return Some(lehmer::fraction(numerator, denominator.magnitude()));
+        }
+        let found = context.reconstruct(remainder)?;
+        let shared = BigInt::from(lehmer::gcd(
+            denominator.magnitude(),
+            found.denom().magnitude(),
+        ));
+        let common = &denominator / shared * found.denom();
+        denominator = if common <= *bound {
+            common
+        } else {
+            found.denom().clone()
+        };
+        Some(found)
+    };
+    remainders.iter().map(fraction).collect()
 }
 
 #[cfg(test)]

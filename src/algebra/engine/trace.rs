@@ -144,7 +144,7 @@ impl Stage {
         for (number, round) in self.rounds.iter().enumerate() {
             budget.spend_matrix(round.plan.entries())?;
             let matrix = round.plan.clone().into_matrix(&elements, false);
-            let (mut new, _) = Zp::echelon(matrix, false, budget)?;
+            let (mut new, _) = Zp::echelon(matrix, true, budget)?;
             new.sort_by_key(|row| std::cmp::Reverse(row.columns[0]));
             let leads = new.iter().map(|row| row.columns[0]);
             if leads.ne(round.supports.iter().map(|support| support[0])) {
