@@ -38,7 +38,7 @@ pub fn groebner_basis(
     let (monic, certificate) = rational_basis(equations, variables, order, budget)?;
     let polynomials = monic
         .iter()
-        .map(|p| p.polynomial(variables).primitive())
+        .map(|p| p.primitive().polynomial(variables))
         .collect();
     let leads = monic.iter().filter_map(Terms::lead);
     Ok(GroebnerBasis {

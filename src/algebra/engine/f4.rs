@@ -28,7 +28,7 @@ struct F4<'a, C> {
 }
 
 /// The reduced Groebner basis of polynomials, smallest leading monomial first, every one monic. With `learn` also the trace
-/// that finds the same basis over another field.
+/// that finds the same basis over another field, unless it is too long to be kept.
 ///
 /// In an order that does not compare degrees first, the polynomials of intermediate steps may have degrees far above those of
 /// the result. Where that takes more than a little work, the basis is computed from one in degrevlex (a 6R loop
@@ -59,6 +59,9 @@ pub(super) fn reduced_basis<C: Coefficient>(
 /// Matrix entries spent on an order that does not compare degrees before degrevlex comes first.
 const LITTLE_WORK: u64 = 20_000;
 
+/// Matrix entries of the longest trace that is kept: 200 megabytes.
+const MOST_TRACED: u64 = 50_000_000;
+
 /// The reduced basis in the last of some orders, each computed from the one before.
 fn in_orders<C: Coefficient>(
     polynomials: &[Terms<C>],
@@ -72,15 +75,18 @@ fn in_orders<C: Coefficient>(
     for order in orders {
         let sorted = basis.iter().map(|p| p.reordered(order));
         let (input, places): (Vec<Terms<C>>, Vec<Vec<u32>>) = sorted.unzip();
-        let mut f4 = F4::new(variables, order, learn, budget);
+        let mut f4 = F4::new(variables, order, trace.is_some(), budget);
         f4.start(&input)?;
         while !f4.pairs.is_empty() {
             f4.round()?;
         }
         basis = f4.finish()?;
-        if let (Some(trace), Some(mut stage)) = (&mut trace, f4.trace) {
-            stage.places = places;
-            trace.stages.push(stage);
+        match (&mut trace, f4.trace) {
+            (Some(trace), Some(mut stage)) => {
+                stage.places = places;
+                trace.stages.push(stage);
+            }
+            _ => trace = None,
         }
     }
     Ok((basis, trace))
@@ -153,7 +159,8 @@ pub(super) fn normal_forms<C: Coefficient>(
         })
         .collect();
     let (plan, columns) = f4.plan(seeds, &usable)?;
-    let matrix = plan.matrix(&f4.coefficients, false);
+    budget.spend_matrix(plan.entries())?;
+    let matrix = plan.into_matrix(&f4.coefficients, false);
     let rows = C::reduce(matrix, budget)?;
     Ok(rows
         .into_iter()
@@ -211,7 +218,7 @@ impl<'a, C: Coefficient> F4<'a, C> {
             })
             .collect();
         let (plan, columns) = self.plan(seeds, &[])?;
-        let matrix = plan.matrix(&self.coefficients, false);
+        let (plan, matrix) = self.matrix(plan, false);
         self.terms.clear();
         self.coefficients.clear();
         self.eliminate(plan, matrix, &columns, None)
@@ -229,7 +236,7 @@ impl<'a, C: Coefficient> F4<'a, C> {
         let usable = self.by_length(|i| self.pairs.heads[i].active);
         let (plan, columns) = self.plan(seeds, &usable)?;
         self.budget.spend_matrix(plan.entries())?;
-        let matrix = plan.matrix(&self.coefficients, false);
+        let (plan, matrix) = self.matrix(plan, false);
         self.eliminate(plan, matrix, &columns, Some(sugar))
     }
 
@@ -274,10 +281,16 @@ impl<'a, C: Coefficient> F4<'a, C> {
         Planner::new(reducers, &mut self.columns, self.budget).plan(seeds, self.order)
     }
 
+    /// The matrix of a plan, and the plan itself where the trace needs it.
+    fn matrix(&self, plan: Plan, tails: bool) -> (Option<Plan>, Matrix<C>) {
+        let kept = self.trace.is_some().then(|| plan.clone());
+        (kept, plan.into_matrix(&self.coefficients, tails))
+    }
+
     /// Takes what is new in a matrix into the basis.
     fn eliminate(
         &mut self,
-        plan: Plan,
+        plan: Option<Plan>,
         matrix: Matrix<C>,
         columns: &[u32],
         sugar: Option<u32>,
@@ -286,14 +299,18 @@ impl<'a, C: Coefficient> F4<'a, C> {
         let (mut new, live) = C::echelon(matrix, learn, self.budget)?;
         // Smallest leading monomial first: it may make later ones superfluous.
         new.sort_by_key(|row| std::cmp::Reverse(row.columns[0]));
-        if let Some(trace) = &mut self.trace {
+        if let (Some(trace), Some(plan)) = (&mut self.trace, plan) {
             trace.rounds.push(Round::new(plan, live, &new));
+            if trace.entries() > MOST_TRACED {
+                self.trace = None;
+            }
         }
         for row in new {
             self.budget.check()?;
             let polynomial = self.decode(row, columns);
             let of_terms = polynomial.monomials.iter().map(|m| degree(m)).max();
-            let head = Head::new(&polynomial.monomials[0], sugar.or(of_terms).unwrap_or(0));
+            // Reducers may have had terms of higher degree than the pairs.
+            let head = Head::new(&polynomial.monomials[0], sugar.max(of_terms).unwrap_or(0));
             self.store(&polynomial)?;
             self.pairs.add(head, self.budget)?;
         }
@@ -346,9 +363,9 @@ impl<'a, C: Coefficient> F4<'a, C> {
         usable.sort_by_key(|&i| (self.terms[i].len(), i));
         let (plan, columns) = self.plan(seeds, &usable)?;
         self.budget.spend_matrix(plan.entries())?;
-        let matrix = plan.matrix(&self.coefficients, true);
+        let (plan, matrix) = self.matrix(plan, true);
         let tails = C::reduce(matrix, self.budget)?;
-        if let Some(trace) = &mut self.trace {
+        if let (Some(trace), Some(plan)) = (&mut self.trace, plan) {
             let all = (0..kept.len()).collect();
             trace.finish = Some(Round::new(plan, all, &tails));
         }

@@ -18,6 +18,7 @@ use num_bigint::BigInt;
 use num_traits::{One, Zero};
 use polycore::Primes;
 use polycore::crt::{WangContext, try_garner};
+use polycore::lehmer;
 
 /// Most primes before the coefficients count as too large: about 120 000 bits.
 const MOST_PRIMES: usize = 2_000;
@@ -54,6 +55,7 @@ pub(super) fn rational_basis(
         primes: Primes::new(),
         groups: Vec::new(),
         trace: None,
+        can_learn: true,
     }
     .run()
 }
@@ -67,6 +69,8 @@ struct Search<'a> {
     groups: Vec<Group>,
     /// A computation to be replayed, with the terms of the basis that it finds.
     trace: Option<(Trace, Layout)>,
+    /// Whether traces of this computation fit the memory.
+    can_learn: bool,
 }
 
 impl Search<'_> {
@@ -75,7 +79,7 @@ impl Search<'_> {
         // Small coefficients can be read off a single prime.
         let mut alone = Group::of(&test);
         alone.add(&test, self.order)?;
-        if let Some(candidate) = alone.candidate() {
+        if let Some(candidate) = alone.candidate(self.budget)? {
             let second = self.full_image(true)?;
             match self.verdict(&candidate, &second, 2)? {
                 Verdict::Accepted(certificate) => return Ok((candidate, certificate)),
@@ -95,7 +99,7 @@ impl Search<'_> {
             next_attempt = count + count.div_ceil(8);
             self.budget
                 .phase(|| format!("{count} primes, reconstruction"));
-            let Some(candidate) = best.candidate() else {
+            let Some(candidate) = best.candidate(self.budget)? else {
                 continue;
             };
             match self.verdict(&candidate, &test, count + 1)? {
@@ -145,6 +149,8 @@ impl Search<'_> {
         if let Some(trace) = trace {
             let layout = basis.iter().map(|p| p.monomials.clone()).collect();
             self.trace = Some((trace, layout));
+        } else if learn {
+            self.can_learn = false;
         }
         Ok(Image { prime, basis })
     }
@@ -153,7 +159,7 @@ impl Search<'_> {
     fn image(&mut self) -> Result<Image, Stop> {
         let (prime, input) = self.next_input()?;
         let Some((trace, layout)) = &self.trace else {
-            return self.compute(prime, input, true);
+            return self.compute(prime, input, self.can_learn);
         };
         let Some(values) = trace.replay(input.clone(), prime, self.budget)? else {
             // A prime that behaves differently, or a trace of one that did: the newer trace replaces the older one, and
@@ -318,22 +324,67 @@ impl Group {
     }
 
     /// The basis with the smallest fractions that leave these remainders, where there are any.
-    fn candidate(&self) -> Option<Vec<Terms<Rational>>> {
-        let context = WangContext::new(&self.modulus)?;
-        let mut values = context.reconstruct_many(&self.remainders)?.into_iter();
-        let basis = self.layout.iter().map(|monomials| {
-            let terms = monomials.iter().zip(values.by_ref());
+    fn candidate(&self, budget: &Budget) -> Result<Option<Vec<Terms<Rational>>>, Stop> {
+        let Some(context) = WangContext::new(&self.modulus) else {
+            return Ok(None);
+        };
+        let bound = (&self.modulus / 2_u32).sqrt();
+        let mut basis = Vec::with_capacity(self.layout.len());
+        let mut rest = &self.remainders[..];
+        for monomials in &self.layout {
+            budget.check()?;
+            let (remainders, others) = rest.split_at(monomials.len());
+            rest = others;
+            let Some(values) = fractions(remainders, &context, &self.modulus, &bound) else {
+                return Ok(None);
+            };
+            let terms = monomials.iter().zip(values);
             let (monomials, coefficients) = terms
                 .filter(|(_, c)| !c.is_zero())
                 .map(|(m, c)| (m.clone(), c))
                 .unzip();
-            Terms {
+            basis.push(Terms {
                 monomials,
                 coefficients,
-            }
-        });
-        Some(basis.collect())
+            });
+        }
+        Ok(Some(basis))
     }
+}
+
+/// The fractions with numerators and denominators up to `bound` that leave these remainders. The coefficients of one polynomial
+/// mostly share their denominator, so that after the first one a multiplication finds what takes a division algorithm else.
+fn fractions(
+    remainders: &[BigInt],
+    context: &WangContext,
+    modulus: &BigInt,
+    bound: &BigInt,
+) -> Option<Vec<Rational>> {
+    let half = modulus / 2_u32;
+    let mut denominator = BigInt::one();
+    let fraction = |remainder: &BigInt| {
+        let mut numerator = remainder * &denominator % modulus;
+        if numerator > half {
+            numerator -= modulus;
+        }
+        if numerator.magnitude() <= bound.magnitude() {
+            // Both parts are within the bound, and there is only one such fraction.
+            return Some(lehmer::fraction(numerator, denominator.magnitude()));
+        }
+        let found = context.reconstruct(remainder)?;
+        let shared = BigInt::from(lehmer::gcd(
+            denominator.magnitude(),
+            found.denom().magnitude(),
+        ));
+        let common = &denominator / shared * found.denom();
+        denominator = if common <= *bound {
+            common
+        } else {
+            found.denom().clone()
+        };
+        Some(found)
+    };
+    remainders.iter().map(fraction).collect()
 }
 
 #[cfg(test)]
@@ -367,7 +418,7 @@ mod tests {
         group
             .add(&image(103, &[(3, 1), (1, 101), (0, 5)]), &ORDER)
             .unwrap();
-        let candidate = group.candidate().unwrap();
+        let candidate = group.candidate(&Budget::unlimited()).unwrap().unwrap();
         let expected: Vec<Rational> = [1, 101, 5].map(|c| Rational::from_integer(c.into())).into();
         assert_eq!(candidate[0].coefficients, expected);
         assert_eq!(group.count, 5);

@@ -4,7 +4,9 @@ use super::budget::Stop;
 use super::order::MonomialOrder;
 use crate::algebra::polynomial::{Polynomial, Rational};
 use groebner::Zp;
-use num_traits::Zero;
+use num_bigint::BigInt;
+use num_traits::{One, Signed, Zero};
+use polycore::lehmer::gcd;
 use polycore::{Monomial, Order, Poly};
 
 /// The terms of a polynomial, largest monomial first, no coefficient zero.
@@ -76,6 +78,32 @@ impl Terms<Rational> {
         let terms = self.monomials.iter().zip(&self.coefficients);
         let terms = terms.map(|(m, c)| (monomial(m), c.clone())).collect();
         Polynomial::from_raw(&Poly::new(terms, variables, Order::GRevLex))
+    }
+
+    /// A monic polynomial with coprime integer coefficients, the first one in degrevlex positive.
+    pub(super) fn primitive(&self) -> Self {
+        let mut common = BigInt::one();
+        for c in &self.coefficients {
+            let denominator = c.denom();
+            if !(&common % denominator).is_zero() {
+                let shared = BigInt::from(gcd(common.magnitude(), denominator.magnitude()));
+                common = common / shared * denominator;
+            }
+        }
+        // Nothing divides all of the numerators: the leading coefficient is the common denominator, and every power of a prime
+        // in that is also in the denominator of some coefficient.
+        let degrevlex = |a: &usize, b: &usize| {
+            MonomialOrder::Degrevlex.compare(&self.monomials[*a], &self.monomials[*b])
+        };
+        let first = (0..self.monomials.len()).max_by(degrevlex);
+        if first.is_some_and(|i| self.coefficients[i].is_negative()) {
+            common = -common;
+        }
+        let integer = |c: &Rational| Rational::from_integer(&common / c.denom() * c.numer());
+        Self {
+            monomials: self.monomials.clone(),
+            coefficients: self.coefficients.iter().map(integer).collect(),
+        }
     }
 
     /// The coefficients modulo a prime, zeros included; `None` where the prime divides a denominator or the leading

@@ -3,6 +3,8 @@
 //! Traverso, "Groebner trace algorithms" (1988): modulo almost all primes the same matrices appear, with other numbers in
 //! them. So the plans are made once and only the rows that brought something new are reduced again. A prime that behaves
 //! differently shows it by a leading monomial that is missing or a term that was not there; then nothing is said about it.
+//! A trace that was itself learned modulo an unlucky prime leads all others astray alike; only a full computation modulo
+//! another prime finds that out.
 
 use super::budget::{Budget, Stop};
 use super::linear::{Coefficient, Matrix};
@@ -29,6 +31,11 @@ impl Round {
         }
     }
 
+    fn entries(&self) -> u64 {
+        let supports: usize = self.supports.iter().map(Vec::len).sum();
+        self.plan.entries() + supports as u64
+    }
+
     /// The coefficients of the rows, in the columns that they have in this round; `None` where they have others.
     fn align(&self, rows: Vec<SparseRow<Zp>>) -> Option<Vec<Vec<Zp>>> {
         if rows.len() != self.supports.len() {
@@ -52,26 +59,26 @@ fn align((row, support): (&SparseRow<Zp>, &Vec<u32>)) -> Option<Vec<Zp>> {
 
 impl Plan {
     /// The matrix, given the coefficients of all polynomials; with `tails` its rows lack their leading terms.
-    pub(super) fn matrix<C: Clone>(&self, coefficients: &[Vec<C>], tails: bool) -> Matrix<C> {
+    pub(super) fn into_matrix<C: Clone>(self, coefficients: &[Vec<C>], tails: bool) -> Matrix<C> {
         let mut number = vec![usize::MAX; coefficients.len()];
         let mut shared = Vec::new();
         let pivots = self
             .pivots
-            .iter()
+            .into_iter()
             .map(|row| {
                 let place = &mut number[row.element];
                 if *place == usize::MAX {
                     *place = shared.len();
                     shared.push(coefficients[row.element].clone());
                 }
-                (*place, row.columns.clone())
+                (*place, row.columns)
             })
             .collect();
-        let rows = self.rows.iter();
+        let rows = self.rows.into_iter();
         let rows = rows
             .map(|row| SparseRow {
-                columns: row.columns.clone(),
                 coefficients: coefficients[row.element][usize::from(tails)..].to_vec(),
+                columns: row.columns,
             })
             .collect();
         Matrix {
@@ -123,6 +130,11 @@ impl Trace {
 }
 
 impl Stage {
+    /// Matrix entries that are kept.
+    pub(super) fn entries(&self) -> u64 {
+        self.rounds.iter().map(Round::entries).sum()
+    }
+
     /// The tails of the basis, leading coefficients 1 left out.
     fn replay(&self, input: &[Vec<Zp>], budget: &Budget) -> Result<Option<Vec<Vec<Zp>>>, Stop> {
         let sorted = input.iter().zip(&self.places);
@@ -131,8 +143,8 @@ impl Stage {
             .collect();
         for (number, round) in self.rounds.iter().enumerate() {
             budget.spend_matrix(round.plan.entries())?;
-            let matrix = round.plan.matrix(&elements, false);
-            let (mut new, _) = Zp::echelon(matrix, false, budget)?;
+            let matrix = round.plan.clone().into_matrix(&elements, false);
+            let (mut new, _) = Zp::echelon(matrix, true, budget)?;
             new.sort_by_key(|row| std::cmp::Reverse(row.columns[0]));
             let leads = new.iter().map(|row| row.columns[0]);
             if leads.ne(round.supports.iter().map(|support| support[0])) {
@@ -150,7 +162,7 @@ impl Stage {
             return Ok(None);
         };
         budget.spend_matrix(finish.plan.entries())?;
-        let tails = Zp::reduce(finish.plan.matrix(&elements, true), budget)?;
+        let tails = Zp::reduce(finish.plan.clone().into_matrix(&elements, true), budget)?;
         Ok(finish.align(tails))
     }
 }
