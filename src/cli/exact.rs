@@ -7,10 +7,14 @@ use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressDrawTarget};
 use kutzbach::algebra::{
     Budget, ExactOptions, Formulation, Limits, Method, MonomialOrder, Progress, Stop, SystemError,
-    SystemOptions, exact_answer, relation_by_relation, relations_of,
+    SystemOptions, assembly_conditions, exact_answer, motion_conditions, polynomial_system,
+    relation_by_relation, relations_of,
 };
 use kutzbach::mechanism::Mechanism;
-use kutzbach::report::exact::{Request, exact_report, relations_report, render, render_relations};
+use kutzbach::report::exact::{
+    Request, conditions_report, exact_report, relations_report, render, render_conditions,
+    render_relations,
+};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -32,6 +36,12 @@ pub struct Arguments {
     /// Add the relations one by one: which are accepted, redundant, inconsistent
     #[arg(long)]
     incremental: bool,
+    /// Leave a property of the file open and say which values let the mechanism be put together; may be repeated
+    #[arg(long, value_name = "PROPERTY", conflicts_with = "incremental")]
+    symbolic: Vec<String>,
+    /// With --symbolic: say which values let this joint take every position
+    #[arg(long, value_name = "JOINT", requires = "symbolic")]
+    moving: Option<String>,
     /// Relations of lines and planes without regard to sense (positional and tree form)
     #[arg(long)]
     unoriented: bool,
@@ -106,14 +116,16 @@ enum Format {
 /// # Errors
 /// Where the file cannot be read, its numbers are not algebraic, or the output cannot be written.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let reading = arguments.source.read()?;
+    let reading = arguments.source.read_symbolic(&arguments.symbolic)?;
     let request = arguments.request();
     let refused = |error: SystemError| Failure::Plain {
         message: format!("{}: {error}", arguments.source.file.display()),
         help: None,
     };
     let (text, stopped) = watched(arguments.time, |budget| {
-        if arguments.incremental {
+        if !arguments.symbolic.is_empty() {
+            arguments.conditions(&reading.mechanism, &request, budget)
+        } else if arguments.incremental {
             arguments.relations(&reading.mechanism, &request, budget)
         } else {
             arguments.answer(&reading.mechanism, &request, budget)
@@ -203,6 +215,36 @@ impl Arguments {
             Format::Json => output::json(&report).map_err(Ended::Failed)?,
         };
         Ok((text, stopped))
+    }
+
+    fn conditions(
+        &self,
+        mechanism: &Mechanism,
+        request: &Request,
+        budget: &Budget,
+    ) -> Result<(String, Option<Stop>), Ended> {
+        let system =
+            polynomial_system(mechanism, &request.options.system).map_err(Ended::Refused)?;
+        let found = match &self.moving {
+            None => assembly_conditions(&system, budget),
+            Some(name) => {
+                let joint = mechanism.joint_named(name).ok_or_else(|| {
+                    Ended::Failed(Failure::Plain {
+                        message: format!("there is no joint named `{name}`"),
+                        help: None,
+                    })
+                })?;
+                motion_conditions(&system, joint, budget)
+            }
+        };
+        let moving = self.moving.as_deref();
+        let data = found.as_ref().map_err(|stop| *stop);
+        let report = conditions_report(mechanism, &system, data, moving, request);
+        let text = match self.format {
+            Format::Text => render_conditions(&report, self.layout()),
+            Format::Json => output::json(&report).map_err(Ended::Failed)?,
+        };
+        Ok((text, found.err()))
     }
 
     fn layout(&self) -> kutzbach::report::text::Layout {

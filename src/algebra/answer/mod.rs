@@ -4,9 +4,11 @@
 //! solution set, and the cycles looked at one by one. A budget that ends in the middle leaves what was found until then,
 //! and [`ExactAnswer::stopped`] says at which step and why.
 
+mod conditions;
 mod cycles;
 mod fixed;
 
+pub use conditions::{Condition, DesignConditions, assembly_conditions, motion_conditions};
 pub use cycles::CycleAnswer;
 pub use fixed::FixedVariable;
 

@@ -5,7 +5,7 @@ mod text;
 mod values;
 
 pub use schema::{
-    Cycle, EXACT_SCHEMA, ExactReport, Fixed, Outcome, Piece, RelationRow, Relations, Request,
-    Solutions, StepRow, exact_report, relations_report,
+    ConditionRow, Conditions, Cycle, EXACT_SCHEMA, ExactReport, Fixed, Outcome, Piece, RelationRow,
+    Relations, Request, Solutions, StepRow, conditions_report, exact_report, relations_report,
 };
-pub use text::{render, render_relations};
+pub use text::{render, render_conditions, render_relations};

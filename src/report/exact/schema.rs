@@ -2,8 +2,8 @@
 
 use super::values::{doubles, fixed_freedoms};
 use crate::algebra::{
-    ExactAnswer, ExactOptions, Formulation, Irreducible, Method, MonomialOrder, PolynomialSystem,
-    RealPoints, RelationFinding, RelationVerdict, Stop,
+    DesignConditions, ExactAnswer, ExactOptions, Formulation, Irreducible, Meaning, Method,
+    MonomialOrder, PolynomialSystem, RealPoints, RelationFinding, RelationVerdict, Stop,
 };
 use crate::mechanism::Mechanism;
 use serde::Serialize;
@@ -401,6 +401,68 @@ pub fn relations_report(
                 basis: finding.basis,
             })
             .collect(),
+        relaxations: system.relaxations.iter().map(ToString::to_string).collect(),
+    }
+}
+
+/// A condition on the parameters.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ConditionRow {
+    /// The polynomial that has to vanish.
+    pub polynomial: String,
+    /// Its factors, one of which has to vanish.
+    pub factors: Vec<String>,
+}
+
+/// Conditions on measures that were left open.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Conditions {
+    /// [`EXACT_SCHEMA`].
+    pub schema: &'static str,
+    /// The mechanism.
+    pub mechanism: String,
+    /// The file.
+    pub file: String,
+    /// `assembly`, or the joint that is to take every position.
+    pub question: String,
+    /// The parameters: their variables.
+    pub parameters: Vec<String>,
+    /// Whether it came to its end.
+    pub outcome: Outcome,
+    /// What has to vanish; empty: no condition; `null` where it was not found.
+    pub conditions: Option<Vec<ConditionRow>>,
+    /// What the equations leave out of the mechanism.
+    pub relaxations: Vec<String>,
+}
+
+/// Design conditions as data; `joint` is the one that is to move, if any.
+#[must_use]
+pub fn conditions_report(
+    mechanism: &Mechanism,
+    system: &PolynomialSystem,
+    found: Result<&DesignConditions, Stop>,
+    joint: Option<&str>,
+    request: &Request,
+) -> Conditions {
+    let names = system.names();
+    let text = |p: &crate::algebra::Polynomial| p.text(&names);
+    Conditions {
+        schema: EXACT_SCHEMA,
+        mechanism: mechanism.name().to_owned(),
+        file: request.file.clone(),
+        question: joint.unwrap_or("assembly").to_owned(),
+        parameters: (0..names.len())
+            .filter(|&v| matches!(system.variables[v].meaning, Meaning::Parameter { .. }))
+            .map(|v| names[v].clone())
+            .collect(),
+        outcome: outcome(found.err().map(|stop| ("the elimination", stop))),
+        conditions: found.ok().map(|found| {
+            let row = |condition: &crate::algebra::Condition| ConditionRow {
+                polynomial: text(&condition.polynomial),
+                factors: condition.factors.iter().map(&text).collect(),
+            };
+            found.conditions.iter().map(row).collect()
+        }),
         relaxations: system.relaxations.iter().map(ToString::to_string).collect(),
     }
 }

@@ -1,6 +1,6 @@
 //! The exact report as a page.
 
-use super::schema::{ExactReport, Outcome, Piece, Relations};
+use super::schema::{Conditions, ExactReport, Outcome, Piece, Relations};
 use crate::report::text::words::{counted, figure};
 use crate::report::text::{Cell, Column, Layout, Page, Table, Tint};
 
@@ -358,5 +358,52 @@ pub fn render_relations(report: &Relations, layout: Layout) -> String {
         ]);
     }
     page.table(&table, "relations");
+    page.into_text()
+}
+
+/// Design conditions as a page of text.
+#[must_use]
+pub fn render_conditions(report: &Conditions, layout: Layout) -> String {
+    let mut page = Page::new(layout);
+    let does = if report.question == "assembly" {
+        "can be put together".to_owned()
+    } else {
+        format!("can move with `{}` taking every position", report.question)
+    };
+    let headline = match report.conditions.as_deref() {
+        None => "Undecided: the computation ended before it had an answer.".to_owned(),
+        Some([]) => format!("It {does} whatever the values (complex ones included)."),
+        Some([one]) if one.polynomial == "1" => format!("There are no values for which it {does}."),
+        Some([one]) if one.factors.len() == 1 => {
+            format!("It {does} only if {} = 0.", one.factors[0])
+        }
+        Some(_) => format!("It {does} only if all of this holds:"),
+    };
+    page.paragraph(&headline, Tint::Strong, "", "");
+    if let Some(sentence) = stopped(&report.outcome) {
+        page.item(&sentence, Tint::Doubtful);
+    }
+    let rows = report.conditions.as_deref().unwrap_or_default();
+    if rows.len() > 1 || rows.iter().any(|row| row.factors.len() > 1) {
+        for row in rows {
+            let ways: Vec<String> = row.factors.iter().map(|f| format!("{f} = 0")).collect();
+            page.item(&ways.join(" or "), Tint::Plain);
+        }
+    }
+    for relaxation in &report.relaxations {
+        page.item(relaxation, Tint::Notable);
+    }
+    page.gap();
+    page.paragraph(
+        &format!(
+            "{} ({}), left open: {}. The conditions are necessary; complex solutions count.",
+            report.mechanism,
+            report.file,
+            report.parameters.join(", ")
+        ),
+        Tint::Quiet,
+        "",
+        "",
+    );
     page.into_text()
 }
