@@ -474,8 +474,12 @@ proptest! {
         axes in prop::array::uniform6(vector()),
         seed in any::<u64>(),
     ) {
-        let Some(mechanism) = ring(kinds, places, axes) else { return Ok(()) };
-        let Some(poses) = assembled(&mechanism, 0.4, seed) else { return Ok(()) };
+        let mechanism = ring(kinds, places, axes);
+        prop_assume!(mechanism.is_some());
+        let mechanism = mechanism.unwrap();
+        let poses = assembled(&mechanism, 0.4, seed);
+        prop_assume!(poses.is_some());
+        let poses = poses.unwrap();
         for formulation in FORMULATIONS {
             let system = polynomial_system(&mechanism, &options(formulation));
             let system = system.map_err(|e| TestCaseError::fail(e.to_string()))?;
