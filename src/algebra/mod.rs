@@ -8,13 +8,20 @@
 //!
 //! Everything that costs much takes a [`Budget`] and ends with an answer or a [`Stop`] that says why there is none.
 
+mod answer;
 mod components;
 mod engine;
 mod factor;
 mod polynomial;
+mod strategy;
+mod system;
 mod univariate;
 mod zero_dimensional;
 
+pub use answer::{
+    Condition, CycleAnswer, DesignConditions, ExactAnswer, ExactOptions, FixedVariable, Method,
+    Piece, Solutions, assembly_conditions, exact_answer, motion_conditions, relations_of,
+};
 pub use components::{
     AlgebraicNumber, Component, Decomposition, Hints, Incomplete, Irreducible, RealPoints,
     components,
@@ -26,5 +33,14 @@ pub use engine::{
 };
 pub use factor::{Factorization, UnivariateFactors, factor};
 pub use polynomial::{Polynomial, Rational};
+pub use strategy::{
+    Case, Divided, Group, Incremental, Instance, Problem, Relation, RelationFinding,
+    RelationVerdict, Step, brute_force, divide_and_conquer, incremental_instancing,
+    relation_by_relation,
+};
+pub use system::{
+    CycleEquations, Equation, Formulation, HomePose, Meaning, ModularSystem, Origin,
+    PolynomialSystem, Relaxation, SystemError, SystemOptions, Variable, polynomial_system,
+};
 pub use univariate::{RealRoot, Univariate};
 pub use zero_dimensional::{FinitePoints, RealSolution, Representation, TraceForm};

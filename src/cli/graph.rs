@@ -3,28 +3,19 @@
 use super::failure::Failure;
 use super::{DONE, load, output};
 use clap::{Args, ValueEnum};
-use kutzbach::graph::{
-    ConstraintGraph, CycleBasis, EdgeSpec, ExtraRelation, GraphSummary, NodeSpec, SpanningTree,
-    to_dot, to_svg,
-};
-use kutzbach::mechanism::Mechanism;
+use kutzbach::graph::{ConstraintGraph, CycleBasis, GraphSummary, SpanningTree, to_dot, to_svg};
 use kutzbach::report::text::visible;
-use std::path::PathBuf;
 
 /// Show links, joints, spanning tree and cycles
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// Mechanism file
-    file: PathBuf,
+    #[command(flatten)]
+    source: load::Source,
     /// Form of the answer
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-    /// Write to this file instead of standard output
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
-    /// Give a property of the file another value, a number or an expression; may be repeated
-    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = load::setting)]
-    settings: Vec<(String, String)>,
+    #[command(flatten)]
+    destination: output::Destination,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -44,8 +35,8 @@ enum Format {
 /// # Errors
 /// Where the file cannot be read or the output cannot be written.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let reading = load::mechanism(&arguments.file, &arguments.settings)?;
-    let graph = constraint_graph(&reading.mechanism);
+    let reading = arguments.source.read()?;
+    let graph = ConstraintGraph::of(&reading.mechanism);
     let tree = SpanningTree::low_depth(&graph);
     let summary = || GraphSummary::new(&graph, &tree, &CycleBasis::minimum(&graph, &tree));
     let text = match arguments.format {
@@ -54,30 +45,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         Format::Dot => to_dot(&graph, &tree),
         Format::Svg => to_svg(&graph, &tree),
     };
-    output::put(&text, arguments.output.as_deref())?;
+    arguments.destination.put(&text)?;
     Ok(DONE)
-}
-
-fn constraint_graph(mechanism: &Mechanism) -> ConstraintGraph {
-    let nodes = mechanism.links().iter().map(|link| NodeSpec {
-        name: link.name.clone(),
-    });
-    let edges = mechanism.joints().iter().map(|joint| EdgeSpec {
-        name: joint.name.clone(),
-        ends: [joint.predecessor.link.0, joint.successor.link.0],
-        freedom: joint.freedom(),
-        class: joint.kind.class().to_owned(),
-    });
-    let couplings = mechanism.couplings().iter().map(|coupling| ExtraRelation {
-        name: coupling.name.clone(),
-        edges: coupling.terms.iter().map(|term| term.joint.0).collect(),
-    });
-    ConstraintGraph::new(
-        mechanism.ground().0,
-        nodes.collect(),
-        edges.collect(),
-        couplings.collect(),
-    )
 }
 
 /// Names may hold terminal escapes: line by line, what would steer the terminal is written out.

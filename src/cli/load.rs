@@ -1,9 +1,42 @@
 //! From a path to a mechanism and its report.
 
 use super::failure::Failure;
-use kutzbach::format::{Reading, read_file};
+use clap::Args;
+use kutzbach::format::{ReadOptions, Reading, read_file, read_file_with};
 use kutzbach::report::{Options, Report, report};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// Which mechanism: a file, and properties of it that are to differ.
+#[derive(Clone, Debug, Args)]
+pub struct Source {
+    /// Mechanism file
+    pub file: PathBuf,
+    /// Give a property of the file another value, a number or an expression; may be repeated
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = setting)]
+    pub settings: Vec<(String, String)>,
+}
+
+impl Source {
+    /// Reads the file.
+    ///
+    /// # Errors
+    /// What is wrong with it, and where.
+    pub fn read(&self) -> Result<Reading, Failure> {
+        mechanism(&self.file, &self.settings)
+    }
+
+    /// Reads the file, leaving some of its properties open.
+    ///
+    /// # Errors
+    /// As [`Self::read`]; also a name that the file does not define.
+    pub fn read_symbolic(&self, symbolic: &[String]) -> Result<Reading, Failure> {
+        let options = ReadOptions {
+            settings: self.settings.clone(),
+            symbolic: symbolic.to_vec(),
+        };
+        Ok(read_file_with(&self.file, &options)?)
+    }
+}
 
 /// Reads a mechanism file.
 ///

@@ -1,8 +1,9 @@
 //! The command line: words in, a call into the library, text out. One file per subcommand; no analysis in any of them.
 //!
-//! Exit codes: 0 done; 1 an expectation failed; 2 bad input; 3 undecided where `--strict` was given.
+//! Exit codes: 0 done; 1 an expectation or a verification failed; 2 bad input; 3 undecided where `--strict` was given; 130 interrupted.
 
 mod check;
+mod exact;
 mod excerpt;
 mod explain;
 mod failure;
@@ -33,7 +34,7 @@ const UNDECIDED: u8 = 3;
 #[derive(Debug, Parser)]
 #[command(name = "kutzbach", version, about, max_term_width = 100)]
 #[command(
-    after_help = "Exit codes: 0 done, 1 an expectation failed, 2 bad input, 3 undecided under --strict."
+    after_help = "Exit codes: 0 done, 1 an expectation or a verification failed, 2 bad input, 3 undecided under --strict, 130 interrupted."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -46,6 +47,7 @@ enum Command {
     Check(check::Arguments),
     Simulate(Box<simulate::Arguments>),
     Graph(graph::Arguments),
+    Exact(exact::Arguments),
     Trace(trace::Arguments),
     Explain(explain::Arguments),
 }
@@ -57,6 +59,7 @@ pub fn run() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Graph(arguments) => graph::run(&arguments),
+        Command::Exact(arguments) => exact::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
     };

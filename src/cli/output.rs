@@ -1,9 +1,34 @@
 //! Where results go: standard output, or a file that is either complete or untouched.
 
 use super::failure::Failure;
+use clap::Args;
 use std::fs::{self, File, OpenOptions};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
+
+/// Where the answer goes.
+#[derive(Clone, Debug, Args)]
+pub struct Destination {
+    /// Write to this file instead of standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+impl Destination {
+    /// The file, where one was named.
+    #[must_use]
+    pub fn file(&self) -> Option<&Path> {
+        self.output.as_deref()
+    }
+
+    /// Writes the answer there.
+    ///
+    /// # Errors
+    /// As [`put`].
+    pub fn put(&self, text: &str) -> Result<(), Failure> {
+        put(text, self.file())
+    }
+}
 
 /// Writes a text to the file, or to standard output where there is none.
 ///

@@ -5,22 +5,17 @@ use super::{DONE, UNDECIDED, load, output, terminal};
 use clap::{Args, ValueEnum};
 use kutzbach::report::text::render;
 use kutzbach::report::{Options, Verdict};
-use std::path::PathBuf;
 
 /// Say how a mechanism can move, and why
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// Mechanism file
-    file: PathBuf,
+    #[command(flatten)]
+    source: load::Source,
     /// Form of the report
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-    /// Write to this file instead of standard output
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
-    /// Give a property of the file another value, a number or an expression; may be repeated
-    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = load::setting)]
-    settings: Vec<(String, String)>,
+    #[command(flatten)]
+    destination: output::Destination,
     /// Analyse a configuration of the file instead of the home pose
     #[arg(long, value_name = "CONFIGURATION")]
     at: Option<String>,
@@ -54,7 +49,7 @@ enum Format {
 /// # Errors
 /// Where the file cannot be read, has no such configuration, or the output cannot be written.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let reading = load::mechanism(&arguments.file, &arguments.settings)?;
+    let reading = arguments.source.read()?;
     let options = Options {
         configuration: arguments.at.clone(),
         timing: arguments.timing,
@@ -65,15 +60,15 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             .map(|pair| (pair[0].clone(), pair[1].clone()))
             .collect(),
     };
-    let report = load::report_on(&reading, &arguments.file, &options)?;
+    let report = load::report_on(&reading, &arguments.source.file, &options)?;
     let text = match arguments.format {
         Format::Text => render(
             &report,
-            terminal::layout(arguments.output.is_some(), arguments.verbose),
+            terminal::layout(arguments.destination.file().is_some(), arguments.verbose),
         ),
         Format::Json => output::json(&report)?,
     };
-    output::put(&text, arguments.output.as_deref())?;
+    arguments.destination.put(&text)?;
     let undecided = report.mobility.verdict == Verdict::Undecided;
     Ok(if arguments.strict && undecided {
         UNDECIDED

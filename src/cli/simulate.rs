@@ -20,8 +20,8 @@ use table::Simulated;
 /// Simulate a mechanism: is the predicted motion confirmed? Log it for viewers
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// Mechanism file
-    file: PathBuf,
+    #[command(flatten)]
+    source: load::Source,
     /// Write predicted and simulated motion to this MCAP log
     #[arg(long, value_name = "LOG")]
     mcap: Option<PathBuf>,
@@ -64,12 +64,8 @@ pub struct Arguments {
     /// Form of the answer
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-    /// Write to this file instead of standard output
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
-    /// Give a property of the file another value, a number or an expression; may be repeated
-    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = load::setting)]
-    settings: Vec<(String, String)>,
+    #[command(flatten)]
+    destination: output::Destination,
     /// Start at a configuration of the file instead of the home pose
     #[arg(long, value_name = "CONFIGURATION")]
     at: Option<String>,
@@ -93,11 +89,11 @@ const COST_STEPS: usize = 500;
 /// Where the file cannot be read, has no such configuration, branch or joint, no world can be made, or output cannot be
 /// written.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let reading = load::mechanism(&arguments.file, &arguments.settings)?;
+    let reading = arguments.source.read()?;
     let mechanism = &reading.mechanism;
     let configuration = arguments.at.clone().filter(|name| name != "home");
     let plain = |message: String, help: Option<String>| Failure::Plain {
-        message: format!("{}: {message}", arguments.file.display()),
+        message: format!("{}: {message}", arguments.source.file.display()),
         help,
     };
     let analysis = analyse(
@@ -207,11 +203,11 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let text = match arguments.format {
         Format::Text => table::text(
             &simulated,
-            terminal::layout(arguments.output.is_some(), arguments.verbose),
+            terminal::layout(arguments.destination.file().is_some(), arguments.verbose),
         ),
         Format::Json => output::json(&table::json(&simulated, arguments.timing))?,
     };
-    output::put(&text, arguments.output.as_deref())?;
+    arguments.destination.put(&text)?;
     if simulated.stopped {
         return Ok(interrupt::INTERRUPTED);
     }

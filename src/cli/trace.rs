@@ -7,13 +7,12 @@ use super::{DONE, load, output};
 use clap::{Args, ValueEnum};
 use kutzbach::mobility::{AnalysisOptions, analyse};
 use kutzbach::motion::{TraceOptions, trace};
-use std::path::PathBuf;
 
 /// Follow a branch: poses, ranges of the joints, dead centres, singular poses
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// Mechanism file
-    file: PathBuf,
+    #[command(flatten)]
+    source: load::Source,
     /// Name of the branch; the first if not given
     #[arg(long)]
     branch: Option<String>,
@@ -29,12 +28,8 @@ pub struct Arguments {
     /// Form of the answer
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-    /// Write to this file instead of standard output
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
-    /// Give a property of the file another value, a number or an expression; may be repeated
-    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = load::setting)]
-    settings: Vec<(String, String)>,
+    #[command(flatten)]
+    destination: output::Destination,
     /// Start at a configuration of the file instead of the home pose
     #[arg(long, value_name = "CONFIGURATION")]
     at: Option<String>,
@@ -85,11 +80,11 @@ fn drive(text: &str) -> Result<Drive, String> {
 /// # Errors
 /// Where the file cannot be read, has no such configuration, branch or joint, or the output cannot be written.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let reading = load::mechanism(&arguments.file, &arguments.settings)?;
+    let reading = arguments.source.read()?;
     let mechanism = &reading.mechanism;
     let configuration = arguments.at.clone().filter(|name| name != "home");
     let plain = |message: String, help: String| Failure::Plain {
-        message: format!("{}: {message}", arguments.file.display()),
+        message: format!("{}: {message}", arguments.source.file.display()),
         help: Some(help),
     };
     let analysis = analyse(
@@ -119,6 +114,6 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         Format::Csv => table::csv(mechanism, &traced),
         Format::Json => output::json(&table::json(mechanism, &traced))?,
     };
-    output::put(&text, arguments.output.as_deref())?;
+    arguments.destination.put(&text)?;
     Ok(DONE)
 }

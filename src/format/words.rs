@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
+use strsim::levenshtein;
 
 /// A piece of the file in backticks, cut where it is too long for a message.
 pub(super) fn quoted(text: &str) -> String {
@@ -61,24 +62,13 @@ pub(super) fn did_you_mean<'a>(
 /// Levenshtein distance of the first 64 characters, ignoring case (`Link` is near `link`).
 fn edit_distance(a: &str, b: &str) -> usize {
     const MOST: usize = 64;
-    let lower = |text: &str| -> Vec<char> {
-        text.chars()
+    let start = |word: &str| -> String {
+        word.chars()
             .take(MOST)
             .map(|c| c.to_ascii_lowercase())
             .collect()
     };
-    let (a, b) = (lower(a), lower(b));
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.iter().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let substitution = diagonal + usize::from(x != y);
-            diagonal = row[j + 1];
-            row[j + 1] = substitution.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[b.len()]
+    levenshtein(&start(a), &start(b))
 }
 
 #[cfg(test)]

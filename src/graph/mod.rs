@@ -42,6 +42,7 @@ mod cycles;
 mod draw;
 mod gf2;
 pub mod invariants;
+mod of_mechanism;
 mod short_cycles;
 mod signed_cover;
 mod spanning_tree;

@@ -1,10 +1,7 @@
 //! The topology of a mechanism, split into parts whose equations stand alone.
 
 use crate::closure::Part;
-use crate::graph::{
-    ConstraintGraph, Cycle, CycleBasis, EdgeSpec, ExtraRelation, NodeSpec, SpanningTree,
-    fundamental_cycle,
-};
+use crate::graph::{ConstraintGraph, Cycle, CycleBasis, SpanningTree, fundamental_cycle};
 use crate::mechanism::Mechanism;
 
 /// Up to this total length the tree's fundamental cycles are listed one by one; their total grows with the square of a
@@ -98,32 +95,7 @@ impl Structure {
 /// The spatial constraint graph of a mechanism; node and edge indices are link and joint indices.
 #[must_use]
 pub fn constraint_graph(mechanism: &Mechanism) -> ConstraintGraph {
-    let nodes = mechanism
-        .links()
-        .iter()
-        .map(|link| NodeSpec {
-            name: link.name.clone(),
-        })
-        .collect();
-    let edges = mechanism
-        .joints()
-        .iter()
-        .map(|joint| EdgeSpec {
-            name: joint.name.clone(),
-            ends: [joint.predecessor.link.0, joint.successor.link.0],
-            freedom: joint.freedom(),
-            class: joint.kind.class().to_owned(),
-        })
-        .collect();
-    let couplings = mechanism
-        .couplings()
-        .iter()
-        .map(|coupling| ExtraRelation {
-            name: coupling.name.clone(),
-            edges: coupling.terms.iter().map(|term| term.joint.0).collect(),
-        })
-        .collect();
-    ConstraintGraph::new(mechanism.ground().0, nodes, edges, couplings)
+    ConstraintGraph::of(mechanism)
 }
 
 #[cfg(test)]

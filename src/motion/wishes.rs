@@ -3,6 +3,7 @@
 use super::inputs::Variable;
 use super::result::{TraceError, TraceOptions};
 use crate::mechanism::Mechanism;
+use strsim::levenshtein;
 
 /// What was asked for, found in the mechanism.
 #[derive(Clone, Debug, Default)]
@@ -53,7 +54,7 @@ pub fn variable_named(mechanism: &Mechanism, name: &str) -> Result<Variable, Tra
     });
     let nearest = all
         .iter()
-        .map(|v| (distance(name, &v.name), &v.name))
+        .map(|v| (levenshtein(name, &v.name), &v.name))
         .filter(|(d, known)| *d <= 2.max(known.chars().count() / 3))
         .min()
         .map(|(_, known)| known.clone());
@@ -62,20 +63,4 @@ pub fn variable_named(mechanism: &Mechanism, name: &str) -> Result<Variable, Tra
         nearest,
         several,
     })
-}
-
-/// Letters to change, add or leave out between two words (Levenshtein 1966).
-fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut corner = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let change = corner + usize::from(x != *y);
-            corner = row[j + 1];
-            row[j + 1] = change.min(corner + 1).min(row[j] + 1);
-        }
-    }
-    row[b.len()]
 }

@@ -47,6 +47,7 @@ mod surd;
 mod tests;
 mod token;
 mod tree;
+mod view;
 
 pub use angle::{Angle, Direction};
 pub use decimal::Stated;
@@ -54,6 +55,7 @@ pub use error::{NumberError, Reason};
 pub use evaluate::ZeroTest;
 pub use surd::Surd;
 pub use tree::Tree;
+pub(crate) use view::View;
 
 use ball::{Ball, Clear};
 use dashu::float::FBig;
@@ -202,6 +204,17 @@ impl Number {
                 denominator.into(),
             ))
         })
+    }
+
+    /// A value that keeps a name: it evaluates like the value, and where formulas are made of it
+    /// ([`crate::algebra::polynomial_system`]) it stands for any value. Decisions (whether something is zero, which root is
+    /// meant) are made at the value. Of a parameter of that name already, itself.
+    #[must_use]
+    pub fn parameter(name: &str, value: Self) -> Self {
+        match value.view() {
+            View::Parameter(known, _) if known == name => value,
+            _ => Self::from_tree(Operation::Parameter(name.into()), vec![value]),
+        }
     }
 
     /// The exact (dyadic) value of a double, without a stated precision; `None` where it is not finite.

@@ -3,6 +3,8 @@
 //! The book's page is the only source; it is compiled in and read here. A definition opens with a heading
 //! `## D3 Instantaneous freedom {#instantaneous}`, may list further words on a line `Also: …`, and runs to the next heading.
 
+use strsim::levenshtein;
+
 /// The book's page.
 const PAGE: &str = include_str!("../../docs/src/definitions.md");
 
@@ -66,9 +68,9 @@ pub fn nearest(word: &str) -> Option<&'static str> {
 
 /// The name closest to a misspelt one, if one is close: at most a third of its letters differ.
 pub(super) fn closest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let wanted: Vec<char> = normal(word).chars().take(64).collect();
+    let wanted: String = normal(word).chars().take(64).collect();
     known
-        .map(|known| (distance(&wanted, &normal(known)), known))
+        .map(|known| (levenshtein(&wanted, &normal(known)), known))
         .min()
         .filter(|(distance, known)| 3 * distance <= known.chars().count().max(3))
         .map(|(_, known)| known)
@@ -97,21 +99,6 @@ fn parse(section: &'static str) -> Option<Definition> {
 
 fn normal(word: &str) -> String {
     word.trim().to_lowercase().replace(['-', '_'], " ")
-}
-
-/// Levenshtein distance.
-fn distance(a: &[char], b: &str) -> usize {
-    let mut row: Vec<usize> = (0..=a.len()).collect();
-    for (i, y) in b.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, x) in a.iter().enumerate() {
-            let substituted = diagonal + usize::from(*x != y);
-            diagonal = row[j + 1];
-            row[j + 1] = substituted.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[a.len()]
 }
 
 #[cfg(test)]

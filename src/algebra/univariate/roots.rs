@@ -31,6 +31,12 @@ impl RealRoot {
         self.low == self.high
     }
 
+    /// The root in double precision: half way between the ends.
+    #[must_use]
+    pub fn value(&self) -> f64 {
+        to_f64(&self.middle())
+    }
+
     /// Half way between the ends.
     #[must_use]
     pub fn middle(&self) -> Rational {

@@ -61,18 +61,18 @@ impl<'a> Log<'a> {
         };
         let report = load::report_on(
             reading,
-            &arguments.file,
+            &arguments.source.file,
             &Options {
                 configuration: arguments.at.clone(),
                 ..Options::default()
             },
         )?;
         let report = output::json(&report)?;
-        let source = std::fs::read(&arguments.file).map_err(|error| Failure::Plain {
-            message: format!("cannot read `{}`: {error}", arguments.file.display()),
+        let source = std::fs::read(&arguments.source.file).map_err(|error| Failure::Plain {
+            message: format!("cannot read `{}`: {error}", arguments.source.file.display()),
             help: None,
         })?;
-        let name = arguments.file.file_name().unwrap_or_default();
+        let name = arguments.source.file.file_name().unwrap_or_default();
         let roles = log.roles(None, None);
         let facts = log.facts(options);
         let recorder = Recorder::create(

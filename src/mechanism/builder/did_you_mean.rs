@@ -1,5 +1,7 @@
 //! Naming the known name that a mistyped one is nearest to.
 
+use strsim::levenshtein;
+
 /// Names that are looked at: a message costs no more than a short moment, however large the mechanism.
 const MOST_NAMES: usize = 1000;
 
@@ -21,20 +23,10 @@ pub(super) fn did_you_mean<'a>(name: &str, known: impl Iterator<Item = &'a Strin
     }
 }
 
-/// Levenshtein distance, one row of the table at a time.
+/// Levenshtein distance of the first letters.
 fn edit_distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().take(MOST_LETTERS).collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().take(MOST_LETTERS).enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let substitution = diagonal + usize::from(x != *y);
-            diagonal = row[j + 1];
-            row[j + 1] = substitution.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[b.len()]
+    let start = |word: &str| -> String { word.chars().take(MOST_LETTERS).collect() };
+    levenshtein(&start(a), &start(b))
 }
 
 #[cfg(test)]
