@@ -2,7 +2,7 @@
 
 use crate::algebra::engine::{Budget, Stop};
 use crate::algebra::univariate::residues::{
-    Residues, difference, divided, gcd, monic, power, product, remainder, trimmed,
+    Residues, difference, divided, gcd, modp, monic, power, product, remainder, trimmed,
 };
 
 /// The monic irreducible factors of a squarefree polynomial modulo an odd prime.
@@ -13,19 +13,18 @@ pub(super) fn factors_modulo_prime(
 ) -> Result<Vec<Residues>, Stop> {
     let mut factors = Vec::new();
     let mut rest = monic(polynomial, prime);
+    let frobenius = Frobenius::new(&rest, prime, budget)?;
     let identity: Residues = vec![0, 1];
-    // x to the power prime^degree, modulo what is left.
-    let mut frobenius = identity.clone();
+    // x to the power prime^degree.
+    let mut power = identity.clone();
     let mut degree = 0;
     while rest.len() > 2 * (degree + 1) {
         degree += 1;
-        budget.spend(multiplications(rest.len()))?;
-        frobenius = power(&frobenius, prime, &rest, prime);
-        let group = gcd(&rest, &difference(&frobenius, &identity, prime), prime);
+        power = frobenius.of(&power, budget)?;
+        let group = gcd(&rest, &difference(&power, &identity, prime), prime);
         if group.len() > 1 {
             rest = divided(&rest, &group, prime).0;
-            frobenius = remainder(&frobenius, &rest, prime);
-            split_equal_degrees(group, degree, prime, budget, &mut factors)?;
+            split_equal_degrees(group, degree, &frobenius, budget, &mut factors)?;
         }
     }
     if rest.len() > 1 {
@@ -33,6 +32,37 @@ pub(super) fn factors_modulo_prime(
     }
     factors.sort();
     Ok(factors)
+}
+
+/// Raising to the power of the prime, modulo a polynomial: a linear map, known by the images of the powers of x.
+struct Frobenius {
+    prime: u64,
+    images: Vec<Residues>,
+}
+
+impl Frobenius {
+    fn new(modulus: &[u64], prime: u64, budget: &Budget) -> Result<Self, Stop> {
+        budget.spend(multiplications(modulus.len()))?;
+        let first = power(&[0, 1], prime, modulus, prime);
+        let mut images = vec![remainder(&[1], modulus, prime)];
+        for i in 0..modulus.len().saturating_sub(2) {
+            budget.spend((modulus.len() * modulus.len()) as u64)?;
+            let next = product(&images[i], &first, prime);
+            images.push(remainder(&next, modulus, prime));
+        }
+        Ok(Self { prime, images })
+    }
+
+    fn of(&self, argument: &[u64], budget: &Budget) -> Result<Residues, Stop> {
+        budget.spend((self.images.len() * self.images.len()) as u64)?;
+        let mut sum = vec![0; self.images.len()];
+        for (&c, image) in argument.iter().zip(&self.images) {
+            for (entry, &value) in sum.iter_mut().zip(image) {
+                *entry = modp::add(*entry, modp::mul(c, value, self.prime), self.prime);
+            }
+        }
+        Ok(trimmed(sum))
+    }
 }
 
 /// Word operations of one power with an exponent of 62 bits.
@@ -47,10 +77,11 @@ fn multiplications(length: usize) -> u64 {
 fn split_equal_degrees(
     whole: Residues,
     degree: usize,
-    prime: u64,
+    frobenius: &Frobenius,
     budget: &Budget,
     factors: &mut Vec<Residues>,
 ) -> Result<(), Stop> {
+    let prime = frobenius.prime;
     let mut draws = Draws(prime);
     let mut waiting = vec![whole];
     while let Some(group) = waiting.pop() {
@@ -58,12 +89,12 @@ fn split_equal_degrees(
             factors.push(group);
             continue;
         }
-        budget.spend(multiplications(group.len()) * degree as u64)?;
+        budget.spend(multiplications(group.len()))?;
         let residue = trimmed((1..group.len()).map(|_| draws.below(prime)).collect());
         let mut conjugate = residue.clone();
         let mut norm = residue;
         for _ in 1..degree {
-            conjugate = power(&conjugate, prime, &group, prime);
+            conjugate = remainder(&frobenius.of(&conjugate, budget)?, &group, prime);
             norm = remainder(&product(&norm, &conjugate, prime), &group, prime);
         }
         let sign = power(&norm, (prime - 1) / 2, &group, prime);

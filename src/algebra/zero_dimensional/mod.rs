@@ -9,7 +9,7 @@
 //! functions of its value (`representation.rs`), and real points as intervals as narrow as wished (`real.rs`).
 //!
 //! Cost: with D points (counted with multiplicities), about D³ operations with numbers whose length grows with D; sixteen
-//! points take a fraction of a second, sixty-four some seconds.
+//! points take some milliseconds, sixty-four about a second.
 
 mod quotient;
 mod real;
