@@ -345,7 +345,10 @@ impl Question<'_> {
         if answer.upper == answer.tangent
             && let Some(point) = self.rational_point()
         {
-            let over_rationals = self.over_rationals(&point)?;
+            let tt = std::time::Instant::now();
+            let over_rationals = self.over_rationals(&point);
+            eprintln!("W rational {} {:?} {:?}", self.budget.work(), tt.elapsed(), over_rationals);
+            let over_rationals = over_rationals?;
             if over_rationals == Some(answer.upper) {
                 answer.prove(
                     answer.upper,
@@ -402,9 +405,10 @@ impl Question<'_> {
         self.system.home.exact()?.iter().map(rational).collect()
     }
 
-    /// The local dimension over the rationals, nothing left to primes. Found like the one modulo a prime: homogenised with a
-    /// variable whose higher powers are larger (Lazard 1983).
+    /// A lower bound of the local dimension over the rationals, nothing left to primes; `None` where it could not be proved.
+    /// Found like the one modulo a prime: homogenised with a variable whose higher powers are larger (Lazard 1983).
     fn over_rationals(&self, point: &[Rational]) -> Result<Option<usize>, Stop> {
+        let budget = self.budget;
         let variables = point.len();
         let shifts: Vec<Polynomial> = point
             .iter()
@@ -421,8 +425,16 @@ impl Question<'_> {
             .map(|equation| homogenised(&equation.polynomial.substitute(&shifts)))
             .collect();
         let order = MonomialOrder::Elimination(1);
-        let mut basis = groebner_basis(&forms, variables + 1, &order, self.budget)?;
-        if !basis.prove(&forms, self.budget)? {
+        let mut basis = groebner_basis(&forms, variables + 1, &order, budget)?;
+        // The basis may rest on primes; what is needed of it is proved here. Its zeros solve all equations:
+        for form in &forms {
+            if !basis.normal_form_within(form, budget)?.is_zero() {
+                return Ok(None);
+            }
+        }
+        // and it is a basis of what it generates, so that its leading monomials tell the dimension of these zeros.
+        let polynomials = basis.polynomials().to_vec();
+        if !basis.prove(&polynomials, budget)? {
             return Ok(None);
         }
         let one = Rational::new(1.into(), 1.into());
@@ -431,7 +443,7 @@ impl Question<'_> {
             .map(|lead| Polynomial::from_terms(vec![(lead[1..].to_vec(), one.clone())], variables))
             .collect();
         // Of monomials: nothing to compute.
-        let leads = groebner_basis(&leads, variables, &MonomialOrder::Degrevlex, self.budget)?;
+        let leads = groebner_basis(&leads, variables, &MonomialOrder::Degrevlex, budget)?;
         Ok(leads.dimension())
     }
 }
