@@ -8,6 +8,7 @@
 //!
 //! Everything that costs much takes a [`Budget`] and ends with an answer or a [`Stop`] that says why there is none.
 
+mod answer;
 mod components;
 mod engine;
 mod factor;
@@ -17,6 +18,10 @@ mod system;
 mod univariate;
 mod zero_dimensional;
 
+pub use answer::{
+    Condition, CycleAnswer, DesignConditions, ExactAnswer, ExactOptions, FixedVariable, Method,
+    Piece, Solutions, assembly_conditions, exact_answer, motion_conditions, relations_of,
+};
 pub use components::{
     AlgebraicNumber, Component, Decomposition, Hints, Incomplete, Irreducible, RealPoints,
     components,

@@ -14,6 +14,7 @@ pub(super) use roots::to_f64;
 use super::polynomial::{Polynomial, Rational};
 use num_bigint::{BigInt, Sign};
 use num_traits::{One, Signed, Zero};
+use polycore::lehmer;
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// A dense polynomial in one variable with rational coefficients, for divisions with remainder.
@@ -150,7 +151,7 @@ impl Univariate {
         if self.is_zero() {
             return Rational::zero();
         }
-        Rational::new(sum, scale / denominator)
+        fraction(sum, &(scale / denominator))
     }
 
     /// The sign of the value at a rational: -1, 0 or 1.
@@ -199,6 +200,27 @@ impl Univariate {
             .then(|| Self::new(quotient))
     }
 
+    /// The remainder by a divisor of this polynomial times a power of the divisor's leading coefficient: one with the
+    /// exponent `steps`, which is at least the number of steps of the division.
+    pub(super) fn pseudo_remainder(&self, divisor: &Self, steps: usize) -> Self {
+        let head = divisor.leading();
+        let mut rest = self.0.clone();
+        let mut taken = 0;
+        while rest.len() >= divisor.0.len() && taken < steps {
+            let Some(top) = rest.pop() else { break };
+            let place = rest.len() + 1 - divisor.0.len();
+            for value in &mut rest {
+                *value *= &head;
+            }
+            for (value, c) in rest[place..].iter_mut().zip(&divisor.0) {
+                *value -= &top * c;
+            }
+            taken += 1;
+        }
+        let missing = (taken..steps).fold(BigInt::one(), |power, _| power * &head);
+        Self::new(rest.into_iter().map(|value| value * &missing).collect())
+    }
+
     /// As text: `2*x^2 - 3`.
     #[must_use]
     pub fn text(&self, name: &str) -> String {
@@ -225,14 +247,25 @@ impl ToPolynomial for Dense {
     }
 }
 
-/// The greatest common divisor of two integers, not negative.
+/// The greatest common divisor of two integers, not negative: Lehmer's algorithm, many times faster than that of the type.
 pub(super) fn integer_gcd(a: &BigInt, b: &BigInt) -> BigInt {
-    // The fraction cancels the common divisor with the crate's own, fast algorithm.
-    if b.is_zero() {
-        return a.abs();
-    }
-    let reduced = Rational::new(a.clone(), b.clone());
-    (b / reduced.denom()).abs()
+    lehmer::gcd(a.magnitude(), b.magnitude()).into()
+}
+
+/// The quotient of two integers in lowest terms; the second is not zero.
+pub(super) fn fraction(numerator: BigInt, denominator: &BigInt) -> Rational {
+    let numerator = if denominator.is_negative() {
+        -numerator
+    } else {
+        numerator
+    };
+    lehmer::fraction(numerator, denominator.magnitude())
+}
+
+/// An integer over a power of two, in lowest terms.
+pub(super) fn dyadic(numerator: BigInt, exponent: u64) -> Rational {
+    let twos = numerator.trailing_zeros().unwrap_or(exponent).min(exponent);
+    Rational::new_raw(numerator >> twos, BigInt::one() << (exponent - twos))
 }
 
 /// Rationals times their smallest common denominator, and that denominator.

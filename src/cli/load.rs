@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use clap::Args;
-use kutzbach::format::{Reading, read_file};
+use kutzbach::format::{ReadOptions, Reading, read_file, read_file_with};
 use kutzbach::report::{Options, Report, report};
 use std::path::{Path, PathBuf};
 
@@ -23,6 +23,18 @@ impl Source {
     /// What is wrong with it, and where.
     pub fn read(&self) -> Result<Reading, Failure> {
         mechanism(&self.file, &self.settings)
+    }
+
+    /// Reads the file, leaving some of its properties open.
+    ///
+    /// # Errors
+    /// As [`Self::read`]; also a name that the file does not define.
+    pub fn read_symbolic(&self, symbolic: &[String]) -> Result<Reading, Failure> {
+        let options = ReadOptions {
+            settings: self.settings.clone(),
+            symbolic: symbolic.to_vec(),
+        };
+        Ok(read_file_with(&self.file, &options)?)
     }
 }
 

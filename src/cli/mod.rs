@@ -3,6 +3,7 @@
 //! Exit codes: 0 done; 1 an expectation or a verification failed; 2 bad input; 3 undecided where `--strict` was given; 130 interrupted.
 
 mod check;
+mod exact;
 mod excerpt;
 mod explain;
 mod failure;
@@ -46,6 +47,7 @@ enum Command {
     Check(check::Arguments),
     Simulate(Box<simulate::Arguments>),
     Graph(graph::Arguments),
+    Exact(exact::Arguments),
     Trace(trace::Arguments),
     Explain(explain::Arguments),
 }
@@ -57,6 +59,7 @@ pub fn run() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Graph(arguments) => graph::run(&arguments),
+        Command::Exact(arguments) => exact::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
     };

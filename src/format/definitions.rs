@@ -8,7 +8,7 @@ use super::error::{Fault, MOST_FAULTS, Outcome};
 use super::number_text::{self, Names, Trouble, is_identifier};
 use super::words::{did_you_mean, quoted};
 use crate::number::Number;
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
 /// How many definitions may wait for each other; definitions that only name earlier ones never wait.
@@ -55,6 +55,8 @@ pub(super) struct Definitions<'a> {
     by_name: HashMap<(Sort, &'a str), usize>,
     /// Definitions under evaluation, outermost first.
     evaluating: Vec<usize>,
+    /// Names that stay symbolic.
+    symbolic: BTreeSet<&'a str>,
 }
 
 impl<'a> Definitions<'a> {
@@ -139,6 +141,33 @@ impl<'a> Definitions<'a> {
         .maybe_help(help))
     }
 
+    /// Keeps the properties and arguments of a name symbolic; a name that the file does not define is an error about its
+    /// root.
+    pub(super) fn keep_symbolic(&mut self, name: &'a str, root: Range<usize>) -> Outcome<()> {
+        if self.all.iter().any(|definition| definition.name == name) {
+            self.symbolic.insert(name);
+            return Ok(());
+        }
+        let names: Vec<String> = self
+            .all
+            .iter()
+            .map(|definition| quoted(definition.name))
+            .collect();
+        let known = if names.is_empty() {
+            "the file defines none".to_owned()
+        } else {
+            format!("it defines {}", names.join(", "))
+        };
+        Err(Fault::new(
+            root,
+            format!(
+                "cannot keep {} symbolic: the file defines no property or argument of that name",
+                quoted(name)
+            ),
+        )
+        .help(known))
+    }
+
     /// Evaluates every definition, used or not.
     pub(super) fn evaluate_all(&mut self) -> Vec<Fault> {
         let mut faults: Vec<Fault> = Vec::new();
@@ -167,7 +196,14 @@ impl<'a> Definitions<'a> {
         }
         self.all[index].state = State::Evaluating;
         self.evaluating.push(index);
-        let result = self.evaluate_text(index);
+        let name = self.all[index].name;
+        let result = self.evaluate_text(index).map(|number| {
+            if self.symbolic.contains(name) {
+                Number::parameter(name, number)
+            } else {
+                number
+            }
+        });
         self.evaluating.pop();
         self.all[index].state = match &result {
             Ok(number) => State::Done(number.clone()),

@@ -102,7 +102,26 @@ pub struct Skipped {
 /// # Errors
 /// Up to twenty faults of the text, the first one foremost; a setting whose name the text does not define.
 pub fn read(text: &str, file: &str, settings: &[(String, String)]) -> Result<Reading, FormatError> {
-    reader::read(text, settings).map_err(|faults| located(file, text, faults))
+    reader::read(text, settings, &[]).map_err(|faults| located(file, text, faults))
+}
+
+/// How to read a text beyond what it says.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ReadOptions {
+    /// Names and numbers or expressions that replace their values, as for [`read`].
+    pub settings: Vec<(String, String)>,
+    /// Names of properties and arguments that stay symbolic: numbers computed from them remember how
+    /// ([`Number::parameter`](crate::number::Number::parameter)).
+    pub symbolic: Vec<String>,
+}
+
+/// Reads a text, with some of its properties left symbolic.
+///
+/// # Errors
+/// As [`read`]; also a symbolic name that the text does not define, with the names that it does.
+pub fn read_with(text: &str, file: &str, options: &ReadOptions) -> Result<Reading, FormatError> {
+    reader::read(text, &options.settings, &options.symbolic)
+        .map_err(|faults| located(file, text, faults))
 }
 
 /// Reads bytes, which must be UTF-8; a byte order mark is allowed. Otherwise as [`read`].
@@ -114,11 +133,19 @@ pub fn read_bytes(
     file: &str,
     settings: &[(String, String)],
 ) -> Result<Reading, FormatError> {
+    bytes_with(bytes, file, |text| read(text, file, settings))
+}
+
+fn bytes_with(
+    bytes: &[u8],
+    file: &str,
+    read: impl FnOnce(&str) -> Result<Reading, FormatError>,
+) -> Result<Reading, FormatError> {
     if let Some(fault) = guard::size_fault(bytes.len() as u64) {
         return Err(located(file, "", vec![fault]));
     }
     match guard::text_of(bytes) {
-        Ok(text) => read(text, file, settings),
+        Ok(text) => read(text),
         Err((valid, fault)) => {
             let span = fault.range.clone();
             let error = located(file, valid, vec![fault]);
@@ -140,6 +167,20 @@ pub fn read_file(
     let file = path.display().to_string();
     let bytes = bytes_of(path).map_err(|fault| located(&file, "", vec![fault]))?;
     read_bytes(&bytes, &file, settings)
+}
+
+/// Reads a file, with some of its properties left symbolic.
+///
+/// # Errors
+/// As [`read_file`] and [`read_with`].
+pub fn read_file_with(
+    path: impl AsRef<Path>,
+    options: &ReadOptions,
+) -> Result<Reading, FormatError> {
+    let path = path.as_ref();
+    let file = path.display().to_string();
+    let bytes = bytes_of(path).map_err(|fault| located(&file, "", vec![fault]))?;
+    bytes_with(&bytes, &file, |text| read_with(text, &file, options))
 }
 
 /// The bytes of a file; of one that is too large, or endless like a device, no more than the limit.

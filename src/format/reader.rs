@@ -41,7 +41,11 @@ pub(super) struct Reader<'a> {
 }
 
 /// Reads a text; faults are unsorted.
-pub(super) fn read(text: &str, settings: &[(String, String)]) -> Result<Reading, Vec<Fault>> {
+pub(super) fn read(
+    text: &str,
+    settings: &[(String, String)],
+    symbolic: &[String],
+) -> Result<Reading, Vec<Fault>> {
     let document = xml::parse(text).map_err(|fault| vec![fault])?;
     let root = Element::root(&document);
     let name = robot_name(root).map_err(|fault| vec![fault])?;
@@ -50,7 +54,7 @@ pub(super) fn read(text: &str, settings: &[(String, String)]) -> Result<Reading,
     reader
         .note_foreign_attributes(root, &["name", "version"])
         .map_err(|fault| vec![fault])?;
-    reader.read_definitions(root, &children, settings)?;
+    reader.read_definitions(root, &children, settings, symbolic)?;
 
     let mut faults = Vec::new();
     for child in children {
@@ -108,6 +112,7 @@ impl<'a> Reader<'a> {
         root: Element<'a>,
         children: &[Element<'a>],
         settings: &'a [(String, String)],
+        symbolic: &'a [String],
     ) -> Result<(), Vec<Fault>> {
         let mut faults = Vec::new();
         for child in children {
@@ -118,6 +123,9 @@ impl<'a> Reader<'a> {
         faults.truncate(MOST_FAULTS);
         for (name, text) in settings {
             faults.extend(self.definitions.set(name, text, root.range()).err());
+        }
+        for name in symbolic {
+            faults.extend(self.definitions.keep_symbolic(name, root.range()).err());
         }
         if faults.is_empty() {
             faults = self.definitions.evaluate_all();

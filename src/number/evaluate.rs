@@ -293,6 +293,7 @@ impl Tree {
             Operation::Acos => bits.acos(operand(0)?),
             Operation::Atan => bits.atan(operand(0)?),
             Operation::Atan2 => bits.atan2(operand(0)?, operand(1)?),
+            Operation::Parameter(_) => operand(0).cloned(),
             Operation::Stored(x) => bits.stored(x, STORED_BITS),
         }
     }

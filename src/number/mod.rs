@@ -206,6 +206,17 @@ impl Number {
         })
     }
 
+    /// A value that keeps a name: it evaluates like the value, and where formulas are made of it
+    /// ([`crate::algebra::polynomial_system`]) it stands for any value. Decisions (whether something is zero, which root is
+    /// meant) are made at the value. Of a parameter of that name already, itself.
+    #[must_use]
+    pub fn parameter(name: &str, value: Self) -> Self {
+        match value.view() {
+            View::Parameter(known, _) if known == name => value,
+            _ => Self::from_tree(Operation::Parameter(name.into()), vec![value]),
+        }
+    }
+
     /// The exact (dyadic) value of a double, without a stated precision; `None` where it is not finite.
     #[must_use]
     pub fn from_f64(x: f64) -> Option<Self> {

@@ -89,6 +89,11 @@ fn write_number<'a>(
         push_leaf(&leaf, binding, needed, text);
         return;
     }
+    if let Operation::Parameter(_) = &tree.operation {
+        // A file knows the value only.
+        push_all(pieces, &tree.operands, needed);
+        return;
+    }
     if binding(tree) < needed {
         text.push('(');
         pieces.push(Piece::Text(")"));

@@ -19,6 +19,8 @@ pub(super) enum Operation {
     Acos,
     Atan,
     Atan2,
+    /// A named value, kept by its name where formulas are wanted; its operand is the value.
+    Parameter(Arc<str>),
     /// A value known to [`STORED_BITS`] only: what remains of an expression that grew beyond [`MAX_NODES`].
     Stored(Float),
 }

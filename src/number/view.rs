@@ -22,6 +22,8 @@ pub(crate) enum View<'a> {
     Cosine(&'a Number),
     Sine(&'a Number),
     Tangent(&'a Number),
+    /// A name and the value it has in the file.
+    Parameter(&'a str, &'a Number),
     /// An inverse circular function of something that is not algebraic, or a value of which only digits are left.
     Other,
 }
@@ -45,6 +47,7 @@ impl Number {
             (Operation::Cos, [a]) => View::Cosine(a),
             (Operation::Sin, [a]) => View::Sine(a),
             (Operation::Tan, [a]) => View::Tangent(a),
+            (Operation::Parameter(name), [a]) => View::Parameter(name, a),
             _ => View::Other,
         }
     }

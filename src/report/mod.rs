@@ -25,10 +25,12 @@
 //! | `extras` | what a report holds only where it was asked for: pairs of links, evidence |
 //! | `text` | how a report becomes a page |
 //! | `expectation`, `expected_file` | whether a report agrees with what is known |
+//! | `exact` | what the polynomials say, as data and as a page |
 //! | `definitions` | what a word means |
 
 mod assemble;
 pub mod definitions;
+pub mod exact;
 mod expectation;
 mod expected_file;
 mod extras;

@@ -25,9 +25,8 @@ mod split;
 pub use real::RealPoints;
 pub use split::Irreducible;
 
-use super::engine::{Budget, Stop};
+use super::engine::{Budget, Stop, radical_contains};
 use super::polynomial::{Polynomial, Rational};
-use ideal::vanishes_on;
 use piece::{Piece, Ring};
 use real::real_points;
 use split::{Step, Whole, step};
@@ -45,12 +44,15 @@ pub struct AlgebraicNumber {
 }
 
 /// What is known of the variables.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Hints {
-    /// Variables that are cosine and sine of one angle.
+    /// Variables that are cosine and sine of one angle: the equations say that their squares add up to one.
     pub angles: Vec<(usize, usize)>,
     /// Variables that stand for algebraic numbers. Only points where they are the right roots count as real.
     pub numbers: Vec<AlgebraicNumber>,
+    /// Real points, one coordinate per variable, near which to look for real points first; they need not be exact. The
+    /// answer never rests on them.
+    pub points: Vec<Vec<f64>>,
 }
 
 /// A piece of the solution set.
@@ -126,22 +128,29 @@ pub fn components(
             }
         }
     }
-    found.sort_by_cached_key(sort_key);
-    if stopped.is_none()
-        && let Err(stop) = remove_contained(&mut found, budget)
-    {
-        stopped = Some(stop);
+    let mut found: Vec<Placed> = found.into_iter().map(Placed::new).collect();
+    found.sort_by_cached_key(Placed::sort_key);
+    if stopped.is_none() {
+        match contained(&found, budget) {
+            Ok(contained) => {
+                let mut contained = contained.into_iter();
+                found.retain(|_| contained.next() == Some(false));
+            }
+            Err(stop) => stopped = Some(stop),
+        }
     }
     let mut pieces = Vec::new();
-    for whole in &found {
+    for placed in found {
         let real = match stopped {
             Some(_) => RealPoints::Unknown,
-            None => real_points(whole, hints, budget).unwrap_or_else(|stop| {
-                stopped = Some(stop);
-                RealPoints::Unknown
-            }),
+            None => real_points(&placed.whole, &placed.equations, hints, budget).unwrap_or_else(
+                |stop| {
+                    stopped = Some(stop);
+                    RealPoints::Unknown
+                },
+            ),
         };
-        pieces.push(component(whole, real));
+        pieces.push(placed.component(real));
     }
     let proven = pieces.iter().all(|p| p.irreducible == Irreducible::Yes);
     let why = match (stopped, proven) {
@@ -156,58 +165,74 @@ pub fn components(
     })
 }
 
-fn component(whole: &Whole, real: RealPoints) -> Component {
-    let alive = &whole.piece.ring.alive;
-    Component {
-        equations: whole.piece.original_equations(),
-        dimension: whole.free.len(),
-        degree: whole.piece.degree(),
-        free: whole.free.iter().map(|&v| alive[v]).collect(),
-        irreducible: whole.irreducible,
-        real,
-    }
+/// A piece with its equations in all variables.
+struct Placed {
+    whole: Whole,
+    equations: Vec<Polynomial>,
 }
 
 type Terms = Vec<(Vec<u32>, Rational)>;
 
-/// Large pieces first; ties by the equations, so that the order does not depend on the way the pieces were found.
-fn sort_key(whole: &Whole) -> (Reverse<usize>, Vec<Terms>) {
-    let terms = |p: &Polynomial| p.terms().map(|(m, c)| (m.to_vec(), c.clone())).collect();
-    let equations = whole.piece.original_equations().iter().map(terms).collect();
-    (Reverse(whole.free.len()), equations)
+impl Placed {
+    fn new(whole: Whole) -> Self {
+        Self {
+            equations: whole.piece.original_equations(),
+            whole,
+        }
+    }
+
+    /// Large pieces first; ties by the equations, so that the order does not depend on the way the pieces were found.
+    fn sort_key(&self) -> (Reverse<usize>, Vec<Terms>) {
+        let terms = |p: &Polynomial| p.terms().map(|(m, c)| (m.to_vec(), c.clone())).collect();
+        let equations = self.equations.iter().map(terms).collect();
+        (Reverse(self.whole.free.len()), equations)
+    }
+
+    /// Whether all equations of another piece vanish on this one.
+    fn lies_in(&self, other: &Self, budget: &Budget) -> Result<bool, Stop> {
+        budget.check()?;
+        let (piece, dimension) = (&self.whole.piece, self.whole.free.len());
+        if self.whole.prime && other.whole.prime && dimension == other.whole.free.len() {
+            // Of two irreducible sets of the same dimension none contains the other; and reduced bases are unique.
+            return Ok(self.equations == other.equations);
+        }
+        for equation in &other.equations {
+            let inside = piece.in_ring(equation);
+            if !radical_contains(&piece.equations, piece.variables(), &inside, budget)? {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    fn component(self, real: RealPoints) -> Component {
+        let alive = &self.whole.piece.ring.alive;
+        Component {
+            dimension: self.whole.free.len(),
+            degree: self.whole.piece.degree(),
+            free: self.whole.free.iter().map(|&v| alive[v]).collect(),
+            irreducible: self.whole.irreducible,
+            equations: self.equations,
+            real,
+        }
+    }
 }
 
-/// Removes pieces that lie in others. A larger piece is never contained in a smaller one, and of two equal ones the first
-/// stays.
-fn remove_contained(found: &mut Vec<Whole>, budget: &Budget) -> Result<(), Stop> {
-    let mut kept: Vec<Whole> = Vec::new();
-    for whole in std::mem::take(found) {
-        let mut contained = false;
-        for larger in &kept {
-            if lies_in(&whole, larger, budget)? {
-                contained = true;
+/// Which pieces lie in others. A larger piece is never contained in a smaller one, and of two equal ones the first stays.
+fn contained(found: &[Placed], budget: &Budget) -> Result<Vec<bool>, Stop> {
+    let mut contained = Vec::new();
+    for (i, piece) in found.iter().enumerate() {
+        let mut inside = false;
+        for (larger, gone) in found[..i].iter().zip(&contained) {
+            if !gone && piece.lies_in(larger, budget)? {
+                inside = true;
                 break;
             }
         }
-        if !contained {
-            kept.push(whole);
-        }
+        contained.push(inside);
     }
-    *found = kept;
-    Ok(())
+    Ok(contained)
 }
 
-/// Whether all equations of the second piece vanish on the first.
-fn lies_in(first: &Whole, second: &Whole, budget: &Budget) -> Result<bool, Stop> {
-    for equation in second.piece.original_equations() {
-        let inside = first.piece.in_ring(&equation);
-        if inside.is_zero() {
-            continue;
-        }
-        let piece = &first.piece;
-        if !vanishes_on(&piece.equations, piece.variables(), &inside, budget)? {
-            return Ok(false);
-        }
-    }
-    Ok(true)
-}
+#[cfg(test)]
+mod tests;

@@ -3,9 +3,10 @@
 //! Linear equations are used up at once: a variable that is a linear function of others leaves the ring. Mechanisms are full
 //! of them, and everything later gets cheaper with every variable that is gone.
 
-use super::ideal::{degree, degrevlex, head, independent_sets, is_one, local_degree, saturate};
-use crate::algebra::engine::{Budget, Stop};
+use super::ideal::{compare, degree, degrevlex, head, independent_sets, is_one, local_degree};
+use crate::algebra::engine::{Budget, Stop, saturate};
 use crate::algebra::polynomial::{Polynomial, Rational};
+use crate::algebra::zero_dimensional::FinitePoints;
 
 /// A ring in some of the original variables.
 #[derive(Clone, Debug)]
@@ -29,6 +30,12 @@ impl Ring {
     pub(super) fn variables(&self) -> usize {
         self.alive.len()
     }
+}
+
+/// The root of a linear polynomial in one variable.
+fn root_of_linear(polynomial: &Polynomial) -> Option<Rational> {
+    let at = |x: i64| polynomial.value_at(&[Rational::from_integer(x.into())]);
+    (polynomial.degree() == 1).then(|| at(0) / (at(0) - at(1)))
 }
 
 /// The zeros of a reduced degrevlex basis without linear equations, in a ring of its own.
@@ -85,15 +92,24 @@ impl Piece {
                 None => Polynomial::variable(places[v], kept.len()),
             })
             .collect();
+        let equations: Vec<Polynomial> = rest
+            .iter()
+            .map(|p| p.moved(&places, kept.len()).primitive())
+            .collect();
+        let alive: Vec<usize> = kept.iter().map(|&v| ring.alive[v]).collect();
+        let mut embedding: Vec<Polynomial> =
+            ring.embedding.iter().map(|p| p.substitute(&map)).collect();
+        // A single point keeps one variable, since a ring needs one; the others do not depend on it.
+        if let ([equation], &[only]) = (equations.as_slice(), alive.as_slice())
+            && let Some(value) = root_of_linear(equation)
+        {
+            for (_, p) in embedding.iter_mut().enumerate().filter(|(i, _)| *i != only) {
+                *p = p.substitute(&[Polynomial::constant(value.clone(), 1)]);
+            }
+        }
         Some(Self {
-            equations: rest
-                .iter()
-                .map(|p| p.moved(&places, kept.len()).primitive())
-                .collect(),
-            ring: Ring {
-                alive: kept.iter().map(|&v| ring.alive[v]).collect(),
-                embedding: ring.embedding.iter().map(|p| p.substitute(&map)).collect(),
-            },
+            ring: Ring { alive, embedding },
+            equations,
         })
     }
 
@@ -126,17 +142,15 @@ impl Piece {
             .iter()
             .map(|p| p.moved(&self.ring.alive, variables))
             .collect();
-        let mut linear = Vec::new();
         for (i, value) in self.ring.embedding.iter().enumerate() {
             if !self.ring.alive.contains(&i) {
                 let x = Polynomial::variable(i, variables);
                 let value = value.moved(&self.ring.alive, variables);
-                linear.push((&x - &value).primitive());
+                equations.push((&x - &value).primitive());
             }
         }
-        linear.reverse();
-        linear.append(&mut equations);
-        linear
+        equations.sort_by(|a, b| compare(&head(a), &head(b)));
+        equations
     }
 
     /// A set of independent variables of largest size. Among several, one over which the piece has few sheets.
@@ -147,6 +161,11 @@ impl Piece {
             .take(200)
             .min_by_key(|set| local_degree(&heads, set, self.variables()).unwrap_or(usize::MAX))
             .unwrap_or_default()
+    }
+
+    /// The points of a piece of dimension zero; `None` where there are infinitely many.
+    pub(super) fn points(&self, budget: &Budget) -> Result<Option<FinitePoints>, Stop> {
+        FinitePoints::of_basis(&self.equations, &self.heads(), self.variables(), budget)
     }
 
     pub(super) fn degree(&self) -> Option<usize> {

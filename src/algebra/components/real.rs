@@ -1,12 +1,13 @@
 //! Real points of a piece: points over rational values of the free variables, counted exactly.
 
 use super::Hints;
-use super::fibre::{Fibre, is_exceptional};
-use super::split::{Whole, contradicts_reality};
-use crate::algebra::engine::{Budget, MonomialOrder, Stop, groebner_basis};
+use super::fibre::Fibre;
+use super::split::Whole;
+use crate::algebra::engine::{Budget, Stop};
 use crate::algebra::polynomial::{Polynomial, Rational};
+use crate::algebra::univariate::Univariate;
 use crate::algebra::zero_dimensional::{FinitePoints, RealSolution};
-use num_traits::Zero;
+use num_traits::{Signed, Zero};
 
 /// Values of the free variables that are tried.
 const SAMPLES: usize = 16;
@@ -26,67 +27,127 @@ pub enum RealPoints {
     Some,
     /// None was found over the values that were tried. That is no proof: there may be a few, or outside of these values.
     NotFound,
-    /// There are none: an equation of the piece has no real solution.
+    /// There are none: an equation of the piece has no real solution, or none with cosines and sines between -1 and 1.
     None,
     /// Not looked for.
     Unknown,
 }
 
-/// Looks for real points.
+/// Looks for real points of a piece, whose equations in all variables are given too.
 pub(super) fn real_points(
     whole: &Whole,
+    equations: &[Polynomial],
     hints: &Hints,
     budget: &Budget,
 ) -> Result<RealPoints, Stop> {
     let piece = &whole.piece;
+    if whole.free.is_empty() {
+        return Ok(match piece.points(budget)? {
+            Some(points) => {
+                let multiplicities = right_points(&points, whole, &[], hints, budget)?;
+                RealPoints::Finite(multiplicities.len())
+            }
+            None => RealPoints::Unknown,
+        });
+    }
     for equation in &piece.equations {
         if contradicts_reality(equation, budget)? {
-            return Ok(if whole.free.is_empty() {
-                RealPoints::Finite(0)
-            } else {
-                RealPoints::None
-            });
+            return Ok(RealPoints::None);
         }
     }
-    if whole.free.is_empty() {
-        let order = MonomialOrder::Degrevlex;
-        let basis = groebner_basis(&piece.equations, piece.variables(), &order, budget)?;
-        return match FinitePoints::new(&basis, budget)? {
-            Some(points) => {
-                let right = right_solutions(&points, whole, &[], hints, budget)?;
-                Ok(RealPoints::Finite(right.len()))
-            }
-            None => Ok(RealPoints::Unknown),
-        };
+    if equations.iter().any(|p| is_out_of_reach(p, hints)) {
+        return Ok(RealPoints::None);
     }
     let mut found = RealPoints::NotFound;
-    for number in 0..SAMPLES {
-        let values = sample(number, whole, hints);
-        if is_exceptional(&whole.exceptions, &whole.free, &values) {
-            continue;
-        }
+    for values in samples(whole, hints) {
+        // Whatever the values: where a solution over them is simple, the piece is a graph over the free variables.
         let Some(fibre) = Fibre::new(piece, &whole.free, &values, budget)? else {
             continue;
         };
-        let right = right_solutions(&fibre.points, whole, &values, hints, budget)?;
-        if right.iter().any(|solution| solution.multiplicity == 1) {
+        let multiplicities = right_points(&fibre.points, whole, &values, hints, budget)?;
+        if multiplicities.contains(&1) {
             return Ok(RealPoints::FullDimension);
         }
-        if !right.is_empty() {
+        if !multiplicities.is_empty() {
             found = RealPoints::Some;
         }
     }
     Ok(found)
 }
 
+/// Whether no real point satisfies an equation: a polynomial of one variable without real roots, or a sum of even powers
+/// with a constant of the same sign.
+fn contradicts_reality(equation: &Polynomial, budget: &Budget) -> Result<bool, Stop> {
+    let mentioned: Vec<usize> = (0..equation.variables())
+        .filter(|&v| equation.mentions(v))
+        .collect();
+    if let &[only] = mentioned.as_slice()
+        && let Some(one) = Univariate::from_polynomial(equation, only)
+    {
+        for (part, _) in one.squarefree() {
+            if !part.real_roots(budget)?.is_empty() {
+                return Ok(false);
+            }
+        }
+        return Ok(true);
+    }
+    let even = equation
+        .terms()
+        .all(|(m, _)| m.iter().all(|e| e.is_multiple_of(2)));
+    let constant = equation.terms().any(|(m, _)| m.iter().all(|&e| e == 0));
+    let positive = equation.terms().all(|(_, c)| c.is_positive());
+    let negative = equation.terms().all(|(_, c)| c.is_negative());
+    Ok(even && constant && (positive || negative))
+}
+
+/// Whether an equation among cosines and sines has no solution with all of them between -1 and 1: its links do not reach.
+fn is_out_of_reach(equation: &Polynomial, hints: &Hints) -> bool {
+    let on_circle = |v: usize| hints.angles.iter().any(|&(c, s)| c == v || s == v);
+    let (mut low, mut high) = (Rational::zero(), Rational::zero());
+    for (exponents, c) in equation.terms() {
+        let mut used = exponents.iter().enumerate().filter(|(_, e)| **e > 0);
+        if !used.all(|(v, _)| on_circle(v)) {
+            return false;
+        }
+        let constant = exponents.iter().all(|&e| e == 0);
+        let even = exponents.iter().all(|e| e.is_multiple_of(2));
+        // A product of even powers is between 0 and 1, another product between -1 and 1.
+        if constant || c.is_positive() || !even {
+            high += if constant { c.clone() } else { c.abs() };
+        }
+        if constant || c.is_negative() || !even {
+            low += if constant { c.clone() } else { -c.abs() };
+        }
+    }
+    low.is_positive() || high.is_negative()
+}
+
+/// Values of the free variables, near the known points first.
+fn samples(whole: &Whole, hints: &Hints) -> Vec<Vec<Rational>> {
+    let alive = &whole.piece.ring.alive;
+    let near = hints.points.iter().filter_map(|point| {
+        let coordinates = whole.free.iter().map(|&v| {
+            let value = *point.get(alive[v])?;
+            // A step of 1/256 beside the point: the point itself may be special.
+            let steps = (value * 256.0).round();
+            (steps.abs() < 1e15).then(|| Rational::new((steps as i64).into(), 256.into()))
+        });
+        coordinates.collect()
+    });
+    let spread = (0..SAMPLES).map(|number| sample(number, whole, hints));
+    near.chain(spread).collect()
+}
+
 /// Rational values for the free variables: cosines and sines of angles with both rational, other variables small.
 fn sample(number: usize, whole: &Whole, hints: &Hints) -> Vec<Rational> {
-    const CIRCLE: [(i64, i64); 11] = [
+    const CIRCLE: [(i64, i64); 13] = [
         (3, 5),
         (-4, 5),
         (12, 13),
         (0, 1),
         (-5, 13),
+        (1, 1),
+        (-1, 1),
         (4, 5),
         (-3, 5),
         (8, 17),
@@ -94,7 +155,7 @@ fn sample(number: usize, whole: &Whole, hints: &Hints) -> Vec<Rational> {
         (24, 25),
         (-24, 25),
     ];
-    const LENGTHS: [(i64, i64); 11] = [
+    const LENGTHS: [(i64, i64); 13] = [
         (1, 2),
         (-1, 1),
         (2, 1),
@@ -104,6 +165,8 @@ fn sample(number: usize, whole: &Whole, hints: &Hints) -> Vec<Rational> {
         (-1, 4),
         (4, 1),
         (10, 1),
+        (0, 1),
+        (7, 3),
         (-7, 1),
         (1, 10),
     ];
@@ -128,14 +191,22 @@ fn sample(number: usize, whole: &Whole, hints: &Hints) -> Vec<Rational> {
         .collect()
 }
 
-/// The real solutions at which every algebraic number is the root it stands for.
-fn right_solutions(
+/// The multiplicities of the real points at which every algebraic number is the root it stands for.
+fn right_points(
     points: &FinitePoints,
     whole: &Whole,
     values: &[Rational],
     hints: &Hints,
     budget: &Budget,
-) -> Result<Vec<RealSolution>, Stop> {
+) -> Result<Vec<u32>, Stop> {
+    let mut multiplicities = Vec::new();
+    if hints.numbers.is_empty() {
+        for (factor, multiplicity) in &points.representation().factors {
+            let roots = factor.real_roots(budget)?.len();
+            multiplicities.extend(std::iter::repeat_n(*multiplicity, roots));
+        }
+        return Ok(multiplicities);
+    }
     let mut bits = FIRST_BITS;
     loop {
         let solutions = points.real_solutions(bits, budget)?;
@@ -144,11 +215,12 @@ fn right_solutions(
             .map(|solution| is_right(solution, whole, values, hints))
             .collect();
         if let Some(decided) = decided {
-            return Ok(solutions
-                .into_iter()
-                .zip(decided)
-                .filter_map(|(solution, right)| right.then_some(solution))
-                .collect());
+            for (solution, right) in solutions.iter().zip(decided) {
+                if right {
+                    multiplicities.push(solution.multiplicity);
+                }
+            }
+            return Ok(multiplicities);
         }
         bits *= 2;
     }
@@ -191,7 +263,7 @@ fn linear_range(linear: &Polynomial, coordinates: &[Interval]) -> Interval {
             None => (c.clone(), c.clone()),
             Some(v) => {
                 let (low, high) = &coordinates[v];
-                if *c > Rational::zero() {
+                if c.is_positive() {
                     (low * c, high * c)
                 } else {
                     (high * c, low * c)

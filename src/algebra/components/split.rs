@@ -1,13 +1,11 @@
 //! One step of the decomposition: a piece falls into smaller ones, or it is done.
 
 use super::fibre::{self, Fibre};
-use super::ideal::{local_degree, vanishes_on, with_front};
+use super::ideal::{compare, local_degree, with_front};
 use super::piece::Piece;
-use crate::algebra::engine::{Budget, MonomialOrder, Stop, groebner_basis};
+use crate::algebra::engine::{Budget, Stop, radical_contains};
 use crate::algebra::factor::factor;
 use crate::algebra::polynomial::{Polynomial, Rational};
-use crate::algebra::univariate::Univariate;
-use crate::algebra::zero_dimensional::FinitePoints;
 
 /// Polynomials of a higher degree are not factored: they come late in a decomposition, seldom fall apart, and cost much.
 const HIGHEST_DEGREE: u32 = 24;
@@ -38,10 +36,9 @@ pub(super) struct Whole {
     pub(super) piece: Piece,
     /// Independent variables of the ring of the piece.
     pub(super) free: Vec<usize>,
-    /// Polynomials in the free variables: where none of them is zero, the points over the free variables are as many as
-    /// over generic values.
-    pub(super) exceptions: Vec<Polynomial>,
     pub(super) irreducible: Irreducible,
+    /// Whether its equations are known to generate a prime ideal: a polynomial that vanishes on it is then in the ideal.
+    pub(super) prime: bool,
 }
 
 impl Whole {
@@ -51,8 +48,8 @@ impl Whole {
         Self {
             piece,
             free,
-            exceptions: Vec::new(),
             irreducible: Irreducible::Unknown,
+            prime: false,
         }
     }
 }
@@ -71,10 +68,9 @@ pub(super) fn step(piece: &Piece, budget: &Budget) -> Result<Step, Stop> {
         .collect();
     if bound.is_empty() {
         return Ok(Step::Done(Whole {
-            piece: piece.clone(),
-            free,
-            exceptions: Vec::new(),
             irreducible: Irreducible::Yes,
+            prime: true,
+            ..Whole::unexamined(piece.clone())
         }));
     }
     let over_free = with_front(&piece.equations, piece.variables(), &bound, budget)?;
@@ -86,40 +82,29 @@ pub(super) fn step(piece: &Piece, budget: &Budget) -> Result<Step, Stop> {
         return Ok(Step::Pieces(pieces));
     }
     let sheets = sheets(&over_free, &free, piece.variables());
-    examine(piece, free, exceptions, sheets, budget)
+    examine(piece, free, &exceptions, sheets, budget)
 }
 
 /// Zeros of finitely many points, one piece for every class of conjugate points.
 fn points(piece: &Piece, budget: &Budget) -> Result<Step, Stop> {
-    let order = MonomialOrder::Degrevlex;
-    let basis = groebner_basis(&piece.equations, piece.variables(), &order, budget)?;
-    let whole = |irreducible| {
-        Step::Done(Whole {
-            piece: piece.clone(),
-            free: Vec::new(),
-            exceptions: Vec::new(),
-            irreducible,
-        })
-    };
-    let Some(points) = FinitePoints::new(&basis, budget)? else {
-        return Ok(whole(Irreducible::Unknown));
+    let mut whole = Whole::unexamined(piece.clone());
+    let Some(points) = piece.points(budget)? else {
+        return Ok(Step::Done(whole));
     };
     let found = points.representation();
-    match found.factors.as_slice() {
-        [_] => Ok(whole(if found.complete {
-            Irreducible::Yes
-        } else {
-            Irreducible::Unknown
-        })),
-        several => {
-            let form = linear(&found.form, piece.variables());
-            let mut pieces = Vec::new();
-            for (factor, _) in several {
-                pieces.extend(piece.with(&factor.of(&form), budget)?);
-            }
-            Ok(Step::Pieces(pieces))
+    if let [(_, multiplicity)] = found.factors.as_slice() {
+        if found.complete {
+            whole.irreducible = Irreducible::Yes;
+            whole.prime = *multiplicity == 1;
         }
+        return Ok(Step::Done(whole));
     }
+    let form = linear(&found.form, piece.variables());
+    let mut pieces = Vec::new();
+    for (factor, _) in &found.factors {
+        pieces.extend(piece.with(&factor.of(&form), budget)?);
+    }
+    Ok(Step::Pieces(pieces))
 }
 
 pub(super) fn linear(form: &[i64], variables: usize) -> Polynomial {
@@ -171,20 +156,24 @@ fn is_solved_for_a_variable(equation: &Polynomial) -> bool {
 fn split(piece: &Piece, factors: &[Polynomial], budget: &Budget) -> Result<Vec<Piece>, Stop> {
     let mut pieces = Vec::new();
     let mut rest = Some(piece.clone());
-    for f in factors {
+    for (index, f) in factors.iter().enumerate() {
         let Some(remaining) = rest else { break };
         let f = f.substitute(&embedding_between(piece, &remaining));
-        if let Some(constant) = f.as_constant() {
-            if constant == Rational::from_integer(0.into()) {
-                pieces.push(remaining);
-                rest = None;
-            } else {
-                rest = Some(remaining);
-            }
+        if f.is_zero() {
+            pieces.push(remaining);
+            return Ok(pieces);
+        }
+        if f.as_constant().is_some() {
+            rest = Some(remaining);
             continue;
         }
         pieces.extend(remaining.with(&f, budget)?);
-        rest = remaining.without(&f, budget)?;
+        // Nothing is left when the last factor is taken out, too.
+        rest = if index + 1 < factors.len() {
+            remaining.without(&f, budget)?
+        } else {
+            None
+        };
     }
     pieces.extend(rest);
     Ok(pieces)
@@ -226,12 +215,7 @@ fn leading_monomial(equation: &Polynomial, bound: &[usize]) -> Vec<u32> {
     equation
         .terms()
         .map(|(m, _)| part(m))
-        .max_by(|a, b| {
-            let total = |m: &[u32]| m.iter().sum::<u32>();
-            total(a)
-                .cmp(&total(b))
-                .then_with(|| b.iter().rev().cmp(a.iter().rev()))
-        })
+        .max_by(|a, b| compare(a, b))
         .unwrap_or_default()
 }
 
@@ -323,7 +307,7 @@ fn outside(
         };
         let equation = equation.substitute(&embedding_between(earlier, &current));
         if equation.is_zero()
-            || vanishes_on(&current.equations, current.variables(), &equation, budget)?
+            || radical_contains(&current.equations, current.variables(), &equation, budget)?
         {
             inside = Some(current);
             continue;
@@ -343,7 +327,7 @@ fn same(a: &Piece, b: &Piece) -> bool {
 fn examine(
     piece: &Piece,
     free: Vec<usize>,
-    exceptions: Vec<Polynomial>,
+    exceptions: &[Polynomial],
     sheets: Option<usize>,
     budget: &Budget,
 ) -> Result<Step, Stop> {
@@ -351,15 +335,16 @@ fn examine(
     let mut looked = 0;
     for number in 0..fibre::MOST_VALUES {
         let values = fibre::integer_values(number, free.len());
-        if fibre::is_exceptional(&exceptions, &free, &values) {
+        if fibre::is_exceptional(exceptions, &free, &values) {
             continue;
         }
         let Some(fibre) = Fibre::new(piece, &free, &values, budget)? else {
             continue;
         };
         let proven = fibre.is_one_class() && sheets == Some(fibre.points.multiplicity());
-        let better = best.as_ref().is_none_or(|b| fibre.classes() < b.classes());
-        if better {
+        // Over special values points coincide: simple ones tell more.
+        let rank = |f: &Fibre| (!f.is_simple(), f.classes());
+        if best.as_ref().is_none_or(|b| rank(&fibre) < rank(b)) {
             best = Some(fibre);
         }
         looked += 1;
@@ -370,14 +355,17 @@ fn examine(
     let mut whole = Whole {
         piece: piece.clone(),
         free,
-        exceptions,
         irreducible: Irreducible::Unknown,
+        prime: false,
     };
     let Some(fibre) = best else {
         return Ok(Step::Done(whole));
     };
-    if fibre.is_one_class() && sheets == Some(fibre.points.multiplicity()) {
+    // The leading coefficients are not zero here, so the points are as many as over generic values.
+    let complete_fibre = sheets == Some(fibre.points.multiplicity());
+    if fibre.is_one_class() && complete_fibre {
         whole.irreducible = Irreducible::Yes;
+        whole.prime = true;
         return Ok(Step::Done(whole));
     }
     let (pieces, whole_polynomial) = split_by_projection(&whole, &fibre, budget)?;
@@ -385,7 +373,8 @@ fn examine(
         return Ok(Step::Pieces(pieces));
     }
     // One irreducible polynomial for as many values as there are points over generic values.
-    whole.irreducible = if whole_polynomial && fibre.is_simple() {
+    whole.prime = whole_polynomial && fibre.is_simple() && complete_fibre;
+    whole.irreducible = if whole.prime {
         Irreducible::Yes
     } else if fibre.representation().complete {
         Irreducible::Probably(fibre.classes())
@@ -468,30 +457,4 @@ fn relation_over(
         .into_iter()
         .filter(|p| bound.iter().all(|&v| !p.mentions(v)) && p.mentions(variables))
         .min_by_key(|p| (p.degree_in(variables), p.degree())))
-}
-
-/// Whether no real point satisfies one of the equations: a polynomial of one variable without real roots, or a sum of even
-/// powers with a constant of the same sign.
-pub(super) fn contradicts_reality(equation: &Polynomial, budget: &Budget) -> Result<bool, Stop> {
-    let mentioned: Vec<usize> = (0..equation.variables())
-        .filter(|&v| equation.mentions(v))
-        .collect();
-    if let &[only] = mentioned.as_slice()
-        && let Some(one) = Univariate::from_polynomial(equation, only)
-    {
-        for (part, _) in one.squarefree() {
-            if !part.real_roots(budget)?.is_empty() {
-                return Ok(false);
-            }
-        }
-        return Ok(true);
-    }
-    let zero = Rational::from_integer(0.into());
-    let even = equation
-        .terms()
-        .all(|(m, _)| m.iter().all(|e| e.is_multiple_of(2)));
-    let constant = equation.terms().any(|(m, _)| m.iter().all(|&e| e == 0));
-    let positive = equation.terms().all(|(_, c)| *c > zero);
-    let negative = equation.terms().all(|(_, c)| *c < zero);
-    Ok(even && constant && (positive || negative))
 }

@@ -166,7 +166,7 @@ impl GroebnerBasis {
     }
 
     /// [`Self::normal_form_within`] without a limit: for polynomials of the degree of the equations, where it takes less time
-    /// than the basis did.
+    /// than the basis did. A polynomial with an exponent above 65535 stays as it is.
     #[must_use]
     pub fn normal_form(&self, polynomial: &Polynomial) -> Polynomial {
         self.normal_form_within(polynomial, &Budget::unlimited())
@@ -205,7 +205,8 @@ impl GroebnerBasis {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::algebra::Limits;
+    use crate::algebra::engine::testing::parse;
+    use proptest::prelude::*;
 
     /// x² + y² = 1 and x = y.
     fn circle_and_diagonal() -> Vec<Polynomial> {
@@ -262,5 +263,131 @@ mod tests {
             &budget,
         );
         assert_eq!(result.err(), Some(Stop::Work));
+    }
+
+    /// The two largest primes that are tried, which the equations below are made for.
+    fn first_primes() -> Vec<i64> {
+        let primes = polycore::Primes::new().take(2);
+        primes.map(|p| i64::try_from(p).unwrap()).collect()
+    }
+
+    /// x + y and x + (1 + f) y: the origin, but a line modulo the divisors of f.
+    fn line_modulo(factors: &[i64]) -> Vec<Polynomial> {
+        let (x, y) = (Polynomial::variable(0, 2), Polynomial::variable(1, 2));
+        let product = factors.iter().fold(Polynomial::one(2), |product, &f| {
+            &product * &Polynomial::integer(f, 2)
+        });
+        let first = &x + &y;
+        let second = &first + &(&product * &y);
+        vec![first, second]
+    }
+
+    #[test]
+    fn unlucky_primes_are_outvoted() {
+        let primes = first_primes();
+        for unlucky in [&primes[..1], &primes[1..], &primes[..]] {
+            let basis = groebner_basis(
+                &line_modulo(unlucky),
+                2,
+                &MonomialOrder::Degrevlex,
+                &Budget::unlimited(),
+            )
+            .unwrap();
+            assert_eq!(basis.dimension(), Some(0), "{unlucky:?}");
+            assert_eq!(basis.polynomials().len(), 2);
+        }
+    }
+
+    #[test]
+    fn a_prime_that_divides_a_leading_coefficient_is_not_used() {
+        let (x, y) = (Polynomial::variable(0, 2), Polynomial::variable(1, 2));
+        let prime = first_primes()[0];
+        let equation = &(&Polynomial::integer(prime, 2) * &x) - &y;
+        let basis = groebner_basis(
+            std::slice::from_ref(&equation),
+            2,
+            &MonomialOrder::Degrevlex,
+            &Budget::unlimited(),
+        )
+        .unwrap();
+        assert_eq!(basis.polynomials(), [equation]);
+        assert_ne!(basis.certificate().fresh_prime, u64::try_from(prime).ok());
+    }
+
+    #[test]
+    fn no_equations_are_the_whole_space() {
+        let order = MonomialOrder::Degrevlex;
+        let zero = [Polynomial::zero(3)];
+        let mut basis = groebner_basis(&zero, 3, &order, &Budget::unlimited()).unwrap();
+        assert!(basis.polynomials().is_empty() && basis.certificate().proven);
+        assert_eq!((basis.dimension(), basis.degree()), (Some(3), Some(1)));
+        assert!(basis.contains(&zero[0]) && !basis.contains(&Polynomial::one(3)));
+        assert_eq!(basis.prove(&[], &Budget::unlimited()), Ok(true));
+    }
+
+    #[test]
+    fn degrees_need_an_order_that_knows_them() {
+        // A line and a conic in space, and their four points with a sphere.
+        let curve = [parse("x*z"), parse("x^2 + x*y - y*z - z"), parse("y*x - x")];
+        let budget = Budget::unlimited();
+        let degrevlex = groebner_basis(&curve, 3, &MonomialOrder::Degrevlex, &budget).unwrap();
+        let lexicographic =
+            groebner_basis(&curve, 3, &MonomialOrder::Lexicographic, &budget).unwrap();
+        assert_eq!(degrevlex.dimension(), lexicographic.dimension());
+        assert!(degrevlex.degree().is_some());
+        assert_eq!(lexicographic.degree(), None);
+        let points = [parse("x^2 - 1"), parse("y^3"), parse("z - x")];
+        for order in [MonomialOrder::Degrevlex, MonomialOrder::Lexicographic] {
+            let basis = groebner_basis(&points, 3, &order, &budget).unwrap();
+            assert_eq!(basis.degree(), Some(6));
+        }
+    }
+
+    fn small_polynomial() -> impl Strategy<Value = Polynomial> {
+        let term = (prop::collection::vec(0_u32..3, 3), -5_i64..6);
+        prop::collection::vec(term, 1..4).prop_map(|terms| {
+            let rational = |c: i64| Rational::from_integer(c.into());
+            let terms = terms.into_iter().map(|(m, c)| (m, rational(c))).collect();
+            Polynomial::from_terms(terms, 3)
+        })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(60))]
+
+        /// The computation over the rationals shares no prime with the other one.
+        #[test]
+        fn primes_and_fractions_find_the_same(
+            equations in prop::collection::vec(small_polynomial(), 1..4),
+            cofactors in prop::collection::vec(small_polynomial(), 3),
+            which in 0_usize..3,
+        ) {
+            let order = [
+                MonomialOrder::Degrevlex,
+                MonomialOrder::Lexicographic,
+                MonomialOrder::Elimination(1),
+            ][which].clone();
+            let budget = Budget::new(Limits {
+                work: Some(20_000),
+                ..Limits::default()
+            });
+            // What takes long in this ring, takes long over the rationals.
+            let Ok(mut basis) = groebner_basis(&equations, 3, &order, &budget) else {
+                return Ok(());
+            };
+            let sum = equations.iter().zip(&cofactors).fold(Polynomial::zero(3), |sum, (p, c)| {
+                &sum + &(p * c)
+            });
+            prop_assert!(basis.contains(&sum));
+            let budget = Budget::new(Limits {
+                work: Some(3_000_000),
+                ..Limits::default()
+            });
+            prop_assert_ne!(basis.prove(&equations, &budget), Ok(false));
+            let hilbert = basis.hilbert(&Budget::unlimited()).unwrap();
+            if let Some(hilbert) = hilbert {
+                prop_assert_eq!(Some(hilbert.dimension()), basis.dimension());
+            }
+        }
     }
 }

@@ -157,6 +157,19 @@ impl Budget {
         Ok(())
     }
 
+    /// A copy with at most so much further work.
+    pub(super) fn with_work(&self, work: u64) -> Self {
+        let mut copy = self.clone();
+        let most = self.work.get().saturating_add(work);
+        copy.limits.work = Some(copy.limits.work.map_or(most, |limit| limit.min(most)));
+        copy
+    }
+
+    /// Takes over the work done on a copy of this budget.
+    pub(super) fn take_over(&self, copy: &Self) {
+        self.work.set(copy.work.get());
+    }
+
     /// Says what is being done, where somebody listens.
     pub(crate) fn phase(&self, text: impl FnOnce() -> String) {
         if let Some(progress) = &self.limits.progress {
@@ -167,10 +180,14 @@ impl Budget {
         }
     }
 
-    /// Whether a matrix may have this many entries.
+    /// Whether a matrix may have this many entries, without counting them yet.
     pub(super) fn check_entries(&self, entries: u64) -> Result<(), Stop> {
         match self.limits.entries {
-            Some(most) if entries > most => Err(Stop::Memory),
+            Some(most) if entries > most => return Err(Stop::Memory),
+            _ => {}
+        }
+        match self.limits.work {
+            Some(most) if self.work.get().saturating_add(entries) > most => Err(Stop::Work),
             _ => Ok(()),
         }
     }

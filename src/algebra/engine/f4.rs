@@ -6,12 +6,12 @@
 
 use super::budget::{Budget, Stop};
 use super::linear::{Coefficient, Matrix};
-use super::monomials::{Monomials, degree, divides, divisibility_mask, quotient};
+use super::monomials::{Monomials, degree, divides, quotient};
 use super::order::MonomialOrder;
 use super::pairs::{Head, Pair, Pairs};
 use super::symbolic::{Plan, Planner, Reducers, Seed};
 use super::terms::Terms;
-use super::trace::{Round, Trace};
+use super::trace::{Round, Stage, Trace};
 use groebner::SparseRow;
 use std::collections::BTreeMap;
 
@@ -24,11 +24,15 @@ struct F4<'a, C> {
     terms: Vec<Vec<u32>>,
     coefficients: Vec<Vec<C>>,
     pairs: Pairs,
-    trace: Option<Trace>,
+    trace: Option<Stage>,
 }
 
 /// The reduced Groebner basis of polynomials, smallest leading monomial first, every one monic. With `learn` also the trace
 /// that finds the same basis over another field.
+///
+/// In an order that does not compare degrees first, the polynomials of intermediate steps may have degrees far above those of
+/// the result. Where that takes more than a little work, the basis is computed from one in degrevlex (a 6R loop
+/// lexicographically: half a second in place of minutes). Work is counted, not timed, so that every run decides alike.
 pub(super) fn reduced_basis<C: Coefficient>(
     polynomials: &[Terms<C>],
     variables: usize,
@@ -36,13 +40,50 @@ pub(super) fn reduced_basis<C: Coefficient>(
     learn: bool,
     budget: &Budget,
 ) -> Result<(Vec<Terms<C>>, Option<Trace>), Stop> {
-    let mut f4 = F4::new(variables, order, learn, budget);
-    f4.start(polynomials)?;
-    while !f4.pairs.is_empty() {
-        f4.round()?;
+    if order.is_graded() {
+        return in_orders(polynomials, variables, &[order], learn, budget);
     }
-    let basis = f4.finish()?;
-    Ok((basis, f4.trace))
+    let little = budget.with_work(LITTLE_WORK);
+    let direct = in_orders(polynomials, variables, &[order], learn, &little);
+    budget.take_over(&little);
+    match direct {
+        Err(Stop::Work) => {
+            budget.check()?;
+            let orders = [&MonomialOrder::Degrevlex, order];
+            in_orders(polynomials, variables, &orders, learn, budget)
+        }
+        other => other,
+    }
+}
+
+/// Matrix entries spent on an order that does not compare degrees before degrevlex comes first.
+const LITTLE_WORK: u64 = 20_000;
+
+/// The reduced basis in the last of some orders, each computed from the one before.
+fn in_orders<C: Coefficient>(
+    polynomials: &[Terms<C>],
+    variables: usize,
+    orders: &[&MonomialOrder],
+    learn: bool,
+    budget: &Budget,
+) -> Result<(Vec<Terms<C>>, Option<Trace>), Stop> {
+    let mut trace = learn.then(Trace::default);
+    let mut basis = polynomials.to_vec();
+    for order in orders {
+        let sorted = basis.iter().map(|p| p.reordered(order));
+        let (input, places): (Vec<Terms<C>>, Vec<Vec<u32>>) = sorted.unzip();
+        let mut f4 = F4::new(variables, order, learn, budget);
+        f4.start(&input)?;
+        while !f4.pairs.is_empty() {
+            f4.round()?;
+        }
+        basis = f4.finish()?;
+        if let (Some(trace), Some(mut stage)) = (&mut trace, f4.trace) {
+            stage.places = places;
+            trace.stages.push(stage);
+        }
+    }
+    Ok((basis, trace))
 }
 
 /// Leading monomials of a Groebner basis, some of them perhaps multiples of others; not all of them where `enough` says after a
@@ -112,7 +153,7 @@ pub(super) fn normal_forms<C: Coefficient>(
         })
         .collect();
     let (plan, columns) = f4.plan(seeds, &usable)?;
-    let matrix = f4.matrix(&plan, false);
+    let matrix = plan.matrix(&f4.coefficients, false);
     let rows = C::reduce(matrix, budget)?;
     Ok(rows
         .into_iter()
@@ -130,7 +171,7 @@ impl<'a, C: Coefficient> F4<'a, C> {
             terms: Vec::new(),
             coefficients: Vec::new(),
             pairs: Pairs::default(),
-            trace: learn.then(Trace::default),
+            trace: learn.then(Stage::default),
         }
     }
 
@@ -170,7 +211,7 @@ impl<'a, C: Coefficient> F4<'a, C> {
             })
             .collect();
         let (plan, columns) = self.plan(seeds, &[])?;
-        let matrix = self.matrix(&plan, false);
+        let matrix = plan.matrix(&self.coefficients, false);
         self.terms.clear();
         self.coefficients.clear();
         self.eliminate(plan, matrix, &columns, None)
@@ -188,7 +229,7 @@ impl<'a, C: Coefficient> F4<'a, C> {
         let usable = self.by_length(|i| self.pairs.heads[i].active);
         let (plan, columns) = self.plan(seeds, &usable)?;
         self.budget.spend_matrix(plan.entries())?;
-        let matrix = self.matrix(&plan, false);
+        let matrix = plan.matrix(&self.coefficients, false);
         self.eliminate(plan, matrix, &columns, Some(sugar))
     }
 
@@ -225,24 +266,12 @@ impl<'a, C: Coefficient> F4<'a, C> {
     }
 
     fn plan(&mut self, seeds: Vec<Seed>, usable: &[usize]) -> Result<(Plan, Vec<u32>), Stop> {
-        let table = &self.table;
-        let leads = self.terms.iter().map(|terms| {
-            terms.first().map_or((&[][..], 0), |&lead| {
-                let lead = table.exponents(lead);
-                (lead, divisibility_mask(lead))
-            })
-        });
         let reducers = Reducers {
-            table,
+            table: &self.table,
             terms: &self.terms,
-            leads: leads.collect(),
             usable,
         };
         Planner::new(reducers, &mut self.columns, self.budget).plan(seeds, self.order)
-    }
-
-    fn matrix(&self, plan: &Plan, tails: bool) -> Matrix<C> {
-        plan.matrix(&self.coefficients, plan.rows.iter(), tails)
     }
 
     /// Takes what is new in a matrix into the basis.
@@ -317,7 +346,7 @@ impl<'a, C: Coefficient> F4<'a, C> {
         usable.sort_by_key(|&i| (self.terms[i].len(), i));
         let (plan, columns) = self.plan(seeds, &usable)?;
         self.budget.spend_matrix(plan.entries())?;
-        let matrix = self.matrix(&plan, true);
+        let matrix = plan.matrix(&self.coefficients, true);
         let tails = C::reduce(matrix, self.budget)?;
         if let Some(trace) = &mut self.trace {
             let all = (0..kept.len()).collect();

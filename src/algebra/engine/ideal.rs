@@ -52,14 +52,12 @@ pub fn eliminate(
         .iter()
         .map(|p| p.moved(&places, variables))
         .collect();
-    // Two easy steps instead of a hard one: the elimination starts from a basis in the cheapest order.
-    let first = groebner_basis(&moved, variables, &MonomialOrder::Degrevlex, budget)?;
-    let basis = if count == 0 || first.is_inconsistent() {
-        first
-    } else {
-        let order = MonomialOrder::Elimination(count);
-        groebner_basis(first.polynomials(), variables, &order, budget)?
-    };
+    let basis = groebner_basis(
+        &moved,
+        variables,
+        &MonomialOrder::Elimination(count),
+        budget,
+    )?;
     let rest = basis.polynomials().iter().zip(basis.leading_monomials());
     Ok(rest
         .filter(|(_, lead)| lead[..count].iter().all(|&e| e == 0))

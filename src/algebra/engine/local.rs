@@ -13,8 +13,9 @@
 
 use super::budget::{Budget, Stop};
 use super::dimension::Supports;
-use super::f4::leading_monomials_until;
+use super::f4::{leading_monomials_until, reduced_basis};
 use super::hilbert::{HilbertSeries, small};
+use super::monomials::degree;
 use super::order::MonomialOrder;
 use super::terms::{Terms, exponents};
 use crate::algebra::polynomial::{Polynomial, Rational};
@@ -23,6 +24,9 @@ use num_traits::Zero;
 use polycore::Primes;
 use polycore::modp::is_prime;
 use std::collections::BTreeMap;
+
+/// Matrix entries spent on the whole solution set before only the neighbourhood of the point is looked at.
+const GLOBAL_WORK: u64 = 3_000_000;
 
 /// The local ring of a solution set at a point.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -137,13 +141,36 @@ fn local_leads(
     if !is_prime(prime) {
         return Err(Stop::Modulus);
     }
+    let equations: Vec<Terms<Zp>> = equations
+        .iter()
+        .map(|terms| collected(terms, prime))
+        .collect::<Result<_, Stop>>()?;
+    let equations: Vec<Terms<Zp>> = equations.into_iter().filter(|p| !p.is_zero()).collect();
+    // The forms of a basis that compares degrees generate all forms of the ideal, without solutions at infinity that the
+    // equations themselves may have: mostly a much smaller problem.
+    let little = budget.with_work(GLOBAL_WORK);
+    let global = reduced_basis(
+        &equations,
+        variables,
+        &MonomialOrder::Degrevlex,
+        false,
+        &little,
+    );
+    budget.take_over(&little);
+    let generators = match global {
+        Ok((basis, _)) => basis,
+        Err(Stop::Work) => {
+            budget.check()?;
+            equations
+        }
+        Err(stop) => return Err(stop),
+    };
     // t is the first variable; on forms, this order compares its powers first.
     let order = MonomialOrder::Elimination(1);
-    let forms: Vec<Terms<Zp>> = equations
+    let forms: Vec<Terms<Zp>> = generators
         .iter()
-        .map(|terms| homogenised(terms, prime, &order))
+        .map(|p| homogenised(p, &order))
         .collect::<Result<_, Stop>>()?;
-    let forms: Vec<Terms<Zp>> = forms.into_iter().filter(|p| !p.is_zero()).collect();
     let with_one_for_t = |leads: &mut dyn Iterator<Item = &[u16]>| {
         let mut local: Vec<Vec<u32>> = leads
             .map(|lead| lead[1..].iter().map(|&e| u32::from(e)).collect())
@@ -171,12 +198,8 @@ fn local_leads(
     Ok(with_one_for_t(&mut leads.iter().map(|lead| &**lead)))
 }
 
-/// Every term filled up to the degree of the polynomial with powers of an additional first variable.
-fn homogenised(
-    terms: &[(Vec<u32>, u64)],
-    prime: u64,
-    order: &MonomialOrder,
-) -> Result<Terms<Zp>, Stop> {
+/// Like terms added, in degrevlex.
+fn collected(terms: &[(Vec<u32>, u64)], prime: u64) -> Result<Terms<Zp>, Stop> {
     let mut sums: BTreeMap<&[u32], Zp> = BTreeMap::new();
     for (monomial, value) in terms {
         let sum = sums
@@ -185,13 +208,24 @@ fn homogenised(
         *sum = *sum + Zp::new(*value, prime);
     }
     sums.retain(|_, value| !value.is_zero());
-    let degree = |m: &[u32]| m.iter().sum::<u32>();
-    let most = sums.keys().map(|m| degree(m)).max().unwrap_or(0);
-    let forms = sums.iter().map(|(monomial, &value)| {
-        let mut form = vec![most - degree(monomial)];
-        form.extend_from_slice(monomial);
-        Ok((exponents(&form)?, value))
-    });
+    let terms = sums.iter().map(|(m, &c)| Ok((exponents(m)?, c)));
+    let terms = terms.collect::<Result<_, Stop>>()?;
+    Ok(Terms::sorted(terms, &MonomialOrder::Degrevlex))
+}
+
+/// Every term filled up to the degree of the polynomial with powers of an additional first variable.
+fn homogenised(p: &Terms<Zp>, order: &MonomialOrder) -> Result<Terms<Zp>, Stop> {
+    let most = p.monomials.iter().map(|m| degree(m)).max().unwrap_or(0);
+    let forms = p
+        .monomials
+        .iter()
+        .zip(&p.coefficients)
+        .map(|(monomial, &c)| {
+            let missing = u16::try_from(most - degree(monomial)).map_err(|_| Stop::Memory)?;
+            let mut form = vec![missing];
+            form.extend_from_slice(monomial);
+            Ok((form.into(), c))
+        });
     Ok(Terms::sorted(forms.collect::<Result<_, Stop>>()?, order))
 }
 

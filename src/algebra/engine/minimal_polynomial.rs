@@ -72,7 +72,7 @@ impl GroebnerBasis {
             try_garner(&mut coefficients, &mut modulus, &relation, prime)
                 .map_err(|_| Stop::Coefficients)?;
             count += 1;
-            if count.is_power_of_two() || count % 8 == 0 {
+            if count.is_power_of_two() || count.is_multiple_of(8) {
                 let values = WangContext::new(&modulus)
                     .and_then(|context| context.reconstruct_many(&coefficients));
                 let candidate = values.map(|values| self.in_one_variable(&values, variable));

@@ -2,7 +2,9 @@
 //!
 //! Arnold, "Modular algorithms for computing Groebner bases" (2003), section 7. The first prime is kept apart: it tests what
 //! the others suggest. The second one is computed in full and its trace replayed modulo the following ones. Bases are
-//! grouped by their leading monomials; the largest group decides, so that a few unlucky primes are outvoted.
+//! grouped by their leading monomials; the largest group decides, so that a few unlucky primes are outvoted. Where the test or
+//! the trace itself comes from an unlucky prime, test and candidate contradict one another, or the equations do not reduce
+//! to zero: then all is forgotten and other primes are taken.
 
 use super::budget::{Budget, Stop};
 use super::certificate::Certificate;
@@ -19,6 +21,9 @@ use polycore::crt::{WangContext, try_garner};
 
 /// Most primes before the coefficients count as too large: about 120 000 bits.
 const MOST_PRIMES: usize = 2_000;
+
+/// The monomials of every polynomial of a basis, largest first.
+type Layout = Vec<Vec<Box<[u16]>>>;
 
 /// A basis modulo a prime.
 struct Image {
@@ -61,7 +66,7 @@ struct Search<'a> {
     primes: Primes,
     groups: Vec<Group>,
     /// A computation to be replayed, with the terms of the basis that it finds.
-    trace: Option<(Trace, Vec<Vec<Box<[u16]>>>)>,
+    trace: Option<(Trace, Layout)>,
 }
 
 impl Search<'_> {
@@ -72,10 +77,11 @@ impl Search<'_> {
         alone.add(&test, self.order)?;
         if let Some(candidate) = alone.candidate() {
             let second = self.full_image(true)?;
-            if let Some(certificate) = self.accepts(&candidate, &second, 2)? {
-                return Ok((candidate, certificate));
+            match self.verdict(&candidate, &second, 2)? {
+                Verdict::Accepted(certificate) => return Ok((candidate, certificate)),
+                Verdict::TooEarly => self.add(&second)?,
+                Verdict::Contradiction => test = self.start_again()?,
             }
-            self.add(&second)?;
         }
         let mut next_attempt = 1;
         for _ in 0..MOST_PRIMES {
@@ -92,20 +98,23 @@ impl Search<'_> {
             let Some(candidate) = best.candidate() else {
                 continue;
             };
-            if let Some(certificate) = self.accepts(&candidate, &test, count + 1)? {
-                return Ok((candidate, certificate));
-            }
-            if !same_leads(&candidate, &test.basis) {
-                // Either the test or the group is unlucky: another prime tests, and this one votes.
-                let fresh = self.full_image(false)?;
-                if let Some(certificate) = self.accepts(&candidate, &fresh, count + 1)? {
-                    return Ok((candidate, certificate));
+            match self.verdict(&candidate, &test, count + 1)? {
+                Verdict::Accepted(certificate) => return Ok((candidate, certificate)),
+                Verdict::TooEarly => {}
+                Verdict::Contradiction => {
+                    test = self.start_again()?;
+                    next_attempt = 1;
                 }
-                let old = std::mem::replace(&mut test, fresh);
-                self.add(&old)?;
             }
         }
         Err(Stop::Coefficients)
+    }
+
+    /// Forgets everything: the prime of the test, or that of the trace and with it all images found by replay, was unlucky.
+    fn start_again(&mut self) -> Result<Image, Stop> {
+        self.groups.clear();
+        self.trace = None;
+        self.full_image(false)
     }
 
     /// The equations modulo the next prime that divides no leading coefficient.
@@ -146,18 +155,15 @@ impl Search<'_> {
         let Some((trace, layout)) = &self.trace else {
             return self.compute(prime, input, true);
         };
-        let Some(tails) = trace.replay(input.clone(), self.budget)? else {
+        let Some(values) = trace.replay(input.clone(), prime, self.budget)? else {
             // A prime that behaves differently, or a trace of one that did: the newer trace replaces the older one, and
             // leading monomials decide which group grows.
             return self.compute(prime, input, true);
         };
         let basis = layout
             .iter()
-            .zip(tails)
-            .map(|(monomials, mut coefficients)| {
-                coefficients.insert(0, Zp::from_i64(1, prime));
-                Terms::without_zeros(monomials, coefficients)
-            })
+            .zip(values)
+            .map(|(monomials, values)| Terms::without_zeros(monomials, values))
             .collect();
         Ok(Image { prime, basis })
     }
@@ -176,22 +182,35 @@ impl Search<'_> {
         self.groups.iter().rev().max_by_key(|group| group.count)
     }
 
-    /// What is known of a candidate, or `None` where it is wrong.
-    fn accepts(
+    /// What a prime that had no part in finding it says about a candidate.
+    fn verdict(
         &self,
         candidate: &[Terms<Rational>],
         fresh: &Image,
         primes: usize,
-    ) -> Result<Option<Certificate>, Stop> {
+    ) -> Result<Verdict, Stop> {
+        if !same_leads(candidate, &fresh.basis) {
+            return Ok(Verdict::Contradiction);
+        }
         let residues: Option<Vec<Terms<Zp>>> =
             candidate.iter().map(|p| p.modulo(fresh.prime)).collect();
         if residues.is_none_or(|residues| residues != fresh.basis) {
-            return Ok(None);
+            return Ok(Verdict::TooEarly);
         }
         self.budget.phase(|| "certificate".to_owned());
-        if !is_basis(&fresh.basis, self.variables, self.order, self.budget)? {
-            return Ok(None);
+        let is_basis = is_basis(&fresh.basis, self.variables, self.order, self.budget)?;
+        if !is_basis || !self.holds_equations(candidate)? {
+            return Ok(Verdict::Contradiction);
         }
+        Ok(Verdict::Accepted(Certificate {
+            primes,
+            fresh_prime: Some(fresh.prime),
+            proven: false,
+        }))
+    }
+
+    /// Whether every equation reduces to zero over the rationals.
+    fn holds_equations(&self, candidate: &[Terms<Rational>]) -> Result<bool, Stop> {
         let rest = normal_forms(
             &self.equations,
             candidate,
@@ -199,15 +218,16 @@ impl Search<'_> {
             self.order,
             self.budget,
         )?;
-        if rest.iter().any(|p| !p.is_zero()) {
-            return Ok(None);
-        }
-        Ok(Some(Certificate {
-            primes,
-            fresh_prime: Some(fresh.prime),
-            proven: false,
-        }))
+        Ok(rest.iter().all(Terms::is_zero))
     }
+}
+
+enum Verdict {
+    Accepted(Certificate),
+    /// More primes are needed.
+    TooEarly,
+    /// More primes of this kind do not help.
+    Contradiction,
 }
 
 fn same_leads(candidate: &[Terms<Rational>], image: &[Terms<Zp>]) -> bool {
@@ -218,7 +238,7 @@ fn same_leads(candidate: &[Terms<Rational>], image: &[Terms<Zp>]) -> bool {
 /// Everything known from the primes that found the same leading monomials.
 struct Group {
     /// The terms of each polynomial that occurred modulo any prime, largest first.
-    layout: Vec<Vec<Box<[u16]>>>,
+    layout: Layout,
     /// Their coefficients modulo the product of the primes.
     remainders: Vec<BigInt>,
     modulus: BigInt,

@@ -8,16 +8,12 @@ use super::budget::Stop;
 
 /// Bits that tell without looking at the exponents that one monomial does not divide another.
 pub(super) fn divisibility_mask(exponents: &[u16]) -> u64 {
-    // With at most 16 variables four bits each, saying "at least 1, 2, 3, 4"; with more of them one bit each, shared.
+    // Some bits for each variable, saying "at least 1, 2, ..."; with more than 64 variables they share bits.
+    let each = (64 / exponents.len().max(1)).clamp(1, 8);
     let mut mask = 0;
-    if exponents.len() <= 16 {
-        for (variable, &exponent) in exponents.iter().enumerate() {
-            mask |= ((1 << exponent.min(4)) - 1) << (4 * variable);
-        }
-    } else {
-        for (variable, &exponent) in exponents.iter().enumerate() {
-            mask |= u64::from(exponent > 0) << (variable % 64);
-        }
+    for (variable, &exponent) in exponents.iter().enumerate() {
+        let levels = usize::from(exponent).min(each);
+        mask |= ((1 << levels) - 1) << (variable * each % 64);
     }
     mask
 }
@@ -219,7 +215,7 @@ mod tests {
 
     #[test]
     fn the_mask_never_rejects_a_divisor() {
-        for variables in [2_u16, 16, 20] {
+        for variables in [2_u16, 7, 16, 20, 70] {
             for seed in 0..50 {
                 let small: Vec<u16> = (0..variables).map(|i| (seed + i) % 9).collect();
                 let large: Vec<u16> = small.iter().map(|e| e + 3).collect();

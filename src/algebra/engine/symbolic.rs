@@ -37,10 +37,14 @@ pub(super) struct Reducers<'a> {
     pub(super) table: &'a Monomials,
     /// Terms of each polynomial, as numbers in the table.
     pub(super) terms: &'a [Vec<u32>],
-    /// Leading monomials with their masks.
-    pub(super) leads: Vec<(&'a [u16], u64)>,
-    /// Those that may reduce, best first.
+    /// Polynomials that may reduce, best first.
     pub(super) usable: &'a [usize],
+}
+
+impl<'a> Reducers<'a> {
+    fn lead(&self, polynomial: usize) -> &'a [u16] {
+        self.table.exponents(self.terms[polynomial][0])
+    }
 }
 
 /// A multiple that has to be in the matrix.
@@ -56,6 +60,8 @@ pub(super) struct Seed {
 /// A plan under construction.
 pub(super) struct Planner<'a> {
     reducers: Reducers<'a>,
+    /// Masks of the leading monomials of the usable polynomials.
+    masks: Vec<u64>,
     columns: &'a mut Monomials,
     /// Columns that have a pivot.
     covered: Vec<bool>,
@@ -72,7 +78,9 @@ impl<'a> Planner<'a> {
         budget: &'a Budget,
     ) -> Self {
         columns.clear();
+        let lead_mask = |&i: &usize| divisibility_mask(reducers.lead(i));
         Self {
+            masks: reducers.usable.iter().map(lead_mask).collect(),
             reducers,
             columns,
             covered: Vec::new(),
@@ -148,14 +156,16 @@ impl<'a> Planner<'a> {
     fn reducer(&self, column: u32) -> Option<Seed> {
         let monomial = self.columns.exponents(column);
         let mask = divisibility_mask(monomial);
-        let usable = self.reducers.usable.iter();
-        let element = usable.copied().find(|&i| {
-            let (lead, lead_mask) = self.reducers.leads[i];
-            lead_mask & !mask == 0 && divides(lead, monomial)
-        })?;
+        let element = self
+            .masks
+            .iter()
+            .zip(self.reducers.usable)
+            .filter(|&(&lead_mask, _)| lead_mask & !mask == 0)
+            .find(|&(_, &i)| divides(self.reducers.lead(i), monomial))
+            .map(|(_, &i)| i)?;
         Some(Seed {
             element,
-            multiplier: quotient(monomial, self.reducers.leads[element].0),
+            multiplier: quotient(monomial, self.reducers.lead(element)),
             is_pivot: true,
             tail_only: false,
         })
@@ -164,9 +174,14 @@ impl<'a> Planner<'a> {
     /// Numbers the columns from the largest monomial down.
     fn sorted(mut self, order: &MonomialOrder) -> (Plan, Vec<u32>) {
         let columns = &*self.columns;
-        let mut by_size: Vec<u32> = (0..columns.len() as u32).collect();
-        by_size
-            .sort_unstable_by(|&a, &b| order.compare(columns.exponents(b), columns.exponents(a)));
+        let mut keyed: Vec<(u64, u32)> = (0..columns.len() as u32)
+            .map(|number| (order.first_key(columns.exponents(number)), number))
+            .collect();
+        keyed.sort_unstable_by(|&(a_key, a), &(b_key, b)| {
+            let keys = b_key.cmp(&a_key);
+            keys.then_with(|| order.compare_after_key(columns.exponents(b), columns.exponents(a)))
+        });
+        let by_size: Vec<u32> = keyed.into_iter().map(|(_, number)| number).collect();
         let mut place = vec![0; by_size.len()];
         for (at, &number) in by_size.iter().enumerate() {
             place[number as usize] = at as u32;

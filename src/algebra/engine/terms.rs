@@ -5,6 +5,7 @@ use super::order::MonomialOrder;
 use crate::algebra::polynomial::{Polynomial, Rational};
 use groebner::Zp;
 use num_traits::Zero;
+use polycore::{Monomial, Order, Poly};
 
 /// The terms of a polynomial, largest monomial first, no coefficient zero.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +23,21 @@ impl<C: Clone> Terms<C> {
             monomials,
             coefficients,
         }
+    }
+
+    /// Sorted in another order; with it where each term was before.
+    pub(super) fn reordered(&self, order: &MonomialOrder) -> (Self, Vec<u32>) {
+        let mut places: Vec<u32> = (0..self.monomials.len() as u32).collect();
+        let monomial = |place: u32| &*self.monomials[place as usize];
+        places.sort_by(|&a, &b| order.compare(monomial(b), monomial(a)));
+        let sorted = Self {
+            monomials: places.iter().map(|&i| monomial(i).into()).collect(),
+            coefficients: places
+                .iter()
+                .map(|&i| self.coefficients[i as usize].clone())
+                .collect(),
+        };
+        (sorted, places)
     }
 
     pub(super) fn lead(&self) -> Option<&[u16]> {
@@ -44,27 +60,22 @@ pub(super) fn exponents(exponents: &[u32]) -> Result<Box<[u16]>, Stop> {
 impl Terms<Rational> {
     pub(super) fn of(polynomial: &Polynomial, order: &MonomialOrder) -> Result<Self, Stop> {
         let terms: Result<Vec<_>, Stop> = polynomial
-            .terms()
-            .map(|(monomial, c)| Ok((exponents(monomial)?, c.clone())))
+            .raw()
+            .terms
+            .iter()
+            .map(|(monomial, c)| Ok((exponents(monomial.exps())?, c.clone())))
             .collect();
         Ok(Self::sorted(terms?, order))
     }
 
     pub(super) fn polynomial(&self, variables: usize) -> Polynomial {
-        let exponents = |m: &[u16]| m.iter().map(|&e| u32::from(e)).collect();
+        let monomial = |m: &[u16]| {
+            let exponents: Vec<u32> = m.iter().map(|&e| u32::from(e)).collect();
+            Monomial::new(exponents)
+        };
         let terms = self.monomials.iter().zip(&self.coefficients);
-        let terms = terms.map(|(m, c)| (exponents(m), c.clone())).collect();
-        Polynomial::from_terms(terms, variables)
-    }
-
-    /// Divided by the leading coefficient.
-    pub(super) fn monic(mut self) -> Self {
-        if let Some(lead) = self.coefficients.first().cloned() {
-            for c in &mut self.coefficients {
-                *c /= &lead;
-            }
-        }
-        self
+        let terms = terms.map(|(m, c)| (monomial(m), c.clone())).collect();
+        Polynomial::from_raw(&Poly::new(terms, variables, Order::GRevLex))
     }
 
     /// The coefficients modulo a prime, zeros included; `None` where the prime divides a denominator or the leading

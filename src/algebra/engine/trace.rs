@@ -29,11 +29,6 @@ impl Round {
         }
     }
 
-    pub(super) fn entries(&self) -> u64 {
-        let supports: usize = self.supports.iter().map(Vec::len).sum();
-        self.plan.entries() + supports as u64
-    }
-
     /// The coefficients of the rows, in the columns that they have in this round; `None` where they have others.
     fn align(&self, rows: Vec<SparseRow<Zp>>) -> Option<Vec<Vec<Zp>>> {
         if rows.len() != self.supports.len() {
@@ -56,13 +51,8 @@ fn align((row, support): (&SparseRow<Zp>, &Vec<u32>)) -> Option<Vec<Zp>> {
 }
 
 impl Plan {
-    /// The matrix of some of the planned rows, given the coefficients of all polynomials.
-    pub(super) fn matrix<'a, C: Clone>(
-        &self,
-        coefficients: &[Vec<C>],
-        rows: impl Iterator<Item = &'a PlannedRow>,
-        tails: bool,
-    ) -> Matrix<C> {
+    /// The matrix, given the coefficients of all polynomials; with `tails` its rows lack their leading terms.
+    pub(super) fn matrix<C: Clone>(&self, coefficients: &[Vec<C>], tails: bool) -> Matrix<C> {
         let mut number = vec![usize::MAX; coefficients.len()];
         let mut shared = Vec::new();
         let pivots = self
@@ -77,6 +67,7 @@ impl Plan {
                 (*place, row.columns.clone())
             })
             .collect();
+        let rows = self.rows.iter();
         let rows = rows
             .map(|row| SparseRow {
                 columns: row.columns.clone(),
@@ -94,33 +85,53 @@ impl Plan {
     }
 }
 
-/// All rounds of a computation.
+/// All rounds of a computation in one order.
 #[derive(Debug, Default)]
-pub(super) struct Trace {
+pub(super) struct Stage {
+    /// For every polynomial of the input, where its terms were before they were sorted in this order.
+    pub(super) places: Vec<Vec<u32>>,
     pub(super) rounds: Vec<Round>,
     pub(super) finish: Option<Round>,
 }
 
-impl Trace {
-    /// Entries kept.
-    pub(super) fn entries(&self) -> u64 {
-        self.rounds.iter().map(Round::entries).sum()
-    }
+/// A computation, in one order after another.
+#[derive(Debug, Default)]
+pub(super) struct Trace {
+    pub(super) stages: Vec<Stage>,
+}
 
+impl Trace {
     /// The coefficients of the reduced basis modulo another prime, in the terms of the basis that was learned, given those of
     /// the input; `None` where this prime behaves differently.
     pub(super) fn replay(
         &self,
-        input: Vec<Vec<Zp>>,
+        mut elements: Vec<Vec<Zp>>,
+        prime: u64,
         budget: &Budget,
     ) -> Result<Option<Vec<Vec<Zp>>>, Stop> {
-        let mut elements = input;
+        for stage in &self.stages {
+            let Some(mut basis) = stage.replay(&elements, budget)? else {
+                return Ok(None);
+            };
+            for tail in &mut basis {
+                tail.insert(0, Zp::from_i64(1, prime));
+            }
+            elements = basis;
+        }
+        Ok(Some(elements))
+    }
+}
+
+impl Stage {
+    /// The tails of the basis, leading coefficients 1 left out.
+    fn replay(&self, input: &[Vec<Zp>], budget: &Budget) -> Result<Option<Vec<Vec<Zp>>>, Stop> {
+        let sorted = input.iter().zip(&self.places);
+        let mut elements: Vec<Vec<Zp>> = sorted
+            .map(|(values, places)| places.iter().map(|&i| values[i as usize]).collect())
+            .collect();
         for (number, round) in self.rounds.iter().enumerate() {
             budget.spend_matrix(round.plan.entries())?;
-            if round.supports.is_empty() && number > 0 {
-                continue;
-            }
-            let matrix = round.plan.matrix(&elements, round.plan.rows.iter(), false);
+            let matrix = round.plan.matrix(&elements, false);
             let (mut new, _) = Zp::echelon(matrix, false, budget)?;
             new.sort_by_key(|row| std::cmp::Reverse(row.columns[0]));
             let leads = new.iter().map(|row| row.columns[0]);
@@ -139,8 +150,7 @@ impl Trace {
             return Ok(None);
         };
         budget.spend_matrix(finish.plan.entries())?;
-        let matrix = finish.plan.matrix(&elements, finish.plan.rows.iter(), true);
-        let tails = Zp::reduce(matrix, budget)?;
+        let tails = Zp::reduce(finish.plan.matrix(&elements, true), budget)?;
         Ok(finish.align(tails))
     }
 }

@@ -39,6 +39,9 @@ const MOST_LINES: usize = 60;
 /// Most sets of factors on a line that are combined.
 const MOST_SETS: usize = 1 << 12;
 
+/// Most terms that a polynomial may have around a line, where it is dense: what a few seconds allow.
+const MOST_TERMS: u64 = 20_000;
+
 /// A polynomial as a product.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Factorization {
@@ -181,6 +184,7 @@ fn multivariate(
     budget: &Budget,
     complete: &mut bool,
 ) -> Result<Vec<(Polynomial, u32)>, Stop> {
+    let too_large = dense_terms(polynomial) > MOST_TERMS;
     let mut best: Option<Restricted> = None;
     let mut useful = 0;
     for number in 0..MOST_LINES {
@@ -197,6 +201,9 @@ fn multivariate(
             best = Some(restricted);
         }
         useful += 1;
+        if too_large && useful >= LINES {
+            break;
+        }
         if useful >= LINES
             && let Some(restricted) = &best
             && let Some(factors) = combine(polynomial, restricted, budget, complete)?
@@ -206,6 +213,13 @@ fn multivariate(
     }
     *complete = false;
     Ok(vec![(polynomial.clone(), 1)])
+}
+
+/// The number of monomials of at most the degree of a polynomial in its variables.
+fn dense_terms(polynomial: &Polynomial) -> u64 {
+    let degree = u64::from(polynomial.degree());
+    (1..=polynomial.variables() as u64)
+        .fold(1, |count: u64, i| count.saturating_mul(degree + i) / i)
 }
 
 /// The true factors from those on a line; `None` where the line hides some of them.

@@ -85,6 +85,23 @@ fn constants_and_zero() {
     assert_eq!(factors(&variable(2)), ["y"]);
 }
 
+/// Dense around a line with too many terms: irreducible ones are recognised all the same, products are not split, and that
+/// is said.
+#[test]
+fn what_is_too_large_is_not_called_irreducible() {
+    let n = 12;
+    let sum = |power: u32| {
+        (0..n).fold(Polynomial::integer(1, n), |sum, i| {
+            &sum + &Polynomial::variable(i, n).power(power)
+        })
+    };
+    let budget = Budget::unlimited();
+    let irreducible = factor(&sum(7), &budget).unwrap();
+    assert_eq!((irreducible.factors.len(), irreducible.complete), (1, true));
+    let product = factor(&(&sum(4) * &sum(3)), &budget).unwrap();
+    assert_eq!((product.factors.len(), product.complete), (1, false));
+}
+
 #[test]
 fn a_spent_budget_stops() {
     let budget = Budget::new(crate::algebra::Limits {

@@ -1,7 +1,7 @@
 //! Incremental instancing: what a cycle determines goes into the next ones, in as many cases as there are choices.
 
 use super::divide::{Clock, Step};
-use super::group::{Local, Problem};
+use super::group::{Local, Problem, about_the_same};
 use crate::algebra::{
     Budget, GroebnerBasis, MonomialOrder, Polynomial, Stop, factor, groebner_basis,
 };
@@ -58,7 +58,7 @@ struct Known {
     relations: Vec<Polynomial>,
 }
 
-/// Works through the groups in their order.
+/// Works through the groups, the smallest first.
 ///
 /// Ruiz (1994), section 5.5.2, with two changes. A polynomial that factors opens one case per factor, all of which are
 /// carried on; and every relation of first degree removes a variable, not only those that give it a value.
@@ -73,7 +73,7 @@ pub fn incremental_instancing(problem: &Problem, budget: &Budget) -> Result<Incr
         unsplit: false,
     };
     let mut open = vec![Known::default()];
-    for group in &problem.groups {
+    for group in problem.smallest_first() {
         let mut next: Vec<Known> = Vec::new();
         let mut left = open.len();
         for known in open {
@@ -142,13 +142,7 @@ impl Known {
             })
             .filter(|p| !p.is_zero())
             .collect();
-        let touched = |v: usize| reduced.iter().any(|p| p.mentions(v));
-        let known: Vec<Polynomial> = self
-            .relations
-            .iter()
-            .filter(|p| (0..p.variables()).all(|v| !p.mentions(v) || touched(v)))
-            .cloned()
-            .collect();
+        let known = about_the_same(&self.relations, &reduced);
         reduced.extend(known);
         reduced
     }

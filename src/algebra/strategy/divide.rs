@@ -1,7 +1,7 @@
 //! Brute force, and divide and conquer.
 
-use super::group::{Local, Problem};
-use crate::algebra::{Budget, GroebnerBasis, MonomialOrder, Stop, groebner_basis};
+use super::group::{Local, Problem, about_the_same};
+use crate::algebra::{Budget, GroebnerBasis, MonomialOrder, Polynomial, Stop, groebner_basis};
 use std::time::{Duration, Instant};
 
 /// What one step of a strategy cost and found.
@@ -29,7 +29,7 @@ pub struct Divided {
     /// One step per cycle, then the step for all of them together.
     pub steps: Vec<Step>,
     /// The basis of every cycle, in the ring of all variables.
-    pub cycles: Vec<Vec<crate::algebra::Polynomial>>,
+    pub cycles: Vec<Vec<Polynomial>>,
     /// The basis of the whole.
     pub basis: GroebnerBasis,
 }
@@ -56,7 +56,8 @@ pub fn brute_force(
     Ok((step, basis))
 }
 
-/// The basis of every group by itself, then of all these bases together.
+/// The basis of every group, the smallest first, then of all these bases together. What smaller groups say about the
+/// variables of a group is used with its equations.
 ///
 /// A cycle without a solution ends it: nothing that is added makes it assemble.
 ///
@@ -68,10 +69,13 @@ pub fn divide_and_conquer(
     budget: &Budget,
 ) -> Result<Divided, Stop> {
     let mut steps = Vec::new();
-    let mut cycles = Vec::new();
-    for group in &problem.groups {
+    let mut cycles: Vec<Vec<Polynomial>> = Vec::new();
+    for group in problem.smallest_first() {
         let clock = Clock::start(budget);
-        let local = Local::new(&problem.equations_of(group), problem.variables);
+        let mut equations = problem.equations_of(group);
+        let known = about_the_same(cycles.iter().flatten(), &equations);
+        equations.extend(known);
+        let local = Local::new(&equations, problem.variables);
         let basis = local.basis(order, budget)?;
         steps.push(clock.step(
             &group.name,

@@ -33,6 +33,23 @@ impl Problem {
             .collect()
     }
 
+    /// The groups, those with the fewest variables first: what a short cycle determines makes the longer ones small.
+    pub fn smallest_first(&self) -> Vec<&Group> {
+        let size = |group: &&Group| {
+            (0..self.variables)
+                .filter(|&v| {
+                    let equations = group.equations.iter();
+                    equations
+                        .filter_map(|&e| self.equations.get(e))
+                        .any(|p| p.mentions(v))
+                })
+                .count()
+        };
+        let mut groups: Vec<&Group> = self.groups.iter().collect();
+        groups.sort_by_key(size);
+        groups
+    }
+
     /// The equations that belong to no group.
     pub fn ungrouped(&self) -> Vec<Polynomial> {
         let grouped: BTreeSet<usize> = self
@@ -49,19 +66,33 @@ impl Problem {
     }
 }
 
+/// Those polynomials that hold no other variables than `equations` do: what they say may be used together with these.
+pub(super) fn about_the_same<'a>(
+    polynomials: impl IntoIterator<Item = &'a Polynomial>,
+    equations: &[Polynomial],
+) -> Vec<Polynomial> {
+    let touched = |v: usize| equations.iter().any(|p| p.mentions(v));
+    polynomials
+        .into_iter()
+        .filter(|p| (0..p.variables()).all(|v| !p.mentions(v) || touched(v)))
+        .filter(|p| !equations.contains(p))
+        .cloned()
+        .collect()
+}
+
 /// Some equations in the ring of just the variables that occur in them.
-pub(super) struct Local {
+pub(in crate::algebra) struct Local {
     /// The variables of the large ring, in its order.
-    pub(super) variables: Vec<usize>,
+    pub(in crate::algebra) variables: Vec<usize>,
     /// Number of variables of the large ring.
     all: usize,
     /// The equations in the small ring.
-    pub(super) equations: Vec<Polynomial>,
+    pub(in crate::algebra) equations: Vec<Polynomial>,
 }
 
 impl Local {
     /// Moves equations into the ring of their own variables.
-    pub(super) fn new(equations: &[Polynomial], all: usize) -> Self {
+    pub(in crate::algebra) fn new(equations: &[Polynomial], all: usize) -> Self {
         let variables: Vec<usize> = (0..all)
             .filter(|&v| equations.iter().any(|p| p.mentions(v)))
             .collect();
@@ -87,7 +118,7 @@ impl Local {
     }
 
     /// The basis of the equations, in the small ring.
-    pub(super) fn basis(
+    pub(in crate::algebra) fn basis(
         &self,
         order: &MonomialOrder,
         budget: &Budget,
@@ -96,7 +127,7 @@ impl Local {
     }
 
     /// A polynomial of the small ring in the large one.
-    pub(super) fn lift(&self, polynomial: &Polynomial) -> Polynomial {
+    pub(in crate::algebra) fn lift(&self, polynomial: &Polynomial) -> Polynomial {
         polynomial.moved(&self.variables, self.all)
     }
 }

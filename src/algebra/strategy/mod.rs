@@ -18,5 +18,6 @@ mod relations;
 
 pub use cases::{Case, Incremental, Instance, incremental_instancing};
 pub use divide::{Divided, Step, brute_force, divide_and_conquer};
+pub(super) use group::Local;
 pub use group::{Group, Problem};
 pub use relations::{Relation, RelationFinding, RelationVerdict, relation_by_relation};

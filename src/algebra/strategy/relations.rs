@@ -13,6 +13,17 @@ pub struct Relation {
     pub equations: Vec<Polynomial>,
 }
 
+impl Relation {
+    /// A relation without equations yet.
+    #[must_use]
+    pub fn named(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            equations: Vec::new(),
+        }
+    }
+}
+
 /// What a relation adds to those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RelationVerdict {

@@ -2,10 +2,9 @@
 
 use super::element::{Element, trim};
 use super::field::{Field, FieldLimit};
-use crate::algebra::Rational;
+use super::fraction::{Fraction, fraction, power_modulo, residue, to_f64};
 use crate::number::Number;
-use num_bigint::BigInt;
-use num_traits::{One, ToPrimitive, Zero};
+use dashu::integer::IBig;
 
 /// Largest M.
 const MAX_DENOMINATOR: u32 = 4_000;
@@ -30,13 +29,13 @@ fn gcd(a: u32, b: u32) -> u32 {
 ///
 /// The cyclotomic polynomial is palindromic, Φ(x) = x^m Ψ(x + 1/x) with 2m its degree (Watkins & Zeitlin 1993), and
 /// x^j + x^-j is the polynomial of [`multiple`] in x + 1/x.
-pub(super) fn minimal_polynomial(denominator: u32) -> Option<Vec<BigInt>> {
+pub(super) fn minimal_polynomial(denominator: u32) -> Option<Vec<IBig>> {
     if denominator == 0 || denominator > MAX_DENOMINATOR {
         return None;
     }
     if denominator <= 2 {
         let root = if denominator == 1 { -2 } else { 2 };
-        return Some(vec![root.into(), BigInt::one()]);
+        return Some(vec![root.into(), IBig::ONE]);
     }
     let half = totient(denominator) / 2;
     if half > MAX_DEGREE {
@@ -44,12 +43,12 @@ pub(super) fn minimal_polynomial(denominator: u32) -> Option<Vec<BigInt>> {
     }
     let cyclotomic = cyclotomic(denominator);
     let half = half as usize;
-    let mut result = vec![BigInt::zero(); half + 1];
+    let mut result = vec![IBig::ZERO; half + 1];
     for j in 0..=half {
         let coefficient = &cyclotomic[half + j];
         for (power, c) in multiple(j as u32).iter().enumerate() {
             // The constant multiple stands for 2 cos 0 = 2, but occurs once.
-            let c = if j == 0 { BigInt::one() } else { c.clone() };
+            let c = if j == 0 { IBig::ONE } else { c.clone() };
             result[power] += coefficient * c;
         }
     }
@@ -57,21 +56,21 @@ pub(super) fn minimal_polynomial(denominator: u32) -> Option<Vec<BigInt>> {
 }
 
 /// Φ of x: xⁿ − 1 divided by Φ of every proper divisor.
-fn cyclotomic(n: u32) -> Vec<BigInt> {
-    let mut result = vec![BigInt::zero(); n as usize + 1];
-    result[0] = -BigInt::one();
-    result[n as usize] = BigInt::one();
-    for d in (1..n).filter(|d| n % d == 0) {
+fn cyclotomic(n: u32) -> Vec<IBig> {
+    let mut result = vec![IBig::ZERO; n as usize + 1];
+    result[0] = -IBig::ONE;
+    result[n as usize] = IBig::ONE;
+    for d in (1..n).filter(|d| n.is_multiple_of(*d)) {
         result = divided(&result, &cyclotomic(d));
     }
     result
 }
 
 /// The quotient by a monic polynomial that divides.
-fn divided(a: &[BigInt], b: &[BigInt]) -> Vec<BigInt> {
+fn divided(a: &[IBig], b: &[IBig]) -> Vec<IBig> {
     let mut rest = a.to_vec();
     let degree = b.len() - 1;
-    let mut quotient = vec![BigInt::zero(); a.len() - degree];
+    let mut quotient = vec![IBig::ZERO; a.len() - degree];
     for place in (0..quotient.len()).rev() {
         let lead = rest[place + degree].clone();
         for (i, c) in b.iter().enumerate() {
@@ -83,14 +82,14 @@ fn divided(a: &[BigInt], b: &[BigInt]) -> Vec<BigInt> {
 }
 
 /// 2 cos(jθ) as a polynomial in 2 cos θ, lowest coefficient first: C₀ = 2, C₁ = y, Cⱼ₊₁ = y Cⱼ − Cⱼ₋₁.
-fn multiple(j: u32) -> Vec<BigInt> {
-    let mut before = vec![BigInt::from(2)];
+fn multiple(j: u32) -> Vec<IBig> {
+    let mut before = vec![IBig::from(2)];
     if j == 0 {
         return before;
     }
-    let mut current = vec![BigInt::zero(), BigInt::one()];
+    let mut current = vec![IBig::ZERO, IBig::ONE];
     for _ in 1..j {
-        let mut next = vec![BigInt::zero()];
+        let mut next = vec![IBig::ZERO];
         next.extend(current.iter().cloned());
         for (x, y) in next.iter_mut().zip(&before) {
             *x -= y;
@@ -102,7 +101,7 @@ fn multiple(j: u32) -> Vec<BigInt> {
 
 /// cos(2π k/M) in a field whose first generator is 2 cos(2π/M), or in the rationals where that is rational.
 pub(super) fn cosine(field: &Field, k: u32, denominator: u32) -> Element {
-    let half = Rational::new(1.into(), 2.into());
+    let half = fraction(1, 2);
     let base = match field.circle {
         Some(_) => Element::generator(0),
         // 2 cos(2π/M) for M in 1, 2, 3, 4, 6.
@@ -143,17 +142,14 @@ pub(super) fn square_root(
         .filter(|&k| gcd(k, denominator) == 1)
         .map(|k| 2.0 * (f64::from(k) / f64::from(denominator) * std::f64::consts::TAU).cos())
         .collect();
-    let size = coefficients
-        .iter()
-        .map(|c| super::element::to_f64(c).abs())
-        .sum::<f64>();
+    let size = coefficients.iter().map(|c| to_f64(c).abs()).sum::<f64>();
     let squares: Vec<f64> = conjugates
         .iter()
         .map(|x| {
             coefficients
                 .iter()
                 .rev()
-                .fold(0.0, |sum, c| sum * x + super::element::to_f64(c))
+                .fold(0.0, |sum, c| sum * x + to_f64(c))
         })
         .collect();
     if squares.iter().any(|s| *s < -1e-6 * size) {
@@ -173,7 +169,7 @@ pub(super) fn square_root(
                 .sum();
             near_fraction(sum)
         });
-        let Some(proposed) = proposed.collect::<Option<Vec<Rational>>>() else {
+        let Some(proposed) = proposed.collect::<Option<Vec<Fraction>>>() else {
             continue;
         };
         let mut root = Element::zero();
@@ -193,13 +189,13 @@ pub(super) fn square_root(
     }
 }
 
-fn coefficients(a: &Element) -> Vec<Rational> {
+fn coefficients(a: &Element) -> Vec<Fraction> {
     let degree =
         a.0.keys()
             .map(|e| usize::from(e.first().copied().unwrap_or(0)))
             .max()
             .unwrap_or(0);
-    let mut result = vec![Rational::zero(); degree + 1];
+    let mut result = vec![Fraction::ZERO; degree + 1];
     for (exponents, c) in &a.0 {
         result[usize::from(exponents.first().copied().unwrap_or(0))] = c.clone();
     }
@@ -226,16 +222,15 @@ fn interpolation(points: &[f64]) -> Vec<Vec<f64>> {
 }
 
 /// A fraction of small denominator within 1e-8.
-fn near_fraction(x: f64) -> Option<Rational> {
-    (1..=2_000i64).find_map(|d| {
+fn near_fraction(x: f64) -> Option<Fraction> {
+    (1..=2_000u64).find_map(|d| {
         let n = (x * d as f64).round();
-        ((x * d as f64 - n).abs() < 1e-8 * d as f64 && n.abs() < 1e9)
-            .then(|| Rational::new((n as i64).into(), d.into()))
+        ((x * d as f64 - n).abs() < 1e-8 * d as f64 && n.abs() < 1e9).then(|| fraction(n as i64, d))
     })
 }
 
 /// Whether some image modulo a prime p ≡ 1 (mod M) has no root.
-fn is_no_square(coefficients: &[Rational], denominator: u32) -> bool {
+fn is_no_square(coefficients: &[Fraction], denominator: u32) -> bool {
     let m = u64::from(denominator);
     let mut tried = 0;
     let mut p = m * (1_000_000 / m) + 1;
@@ -247,18 +242,18 @@ fn is_no_square(coefficients: &[Rational], denominator: u32) -> bool {
         tried += 1;
         let images: Option<Vec<u64>> = coefficients.iter().map(|c| residue(c, p)).collect();
         let Some(images) = images else { continue };
-        let Some(zeta) = (2..p).map(|g| power(g, (p - 1) / m, p)).find(|&z| {
+        let Some(zeta) = (2..p).map(|g| power_modulo(g, (p - 1) / m, p)).find(|&z| {
             (1..=m)
-                .filter(|d| m % d == 0 && *d < m)
-                .all(|d| power(z, d, p) != 1)
+                .filter(|d| m.is_multiple_of(*d) && *d < m)
+                .all(|d| power_modulo(z, d, p) != 1)
         }) else {
             continue;
         };
         for k in (1..m).filter(|&k| gcd(k as u32, denominator) == 1) {
-            let z = power(zeta, k, p);
-            let y = (z + power(z, p - 2, p)) % p;
+            let z = power_modulo(zeta, k, p);
+            let y = (z + power_modulo(z, p - 2, p)) % p;
             let image = images.iter().rev().fold(0, |sum, c| (sum * y + c) % p);
-            if image != 0 && power(image, (p - 1) / 2, p) != 1 {
+            if image != 0 && power_modulo(image, (p - 1) / 2, p) != 1 {
                 return true;
             }
         }
@@ -266,29 +261,11 @@ fn is_no_square(coefficients: &[Rational], denominator: u32) -> bool {
     false
 }
 
-/// A rational modulo a prime below 2³¹; `None` where it divides the denominator.
-fn residue(x: &Rational, p: u64) -> Option<u64> {
-    let modulus = BigInt::from(p);
-    let image = |n: &BigInt| ((n % &modulus + &modulus) % &modulus).to_u64();
-    let (n, d) = (image(x.numer())?, image(x.denom())?);
-    (d != 0).then(|| n * power(d, p - 2, p) % p)
-}
-
 fn is_small_prime(n: u64) -> bool {
-    n > 1 && (2..).take_while(|d| d * d <= n).all(|d| n % d != 0)
-}
-
-/// Powers modulo a prime below 2³¹.
-fn power(base: u64, mut exponent: u64, p: u64) -> u64 {
-    let (mut result, mut square) = (1, base % p);
-    while exponent > 0 {
-        if exponent & 1 == 1 {
-            result = result * square % p;
-        }
-        square = square * square % p;
-        exponent >>= 1;
-    }
-    result
+    n > 1
+        && (2..)
+            .take_while(|d| d * d <= n)
+            .all(|d| !n.is_multiple_of(d))
 }
 
 #[cfg(test)]
@@ -304,14 +281,14 @@ mod tests {
             let value = polynomial
                 .iter()
                 .rev()
-                .fold(0.0, |sum, c| sum * y + c.to_f64().unwrap());
+                .fold(0.0, |sum, c| sum * y + c.to_f64().value());
             assert!(value.abs() < 1e-9, "{m}: {value}");
         }
         // y³ + y² − 2y − 1 for the heptagon.
         let seven: Vec<i64> = minimal_polynomial(7)
             .unwrap()
             .iter()
-            .map(|c| c.to_i64().unwrap())
+            .map(|c| i64::try_from(c.clone()).unwrap())
             .collect();
         assert_eq!(seven, [-1, -2, 1, 1]);
         assert!(minimal_polynomial(997).is_none());

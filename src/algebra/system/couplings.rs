@@ -6,15 +6,15 @@
 //! the gears reach only after turns of the joints, if at all, are among the solutions: further assembly modes.
 
 use super::displacement::Displacement;
-use super::element::{Element, gcd};
+use super::element::Element;
 use super::field::Field;
+use super::fraction::{Fraction, lcm, size};
 use super::poly::Poly;
 use super::space::{Polynomials, Scalars};
-use crate::algebra::Rational;
 use crate::mechanism::{Coupling, FreedomPart, Mechanism};
 use crate::number::Number;
-use num_bigint::BigInt;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use dashu::base::Gcd;
+use dashu::integer::UBig;
 
 /// Largest sum of the sizes of the multiples.
 const MAX_MULTIPLE: i64 = 24;
@@ -69,33 +69,35 @@ fn ways(
 }
 
 /// The multiples Nᵢ and what the offset is multiplied by.
-pub(super) fn coprime_multiples(coupling: &Coupling) -> Result<(Vec<i64>, Rational), String> {
+pub(super) fn coprime_multiples(coupling: &Coupling) -> Result<(Vec<i64>, Fraction), String> {
     let factors = coupling
         .terms
         .iter()
         .map(|term| {
-            let x = term.factor.rational();
-            x.map(super::element::from_dashu)
-                .ok_or_else(|| format!("its ratio {} is not rational", term.factor.source()))
+            let x = term.factor.rational().cloned();
+            x.ok_or_else(|| format!("its ratio {} is not rational", term.factor.source()))
         })
-        .collect::<Result<Vec<Rational>, String>>()?;
-    let denominator = factors.iter().fold(BigInt::one(), |lcm, x| {
-        let shared = gcd(lcm.clone(), x.denom().clone());
-        lcm / shared * x.denom()
+        .collect::<Result<Vec<Fraction>, String>>()?;
+    let denominator = factors
+        .iter()
+        .fold(UBig::ONE, |all, x| lcm(&all, x.denominator()));
+    let common = factors.iter().fold(UBig::ZERO, |all, x| {
+        let whole = size(&(x * Fraction::from(denominator.clone())));
+        if all == UBig::ZERO {
+            whole
+        } else if whole == UBig::ZERO {
+            all
+        } else {
+            all.gcd(&whole)
+        }
     });
-    let common = factors.iter().fold(BigInt::zero(), |g, x| {
-        gcd(
-            g,
-            (x * &Rational::from_integer(denominator.clone())).to_integer(),
-        )
-    });
-    if common.is_zero() {
+    if common == UBig::ZERO {
         return Err("all its ratios are zero".to_owned());
     }
-    let scale = Rational::new(denominator, common);
+    let scale = Fraction::from_parts(denominator.into(), common);
     let multiples: Option<Vec<i64>> = factors
         .iter()
-        .map(|x| (x * &scale).to_integer().to_i64())
+        .map(|x| i64::try_from((x * &scale).numerator().clone()).ok())
         .collect();
     let multiples = multiples
         .filter(|n| n.iter().fold(0i64, |sum, x| sum.saturating_add(x.abs())) <= MAX_MULTIPLE)
@@ -111,7 +113,7 @@ fn angles(
     displacements: &[Displacement],
 ) -> Result<Vec<Poly>, String> {
     let (multiples, scale) = coprime_multiples(coupling)?;
-    let offset = Number::of_fraction(super::element::to_dashu(&scale)) * &coupling.offset;
+    let offset = Number::of_fraction(scale) * &coupling.offset;
     let point = field.point(&offset).map_err(|_| {
         format!(
             "its offset {} has no algebraic cosine",

@@ -339,7 +339,7 @@ pub(super) fn values_at<S: Scalars>(
         })
     };
     // R = c I + s [a] + ...: the trace is 1 + 2c, the antisymmetric part s a.
-    let half = Element::rational(crate::algebra::Rational::new(1.into(), 2.into()));
+    let half = Element::rational(super::fraction::fraction(1, 2));
     let turn = |r: &Matrix<S::Value>, axis: &Axis| {
         let trace = s.plus(&s.plus(&r[0][0], &r[1][1]), &r[2][2]);
         let cosine = fraction(&s.minus(&trace, &s.integer(1)), &half);

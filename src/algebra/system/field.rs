@@ -8,15 +8,13 @@
 //! Parameters are generators without a relation. A quotient by something that holds a parameter is a generator `w` with
 //! `w·d = 1`; the equations are cleared of it at the end.
 
+use super::angles::Divisors;
 use super::circle;
-use super::element::{Element, Exponents, gcd, product, to_dashu, trim};
-use crate::algebra::Rational;
+use super::element::{Element, Exponents, product, trim};
+use super::fraction::{self, Fraction, fraction, inverse, to_rational};
 use crate::number::Number;
-use num_bigint::BigInt;
-use num_traits::{One, Signed, Zero};
-
-/// Most square roots in one field: its degree doubles with each.
-const MAX_ROOTS: usize = 10;
+use dashu::base::SquareRoot;
+use dashu::integer::UBig;
 
 /// Why a field cannot hold what is asked of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -53,6 +51,8 @@ pub(super) struct Generator {
     pub(super) relation: Relation,
     /// Whether it depends on a parameter.
     pub(super) parametric: bool,
+    /// Whether it is the cosine or sine of an angle that is a parameter.
+    pub(super) of_angle: bool,
     approximate: f64,
 }
 
@@ -62,7 +62,10 @@ pub(super) struct Field {
     generators: Vec<Generator>,
     /// M where generator 0 is 2 cos(2π/M).
     pub(super) circle: Option<u32>,
-    roots: usize,
+    /// By which parameters are divided in angles.
+    pub(super) divisors: Divisors,
+    /// Number of square roots adjoined.
+    pub(super) roots: usize,
 }
 
 impl Field {
@@ -82,7 +85,7 @@ impl Field {
         for (power, coefficient) in minimal[..degree].iter().enumerate() {
             let mut exponents = vec![power as u16];
             trim(&mut exponents);
-            tail.add_term(exponents, -Rational::from_integer(coefficient.clone()));
+            tail.add_term(exponents, -Fraction::from(coefficient.clone()));
         }
         let value = Number::integer(2) * circle::cosine_of_turn(1, denominator);
         field.circle = Some(denominator);
@@ -98,7 +101,7 @@ impl Field {
         Ok(field)
     }
 
-    fn push(
+    pub(super) fn push(
         &mut self,
         name: String,
         value: Number,
@@ -117,6 +120,7 @@ impl Field {
             value,
             relation,
             parametric,
+            of_angle: false,
         });
         Element::generator(index)
     }
@@ -143,7 +147,52 @@ impl Field {
         }
         let tail = Element::integer(1).minus(&self.multiply(&c, &c));
         let s = self.push(name, sin, Relation::Power { degree: 2, tail }, true);
+        for generator in self.generators.iter_mut().rev().take(2) {
+            generator.of_angle = true;
+        }
         (c, s)
+    }
+
+    /// Whether any parameter has been met.
+    pub(super) fn has_parameters(&self) -> bool {
+        self.generators.iter().any(|g| g.parametric)
+    }
+
+    /// Elements without parameters in place of all generators: the parameters at their values in the file. `None` where
+    /// such a value is not algebraic.
+    pub(super) fn at_values(&mut self) -> Option<Vec<Element>> {
+        let mut values = Vec::with_capacity(self.generators.len());
+        for index in 0..self.generators.len() {
+            let generator = self.generators[index].clone();
+            values.push(match &generator.relation {
+                _ if !generator.parametric => Element::generator(index),
+                Relation::Inverse(of) => {
+                    let of = self.substitute(of, &values);
+                    self.inverse(&of).ok()?
+                }
+                Relation::Power { tail, .. } if !generator.of_angle => {
+                    let tail = self.substitute(tail, &values);
+                    self.root(&tail).ok()?
+                }
+                _ => self.read(&generator.value).ok()?,
+            });
+        }
+        Some(values)
+    }
+
+    /// An element with others in place of the generators.
+    pub(super) fn substitute(&self, a: &Element, values: &[Element]) -> Element {
+        let mut sum = Element::zero();
+        for (exponents, coefficient) in &a.0 {
+            let mut term = Element::rational(coefficient.clone());
+            for (value, &exponent) in values.iter().zip(exponents) {
+                for _ in 0..exponent {
+                    term = self.multiply(&term, value);
+                }
+            }
+            sum = sum.plus(&term);
+        }
+        sum
     }
 
     /// Whether an element depends on a parameter.
@@ -177,7 +226,7 @@ impl Field {
                 continue;
             };
             loop {
-                let high: Vec<(Exponents, Rational)> = result
+                let high: Vec<(Exponents, Fraction)> = result
                     .0
                     .iter()
                     .filter(|(e, _)| e.get(index).is_some_and(|e| e >= degree))
@@ -210,9 +259,9 @@ impl Field {
         self.inverse_of_constant(a)
     }
 
-    fn inverse_of_constant(&self, a: &Element) -> Result<Element, FieldLimit> {
+    pub(super) fn inverse_of_constant(&self, a: &Element) -> Result<Element, FieldLimit> {
         if let Some(x) = a.as_rational() {
-            return Ok(Element::rational(x.recip()));
+            return Ok(Element::rational(inverse(&x)));
         }
         let top = a.level() - 1;
         let Relation::Power { degree, tail } = &self.generators[top].relation else {
@@ -236,10 +285,10 @@ impl Field {
         let coefficient = |x: &Element, power: usize| {
             let mut exponents = vec![power as u16];
             trim(&mut exponents);
-            x.0.get(&exponents).cloned().unwrap_or_else(Rational::zero)
+            x.0.get(&exponents).cloned().unwrap_or(Fraction::ZERO)
         };
         // Column j holds a·gʲ; the last column is 1.
-        let mut rows = vec![vec![Rational::zero(); degree + 1]; degree];
+        let mut rows = vec![vec![Fraction::ZERO; degree + 1]; degree];
         let mut column = a.clone();
         let generator = Element::generator(0);
         for j in 0..degree {
@@ -248,11 +297,11 @@ impl Field {
             }
             column = self.multiply(&column, &generator);
         }
-        rows[0][degree] = Rational::one();
+        rows[0][degree] = Fraction::ONE;
         for pivot in 0..degree {
             let found = (pivot..degree).find(|&i| !rows[i][pivot].is_zero());
             rows.swap(pivot, found.ok_or(FieldLimit::Zero)?);
-            let lead = rows[pivot][pivot].recip();
+            let lead = inverse(&rows[pivot][pivot]);
             rows[pivot].iter_mut().for_each(|x| *x *= &lead);
             let pivot_row = rows[pivot].clone();
             for (i, row) in rows.iter_mut().enumerate() {
@@ -289,136 +338,11 @@ impl Field {
         self.push(name, value, Relation::Inverse(a.clone()), true)
     }
 
-    /// The square root that is not negative: in the field where it has one, otherwise adjoined.
-    pub(super) fn root(&mut self, a: &Element) -> Result<Element, FieldLimit> {
-        if a.is_zero() {
-            return Ok(Element::zero());
-        }
-        let value = self.number(a);
-        if value.signum() < 0 {
-            return Err(FieldLimit::Negative);
-        }
-        let parametric = self.is_parametric(a);
-        if !parametric && let Some(root) = self.search(a, self.generators.len())? {
-            return Ok(self.not_negative(root));
-        }
-        // With integral coefficients and square factors taken out: a = (h/L)²·radicand.
-        let denominator = a.denominator();
-        let whole = a.scaled(&Rational::from_integer(&denominator * &denominator));
-        let (outside, _) = split_square(&whole.content());
-        let square = Rational::from_integer(&outside * &outside);
-        let radicand = whole.scaled(&square.recip());
-        let factor = Rational::new(outside, denominator);
-        let known = self.generators.iter().position(
-            |g| matches!(&g.relation, Relation::Power { degree: 2, tail } if *tail == radicand),
-        );
-        let root = match known {
-            Some(index) => Element::generator(index),
-            None => self.adjoin(radicand, parametric)?,
-        };
-        Ok(root.scaled(&factor))
-    }
-
-    fn adjoin(&mut self, radicand: Element, parametric: bool) -> Result<Element, FieldLimit> {
-        if self.roots >= MAX_ROOTS {
-            return Err(FieldLimit::Degree);
-        }
-        self.roots += 1;
-        let text = self.text(&radicand);
-        let name = if text.len() <= 24 {
-            format!("sqrt({text})")
-        } else {
-            format!("root{}", self.roots)
-        };
-        let value = self
-            .number(&radicand)
-            .sqrt()
-            .map_err(|_| FieldLimit::Negative)?;
-        let relation = Relation::Power {
-            degree: 2,
-            tail: radicand,
-        };
-        Ok(self.push(name, value, relation, parametric))
-    }
-
-    fn not_negative(&self, root: Element) -> Element {
-        let approximate = self.approximate(&root);
-        let negative = if approximate.abs() > 1e-6 {
-            approximate < 0.0
-        } else {
-            self.number(&root).signum() < 0
-        };
-        if negative { root.negated() } else { root }
-    }
-
-    /// A square root of a constant in the field of the first `level` generators.
-    ///
-    /// Over K(v), v² = d: a root of a + b v is r + u v with r² + d u² = a and 2 r u = b. Where b is zero, one of r and u
-    /// is; otherwise a² − d b² is the square of some c, and r² = (a ± c)/2 (Borodin, Fagin, Hopcroft, Tompa 1985). In the
-    /// field of a fraction of a turn see [`circle::square_root`].
-    fn search(&self, a: &Element, level: usize) -> Result<Option<Element>, FieldLimit> {
-        // All generators are real, so nothing negative has a root.
-        if self.approximate(a) < -1e-6 {
-            return Ok(None);
-        }
-        if level == 0 {
-            return Ok(a
-                .as_rational()
-                .as_ref()
-                .and_then(rational_root)
-                .map(Element::rational));
-        }
-        let top = level - 1;
-        let generator = &self.generators[top];
-        if generator.parametric {
-            return self.search(a, top);
-        }
-        let Relation::Power { degree, tail } = &generator.relation else {
-            return self.search(a, top);
-        };
-        if *degree != 2 || tail.mentions(top) {
-            return match self.circle {
-                Some(denominator) => circle::square_root(self, a, denominator),
-                None => Err(FieldLimit::Degree),
-            };
-        }
-        let parts = a.by_power(top);
-        let even = parts.first().cloned().unwrap_or_default();
-        let Some(odd) = parts.get(1) else {
-            if let Some(root) = self.search(&even, top)? {
-                return Ok(Some(root));
-            }
-            let quotient = self.multiply(&even, &self.inverse_of_constant(tail)?);
-            let root = self.search(&quotient, top)?;
-            return Ok(root.map(|r| self.multiply(&r, &Element::generator(top))));
-        };
-        let norm = self
-            .square(&even)
-            .minus(&self.multiply(&self.square(odd), tail));
-        let Some(c) = self.search(&norm, top)? else {
-            return Ok(None);
-        };
-        let half = Rational::new(1.into(), 2.into());
-        for c in [c.negated(), c] {
-            let square = even.plus(&c).scaled(&half);
-            if square.is_zero() {
-                continue;
-            }
-            if let Some(r) = self.search(&square, top)? {
-                let u = self
-                    .multiply(odd, &self.inverse_of_constant(&r)?)
-                    .scaled(&half);
-                return Ok(Some(r.plus(&self.multiply(&u, &Element::generator(top)))));
-            }
-        }
-        Ok(None)
-    }
-
     /// The real value, exact.
     pub(super) fn number(&self, a: &Element) -> Number {
         let mut sum = Number::zero();
         for (exponents, coefficient) in &a.0 {
-            let mut term = Number::of_fraction(to_dashu(coefficient));
+            let mut term = Number::of_fraction(coefficient.clone());
             for (generator, &exponent) in self.generators.iter().zip(exponents) {
                 for _ in 0..exponent {
                     term = &term * &generator.value;
@@ -432,7 +356,7 @@ impl Field {
     /// The real value in doubles.
     pub(super) fn approximate(&self, a: &Element) -> f64 {
         if let Some(x) = a.as_rational() {
-            return super::element::to_f64(&x);
+            return fraction::to_f64(&x);
         }
         let values: Vec<f64> = self.generators.iter().map(|g| g.approximate).collect();
         a.approximate(&values)
@@ -447,131 +371,9 @@ impl Field {
                 .map(|(exponents, coefficient)| {
                     let mut full: Vec<u32> = exponents.iter().map(|e| u32::from(*e)).collect();
                     full.resize(count, 0);
-                    (full, coefficient.clone())
+                    (full, to_rational(coefficient))
                 })
                 .collect();
         crate::algebra::Polynomial::from_terms(terms, count).text(&names)
-    }
-}
-
-/// The square root of a rational that is a square.
-pub(super) fn rational_root(x: &Rational) -> Option<Rational> {
-    if x.is_negative() {
-        return None;
-    }
-    let (n, d) = (x.numer().sqrt(), x.denom().sqrt());
-    (&n * &n == *x.numer() && &d * &d == *x.denom()).then(|| Rational::new(n, d))
-}
-
-/// `n = outside² · inside`, as far as primes below 1000 and a last look for a square show it.
-fn split_square(n: &BigInt) -> (BigInt, BigInt) {
-    let mut outside = BigInt::one();
-    let mut inside = n.clone();
-    if inside.is_zero() {
-        return (outside, inside);
-    }
-    for p in 2u32..1000 {
-        let square = BigInt::from(p * p);
-        while (&inside % &square).is_zero() {
-            inside /= &square;
-            outside *= p;
-        }
-    }
-    let root = inside.sqrt();
-    if &root * &root == inside {
-        return (outside * root, BigInt::one());
-    }
-    // One more square may hide in what small primes leave.
-    let mut rest = inside.clone();
-    for p in 2u32..1000 {
-        if gcd(rest.clone(), p.into()) > BigInt::one() && (&rest % p).is_zero() {
-            rest /= p;
-        }
-    }
-    let root = rest.sqrt();
-    if root > BigInt::one() && &root * &root == rest {
-        inside /= &rest;
-        outside *= root;
-    }
-    (outside, inside)
-}
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used)]
-mod tests {
-    use super::*;
-
-    fn int(n: i64) -> Element {
-        Element::integer(n)
-    }
-
-    #[test]
-    fn roots_that_are_there_are_not_adjoined_again() {
-        let mut field = Field::default();
-        let two = field.root(&int(2)).unwrap();
-        let three = field.root(&int(3)).unwrap();
-        let six = field.root(&int(6)).unwrap();
-        assert_eq!(six, field.multiply(&two, &three));
-        let twelve = field.root(&int(12)).unwrap();
-        assert_eq!(twelve, three.scaled(&Rational::from_integer(2.into())));
-        // √(5 + 2√6) = √2 + √3.
-        let nested = int(5).plus(&six.scaled(&Rational::from_integer(2.into())));
-        assert_eq!(field.root(&nested).unwrap(), two.plus(&three));
-        assert_eq!(field.generators().len(), 2);
-    }
-
-    #[test]
-    fn sine_and_cosine_of_an_eighth_of_a_half_turn_share_a_root() {
-        let mut field = Field::default();
-        let two = field.root(&int(2)).unwrap();
-        let up = field.root(&int(2).plus(&two)).unwrap();
-        let down = field.root(&int(2).minus(&two)).unwrap();
-        assert_eq!(field.generators().len(), 2);
-        assert_eq!(field.multiply(&up, &down), two);
-        let quarter = Rational::new(1.into(), 4.into());
-        let one = field
-            .square(&up)
-            .plus(&field.square(&down))
-            .scaled(&quarter);
-        assert_eq!(one, int(1));
-        assert!(field.approximate(&down) > 0.0);
-    }
-
-    #[test]
-    fn inverses_undo() {
-        let mut field = Field::default();
-        let two = field.root(&int(2)).unwrap();
-        let nested = field.root(&int(3).plus(&two)).unwrap();
-        let a = nested.plus(&two).plus(&int(5));
-        let inverse = field.inverse(&a).unwrap();
-        assert_eq!(field.multiply(&a, &inverse), int(1));
-        assert_eq!(field.inverse(&Element::zero()), Err(FieldLimit::Zero));
-        let mut circle = Field::with_circle(7).unwrap();
-        let a = Element::generator(0).plus(&int(3));
-        let inverse = circle.inverse(&a).unwrap();
-        assert_eq!(circle.multiply(&a, &inverse), int(1));
-    }
-
-    #[test]
-    fn fractions_and_hidden_squares_come_out_of_roots() {
-        let mut field = Field::default();
-        let x = Rational::new(8.into(), 27.into());
-        let root = field.root(&Element::rational(x.clone())).unwrap();
-        assert_eq!(field.square(&root), Element::rational(x));
-        assert_eq!(field.generators()[0].name, "sqrt(6)");
-        let large = BigInt::from(1_000_003u32);
-        assert_eq!(split_square(&(&large * &large * 3)), (large, 3.into()));
-    }
-
-    #[test]
-    fn roots_of_three_lie_in_the_field_of_ten_degrees() {
-        let mut field = Field::with_circle(36).unwrap();
-        let root = field.root(&int(3)).unwrap();
-        assert_eq!(field.square(&root), int(3));
-        assert_eq!(field.generators().len(), 1, "√3 = 2 cos 30°");
-        assert!((field.approximate(&root) - 3f64.sqrt()).abs() < 1e-12);
-        let new = field.root(&int(2)).unwrap();
-        assert_eq!(field.generators().len(), 2);
-        assert_eq!(field.square(&new), int(2));
     }
 }

@@ -3,11 +3,15 @@
 use super::build::{Construction, Draft, cycle_equations};
 use super::element::Element;
 use super::field::{Field, Relation};
+use super::fraction::{Fraction, lcm, size, to_rational};
 use super::home::HomePose;
 use super::poly::Poly;
 use super::variables::{Meaning, Variable};
 use super::{Equation, Origin, PolynomialSystem};
 use crate::algebra::{Polynomial, Rational};
+use dashu::base::Gcd;
+use dashu::integer::UBig;
+use num_traits::Signed;
 use std::collections::BTreeSet;
 
 /// The generators that some polynomials need, by index, those in relations included; no quotients, which are cleared.
@@ -58,7 +62,7 @@ impl Ring<'_> {
             .map(|place| self.unknowns + place)
     }
 
-    fn term(&self, unknowns: &[u16], element: &Element, terms: &mut Vec<(Vec<u32>, Rational)>) {
+    fn term(&self, unknowns: &[u16], element: &Element, terms: &mut Vec<(Vec<u32>, Fraction)>) {
         for (exponents, coefficient) in &element.0 {
             let mut full = vec![0u32; self.size()];
             for (place, e) in full.iter_mut().zip(unknowns) {
@@ -73,18 +77,36 @@ impl Ring<'_> {
         }
     }
 
+    /// With coprime integers for coefficients.
     fn polynomial(&self, poly: &Poly) -> Polynomial {
         let mut terms = Vec::new();
         for (unknowns, coefficient) in poly.terms() {
             self.term(unknowns, coefficient, &mut terms);
         }
+        let denominator = terms
+            .iter()
+            .fold(UBig::ONE, |all, (_, c)| lcm(&all, c.denominator()));
+        let whole = Fraction::from(denominator);
+        let content = terms.iter().fold(UBig::ZERO, |all, (_, c)| {
+            let c = size(&(c * &whole));
+            if all == UBig::ZERO { c } else { all.gcd(&c) }
+        });
+        if content == UBig::ZERO {
+            return Polynomial::zero(self.size());
+        }
+        let scale = whole / Fraction::from(content);
+        let terms = terms
+            .into_iter()
+            .map(|(e, c)| (e, to_rational(&(c * &scale))))
+            .collect();
         Polynomial::from_terms(terms, self.size())
     }
 
     fn element(&self, element: &Element) -> Polynomial {
         let mut terms = Vec::new();
         self.term(&[], element, &mut terms);
-        Polynomial::from_terms(terms, self.size())
+        let terms = terms.into_iter().map(|(e, c)| (e, to_rational(&c)));
+        Polynomial::from_terms(terms.collect(), self.size())
     }
 
     /// Multiplied by denominators until no quotient is left: Σ aₖ wᵏ with w d = 1 times dⁿ is Σ aₖ dⁿ⁻ᵏ.
@@ -160,9 +182,7 @@ pub(super) fn system(
             continue;
         }
         let g = &field.generators()[generator];
-        let meaning = match g.parametric && !matches!(g.relation, Relation::Power { .. })
-            || g.name.starts_with("sin(")
-        {
+        let meaning = match g.of_angle || matches!(g.relation, Relation::Free) {
             true => Meaning::Parameter {
                 value: g.value.clone(),
             },
@@ -174,8 +194,16 @@ pub(super) fn system(
     }
     let variables: Vec<Variable> = names.variables;
     let count = variables.len();
-    let finish =
-        |polynomial: Polynomial| ring.cleared(polynomial).moved(&places, count).primitive();
+    let has_quotients = kept.len() < ring.generators.len();
+    let finish = |polynomial: Polynomial| {
+        if has_quotients {
+            return ring.cleared(polynomial).moved(&places, count).primitive();
+        }
+        // The coefficients are coprime integers already; a search for a common divisor of long ones is slow there.
+        let moved = polynomial.moved(&places, count);
+        let negative = moved.terms().next().is_some_and(|(_, c)| c.is_negative());
+        if negative { -&moved } else { moved }
+    };
     let mut result: Vec<Equation> = Vec::new();
     let mut seen: BTreeSet<Vec<(Vec<u32>, Rational)>> = BTreeSet::new();
     let mut add = |polynomial: Polynomial, origin: Origin| {
@@ -195,7 +223,7 @@ pub(super) fn system(
         match &field.generators()[generator].relation {
             Relation::Free => {}
             Relation::Inverse(of) => {
-                let divisor = finish(ring.element(of));
+                let divisor = finish(ring.element(of)).primitive();
                 if !nonzero.contains(&divisor) {
                     nonzero.push(divisor);
                 }
@@ -210,7 +238,7 @@ pub(super) fn system(
                     Meaning::Parameter { .. } => Origin::Parameter { variable },
                     _ => Origin::MinimalPolynomial { variable },
                 };
-                add(finish(&power - &ring.element(tail)), origin);
+                add(finish(&power - &ring.element(tail)).primitive(), origin);
             }
         }
     }
@@ -223,6 +251,7 @@ pub(super) fn system(
         joint_variables,
         charts,
         relaxations,
+        rounded_numbers: false,
         home: HomePose::Unknown,
         construction,
     };

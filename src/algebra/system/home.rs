@@ -2,13 +2,14 @@
 
 use super::PolynomialSystem;
 use super::displacement::{relative, values_at};
-use super::element::{Element, to_f64};
+use super::element::Element;
 use super::error::SystemError;
 use super::field::Field;
+use super::fraction::{from_rational, to_f64};
 use super::variables::Meaning;
-use crate::algebra::Polynomial;
+use crate::algebra::{Polynomial, Rational};
 use crate::number::Number;
-use num_traits::Zero;
+use num_traits::Signed;
 
 /// The drawn pose and the equations.
 #[derive(Clone, Debug)]
@@ -20,7 +21,7 @@ pub enum HomePose {
     Open {
         /// Index of the first equation that does not vanish.
         equation: usize,
-        /// What is left of it.
+        /// What is left of it, in units of its largest coefficient.
         left: f64,
     },
     /// Its numbers are not algebraic.
@@ -40,11 +41,22 @@ impl HomePose {
     }
 }
 
+impl PolynomialSystem {
+    /// Whether a polynomial in the system's variables vanishes at the drawn pose, exactly; `None` where that pose is not
+    /// known exactly, or holds parameters.
+    #[must_use]
+    pub fn vanishes_at_home(&self, polynomial: &Polynomial) -> Option<bool> {
+        let point = self.construction.point.as_ref()?;
+        let value = value_at(polynomial, point, &self.construction.field);
+        Some(value.is_zero())
+    }
+}
+
 /// The value of a polynomial over the rationals at a point of a field.
 pub(super) fn value_at(polynomial: &Polynomial, point: &[Element], field: &Field) -> Element {
     let mut sum = Element::zero();
     for (exponents, coefficient) in polynomial.terms() {
-        let mut term = Element::rational(coefficient.clone());
+        let mut term = Element::rational(from_rational(coefficient));
         for (x, &exponent) in point.iter().zip(exponents) {
             for _ in 0..exponent {
                 if term.is_zero() {
@@ -58,8 +70,17 @@ pub(super) fn value_at(polynomial: &Polynomial, point: &[Element], field: &Field
     sum
 }
 
+fn largest_coefficient(polynomial: &Polynomial) -> Rational {
+    polynomial
+        .terms()
+        .map(|(_, c)| c.abs())
+        .max()
+        .unwrap_or_else(|| Rational::from_integer(1.into()))
+}
+
 /// The drawn pose of a system; remembers the point in the field.
 pub(super) fn drawn_point(system: &mut PolynomialSystem, error: Option<SystemError>) -> HomePose {
+    let values = system.construction.field.at_values();
     let construction = &system.construction;
     let field = &construction.field;
     let Some(drawn) = &construction.drawn else {
@@ -100,15 +121,29 @@ pub(super) fn drawn_point(system: &mut PolynomialSystem, error: Option<SystemErr
             point[index] = Element::generator(generator);
         }
     }
+    if field.has_parameters() {
+        // The drawn pose is that of the parameters' values, not of any.
+        let Some(values) = values else {
+            return HomePose::Unknown;
+        };
+        for x in &mut point {
+            *x = field.substitute(x, &values);
+        }
+    }
     for (index, equation) in system.equations.iter().enumerate() {
         let value = value_at(&equation.polynomial, &point, field);
         if !value.is_zero() {
-            // A quotient by parameters may hide a zero: the number decides.
-            let number = field.number(&value);
             let left = match value.as_rational() {
-                Some(x) if !x.is_zero() => to_f64(&x),
-                _ if field.is_parametric(&value) && number.is_zero() => continue,
-                _ => number.value(),
+                Some(x) => to_f64(&(x / from_rational(&largest_coefficient(&equation.polynomial)))),
+                None => {
+                    let scale = Number::of_fraction(from_rational(&largest_coefficient(
+                        &equation.polynomial,
+                    )));
+                    field
+                        .number(&value)
+                        .checked_div(&scale)
+                        .map_or(f64::NAN, |x| x.value())
+                }
             };
             return HomePose::Open {
                 equation: index,

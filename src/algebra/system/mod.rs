@@ -11,7 +11,7 @@
 //!   mechanism, its solutions contain the mechanism's, and [`PolynomialSystem::relaxations`] names what was left out.
 //! - Coefficients are exact. A number that is not rational becomes a variable with its minimal polynomial among the
 //!   equations ([`Meaning::Algebraic`] says which root is meant). A number that is not algebraic is an error that says what
-//!   to write instead; decimals are taken as the fractions they are.
+//!   to write instead. Decimals are taken as the fractions they are ([`PolynomialSystem::rounded_numbers`]).
 //! - No pose of a joint is special: balls are quaternions (each pose twice), not three turns with a gimbal lock.
 //!
 //! # Three formulations
@@ -25,6 +25,7 @@
 //! Equations of a cycle of n hinges have up to 3^(n/2) terms, so that long cycles are refused ([`SystemError::TooLarge`]).
 //! Otherwise milliseconds.
 
+mod angles;
 mod build;
 mod circle;
 mod coaxial;
@@ -35,14 +36,18 @@ mod error;
 mod field;
 mod file_pose;
 mod flatten;
+mod fraction;
 mod home;
 mod implicit;
+mod joint_form;
 mod model;
 mod modular;
 mod numbers;
 mod poly;
 mod positional;
+mod roots;
 mod space;
+mod spanning;
 mod variables;
 mod walks;
 
@@ -209,6 +214,10 @@ pub struct PolynomialSystem {
     pub charts: Vec<String>,
     /// What was left out.
     pub relaxations: Vec<Relaxation>,
+    /// Whether the file's numbers are rounded ([`Precision`](crate::mechanism::Precision)). They are taken literally here:
+    /// the equations are those of a mechanism that differs from the one meant in the last digits, and where that one
+    /// moves by special dimensions, this one as a rule does not.
+    pub rounded_numbers: bool,
     /// The drawn pose as a solution.
     pub home: HomePose,
     construction: build::Construction,

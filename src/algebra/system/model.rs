@@ -3,14 +3,14 @@
 use super::circle;
 use super::element::Element;
 use super::error::SystemError;
-use super::field::{Field, FieldLimit, rational_root};
+use super::field::{Field, FieldLimit};
+use super::fraction::{self, Fraction};
 use super::numbers::{Obstacle, Place, common_turn};
 use super::space::{Matrix, Pose, Vector, cross, dot, multiply, scale, transpose};
-use crate::algebra::Rational;
 use crate::mechanism::{Configuration, Direction, Frame, Joint, JointKind, Mechanism, Placement};
 use crate::number::Number;
-use num_bigint::BigInt;
-use num_traits::{One, Signed};
+use dashu::base::{Abs, Gcd};
+use dashu::integer::{IBig, UBig};
 
 /// A direction of any length, so that no root is needed to write it.
 #[derive(Clone, Debug)]
@@ -88,37 +88,45 @@ fn simplified(field: &mut Field, direction: Vector<Element>) -> Vector<Element> 
     let ratios = direction
         .iter()
         .map(|x| field.multiply(x, &inverse).as_rational())
-        .collect::<Option<Vec<Rational>>>();
+        .collect::<Option<Vec<Fraction>>>();
     let Some(ratios) = ratios else {
         return direction;
     };
-    let lcm = ratios.iter().fold(BigInt::one(), |lcm, x| {
-        let shared = super::element::gcd(lcm.clone(), x.denom().clone());
-        lcm / shared * x.denom()
-    });
-    let integers: Vec<BigInt> = ratios
+    let lcm = ratios
         .iter()
-        .map(|x| (x * &Rational::from_integer(lcm.clone())).to_integer())
+        .fold(UBig::ONE, |all, x| fraction::lcm(&all, x.denominator()));
+    let integers: Vec<IBig> = ratios
+        .iter()
+        .map(|x| (x * Fraction::from(lcm.clone())).numerator().clone())
         .collect();
-    let common = integers
-        .iter()
-        .fold(BigInt::from(0), |g, x| super::element::gcd(g, x.clone()));
-    let negative = field.approximate(&first) < 0.0;
-    let integers = integers.into_iter().map(|x| {
-        let x = x / &common;
-        if negative { -x } else { x }
+    // One of the ratios is one, so that the integers are not all zero.
+    let common = ratios.iter().fold(lcm.clone(), |all, x| {
+        let whole = fraction::size(&(x * Fraction::from(lcm.clone())));
+        if whole == UBig::ZERO {
+            all
+        } else {
+            all.gcd(&whole)
+        }
     });
-    let integers: Vec<BigInt> = integers.collect();
-    let square: BigInt = integers.iter().map(|x| x * x).sum();
-    let small = integers.iter().all(|x| x.abs() <= MAX_COMPONENT.into());
-    let length = rational_root(&Rational::from_integer(square));
+    let negative = field.approximate(&first) < 0.0;
+    let integers: Vec<IBig> = integers
+        .into_iter()
+        .map(|x| {
+            let x = x / IBig::from(common.clone());
+            if negative { -x } else { x }
+        })
+        .collect();
+    let square = integers.iter().fold(IBig::ZERO, |sum, x| sum + x * x);
+    let small = integers
+        .iter()
+        .all(|x| x.clone().abs() <= IBig::from(MAX_COMPONENT));
+    let length = fraction::root(&Fraction::from(square));
     let scale = match (&length, small) {
-        (Some(length), _) => length.recip(),
-        (None, true) => Rational::one(),
+        (Some(length), _) => fraction::inverse(length),
+        (None, true) => Fraction::ONE,
         (None, false) => return direction,
     };
-    let component =
-        |i: usize| Element::rational(Rational::from_integer(integers[i].clone()) * &scale);
+    let component = |i: usize| Element::rational(Fraction::from(integers[i].clone()) * &scale);
     [component(0), component(1), component(2)]
 }
 
@@ -186,8 +194,8 @@ pub(super) fn circle_field(
     configuration: Option<&Configuration>,
 ) -> Result<Field, SystemError> {
     let numbers = all_numbers(mechanism, configuration);
-    let common = common_turn(numbers.iter());
-    Field::with_circle(common).map_err(|_| SystemError::Degree {
+    let (common, divisors) = common_turn(numbers.iter());
+    let mut field = Field::with_circle(common).map_err(|_| SystemError::Degree {
         entity: format!("mechanism `{}`", mechanism.name()),
         element: "angles".to_owned(),
         number: format!("their common denominator, {common} to a turn,"),
@@ -195,7 +203,9 @@ pub(super) fn circle_field(
             "2cos(2pi/{common}) has degree {}; write angles that have a small common denominator",
             circle::totient(common.min(100_000)) / 2
         ),
-    })
+    })?;
+    field.divisors = divisors;
+    Ok(field)
 }
 
 pub(super) fn read_length(
@@ -423,7 +433,7 @@ mod tests {
     fn directions_become_simple() {
         let mut field = Field::default();
         let root = field.root(&Element::integer(2)).unwrap();
-        let half = root.scaled(&Rational::new(1.into(), 2.into()));
+        let half = root.scaled(&fraction::fraction(1, 2));
         let diagonal = Axis::new(&mut field, [half.negated(), half, Element::zero()]).unwrap();
         assert_eq!(diagonal.direction, [-1, 1, 0].map(Element::integer));
         assert_eq!(diagonal.square, Element::integer(2));

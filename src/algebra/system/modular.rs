@@ -8,17 +8,16 @@
 use super::PolynomialSystem;
 use super::element::Element;
 use super::field::{Field, Relation};
+use super::fraction::{from_rational, multiply_modulo as multiply, power_modulo as power, residue};
 use super::variables::Meaning;
-use crate::algebra::Rational;
-use num_bigint::BigInt;
-use num_traits::ToPrimitive;
 
 /// A system modulo a prime, the drawn pose at the origin.
 #[derive(Clone, Debug)]
 pub struct ModularSystem {
     /// The prime, below 2⁶².
     pub prime: u64,
-    /// Indices of the unknowns in [`PolynomialSystem::variables`]; algebraic numbers have been replaced by their images.
+    /// Indices of the unknowns in [`PolynomialSystem::variables`]; algebraic numbers have been replaced by their images,
+    /// parameters by those of their values in the file.
     pub variables: Vec<usize>,
     /// Left sides as terms: exponents (one per unknown) and coefficient. None has a constant term.
     pub equations: Vec<Vec<(Vec<u32>, u64)>>,
@@ -71,14 +70,22 @@ impl PolynomialSystem {
             .variables
             .iter()
             .enumerate()
-            .filter(|(_, v)| !matches!(v.meaning, Meaning::Algebraic { .. }))
+            .filter(|(_, v)| {
+                !matches!(
+                    v.meaning,
+                    Meaning::Algebraic { .. } | Meaning::Parameter { .. }
+                )
+            })
             .map(|(index, _)| index)
             .collect();
         let mut equations = Vec::with_capacity(self.equations.len());
         for equation in &self.equations {
             let mut terms = std::collections::BTreeMap::<Vec<u32>, u64>::new();
             for (exponents, coefficient) in equation.polynomial.terms() {
-                let mut partial = vec![(vec![0u32; variables.len()], residue(coefficient, p)?)];
+                let mut partial = vec![(
+                    vec![0u32; variables.len()],
+                    residue(&from_rational(coefficient), p)?,
+                )];
                 for (index, &exponent) in exponents.iter().enumerate().filter(|(_, e)| **e > 0) {
                     let place = variables.iter().position(|v| *v == index);
                     for _ in 0..exponent {
@@ -126,23 +133,20 @@ fn images(field: &Field, p: u64) -> Option<Vec<u64>> {
     let mut images: Vec<u64> = Vec::with_capacity(field.generators().len());
     for generator in field.generators() {
         let image = match &generator.relation {
-            Relation::Free => residue(&super::element::from_dashu(generator.value.rational()?), p)?,
-            Relation::Inverse(of) => {
-                let of = element_image(of, &images, p)?;
-                if of == 0 {
-                    return None;
-                }
-                power(of, p - 2, p)
-            }
+            // The point was made for values of the parameters and does not speak of them.
+            _ if generator.parametric => 0,
+            Relation::Free | Relation::Inverse(_) => return None,
             Relation::Power { degree: 2, tail } if !tail.mentions(images.len()) => {
                 square_root(element_image(tail, &images, p)?, p)?
             }
             Relation::Power { .. } => {
                 // 2 cos(2π/M) is ζ + 1/ζ with ζ of order M, which divides p − 1.
                 let m = u64::from(field.circle?);
-                let zeta = (2..p)
-                    .map(|g| power(g, (p - 1) / m, p))
-                    .find(|&z| (1..m).filter(|d| m % d == 0).all(|d| power(z, d, p) != 1))?;
+                let zeta = (2..p).map(|g| power(g, (p - 1) / m, p)).find(|&z| {
+                    (1..m)
+                        .filter(|d| m.is_multiple_of(*d))
+                        .all(|d| power(z, d, p) != 1)
+                })?;
                 (zeta + power(zeta, p - 2, p)) % p
             }
         };
@@ -161,31 +165,6 @@ fn element_image(a: &Element, images: &[u64], p: u64) -> Option<u64> {
         sum = (sum + term) % p;
     }
     Some(sum)
-}
-
-/// A rational modulo a prime; `None` where the prime divides the denominator.
-fn residue(x: &Rational, p: u64) -> Option<u64> {
-    let modulus = BigInt::from(p);
-    let image = |n: &BigInt| ((n % &modulus + &modulus) % &modulus).to_u64();
-    let (n, d) = (image(x.numer())?, image(x.denom())?);
-    (d != 0).then(|| multiply(n, power(d, p - 2, p), p))
-}
-
-fn multiply(a: u64, b: u64, p: u64) -> u64 {
-    // The remainder of a u64 is a u64.
-    (u128::from(a) * u128::from(b) % u128::from(p)) as u64
-}
-
-fn power(base: u64, mut exponent: u64, p: u64) -> u64 {
-    let (mut result, mut square) = (1 % p, base % p);
-    while exponent > 0 {
-        if exponent & 1 == 1 {
-            result = multiply(result, square, p);
-        }
-        square = multiply(square, square, p);
-        exponent >>= 1;
-    }
-    result
 }
 
 /// A square root modulo a prime, where there is one (Tonelli 1891, Shanks 1973).
@@ -226,7 +205,7 @@ fn is_prime(n: u64) -> bool {
     if n < 2 {
         return false;
     }
-    if let Some(small) = BASES.iter().find(|&&b| n % b == 0) {
+    if let Some(small) = BASES.iter().find(|&&b| n.is_multiple_of(b)) {
         return n == *small;
     }
     let twos = (n - 1).trailing_zeros();

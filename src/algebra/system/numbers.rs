@@ -1,12 +1,12 @@
 //! Exact numbers as elements of a field.
 
+use super::angles::{Divisors, LinearAngle};
 use super::circle;
-use super::element::{Element, from_dashu};
+use super::element::Element;
 use super::error::SystemError;
 use super::field::{Field, FieldLimit};
-use crate::algebra::Rational;
+use super::fraction::fraction;
 use crate::number::{Angle, Number, View};
-use num_traits::ToPrimitive;
 
 /// Expressions beyond this size are refused.
 const MAX_NODES: u32 = 1_000;
@@ -129,19 +129,26 @@ fn near_fraction_of_pi(value: f64) -> Option<String> {
     })
 }
 
-/// The least common denominator M of all fractions of a turn whose cosine occurs in some numbers, 1 if there is none.
-pub(super) fn common_turn<'a>(numbers: impl Iterator<Item = &'a Number>) -> u32 {
+/// The least common denominator M of all fractions of a turn whose cosine occurs in some numbers, 1 if there is none; and
+/// the divisors of the parameters in angles.
+pub(super) fn common_turn<'a>(numbers: impl Iterator<Item = &'a Number>) -> (u32, Divisors) {
     let mut lcm = 1u64;
+    let mut divisors = Divisors::new();
     for number in numbers.filter(|n| n.size() <= MAX_NODES) {
-        let mut stack = vec![number];
+        let mut stack = vec![number.clone()];
         while let Some(number) = stack.pop() {
             match number.view() {
                 View::Sum(a, b) | View::Product(a, b) | View::Quotient(a, b) => {
-                    stack.extend([a, b]);
+                    stack.extend([a.clone(), b.clone()]);
                 }
-                View::Negative(a) | View::Root(a) | View::Power(a, _) => stack.push(a),
+                View::Negative(a) | View::Root(a) | View::Power(a, _) => stack.push(a.clone()),
                 View::Cosine(a) | View::Sine(a) | View::Tangent(a) => {
                     let View::Angle(angle) = a.view() else {
+                        if let Some(sum) = LinearAngle::of(a).filter(|a| !a.multiples.is_empty()) {
+                            sum.note(&mut divisors);
+                            let (cos, sin) = sum.constant.cos_sin();
+                            stack.extend([cos, sin]);
+                        }
                         continue;
                     };
                     let needs_sine = !matches!(number.view(), View::Cosine(_));
@@ -161,7 +168,7 @@ pub(super) fn common_turn<'a>(numbers: impl Iterator<Item = &'a Number>) -> u32 
             }
         }
     }
-    u32::try_from(lcm).unwrap_or(u32::MAX)
+    (u32::try_from(lcm).unwrap_or(u32::MAX), divisors)
 }
 
 /// k and n with cos(2πk/n) the cosine, or sine, of a fraction of pi; `None` for other angles.
@@ -169,13 +176,13 @@ fn turn_of(angle: &Angle, sine: bool) -> Option<(u32, u32)> {
     if angle.parts().len() > 0 {
         return None;
     }
-    let half = Rational::new(1.into(), 2.into());
-    let mut turn = from_dashu(angle.pi_multiple()) * &half;
+    let mut turn = angle.pi_multiple() * fraction(1, 2);
     if sine {
-        turn = &half * &half - turn;
+        turn = fraction(1, 4) - turn;
     }
-    turn = &turn - turn.floor();
-    Some((turn.numer().to_u32()?, turn.denom().to_u32()?))
+    turn = &turn - dashu::rational::RBig::from(turn.floor());
+    let numerator = u32::try_from(turn.numerator().clone()).ok()?;
+    Some((numerator, u32::try_from(turn.denominator().clone()).ok()?))
 }
 
 fn gcd(a: u64, b: u64) -> u64 {
@@ -193,13 +200,13 @@ impl Field {
 
     fn read_small(&mut self, number: &Number) -> Result<Element, Obstacle> {
         Ok(match number.view() {
-            View::Rational(x) => Element::rational(from_dashu(x)),
+            View::Rational(x) => Element::rational(x.clone()),
             View::Surd(surd) => {
                 let mut sum = Element::zero();
                 for (radicand, coefficient) in surd.terms() {
                     let radicand = dashu::rational::RBig::from(radicand.clone());
-                    let root = self.root(&Element::rational(from_dashu(&radicand)))?;
-                    sum = sum.plus(&root.scaled(&from_dashu(coefficient)));
+                    let root = self.root(&Element::rational(radicand))?;
+                    sum = sum.plus(&root.scaled(coefficient));
                 }
                 sum
             }
@@ -235,6 +242,7 @@ impl Field {
                 let inverse = self.inverse(&cosine)?;
                 self.multiply(&sine, &inverse)
             }
+            View::Parameter(name, value) => self.parameter(name, value),
             View::Angle(_) | View::Other => return Err(Obstacle::Transcendental),
         })
     }
@@ -242,7 +250,9 @@ impl Field {
     /// Cosine or sine of a fraction of pi.
     fn circular(&mut self, angle: &Number, sine: bool) -> Result<Element, Obstacle> {
         let View::Angle(angle) = angle.view() else {
-            return Err(Obstacle::Transcendental);
+            let sum = LinearAngle::of(angle).filter(|sum| !sum.multiples.is_empty());
+            let (cosine, sine_of) = self.parametric(&sum.ok_or(Obstacle::Transcendental)?)?;
+            return Ok(if sine { sine_of } else { cosine });
         };
         let (k, n) = turn_of(angle, sine).ok_or(Obstacle::Transcendental)?;
         let common = match self.circle {
@@ -255,6 +265,35 @@ impl Field {
             return Err(Obstacle::Degree);
         }
         Ok(circle::cosine(self, k * (common / n), common))
+    }
+
+    /// Cosine and sine of a sum of multiples of parameters, by the addition theorem.
+    fn parametric(&mut self, angle: &LinearAngle) -> Result<(Element, Element), Obstacle> {
+        let mut point = self.point(&angle.constant)?;
+        for (parameter, (multiple, value)) in &angle.multiples {
+            let divisor = match self.divisors.get(parameter) {
+                Some(divisor) => divisor.clone(),
+                None => multiple.denominator().clone(),
+            };
+            let count = multiple * super::fraction::Fraction::from(divisor.clone());
+            let count = i64::try_from(count.numerator().clone()).map_err(|_| Obstacle::Degree)?;
+            if count.unsigned_abs() > u64::from(MAX_POWER) {
+                return Err(Obstacle::Degree);
+            }
+            let part = super::fraction::Fraction::from_parts(1.into(), divisor.clone());
+            let part = value * &Number::of_fraction(part);
+            let name = super::angles::name(parameter, &divisor);
+            let (c, s) = self.parametric_point(&name, &part);
+            let s = if count < 0 { s.negated() } else { s };
+            for _ in 0..count.unsigned_abs() {
+                let (x, y) = &point;
+                point = (
+                    self.multiply(x, &c).minus(&self.multiply(y, &s)),
+                    self.multiply(x, &s).plus(&self.multiply(y, &c)),
+                );
+            }
+        }
+        Ok(point)
     }
 
     /// Cosine and sine of an angle.
@@ -275,7 +314,7 @@ mod tests {
 
     fn read(text: &str) -> (Field, Element) {
         let number = number(text);
-        let mut field = Field::with_circle(common_turn(std::iter::once(&number))).unwrap();
+        let mut field = Field::with_circle(common_turn(std::iter::once(&number)).0).unwrap();
         let element = field.read(&number).unwrap();
         (field, element)
     }

@@ -23,10 +23,6 @@ impl Poly {
         Self(BTreeMap::from([(exponents, Element::integer(1))]))
     }
 
-    pub(super) fn is_zero(&self) -> bool {
-        self.0.is_empty()
-    }
-
     pub(super) fn terms(&self) -> impl ExactSizeIterator<Item = (&Exponents, &Element)> {
         self.0.iter()
     }
@@ -98,23 +94,5 @@ impl Poly {
             let monomial = Self(BTreeMap::from([(rest, coefficient)]));
             result = result.plus(&monomial.times(square, field));
         }
-    }
-
-    /// The value at a point of a field.
-    pub(super) fn value_at(&self, point: &[Element], field: &Field) -> Element {
-        let mut sum = Element::zero();
-        for (exponents, coefficient) in &self.0 {
-            let mut term = coefficient.clone();
-            for (x, &exponent) in point.iter().zip(exponents) {
-                for _ in 0..exponent {
-                    if term.is_zero() {
-                        break;
-                    }
-                    term = field.multiply(&term, x);
-                }
-            }
-            sum = sum.plus(&term);
-        }
-        sum
     }
 }

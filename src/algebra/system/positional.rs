@@ -1,7 +1,6 @@
 //! Absolute coordinates: the twelve entries of every link's matrix relative to the ground.
 
 use super::build::{Draft, Setting};
-use super::element::Element;
 use super::implicit::Implicit;
 use super::poly::Poly;
 use super::space::{Polynomials, Pose, Scalars};
@@ -97,10 +96,4 @@ pub(super) fn write(setting: &Setting<'_>, draft: &mut Draft) {
             reason: "the positional form has no joint variables".to_owned(),
         });
     }
-}
-
-/// The values of a link's twelve variables, rotation row by row first.
-pub(super) fn values(pose: &Pose<Element>) -> Vec<Element> {
-    let rotation = pose.rotation.iter().flatten();
-    rotation.chain(&pose.translation).cloned().collect()
 }

@@ -3,7 +3,7 @@
 //! Collins and Akritas 1976: the number of sign changes among the coefficients of (x+1)ⁿ·f(1/(x+1)) is at least the number
 //! of roots of f in (0, 1), of the same parity, and exact when it is 0 or 1. For a squarefree f halving ends.
 
-use super::{Rational, Univariate};
+use super::{Rational, Univariate, dyadic, fraction};
 use crate::algebra::engine::{Budget, Stop};
 use num_bigint::{BigInt, Sign};
 use num_traits::{One, Signed, Zero};
@@ -29,6 +29,12 @@ impl RealRoot {
     #[must_use]
     pub fn is_exact(&self) -> bool {
         self.low == self.high
+    }
+
+    /// The root in double precision: half way between the ends.
+    #[must_use]
+    pub fn value(&self) -> f64 {
+        to_f64(&self.middle())
     }
 
     /// Half way between the ends.
@@ -140,25 +146,67 @@ impl Univariate {
     /// Halves the interval of a root until it is no wider than 2^-bits.
     #[must_use]
     pub fn refine(&self, root: &RealRoot, bits: u64) -> RealRoot {
-        let mut root = root.clone();
         if root.is_exact() {
-            return root;
+            return root.clone();
         }
         // An end may be another root: then the sign just inside is that of the derivative.
         let mut below = self.sign_at(&root.low);
         if below == 0 {
             below = self.derivative().sign_at(&root.low);
         }
-        let width = Rational::new(BigInt::one(), BigInt::one() << bits);
-        while &root.high - &root.low > width {
-            let middle = root.middle();
-            match self.sign_at(&middle) {
-                0 => return RealRoot::exact(middle),
-                sign if sign == below => root.low = middle,
-                _ => root.high = middle,
+        // Integers over one denominator, which doubles in every step: no fractions are reduced on the way.
+        let unit = root.low.denom() * root.high.denom();
+        let mut low = root.low.numer() * root.high.denom();
+        let mut high = root.high.numer() * root.low.denom();
+        let mut halvings = 0;
+        while (&high - &low) << bits > &unit << halvings {
+            let middle = &low + &high;
+            halvings += 1;
+            match self.sign_over(&middle, &unit, halvings) {
+                0 => return RealRoot::exact(over(middle, &unit, halvings)),
+                sign if sign == below => {
+                    low = middle;
+                    high <<= 1;
+                }
+                _ => {
+                    high = middle;
+                    low <<= 1;
+                }
             }
         }
-        root
+        RealRoot {
+            low: over(low, &unit, halvings),
+            high: over(high, &unit, halvings),
+        }
+    }
+
+    /// The sign at `numerator / (unit·2^halvings)`.
+    fn sign_over(&self, numerator: &BigInt, unit: &BigInt, halvings: u64) -> i8 {
+        let mut scale = BigInt::one();
+        let mut shift = 0;
+        let mut sum = BigInt::zero();
+        for c in self.0.iter().rev() {
+            sum = sum * numerator + ((c * &scale) << shift);
+            scale *= unit;
+            shift += halvings;
+        }
+        sign(&sum)
+    }
+}
+
+/// `numerator / (unit·2^halvings)`.
+fn over(numerator: BigInt, unit: &BigInt, halvings: u64) -> Rational {
+    if unit.trailing_zeros().map(|zeros| zeros + 1) == Some(unit.bits()) {
+        return dyadic(numerator, unit.bits() - 1 + halvings);
+    }
+    fraction(numerator, &(unit << halvings))
+}
+
+fn sign(value: &BigInt) -> i8 {
+    match value.sign() {
+        Sign::Minus => -1,
+        Sign::NoSign => 0,
+        Sign::Plus => 1,
     }
 }
 

@@ -22,6 +22,7 @@ pub use representation::Representation;
 pub use trace_form::TraceForm;
 
 use super::engine::{Budget, GroebnerBasis, Stop};
+use super::polynomial::Polynomial;
 use super::univariate::Univariate;
 use quotient::Quotient;
 use separating::Image;
@@ -43,16 +44,27 @@ impl FinitePoints {
     /// # Errors
     /// [`Stop`] where the budget does not suffice.
     pub fn new(basis: &GroebnerBasis, budget: &Budget) -> Result<Option<Self>, Stop> {
-        let Some(quotient) = Quotient::new(basis, budget)? else {
+        let heads: Vec<Vec<u32>> = basis.leading_monomials().map(<[u32]>::to_vec).collect();
+        Self::of_basis(basis.polynomials(), &heads, basis.variables(), budget)
+    }
+
+    /// The same for the polynomials of a reduced basis and their leading monomials.
+    pub(super) fn of_basis(
+        polynomials: &[Polynomial],
+        heads: &[Vec<u32>],
+        variables: usize,
+        budget: &Budget,
+    ) -> Result<Option<Self>, Stop> {
+        let Some(quotient) = Quotient::new(polynomials, heads, variables, budget)? else {
             return Ok(None);
         };
         if quotient.dimension() == 0 {
             let representation = Representation {
-                form: vec![0; basis.variables()],
+                form: vec![0; variables],
                 factors: Vec::new(),
                 complete: true,
                 denominator: Univariate::from_integers(&[1]),
-                numerators: vec![Univariate::default(); basis.variables()],
+                numerators: vec![Univariate::default(); variables],
             };
             return Ok(Some(Self {
                 quotient,

@@ -1,9 +1,9 @@
 //! The polynomials modulo an ideal with finitely many zeros: a finite-dimensional vector space, in which multiplication by a
 //! variable is a matrix (Stetter 1996; Cox, Little and O'Shea, "Using Algebraic Geometry", chapter 2).
 
-use crate::algebra::engine::{Budget, GroebnerBasis, Stop};
-use crate::algebra::polynomial::Rational;
-use crate::algebra::univariate::{integer_gcd, integer_multiple};
+use crate::algebra::engine::{Budget, Stop};
+use crate::algebra::polynomial::{Polynomial, Rational};
+use crate::algebra::univariate::{fraction, integer_gcd, integer_multiple};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 use std::collections::{BTreeMap, BTreeSet};
@@ -33,6 +33,15 @@ impl Scaled {
         }
     }
 
+    /// Of rationals.
+    pub(super) fn of(values: &[Rational]) -> Self {
+        let (values, denominator) = integer_multiple(values);
+        Self {
+            values,
+            denominator,
+        }
+    }
+
     fn unit(index: usize, length: usize) -> Self {
         let mut values = vec![BigInt::zero(); length];
         values[index] = BigInt::one();
@@ -51,7 +60,7 @@ impl Scaled {
             .filter(|(a, b)| !a.is_zero() && !b.is_zero())
             .map(|(a, b)| a * b)
             .sum();
-        Rational::new(sum, &self.denominator * &other.denominator)
+        fraction(sum, &(&self.denominator * &other.denominator))
     }
 }
 
@@ -74,10 +83,15 @@ pub(super) struct Quotient {
 }
 
 impl Quotient {
-    /// `None` where there are infinitely many zeros.
-    pub(super) fn new(basis: &GroebnerBasis, budget: &Budget) -> Result<Option<Self>, Stop> {
-        let heads: Vec<Vec<u32>> = basis.leading_monomials().map(<[u32]>::to_vec).collect();
-        let Some(monomials) = standard_monomials(&heads, basis.variables(), budget)? else {
+    /// Modulo the ideal of a reduced Groebner basis with the given leading monomials; `None` where there are infinitely many
+    /// zeros.
+    pub(super) fn new(
+        polynomials: &[Polynomial],
+        heads: &[Vec<u32>],
+        variables: usize,
+        budget: &Budget,
+    ) -> Result<Option<Self>, Stop> {
+        let Some(monomials) = standard_monomials(heads, variables, budget)? else {
             return Ok(None);
         };
         let places: BTreeMap<&[u32], usize> = monomials
@@ -86,7 +100,7 @@ impl Quotient {
             .map(|(i, m)| (m.as_slice(), i))
             .collect();
         let mut border: BTreeMap<Vec<u32>, Scaled> = BTreeMap::new();
-        for (polynomial, head) in basis.polynomials().iter().zip(&heads) {
+        for (polynomial, head) in polynomials.iter().zip(heads) {
             let mut remainder = vec![Rational::zero(); monomials.len()];
             let mut lead = Rational::one();
             for (exponents, coefficient) in polynomial.terms() {
@@ -97,14 +111,13 @@ impl Quotient {
                 }
             }
             let values: Vec<Rational> = remainder.into_iter().map(|c| c / &lead).collect();
-            let (values, denominator) = integer_multiple(&values);
-            border.insert(head.clone(), Scaled::new(values, denominator));
+            border.insert(head.clone(), Scaled::of(&values));
         }
         let quotient = Self {
             tables: Vec::new(),
             monomials: monomials.clone(),
         };
-        let tables = quotient.fill_border(border, &places, basis.variables(), budget)?;
+        let tables = quotient.fill_border(border, &places, variables, budget)?;
         Ok(Some(Self { monomials, tables }))
     }
 

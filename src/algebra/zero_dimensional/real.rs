@@ -3,9 +3,9 @@
 use super::FinitePoints;
 use crate::algebra::engine::{Budget, Stop};
 use crate::algebra::polynomial::Rational;
-use crate::algebra::univariate::{Dense, RealRoot, Univariate, integer_multiple, to_f64};
+use crate::algebra::univariate::{RealRoot, Univariate, dyadic, fraction, integer_gcd, to_f64};
 use num_bigint::BigInt;
-use num_traits::{One, Zero};
+use num_traits::{One, Signed, Zero};
 
 /// A real point of a zero-dimensional system, enclosed.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -73,28 +73,30 @@ impl FinitePoints {
         Ok(solutions)
     }
 
-    /// Denominator and numerators with the multiples of a factor taken out, times a common number.
+    /// Denominator and numerators with the multiples of a factor taken out, all times a common number.
     fn functions_modulo(&self, factor: &Univariate) -> Vec<Univariate> {
-        let divisor = Dense::new(factor.rationals());
-        let width = factor.degree();
-        let all = std::iter::once(&self.representation.denominator)
-            .chain(&self.representation.numerators);
-        let flat: Vec<Rational> = all
-            .flat_map(|function| {
-                let mut rest = (&Dense::new(function.rationals()) % &divisor).0;
-                rest.resize(width, Rational::zero());
-                rest
-            })
+        let found = &self.representation;
+        let all: Vec<&Univariate> = std::iter::once(&found.denominator)
+            .chain(&found.numerators)
             .collect();
-        let (integers, _) = integer_multiple(&flat);
-        integers
-            .chunks(width)
-            .map(|chunk| Univariate::new(chunk.to_vec()))
+        let steps = all
+            .iter()
+            .map(|function| (function.degree() + 1).saturating_sub(factor.degree()))
+            .max()
+            .unwrap_or(0);
+        let rests: Vec<Univariate> = all
+            .iter()
+            .map(|function| function.pseudo_remainder(factor, steps))
+            .collect();
+        let content = rests
+            .iter()
+            .fold(BigInt::zero(), |gcd, p| integer_gcd(&gcd, &p.content()));
+        rests
+            .iter()
+            .map(|rest| Univariate::new(rest.coefficients().iter().map(|c| c / &content).collect()))
             .collect()
     }
 }
-
-type Interval = (Rational, Rational);
 
 /// The coordinates that belong to a root; the root is refined until they are known well enough.
 fn enclose(
@@ -103,69 +105,127 @@ fn enclose(
     root: RealRoot,
     bits: u64,
     budget: &Budget,
-) -> Result<Vec<Interval>, Stop> {
-    let root = rational_root(factor, root);
+) -> Result<Vec<(Rational, Rational)>, Stop> {
+    if let Some(value) = exact_value(factor, &root) {
+        return Ok(exact_coordinates(functions, &value));
+    }
+    let mut root = root;
     let mut digits = bits + 16;
-    let mut root = factor.refine(&root, digits);
-    let width = Rational::new(BigInt::one(), BigInt::one() << bits);
     loop {
-        budget.spend(digits * functions.len() as u64 * factor.degree() as u64)?;
-        if let Some(coordinates) = coordinates(functions, &root)
-            && coordinates.iter().all(|(low, high)| high - low <= width)
-        {
-            return Ok(coordinates);
+        budget.spend(digits.div_ceil(64) * functions.len() as u64 * factor.degree() as u64)?;
+        root = factor.refine(&root, digits);
+        if let Some(value) = exact_value(factor, &root) {
+            return Ok(exact_coordinates(functions, &value));
+        }
+        let enclosed = coordinates(functions, &root, digits).filter(|all| {
+            all.iter()
+                .all(|(low, high)| (high - low) << bits <= BigInt::one() << digits)
+        });
+        if let Some(all) = enclosed {
+            return Ok(all
+                .into_iter()
+                .map(|(low, high)| (dyadic(low, digits), dyadic(high, digits)))
+                .collect());
         }
         digits += digits / 2 + 32;
-        root = factor.refine(&root, digits);
     }
 }
 
-/// The root of a linear polynomial is rational.
-fn rational_root(factor: &Univariate, root: RealRoot) -> RealRoot {
+/// The root where it is known exactly; that of a linear polynomial is rational.
+fn exact_value(factor: &Univariate, root: &RealRoot) -> Option<Rational> {
     match factor.coefficients() {
-        [constant, slope] => {
-            let value = Rational::new(-constant, slope.clone());
-            RealRoot {
-                low: value.clone(),
-                high: value,
-            }
-        }
-        _ => root,
+        [constant, slope] => Some(fraction(-constant, slope)),
+        _ => root.is_exact().then(|| root.low.clone()),
     }
 }
 
-/// The quotients where the denominator is not zero in the whole interval.
-fn coordinates(functions: &[Univariate], root: &RealRoot) -> Option<Vec<Interval>> {
+fn exact_coordinates(functions: &[Univariate], value: &Rational) -> Vec<(Rational, Rational)> {
+    let mut values = functions.iter().map(|function| function.value_at(value));
+    let denominator = values.next().unwrap_or_else(Rational::one);
+    values
+        .map(|numerator| {
+            let coordinate = numerator / &denominator;
+            (coordinate.clone(), coordinate)
+        })
+        .collect()
+}
+
+/// Two integers that stand for the numbers 2^digits times smaller: the ends of an interval.
+type Interval = (BigInt, BigInt);
+
+/// The quotients of the functions after the first by the first, where that is not zero in the whole interval.
+fn coordinates(functions: &[Univariate], root: &RealRoot, digits: u64) -> Option<Vec<Interval>> {
+    let argument = (
+        floor_quotient(&(root.low.numer() << digits), root.low.denom()),
+        ceiling_quotient(&(root.high.numer() << digits), root.high.denom()),
+    );
     let (denominator, numerators) = functions.split_first()?;
-    let below = range(denominator, root);
-    if below.0 <= Rational::zero() && below.1 >= Rational::zero() {
+    let mut below = range(denominator, &argument, digits);
+    let mut sign = BigInt::one();
+    if below.1.is_negative() {
+        below = (-below.1, -below.0);
+        sign = -sign;
+    }
+    if !below.0.is_positive() {
         return None;
     }
-    let reciprocal = (below.1.recip(), below.0.recip());
-    Some(
-        numerators
-            .iter()
-            .map(|numerator| times(&range(numerator, root), &reciprocal))
-            .collect(),
-    )
+    let quotient = |numerator: &Univariate| {
+        let (low, high) = range(numerator, &argument, digits);
+        let (low, high) = if sign.is_negative() {
+            (-high, -low)
+        } else {
+            (low, high)
+        };
+        // A positive end is smallest over the larger denominator, a negative one over the smaller.
+        let smallest = if low.is_negative() {
+            &below.0
+        } else {
+            &below.1
+        };
+        let largest = if high.is_negative() {
+            &below.1
+        } else {
+            &below.0
+        };
+        (
+            floor_quotient(&(low << digits), smallest),
+            ceiling_quotient(&(high << digits), largest),
+        )
+    };
+    Some(numerators.iter().map(quotient).collect())
+}
+
+/// The quotient by a positive integer, rounded down.
+fn floor_quotient(numerator: &BigInt, denominator: &BigInt) -> BigInt {
+    let quotient = numerator / denominator;
+    if (&quotient * denominator) > *numerator {
+        quotient - 1
+    } else {
+        quotient
+    }
+}
+
+/// The quotient by a positive integer, rounded up.
+fn ceiling_quotient(numerator: &BigInt, denominator: &BigInt) -> BigInt {
+    -floor_quotient(&-numerator, denominator)
 }
 
 /// An enclosure of the values of a polynomial on an interval, by Horner's scheme.
-fn range(polynomial: &Univariate, root: &RealRoot) -> Interval {
-    let argument = (root.low.clone(), root.high.clone());
-    polynomial
-        .coefficients()
-        .iter()
-        .rev()
-        .fold((Rational::zero(), Rational::zero()), |value, c| {
-            let product = times(&value, &argument);
-            (product.0 + c, product.1 + c)
-        })
+fn range(polynomial: &Univariate, argument: &Interval, digits: u64) -> Interval {
+    let mut value = (BigInt::zero(), BigInt::zero());
+    for c in polynomial.coefficients().iter().rev() {
+        let product = times(&value, argument);
+        // Shifting rounds down; the upper end is rounded up.
+        let down = product.0 >> digits;
+        let up = -(-product.1 >> digits);
+        let c = c << digits;
+        value = (down + &c, up + c);
+    }
+    value
 }
 
 fn times(a: &Interval, b: &Interval) -> Interval {
-    let products = [&a.0 * &b.0, &a.0 * &b.1, &a.1 * &b.0, &a.1 * &b.1];
-    let [first, rest @ ..] = products;
+    let [first, rest @ ..] = [&a.0 * &b.0, &a.0 * &b.1, &a.1 * &b.0, &a.1 * &b.1];
     rest.into_iter()
         .fold((first.clone(), first), |(low, high), value| {
             if value < low {

@@ -8,7 +8,7 @@
 use super::quotient::{Column, Products, Quotient, Scaled, words};
 use crate::algebra::engine::{Budget, Stop};
 use crate::algebra::polynomial::Rational;
-use crate::algebra::univariate::{Univariate, integer_gcd, integer_multiple};
+use crate::algebra::univariate::{Univariate, fraction, integer_gcd};
 use num_bigint::BigInt;
 use num_traits::{One, Zero};
 
@@ -99,14 +99,12 @@ pub(super) fn representation(
     for i in 0..n {
         powers.push(multiplication.times(&powers[i], budget)?);
     }
-    let against = |row: &Scaled, power: &[BigInt]| -> Rational {
-        let sum = row.values.iter().zip(power).map(|(a, b)| a * b).sum();
-        Rational::new(sum, row.denominator.clone())
-    };
-    let sums: Vec<Rational> = powers.iter().map(|p| against(traces, p)).collect();
-    let Some(polynomial) = from_power_sums(&sums) else {
-        return Ok(None);
-    };
+    // The traces of the powers are integers: those of a matrix of integers.
+    let sums: Vec<BigInt> = powers
+        .iter()
+        .map(|power| product_sum(traces, power) / &traces.denominator)
+        .collect();
+    let polynomial = from_power_sums(&sums);
     // Values of the form itself, not of its multiple.
     let values = stretched(&polynomial, &multiplication.denominator).primitive();
     let found = values.factors(budget)?;
@@ -114,68 +112,69 @@ pub(super) fn representation(
         .factors
         .iter()
         .fold(Univariate::from_integers(&[1]), |p, (f, _)| &p * f);
-    let scaled_distinct = shrunk_monic(&distinct, &multiplication.denominator);
+    let monic = shrunk_monic(&distinct, &multiplication.denominator);
 
-    let ones = traces.clone();
-    let rows: Vec<Scaled> = (0..form.len())
-        .map(|variable| trace_row(quotient, variable, traces))
+    let mut rows = vec![traces.clone()];
+    rows.extend((0..form.len()).map(|variable| trace_row(quotient, variable, traces)));
+    // Integers over the denominator of the row.
+    let numerators: Vec<Vec<BigInt>> = rows
+        .iter()
+        .map(|row| {
+            let traces = powers[..distinct.degree()].iter();
+            let traces: Vec<BigInt> = traces.map(|power| product_sum(row, power)).collect();
+            horner_sum(&monic, &traces)
+        })
         .collect();
-    let numerator = |row: &Scaled| {
-        let traces: Vec<Rational> = powers[..distinct.degree()]
-            .iter()
-            .map(|p| against(row, p))
-            .collect();
-        horner_sum(&scaled_distinct, &traces)
-    };
-    let mut all: Vec<Vec<Rational>> = vec![numerator(&ones)];
-    all.extend(rows.iter().map(numerator));
+    let common = rows.iter().fold(BigInt::one(), |common, row| {
+        let shared = integer_gcd(&common, &row.denominator);
+        common * (&row.denominator / shared)
+    });
+    let numerators: Vec<Vec<BigInt>> = numerators
+        .into_iter()
+        .zip(&rows)
+        .map(|(numerator, row)| {
+            let factor = &common / &row.denominator;
+            numerator.into_iter().map(|c| c * &factor).collect()
+        })
+        .collect();
     if distinct.degree() < n {
-        let zero_everywhere = |variable: usize| {
-            vanishes(
-                quotient,
-                products,
-                traces,
-                &powers,
-                &all[0],
-                &all[variable + 1],
-                variable,
-                budget,
-            )
+        let context = Vanishing {
+            quotient,
+            products,
+            traces,
+            powers: &powers,
         };
-        for variable in 0..form.len() {
-            if !zero_everywhere(variable)? {
+        for (variable, numerator) in numerators[1..].iter().enumerate() {
+            if !context.vanishes(variable, &numerators[0], numerator, budget)? {
                 return Ok(None);
             }
         }
     }
-    // One common integer multiple for the numerators and the denominator, in the variable of the form itself.
-    let width = distinct.degree();
-    let flat: Vec<Rational> = all.into_iter().flatten().collect();
-    let (integers, _) = integer_multiple(&flat);
-    let mut polynomials: Vec<Univariate> = integers
-        .chunks(width.max(1))
-        .map(|chunk| {
-            stretched(
-                &Univariate::new(chunk.to_vec()),
-                &multiplication.denominator,
-            )
-        })
+    // In the variable of the form itself, without common factors.
+    let polynomials: Vec<Univariate> = numerators
+        .into_iter()
+        .map(|numerator| stretched(&Univariate::new(numerator), &multiplication.denominator))
         .collect();
     let content = polynomials
         .iter()
         .fold(BigInt::zero(), |gcd, p| integer_gcd(&gcd, &p.content()));
-    for polynomial in &mut polynomials {
+    let mut polynomials = polynomials.iter().map(|polynomial| {
         let reduced = polynomial.coefficients().iter().map(|c| c / &content);
-        *polynomial = Univariate::new(reduced.collect());
-    }
-    let denominator = polynomials.remove(0);
+        Univariate::new(reduced.collect())
+    });
+    let denominator = polynomials.next().unwrap_or_default();
     Ok(Some(Representation {
         form: form.to_vec(),
         factors: found.factors,
         complete: found.complete,
         denominator,
-        numerators: polynomials,
+        numerators: polynomials.collect(),
     }))
+}
+
+/// The sum of products, without the denominator of the row.
+fn product_sum(row: &Scaled, element: &[BigInt]) -> BigInt {
+    row.values.iter().zip(element).map(|(a, b)| a * b).sum()
 }
 
 /// tr(variable · monomial) for all standard monomials.
@@ -183,37 +182,26 @@ fn trace_row(quotient: &Quotient, variable: usize, traces: &Scaled) -> Scaled {
     let values: Vec<Rational> = quotient.tables[variable]
         .iter()
         .map(|column| match column {
-            Column::Standard(place) => {
-                Rational::new(traces.values[*place].clone(), traces.denominator.clone())
-            }
+            Column::Standard(place) => fraction(traces.values[*place].clone(), &traces.denominator),
             Column::Combination(vector) => traces.dot(vector),
         })
         .collect();
-    let (values, denominator) = integer_multiple(&values);
-    Scaled {
-        values,
-        denominator,
-    }
+    Scaled::of(&values)
 }
 
 /// The monic polynomial whose roots have these power sums, the first being their number, by Newton's identities. Its
-/// coefficients are integers: the roots are eigenvalues of a matrix of integers.
-fn from_power_sums(sums: &[Rational]) -> Option<Univariate> {
+/// coefficients are integers: the roots are the eigenvalues of a matrix of integers.
+fn from_power_sums(sums: &[BigInt]) -> Univariate {
     let degree = sums.len() - 1;
     let mut coefficients = vec![BigInt::zero(); degree + 1];
     coefficients[degree] = BigInt::one();
     for k in 1..=degree {
-        let mut sum = Rational::zero();
-        for i in 1..=k {
-            sum += &sums[i] * &coefficients[degree - k + i];
-        }
-        let value = -sum / BigInt::from(k);
-        if !value.is_integer() {
-            return None;
-        }
-        coefficients[degree - k] = value.to_integer();
+        let sum: BigInt = (1..=k)
+            .map(|i| &sums[i] * &coefficients[degree - k + i])
+            .sum();
+        coefficients[degree - k] = -sum / BigInt::from(k);
     }
-    Some(Univariate::new(coefficients))
+    Univariate::new(coefficients)
 }
 
 /// f(factor·x).
@@ -227,12 +215,13 @@ fn stretched(polynomial: &Univariate, factor: &BigInt) -> Univariate {
     Univariate::new(values)
 }
 
-/// The monic multiple of f(x/factor), by ascending power.
-fn shrunk_monic(polynomial: &Univariate, factor: &BigInt) -> Vec<Rational> {
+/// The monic multiple of f(x/factor), by ascending power. It divides the monic polynomial of the eigenvalues of a matrix of
+/// integers, so its coefficients are integers, too.
+fn shrunk_monic(polynomial: &Univariate, factor: &BigInt) -> Vec<BigInt> {
     let mut power = BigInt::one();
-    let mut values: Vec<Rational> = Vec::new();
+    let mut values: Vec<BigInt> = Vec::new();
     for c in polynomial.coefficients().iter().rev() {
-        values.push(Rational::new(c * &power, polynomial.leading()));
+        values.push(c * &power / polynomial.leading());
         power *= factor;
     }
     values.reverse();
@@ -241,77 +230,69 @@ fn shrunk_monic(polynomial: &Univariate, factor: &BigInt) -> Vec<Rational> {
 
 /// The sum of the traces times the Horner polynomials of a monic polynomial of degree d: Rouillier's formula. The polynomial
 /// number i, of degree i, goes with the trace number d - 1 - i.
-fn horner_sum(monic: &[Rational], traces: &[Rational]) -> Vec<Rational> {
-    let degree = traces.len();
-    let mut sum = vec![Rational::zero(); degree];
+fn horner_sum(monic: &[BigInt], traces: &[BigInt]) -> Vec<BigInt> {
+    let mut sum = vec![BigInt::zero(); traces.len()];
     for (i, trace) in traces.iter().enumerate() {
-        if trace.is_zero() {
-            continue;
-        }
         // The Horner polynomial of degree d - 1 - i has the coefficients of x^(i+1) and above.
-        for (place, c) in monic[i + 1..].iter().enumerate() {
-            sum[place] += trace * c;
+        for (entry, c) in sum.iter_mut().zip(&monic[i + 1..]) {
+            *entry += trace * c;
         }
     }
     sum
 }
 
-/// Whether x·denominator - numerator vanishes at all zeros.
-#[allow(clippy::too_many_arguments)]
-fn vanishes(
-    quotient: &Quotient,
-    products: &Products,
-    traces: &Scaled,
-    powers: &[Vec<BigInt>],
-    denominator: &[Rational],
-    numerator: &[Rational],
-    variable: usize,
-    budget: &Budget,
-) -> Result<bool, Stop> {
-    let element = |coefficients: &[Rational]| {
-        let n = quotient.dimension();
-        let mut sum = vec![Rational::zero(); n];
-        for (c, power) in coefficients.iter().zip(powers) {
+/// What the proof that a form separates the zeros needs.
+struct Vanishing<'a> {
+    quotient: &'a Quotient,
+    products: &'a Products,
+    traces: &'a Scaled,
+    powers: &'a [Vec<BigInt>],
+}
+
+impl Vanishing<'_> {
+    /// A polynomial in the scaled form, as an element.
+    fn element(&self, coefficients: &[BigInt]) -> Vec<BigInt> {
+        let mut sum = vec![BigInt::zero(); self.quotient.dimension()];
+        for (c, power) in coefficients.iter().zip(self.powers) {
             for (entry, v) in sum.iter_mut().zip(power) {
                 *entry += c * v;
             }
         }
         sum
-    };
-    let (values, scale) = integer_multiple(&element(denominator));
-    let product = quotient.times(
-        variable,
-        &Scaled {
-            values,
-            denominator: scale,
-        },
-        budget,
-    )?;
-    let difference: Vec<Rational> = product
-        .values
-        .iter()
-        .zip(element(numerator))
-        .map(|(v, w)| Rational::new(v.clone(), product.denominator.clone()) - w)
-        .collect();
-    let (values, denominator) = integer_multiple(&difference);
-    let difference = Scaled {
-        values,
-        denominator,
-    };
-    if difference.values.iter().all(Zero::is_zero) {
-        return Ok(true);
     }
-    Ok(quotient.monomials.iter().all(|a| {
-        let row: Vec<Rational> = quotient
-            .monomials
-            .iter()
-            .map(|b| traces.dot(products.of(a, b)))
-            .collect();
-        let (values, denominator) = integer_multiple(&row);
-        let row = Scaled {
-            values,
-            denominator,
+
+    /// Whether x·denominator - numerator vanishes at all zeros: whether its product with anything has the trace zero.
+    fn vanishes(
+        &self,
+        variable: usize,
+        denominator: &[BigInt],
+        numerator: &[BigInt],
+        budget: &Budget,
+    ) -> Result<bool, Stop> {
+        let element = Scaled {
+            values: self.element(denominator),
+            denominator: BigInt::one(),
         };
-        row.dot(&difference).is_zero()
-    }))
+        let product = self.quotient.times(variable, &element, budget)?;
+        let difference = Scaled {
+            values: product
+                .values
+                .iter()
+                .zip(self.element(numerator))
+                .map(|(v, w)| v - w * &product.denominator)
+                .collect(),
+            denominator: product.denominator,
+        };
+        if difference.values.iter().all(Zero::is_zero) {
+            return Ok(true);
+        }
+        let monomials = &self.quotient.monomials;
+        Ok(monomials.iter().all(|a| {
+            let row: Vec<Rational> = monomials
+                .iter()
+                .map(|b| self.traces.dot(self.products.of(a, b)))
+                .collect();
+            product_sum(&Scaled::of(&row), &difference.values).is_zero()
+        }))
+    }
 }

@@ -120,7 +120,7 @@ impl Image {
             (0..variables as i64).map(value).collect()
         });
         let powers = (2..2000_i64).map(|k| {
-            let next = |c: &i64| Some(c.checked_mul(k)?);
+            let next = |c: &i64| c.checked_mul(k);
             let mut form: Vec<i64> = std::iter::successors(Some(1), next)
                 .take(variables)
                 .collect();

@@ -6,7 +6,7 @@
 use super::quotient::{Products, Quotient, Scaled, words};
 use crate::algebra::engine::{Budget, Stop};
 use crate::algebra::polynomial::Rational;
-use crate::algebra::univariate::integer_multiple;
+use crate::algebra::univariate::{fraction, integer_gcd};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 
@@ -27,16 +27,26 @@ pub(super) fn traces(quotient: &Quotient, products: &Products) -> Scaled {
         .map(|a| {
             let diagonal = quotient.monomials.iter().enumerate().map(|(i, b)| {
                 let product = products.of(a, b);
-                Rational::new(product.values[i].clone(), product.denominator.clone())
+                (&product.values[i], &product.denominator)
             });
-            diagonal.fold(Rational::zero(), |sum, entry| sum + entry)
+            sum(diagonal)
         })
         .collect();
-    let (values, denominator) = integer_multiple(&traces);
-    Scaled {
-        values,
-        denominator,
+    Scaled::of(&traces)
+}
+
+/// The sum of fractions.
+fn sum<'a>(parts: impl Iterator<Item = (&'a BigInt, &'a BigInt)>) -> Rational {
+    let (mut numerator, mut denominator) = (BigInt::zero(), BigInt::one());
+    for (n, d) in parts.filter(|(n, _)| !n.is_zero()) {
+        if !(&denominator % d).is_zero() {
+            let factor = d / integer_gcd(&denominator, d);
+            numerator *= &factor;
+            denominator *= factor;
+        }
+        numerator += n * (&denominator / d);
     }
+    fraction(numerator, &denominator)
 }
 
 /// The matrix of the trace form, times a positive integer.
@@ -50,8 +60,8 @@ pub(super) fn trace_matrix(
         .iter()
         .flat_map(|a| monomials.iter().map(|b| traces.dot(products.of(a, b))))
         .collect();
-    let (values, _) = integer_multiple(&entries);
-    values
+    Scaled::of(&entries)
+        .values
         .chunks(monomials.len().max(1))
         .map(<[BigInt]>::to_vec)
         .collect()
@@ -113,9 +123,9 @@ fn bring_pivot(matrix: &mut [Vec<BigInt>], step: usize) -> bool {
         return false;
     };
     // With zeros on the diagonal, adding the j-th vector to the i-th gives twice the entry.
-    for k in 0..n {
-        let value = matrix[j][k].clone();
-        matrix[i][k] += value;
+    let added = matrix[j].clone();
+    for (entry, value) in matrix[i].iter_mut().zip(&added) {
+        *entry += value;
     }
     for row in matrix.iter_mut() {
         let value = row[j].clone();

@@ -1,0 +1,200 @@
+//! Conditions on measures that were left open: for which values can the mechanism be put together, for which does it move?
+
+use crate::algebra::{
+    Budget, Meaning, MonomialOrder, Origin, Polynomial, PolynomialSystem, Rational, Stop,
+    eliminate, factor, groebner_basis, saturate,
+};
+use crate::mechanism::JointId;
+use num_traits::One;
+use std::collections::BTreeMap;
+
+/// Conditions on the parameters. They are necessary for real mechanisms; over the complex numbers (limits included) they are
+/// also sufficient for assembly.
+#[derive(Clone, Debug)]
+pub struct DesignConditions {
+    /// The variables that stand for parameters.
+    pub parameters: Vec<usize>,
+    /// Every one of these has to vanish; none: no condition.
+    pub conditions: Vec<Condition>,
+}
+
+/// A polynomial in the parameters that has to vanish, as a product.
+#[derive(Clone, Debug)]
+pub struct Condition {
+    /// The polynomial.
+    pub polynomial: Polynomial,
+    /// Its different factors; one of them has to vanish.
+    pub factors: Vec<Polynomial>,
+}
+
+/// Which values of the parameters let the equations have a solution.
+///
+/// All unknowns are eliminated; what is left speaks of the parameters alone (Ruiz 1994, (7.4), finds his condition in the
+/// same way). Equations that always hold for parameters (the circle of an angle) are left out.
+///
+/// # Errors
+/// [`Stop`] where the budget does not suffice.
+pub fn assembly_conditions(
+    system: &PolynomialSystem,
+    budget: &Budget,
+) -> Result<DesignConditions, Stop> {
+    let remaining = remaining_without(system, &[], budget)?;
+    conditions(system, remaining, budget)
+}
+
+/// Which values of the parameters let a joint take every position: necessary for the mechanism to move with that joint
+/// moving.
+///
+/// All unknowns but those of the joint are eliminated. What is left, reduced by the joint's own circle, must vanish for
+/// every position: coefficient by coefficient.
+///
+/// # Errors
+/// [`Stop`] where the budget does not suffice.
+pub fn motion_conditions(
+    system: &PolynomialSystem,
+    joint: JointId,
+    budget: &Budget,
+) -> Result<DesignConditions, Stop> {
+    let kept = &system.joint_variables[joint.0];
+    let remaining = remaining_without(system, kept, budget)?;
+    let own: Vec<Polynomial> = system
+        .equations
+        .iter()
+        .filter(|e| matches!(e.origin, Origin::Freedom { joint: j } if j == joint))
+        .map(|e| e.polynomial.clone())
+        .collect();
+    let variables = system.variables.len();
+    let circle = groebner_basis(&own, variables, &MonomialOrder::Degrevlex, budget)?;
+    let mut coefficients = Vec::new();
+    for polynomial in remaining {
+        let reduced = circle.normal_form_within(&polynomial, budget)?;
+        coefficients.extend(coefficients_in(&reduced, kept));
+    }
+    conditions(system, coefficients, budget)
+}
+
+/// What the equations say about the parameters and some unknowns that are kept, where no denominator vanishes.
+fn remaining_without(
+    system: &PolynomialSystem,
+    kept: &[usize],
+    budget: &Budget,
+) -> Result<Vec<Polynomial>, Stop> {
+    let variables = system.variables.len();
+    let mut equations = system.polynomials();
+    for nonzero in &system.nonzero {
+        equations = saturate(&equations, variables, nonzero, budget)?;
+    }
+    let eliminated: Vec<usize> = (0..variables)
+        .filter(|v| !kept.contains(v) && !is_given(&system.variables[*v].meaning))
+        .collect();
+    eliminate(&equations, variables, &eliminated, budget)
+}
+
+/// Whether a variable is a measure of the mechanism and no unknown.
+fn is_given(meaning: &Meaning) -> bool {
+    matches!(
+        meaning,
+        Meaning::Parameter { .. } | Meaning::Algebraic { .. }
+    )
+}
+
+/// The coefficients of a polynomial seen as one in some of its variables.
+fn coefficients_in(polynomial: &Polynomial, variables: &[usize]) -> Vec<Polynomial> {
+    let mut parts: BTreeMap<Vec<u32>, Vec<(Vec<u32>, Rational)>> = BTreeMap::new();
+    for (exponents, coefficient) in polynomial.terms() {
+        let power = variables.iter().map(|&v| exponents[v]).collect();
+        let mut rest = exponents.to_vec();
+        for &v in variables {
+            rest[v] = 0;
+        }
+        parts
+            .entry(power)
+            .or_default()
+            .push((rest, coefficient.clone()));
+    }
+    parts
+        .into_values()
+        .map(|terms| Polynomial::from_terms(terms, polynomial.variables()))
+        .collect()
+}
+
+/// The conditions that do not hold anyway, as a reduced basis, factored.
+fn conditions(
+    system: &PolynomialSystem,
+    found: Vec<Polynomial>,
+    budget: &Budget,
+) -> Result<DesignConditions, Stop> {
+    let variables = system.variables.len();
+    let given: Vec<Polynomial> = system
+        .equations
+        .iter()
+        .filter(|e| {
+            (0..variables)
+                .all(|v| !e.polynomial.mentions(v) || is_given(&system.variables[v].meaning))
+        })
+        .filter(|e| {
+            matches!(
+                e.origin,
+                Origin::Parameter { .. } | Origin::MinimalPolynomial { .. }
+            )
+        })
+        .map(|e| e.polynomial.clone())
+        .collect();
+    let known = groebner_basis(&given, variables, &MonomialOrder::Degrevlex, budget)?;
+    let mut all = given;
+    all.extend(found);
+    let basis = groebner_basis(&all, variables, &MonomialOrder::Degrevlex, budget)?;
+    let mut conditions = Vec::new();
+    for polynomial in basis.polynomials() {
+        if known.normal_form_within(polynomial, budget)?.is_zero() {
+            continue;
+        }
+        let factors = factor(polynomial, budget)?
+            .factors
+            .into_iter()
+            .map(|(factor, _)| factor)
+            // What must not vanish is no way to satisfy the condition.
+            .filter(|f| {
+                !system
+                    .nonzero
+                    .iter()
+                    .any(|n| n.primitive() == f.primitive())
+            })
+            .collect();
+        conditions.push(Condition {
+            polynomial: polynomial.clone(),
+            factors,
+        });
+    }
+    let parameters = (0..variables)
+        .filter(|&v| matches!(system.variables[v].meaning, Meaning::Parameter { .. }))
+        .collect();
+    Ok(DesignConditions {
+        parameters,
+        conditions,
+    })
+}
+
+impl DesignConditions {
+    /// Whether no values of the parameters will do.
+    #[must_use]
+    pub fn is_impossible(&self) -> bool {
+        self.conditions
+            .iter()
+            .any(|c| c.polynomial.as_constant().is_some_and(|c| c.is_one()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn coefficients_of_a_motion() {
+        // (a − 1)·c + b, in the ring of c, a, b: all positions c only for a = 1 and b = 0.
+        let [c, a, b] = [0, 1, 2].map(|i| Polynomial::variable(i, 3));
+        let one = Polynomial::one(3);
+        let p = &(&(&a - &one) * &c) + &b;
+        assert_eq!(coefficients_in(&p, &[0]), [b, &a - &one]);
+    }
+}

@@ -1,0 +1,131 @@
+//! Which joints get variables: spanning trees and the joints that close them.
+
+use super::Formulation;
+use crate::graph::{ConstraintGraph, Cycle, SpanningTree};
+use crate::mechanism::{JointKind, Mechanism};
+
+/// The fundamental cycles of the spanning tree whose joints have the fewest variables; where that leaves a choice, of one
+/// that has as much of the low-depth tree as possible (Kruskal 1956).
+pub(super) fn lightest_tree_cycles(
+    graph: &ConstraintGraph,
+    low_depth: &SpanningTree,
+    mechanism: &Mechanism,
+) -> Vec<Cycle> {
+    let coupled: Vec<usize> = mechanism
+        .couplings()
+        .iter()
+        .flat_map(|c| &c.terms)
+        .map(|term| term.joint.0)
+        .collect();
+    let mut order: Vec<usize> = graph.edges_by_name().to_vec();
+    order.sort_by_key(|&edge| {
+        let kind = mechanism.joints()[edge].kind;
+        // A coupled joint needs its variables.
+        let weight = match coupled.contains(&edge) {
+            true => 0,
+            false => variable_count(kind),
+        };
+        (weight, !low_depth.contains(edge))
+    });
+    let mut piece: Vec<usize> = (0..graph.node_count()).collect();
+    let mut kept = vec![false; graph.edge_count()];
+    for &edge in &order {
+        let [a, b] = graph.edge(edge).ends.map(|end| piece[end]);
+        if a != b {
+            kept[edge] = true;
+            piece.iter_mut().filter(|p| **p == b).for_each(|p| *p = a);
+        }
+    }
+    let specs = |keep: bool| {
+        graph
+            .edges_by_name()
+            .iter()
+            .copied()
+            .filter(move |&edge| kept[edge] == keep)
+    };
+    cycles_of_tree(graph, specs.clone()(true).collect(), specs(false).collect())
+}
+
+fn variable_count(kind: JointKind) -> usize {
+    match kind {
+        JointKind::Fixed => 0,
+        JointKind::Prismatic => 1,
+        JointKind::Revolute | JointKind::PlanarTranslation => 2,
+        JointKind::Screw | JointKind::Cylindrical | JointKind::Translational => 3,
+        JointKind::Universal | JointKind::Planar | JointKind::Spherical => 4,
+        JointKind::TranslatingScrew | JointKind::Schoenflies | JointKind::PointOnLine => 5,
+        JointKind::LineOnPlane | JointKind::PointOnPlane => 6,
+        JointKind::Distance => 7,
+    }
+}
+
+/// One cycle per chord: the chord and the way through the tree.
+fn cycles_of_tree(graph: &ConstraintGraph, tree: Vec<usize>, chords: Vec<usize>) -> Vec<Cycle> {
+    let mut incident = vec![Vec::new(); graph.node_count()];
+    for edge in tree {
+        let [a, b] = graph.edge(edge).ends;
+        incident[a].push((edge, b));
+        incident[b].push((edge, a));
+    }
+    chords
+        .into_iter()
+        .filter_map(|chord| {
+            let [from, to] = graph.edge(chord).ends;
+            // Breadth first from one end to the other.
+            let mut came = vec![None; graph.node_count()];
+            let mut queue = std::collections::VecDeque::from([from]);
+            while let Some(node) = queue.pop_front() {
+                for &(edge, next) in &incident[node] {
+                    if next != from && came[next].is_none() {
+                        came[next] = Some((edge, node));
+                        queue.push_back(next);
+                    }
+                }
+            }
+            let mut walk = vec![chord];
+            let mut at = to;
+            while at != from {
+                let (edge, node) = came[at]?;
+                walk.push(edge);
+                at = node;
+            }
+            Cycle::from_walk(graph, &walk)
+        })
+        .collect()
+}
+
+/// For every cycle the joint that gets no variables: in the tree form the one that only this cycle passes and that saves
+/// most, otherwise a distance joint that only this cycle passes.
+pub(super) fn implicit_joints(
+    mechanism: &Mechanism,
+    cycles: &[Cycle],
+    formulation: Formulation,
+) -> Vec<Option<usize>> {
+    let mut passed = vec![0; mechanism.joints().len()];
+    for (edge, _) in cycles.iter().flat_map(|c| &c.edges) {
+        passed[*edge] += 1;
+    }
+    let coupled: Vec<usize> = mechanism
+        .couplings()
+        .iter()
+        .flat_map(|c| &c.terms)
+        .map(|term| term.joint.0)
+        .collect();
+    cycles
+        .iter()
+        .map(|cycle| {
+            let own = cycle.edges.iter().map(|(edge, _)| *edge);
+            let own = own.filter(|&edge| passed[edge] == 1 && !coupled.contains(&edge));
+            let kind = |edge: usize| mechanism.joints()[edge].kind;
+            match formulation {
+                Formulation::Tree => own.max_by_key(|&edge| {
+                    let name = std::cmp::Reverse(&mechanism.joints()[edge].name);
+                    (variable_count(kind(edge)), name)
+                }),
+                _ => own
+                    .filter(|&edge| kind(edge) == JointKind::Distance)
+                    .min_by_key(|&edge| &mechanism.joints()[edge].name),
+            }
+        })
+        .collect()
+}

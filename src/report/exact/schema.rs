@@ -1,0 +1,468 @@
+//! The exact report as data.
+
+use super::values::{doubles, fixed_freedoms};
+use crate::algebra::{
+    DesignConditions, ExactAnswer, ExactOptions, Formulation, Irreducible, Meaning, Method,
+    MonomialOrder, PolynomialSystem, RealPoints, RelationFinding, RelationVerdict, Stop,
+};
+use crate::mechanism::Mechanism;
+use serde::Serialize;
+
+/// The version of the JSON.
+pub const EXACT_SCHEMA: &str = "kutzbach-exact-1";
+
+/// What was asked and of which file.
+#[derive(Clone, Debug, Default)]
+pub struct Request {
+    /// The file as it was named.
+    pub file: String,
+    /// What was asked.
+    pub options: ExactOptions,
+    /// List the equations.
+    pub equations: bool,
+    /// List the polynomials of the basis.
+    pub basis: bool,
+    /// Say how long the steps took.
+    pub timing: bool,
+}
+
+/// Whether the computation came to its end.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Outcome {
+    /// `done` or `stopped`.
+    pub word: &'static str,
+    /// Where it stopped.
+    pub at: Option<&'static str>,
+    /// Why.
+    pub why: Option<String>,
+}
+
+/// A variable with finitely many values.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Fixed {
+    /// Its name.
+    pub variable: String,
+    /// The equation it satisfies.
+    pub polynomial: String,
+    /// The real roots of that equation, in double precision.
+    pub values: Vec<f64>,
+}
+
+/// A piece of the solution set.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Piece {
+    /// Complex dimension.
+    pub dimension: usize,
+    /// Degree.
+    pub degree: Option<usize>,
+    /// `yes`, `no` or `unknown`: whether it is one piece over the rationals.
+    pub irreducible: &'static str,
+    /// Its real points: `finite`, `full dimension`, `some`, `not found`, `none` or `unknown`.
+    pub real: &'static str,
+    /// How many real points, where they are finitely many.
+    pub real_points: Option<usize>,
+    /// Whether the drawn pose lies on it; `null` where that pose is not known exactly.
+    pub contains_home: Option<bool>,
+    /// Variables that can be chosen freely on it.
+    pub free: Vec<String>,
+    /// Its equations.
+    pub equations: Vec<String>,
+}
+
+/// Isolated solutions.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Solutions {
+    /// Distinct complex ones.
+    pub complex: usize,
+    /// The real ones: the values of all variables, in their order.
+    pub real: Vec<Vec<f64>>,
+}
+
+/// One cycle by itself.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Cycle {
+    /// Its joints.
+    pub name: String,
+    /// Complex dimension; `null` if it cannot be closed.
+    pub dimension: Option<usize>,
+    /// Freedoms with finitely many values, in words.
+    pub fixed: Vec<String>,
+    /// Links that it makes one body.
+    pub rigid_clusters: Vec<Vec<String>>,
+}
+
+/// One step of the computation.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct StepRow {
+    /// The cycle, or what else was worked on.
+    pub name: String,
+    /// Variables that occur.
+    pub variables: usize,
+    /// Equations that went in.
+    pub equations: usize,
+    /// Polynomials of the basis.
+    pub basis: usize,
+    /// Complex dimension; `null` if there is no solution.
+    pub dimension: Option<usize>,
+    /// Matrix entries that were eliminated: the same on every machine.
+    pub work: u64,
+    /// Wall time, only where it was asked for.
+    pub seconds: Option<f64>,
+}
+
+/// What the polynomials say.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ExactReport {
+    /// [`EXACT_SCHEMA`].
+    pub schema: &'static str,
+    /// The mechanism.
+    pub mechanism: String,
+    /// The file.
+    pub file: String,
+    /// `canonical`, `tree` or `positional`.
+    pub formulation: &'static str,
+    /// `brute`, `divide` or `incremental`.
+    pub method: &'static str,
+    /// The order of the basis.
+    pub order: String,
+    /// The variables' names, in order.
+    pub variables: Vec<String>,
+    /// Number of equations.
+    pub equation_count: usize,
+    /// Whether it came to its end.
+    pub outcome: Outcome,
+    /// Whether there is a solution at all, complex ones included; `null` where it was not decided.
+    pub consistent: Option<bool>,
+    /// Complex dimension of the solution set; `null` where there is none or it was not decided.
+    pub dimension: Option<usize>,
+    /// Degree of its part of largest dimension.
+    pub degree: Option<usize>,
+    /// Complex dimension at the drawn pose: the largest of the pieces through it.
+    pub dimension_at_home: Option<usize>,
+    /// `exact`: the drawn pose solves the equations; `open`: it does not, the mechanism has to be assembled first;
+    /// `unknown`: it is not known exactly.
+    pub drawn_pose: &'static str,
+    /// Largest sets of variables that can be chosen freely on some part of the solution set.
+    pub free: Vec<Vec<String>>,
+    /// Variables with finitely many values.
+    pub fixed: Vec<Fixed>,
+    /// The same in words, freedom by freedom.
+    pub fixed_freedoms: Vec<String>,
+    /// The pieces; `null` where they were not looked for.
+    pub pieces: Option<Vec<Piece>>,
+    /// Whether every piece is proven irreducible over the rationals.
+    pub fully_split: bool,
+    /// Isolated solutions, where there are finitely many.
+    pub solutions: Option<Solutions>,
+    /// Cycles by themselves.
+    pub cycles: Vec<Cycle>,
+    /// Cases of the incremental method: their dimensions.
+    pub cases: Option<Vec<usize>>,
+    /// What was computed, step by step.
+    pub steps: Vec<StepRow>,
+    /// What was checked of the basis.
+    pub certificate: Option<String>,
+    /// How balls and the like are written.
+    pub charts: Vec<String>,
+    /// What the equations leave out of the mechanism; dimensions are then upper bounds.
+    pub relaxations: Vec<String>,
+    /// Whether the file's decimals were taken as exact fractions although they look rounded: what holds of the fractions
+    /// need not hold of the mechanism that was meant.
+    pub rounded_numbers_taken_literally: bool,
+    /// The equations, where they were asked for.
+    pub equations: Option<Vec<String>>,
+    /// The basis, where it was asked for.
+    pub basis: Option<Vec<String>>,
+}
+
+/// An answer as data.
+#[must_use]
+pub fn exact_report(mechanism: &Mechanism, answer: &ExactAnswer, request: &Request) -> ExactReport {
+    let system = &answer.system;
+    let names = system.names();
+    let named =
+        |list: &[usize]| -> Vec<String> { list.iter().map(|&v| names[v].clone()).collect() };
+    let basis = answer.basis.as_ref();
+    ExactReport {
+        schema: EXACT_SCHEMA,
+        mechanism: mechanism.name().to_owned(),
+        file: request.file.clone(),
+        formulation: formulation_word(request.options.system.formulation),
+        method: match request.options.method {
+            Method::Brute => "brute",
+            Method::Divide => "divide",
+            Method::Incremental => "incremental",
+        },
+        order: order_word(&request.options.order),
+        equation_count: system.equations.len(),
+        outcome: outcome(answer.stopped),
+        consistent: answer.dimension.map(|d| d.is_some()),
+        dimension: answer.dimension.flatten(),
+        degree: basis
+            .filter(|b| !b.is_inconsistent())
+            .and_then(|b| b.degree()),
+        dimension_at_home: answer.dimension_at_home(),
+        drawn_pose: match system.home {
+            crate::algebra::HomePose::Exact(_) => "exact",
+            crate::algebra::HomePose::Open { .. } => "open",
+            _ => "unknown",
+        },
+        free: answer.free.iter().map(|set| named(set)).collect(),
+        fixed: answer
+            .fixed
+            .iter()
+            .map(|fixed| Fixed {
+                variable: names[fixed.variable].clone(),
+                polynomial: fixed.polynomial.text(&names),
+                values: doubles(fixed),
+            })
+            .collect(),
+        fixed_freedoms: fixed_freedoms(mechanism, system, &answer.fixed),
+        pieces: (!answer.pieces.is_empty() || answer.decomposed).then(|| {
+            let piece = |piece| self::piece(piece, &names);
+            answer.pieces.iter().map(piece).collect()
+        }),
+        fully_split: answer.decomposed,
+        solutions: answer.solutions.as_ref().map(|solutions| Solutions {
+            complex: solutions.complex,
+            real: solutions.real.iter().map(|s| s.values()).collect(),
+        }),
+        cycles: cycles(mechanism, answer),
+        cases: answer
+            .cases
+            .as_ref()
+            .map(|found| found.cases.iter().map(|case| case.dimension).collect()),
+        steps: steps(answer, request.timing),
+        certificate: basis.map(|b| b.certificate().text()),
+        charts: system.charts.clone(),
+        relaxations: system.relaxations.iter().map(ToString::to_string).collect(),
+        rounded_numbers_taken_literally: !mechanism.precision().is_exact(),
+        equations: request.equations.then(|| {
+            let text = |p: &crate::algebra::Polynomial| p.text(&names);
+            system
+                .equations
+                .iter()
+                .map(|e| text(&e.polynomial))
+                .collect()
+        }),
+        basis: basis
+            .filter(|_| request.basis)
+            .map(|b| b.polynomials().iter().map(|p| p.text(&names)).collect()),
+        variables: names,
+    }
+}
+
+fn formulation_word(formulation: Formulation) -> &'static str {
+    match formulation {
+        Formulation::Canonical => "canonical",
+        Formulation::Tree => "tree",
+        Formulation::Positional => "positional",
+    }
+}
+
+fn order_word(order: &MonomialOrder) -> String {
+    match order {
+        MonomialOrder::Degrevlex => "degrevlex".to_owned(),
+        MonomialOrder::Lexicographic => "lex".to_owned(),
+        MonomialOrder::Elimination(first) => format!("elimination of {first}"),
+    }
+}
+
+fn outcome(stopped: Option<(&'static str, Stop)>) -> Outcome {
+    Outcome {
+        word: if stopped.is_some() { "stopped" } else { "done" },
+        at: stopped.map(|(at, _)| at),
+        why: stopped.map(|(_, stop)| stop.to_string()),
+    }
+}
+
+fn piece(piece: &crate::algebra::Piece, names: &[String]) -> Piece {
+    let component = &piece.component;
+    Piece {
+        dimension: component.dimension,
+        degree: component.degree,
+        irreducible: match component.irreducible {
+            Irreducible::Yes => "yes",
+            Irreducible::Unknown => "unknown",
+            _ => "no",
+        },
+        real: match component.real {
+            RealPoints::Finite(_) => "finite",
+            RealPoints::FullDimension => "full dimension",
+            RealPoints::Some => "some",
+            RealPoints::NotFound => "not found",
+            RealPoints::None => "none",
+            RealPoints::Unknown => "unknown",
+        },
+        real_points: match component.real {
+            RealPoints::Finite(count) => Some(count),
+            RealPoints::None => Some(0),
+            _ => None,
+        },
+        contains_home: piece.contains_home,
+        free: component.free.iter().map(|&v| names[v].clone()).collect(),
+        equations: component.equations.iter().map(|p| p.text(names)).collect(),
+    }
+}
+
+fn cycles(mechanism: &Mechanism, answer: &ExactAnswer) -> Vec<Cycle> {
+    answer
+        .cycles
+        .iter()
+        .map(|cycle| Cycle {
+            name: cycle.name.clone(),
+            dimension: cycle.dimension,
+            fixed: fixed_freedoms(mechanism, &answer.system, &cycle.fixed),
+            rigid_clusters: cycle
+                .clusters
+                .iter()
+                .map(|links| {
+                    let name = |link: &crate::mechanism::LinkId| mechanism.link(*link).name.clone();
+                    links.iter().map(name).collect()
+                })
+                .collect(),
+        })
+        .collect()
+}
+
+fn steps(answer: &ExactAnswer, timing: bool) -> Vec<StepRow> {
+    answer
+        .steps
+        .iter()
+        .map(|step| StepRow {
+            name: step.name.clone(),
+            variables: step.variables,
+            equations: step.equations,
+            basis: step.basis,
+            dimension: step.dimension,
+            work: step.work,
+            seconds: timing.then_some(step.time.as_secs_f64()),
+        })
+        .collect()
+}
+
+/// One relation and what it adds.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RelationRow {
+    /// The joint, cycle or coupling.
+    pub name: String,
+    /// `accepted`, `redundant` or `inconsistent`.
+    pub verdict: &'static str,
+    /// Complex dimension of what the relations accepted so far leave possible.
+    pub dimension: usize,
+    /// Polynomials of the basis after it.
+    pub basis: usize,
+}
+
+/// Relations added one by one.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Relations {
+    /// [`EXACT_SCHEMA`].
+    pub schema: &'static str,
+    /// The mechanism.
+    pub mechanism: String,
+    /// The file.
+    pub file: String,
+    /// `canonical`, `tree` or `positional`.
+    pub formulation: &'static str,
+    /// Whether it came to its end.
+    pub outcome: Outcome,
+    /// In the order in which they were added.
+    pub relations: Vec<RelationRow>,
+    /// What the equations leave out of the mechanism.
+    pub relaxations: Vec<String>,
+}
+
+/// The management of constraints as data.
+#[must_use]
+pub fn relations_report(
+    mechanism: &Mechanism,
+    system: &PolynomialSystem,
+    findings: &[RelationFinding],
+    stopped: Option<Stop>,
+    request: &Request,
+) -> Relations {
+    Relations {
+        schema: EXACT_SCHEMA,
+        mechanism: mechanism.name().to_owned(),
+        file: request.file.clone(),
+        formulation: formulation_word(request.options.system.formulation),
+        outcome: outcome(stopped.map(|stop| ("the relations", stop))),
+        relations: findings
+            .iter()
+            .map(|finding| RelationRow {
+                name: finding.name.clone(),
+                verdict: match finding.verdict {
+                    RelationVerdict::Accepted => "accepted",
+                    RelationVerdict::Redundant => "redundant",
+                    RelationVerdict::Inconsistent => "inconsistent",
+                },
+                dimension: finding.dimension,
+                basis: finding.basis,
+            })
+            .collect(),
+        relaxations: system.relaxations.iter().map(ToString::to_string).collect(),
+    }
+}
+
+/// A condition on the parameters.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ConditionRow {
+    /// The polynomial that has to vanish.
+    pub polynomial: String,
+    /// Its factors, one of which has to vanish.
+    pub factors: Vec<String>,
+}
+
+/// Conditions on measures that were left open.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Conditions {
+    /// [`EXACT_SCHEMA`].
+    pub schema: &'static str,
+    /// The mechanism.
+    pub mechanism: String,
+    /// The file.
+    pub file: String,
+    /// `assembly`, or the joint that is to take every position.
+    pub question: String,
+    /// The parameters: their variables.
+    pub parameters: Vec<String>,
+    /// Whether it came to its end.
+    pub outcome: Outcome,
+    /// What has to vanish; empty: no condition; `null` where it was not found.
+    pub conditions: Option<Vec<ConditionRow>>,
+    /// What the equations leave out of the mechanism.
+    pub relaxations: Vec<String>,
+}
+
+/// Design conditions as data; `joint` is the one that is to move, if any.
+#[must_use]
+pub fn conditions_report(
+    mechanism: &Mechanism,
+    system: &PolynomialSystem,
+    found: Result<&DesignConditions, Stop>,
+    joint: Option<&str>,
+    request: &Request,
+) -> Conditions {
+    let names = system.names();
+    let text = |p: &crate::algebra::Polynomial| p.text(&names);
+    Conditions {
+        schema: EXACT_SCHEMA,
+        mechanism: mechanism.name().to_owned(),
+        file: request.file.clone(),
+        question: joint.unwrap_or("assembly").to_owned(),
+        parameters: (0..names.len())
+            .filter(|&v| matches!(system.variables[v].meaning, Meaning::Parameter { .. }))
+            .map(|v| names[v].clone())
+            .collect(),
+        outcome: outcome(found.err().map(|stop| ("the elimination", stop))),
+        conditions: found.ok().map(|found| {
+            let row = |condition: &crate::algebra::Condition| ConditionRow {
+                polynomial: text(&condition.polynomial),
+                factors: condition.factors.iter().map(&text).collect(),
+            };
+            found.conditions.iter().map(row).collect()
+        }),
+        relaxations: system.relaxations.iter().map(ToString::to_string).collect(),
+    }
+}

@@ -1,0 +1,409 @@
+//! The exact report as a page.
+
+use super::schema::{Conditions, ExactReport, Outcome, Piece, Relations};
+use crate::report::text::words::{counted, figure};
+use crate::report::text::{Cell, Column, Layout, Page, Table, Tint};
+
+/// Sets of free variables that are shown.
+const FREE_SHOWN: usize = 4;
+
+/// Isolated solutions that are shown, unless everything is asked for.
+const SOLUTIONS_SHOWN: usize = 8;
+
+/// The report as a page of text, ending in a line break.
+#[must_use]
+pub fn render(report: &ExactReport, layout: Layout) -> String {
+    let mut page = Page::new(layout);
+    page.paragraph(&headline(report), Tint::Strong, "", "");
+    if let Some(sentence) = stopped(&report.outcome) {
+        page.item(&sentence, Tint::Doubtful);
+    }
+    if let Some(sentence) = at_home(report) {
+        page.item(&sentence, Tint::Plain);
+    }
+    if report.rounded_numbers_taken_literally {
+        page.item(
+            "the decimals of the file are taken literally, as fractions: what is special about the mechanism that was \
+             meant (a length equal to a square root, say) is lost with the digits left out; write such numbers as \
+             expressions",
+            Tint::Notable,
+        );
+    }
+    for relaxation in &report.relaxations {
+        page.item(
+            &format!("{relaxation}; dimensions are upper bounds"),
+            Tint::Notable,
+        );
+    }
+    page.gap();
+    page.paragraph(
+        &format!(
+            "{} ({}): {} and {} in {} form; basis by {}, {}.",
+            report.mechanism,
+            report.file,
+            counted(report.variables.len(), "variable"),
+            counted(report.equation_count, "equation"),
+            report.formulation,
+            match report.method {
+                "divide" => "divide and conquer over the cycles",
+                "incremental" => "incremental instancing",
+                _ => "brute force",
+            },
+            report.order
+        ),
+        Tint::Quiet,
+        "",
+        "",
+    );
+    for chart in &report.charts {
+        page.item(chart, Tint::Quiet);
+    }
+    variables(report, &mut page);
+    pieces(report, &mut page);
+    solutions(report, &mut page);
+    cycles(report, &mut page);
+    steps(report, &mut page);
+    listing("Equations", report.equations.as_deref(), &mut page);
+    listing("Basis", report.basis.as_deref(), &mut page);
+    if let Some(certificate) = &report.certificate {
+        page.heading("What was checked");
+        page.paragraph(&format!("{certificate}."), Tint::Plain, "  ", "  ");
+    }
+    page.into_text()
+}
+
+fn headline(report: &ExactReport) -> String {
+    match (report.consistent, report.dimension) {
+        (Some(false), _) => {
+            "The equations contradict one another: no pose satisfies them, not even a complex one."
+                .to_owned()
+        }
+        (_, Some(0)) => "Finitely many poses satisfy the equations (dimension 0).".to_owned(),
+        (_, Some(dimension)) => {
+            let degree = report
+                .degree
+                .map_or(String::new(), |degree| format!(", degree {degree}"));
+            format!("The solutions have complex dimension {dimension}{degree}.")
+        }
+        _ => "Undecided: the computation ended before it had an answer.".to_owned(),
+    }
+}
+
+fn stopped(outcome: &Outcome) -> Option<String> {
+    let why = outcome.why.as_ref()?;
+    Some(format!(
+        "stopped at {}: {why}; what is said here holds, but more may hold",
+        outcome.at.unwrap_or("some step")
+    ))
+}
+
+fn at_home(report: &ExactReport) -> Option<String> {
+    match report.drawn_pose {
+        "open" => Some(
+            "the pose drawn in the file does not satisfy the equations: the mechanism has to be assembled first"
+                .to_owned(),
+        ),
+        "unknown" => Some("the pose drawn in the file is not known exactly".to_owned()),
+        _ => report.dimension_at_home.map(|dimension| {
+            let real = report.pieces.iter().flatten().any(|p| {
+                p.contains_home == Some(true) && p.dimension == dimension && p.real == "not found"
+            });
+            let caution = if real && dimension > 0 {
+                "; no real point but isolated ones was found on it, so that complex freedom need not be motion"
+            } else {
+                ""
+            };
+            format!("at the pose drawn the complex dimension is {dimension}{caution}")
+        }),
+    }
+}
+
+fn variables(report: &ExactReport, page: &mut Page) {
+    if report.free.is_empty() && report.fixed_freedoms.is_empty() {
+        return;
+    }
+    page.heading("Free and fixed");
+    if report.dimension.is_some_and(|d| d > 0) {
+        let shown: Vec<String> = report
+            .free
+            .iter()
+            .take(FREE_SHOWN)
+            .map(|set| set.join(", "))
+            .collect();
+        let more = report.free.len().saturating_sub(shown.len());
+        let more = if more > 0 {
+            format!("; or one of {more} other sets")
+        } else {
+            String::new()
+        };
+        page.item(&format!("free: {}{more}", shown.join("; or ")), Tint::Good);
+    }
+    for fixed in &report.fixed_freedoms {
+        page.item(&format!("fixed: {fixed}"), Tint::Plain);
+    }
+}
+
+fn pieces(report: &ExactReport, page: &mut Page) {
+    let Some(pieces) = report.pieces.as_ref().filter(|pieces| !pieces.is_empty()) else {
+        return;
+    };
+    page.heading("Pieces of the solution set");
+    let mut table = Table::new()
+        .column("", Column::Numbers)
+        .column("dimension", Column::Numbers)
+        .column("degree", Column::Numbers)
+        .column("one piece over the rationals", Column::Words)
+        .column("real points", Column::Words)
+        .column("pose drawn", Column::Words)
+        .column("free", Column::Shrinking);
+    for (index, piece) in pieces.iter().enumerate() {
+        table.row(vec![
+            Cell::new((index + 1).to_string()),
+            Cell::new(piece.dimension.to_string()),
+            Cell::new(piece.degree.map_or("?".to_owned(), |d| d.to_string())),
+            Cell::new(piece.irreducible),
+            Cell::new(real_words(piece)),
+            Cell::new(match piece.contains_home {
+                Some(true) => "on it",
+                Some(false) => "",
+                None => "?",
+            }),
+            Cell::new(piece.free.join(", ")),
+        ]);
+    }
+    page.table(&table, "pieces");
+    if !report.fully_split {
+        page.item(
+            "not split further: some piece may fall apart into more",
+            Tint::Notable,
+        );
+    }
+}
+
+fn real_words(piece: &Piece) -> String {
+    match (piece.real, piece.real_points) {
+        (_, Some(count)) => count.to_string(),
+        ("full dimension", _) => format!("of dimension {}", piece.dimension),
+        (word, _) => word.to_owned(),
+    }
+}
+
+fn solutions(report: &ExactReport, page: &mut Page) {
+    let Some(solutions) = &report.solutions else {
+        return;
+    };
+    page.heading("Solutions");
+    page.item(
+        &format!(
+            "{} complex, of which {} real",
+            solutions.complex,
+            solutions.real.len()
+        ),
+        Tint::Plain,
+    );
+    let shown = if page.layout().verbose {
+        solutions.real.len()
+    } else {
+        SOLUTIONS_SHOWN
+    };
+    for solution in solutions.real.iter().take(shown) {
+        let values: Vec<String> = report
+            .variables
+            .iter()
+            .zip(solution)
+            .map(|(name, value)| format!("{name} = {}", figure(*value)))
+            .collect();
+        page.item(&values.join(", "), Tint::Quiet);
+    }
+    let left = solutions.real.len().saturating_sub(shown);
+    if left > 0 {
+        page.item(&format!("and {left} more"), Tint::Quiet);
+    }
+}
+
+fn cycles(report: &ExactReport, page: &mut Page) {
+    if report.cycles.is_empty() {
+        return;
+    }
+    page.heading("Cycles by themselves");
+    for cycle in &report.cycles {
+        let dimension = match cycle.dimension {
+            None => "cannot be closed".to_owned(),
+            Some(dimension) => format!("dimension {dimension}"),
+        };
+        let mut said = format!("cycle {}: {dimension}", cycle.name);
+        for cluster in &cycle.rigid_clusters {
+            said.push_str(&format!(
+                "; links {} are one rigid cluster",
+                cluster.join(", ")
+            ));
+        }
+        for fixed in &cycle.fixed {
+            said.push_str(&format!("; {fixed}"));
+        }
+        page.item(&said, Tint::Plain);
+    }
+}
+
+fn steps(report: &ExactReport, page: &mut Page) {
+    if report.steps.is_empty() {
+        return;
+    }
+    page.heading("Steps");
+    let timed = report.steps.iter().any(|step| step.seconds.is_some());
+    let mut table = Table::new()
+        .column("", Column::Shrinking)
+        .column("variables", Column::Numbers)
+        .column("equations", Column::Numbers)
+        .column("basis", Column::Numbers)
+        .column("dimension", Column::Numbers)
+        .column("work", Column::Numbers);
+    if timed {
+        table = table.column("ms", Column::Numbers);
+    }
+    for step in &report.steps {
+        let mut row = vec![
+            Cell::new(&step.name),
+            Cell::new(step.variables.to_string()),
+            Cell::new(step.equations.to_string()),
+            Cell::new(step.basis.to_string()),
+            Cell::new(step.dimension.map_or("none".to_owned(), |d| d.to_string())),
+            Cell::new(step.work.to_string()),
+        ];
+        if timed {
+            row.push(Cell::new(figure(step.seconds.unwrap_or(0.0) * 1e3)));
+        }
+        table.row(row);
+    }
+    page.table(&table, "steps");
+    if let Some(cases) = &report.cases {
+        let dimensions: Vec<String> = cases.iter().map(ToString::to_string).collect();
+        page.item(
+            &format!(
+                "{} carried to the end, of dimension {}",
+                counted(cases.len(), "case"),
+                dimensions.join(", ")
+            ),
+            Tint::Plain,
+        );
+    }
+}
+
+fn listing(title: &str, lines: Option<&[String]>, page: &mut Page) {
+    let Some(lines) = lines else {
+        return;
+    };
+    page.heading(title);
+    for line in lines {
+        page.paragraph(line, Tint::Plain, "  ", "      ");
+    }
+}
+
+/// Relations added one by one, as a page of text.
+#[must_use]
+pub fn render_relations(report: &Relations, layout: Layout) -> String {
+    let mut page = Page::new(layout);
+    let count = |word: &str| {
+        report
+            .relations
+            .iter()
+            .filter(|relation| relation.verdict == word)
+            .count()
+    };
+    page.paragraph(
+        &format!(
+            "Of {}, {} accepted, {} redundant, {} inconsistent.",
+            counted(report.relations.len(), "relation"),
+            count("accepted"),
+            count("redundant"),
+            count("inconsistent")
+        ),
+        Tint::Strong,
+        "",
+        "",
+    );
+    if let Some(sentence) = stopped(&report.outcome) {
+        page.item(&sentence, Tint::Doubtful);
+    }
+    for relaxation in &report.relaxations {
+        page.item(relaxation, Tint::Notable);
+    }
+    page.gap();
+    page.paragraph(
+        &format!(
+            "{} ({}), in {} form; relations in the order of the file.",
+            report.mechanism, report.file, report.formulation
+        ),
+        Tint::Quiet,
+        "",
+        "",
+    );
+    page.gap();
+    let mut table = Table::new()
+        .column("relation", Column::Shrinking)
+        .column("", Column::Words)
+        .column("dimension after it", Column::Numbers)
+        .column("basis", Column::Numbers);
+    for relation in &report.relations {
+        let tint = match relation.verdict {
+            "accepted" => Tint::Good,
+            "redundant" => Tint::Notable,
+            _ => Tint::Bad,
+        };
+        table.row(vec![
+            Cell::new(&relation.name),
+            Cell::new(relation.verdict).tint(tint),
+            Cell::new(relation.dimension.to_string()),
+            Cell::new(relation.basis.to_string()),
+        ]);
+    }
+    page.table(&table, "relations");
+    page.into_text()
+}
+
+/// Design conditions as a page of text.
+#[must_use]
+pub fn render_conditions(report: &Conditions, layout: Layout) -> String {
+    let mut page = Page::new(layout);
+    let does = if report.question == "assembly" {
+        "can be put together".to_owned()
+    } else {
+        format!("can move with `{}` taking every position", report.question)
+    };
+    let headline = match report.conditions.as_deref() {
+        None => "Undecided: the computation ended before it had an answer.".to_owned(),
+        Some([]) => format!("It {does} whatever the values (complex ones included)."),
+        Some([one]) if one.polynomial == "1" => format!("There are no values for which it {does}."),
+        Some([one]) if one.factors.len() == 1 => {
+            format!("It {does} only if {} = 0.", one.factors[0])
+        }
+        Some(_) => format!("It {does} only if all of this holds:"),
+    };
+    page.paragraph(&headline, Tint::Strong, "", "");
+    if let Some(sentence) = stopped(&report.outcome) {
+        page.item(&sentence, Tint::Doubtful);
+    }
+    let rows = report.conditions.as_deref().unwrap_or_default();
+    if rows.len() > 1 || rows.iter().any(|row| row.factors.len() > 1) {
+        for row in rows {
+            let ways: Vec<String> = row.factors.iter().map(|f| format!("{f} = 0")).collect();
+            page.item(&ways.join(" or "), Tint::Plain);
+        }
+    }
+    for relaxation in &report.relaxations {
+        page.item(relaxation, Tint::Notable);
+    }
+    page.gap();
+    page.paragraph(
+        &format!(
+            "{} ({}), left open: {}. The conditions are necessary; complex solutions count.",
+            report.mechanism,
+            report.file,
+            report.parameters.join(", ")
+        ),
+        Tint::Quiet,
+        "",
+        "",
+    );
+    page.into_text()
+}
