@@ -126,10 +126,7 @@ fn what_stands_is_proved_to_stand() {
 /// for the other.
 #[test]
 fn complex_solutions_are_not_motions() {
-    for name in [
-        "planar_4r_stretched_isolated",
-        "ppsrr_plane_torus_isolated",
-    ] {
+    for name in ["planar_4r_stretched_isolated", "ppsrr_plane_torus_isolated"] {
         let found = with(&zoo_mechanism(name), ExactBudget::default()).mobility;
         assert_eq!(
             (found.verdict, found.finite(), found.complex_dimension),
@@ -143,7 +140,10 @@ fn complex_solutions_are_not_motions() {
             found.why
         );
         let said = said(&found).concat();
-        assert!(said.contains("at most 1") && said.contains("no less"), "{said}");
+        assert!(
+            said.contains("at most 1") && said.contains("no less"),
+            "{said}"
+        );
     }
 }
 
