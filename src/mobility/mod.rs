@@ -8,7 +8,7 @@
 //!
 //! Then [`part_mobility`] asks what is left of that freedom in finite motion: displacement subgroups
 //! ([`subgroup_finding`]), the chart test ([`chart_test`]), and at singular poses the germ of the configuration space and
-//! its real zeros. Where the numbers are exact and doubt is left, [`exact`] algebra is asked last, within an
+//! its real zeros. Where the numbers are exact and doubt is left, exact algebra is asked last, within an
 //! [`ExactBudget`]. Every branch is walked to generic poses of its own, where [`branch_facts`] asks what moves along it.
 //! [`judge`] puts the parts together.
 //!

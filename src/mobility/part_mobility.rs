@@ -8,7 +8,7 @@
 //! | second order | finite = 0 at a singular pose with a definite form | power series |
 //! | germ and its zeros | the branches through a singular pose, each confirmed by closing all equations on it | power series |
 //!
-//! Exact algebra is asked afterwards, by [`exact`](super::exact).
+//! Exact algebra is asked afterwards: `src/mobility/exact/`.
 //!
 //! Of rounded numbers, a chart is believed only where the part can be followed farther away as well.
 //!

@@ -40,9 +40,15 @@ pub(super) fn combine(found: &mut PartFinding, rank: &PartRank, exact: ExactFind
     }
     let meets = (exact.upper == found.lower).then_some(exact.upper);
     let complex = exact.complex_dimension.or(meets);
+    // Where it is not known, the bound still is one.
+    let excluded = |germ: usize| complex.map_or(germ > exact.upper, |algebra| algebra != germ);
     match (found.complex_dimension, complex) {
-        // Both bounds hold for the real freedom, whichever is wrong.
-        (Some(germ), Some(algebra)) if germ != algebra => {
+        // The real freedom keeps its bounds, whichever of the two is wrong.
+        (Some(germ), _) if excluded(germ) => {
+            let algebra = complex.map_or_else(
+                || format!("at most {}", exact.upper),
+                |dimension| dimension.to_string(),
+            );
             found.complex_dimension = None;
             found.contradiction = Some(format!(
                 "two engines contradict each other, please report this: the dimension over the complex numbers is {germ} by \

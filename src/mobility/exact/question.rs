@@ -1,7 +1,7 @@
 //! The solutions of a polynomial system near the pose drawn: their tangent space and their dimension.
 
-use super::ExactFinding;
 use super::budget::MOST_ENTRIES;
+use super::{ExactFinding, stopped};
 use crate::algebra::{
     Budget, Limits, ModularSystem, MonomialOrder, Polynomial, PolynomialSystem, Rational, Stop,
     groebner_basis, local_dimension_is_at_most, local_dimension_modulo,
@@ -34,7 +34,8 @@ impl Question<'_> {
         let tangent = tangent_dimension(self.modular, self.budget).map_err(stopped)?;
         let surplus = self.rank.unknowns() as i64 - self.rank.equations() as i64;
         let whole = self.system.is_exact();
-        let count = variables as i64 - equations as i64;
+        // With the algebraic numbers and their minimal polynomials, and with any equation that vanishes modulo the prime.
+        let count = self.system.variables.len() as i64 - self.system.equations.len() as i64;
         let mut text = format!(
             "{equations} equations in {variables} unknowns{}; modulo the prime {}: tangent space of dimension {tangent}",
             if whole { "" } else { ", some left out" },
