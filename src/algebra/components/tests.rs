@@ -67,7 +67,7 @@ fn special_values_do_not_mislead() {
     assert_eq!(pieces(&[curve.clone(), z.clone()]).len(), 1);
     // y = ±x over z² = 1 and over z² = 2: no equation factors but those that are found on the way.
     let two = &(&z * &z) - &integer(2);
-    let twisted = &(&y * &y) - &(&(&x * &x).scaled(&Rational::from_integer(2.into())));
+    let twisted = &(&y * &y) - (&(&x * &x).scaled(&Rational::from_integer(2.into())));
     let found = decompose(&[two, twisted], &Hints::default());
     assert!(found.complete);
     assert_eq!(found.pieces.len(), 2);

@@ -1,7 +1,7 @@
 //! From a mechanism to its polynomial system.
 
-use super::coaxial::{self, LinearJoint, on_one_line};
-use super::displacement::{Displacement, relative, values_at};
+use super::coaxial::LinearJoint;
+use super::displacement::{relative, values_at};
 use super::element::Element;
 use super::error::SystemError;
 use super::field::Field;
@@ -11,13 +11,11 @@ use super::model::{JointModel, circle_field, read_joint};
 use super::poly::Poly;
 use super::space::{Doubles, Pose};
 use super::variables::{Meaning, Names};
-use super::walks::Walker;
 use super::{
-    CycleEquations, Formulation, Origin, PolynomialSystem, Relaxation, SystemOptions, couplings,
-    flatten, home, positional,
+    CycleEquations, Formulation, Origin, PolynomialSystem, Relaxation, SystemOptions, flatten,
+    home, positional,
 };
 use crate::closure::Rigid;
-use crate::graph::{ConstraintGraph, Cycle, CycleBasis, SpanningTree, fundamental_cycle};
 use crate::mechanism::{Configuration, JointId, JointKind, LinkId, Mechanism};
 
 /// What the equations are made of.

@@ -11,10 +11,8 @@
 use super::angles::Divisors;
 use super::circle;
 use super::element::{Element, Exponents, product, trim};
-use super::fraction::{self, Fraction, fraction, inverse, to_rational};
+use super::fraction::{self, Fraction, inverse, to_rational};
 use crate::number::Number;
-use dashu::base::SquareRoot;
-use dashu::integer::UBig;
 
 /// Why a field cannot hold what is asked of it.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -60,7 +60,7 @@ pub use variables::{Meaning, Variable};
 use super::polynomial::Polynomial;
 use crate::mechanism::{JointId, LinkId};
 
-/// Which unknowns the equations are written in; see the [module](self).
+/// Which unknowns the equations are written in; see the page on what can be proven.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Formulation {
     /// The joints' freedoms, cycle by cycle.
