@@ -18,6 +18,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .ok_or("needed a mechanism file: report_file FILE [CONFIGURATION]")?;
     let options = AnalysisOptions {
         configuration: arguments.next(),
+        ..AnalysisOptions::default()
     };
 
     let Reading {

@@ -14,6 +14,7 @@ use support::{assert_none, in_parallel, zoo, zoo_mechanism};
 fn at(mechanism: &Mechanism, pose: Option<&str>) -> Analysis {
     let options = AnalysisOptions {
         configuration: pose.map(str::to_owned),
+        ..AnalysisOptions::default()
     };
     analyse(mechanism, &options).unwrap()
 }

@@ -30,6 +30,7 @@ fn robot(file: &str, poses: &[(&str, &str, &str)]) -> Option<Mechanism> {
 fn at(mechanism: &Mechanism, configuration: &str) -> Analysis {
     let options = AnalysisOptions {
         configuration: Some(configuration.to_owned()),
+        ..AnalysisOptions::default()
     };
     analyse(mechanism, &options).unwrap()
 }

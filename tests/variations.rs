@@ -329,6 +329,7 @@ fn another_pose_of_the_same_branch_has_the_same_freedom() {
             draft.poses.push(("moved".to_owned(), vec![pose]));
             let options = AnalysisOptions {
                 configuration: Some("moved".to_owned()),
+                ..AnalysisOptions::default()
             };
             analyse(&draft.build(), &options).unwrap()
         });

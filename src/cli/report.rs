@@ -3,6 +3,7 @@
 use super::failure::Failure;
 use super::{DONE, UNDECIDED, load, output, terminal};
 use clap::{Args, ValueEnum};
+use kutzbach::mobility::ExactBudget;
 use kutzbach::report::text::render;
 use kutzbach::report::{Options, Verdict};
 
@@ -31,6 +32,10 @@ pub struct Arguments {
     /// Tell what every engine found, with its figures
     #[arg(long)]
     evidence: bool,
+    /// Give exact algebra about so many seconds for each block, counted in work so that the answer is the same on every
+    /// machine; 0 leaves it out [default: 0.2]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    exact: Option<f64>,
     /// Say how link A moves, seen from link B, on every branch; may be repeated
     #[arg(long, num_args = 2, value_names = ["A", "B"])]
     between: Vec<String>,
@@ -44,6 +49,14 @@ enum Format {
     Json,
 }
 
+/// A time that is none is a slip, not a wish for no limit.
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds >= 0.0 && seconds.is_finite() => Ok(seconds),
+        _ => Err("a number of seconds, 0 or more".to_owned()),
+    }
+}
+
 /// Runs the command.
 ///
 /// # Errors
@@ -52,6 +65,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let reading = arguments.source.read()?;
     let options = Options {
         configuration: arguments.at.clone(),
+        exact: arguments
+            .exact
+            .map_or_else(ExactBudget::default, ExactBudget::seconds),
         timing: arguments.timing,
         evidence: arguments.evidence,
         between: arguments

@@ -100,6 +100,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         mechanism,
         &AnalysisOptions {
             configuration: configuration.clone(),
+            ..AnalysisOptions::default()
         },
     )
     .map_err(|error| {

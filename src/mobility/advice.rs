@@ -352,6 +352,7 @@ mod tests {
         let mechanism = builder.build().unwrap();
         let options = AnalysisOptions {
             configuration: Some("turned".to_owned()),
+            ..AnalysisOptions::default()
         };
         let analysis = analyse(&mechanism, &options).unwrap();
         let advice = analysis

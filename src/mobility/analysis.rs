@@ -3,6 +3,7 @@
 use super::advice::{Advice, advice_for_part};
 use super::branch::Branch;
 use super::cycles::{CycleFacts, cycle_facts};
+use super::exact::{ExactAllowance, ExactBudget, ask_exact};
 use super::generic::{GenericCount, generic_count};
 use super::kutzbach::kutzbach_count;
 use super::more_digits::MoreDigits;
@@ -24,6 +25,8 @@ use thiserror::Error;
 pub struct AnalysisOptions {
     /// The configuration to start from; the home pose if `None`.
     pub configuration: Option<String>,
+    /// How much work exact algebra may do.
+    pub exact: ExactBudget,
 }
 
 /// Why an analysis could not be made. That a mechanism does not assemble or stays undecided is a result, not an error.
@@ -141,7 +144,7 @@ pub fn analyse(
         branches: None,
     };
     if analysis.assembly.closed {
-        analysis.rank(mechanism, configuration, &held, &geometry)?;
+        analysis.rank(mechanism, configuration, &held, &geometry, options.exact)?;
     }
     Ok(analysis)
 }
@@ -167,6 +170,7 @@ impl Analysis {
         configuration: Option<&crate::mechanism::Configuration>,
         held: &BTreeSet<usize>,
         geometry: &Geometry<f64>,
+        exact: ExactBudget,
     ) -> Result<(), MatrixError> {
         let states = &self.assembly.states;
         let pose = Pose {
@@ -226,14 +230,11 @@ impl Analysis {
             self.cycles
                 .push(cycle_facts(mechanism, geometry, states, &poses, cycle)?);
         }
+        let mut allowance = ExactAllowance::new(exact);
         for (part, rank) in self.structure.parts.iter().zip(&parts) {
-            self.findings.push(part_mobility(
-                &pose,
-                &mut more,
-                &self.structure,
-                part,
-                rank,
-            )?);
+            let mut found = part_mobility(&pose, &mut more, &self.structure, part, rank)?;
+            ask_exact(&pose, part, rank, &mut found, &mut allowance);
+            self.findings.push(found);
         }
         self.mobility = judge(mechanism, &self.structure, &self.findings);
         self.branches = whole_branches(
@@ -293,6 +294,7 @@ mod tests {
     fn configurations_are_looked_up_by_name() {
         let options = AnalysisOptions {
             configuration: Some("open".to_owned()),
+            ..AnalysisOptions::default()
         };
         let error = analyse(&four_bar(), &options).unwrap_err();
         assert!(error.to_string().contains("`open`") && error.to_string().contains("none"));
@@ -315,6 +317,7 @@ mod tests {
         let mechanism = builder.build().unwrap();
         let options = AnalysisOptions {
             configuration: Some("turned".to_owned()),
+            ..AnalysisOptions::default()
         };
         let analysis = analyse(&mechanism, &options).unwrap();
         assert_eq!(analysis.assembly.states[0].values, [0.5]);

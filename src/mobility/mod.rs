@@ -8,7 +8,8 @@
 //!
 //! Then [`part_mobility`] asks what is left of that freedom in finite motion: displacement subgroups
 //! ([`subgroup_finding`]), the chart test ([`chart_test`]), and at singular poses the germ of the configuration space and
-//! its real zeros. Every branch is walked to generic poses of its own, where [`branch_facts`] asks what moves along it.
+//! its real zeros. Where the numbers are exact and doubt is left, exact algebra is asked last, within an
+//! [`ExactBudget`]. Every branch is walked to generic poses of its own, where [`branch_facts`] asks what moves along it.
 //! [`judge`] puts the parts together.
 //!
 //! Cost: near-linear in the mechanism where its loops are short and hang together like a chain; fronts of the sparse
@@ -24,6 +25,7 @@ mod branch_roles;
 mod branch_samples;
 mod chart;
 mod cycles;
+mod exact;
 mod generic;
 mod germ;
 mod germ_zeros;
@@ -58,6 +60,7 @@ pub use branch_facts::{BranchFacts, branch_facts};
 pub use branch_roles::branch_roles;
 pub use chart::{ChartOutcome, ChartTest, Kernel, chart_test};
 pub use cycles::{CycleFacts, cycle_facts};
+pub use exact::ExactBudget;
 pub use generic::{GenericCount, generic_count};
 pub use germ::{
     ComplexDimension, Germ, PrestressCertificate, complex_dimension, prestress_certificate,

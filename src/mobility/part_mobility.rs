@@ -8,6 +8,8 @@
 //! | second order | finite = 0 at a singular pose with a definite form | power series |
 //! | germ and its zeros | the branches through a singular pose, each confirmed by closing all equations on it | power series |
 //!
+//! Exact algebra is asked afterwards: `src/mobility/exact/`.
+//!
 //! Of rounded numbers, a chart is believed only where the part can be followed farther away as well.
 //!
 //! A verdict is never given on a thin margin: what an engine cannot tell, it leaves open and says why.
@@ -78,6 +80,10 @@ pub struct PartFinding {
     pub evidence: Vec<Evidence>,
     /// How far the numbers, taken literally, miss a mobile mechanism (m), where they do.
     pub nominal: Option<f64>,
+    /// No component of the complex solution set through the pose has more dimensions: proven, where exact algebra was asked.
+    pub complex_upper: Option<usize>,
+    /// Where engines contradict one another: which, and on what.
+    pub contradiction: Option<String>,
 }
 
 impl PartFinding {
@@ -98,6 +104,8 @@ impl PartFinding {
             open: Some(why),
             evidence: Vec::new(),
             nominal: None,
+            complex_upper: None,
+            contradiction: None,
         }
     }
 
@@ -121,6 +129,8 @@ impl PartFinding {
             open: None,
             evidence: Vec::new(),
             nominal: None,
+            complex_upper: None,
+            contradiction: None,
         }
     }
 

@@ -78,6 +78,8 @@ pub(super) fn singular_finding(
         open: None,
         evidence: Vec::new(),
         nominal: None,
+        complex_upper: None,
+        contradiction: None,
     };
     // Numbers taken literally close the loops exactly. The coefficients of the series are not for that reason beyond doubt:
     // rounding shifts them by its share of the curvature, of which hardly a tenth remains.

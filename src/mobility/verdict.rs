@@ -112,7 +112,8 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, parts: &[PartFinding]
         Some(part) => part.certificate.clone(),
     };
     let mut why: Vec<String> = Vec::new();
-    for reason in open {
+    let contradictions = parts.iter().filter_map(|p| p.contradiction.as_deref());
+    for reason in contradictions.chain(open) {
         if !why.iter().any(|w| w == reason) {
             why.push(reason.to_owned());
         }
@@ -128,6 +129,14 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, parts: &[PartFinding]
                 })
         })
         .flatten();
+    let complex_dimension = parts
+        .iter()
+        .map(|p| p.complex_dimension)
+        .sum::<Option<usize>>()
+        .map(|dimension| dimension + base);
+    if verdict != Verdict::Undecided {
+        why.extend(complex_remark(parts, base, high, complex_dimension));
+    }
     let nominal = parts
         .iter()
         .filter_map(|p| p.nominal)
@@ -143,11 +152,7 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, parts: &[PartFinding]
         pose,
         kind: kind_of_whole(verdict, parts),
         class,
-        complex_dimension: parts
-            .iter()
-            .map(|p| p.complex_dimension)
-            .sum::<Option<usize>>()
-            .map(|dimension| dimension + base),
+        complex_dimension,
         level,
         certificate,
         nominal,
@@ -158,6 +163,44 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, parts: &[PartFinding]
             .flat_map(|(index, p)| p.evidence.iter().map(move |e| (index, e.clone())))
             .collect(),
     }
+}
+
+/// What the complex solutions say about a finite freedom that is decided: that there are more dimensions of them, or that
+/// there are proven to be no more.
+fn complex_remark(
+    parts: &[PartFinding],
+    base: usize,
+    finite: usize,
+    complex_dimension: Option<usize>,
+) -> Option<String> {
+    if let Some(complex) = complex_dimension.filter(|c| *c > finite) {
+        return Some(format!(
+            "over the complex numbers the closure equations have solutions of dimension {complex} at this pose, of which no \
+             more than {finite} can be real: as x² + y² = 0 has two complex lines and a single real point"
+        ));
+    }
+    let numeric = |p: &&PartFinding| p.level == CertificateLevel::Numeric;
+    if !parts
+        .iter()
+        .any(|p| numeric(&p) && p.complex_upper.is_some())
+    {
+        return None;
+    }
+    // Other certificates hold for the complex solutions too.
+    let bound = |p: &PartFinding| match p.level {
+        CertificateLevel::Numeric => p.complex_upper,
+        _ => Some(p.upper),
+    };
+    let most = base + parts.iter().map(bound).sum::<Option<usize>>()?;
+    (most == finite).then(|| {
+        format!(
+            "no component of the complex solution set through this pose has more than {}, which is proved in exact arithmetic",
+            match most {
+                1 => "1 dimension".to_owned(),
+                many => format!("{many} dimensions"),
+            }
+        )
+    })
 }
 
 /// D7 for a product: a part that is shaky stays at its pose while others move, and is shaky all along.

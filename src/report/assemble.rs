@@ -10,7 +10,7 @@ use super::schema::{
 use crate::format::Reading;
 use crate::mechanism::{Coupling, Mechanism};
 use crate::mobility::Verdict;
-use crate::mobility::{AnalysisError, AnalysisOptions, analyse, kutzbach_count};
+use crate::mobility::{AnalysisError, AnalysisOptions, ExactBudget, analyse, kutzbach_count};
 use crate::number::Number;
 use std::time::Instant;
 use thiserror::Error;
@@ -38,6 +38,8 @@ pub struct Input<'a> {
 pub struct Options {
     /// The configuration to analyse; `None` is the home pose.
     pub configuration: Option<String>,
+    /// How much work exact algebra may do for the verdict.
+    pub exact: ExactBudget,
     /// Whether to say how long the stages took.
     pub timing: bool,
     /// Whether to tell what every engine found.
@@ -150,6 +152,7 @@ pub fn report_on(input: &Input<'_>, options: &Options) -> Result<Report, ReportE
         &AnalysisOptions {
             configuration: (configuration != HOME || mechanism.configuration(HOME).is_some())
                 .then(|| configuration.to_owned()),
+            exact: options.exact,
         },
     )?;
     let mut report = counted(input, configuration);

@@ -88,8 +88,8 @@ pub fn polynomial_system(
             None
         }
     };
-    for (joint, model) in mechanism.joints().iter().zip(&models) {
-        if model.kind == JointKind::Distance {
+    for (index, (joint, model)) in mechanism.joints().iter().zip(&models).enumerate() {
+        if model.kind == JointKind::Distance && options.includes(index) {
             let missing = match &model.distance_square {
                 None => Some(SystemError::UnknownDistance {
                     joint: joint.name.clone(),

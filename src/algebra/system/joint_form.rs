@@ -29,7 +29,7 @@ impl Writer<'_> {
     pub(super) fn write(mut self, options: &SystemOptions) -> Result<(), SystemError> {
         let graph = ConstraintGraph::of(self.mechanism);
         let tree = SpanningTree::low_depth(&graph);
-        let cycles = match options.formulation {
+        let mut cycles: Vec<Cycle> = match options.formulation {
             Formulation::Tree => lightest_tree_cycles(&graph, &tree, self.mechanism),
             _ if options.shortest_cycles => CycleBasis::minimum(&graph, &tree).cycles,
             _ => tree
@@ -38,13 +38,15 @@ impl Writer<'_> {
                 .filter_map(|&chord| fundamental_cycle(&graph, &tree, chord))
                 .collect(),
         };
+        cycles.retain(|c| c.edges.iter().all(|(edge, _)| options.includes(*edge)));
         let implicit = implicit_joints(self.mechanism, &cycles, options.formulation);
-        self.linear_blocks(&graph);
+        self.linear_blocks(&graph, options);
         let mut displacements = Vec::with_capacity(self.models.len());
         let joints = self.mechanism.joints().iter().enumerate();
         for ((index, joint), model) in joints.zip(self.models) {
             let id = JointId(index);
-            let displacement = if self.linear[index].is_some() || implicit.contains(&Some(index)) {
+            let without = !options.includes(index) || implicit.contains(&Some(index));
+            let displacement = if self.linear[index].is_some() || without {
                 Displacement::none()
             } else {
                 Displacement::new(self.field, &mut self.draft.names, joint, id, model)
@@ -57,7 +59,7 @@ impl Writer<'_> {
                 Some(linear) => linear.variables(),
                 None => displacement.variables.clone(),
             };
-            if joint.kind.uses_lead() && self.linear[index].is_none() {
+            if joint.kind.uses_lead() && self.linear[index].is_none() && options.includes(index) {
                 self.draft.relaxations.push(Relaxation::Screw {
                     joint: id,
                     name: joint.name.clone(),
@@ -113,16 +115,17 @@ impl Writer<'_> {
                 }
             }
         }
-        self.couplings(&displacements);
+        self.couplings(&displacements, options);
         Ok(())
     }
 
     /// Blocks with a screw whose joints are all on one line get their linear variables.
-    fn linear_blocks(&mut self, graph: &ConstraintGraph) {
+    fn linear_blocks(&mut self, graph: &ConstraintGraph, options: &SystemOptions) {
         let Some(drawn) = self.drawn else { return };
         for block in graph.coupled_blocks() {
             let screws = |&joint: &usize| self.models[joint].kind == JointKind::Screw;
-            if !block.edges.iter().any(screws) {
+            let included = block.edges.iter().all(|&joint| options.includes(joint));
+            if !included || !block.edges.iter().any(screws) {
                 continue;
             }
             // A pose known exactly at home only: couplings have to hold there.
@@ -142,8 +145,12 @@ impl Writer<'_> {
         }
     }
 
-    fn couplings(self, displacements: &[Displacement]) {
+    fn couplings(self, displacements: &[Displacement], options: &SystemOptions) {
         for (index, coupling) in self.mechanism.couplings().iter().enumerate() {
+            let included = |joint: JointId| options.includes(joint.0);
+            if !coupling.terms.iter().all(|term| included(term.joint)) {
+                continue;
+            }
             let linear = coupling
                 .terms
                 .iter()

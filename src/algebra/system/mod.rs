@@ -83,6 +83,17 @@ pub struct SystemOptions {
     pub unoriented: bool,
     /// Take the shortest cycles instead of those of the low-depth tree (canonical form only).
     pub shortest_cycles: bool,
+    /// Write only the cycles and couplings all of whose joints are among these; `None` for all. In the positional form it
+    /// means nothing.
+    pub joints: Option<Vec<JointId>>,
+}
+
+impl SystemOptions {
+    /// Whether a joint belongs to what is asked for.
+    fn includes(&self, joint: usize) -> bool {
+        let among = |joints: &Vec<JointId>| joints.contains(&JointId(joint));
+        self.joints.as_ref().is_none_or(among)
+    }
 }
 
 /// Where an equation comes from.
