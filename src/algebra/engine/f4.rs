@@ -380,3 +380,100 @@ impl<'a, C: Coefficient> F4<'a, C> {
         Ok(basis.collect())
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::algebra::polynomial::{Polynomial, Rational};
+    use crate::algebra::{Limits, Progress, groebner_basis};
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicBool, Ordering};
+
+    /// Cyclic roots: lexicographic bases of order 7 take hours.
+    fn cyclic(n: usize) -> Vec<Polynomial> {
+        let product = |start: usize, length: usize| {
+            let mut exponents = vec![0; n];
+            for i in start..start + length {
+                exponents[i % n] += 1;
+            }
+            (exponents, Rational::from_integer(1.into()))
+        };
+        let sums = (1..n).map(|length| (0..n).map(|start| product(start, length)).collect());
+        let mut equations: Vec<Polynomial> =
+            sums.map(|terms| Polynomial::from_terms(terms, n)).collect();
+        let all = Polynomial::from_terms(vec![product(0, n)], n);
+        equations.push(&all - &Polynomial::one(n));
+        equations
+    }
+
+    fn hard(limits: Limits) -> (Option<Stop>, u64) {
+        let budget = Budget::new(limits);
+        let order = MonomialOrder::Lexicographic;
+        let result = groebner_basis(&cyclic(7), 7, &order, &budget);
+        (result.err(), budget.work())
+    }
+
+    #[test]
+    fn no_matrix_passes_its_limit() {
+        let work = Some(300_000);
+        let (stop, done) = hard(Limits {
+            work,
+            ..Limits::default()
+        });
+        assert_eq!(stop, Some(Stop::Work));
+        assert!(done <= 300_000);
+        let (stop, _) = hard(Limits {
+            entries: Some(10_000),
+            ..Limits::default()
+        });
+        assert_eq!(stop, Some(Stop::Memory));
+    }
+
+    #[test]
+    fn another_thread_watches_and_stops() {
+        let flag = Arc::new(AtomicBool::new(false));
+        let progress = Arc::new(Progress::default());
+        let limits = Limits {
+            cancelled: Some(Arc::clone(&flag)),
+            progress: Some(Arc::clone(&progress)),
+            ..Limits::seconds(600.0)
+        };
+        let computation = std::thread::spawn(move || hard(limits).0);
+        while progress.work() == 0 || progress.phase().is_empty() {
+            std::thread::yield_now();
+        }
+        assert!(progress.phase().contains("pairs"));
+        flag.store(true, Ordering::Relaxed);
+        assert_eq!(computation.join().unwrap(), Some(Stop::Cancelled));
+    }
+
+    #[test]
+    fn the_basis_of_cyclic_5() {
+        let budget = Budget::unlimited();
+        let degrevlex = groebner_basis(&cyclic(5), 5, &MonomialOrder::Degrevlex, &budget).unwrap();
+        assert_eq!(degrevlex.polynomials().len(), 20);
+        assert_eq!(degrevlex.degree(), Some(70));
+        let lexicographic =
+            groebner_basis(&cyclic(5), 5, &MonomialOrder::Lexicographic, &budget).unwrap();
+        assert_eq!(lexicographic.polynomials().len(), 11);
+        assert_eq!(lexicographic.degree(), Some(70));
+        for p in degrevlex.polynomials() {
+            assert!(lexicographic.contains(p));
+        }
+    }
+
+    #[test]
+    fn s_polynomials_show_what_is_no_basis() {
+        let order = MonomialOrder::Degrevlex;
+        let budget = Budget::unlimited();
+        let monic = |p: &Polynomial| Terms::of(p, &order).unwrap();
+        let equations: Vec<_> = cyclic(4).iter().map(monic).collect();
+        assert_eq!(is_basis(&equations, 4, &order, &budget), Ok(false));
+        let (basis, _) = reduced_basis(&equations, 4, &order, false, &budget).unwrap();
+        assert_eq!(is_basis(&basis, 4, &order, &budget), Ok(true));
+        assert_eq!(is_basis::<Rational>(&[], 4, &order, &budget), Ok(true));
+        let rest = normal_forms(&equations, &basis, 4, &order, &budget).unwrap();
+        assert!(rest.iter().all(Terms::is_zero));
+    }
+}

@@ -11,7 +11,14 @@ use crate::mobility::pose_rank::PartRank;
 use crate::number::Number;
 
 /// An entry over the rationals costs as much as so many modulo a prime: fractions are long.
-const RATIONAL_WORK: u64 = 20;
+const RATIONAL_PRICE: u64 = 20;
+
+/// Up to so many unknowns all entries cost the same, by measurement; beyond, their price grows with the cube.
+const CHEAP_VARIABLES: u64 = 10;
+
+/// The first attempt may do so much work, each further one this many times as much.
+const FIRST_ATTEMPT: u64 = 2_000;
+const NEXT_ATTEMPT: u64 = 4;
 
 /// Systems of more unknowns are asked for their tangent space only.
 const MOST_VARIABLES: usize = 60;
@@ -106,7 +113,9 @@ impl Question<'_> {
         if answer.upper == answer.tangent
             && let Some(point) = self.rational_point()
         {
-            let over_rationals = self.over_rationals(&point)?;
+            let over_rationals = self.within(RATIONAL_PRICE * self.price(), |budget| {
+                self.rational_dimension(&point, budget)
+            })?;
             if over_rationals == Some(answer.upper) {
                 answer.prove(
                     answer.upper,
@@ -133,26 +142,61 @@ impl Question<'_> {
 
     /// Whether the local dimension is shown to be at most this.
     fn is_at_most(&self, bound: usize) -> Result<bool, Stop> {
-        let system = self.modular;
-        local_dimension_is_at_most(
-            bound,
-            &system.equations,
-            system.variables.len(),
-            system.prime,
-            self.budget,
-        )
+        let (system, price) = (self.modular, self.price());
+        self.within(price, |budget| {
+            local_dimension_is_at_most(
+                bound,
+                &system.equations,
+                system.variables.len(),
+                system.prime,
+                budget,
+            )
+        })
     }
 
     /// The local dimension modulo the prime.
     fn dimension(&self, system: &ModularSystem) -> Result<usize, Stop> {
-        let ring = local_dimension_modulo(
-            &system.equations,
-            system.variables.len(),
-            system.prime,
-            self.budget,
-        )?;
+        let ring = self.within(self.price(), |budget| {
+            local_dimension_modulo(
+                &system.equations,
+                system.variables.len(),
+                system.prime,
+                budget,
+            )
+        })?;
         // The drawn pose is a solution; `None` cannot be.
         Ok(ring.map_or(0, |ring| ring.dimension))
+    }
+
+    /// What an entry costs in a system of so many unknowns, whose monomials are long and whose bases are many.
+    fn price(&self) -> u64 {
+        let variables = self.modular.variables.len() as u64;
+        (variables.pow(3) / CHEAP_VARIABLES.pow(3)).max(1)
+    }
+
+    /// Attempts with more and more work, as far as the budget goes. The engine looks at all solutions first, which is
+    /// sometimes much quicker and sometimes much slower than looking at the pose alone: with little work it soon does the other.
+    fn within<T>(
+        &self,
+        price: u64,
+        attempt: impl Fn(&Budget) -> Result<T, Stop>,
+    ) -> Result<T, Stop> {
+        let mut share = FIRST_ATTEMPT;
+        loop {
+            let left = self.work.saturating_sub(self.budget.work()) / price;
+            let limit = share.min(left);
+            let budget = Budget::new(Limits {
+                work: Some(limit),
+                entries: Some(MOST_ENTRIES),
+                ..Limits::default()
+            });
+            let answer = attempt(&budget);
+            self.budget.spend(budget.work().min(limit) * price)?;
+            match answer {
+                Err(Stop::Work) if share < left => share = share.saturating_mul(NEXT_ATTEMPT),
+                answer => return answer,
+            }
+        }
     }
 
     /// The pose drawn, where all numbers are rational.
@@ -165,20 +209,6 @@ impl Question<'_> {
 
     /// A lower bound of the local dimension over the rationals, nothing left to primes; `None` where it could not be proved.
     /// Found like the one modulo a prime: homogenised with a variable whose higher powers are larger (Lazard 1983).
-    fn over_rationals(&self, point: &[Rational]) -> Result<Option<usize>, Stop> {
-        let left = self.work.saturating_sub(self.budget.work());
-        let budget = Budget::new(Limits {
-            work: Some(left / RATIONAL_WORK),
-            entries: Some(MOST_ENTRIES),
-            ..Limits::default()
-        });
-        let dimension = self.rational_dimension(point, &budget);
-        self.budget
-            .spend(budget.work().min(left / RATIONAL_WORK) * RATIONAL_WORK)?;
-        dimension
-    }
-
-    /// [`Self::over_rationals`] within a budget of its own.
     fn rational_dimension(
         &self,
         point: &[Rational],
