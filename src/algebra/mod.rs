@@ -20,7 +20,8 @@ mod zero_dimensional;
 
 pub use answer::{
     Condition, CycleAnswer, DesignConditions, ExactAnswer, ExactOptions, FixedVariable, Method,
-    Piece, Solutions, assembly_conditions, exact_answer, motion_conditions, relations_of,
+    Piece, ProvenMotion, Scope, Settled, Solutions, assembly_conditions, exact_answer,
+    motion_conditions, relations_of,
 };
 pub use components::{
     AlgebraicNumber, Component, Decomposition, Hints, Incomplete, Irreducible, RealPoints,

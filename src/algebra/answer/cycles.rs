@@ -1,9 +1,13 @@
 //! Every basic cycle by itself: what it leaves free, what it fixes, which links it makes one.
 
+use super::Piece;
+use super::clusters::{clusters, rigid_joints};
 use super::fixed::{FixedVariable, fixed_variable};
+use super::pieces::Pieces;
+use super::relative_motion::{Part, ProvenMotion, Settled};
 use crate::algebra::strategy::Local;
 use crate::algebra::system::CycleEquations;
-use crate::algebra::{Budget, MonomialOrder, PolynomialSystem, Stop};
+use crate::algebra::{Budget, GroebnerBasis, MonomialOrder, PolynomialSystem, Stop};
 use crate::mechanism::{JointId, LinkId, Mechanism};
 
 /// What one cycle says without the others.
@@ -21,6 +25,10 @@ pub struct CycleAnswer {
     pub rigid: Vec<JointId>,
     /// Links that such joints make one body, at least two each.
     pub clusters: Vec<Vec<LinkId>>,
+    /// Links that move relative to one another less than the joints between them allow.
+    pub motions: Vec<ProvenMotion>,
+    /// Whether all such links were found.
+    pub settled: Settled,
 }
 
 /// A cycle's name.
@@ -33,23 +41,20 @@ pub(super) fn cycle_name(mechanism: &Mechanism, cycle: &CycleEquations) -> Strin
     names.join(" – ")
 }
 
-/// Looks at every cycle by itself.
-pub(super) fn cycle_answers(
-    mechanism: &Mechanism,
-    system: &PolynomialSystem,
-    budget: &Budget,
-) -> Result<Vec<CycleAnswer>, Stop> {
-    system
-        .cycles
-        .iter()
-        .map(|cycle| cycle_answer(mechanism, system, cycle, budget))
-        .collect()
+/// What is known of the whole system before its cycles are looked at.
+pub(super) struct Whole<'a> {
+    pub(super) basis: Option<&'a GroebnerBasis>,
+    pub(super) pieces: &'a [Piece],
+    /// Whether the pieces were looked for to the end.
+    pub(super) complete: bool,
 }
 
-fn cycle_answer(
+/// Looks at a cycle by itself. Where it is all there is, what is known of the whole is not computed again.
+pub(super) fn cycle_answer(
     mechanism: &Mechanism,
     system: &PolynomialSystem,
     cycle: &CycleEquations,
+    whole: &Whole<'_>,
     budget: &Budget,
 ) -> Result<CycleAnswer, Stop> {
     let equations: Vec<_> = cycle
@@ -58,7 +63,12 @@ fn cycle_answer(
         .map(|&e| system.equations[e].polynomial.clone())
         .collect();
     let local = Local::new(&equations, system.variables.len());
-    let basis = local.basis(&MonomialOrder::Degrevlex, budget)?;
+    let is_whole = cycle.equations.len() == system.equations.len();
+    let same_ring = is_whole && local.variables.len() == system.variables.len();
+    let basis = match whole.basis.filter(|_| same_ring) {
+        Some(basis) => basis.clone(),
+        None => local.basis(&MonomialOrder::Degrevlex, budget)?,
+    };
     let mut answer = CycleAnswer {
         name: cycle_name(mechanism, cycle),
         joints: cycle.joints.iter().map(|(joint, _)| *joint).collect(),
@@ -66,6 +76,8 @@ fn cycle_answer(
         fixed: Vec::new(),
         rigid: Vec::new(),
         clusters: Vec::new(),
+        motions: Vec::new(),
+        settled: Settled::Yes,
     };
     if basis.is_inconsistent() {
         return Ok(answer);
@@ -78,33 +90,32 @@ fn cycle_answer(
             answer.fixed.push(fixed);
         }
     }
-    for &joint in &answer.joints {
-        let variables = &system.joint_variables[joint.0];
-        let is_fixed = |v: &usize| answer.fixed.iter().any(|f| f.variable == *v);
-        if !variables.is_empty() && variables.iter().all(is_fixed) {
-            answer.rigid.push(joint);
-        }
-    }
+    answer.rigid = rigid_joints(system, &answer.fixed, answer.joints.iter().copied());
     answer.clusters = clusters(mechanism, &answer.rigid);
-    Ok(answer)
-}
-
-/// The links that some joints hold together.
-fn clusters(mechanism: &Mechanism, joints: &[JointId]) -> Vec<Vec<LinkId>> {
-    let mut clusters: Vec<Vec<LinkId>> = Vec::new();
-    for &joint in joints {
-        let joint = mechanism.joint(joint);
-        let ends = [joint.predecessor.link, joint.successor.link];
-        let (mut joined, rest): (Vec<_>, Vec<_>) = clusters
-            .into_iter()
-            .partition(|c| ends.iter().any(|end| c.contains(end)));
-        joined.push(ends.to_vec());
-        let mut links: Vec<LinkId> = joined.concat();
-        links.sort_unstable();
-        links.dedup();
-        clusters = rest;
-        clusters.push(links);
+    if system.home.exact().is_none() {
+        answer.settled = Settled::NoHome;
+        return Ok(answer);
     }
-    clusters.sort();
-    clusters
+    let pieces = if is_whole && !whole.pieces.is_empty() {
+        Pieces::known(&local, whole.pieces, whole.complete, budget)
+    } else {
+        Pieces::of(system, &local, &basis, budget)
+    };
+    match pieces {
+        Ok(pieces) => {
+            let part = Part {
+                mechanism,
+                system,
+                local: &local,
+                pieces: &pieces,
+                rigid: &answer.clusters,
+                budget,
+            };
+            let found = part.motions_in(cycle);
+            answer.motions = found.motions;
+            answer.settled = found.settled;
+        }
+        Err(stop) => answer.settled = Settled::Stopped(stop),
+    }
+    Ok(answer)
 }

@@ -4,29 +4,41 @@
 //! solution set, and the cycles looked at one by one. A budget that ends in the middle leaves what was found until then,
 //! and [`ExactAnswer::stopped`] says at which step and why.
 
+mod clusters;
 mod conditions;
 mod cycles;
 mod fixed;
+mod pieces;
+mod relative_motion;
+mod subgroup;
 
 pub use conditions::{Condition, DesignConditions, assembly_conditions, motion_conditions};
 pub use cycles::CycleAnswer;
 pub use fixed::FixedVariable;
+pub use relative_motion::{ProvenMotion, Scope, Settled};
 
-use super::strategy::{Group, Incremental, Problem, Relation, Step};
+use super::strategy::{Group, Incremental, Local, Problem, Relation, Step};
 use super::{
     AlgebraicNumber, Budget, Component, Decomposition, FinitePoints, Formulation, GroebnerBasis,
     Hints, Meaning, MonomialOrder, Origin, Polynomial, PolynomialSystem, Rational, RealSolution,
     Stop, SystemError, SystemOptions, Univariate, brute_force, components, divide_and_conquer,
     incremental_instancing, polynomial_system,
 };
-use crate::mechanism::Mechanism;
+use crate::mechanism::{LinkId, Mechanism};
+use clusters::mechanism_clusters;
+use cycles::{Whole, cycle_answer};
 use fixed::fixed_variables;
+use pieces::Pieces;
+use relative_motion::Part;
 
 /// Bits to which the coordinates of isolated real solutions are enclosed.
 const SOLUTION_BITS: u64 = 64;
 
 /// Most sets of free variables that are listed.
 const FREE_SETS: usize = 64;
+
+/// Share of the time that the whole system may take, so that some is left for its cycles.
+const SHARE_OF_THE_WHOLE: f64 = 0.8;
 
 /// How the basis is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -105,6 +117,13 @@ pub struct ExactAnswer {
     pub solutions: Option<Solutions>,
     /// Every basic cycle by itself.
     pub cycles: Vec<CycleAnswer>,
+    /// Links that the mechanism makes one body, at least two each, in every assembly mode.
+    pub clusters: Vec<Vec<LinkId>>,
+    /// Joints, and links relative to the ground, that the whole leaves less than the joints and the cycles by themselves
+    /// do. Empty where one cycle is all there is: then it speaks for the whole.
+    pub motions: Vec<ProvenMotion>,
+    /// Whether all such motions were found; `None` where they were not looked for.
+    pub motions_settled: Option<Settled>,
     /// Where and why the computation ended early.
     pub stopped: Option<(&'static str, Stop)>,
 }
@@ -131,32 +150,42 @@ pub fn exact_answer(
         decomposed: false,
         solutions: None,
         cycles: Vec::new(),
+        clusters: Vec::new(),
+        motions: Vec::new(),
+        motions_settled: None,
         stopped: None,
     };
-    if let Err(stop) = answer.find_basis(mechanism, options, budget) {
-        answer.stopped = Some(("the basis", stop));
+    // Should the whole be out of reach, its cycles may not be.
+    let most = budget.with_share_of_time(SHARE_OF_THE_WHOLE);
+    answer.stopped = answer.find_whole(mechanism, options, &most).err();
+    budget.take_over(&most);
+    if matches!(answer.stopped, Some((_, Stop::Cancelled))) {
         return Ok(answer);
     }
-    if let Err(stop) = answer.read_basis(budget) {
-        answer.stopped = Some(("the values of fixed variables", stop));
-        return Ok(answer);
-    }
-    if let Err(stop) = answer.find_solutions(budget) {
-        answer.stopped = Some(("the isolated solutions", stop));
-        return Ok(answer);
-    }
-    if let Err(stop) = answer.find_pieces(budget) {
-        answer.stopped = Some(("the pieces of the solution set", stop));
-        return Ok(answer);
-    }
-    match cycles::cycle_answers(mechanism, &answer.system, budget) {
-        Ok(cycles) => answer.cycles = cycles,
-        Err(stop) => answer.stopped = Some(("the cycles one by one", stop)),
-    }
+    answer.find_cycles(mechanism, budget);
+    answer.find_motions(mechanism, budget);
     Ok(answer)
 }
 
 impl ExactAnswer {
+    /// Everything that is asked of the whole system, or where and why it ended early.
+    fn find_whole(
+        &mut self,
+        mechanism: &Mechanism,
+        options: &ExactOptions,
+        budget: &Budget,
+    ) -> Result<(), (&'static str, Stop)> {
+        let at = |step: &'static str| move |stop: Stop| (step, stop);
+        self.find_basis(mechanism, options, budget)
+            .map_err(at("the basis"))?;
+        self.read_basis(budget)
+            .map_err(at("the values of fixed variables"))?;
+        self.find_solutions(budget)
+            .map_err(at("the isolated solutions"))?;
+        self.find_pieces(budget)
+            .map_err(at("the pieces of the solution set"))
+    }
+
     fn find_basis(
         &mut self,
         mechanism: &Mechanism,
@@ -248,6 +277,69 @@ impl ExactAnswer {
             })
             .collect();
         Ok(())
+    }
+
+    fn find_cycles(&mut self, mechanism: &Mechanism, budget: &Budget) {
+        let whole = Whole {
+            basis: self.basis.as_ref(),
+            pieces: &self.pieces,
+            complete: self.decomposed || self.stopped.is_none(),
+        };
+        for cycle in &self.system.cycles {
+            match cycle_answer(mechanism, &self.system, cycle, &whole, budget) {
+                Ok(answer) => self.cycles.push(answer),
+                Err(stop) => {
+                    self.stopped.get_or_insert(("the cycles one by one", stop));
+                    break;
+                }
+            }
+        }
+        let of_cycles = self.cycles.iter().flat_map(|cycle| cycle.clusters.clone());
+        self.clusters = mechanism_clusters(mechanism, &self.system, &self.fixed, of_cycles);
+    }
+
+    /// What the links of the whole are left with, where several cycles or a coupling make that more than one cycle says.
+    fn find_motions(&mut self, mechanism: &Mechanism, budget: &Budget) {
+        let [first, ..] = self.system.cycles.as_slice() else {
+            return;
+        };
+        let Some(basis) = self.basis.as_ref().filter(|b| !b.is_inconsistent()) else {
+            return;
+        };
+        if first.equations.len() == self.system.equations.len() {
+            return;
+        }
+        if self.system.home.exact().is_none() {
+            self.motions_settled = Some(Settled::NoHome);
+            return;
+        }
+        let local = Local::whole(&self.system.polynomials(), self.system.variables.len());
+        let complete = self.decomposed || self.stopped.is_none();
+        let pieces = if self.pieces.is_empty() {
+            Ok(Pieces::unknown(basis))
+        } else {
+            Pieces::known(&local, &self.pieces, complete, budget)
+        };
+        let pieces = match pieces {
+            Ok(pieces) => pieces,
+            Err(stop) => {
+                self.motions_settled = Some(Settled::Stopped(stop));
+                return;
+            }
+        };
+        let known = self.cycles.iter().flat_map(|cycle| cycle.motions.clone());
+        let known: Vec<ProvenMotion> = known.collect();
+        let part = Part {
+            mechanism,
+            system: &self.system,
+            local: &local,
+            pieces: &pieces,
+            rigid: &self.clusters,
+            budget,
+        };
+        let found = part.motions_of_all(&known);
+        self.motions = found.motions;
+        self.motions_settled = Some(found.settled);
     }
 
     /// The largest dimension of a piece with the drawn pose on it: the complex dimension there. `None` where the pieces or

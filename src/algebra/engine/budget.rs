@@ -158,15 +158,24 @@ impl Budget {
     }
 
     /// A copy with at most so much further work.
-    pub(super) fn with_work(&self, work: u64) -> Self {
+    pub(in crate::algebra) fn with_work(&self, work: u64) -> Self {
         let mut copy = self.clone();
         let most = self.work.get().saturating_add(work);
         copy.limits.work = Some(copy.limits.work.map_or(most, |limit| limit.min(most)));
         copy
     }
 
+    /// A copy with at most a share of the time that is left.
+    pub(in crate::algebra) fn with_share_of_time(&self, share: f64) -> Self {
+        let mut copy = self.clone();
+        let used = self.started.elapsed();
+        let shared = |time: Duration| used + time.saturating_sub(used).mul_f64(share);
+        copy.limits.time = copy.limits.time.map(shared);
+        copy
+    }
+
     /// Takes over the work done on a copy of this budget.
-    pub(super) fn take_over(&self, copy: &Self) {
+    pub(in crate::algebra) fn take_over(&self, copy: &Self) {
         self.work.set(copy.work.get());
     }
 

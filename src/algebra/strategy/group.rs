@@ -192,6 +192,15 @@ impl Local {
         }
     }
 
+    /// Equations in the ring of all variables.
+    pub(in crate::algebra) fn whole(equations: &[Polynomial], all: usize) -> Self {
+        Self {
+            variables: (0..all).collect(),
+            all,
+            equations: equations.to_vec(),
+        }
+    }
+
     /// The basis of the equations, in the small ring.
     pub(in crate::algebra) fn basis(
         &self,
@@ -205,6 +214,15 @@ impl Local {
             ref order => order.clone(),
         };
         groebner_basis(&self.equations, self.variables.len(), &order, budget)
+    }
+
+    /// A polynomial of the large ring that mentions only variables of the small one, there.
+    pub(in crate::algebra) fn lower(&self, polynomial: &Polynomial) -> Polynomial {
+        let mut places = vec![0; self.all];
+        for (place, &variable) in self.variables.iter().enumerate() {
+            places[variable] = place;
+        }
+        polynomial.moved(&places, self.variables.len())
     }
 
     /// A polynomial of the small ring in the large one.

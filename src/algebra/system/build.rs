@@ -1,7 +1,7 @@
 //! From a mechanism to its polynomial system.
 
 use super::coaxial::LinearJoint;
-use super::displacement::{relative, values_at};
+use super::displacement::{Displacement, relative, values_at};
 use super::element::Element;
 use super::error::SystemError;
 use super::field::Field;
@@ -41,6 +41,8 @@ pub(super) struct Construction {
     pub(super) field: Field,
     pub(super) models: Vec<JointModel>,
     pub(super) linear: Vec<Option<LinearJoint>>,
+    /// Every joint's displacement in its variables, by joint; none in the positional form.
+    pub(super) displacements: Vec<Displacement>,
     /// Predecessor and successor link of every joint.
     pub(super) ends: Vec<[usize; 2]>,
     pub(super) ground: usize,
@@ -106,6 +108,7 @@ pub fn polynomial_system(
     }
     let mut draft = Draft::default();
     let mut linear = vec![None; models.len()];
+    let mut displacements = Vec::new();
     let mut joint_variables = vec![Vec::new(); models.len()];
     if options.formulation == Formulation::Positional {
         let setting = Setting {
@@ -124,6 +127,7 @@ pub fn polynomial_system(
             draft: &mut draft,
             linear: &mut linear,
             joint_variables: &mut joint_variables,
+            displacements: &mut displacements,
         };
         writer.write(options)?;
     }
@@ -136,6 +140,7 @@ pub fn polynomial_system(
         field,
         models,
         linear,
+        displacements,
         ends,
         ground: mechanism.ground().0,
         drawn,

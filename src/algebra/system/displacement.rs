@@ -17,7 +17,7 @@ use crate::mechanism::{Joint, JointId, JointKind};
 
 /// One step of a displacement.
 #[derive(Clone, Debug)]
-enum Factor {
+pub(super) enum Factor {
     Constant(Matrix<Element>),
     Turn {
         axis: Axis,
@@ -34,7 +34,7 @@ enum Factor {
 /// A joint's variables and its displacement in them.
 #[derive(Clone, Debug)]
 pub(super) struct Displacement {
-    factors: Vec<Factor>,
+    pub(super) factors: Vec<Factor>,
     /// Its variables, in order.
     pub(super) variables: Vec<usize>,
     /// Circles, unit quaternions, fixed lengths: equations of its own.

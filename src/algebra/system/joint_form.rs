@@ -23,6 +23,8 @@ pub(super) struct Writer<'a> {
     pub(super) draft: &'a mut Draft,
     pub(super) linear: &'a mut Vec<Option<LinearJoint>>,
     pub(super) joint_variables: &'a mut Vec<Vec<usize>>,
+    /// Every joint's displacement in its variables, by joint, for the poses of links.
+    pub(super) displacements: &'a mut Vec<Displacement>,
 }
 
 impl Writer<'_> {
@@ -104,6 +106,7 @@ impl Writer<'_> {
                 }
             }
         }
+        *self.displacements = displacements.clone();
         self.couplings(&displacements, options);
         Ok(())
     }

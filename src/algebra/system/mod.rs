@@ -45,6 +45,7 @@ mod modular;
 mod numbers;
 mod poly;
 mod positional;
+mod relative_displacement;
 mod roots;
 mod space;
 mod spanning;
@@ -55,6 +56,7 @@ pub use build::polynomial_system;
 pub use error::SystemError;
 pub use home::HomePose;
 pub use modular::ModularSystem;
+pub(super) use relative_displacement::{ExactVector, Reduce, RelativeDisplacement, Unavailable};
 pub use variables::{Meaning, Variable};
 
 use super::polynomial::Polynomial;

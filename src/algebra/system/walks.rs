@@ -24,7 +24,10 @@ pub(super) struct Walker<'a> {
 
 impl Walker<'_> {
     /// The pose of a path's last link in its first.
-    fn walk(&self, path: impl Iterator<Item = (usize, bool)>) -> Result<Pose<Poly>, SystemError> {
+    pub(super) fn walk(
+        &self,
+        path: impl Iterator<Item = (usize, bool)>,
+    ) -> Result<Pose<Poly>, SystemError> {
         let mut place = Pose::identity(&Polynomials(self.field));
         for (joint, forward) in path {
             place =

@@ -1,11 +1,12 @@
 //! The exact report as data.
 
-use super::values::{doubles, fixed_freedoms};
+use super::motions::{Motion, motions, unsettled};
+use super::values::{FixedJoint, doubles, fixed_freedoms, fixed_joints};
 use crate::algebra::{
     DesignConditions, ExactAnswer, ExactOptions, Formulation, Irreducible, Meaning, Method,
     MonomialOrder, PolynomialSystem, RealPoints, RelationFinding, RelationVerdict, Stop,
 };
-use crate::mechanism::Mechanism;
+use crate::mechanism::{LinkId, Mechanism};
 use serde::Serialize;
 
 /// The version of the JSON.
@@ -87,8 +88,14 @@ pub struct Cycle {
     pub dimension: Option<usize>,
     /// Freedoms with finitely many values, in words.
     pub fixed: Vec<String>,
+    /// The same joint by joint.
+    pub fixed_joints: Vec<FixedJoint>,
     /// Links that it makes one body.
     pub rigid_clusters: Vec<Vec<String>>,
+    /// Links whose relative motion is less than the joints between them allow, proven.
+    pub motions: Vec<Motion>,
+    /// Why there may be more such links, or motions may be smaller; `null` where nothing was left open.
+    pub motions_unsettled: Option<String>,
 }
 
 /// One step of the computation.
@@ -148,6 +155,15 @@ pub struct ExactReport {
     pub fixed: Vec<Fixed>,
     /// The same in words, freedom by freedom.
     pub fixed_freedoms: Vec<String>,
+    /// The same joint by joint.
+    pub fixed_joints: Vec<FixedJoint>,
+    /// Links that are one body in every assembly mode.
+    pub rigid_clusters: Vec<Vec<String>>,
+    /// Joints, and links relative to the ground, that the whole leaves less than the joints and the cycles by themselves
+    /// do; empty where one cycle is all there is.
+    pub motions: Vec<Motion>,
+    /// Why there may be more of them, or motions may be smaller; `null` where nothing was left open.
+    pub motions_unsettled: Option<String>,
     /// The pieces; `null` where they were not looked for.
     pub pieces: Option<Vec<Piece>>,
     /// Whether every piece is proven irreducible over the rationals.
@@ -218,6 +234,10 @@ pub fn exact_report(mechanism: &Mechanism, answer: &ExactAnswer, request: &Reque
             })
             .collect(),
         fixed_freedoms: fixed_freedoms(mechanism, system, &answer.fixed),
+        fixed_joints: fixed_joints(mechanism, system, &answer.fixed),
+        rigid_clusters: clusters(mechanism, &answer.clusters),
+        motions: motions(mechanism, None, &answer.motions),
+        motions_unsettled: answer.motions_settled.and_then(unsettled),
         pieces: (!answer.pieces.is_empty() || answer.decomposed).then(|| {
             let piece = |piece| self::piece(piece, &names);
             answer.pieces.iter().map(piece).collect()
@@ -313,15 +333,19 @@ fn cycles(mechanism: &Mechanism, answer: &ExactAnswer) -> Vec<Cycle> {
             name: cycle.name.clone(),
             dimension: cycle.dimension,
             fixed: fixed_freedoms(mechanism, &answer.system, &cycle.fixed),
-            rigid_clusters: cycle
-                .clusters
-                .iter()
-                .map(|links| {
-                    let name = |link: &crate::mechanism::LinkId| mechanism.link(*link).name.clone();
-                    links.iter().map(name).collect()
-                })
-                .collect(),
+            fixed_joints: fixed_joints(mechanism, &answer.system, &cycle.fixed),
+            rigid_clusters: clusters(mechanism, &cycle.clusters),
+            motions: motions(mechanism, Some(cycle), &cycle.motions),
+            motions_unsettled: cycle.dimension.and_then(|_| unsettled(cycle.settled)),
         })
+        .collect()
+}
+
+fn clusters(mechanism: &Mechanism, clusters: &[Vec<LinkId>]) -> Vec<Vec<String>> {
+    let name = |link: &LinkId| mechanism.link(*link).name.clone();
+    clusters
+        .iter()
+        .map(|links| links.iter().map(name).collect())
         .collect()
 }
 

@@ -1,5 +1,6 @@
 //! The exact report as a page.
 
+use super::motions::cluster_text;
 use super::schema::{Conditions, ExactReport, Outcome, Piece, Relations};
 use crate::report::text::words::{counted, figure};
 use crate::report::text::{Cell, Column, Layout, Page, Table, Tint};
@@ -119,7 +120,13 @@ fn at_home(report: &ExactReport) -> Option<String> {
 }
 
 fn variables(report: &ExactReport, page: &mut Page) {
-    if report.free.is_empty() && report.fixed_freedoms.is_empty() {
+    let facts = [
+        report.free.len(),
+        report.fixed_joints.len(),
+        report.rigid_clusters.len(),
+        report.motions.len(),
+    ];
+    if facts == [0; 4] {
         return;
     }
     page.heading("Free and fixed");
@@ -138,8 +145,18 @@ fn variables(report: &ExactReport, page: &mut Page) {
         };
         page.item(&format!("free: {}{more}", shown.join("; or ")), Tint::Good);
     }
-    for fixed in &report.fixed_freedoms {
-        page.item(&format!("fixed: {fixed}"), Tint::Plain);
+    for fixed in &report.fixed_joints {
+        page.item(&fixed.text, Tint::Plain);
+    }
+    for cluster in &report.rigid_clusters {
+        let text = format!("{} in every assembly mode", cluster_text(cluster));
+        page.item(&text, Tint::Plain);
+    }
+    for motion in &report.motions {
+        page.item(&motion.text, Tint::Good);
+    }
+    if let Some(unsettled) = &report.motions_unsettled {
+        page.item(unsettled, Tint::Doubtful);
     }
 }
 
@@ -231,17 +248,20 @@ fn cycles(report: &ExactReport, page: &mut Page) {
             None => "cannot be closed".to_owned(),
             Some(dimension) => format!("dimension {dimension}"),
         };
-        let mut said = format!("cycle {}: {dimension}", cycle.name);
+        page.item(&format!("cycle {}: {dimension}", cycle.name), Tint::Plain);
+        let mut fact = |text: &str, tint: Tint| page.paragraph(text, tint, "      - ", "        ");
+        for motion in &cycle.motions {
+            fact(&motion.text, Tint::Good);
+        }
         for cluster in &cycle.rigid_clusters {
-            said.push_str(&format!(
-                "; links {} are one rigid cluster",
-                cluster.join(", ")
-            ));
+            fact(&cluster_text(cluster), Tint::Plain);
         }
-        for fixed in &cycle.fixed {
-            said.push_str(&format!("; {fixed}"));
+        for fixed in &cycle.fixed_joints {
+            fact(&fixed.text, Tint::Plain);
         }
-        page.item(&said, Tint::Plain);
+        if let Some(unsettled) = &cycle.motions_unsettled {
+            fact(unsettled, Tint::Doubtful);
+        }
     }
 }
 
