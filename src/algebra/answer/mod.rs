@@ -17,11 +17,11 @@ pub use cycles::CycleAnswer;
 pub use fixed::FixedVariable;
 pub use relative_motion::{ProvenMotion, Scope, Settled};
 
-use super::strategy::{Group, Incremental, Local, Problem, Relation, Step};
+use super::strategy::{Group, Incremental, Local, Problem, Relation, Step, brute_force_noting};
 use super::{
     AlgebraicNumber, Budget, Component, Decomposition, FinitePoints, Formulation, GroebnerBasis,
-    Hints, Meaning, MonomialOrder, Origin, Polynomial, PolynomialSystem, Rational, RealSolution,
-    Stop, SystemError, SystemOptions, Univariate, brute_force, components, divide_and_conquer,
+    Hints, Incomplete, Meaning, MonomialOrder, Origin, Polynomial, PolynomialSystem, Rational,
+    RealSolution, Stop, SystemError, SystemOptions, Univariate, components, divide_and_conquer,
     incremental_instancing, polynomial_system,
 };
 use crate::mechanism::{LinkId, Mechanism};
@@ -105,6 +105,10 @@ pub struct ExactAnswer {
     /// The complex dimension of the solution set; inside, `None` where there is no solution. Outside, `None` where it was
     /// not reached.
     pub dimension: Option<Option<usize>>,
+    /// Where the basis was not reached, but was modulo one prime: that prime, and the complex dimension of the solutions
+    /// modulo it; inside, `None` where there is none. Evidence and no proof: for all but finitely many primes it is that
+    /// over the rationals. Found with [`Method::Brute`] only.
+    pub dimension_modulo: Option<(u64, Option<usize>)>,
     /// Largest sets of variables that can be chosen freely (on some part of the solution set), at most 64.
     pub free: Vec<Vec<usize>>,
     /// Variables that take finitely many values.
@@ -144,6 +148,7 @@ pub fn exact_answer(
         basis: None,
         cases: None,
         dimension: None,
+        dimension_modulo: None,
         free: Vec::new(),
         fixed: Vec::new(),
         pieces: Vec::new(),
@@ -195,7 +200,10 @@ impl ExactAnswer {
         let problem = problem(mechanism, &self.system);
         match options.method {
             Method::Brute => {
-                let (step, basis) = brute_force(&problem, &options.order, budget)?;
+                let modulo = &mut self.dimension_modulo;
+                let (step, basis) = brute_force_noting(&problem, &options.order, budget, modulo)?;
+                // What is known of the rationals needs no evidence.
+                self.dimension_modulo = None;
                 self.steps.push(step);
                 self.basis = Some(basis);
             }
@@ -259,7 +267,9 @@ impl ExactAnswer {
             None => self.system.polynomials(),
         };
         let Decomposition {
-            pieces, complete, ..
+            pieces,
+            complete,
+            why,
         } = components(&equations, self.system.variables.len(), &hints, budget)?;
         self.decomposed = complete;
         self.pieces = pieces
@@ -276,7 +286,10 @@ impl ExactAnswer {
                 }
             })
             .collect();
-        Ok(())
+        match why {
+            Some(Incomplete::Stopped(stop)) => Err(stop),
+            _ => Ok(()),
+        }
     }
 
     fn find_cycles(&mut self, mechanism: &Mechanism, budget: &Budget) {

@@ -35,7 +35,19 @@ pub fn groebner_basis(
     order: &MonomialOrder,
     budget: &Budget,
 ) -> Result<GroebnerBasis, Stop> {
-    let (monic, certificate) = rational_basis(equations, variables, order, budget)?;
+    groebner_basis_noting(equations, variables, order, budget, &mut None)
+}
+
+/// The same. As soon as the basis modulo a first prime is known, the prime and the dimension that the leading monomials
+/// there tell are noted: evidence of what the answer would be, should it not be reached.
+pub(in crate::algebra) fn groebner_basis_noting(
+    equations: &[Polynomial],
+    variables: usize,
+    order: &MonomialOrder,
+    budget: &Budget,
+    modulo: &mut Option<(u64, Option<usize>)>,
+) -> Result<GroebnerBasis, Stop> {
+    let (monic, certificate) = rational_basis(equations, variables, order, budget, modulo)?;
     Ok(GroebnerBasis::assembled(
         monic,
         variables,

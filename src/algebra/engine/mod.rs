@@ -21,6 +21,7 @@ mod terms;
 mod testing;
 mod trace;
 
+pub(super) use basis::groebner_basis_noting;
 pub use basis::{GroebnerBasis, groebner_basis};
 pub use budget::{Budget, Limits, Progress, Stop};
 pub use certificate::Certificate;

@@ -8,6 +8,7 @@
 
 use super::budget::{Budget, Stop};
 use super::certificate::Certificate;
+use super::dimension::Supports;
 use super::f4::{is_basis, normal_forms, reduced_basis};
 use super::order::MonomialOrder;
 use super::terms::Terms;
@@ -32,12 +33,25 @@ struct Image {
     basis: Vec<Terms<Zp>>,
 }
 
-/// A basis over the rationals, smallest leading monomial first, every polynomial monic, with what was checked of it.
+impl Image {
+    /// The dimension of the solutions modulo the prime; `None` where there are none.
+    fn dimension(&self, variables: usize) -> Option<usize> {
+        let leads = self.basis.iter().filter_map(Terms::lead);
+        let leads: Vec<Vec<u32>> = leads
+            .map(|m| m.iter().map(|&e| u32::from(e)).collect())
+            .collect();
+        Supports::new(leads.iter().map(Vec::as_slice), variables).dimension()
+    }
+}
+
+/// A basis over the rationals, smallest leading monomial first, every polynomial monic, with what was checked of it. On the
+/// way the dimension modulo the first prime is noted.
 pub(super) fn rational_basis(
     equations: &[Polynomial],
     variables: usize,
     order: &MonomialOrder,
     budget: &Budget,
+    modulo: &mut Option<(u64, Option<usize>)>,
 ) -> Result<(Vec<Terms<Rational>>, Certificate), Stop> {
     let equations: Vec<Terms<Rational>> = equations
         .iter()
@@ -57,7 +71,7 @@ pub(super) fn rational_basis(
         trace: None,
         can_learn: true,
     }
-    .run()
+    .run(modulo)
 }
 
 struct Search<'a> {
@@ -74,8 +88,12 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn run(mut self) -> Result<(Vec<Terms<Rational>>, Certificate), Stop> {
+    fn run(
+        mut self,
+        modulo: &mut Option<(u64, Option<usize>)>,
+    ) -> Result<(Vec<Terms<Rational>>, Certificate), Stop> {
         let mut test = self.full_image(false)?;
+        *modulo = Some((test.prime, test.dimension(self.variables)));
         // Small coefficients can be read off a single prime.
         let mut alone = Group::of(&test);
         alone.add(&test, self.order)?;

@@ -1,7 +1,8 @@
 //! Brute force, and divide and conquer.
 
 use super::group::{Local, Problem, about_the_same, basis_by_parts};
-use crate::algebra::{Budget, GroebnerBasis, MonomialOrder, Polynomial, Stop, groebner_basis};
+use crate::algebra::engine::groebner_basis_noting;
+use crate::algebra::{Budget, GroebnerBasis, MonomialOrder, Polynomial, Stop};
 use std::time::{Duration, Instant};
 
 /// What one step of a strategy cost and found.
@@ -43,8 +44,19 @@ pub fn brute_force(
     order: &MonomialOrder,
     budget: &Budget,
 ) -> Result<(Step, GroebnerBasis), Stop> {
+    brute_force_noting(problem, order, budget, &mut None)
+}
+
+/// The same; notes the dimension modulo the first prime as soon as it is known.
+pub(in crate::algebra) fn brute_force_noting(
+    problem: &Problem,
+    order: &MonomialOrder,
+    budget: &Budget,
+    modulo: &mut Option<(u64, Option<usize>)>,
+) -> Result<(Step, GroebnerBasis), Stop> {
     let clock = Clock::start(budget);
-    let basis = groebner_basis(&problem.equations, problem.variables, order, budget)?;
+    let variables = problem.variables;
+    let basis = groebner_basis_noting(&problem.equations, variables, order, budget, modulo)?;
     let variables = Local::new(&problem.equations, problem.variables).variables;
     let step = clock.step(
         "all equations",

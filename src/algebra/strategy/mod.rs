@@ -17,6 +17,7 @@ mod group;
 mod relations;
 
 pub use cases::{Case, Incremental, Instance, incremental_instancing};
+pub(super) use divide::brute_force_noting;
 pub use divide::{Divided, Step, brute_force, divide_and_conquer};
 pub(super) use group::Local;
 pub use group::{Group, Problem};

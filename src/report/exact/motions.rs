@@ -94,19 +94,19 @@ pub(super) fn unsettled(settled: Settled) -> Option<String> {
     match settled {
         Settled::Yes => None,
         Settled::Stopped(stop) => Some(format!(
-            "what its links are left with is not settled: {stop}"
+            "not settled: what its links are left with ({stop})"
         )),
         Settled::WithoutPieces => Some(
-            "whether its links are left with less in this assembly mode is not settled: its pieces took too long"
+            "not settled: whether its links are left with less in this assembly mode (its pieces took too long)"
                 .to_owned(),
         ),
         Settled::NoHome => Some(
-            "what its links are left with was not looked at: the drawn pose is no exact solution to count from"
+            "not settled: what its links are left with (the drawn pose is no exact solution to count from)"
                 .to_owned(),
         ),
         _ => Some(
-            "what some of its links are left with is not settled: a joint is written without variables of its own, or \
-             the polynomials are too long"
+            "not settled: what some of its links are left with (a joint is written without variables of its own, or the \
+             polynomials are too long)"
                 .to_owned(),
         ),
     }

@@ -38,6 +38,15 @@ pub struct Outcome {
     pub why: Option<String>,
 }
 
+/// What is known of the solutions modulo a prime only: evidence, no proof.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Modulo {
+    /// The prime.
+    pub prime: u64,
+    /// Complex dimension of the solutions modulo it; `null` where there are none.
+    pub dimension: Option<usize>,
+}
+
 /// A variable with finitely many values.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Fixed {
@@ -142,6 +151,8 @@ pub struct ExactReport {
     pub consistent: Option<bool>,
     /// Complex dimension of the solution set; `null` where there is none or it was not decided.
     pub dimension: Option<usize>,
+    /// The same modulo one prime, where the basis over the rationals was not reached but that one was.
+    pub dimension_modulo: Option<Modulo>,
     /// Degree of its part of largest dimension.
     pub degree: Option<usize>,
     /// Complex dimension at the drawn pose: the largest of the pieces through it.
@@ -215,6 +226,9 @@ pub fn exact_report(mechanism: &Mechanism, answer: &ExactAnswer, request: &Reque
         outcome: outcome(answer.stopped),
         consistent: answer.dimension.map(|d| d.is_some()),
         dimension: answer.dimension.flatten(),
+        dimension_modulo: answer
+            .dimension_modulo
+            .map(|(prime, dimension)| Modulo { prime, dimension }),
         degree: basis
             .filter(|b| !b.is_inconsistent())
             .and_then(|b| b.degree()),

@@ -19,6 +19,19 @@ pub fn render(report: &ExactReport, layout: Layout) -> String {
     if let Some(sentence) = stopped(&report.outcome) {
         page.item(&sentence, Tint::Doubtful);
     }
+    if let Some(modulo) = &report.dimension_modulo {
+        let found = match modulo.dimension {
+            Some(dimension) => format!("the dimension is {dimension}"),
+            None => "the equations contradict one another".to_owned(),
+        };
+        page.item(
+            &format!(
+                "modulo the prime {} {found}; over the rationals not computed: evidence, no proof",
+                modulo.prime
+            ),
+            Tint::Notable,
+        );
+    }
     if let Some(sentence) = at_home(report) {
         page.item(&sentence, Tint::Plain);
     }

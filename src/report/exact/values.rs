@@ -13,7 +13,8 @@ const OFF_THE_CIRCLE: f64 = 1e-9;
 pub struct FixedFreedom {
     /// The joint's freedom or, where it is none, the variable.
     pub name: String,
-    /// What it is of its joint: `rotation`, `slide`, `rotation 2`; otherwise the variable.
+    /// What it is of its joint: `rotation`, `slide`, `rotation 2`, `quaternion component 0`, `x between its points`;
+    /// otherwise the variable.
     pub part: String,
     /// Its values: degrees in (−180, 180] for a rotation, metres for a slide, otherwise as the variable counts. None: it
     /// has no real one.
@@ -119,8 +120,7 @@ pub(super) fn fixed_joints(
     joints
         .into_iter()
         .map(|(joint, freedoms)| {
-            let parts: Vec<String> = freedoms.iter().map(FixedFreedom::text).collect();
-            let parts = parts.join(", ");
+            let parts = in_words(&freedoms).join(", ");
             let joint = joint.map(|joint| mechanism.joint(joint).name.clone());
             FixedJoint {
                 text: match &joint {
@@ -132,6 +132,30 @@ pub(super) fn fixed_joints(
             }
         })
         .collect()
+}
+
+/// Fixed freedoms in words. The four components of a ball's quaternion are one fact, and one of them alone says nothing that
+/// a person could see.
+fn in_words(freedoms: &[FixedFreedom]) -> Vec<String> {
+    let component = |freedom: &FixedFreedom| freedom.part.starts_with("quaternion");
+    let turns: Vec<&FixedFreedom> = freedoms.iter().filter(|f| component(f)).collect();
+    let mut words = Vec::new();
+    if turns.len() == 4 {
+        // q and -q are one orientation.
+        let one = turns.iter().all(|f| {
+            let first = f.values.first().copied().unwrap_or_default().abs();
+            f.values
+                .iter()
+                .all(|x| (x.abs() - first).abs() < OFF_THE_CIRCLE)
+        });
+        words.push(match one {
+            true => "orientation fixed".to_owned(),
+            false => "orientation fixed in every assembly mode".to_owned(),
+        });
+    }
+    let others = freedoms.iter().filter(|f| turns.len() < 4 || !component(f));
+    words.extend(others.map(FixedFreedom::text));
+    words
 }
 
 /// Fixed freedoms and their joints. A freedom only one of whose two coordinates is fixed cannot be anywhere else than at
@@ -200,8 +224,17 @@ fn found(
             Meaning::Sine { .. } => continue,
             _ => {
                 let name = system.variables[entry.variable].name.clone();
+                let part = match meaning {
+                    Meaning::Quaternion { component, .. } => {
+                        format!("quaternion component {component}")
+                    }
+                    Meaning::Between { component, .. } => {
+                        format!("{} between its points", ["x", "y", "z"][*component])
+                    }
+                    _ => name.clone(),
+                };
                 FixedFreedom {
-                    part: name.clone(),
+                    part,
                     name,
                     values: doubles(entry),
                     unit: "",
