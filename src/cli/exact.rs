@@ -27,9 +27,9 @@ pub struct Arguments {
     /// Unknowns of the equations
     #[arg(long, value_enum)]
     variables: Option<Variables>,
-    /// How the basis is computed
-    #[arg(long, value_enum, default_value_t = Way::Brute)]
-    method: Way,
+    /// How the basis is computed [default: divide where the equations fall into parts that share no unknown, else brute]
+    #[arg(long, value_enum)]
+    method: Option<Way>,
     /// Order of the basis
     #[arg(long, value_enum, default_value_t = Order::Degrevlex)]
     order: Order,
@@ -165,11 +165,11 @@ impl Arguments {
                     unoriented: self.unoriented,
                     ..SystemOptions::default()
                 },
-                method: match self.method {
+                method: self.method.map(|way| match way {
                     Way::Brute => Method::Brute,
                     Way::Divide => Method::Divide,
                     Way::Incremental => Method::Incremental,
-                },
+                }),
                 order: match self.order {
                     Order::Degrevlex => MonomialOrder::Degrevlex,
                     Order::Lex => MonomialOrder::Lexicographic,

@@ -73,6 +73,8 @@ pub struct Piece {
     pub real_points: Option<usize>,
     /// Whether the drawn pose lies on it; `null` where that pose is not known exactly.
     pub contains_home: Option<bool>,
+    /// The number (from 1) of an earlier piece that consists of the same poses, by the other sign of quaternions.
+    pub same_poses_as: Option<usize>,
     /// Variables that can be chosen freely on it.
     pub free: Vec<String>,
     /// Its equations.
@@ -216,7 +218,7 @@ pub fn exact_report(mechanism: &Mechanism, answer: &ExactAnswer, request: &Reque
         mechanism: mechanism.name().to_owned(),
         file: request.file.clone(),
         formulation: formulation_word(request.options.system.formulation),
-        method: match request.options.method {
+        method: match answer.method {
             Method::Brute => "brute",
             Method::Divide => "divide",
             Method::Incremental => "incremental",
@@ -335,6 +337,7 @@ fn piece(piece: &crate::algebra::Piece, names: &[String]) -> Piece {
             _ => None,
         },
         contains_home: piece.contains_home,
+        same_poses_as: piece.same_poses_as.map(|first| first + 1),
         free: component.free.iter().map(|&v| names[v].clone()).collect(),
         equations: component.equations.iter().map(|p| p.text(names)).collect(),
     }

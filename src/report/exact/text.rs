@@ -184,8 +184,7 @@ fn pieces(report: &ExactReport, page: &mut Page) {
         .column("degree", Column::Numbers)
         .column("one piece over the rationals", Column::Words)
         .column("real points", Column::Words)
-        .column("pose drawn", Column::Words)
-        .column("free", Column::Shrinking);
+        .column("pose drawn", Column::Words);
     for (index, piece) in pieces.iter().enumerate() {
         table.row(vec![
             Cell::new((index + 1).to_string()),
@@ -193,15 +192,35 @@ fn pieces(report: &ExactReport, page: &mut Page) {
             Cell::new(piece.degree.map_or("?".to_owned(), |d| d.to_string())),
             Cell::new(piece.irreducible),
             Cell::new(real_words(piece)),
-            Cell::new(match piece.contains_home {
-                Some(true) => "on it",
-                Some(false) => "",
-                None => "?",
+            Cell::new(match (piece.contains_home, piece.same_poses_as) {
+                (_, Some(first)) => format!("the poses of {first}"),
+                (Some(true), None) => "on it".to_owned(),
+                (Some(false), None) => String::new(),
+                (None, None) => "?".to_owned(),
             }),
-            Cell::new(piece.free.join(", ")),
         ]);
     }
     page.table(&table, "pieces");
+    let different = pieces.iter().filter(|piece| piece.same_poses_as.is_none());
+    let different = different.count();
+    if different < pieces.len() {
+        page.item(
+            &format!(
+                "up to the sign of quaternions, which makes no difference to the poses, {}",
+                counted(different, "piece")
+            ),
+            Tint::Plain,
+        );
+    }
+    for (index, piece) in pieces.iter().enumerate() {
+        // What is free on the largest ones is said above.
+        if !report.free.contains(&piece.free) && !piece.free.is_empty() {
+            page.item(
+                &format!("free on piece {}: {}", index + 1, piece.free.join(", ")),
+                Tint::Plain,
+            );
+        }
+    }
     if !report.fully_split {
         page.item(
             "not split further: some piece may fall apart into more",
