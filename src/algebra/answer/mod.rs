@@ -8,7 +8,7 @@ mod conditions;
 mod cycles;
 mod fixed;
 
-pub use conditions::{Condition, DesignConditions, assembly_conditions, motion_conditions};
+pub use conditions::{Condition, DesignConditions, Family, assembly_conditions, motion_conditions};
 pub use cycles::CycleAnswer;
 pub use fixed::FixedVariable;
 
