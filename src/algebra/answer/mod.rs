@@ -13,7 +13,7 @@ mod relative_motion;
 mod same_poses;
 mod subgroup;
 
-pub use conditions::{Condition, DesignConditions, assembly_conditions, motion_conditions};
+pub use conditions::{Condition, DesignConditions, Family, assembly_conditions, motion_conditions};
 pub use cycles::CycleAnswer;
 pub use fixed::FixedVariable;
 pub use relative_motion::{ProvenMotion, Scope, Settled};
