@@ -117,6 +117,8 @@ pub struct ExactAnswer {
     pub pieces: Vec<Piece>,
     /// Whether every piece is proven irreducible over the rationals.
     pub decomposed: bool,
+    /// Why the pieces were not looked for to the end, where they were not.
+    pub pieces_stopped: Option<Stop>,
     /// The solutions, where they are finitely many.
     pub solutions: Option<Solutions>,
     /// Every basic cycle by itself.
@@ -153,6 +155,7 @@ pub fn exact_answer(
         fixed: Vec::new(),
         pieces: Vec::new(),
         decomposed: false,
+        pieces_stopped: None,
         solutions: None,
         cycles: Vec::new(),
         clusters: Vec::new(),
@@ -286,17 +289,18 @@ impl ExactAnswer {
                 }
             })
             .collect();
-        match why {
-            Some(Incomplete::Stopped(stop)) => Err(stop),
-            _ => Ok(()),
+        if let Some(Incomplete::Stopped(stop)) = why {
+            self.pieces_stopped = Some(stop);
         }
+        // A piece that is too large is not the end of everything; time that is over is.
+        budget.check()
     }
 
     fn find_cycles(&mut self, mechanism: &Mechanism, budget: &Budget) {
         let whole = Whole {
             basis: self.basis.as_ref(),
             pieces: &self.pieces,
-            complete: self.decomposed || self.stopped.is_none(),
+            complete: self.pieces_stopped.is_none(),
         };
         for cycle in &self.system.cycles {
             match cycle_answer(mechanism, &self.system, cycle, &whole, budget) {
@@ -327,7 +331,7 @@ impl ExactAnswer {
             return;
         }
         let local = Local::whole(&self.system.polynomials(), self.system.variables.len());
-        let complete = self.decomposed || self.stopped.is_none();
+        let complete = self.pieces_stopped.is_none();
         let pieces = if self.pieces.is_empty() {
             Ok(Pieces::unknown(basis))
         } else {
