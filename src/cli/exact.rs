@@ -234,7 +234,17 @@ impl Arguments {
                         help: None,
                     })
                 })?;
+                // Nothing found is no condition; no variable is no question.
                 motion_conditions(&system, joint, budget)
+                    .transpose()
+                    .ok_or_else(|| {
+                        Ended::Failed(Failure::Plain {
+                            message: format!(
+                                "joint `{name}` has no variable of its own in this form"
+                            ),
+                            help: Some("ask with `--variables canonical`".to_owned()),
+                        })
+                    })?
             }
         };
         let moving = self.moving.as_deref();

@@ -46,7 +46,11 @@ pub fn assembly_conditions(
 /// moving.
 ///
 /// All unknowns but those of the joint are eliminated. What is left, reduced by the joint's own circle, must vanish for
-/// every position: coefficient by coefficient.
+/// every position: coefficient by coefficient. So Bennett's ratio of lengths and sines of twists comes out of the closure of
+/// four hinges with everything left open (Bennett 1903).
+///
+/// `None`: the joint has no variables of its own (the tree form leaves joints out, the positional form all of them), so that
+/// its positions cannot be spoken of; the canonical form has variables for every joint that moves.
 ///
 /// # Errors
 /// [`Stop`] where the budget does not suffice.
@@ -54,8 +58,11 @@ pub fn motion_conditions(
     system: &PolynomialSystem,
     joint: JointId,
     budget: &Budget,
-) -> Result<DesignConditions, Stop> {
+) -> Result<Option<DesignConditions>, Stop> {
     let kept = &system.joint_variables[joint.0];
+    if kept.is_empty() {
+        return Ok(None);
+    }
     let remaining = remaining_without(system, kept, budget)?;
     let own: Vec<Polynomial> = system
         .equations
@@ -70,7 +77,7 @@ pub fn motion_conditions(
         let reduced = circle.normal_form_within(&polynomial, budget)?;
         coefficients.extend(coefficients_in(&reduced, kept));
     }
-    conditions(system, coefficients, budget)
+    conditions(system, coefficients, budget).map(Some)
 }
 
 /// What the equations say about the parameters and some unknowns that are kept, where no denominator vanishes.

@@ -48,24 +48,39 @@ pub(in crate::algebra) fn groebner_basis_noting(
     modulo: &mut Option<(u64, Option<usize>)>,
 ) -> Result<GroebnerBasis, Stop> {
     let (monic, certificate) = rational_basis(equations, variables, order, budget, modulo)?;
-    let polynomials = monic
-        .iter()
-        .map(|p| p.primitive().polynomial(variables))
-        .collect();
-    let leads = monic.iter().filter_map(Terms::lead);
-    Ok(GroebnerBasis {
-        order: order.clone(),
-        variables,
-        leads: leads
-            .map(|m| m.iter().map(|&e| u32::from(e)).collect())
-            .collect(),
+    Ok(GroebnerBasis::assembled(
         monic,
-        polynomials,
+        variables,
+        order,
         certificate,
-    })
+    ))
 }
 
 impl GroebnerBasis {
+    /// From the monic polynomials of a reduced basis, smallest leading monomial first.
+    pub(super) fn assembled(
+        monic: Vec<Terms<Rational>>,
+        variables: usize,
+        order: &MonomialOrder,
+        certificate: Certificate,
+    ) -> Self {
+        let polynomials = monic
+            .iter()
+            .map(|p| p.primitive().polynomial(variables))
+            .collect();
+        let leads = monic.iter().filter_map(Terms::lead);
+        Self {
+            order: order.clone(),
+            variables,
+            leads: leads
+                .map(|m| m.iter().map(|&e| u32::from(e)).collect())
+                .collect(),
+            monic,
+            polynomials,
+            certificate,
+        }
+    }
+
     /// The polynomials, smallest leading monomial first, with coprime integer coefficients.
     #[must_use]
     pub fn polynomials(&self) -> &[Polynomial] {

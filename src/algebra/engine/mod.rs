@@ -14,6 +14,7 @@ mod modular;
 mod monomials;
 mod order;
 mod pairs;
+mod parts;
 mod symbolic;
 mod terms;
 #[cfg(test)]

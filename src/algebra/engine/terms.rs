@@ -80,6 +80,17 @@ impl Terms<Rational> {
         Polynomial::from_raw(&Poly::new(terms, variables, Order::GRevLex))
     }
 
+    /// Divided by the leading coefficient.
+    pub(super) fn monic(&self) -> Self {
+        let Some(lead) = self.coefficients.first() else {
+            return self.clone();
+        };
+        Self {
+            monomials: self.monomials.clone(),
+            coefficients: self.coefficients.iter().map(|c| c / lead).collect(),
+        }
+    }
+
     /// A monic polynomial with coprime integer coefficients, the first one in degrevlex positive.
     pub(super) fn primitive(&self) -> Self {
         let mut common = BigInt::one();

@@ -1,10 +1,8 @@
 //! Incremental instancing: what a cycle determines goes into the next ones, in as many cases as there are choices.
 
 use super::divide::{Clock, Step};
-use super::group::{Local, Problem, about_the_same};
-use crate::algebra::{
-    Budget, GroebnerBasis, MonomialOrder, Polynomial, Stop, factor, groebner_basis,
-};
+use super::group::{Local, Problem, about_the_same, basis_by_parts};
+use crate::algebra::{Budget, GroebnerBasis, MonomialOrder, Polynomial, Rational, Stop, factor};
 
 /// Most cases that are carried side by side. Beyond it a choice stays an equation, and nothing is lost.
 const MOST_CASES: usize = 64;
@@ -25,17 +23,20 @@ pub struct Case {
     pub instances: Vec<Instance>,
     /// The basis of what remains, in the ring of all variables; instances do not occur in it.
     pub basis: GroebnerBasis,
-    /// Complex dimension of the solutions of this case.
+    /// Complex dimension of the solutions of this case in the variables of its part.
     pub dimension: usize,
 }
 
-/// The result of incremental instancing: the solutions are the union of the cases.
+/// The result of incremental instancing: in every part the solutions are the union of its cases, and as parts share no
+/// variable, all combinations of cases are solutions of the whole.
 #[derive(Clone, Debug)]
 pub struct Incremental {
-    /// One step per cycle and case, then one per case for what remains.
+    /// For every part one step per cycle and case, then one per case for what remains.
     pub steps: Vec<Step>,
-    /// All cases that have solutions, complex ones included.
-    pub cases: Vec<Case>,
+    /// By part all cases that have solutions, complex ones included.
+    pub parts: Vec<Vec<Case>>,
+    /// Variables that occur in no equation.
+    pub unused: usize,
     /// Cycles at which a case turned out to have no solution.
     pub contradictions: Vec<String>,
     /// Whether a choice was left as an equation because there were too many cases.
@@ -43,10 +44,19 @@ pub struct Incremental {
 }
 
 impl Incremental {
-    /// The largest dimension of a case; `None` if there is no solution.
+    /// The largest dimension of the solutions; `None` if there is none.
     #[must_use]
     pub fn dimension(&self) -> Option<usize> {
-        self.cases.iter().map(|case| case.dimension).max()
+        let largest = |cases: &Vec<Case>| cases.iter().map(|case| case.dimension).max();
+        let parts = self.parts.iter().map(largest).sum::<Option<usize>>();
+        parts.map(|dimension| dimension + self.unused)
+    }
+
+    /// Number of combinations of cases.
+    #[must_use]
+    pub fn combinations(&self) -> usize {
+        let counts = self.parts.iter().map(Vec::len);
+        counts.fold(1, usize::saturating_mul)
     }
 }
 
@@ -58,76 +68,83 @@ struct Known {
     relations: Vec<Polynomial>,
 }
 
-/// Works through the groups, the smallest first.
+/// Works through the groups, the smallest first, for every independent part by itself.
 ///
-/// Ruiz (1994), section 5.5.2, with two changes. A polynomial that factors opens one case per factor, all of which are
-/// carried on; and every relation of first degree removes a variable, not only those that give it a value.
+/// Ruiz (1994), section 5.5.2, with three changes. A polynomial that factors opens one case per factor, all of which are
+/// carried on; every relation of first degree removes a variable, not only those that give it a value; and cases of cycles
+/// that share no joint, not even through others, are not multiplied.
 ///
 /// # Errors
 /// [`Stop`] where the budget does not suffice.
 pub fn incremental_instancing(problem: &Problem, budget: &Budget) -> Result<Incremental, Stop> {
     let mut result = Incremental {
         steps: Vec::new(),
-        cases: Vec::new(),
+        parts: Vec::new(),
+        unused: problem.variables
+            - Local::new(&problem.equations, problem.variables)
+                .variables
+                .len(),
         contradictions: Vec::new(),
         unsplit: false,
     };
-    let mut open = vec![Known::default()];
-    for group in problem.smallest_first() {
-        let mut next: Vec<Known> = Vec::new();
-        let mut left = open.len();
-        for known in open {
-            left -= 1;
-            let equations = known.with(&problem.equations_of(group));
-            let clock = Clock::start(budget);
-            let room = MOST_CASES.saturating_sub(next.len() + left).max(1);
-            let pieces = pieces(&equations, problem.variables, room, budget)?;
-            result.unsplit |= pieces.unsplit;
-            if let Some(first) = pieces.whole {
-                let local = Local::new(&equations, problem.variables);
-                let absent = problem.variables - local.variables.len();
-                let (n, m) = (local.variables.len(), equations.len());
-                result
-                    .steps
-                    .push(clock.step(&group.name, n, m, &first, absent));
-            }
-            if pieces.bases.is_empty() {
-                result.contradictions.push(group.name.clone());
-            }
-            for basis in pieces.bases {
-                next.push(known.learning(&basis));
-            }
-        }
-        open = next;
-    }
-    let rest = problem.ungrouped();
-    for known in open {
-        let mut equations = known.with(&rest);
-        equations.extend(known.relations.iter().cloned());
-        equations.dedup();
-        let clock = Clock::start(budget);
-        let basis = groebner_basis(
-            &equations,
-            problem.variables,
-            &MonomialOrder::Degrevlex,
-            budget,
-        )?;
-        let local = Local::new(&equations, problem.variables);
-        let (n, m) = (local.variables.len(), equations.len());
-        let absent = problem.variables - n;
-        result
-            .steps
-            .push(clock.step("what remains", n, m, &basis, absent));
-        match basis.dimension() {
-            None => result.contradictions.push("what remains".to_owned()),
-            Some(dimension) => result.cases.push(Case {
-                dimension: dimension - known.instances.len(),
-                instances: known.instances,
-                basis,
-            }),
-        }
+    for part in problem.independent() {
+        let cases = result.cases_of(&part, budget)?;
+        result.parts.push(cases);
     }
     Ok(result)
+}
+
+impl Incremental {
+    /// All cases of one part.
+    fn cases_of(&mut self, part: &Problem, budget: &Budget) -> Result<Vec<Case>, Stop> {
+        let variables = part.variables;
+        let mut open = vec![Known::default()];
+        for group in part.smallest_first() {
+            let mut next: Vec<Known> = Vec::new();
+            let mut left = open.len();
+            for known in open {
+                left -= 1;
+                let equations = known.with(&part.equations_of(group));
+                let clock = Clock::start(budget);
+                let room = MOST_CASES.saturating_sub(next.len() + left).max(1);
+                let pieces = pieces(&equations, variables, room, budget)?;
+                self.unsplit |= pieces.unsplit;
+                if let Some(first) = pieces.whole {
+                    let n = Local::new(&equations, variables).variables.len();
+                    let absent = variables - n;
+                    let step = clock.step(&group.name, n, equations.len(), &first, absent);
+                    self.steps.push(step);
+                }
+                if pieces.bases.is_empty() {
+                    self.contradictions.push(group.name.clone());
+                }
+                next.extend(pieces.bases.iter().map(|basis| known.learning(basis)));
+            }
+            open = next;
+        }
+        let own = Local::new(&part.equations, variables).variables.len();
+        let rest = part.ungrouped();
+        let mut cases = Vec::new();
+        for known in open {
+            let mut equations = known.with(&rest);
+            equations.extend(known.relations.iter().cloned());
+            equations.dedup();
+            let clock = Clock::start(budget);
+            let basis = basis_by_parts(&equations, variables, &MonomialOrder::Degrevlex, budget)?;
+            let n = Local::new(&equations, variables).variables.len();
+            let step = clock.step("what remains", n, equations.len(), &basis, variables - n);
+            self.steps.push(step);
+            match basis.dimension() {
+                None => self.contradictions.push("what remains".to_owned()),
+                Some(dimension) => cases.push(Case {
+                    dimension: dimension - known.instances.len() - (variables - own),
+                    instances: known.instances,
+                    basis,
+                }),
+            }
+        }
+        Ok(cases)
+    }
 }
 
 impl Known {
@@ -190,22 +207,24 @@ fn as_instance(polynomial: &Polynomial) -> Option<Instance> {
     Some(Instance { variable, value })
 }
 
-/// A polynomial with an instance put in.
+/// A polynomial with an instance put in: Σ aₖ xᵏ becomes Σ aₖ vᵏ, by Horner's rule.
 fn replaced(polynomial: &Polynomial, instance: &Instance) -> Polynomial {
-    if !polynomial.mentions(instance.variable) {
+    let x = instance.variable;
+    if !polynomial.mentions(x) {
         return polynomial.clone();
     }
     let variables = polynomial.variables();
-    let replacements: Vec<Polynomial> = (0..variables)
-        .map(|v| {
-            if v == instance.variable {
-                instance.value.clone()
-            } else {
-                Polynomial::variable(v, variables)
-            }
-        })
-        .collect();
-    polynomial.substitute(&replacements)
+    let mut by_power: Vec<Vec<(Vec<u32>, Rational)>> =
+        vec![Vec::new(); polynomial.degree_in(x) as usize + 1];
+    for (exponents, coefficient) in polynomial.terms() {
+        let mut rest = exponents.to_vec();
+        let power = std::mem::take(&mut rest[x]);
+        by_power[power as usize].push((rest, coefficient.clone()));
+    }
+    let coefficients = by_power.into_iter().rev();
+    coefficients.fold(Polynomial::zero(variables), |sum, terms| {
+        &(&sum * &instance.value) + &Polynomial::from_terms(terms, variables)
+    })
 }
 
 /// A set of equations taken apart.
@@ -235,7 +254,7 @@ fn pieces(
         let local = Local::new(&equations, variables);
         let small = local.basis(&MonomialOrder::Degrevlex, budget)?;
         if pieces.whole.is_none() {
-            pieces.whole = Some(in_large_ring(&local, &small, variables, budget)?);
+            pieces.whole = Some(in_large_ring(&local, &small, variables)?);
         }
         if small.is_inconsistent() {
             continue;
@@ -252,9 +271,7 @@ fn pieces(
             }
             choice => {
                 pieces.unsplit |= choice.is_some();
-                pieces
-                    .bases
-                    .push(in_large_ring(&local, &small, variables, budget)?);
+                pieces.bases.push(in_large_ring(&local, &small, variables)?);
             }
         }
     }
@@ -282,8 +299,7 @@ fn in_large_ring(
     local: &Local,
     basis: &GroebnerBasis,
     variables: usize,
-    budget: &Budget,
 ) -> Result<GroebnerBasis, Stop> {
-    let lifted: Vec<Polynomial> = basis.polynomials().iter().map(|p| local.lift(p)).collect();
-    groebner_basis(&lifted, variables, &MonomialOrder::Degrevlex, budget)
+    let parts = [(basis.clone(), local.variables.clone())];
+    GroebnerBasis::of_parts(&parts, variables, basis.order())
 }

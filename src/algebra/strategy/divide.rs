@@ -1,8 +1,8 @@
 //! Brute force, and divide and conquer.
 
-use super::group::{Local, Problem, about_the_same};
+use super::group::{Local, Problem, about_the_same, basis_by_parts};
 use crate::algebra::engine::groebner_basis_noting;
-use crate::algebra::{Budget, GroebnerBasis, MonomialOrder, Polynomial, Stop, groebner_basis};
+use crate::algebra::{Budget, GroebnerBasis, MonomialOrder, Polynomial, Stop};
 use std::time::{Duration, Instant};
 
 /// What one step of a strategy cost and found.
@@ -69,9 +69,8 @@ pub(in crate::algebra) fn brute_force_noting(
 }
 
 /// The basis of every group, the smallest first, then of all these bases together. What smaller groups say about the
-/// variables of a group is used with its equations.
-///
-/// A cycle without a solution ends it: nothing that is added makes it assemble.
+/// variables of a group is used with its equations. What shares no variable in the end is not mixed: cycles in different
+/// blocks of the constraint graph, and cycles that meet only in joints that stand still.
 ///
 /// # Errors
 /// [`Stop`] where the budget does not suffice.
@@ -107,7 +106,7 @@ pub fn divide_and_conquer(
             }
         }
     }
-    let basis = groebner_basis(&together, problem.variables, order, budget)?;
+    let basis = basis_by_parts(&together, problem.variables, order, budget)?;
     let variables = Local::new(&together, problem.variables).variables;
     steps.push(clock.step(
         "all cycles together",

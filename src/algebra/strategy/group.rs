@@ -1,6 +1,7 @@
 //! Equations in groups: one group per basic cycle.
 
 use crate::algebra::{Budget, GroebnerBasis, MonomialOrder, Polynomial, Stop, groebner_basis};
+use petgraph::unionfind::UnionFind;
 use std::collections::BTreeSet;
 
 /// Equations that belong together, such as those of one cycle.
@@ -30,6 +31,30 @@ impl Problem {
             .equations
             .iter()
             .filter_map(|&index| self.equations.get(index).cloned())
+            .collect()
+    }
+
+    /// Problems that share no variable and no group, each in the ring of all variables.
+    pub(super) fn independent(&self) -> Vec<Self> {
+        let tied = self.groups.iter().map(|g| g.equations.as_slice());
+        independent_parts(&self.equations, self.variables, tied)
+            .into_iter()
+            .map(|part| {
+                let place = |index: &usize| part.binary_search(index).ok();
+                let groups = self.groups.iter().filter_map(|group| {
+                    let equations: Option<Vec<usize>> = group.equations.iter().map(place).collect();
+                    let equations = equations.filter(|e| !e.is_empty())?;
+                    Some(Group {
+                        name: group.name.clone(),
+                        equations,
+                    })
+                });
+                Self {
+                    variables: self.variables,
+                    groups: groups.collect(),
+                    equations: part.iter().map(|&i| self.equations[i].clone()).collect(),
+                }
+            })
             .collect()
     }
 
@@ -78,6 +103,56 @@ pub(super) fn about_the_same<'a>(
         .filter(|p| !equations.contains(p))
         .cloned()
         .collect()
+}
+
+/// Numbers of polynomials that belong together because they share variables, directly or through others: each set
+/// ascending, in the order of their first members. Polynomials without a variable are sets of their own. Those `tied` are not
+/// parted in any case.
+pub(super) fn independent_parts<'a>(
+    polynomials: &[Polynomial],
+    variables: usize,
+    tied: impl IntoIterator<Item = &'a [usize]>,
+) -> Vec<Vec<usize>> {
+    // The first polynomial that mentions a variable stands for it.
+    let mut first = vec![None; variables];
+    let mut parts = UnionFind::<usize>::new(polynomials.len());
+    for set in tied {
+        for pair in set.windows(2) {
+            parts.union(pair[0], pair[1]);
+        }
+    }
+    for (index, polynomial) in polynomials.iter().enumerate() {
+        for (variable, first) in first.iter_mut().enumerate() {
+            if polynomial.mentions(variable) {
+                parts.union(*first.get_or_insert(index), index);
+            }
+        }
+    }
+    let mut sets: Vec<(usize, Vec<usize>)> = Vec::new();
+    for index in 0..polynomials.len() {
+        let root = parts.find(index);
+        match sets.iter_mut().find(|(r, _)| *r == root) {
+            Some((_, set)) => set.push(index),
+            None => sets.push((root, vec![index])),
+        }
+    }
+    sets.into_iter().map(|(_, set)| set).collect()
+}
+
+/// The basis of equations, found for each independent part by itself.
+pub(super) fn basis_by_parts(
+    equations: &[Polynomial],
+    variables: usize,
+    order: &MonomialOrder,
+    budget: &Budget,
+) -> Result<GroebnerBasis, Stop> {
+    let mut parts = Vec::new();
+    for part in independent_parts(equations, variables, []) {
+        let equations: Vec<Polynomial> = part.iter().map(|&i| equations[i].clone()).collect();
+        let local = Local::new(&equations, variables);
+        parts.push((local.basis(order, budget)?, local.variables));
+    }
+    GroebnerBasis::of_parts(&parts, variables, order)
 }
 
 /// Some equations in the ring of just the variables that occur in them.
@@ -132,7 +207,13 @@ impl Local {
         order: &MonomialOrder,
         budget: &Budget,
     ) -> Result<GroebnerBasis, Stop> {
-        groebner_basis(&self.equations, self.variables.len(), order, budget)
+        let order = match *order {
+            MonomialOrder::Elimination(first) => {
+                MonomialOrder::Elimination(self.variables.partition_point(|&v| v < first))
+            }
+            ref order => order.clone(),
+        };
+        groebner_basis(&self.equations, self.variables.len(), &order, budget)
     }
 
     /// A polynomial of the large ring that mentions only variables of the small one, there.
@@ -162,6 +243,26 @@ mod tests {
         assert_eq!(local.variables, [1, 2]);
         assert_eq!(local.equations[0].variables(), 2);
         assert_eq!(local.lift(&local.equations[0]), p);
+    }
+
+    #[test]
+    fn what_shares_no_variable_is_told_apart() {
+        let x = |i: usize| Polynomial::variable(i, 6);
+        let all = [
+            &x(0) - &x(1),
+            &x(2) * &x(3),
+            Polynomial::one(6),
+            &x(1) + &x(4),
+            x(3),
+        ];
+        assert_eq!(
+            independent_parts(&all, 6, []),
+            [vec![0, 3], vec![1, 4], vec![2]]
+        );
+        assert_eq!(
+            independent_parts(&all, 6, [[2, 4].as_slice()]),
+            [vec![0, 3], vec![1, 2, 4]]
+        );
     }
 
     #[test]

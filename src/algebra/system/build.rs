@@ -117,7 +117,7 @@ pub fn polynomial_system(
             models: &models,
             unoriented: options.unoriented,
         };
-        positional::write(&setting, &mut draft);
+        positional::write(&setting, options, &mut draft);
     } else {
         let writer = Writer {
             mechanism,
@@ -274,11 +274,14 @@ pub(super) fn cycle_equations(
     system: &PolynomialSystem,
 ) -> CycleEquations {
     let in_cycle = |joint: JointId| joints.iter().any(|(j, _)| *j == joint);
+    let ends = &system.construction.ends;
+    let meets = |link: LinkId| joints.iter().any(|(j, _)| ends[j.0].contains(&link.0));
     let mut equations: Vec<usize> = Vec::new();
     for (number, equation) in system.equations.iter().enumerate() {
         let belongs = match equation.origin {
             Origin::Cycle { cycle, .. } => cycle == index,
             Origin::Joint { joint } | Origin::Freedom { joint } => in_cycle(joint),
+            Origin::Orthonormality { link } => meets(link),
             _ => false,
         };
         if belongs {

@@ -8,10 +8,10 @@ use super::error::SystemError;
 use super::field::Field;
 use super::model::JointModel;
 use super::space::Pose;
-use super::spanning::{implicit_joints, lightest_tree_cycles};
+use super::spanning::{basic_cycles, implicit_joints};
 use super::walks::Walker;
-use super::{Formulation, Origin, Relaxation, SystemOptions, couplings};
-use crate::graph::{ConstraintGraph, Cycle, CycleBasis, SpanningTree, fundamental_cycle};
+use super::{Origin, Relaxation, SystemOptions, couplings};
+use crate::graph::{ConstraintGraph, Cycle};
 use crate::mechanism::{JointId, JointKind, Mechanism};
 
 /// Writes the equations in joint variables.
@@ -29,18 +29,7 @@ pub(super) struct Writer<'a> {
 
 impl Writer<'_> {
     pub(super) fn write(mut self, options: &SystemOptions) -> Result<(), SystemError> {
-        let graph = ConstraintGraph::of(self.mechanism);
-        let tree = SpanningTree::low_depth(&graph);
-        let mut cycles: Vec<Cycle> = match options.formulation {
-            Formulation::Tree => lightest_tree_cycles(&graph, &tree, self.mechanism),
-            _ if options.shortest_cycles => CycleBasis::minimum(&graph, &tree).cycles,
-            _ => tree
-                .chords()
-                .iter()
-                .filter_map(|&chord| fundamental_cycle(&graph, &tree, chord))
-                .collect(),
-        };
-        cycles.retain(|c| c.edges.iter().all(|(edge, _)| options.includes(*edge)));
+        let (graph, cycles) = basic_cycles(self.mechanism, options);
         let implicit = implicit_joints(self.mechanism, &cycles, options.formulation);
         self.linear_blocks(&graph, options);
         let mut displacements = Vec::with_capacity(self.models.len());

@@ -157,7 +157,8 @@ pub struct Equation {
 pub struct CycleEquations {
     /// The joints in the order of the walk, with whether each is passed from predecessor to successor.
     pub joints: Vec<(JointId, bool)>,
-    /// Indices of its equations: its closure, its joints' own, and the minimal polynomials they need.
+    /// Indices of its equations: its closure, its joints' own (in the positional form those of its links as well), and the
+    /// minimal polynomials they need.
     pub equations: Vec<usize>,
     /// Indices of the variables that occur in them.
     pub variables: Vec<usize>,
@@ -208,7 +209,7 @@ pub struct PolynomialSystem {
     pub equations: Vec<Equation>,
     /// Polynomials that must not vanish: denominators that hold parameters.
     pub nonzero: Vec<Polynomial>,
-    /// The basic cycles; empty in the positional form.
+    /// The basic cycles.
     pub cycles: Vec<CycleEquations>,
     /// Indices of the variables of every joint, by joint.
     pub joint_variables: Vec<Vec<usize>>,

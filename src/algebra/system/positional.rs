@@ -4,8 +4,10 @@ use super::build::{Draft, Setting};
 use super::implicit::Implicit;
 use super::poly::Poly;
 use super::space::{Polynomials, Pose, Scalars};
+use super::spanning::basic_cycles;
 use super::variables::Meaning;
-use super::{Origin, Relaxation};
+use super::{Origin, Relaxation, SystemOptions};
+use crate::graph::Cycle;
 use crate::mechanism::{JointId, LinkId};
 
 /// The eight equations of a rotation matrix (Ruiz 1994, (3.5)): three columns of length one, two pairs perpendicular,
@@ -26,7 +28,7 @@ fn orthonormality(setting: &Setting<'_>, pose: &Pose<Poly>) -> Vec<Poly> {
 }
 
 /// Adds variables of all moving links and the equations of all joints.
-pub(super) fn write(setting: &Setting<'_>, draft: &mut Draft) {
+pub(super) fn write(setting: &Setting<'_>, options: &SystemOptions, draft: &mut Draft) {
     let ring = Polynomials(setting.field);
     let mechanism = setting.mechanism;
     let mut poses: Vec<Pose<Poly>> = Vec::with_capacity(mechanism.links().len());
@@ -89,6 +91,12 @@ pub(super) fn write(setting: &Setting<'_>, draft: &mut Draft) {
                 .map(|p| (p, Origin::Joint { joint: id })),
         );
     }
+    let (_, cycles) = basic_cycles(mechanism, options);
+    let joints = |cycle: &Cycle| {
+        let joints = cycle.edges.iter().map(|&(edge, f)| (JointId(edge), f));
+        joints.collect()
+    };
+    draft.cycles = cycles.iter().map(joints).collect();
     for (index, coupling) in mechanism.couplings().iter().enumerate() {
         draft.relaxations.push(Relaxation::Coupling {
             coupling: index,

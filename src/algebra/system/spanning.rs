@@ -1,12 +1,32 @@
 //! Which joints get variables: spanning trees and the joints that close them.
 
-use super::Formulation;
-use crate::graph::{ConstraintGraph, Cycle, SpanningTree};
+use super::{Formulation, SystemOptions};
+use crate::graph::{ConstraintGraph, Cycle, CycleBasis, SpanningTree, fundamental_cycle};
 use crate::mechanism::{JointKind, Mechanism};
+
+/// The graph of a mechanism and the basic cycles whose equations are written, all of whose joints are asked about.
+pub(super) fn basic_cycles(
+    mechanism: &Mechanism,
+    options: &SystemOptions,
+) -> (ConstraintGraph, Vec<Cycle>) {
+    let graph = ConstraintGraph::of(mechanism);
+    let tree = SpanningTree::low_depth(&graph);
+    let mut cycles: Vec<Cycle> = match options.formulation {
+        Formulation::Tree => lightest_tree_cycles(&graph, &tree, mechanism),
+        _ if options.shortest_cycles => CycleBasis::minimum(&graph, &tree).cycles,
+        _ => tree
+            .chords()
+            .iter()
+            .filter_map(|&chord| fundamental_cycle(&graph, &tree, chord))
+            .collect(),
+    };
+    cycles.retain(|c| c.edges.iter().all(|(edge, _)| options.includes(*edge)));
+    (graph, cycles)
+}
 
 /// The fundamental cycles of the spanning tree whose joints have the fewest variables; where that leaves a choice, of one
 /// that has as much of the low-depth tree as possible (Kruskal 1956).
-pub(super) fn lightest_tree_cycles(
+fn lightest_tree_cycles(
     graph: &ConstraintGraph,
     low_depth: &SpanningTree,
     mechanism: &Mechanism,

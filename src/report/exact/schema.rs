@@ -3,7 +3,7 @@
 use super::motions::{Motion, motions, unsettled};
 use super::values::{FixedJoint, doubles, fixed_freedoms, fixed_joints};
 use crate::algebra::{
-    DesignConditions, ExactAnswer, ExactOptions, Formulation, Irreducible, Meaning, Method,
+    Case, DesignConditions, ExactAnswer, ExactOptions, Formulation, Irreducible, Meaning, Method,
     MonomialOrder, PolynomialSystem, RealPoints, RelationFinding, RelationVerdict, Stop,
 };
 use crate::mechanism::{LinkId, Mechanism};
@@ -183,8 +183,9 @@ pub struct ExactReport {
     pub solutions: Option<Solutions>,
     /// Cycles by themselves.
     pub cycles: Vec<Cycle>,
-    /// Cases of the incremental method: their dimensions.
-    pub cases: Option<Vec<usize>>,
+    /// Cases of the incremental method: for every part of the equations that shares no variable with others, the dimensions of
+    /// its cases.
+    pub cases: Option<Vec<Vec<usize>>>,
     /// What was computed, step by step.
     pub steps: Vec<StepRow>,
     /// What was checked of the basis.
@@ -262,10 +263,10 @@ pub fn exact_report(mechanism: &Mechanism, answer: &ExactAnswer, request: &Reque
             real: solutions.real.iter().map(|s| s.values()).collect(),
         }),
         cycles: cycles(mechanism, answer),
-        cases: answer
-            .cases
-            .as_ref()
-            .map(|found| found.cases.iter().map(|case| case.dimension).collect()),
+        cases: answer.cases.as_ref().map(|found| {
+            let dimensions = |part: &Vec<Case>| part.iter().map(|case| case.dimension).collect();
+            found.parts.iter().map(dimensions).collect()
+        }),
         steps: steps(answer, request.timing),
         certificate: basis.map(|b| b.certificate().text()),
         charts: system.charts.clone(),

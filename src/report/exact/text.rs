@@ -309,11 +309,16 @@ fn steps(report: &ExactReport, page: &mut Page) {
         table.row(row);
     }
     page.table(&table, "steps");
-    if let Some(cases) = &report.cases {
+    for (index, cases) in report.cases.iter().flatten().enumerate() {
+        let several = report.cases.as_ref().is_some_and(|parts| parts.len() > 1);
+        let part = match several {
+            true => format!("part {} of the equations: ", index + 1),
+            false => String::new(),
+        };
         let dimensions: Vec<String> = cases.iter().map(ToString::to_string).collect();
         page.item(
             &format!(
-                "{} carried to the end, of dimension {}",
+                "{part}{} carried to the end, of dimension {}",
                 counted(cases.len(), "case"),
                 dimensions.join(", ")
             ),

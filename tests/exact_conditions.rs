@@ -1,0 +1,165 @@
+//! Conditions on measures that were left open: which values let a mechanism be put together, which let it move.
+
+#![allow(clippy::unwrap_used)]
+
+use kutzbach::algebra::{
+    Budget, DesignConditions, Formulation, Limits, PolynomialSystem, SystemOptions,
+    assembly_conditions, motion_conditions, polynomial_system,
+};
+use kutzbach::format::{ReadOptions, read_with};
+use kutzbach::mechanism::{JointId, Mechanism};
+use std::path::Path;
+use std::process::Command;
+
+/// Generous: a slow machine must not fail a test of mathematics.
+fn budget() -> Budget {
+    Budget::new(Limits::seconds(300.0))
+}
+
+/// A file of `tests/conditions` with some measures left open and others set.
+fn open(file: &str, symbolic: &[&str], settings: &[(&str, &str)]) -> Mechanism {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/conditions")
+        .join(format!("{file}.urdf"));
+    let options = ReadOptions {
+        symbolic: symbolic.iter().map(|name| (*name).to_owned()).collect(),
+        settings: settings
+            .iter()
+            .map(|(name, value)| ((*name).to_owned(), (*value).to_owned()))
+            .collect(),
+    };
+    let text = std::fs::read_to_string(path).unwrap();
+    read_with(&text, file, &options).unwrap().mechanism
+}
+
+fn system(mechanism: &Mechanism, formulation: Formulation) -> PolynomialSystem {
+    let options = SystemOptions {
+        formulation,
+        ..SystemOptions::default()
+    };
+    polynomial_system(mechanism, &options).unwrap()
+}
+
+/// Every condition as its factors, `or` between them.
+fn texts(system: &PolynomialSystem, found: &DesignConditions) -> Vec<String> {
+    let names = system.names();
+    let mut texts: Vec<String> = found
+        .conditions
+        .iter()
+        .map(|condition| {
+            let factors = condition.factors.iter();
+            let mut factors: Vec<String> = factors.map(|f| f.primitive().text(&names)).collect();
+            factors.sort();
+            factors.join(" or ")
+        })
+        .collect();
+    texts.sort();
+    texts
+}
+
+fn fits(file: &str, symbolic: &[&str]) -> Vec<String> {
+    let mechanism = open(file, symbolic, &[]);
+    let both = [Formulation::Canonical, Formulation::Tree].map(|formulation| {
+        let system = system(&mechanism, formulation);
+        texts(&system, &assembly_conditions(&system, &budget()).unwrap())
+    });
+    assert_eq!(both[0], both[1], "{file}");
+    both[0].clone()
+}
+
+fn moves(file: &str, symbolic: &[&str], settings: &[(&str, &str)], joint: &str) -> Vec<String> {
+    let mechanism = open(file, symbolic, settings);
+    let joint = mechanism.joint_named(joint).unwrap();
+    let system = system(&mechanism, Formulation::Canonical);
+    let found = motion_conditions(&system, joint, &budget()).unwrap();
+    texts(&system, &found.unwrap())
+}
+
+#[test]
+fn in_the_plane() {
+    // A bar between two pins 5 apart; its direction may be reversed.
+    assert_eq!(fits("bar_between_pins", &["L"]), ["L + 5 or L - 5"]);
+    // A triangle always fits (complex poses included), and turns where two of its corners coincide.
+    assert!(fits("hinged_triangle", &["L"]).is_empty());
+    assert_eq!(moves("hinged_triangle", &["L"], &[], "left_foot"), ["L"]);
+}
+
+#[test]
+fn a_third_crank_on_a_parallelogram() {
+    assert!(fits("three_cranks", &["L3"]).is_empty());
+    for pivot in ["pivot_1", "pivot_2", "pivot_3"] {
+        let length = moves("three_cranks", &["L3"], &[], pivot);
+        assert_eq!(length, ["L3 + 2 or L3 - 2"], "{pivot}");
+    }
+    let both = moves("three_cranks", &["L3", "D"], &[], "pivot_1");
+    assert_eq!(both, ["D - 1", "L3 + 2 or L3 - 2"]);
+}
+
+#[test]
+fn on_the_sphere() {
+    // The strap's hinges have to be as far apart as those of the base, either way round.
+    let strap = fits("spherical_strap", &["arc"]);
+    assert_eq!(
+        strap,
+        ["5*cos(arc) - 3", "5*sin(arc) + 4 or 5*sin(arc) - 4"]
+    );
+    assert!(fits("spherical_triangle", &["arc"]).is_empty());
+    let turning = moves("spherical_triangle", &["arc"], &[], "left_foot");
+    assert_eq!(turning, ["cos(arc) - 1", "sin(arc)"]);
+}
+
+#[test]
+fn lengths_of_bennetts_linkage() {
+    // Of twists with sines 4/5 and 3/5.
+    let one = moves("bennett_measures", &["a"], &[], "hinge_1");
+    assert_eq!(one, ["a - 4"]);
+    for hinge in ["hinge_1", "hinge_2", "hinge_3", "hinge_4"] {
+        let all = moves("bennett_measures", &["a", "b", "a2", "b2"], &[], hinge);
+        assert_eq!(
+            all,
+            ["3*a2 + 4*b2 or 3*a2 - 4*b2", "a - a2", "b - b2"],
+            "{hinge}"
+        );
+    }
+}
+
+#[test]
+fn bennetts_condition() {
+    // Nothing but equal opposite links is put in: a sin β = ± b sin α comes out.
+    let equal = [("a2", "a"), ("b2", "b")];
+    let open = ["a", "b", "alpha", "beta"];
+    let found = moves("bennett_measures", &open, &equal, "hinge_1");
+    assert_eq!(
+        found,
+        ["sin(alpha)*b + a*sin(beta) or sin(alpha)*b - a*sin(beta)"]
+    );
+}
+
+#[test]
+fn a_joint_without_variables_is_no_question() {
+    let mechanism = open("bennett_measures", &["a"], &[]);
+    let system = system(&mechanism, Formulation::Tree);
+    let joints = (0..mechanism.joints().len()).map(JointId);
+    let without: Vec<&str> = joints
+        .filter(|joint| system.joint_variables[joint.0].is_empty())
+        .map(|joint| {
+            assert!(
+                motion_conditions(&system, joint, &budget())
+                    .unwrap()
+                    .is_none()
+            );
+            mechanism.joint(joint).name.as_str()
+        })
+        .collect();
+    assert_eq!(without.len(), 1);
+    let output = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(["exact", "tests/conditions/bennett_measures.urdf"])
+        .args(["--symbolic", "a", "--variables", "tree", "--moving"])
+        .arg(without[0])
+        .output()
+        .unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(!output.status.success());
+    assert!(said.contains("--variables canonical"), "{said}");
+}
