@@ -249,7 +249,14 @@ impl Arguments {
         };
         let moving = self.moving.as_deref();
         let data = found.as_ref().map_err(|stop| *stop);
-        let report = conditions_report(mechanism, &system, data, moving, request);
+        // Time that is over takes nothing away from the conditions.
+        let families = found
+            .as_ref()
+            .ok()
+            .filter(|found| found.conditions.len() > 1);
+        let families = families.and_then(|found| found.families(&system, budget).ok());
+        let report =
+            conditions_report(mechanism, &system, data, families.as_ref(), moving, request);
         let text = match self.format {
             Format::Text => render_conditions(&report, self.layout()),
             Format::Json => output::json(&report).map_err(Ended::Failed)?,

@@ -28,7 +28,7 @@ use super::{
 use crate::mechanism::{LinkId, Mechanism};
 use clusters::mechanism_clusters;
 use cycles::{Whole, cycle_answer};
-use fixed::fixed_variables;
+use fixed::{fixed_variables, values_of_solutions};
 use pieces::Pieces;
 use relative_motion::Part;
 use same_poses::first_of_same_poses;
@@ -123,6 +123,8 @@ pub struct ExactAnswer {
     pub pieces: Vec<Piece>,
     /// Whether every piece is proven irreducible over the rationals.
     pub decomposed: bool,
+    /// Why the pieces were not looked for to the end, where they were not.
+    pub pieces_stopped: Option<Stop>,
     /// The solutions, where they are finitely many.
     pub solutions: Option<Solutions>,
     /// Every basic cycle by itself.
@@ -167,6 +169,7 @@ pub fn exact_answer(
         fixed: Vec::new(),
         pieces: Vec::new(),
         decomposed: false,
+        pieces_stopped: None,
         solutions: None,
         cycles: Vec::new(),
         clusters: Vec::new(),
@@ -197,10 +200,11 @@ impl ExactAnswer {
         let at = |step: &'static str| move |stop: Stop| (step, stop);
         self.find_basis(mechanism, options, budget)
             .map_err(at("the basis"))?;
-        self.read_basis(budget)
-            .map_err(at("the values of fixed variables"))?;
+        self.read_basis();
         self.find_solutions(budget)
             .map_err(at("the isolated solutions"))?;
+        self.find_fixed(budget)
+            .map_err(at("the values of fixed variables"))?;
         self.find_pieces(budget)
             .map_err(at("the pieces of the solution set"))
     }
@@ -236,15 +240,22 @@ impl ExactAnswer {
         Ok(())
     }
 
-    fn read_basis(&mut self, budget: &Budget) -> Result<(), Stop> {
-        let Some(basis) = &self.basis else {
+    fn read_basis(&mut self) {
+        if let Some(basis) = &self.basis {
+            self.dimension = Some(basis.dimension());
+            self.free = basis.independent_sets(FREE_SETS);
+        }
+    }
+
+    /// Of finitely many solutions every variable is fixed, and they tell its values.
+    fn find_fixed(&mut self, budget: &Budget) -> Result<(), Stop> {
+        let Some(basis) = self.basis.as_ref().filter(|b| !b.is_inconsistent()) else {
             return Ok(());
         };
-        self.dimension = Some(basis.dimension());
-        self.free = basis.independent_sets(FREE_SETS);
-        if !basis.is_inconsistent() {
-            self.fixed = fixed_variables(&self.system, basis, budget)?;
-        }
+        self.fixed = match &self.solutions {
+            Some(solutions) => values_of_solutions(&self.system, &solutions.real),
+            None => fixed_variables(&self.system, basis, budget)?,
+        };
         Ok(())
     }
 
@@ -305,17 +316,18 @@ impl ExactAnswer {
         for (index, (piece, first)) in self.pieces.iter_mut().zip(first).enumerate() {
             piece.same_poses_as = (first != index).then_some(first);
         }
-        match why {
-            Some(Incomplete::Stopped(stop)) => Err(stop),
-            _ => Ok(()),
+        if let Some(Incomplete::Stopped(stop)) = why {
+            self.pieces_stopped = Some(stop);
         }
+        // A piece that is too large is not the end of everything; time that is over is.
+        budget.check()
     }
 
     fn find_cycles(&mut self, mechanism: &Mechanism, budget: &Budget) {
         let whole = Whole {
             basis: self.basis.as_ref(),
             pieces: &self.pieces,
-            complete: self.decomposed || self.stopped.is_none(),
+            complete: self.pieces_stopped.is_none(),
         };
         for cycle in &self.system.cycles {
             match cycle_answer(mechanism, &self.system, cycle, &whole, budget) {
@@ -346,7 +358,7 @@ impl ExactAnswer {
             return;
         }
         let local = Local::whole(&self.system.polynomials(), self.system.variables.len());
-        let complete = self.decomposed || self.stopped.is_none();
+        let complete = self.pieces_stopped.is_none();
         let pieces = if self.pieces.is_empty() {
             Ok(Pieces::unknown(basis))
         } else {

@@ -125,7 +125,10 @@ impl Part<'_> {
             if these[0] == these[1] || told.contains(&these) {
                 continue;
             }
-            let of_chains = pair.chains.iter().map(|chain| freedom(self.system, chain));
+            let of_chains = pair
+                .chains
+                .iter()
+                .map(|chain| freedom(self.mechanism, self.system, chain));
             let said = known
                 .iter()
                 .filter(|motion| ends([motion.link, motion.relative_to]) == these)
@@ -328,10 +331,10 @@ impl From<Stop> for Missing {
 
 /// The dimension of the subgroup that a chain's joints generate, from their screws at the drawn pose; 6 where that is not
 /// known. It only decides what is worth saying.
-fn freedom(system: &PolynomialSystem, chain: &[(JointId, bool)]) -> usize {
+fn freedom(mechanism: &Mechanism, system: &PolynomialSystem, chain: &[(JointId, bool)]) -> usize {
     let mut twists = Vec::new();
     for (joint, _) in chain {
-        let Some(screws) = system.screws_at_home(*joint) else {
+        let Some(screws) = system.screws_at_home(mechanism, *joint) else {
             return 6;
         };
         twists.extend(screws.into_iter().map(|s| Twist {

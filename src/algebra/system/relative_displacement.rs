@@ -8,7 +8,7 @@
 //! n, w or c over the field of the mechanism's numbers. All of it is exact.
 
 use super::PolynomialSystem;
-use super::displacement::{Displacement, Factor};
+use super::displacement::{Displacement, Factor, relative, values_at};
 use super::element::{Element, Exponents, trim};
 use super::field::{Field, Relation};
 use super::fraction::{Fraction, from_rational, to_rational};
@@ -17,9 +17,10 @@ use super::space::{
     Doubles, Matrix, Polynomials, Pose, Vector, add, apply, cross, dot, identity, matrix, multiply,
     pose, rotation, rotation_of_quaternion, scale, subtract, vector,
 };
+use super::variables::Names;
 use super::walks::Walker;
 use crate::algebra::{Polynomial, Rational, Stop};
-use crate::mechanism::{JointId, JointKind};
+use crate::mechanism::{JointId, JointKind, Mechanism};
 use num_traits::Zero;
 use std::collections::BTreeMap;
 
@@ -130,24 +131,29 @@ impl PolynomialSystem {
     }
 
     /// The screws (ω; v) of a joint's steps at the drawn pose, in the world: since then it has displaced its successor by
-    /// a product of exponentials along them. `None` where the drawn pose is not known or the joint not written so.
-    pub(in crate::algebra) fn screws_at_home(&self, joint: JointId) -> Option<Vec<[f64; 6]>> {
+    /// a product of exponentials along them, a screw's turn and travel taken one by one. `None` where that pose is not
+    /// known, or where the joint's values there cannot be told.
+    pub(in crate::algebra) fn screws_at_home(
+        &self,
+        mechanism: &Mechanism,
+        joint: JointId,
+    ) -> Option<Vec<[f64; 6]>> {
         let construction = &self.construction;
         let drawn = construction.drawn.as_ref()?;
-        let point = construction.point.as_ref()?;
-        if !self.is_explicit(joint) {
-            return None;
-        }
-        let field = &construction.field;
-        let [predecessor, _] = construction.ends[joint.0];
-        let frame = drawn[predecessor].then(field, &construction.models[joint.0].sides[0]);
-        let value = |variable: usize| field.approximate(&point[variable]);
-        Some(screws(
+        let (field, model) = (&construction.field, &construction.models[joint.0]);
+        let doubles = Doubles(field);
+        let ends = construction.ends[joint.0].map(|link| pose(&doubles, &drawn[link]));
+        // Its variables by themselves: it need not have any in the system.
+        let of_joint = mechanism.joint(joint);
+        let own = Displacement::new(field, &mut Names::default(), of_joint, joint, model);
+        let values = values_at(
+            &doubles,
             field,
-            &construction.displacements[joint.0],
-            &frame,
-            &value,
-        ))
+            model,
+            &relative(&doubles, model, &ends[0], &ends[1]),
+        )?;
+        let frame = ends[0].then(&doubles, &pose(&doubles, &model.sides[0]));
+        Some(screws(field, &own, frame, &values))
     }
 
     /// The direction of a joint's one axis at the drawn pose, in the world; `None` where it has none or two.
@@ -176,11 +182,12 @@ impl PolynomialSystem {
 fn screws(
     field: &Field,
     displacement: &Displacement,
-    frame: &Pose<Element>,
-    value: &dyn Fn(usize) -> f64,
+    frame: Pose<f64>,
+    values: &[f64],
 ) -> Vec<[f64; 6]> {
     let doubles = Doubles(field);
-    let mut place = pose(&doubles, frame);
+    let value = |variable: usize| values.get(variable).copied().unwrap_or_default();
+    let mut place = frame;
     let mut screws = Vec::new();
     let revolute = |place: &Pose<f64>, direction: &Vector<f64>| {
         let along = apply(&doubles, &place.rotation, direction);

@@ -5,6 +5,9 @@ use super::schema::{Conditions, ExactReport, Outcome, Piece, Relations};
 use crate::report::text::words::{counted, figure};
 use crate::report::text::{Cell, Column, Layout, Page, Table, Tint};
 
+/// Conditions that are shown where the ways to satisfy them are shown as well.
+const CONDITIONS: usize = 6;
+
 /// Sets of free variables that are shown.
 const FREE_SHOWN: usize = 4;
 
@@ -441,10 +444,46 @@ pub fn render_conditions(report: &Conditions, layout: Layout) -> String {
         page.item(&sentence, Tint::Doubtful);
     }
     let rows = report.conditions.as_deref().unwrap_or_default();
+    let shown = match (&report.families, page.layout().verbose) {
+        (Some(families), false) if !families.is_empty() && rows.len() > CONDITIONS => CONDITIONS,
+        _ => rows.len(),
+    };
     if rows.len() > 1 || rows.iter().any(|row| row.factors.len() > 1) {
-        for row in rows {
+        for row in &rows[..shown] {
             let ways: Vec<String> = row.factors.iter().map(|f| format!("{f} = 0")).collect();
             page.item(&ways.join(" or "), Tint::Plain);
+        }
+        if shown < rows.len() {
+            let left = counted(rows.len() - shown, "condition");
+            page.item(&format!("{left} more, listed with --verbose"), Tint::Quiet);
+        }
+    }
+    if let Some(families) = report.families.as_deref().filter(|_| rows.len() > 1) {
+        page.heading("Ways to satisfy all of it");
+        for (index, family) in families.iter().enumerate() {
+            let equations: Vec<String> = family
+                .equations
+                .iter()
+                .map(|e| format!("{e} = 0"))
+                .collect();
+            page.item(
+                &format!(
+                    "{}: {} ({} free)",
+                    index + 1,
+                    equations.join(", "),
+                    counted(family.dimension, "measure")
+                ),
+                Tint::Plain,
+            );
+        }
+        if families.is_empty() {
+            page.item("none where no denominator vanishes", Tint::Notable);
+        }
+        if report.families_fully_split == Some(false) {
+            page.item(
+                "not split further: some of them may fall apart into more",
+                Tint::Notable,
+            );
         }
     }
     for relaxation in &report.relaxations {
