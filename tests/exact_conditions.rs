@@ -135,6 +135,77 @@ fn bennetts_condition() {
     );
 }
 
+/// The families of mechanisms in which a joint takes every position: equations and dimension.
+fn families(file: &str, symbolic: &[&str], joint: &str) -> Vec<(Vec<String>, usize)> {
+    let mechanism = open(file, symbolic, &[]);
+    let joint = mechanism.joint_named(joint).unwrap();
+    let system = system(&mechanism, Formulation::Canonical);
+    let found = motion_conditions(&system, joint, &budget()).unwrap();
+    let (families, complete) = found.unwrap().families(&system, &budget()).unwrap();
+    assert!(complete, "{file}");
+    let names = system.names();
+    families
+        .iter()
+        .map(|family| {
+            let equations = family.equations.iter();
+            let texts = equations.map(|e| e.primitive().text(&names)).collect();
+            (texts, family.dimension)
+        })
+        .collect()
+}
+
+#[test]
+fn families_of_third_cranks() {
+    let mut found = families("three_cranks", &["L3", "D"], "pivot_1");
+    for (equations, _) in &mut found {
+        equations.sort();
+    }
+    found.sort();
+    let family = |length: &str| (vec!["D - 1".to_owned(), length.to_owned()], 0);
+    assert_eq!(found, [family("L3 + 2"), family("L3 - 2")]);
+}
+
+/// All loops of four hinges without offsets whose opposite links have equal twists and in which a hinge turns for ever.
+#[test]
+fn families_of_four_hinges() {
+    let open = ["a", "b", "a2", "b2", "alpha", "beta"];
+    let found = families("bennett_measures", &open, "hinge_1");
+    let mut counts = [0; 4];
+    for (equations, dimension) in &found {
+        let has = |wanted: &[&str]| wanted.iter().all(|w| equations.iter().any(|e| e == w));
+        let (kind, expected) = if has(&["sin(alpha)", "sin(beta)"]) {
+            // Planar: any lengths.
+            (0, 4)
+        } else if has(&["a - a2", "b - b2"]) {
+            // Bennett: b, α and β free, a = ± b sin α / sin β.
+            let ratio = equations.iter().find(|e| e.contains("sin(alpha)*"));
+            let ratio = ratio.map(String::as_str);
+            let ratios = [
+                "sin(beta)*a2 - sin(alpha)*b2",
+                "sin(beta)*a2 + sin(alpha)*b2",
+            ];
+            assert!(ratio.is_some_and(|r| ratios.contains(&r)), "{equations:?}");
+            (1, 3)
+        } else if has(&["a", "sin(alpha)"]) || has(&["b2", "sin(beta)"]) {
+            // A link of the hinge has both its hinges on one line.
+            (2, 3)
+        } else {
+            // Two pairs of neighbours alike: each folded on the other, the two circles of (7.11).
+            let pair = |plus: &str, minus: &str| has(&[plus]) || has(&[minus]);
+            assert!(
+                pair("a + b", "a - b") && pair("a2 + b2", "a2 - b2"),
+                "{equations:?}"
+            );
+            assert!(pair("sin(alpha) + sin(beta)", "sin(alpha) - sin(beta)"));
+            (3, 3)
+        };
+        assert_eq!(*dimension, expected, "{equations:?}");
+        counts[kind] += 1;
+    }
+    // Cosines of 1 and −1, and signs of lengths, count by themselves.
+    assert_eq!(counts, [4, 2, 8, 4]);
+}
+
 #[test]
 fn a_joint_without_variables_is_no_question() {
     let mechanism = open("bennett_measures", &["a"], &[]);

@@ -123,10 +123,13 @@ fn six_hinges_have_sixteen_shapes() {
     }
 }
 
+/// Measures that are set, and shapes with and without their multiplicities.
+type ShapesRow<'a> = (&'a [(&'a str, &'a str)], [usize; 2]);
+
 /// Offsets that vanish take no shape away; twists and hinges in special position do.
 #[test]
 fn six_hinges_with_fewer_shapes() {
-    let rows: [(&[(&str, &str)], [usize; 2]); 5] = [
+    let rows: [ShapesRow; 5] = [
         (&[], [16, 16]),
         // Two neighbours' twists add to a right angle; the same two apart from one another do nothing.
         (&[("twist_2", "acos(4/5)")], [12, 12]),

@@ -27,11 +27,7 @@ const LOOPS: [(&str, &str); 4] = [
 ];
 
 /// The equations of a mechanism, grouped by cycle; every group is called by the names of its joints.
-fn problem(
-    mechanism: &Mechanism,
-    positional: bool,
-    names: &[(&str, &str)],
-) -> Result<(PolynomialSystem, Problem)> {
+fn problem(mechanism: &Mechanism, positional: bool) -> Result<(PolynomialSystem, Problem)> {
     let options = SystemOptions {
         formulation: match positional {
             true => Formulation::Positional,
@@ -45,11 +41,7 @@ fn problem(
         let mut joints: Vec<&str> = cycle
             .joints
             .iter()
-            .map(|(joint, _)| {
-                let name = mechanism.joint(*joint).name.as_str();
-                let known = names.iter().find(|(ours, _)| *ours == name);
-                known.map_or(name, |(_, theirs)| theirs)
-            })
+            .map(|(joint, _)| mechanism.joint(*joint).name.as_str())
             .collect();
         joints.sort_unstable();
         Group {
@@ -108,9 +100,9 @@ fn row_name(step: &Step, way: Way, problem: &Problem) -> String {
     }
 }
 
-fn rows(computation: &Computation, names: &[(&str, &str)], rounds: usize) -> Result<Vec<Row>> {
+fn rows(computation: &Computation, rounds: usize) -> Result<Vec<Row>> {
     let mechanism = read_file(computation.file, &[])?.mechanism;
-    let (_, problem) = problem(&mechanism, computation.positional, names)?;
+    let (_, problem) = problem(&mechanism, computation.positional)?;
     let way = computation.way;
     let found = steps(&problem, way, &MonomialOrder::Degrevlex, TABLE_LIMIT);
     let lexicographic = match way {
@@ -188,7 +180,7 @@ pub fn tables(rounds: usize, tell: impl Fn(&str)) -> Result<Vec<Table>> {
         tell(&format!("table {}", table.number));
         let mut all = Vec::new();
         for computation in table.computations {
-            all.extend(rows(computation, table.names, rounds)?);
+            all.extend(rows(computation, rounds)?);
         }
         tables.push(Table {
             number: table.number.to_owned(),
@@ -231,7 +223,7 @@ fn cost(problem: &Problem, way: Way, limit: f64) -> Option<(Cost, Option<usize>,
 /// Where the member has no polynomial equations.
 pub fn size(family: &Family, n: usize, limit: f64) -> Result<Size> {
     let mechanism = read(&(family.text)(n), family.name, &[])?.mechanism;
-    let (_, problem) = problem(&mechanism, false, &[])?;
+    let (_, problem) = problem(&mechanism, false)?;
     let found = [Way::Brute, Way::Divide, Way::Instancing].map(|way| cost(&problem, way, limit));
     let dimensions: Vec<Option<usize>> = found.iter().flatten().map(|(_, d, _)| *d).collect();
     if dimensions.windows(2).any(|pair| pair[0] != pair[1]) {
@@ -276,7 +268,7 @@ pub fn loops(rounds: usize) -> Result<Vec<Loop>> {
     let mut loops = Vec::new();
     for (name, file) in LOOPS {
         let mechanism = read_file(file, &[])?.mechanism;
-        let (system, problem) = problem(&mechanism, false, &[])?;
+        let (system, problem) = problem(&mechanism, false)?;
         let budget = Budget::new(Limits::seconds(TABLE_LIMIT));
         let mut seconds = f64::INFINITY;
         let mut last = None;

@@ -29,16 +29,14 @@ pub struct Computation {
 pub struct Table {
     pub number: &'static str,
     pub title: &'static str,
-    /// The source's name for every joint of the file.
-    pub names: &'static [(&'static str, &'static str)],
     pub computations: &'static [Computation],
 }
 
-const PEGS: &str = "mechanisms/double_peg_and_hole.urdf";
-const BODIES: &str = "mechanisms/three_body_assembly.urdf";
-const BLOCK: &str = "mechanisms/block_and_corner.urdf";
-const JAWS: &str = "mechanisms/thomas_torras_assembly.urdf";
-const CARTESIAN: &str = "mechanisms/cartesian_table.urdf";
+const PEGS: &str = "tests/thesis/double_peg.urdf";
+const BODIES: &str = "tests/thesis/three_bodies.urdf";
+const BLOCK: &str = "tests/thesis/block_and_corner.urdf";
+const JAWS: &str = "tests/thesis/thomas_torras_offset.urdf";
+const CARTESIAN: &str = "tests/thesis/cartesian_table.urdf";
 
 const fn whole(
     example: &'static str,
@@ -74,39 +72,10 @@ const fn divided(
 pub const ALL: &str = "all equations";
 pub const TOGETHER: &str = "together";
 
-const BLOCK_NAMES: &[(&str, &str)] = &[
-    ("vertex_on_wall", "C1"),
-    ("edge_on_edge", "C2"),
-    ("edge_on_floor", "C3"),
-    ("vertex_on_floor", "C4"),
-];
-
-const JAW_NAMES: &[(&str, &str)] = &[
-    ("frame_jaw_1", "C1"),
-    ("frame_jaw_2", "C2"),
-    ("jaw_1_jaw_2", "C3"),
-    ("pin_jaw_2", "C4"),
-    ("pin_jaw_1", "C5"),
-    ("frame_pin", "C6"),
-];
-
-const CARTESIAN_NAMES: &[(&str, &str)] = &[
-    ("x_bar_on_bed", "C1"),
-    ("z_bar_on_bed", "C2"),
-    ("x_bar_on_top", "C3"),
-    ("y_bar_on_top", "C4"),
-    ("x_bar_joint_1", "C5"),
-    ("x_bar_joint_2", "C6"),
-    ("bed_top", "C7"),
-    ("z_bar_joint", "C8"),
-    ("y_bar_joint", "C9"),
-];
-
 pub const TABLES: &[Table] = &[
     Table {
         number: "4.4",
         title: "positional and canonical variables",
-        names: &[],
         computations: &[
             whole(
                 "double peg",
@@ -137,7 +106,6 @@ pub const TABLES: &[Table] = &[
     Table {
         number: "6.4",
         title: "double peg and hole",
-        names: &[],
         computations: &[
             whole(
                 "double peg",
@@ -156,7 +124,6 @@ pub const TABLES: &[Table] = &[
     Table {
         number: "6.7",
         title: "block and corner",
-        names: BLOCK_NAMES,
         computations: &[
             whole("block", true, BLOCK, &[(ALL, (12, 18, Some((12, 2.334))))]),
             divided(
@@ -192,7 +159,6 @@ pub const TABLES: &[Table] = &[
     Table {
         number: "6.10",
         title: "assembly of Thomas and Torras",
-        names: JAW_NAMES,
         computations: &[
             whole("jaws", true, JAWS, &[(ALL, (36, 54, Some((37, 403.3))))]),
             divided(
@@ -223,7 +189,6 @@ pub const TABLES: &[Table] = &[
     Table {
         number: "6.13",
         title: "Cartesian table, divide and conquer",
-        names: CARTESIAN_NAMES,
         computations: &[
             whole("table", true, CARTESIAN, &[(ALL, (48, 58, None))]),
             whole(
@@ -249,7 +214,6 @@ pub const TABLES: &[Table] = &[
     Table {
         number: "6.15",
         title: "Cartesian table, incremental instancing",
-        names: CARTESIAN_NAMES,
         computations: &[Computation {
             example: "table",
             positional: false,

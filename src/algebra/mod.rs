@@ -19,8 +19,8 @@ mod univariate;
 mod zero_dimensional;
 
 pub use answer::{
-    Condition, CycleAnswer, DesignConditions, ExactAnswer, ExactOptions, FixedVariable, Method,
-    Piece, ProvenMotion, Scope, Settled, Solutions, assembly_conditions, exact_answer,
+    Condition, CycleAnswer, DesignConditions, ExactAnswer, ExactOptions, Family, FixedVariable,
+    Method, Piece, ProvenMotion, Scope, Settled, Solutions, assembly_conditions, exact_answer,
     motion_conditions, relations_of,
 };
 pub use components::{

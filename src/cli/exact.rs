@@ -27,9 +27,9 @@ pub struct Arguments {
     /// Unknowns of the equations
     #[arg(long, value_enum)]
     variables: Option<Variables>,
-    /// How the basis is computed
-    #[arg(long, value_enum, default_value_t = Way::Brute)]
-    method: Way,
+    /// How the basis is computed [default: divide where the equations fall into parts that share no unknown, else brute]
+    #[arg(long, value_enum)]
+    method: Option<Way>,
     /// Order of the basis
     #[arg(long, value_enum, default_value_t = Order::Degrevlex)]
     order: Order,
@@ -165,11 +165,11 @@ impl Arguments {
                     unoriented: self.unoriented,
                     ..SystemOptions::default()
                 },
-                method: match self.method {
+                method: self.method.map(|way| match way {
                     Way::Brute => Method::Brute,
                     Way::Divide => Method::Divide,
                     Way::Incremental => Method::Incremental,
-                },
+                }),
                 order: match self.order {
                     Order::Degrevlex => MonomialOrder::Degrevlex,
                     Order::Lex => MonomialOrder::Lexicographic,
@@ -249,7 +249,14 @@ impl Arguments {
         };
         let moving = self.moving.as_deref();
         let data = found.as_ref().map_err(|stop| *stop);
-        let report = conditions_report(mechanism, &system, data, moving, request);
+        // Time that is over takes nothing away from the conditions.
+        let families = found
+            .as_ref()
+            .ok()
+            .filter(|found| found.conditions.len() > 1);
+        let families = families.and_then(|found| found.families(&system, budget).ok());
+        let report =
+            conditions_report(mechanism, &system, data, families.as_ref(), moving, request);
         let text = match self.format {
             Format::Text => render_conditions(&report, self.layout()),
             Format::Json => output::json(&report).map_err(Ended::Failed)?,

@@ -139,7 +139,9 @@ impl Row {
             .iter()
             .map(|f| {
                 // Every root of the polynomial is real and one of these.
-                assert_eq!(f.polynomial.degree() as usize, f.values.len());
+                if let Some(polynomial) = &f.polynomial {
+                    assert_eq!(polynomial.degree() as usize, f.values.len());
+                }
                 let middle = f.values.iter().map(|v| v.middle().to_f64().unwrap());
                 // Enclosed to 64 bits; nothing here has a finer denominator than 5.
                 (

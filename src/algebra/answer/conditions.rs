@@ -1,8 +1,9 @@
 //! Conditions on measures that were left open: for which values can the mechanism be put together, for which does it move?
 
+use super::hints;
 use crate::algebra::{
-    Budget, Meaning, MonomialOrder, Origin, Polynomial, PolynomialSystem, Rational, Stop,
-    eliminate, factor, groebner_basis, saturate,
+    Budget, Hints, Meaning, MonomialOrder, Origin, Polynomial, PolynomialSystem, Rational, Stop,
+    components, eliminate, factor, groebner_basis, radical_contains, saturate,
 };
 use crate::mechanism::JointId;
 use num_traits::One;
@@ -25,6 +26,15 @@ pub struct Condition {
     pub polynomial: Polynomial,
     /// Its different factors; one of them has to vanish.
     pub factors: Vec<Polynomial>,
+}
+
+/// Mechanisms that satisfy all conditions in one way: an irreducible piece of the set of all.
+#[derive(Clone, Debug)]
+pub struct Family {
+    /// Its equations, in the parameters (and algebraic numbers) alone.
+    pub equations: Vec<Polynomial>,
+    /// How many parameters can be chosen freely; the cosine and sine of an angle count as one.
+    pub dimension: usize,
 }
 
 /// Which values of the parameters let the equations have a solution.
@@ -125,20 +135,16 @@ fn coefficients_in(polynomial: &Polynomial, variables: &[usize]) -> Vec<Polynomi
         .collect()
 }
 
-/// The conditions that do not hold anyway, as a reduced basis, factored.
-fn conditions(
-    system: &PolynomialSystem,
-    found: Vec<Polynomial>,
-    budget: &Budget,
-) -> Result<DesignConditions, Stop> {
-    let variables = system.variables.len();
-    let given: Vec<Polynomial> = system
+/// Equations that hold for parameters and algebraic numbers anyway.
+fn given(system: &PolynomialSystem) -> Vec<Polynomial> {
+    let mentions_given_only = |polynomial: &Polynomial| {
+        let variables = system.variables.iter().enumerate();
+        let mut unknowns = variables.filter(|(_, variable)| !is_given(&variable.meaning));
+        unknowns.all(|(v, _)| !polynomial.mentions(v))
+    };
+    system
         .equations
         .iter()
-        .filter(|e| {
-            (0..variables)
-                .all(|v| !e.polynomial.mentions(v) || is_given(&system.variables[v].meaning))
-        })
         .filter(|e| {
             matches!(
                 e.origin,
@@ -146,7 +152,18 @@ fn conditions(
             )
         })
         .map(|e| e.polynomial.clone())
-        .collect();
+        .filter(mentions_given_only)
+        .collect()
+}
+
+/// The conditions that do not hold anyway, as a reduced basis, factored.
+fn conditions(
+    system: &PolynomialSystem,
+    found: Vec<Polynomial>,
+    budget: &Budget,
+) -> Result<DesignConditions, Stop> {
+    let variables = system.variables.len();
+    let given = given(system);
     let known = groebner_basis(&given, variables, &MonomialOrder::Degrevlex, budget)?;
     let mut all = given;
     all.extend(found);
@@ -189,6 +206,57 @@ impl DesignConditions {
         self.conditions
             .iter()
             .any(|c| c.polynomial.as_constant().is_some_and(|c| c.is_one()))
+    }
+
+    /// The ways to satisfy all conditions together, none within another, and whether every one is proven irreducible over
+    /// the rationals. Of many conditions with many factors this is what can be read: of four hinges, for example, the
+    /// planar loops, Bennett's, and those with two hinges on one line. Where a denominator vanishes there is no family.
+    ///
+    /// # Errors
+    /// [`Stop`] where the budget does not suffice.
+    pub fn families(
+        &self,
+        system: &PolynomialSystem,
+        budget: &Budget,
+    ) -> Result<(Vec<Family>, bool), Stop> {
+        let kept: Vec<usize> = (0..system.variables.len())
+            .filter(|&v| is_given(&system.variables[v].meaning))
+            .collect();
+        let narrowed = |polynomial: &Polynomial| {
+            let terms = polynomial.terms().map(|(exponents, coefficient)| {
+                let powers = kept.iter().map(|&v| exponents[v]).collect();
+                (powers, coefficient.clone())
+            });
+            Polynomial::from_terms(terms.collect(), kept.len())
+        };
+        let mut equations: Vec<Polynomial> = given(system).iter().map(narrowed).collect();
+        let conditions = self.conditions.iter();
+        equations.extend(conditions.map(|condition| narrowed(&condition.polynomial)));
+        let numbers = hints(system, budget)?.numbers.into_iter();
+        let numbers = numbers.filter_map(|mut number| {
+            number.variable = kept.iter().position(|&v| v == number.variable)?;
+            Some(number)
+        });
+        let hints = Hints {
+            numbers: numbers.collect(),
+            ..Hints::default()
+        };
+        let found = components(&equations, kept.len(), &hints, budget)?;
+        let mut families = Vec::new();
+        'pieces: for piece in found.pieces {
+            for denominator in &system.nonzero {
+                let denominator = narrowed(denominator);
+                if radical_contains(&piece.equations, kept.len(), &denominator, budget)? {
+                    continue 'pieces;
+                }
+            }
+            let back = |p: &Polynomial| p.moved(&kept, system.variables.len());
+            families.push(Family {
+                equations: piece.equations.iter().map(back).collect(),
+                dimension: piece.dimension,
+            });
+        }
+        Ok((families, found.complete))
     }
 }
 

@@ -10,9 +10,10 @@ mod cycles;
 mod fixed;
 mod pieces;
 mod relative_motion;
+mod same_poses;
 mod subgroup;
 
-pub use conditions::{Condition, DesignConditions, assembly_conditions, motion_conditions};
+pub use conditions::{Condition, DesignConditions, Family, assembly_conditions, motion_conditions};
 pub use cycles::CycleAnswer;
 pub use fixed::FixedVariable;
 pub use relative_motion::{ProvenMotion, Scope, Settled};
@@ -27,9 +28,10 @@ use super::{
 use crate::mechanism::{LinkId, Mechanism};
 use clusters::mechanism_clusters;
 use cycles::{Whole, cycle_answer};
-use fixed::fixed_variables;
+use fixed::{fixed_variables, values_of_solutions};
 use pieces::Pieces;
 use relative_motion::Part;
+use same_poses::first_of_same_poses;
 
 /// Bits to which the coordinates of isolated real solutions are enclosed.
 const SOLUTION_BITS: u64 = 64;
@@ -41,10 +43,9 @@ const FREE_SETS: usize = 64;
 const SHARE_OF_THE_WHOLE: f64 = 0.8;
 
 /// How the basis is computed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// All equations at once.
-    #[default]
     Brute,
     /// Cycle by cycle, then all bases together.
     Divide,
@@ -57,8 +58,9 @@ pub enum Method {
 pub struct ExactOptions {
     /// The unknowns.
     pub system: SystemOptions,
-    /// How the basis is computed.
-    pub method: Method,
+    /// How the basis is computed; `None` leaves the choice to the equations: [`Method::Divide`] where they fall into parts
+    /// that share no variable, [`Method::Brute`] elsewhere.
+    pub method: Option<Method>,
     /// The order of the basis.
     pub order: MonomialOrder,
 }
@@ -67,7 +69,7 @@ impl Default for ExactOptions {
     fn default() -> Self {
         Self {
             system: SystemOptions::default(),
-            method: Method::default(),
+            method: None,
             order: MonomialOrder::Degrevlex,
         }
     }
@@ -80,6 +82,8 @@ pub struct Piece {
     pub component: Component,
     /// Whether the drawn pose lies on it; `None` where that pose is not known exactly.
     pub contains_home: Option<bool>,
+    /// The first piece that consists of the same poses, by the other sign of some quaternions; `None` where this is it.
+    pub same_poses_as: Option<usize>,
 }
 
 /// Isolated solutions.
@@ -96,6 +100,8 @@ pub struct Solutions {
 pub struct ExactAnswer {
     /// The equations.
     pub system: PolynomialSystem,
+    /// How the basis was computed.
+    pub method: Method,
     /// What was computed on the way, and what it cost.
     pub steps: Vec<Step>,
     /// The basis of the whole; `None` where it was not reached, or not asked for ([`Method::Incremental`]).
@@ -144,8 +150,16 @@ pub fn exact_answer(
     budget: &Budget,
 ) -> Result<ExactAnswer, SystemError> {
     let system = polynomial_system(mechanism, &options.system)?;
+    let method =
+        options
+            .method
+            .unwrap_or_else(|| match problem(mechanism, &system).independent().len() {
+                0 | 1 => Method::Brute,
+                _ => Method::Divide,
+            });
     let mut answer = ExactAnswer {
         system,
+        method,
         steps: Vec::new(),
         basis: None,
         cases: None,
@@ -186,10 +200,11 @@ impl ExactAnswer {
         let at = |step: &'static str| move |stop: Stop| (step, stop);
         self.find_basis(mechanism, options, budget)
             .map_err(at("the basis"))?;
-        self.read_basis(budget)
-            .map_err(at("the values of fixed variables"))?;
+        self.read_basis();
         self.find_solutions(budget)
             .map_err(at("the isolated solutions"))?;
+        self.find_fixed(budget)
+            .map_err(at("the values of fixed variables"))?;
         self.find_pieces(budget)
             .map_err(at("the pieces of the solution set"))
     }
@@ -201,7 +216,7 @@ impl ExactAnswer {
         budget: &Budget,
     ) -> Result<(), Stop> {
         let problem = problem(mechanism, &self.system);
-        match options.method {
+        match self.method {
             Method::Brute => {
                 let modulo = &mut self.dimension_modulo;
                 let (step, basis) = brute_force_noting(&problem, &options.order, budget, modulo)?;
@@ -225,15 +240,22 @@ impl ExactAnswer {
         Ok(())
     }
 
-    fn read_basis(&mut self, budget: &Budget) -> Result<(), Stop> {
-        let Some(basis) = &self.basis else {
+    fn read_basis(&mut self) {
+        if let Some(basis) = &self.basis {
+            self.dimension = Some(basis.dimension());
+            self.free = basis.independent_sets(FREE_SETS);
+        }
+    }
+
+    /// Of finitely many solutions every variable is fixed, and they tell its values.
+    fn find_fixed(&mut self, budget: &Budget) -> Result<(), Stop> {
+        let Some(basis) = self.basis.as_ref().filter(|b| !b.is_inconsistent()) else {
             return Ok(());
         };
-        self.dimension = Some(basis.dimension());
-        self.free = basis.independent_sets(FREE_SETS);
-        if !basis.is_inconsistent() {
-            self.fixed = fixed_variables(&self.system, basis, budget)?;
-        }
+        self.fixed = match &self.solutions {
+            Some(solutions) => values_of_solutions(&self.system, &solutions.real),
+            None => fixed_variables(&self.system, basis, budget)?,
+        };
         Ok(())
     }
 
@@ -286,9 +308,14 @@ impl ExactAnswer {
                 Piece {
                     component,
                     contains_home,
+                    same_poses_as: None,
                 }
             })
             .collect();
+        let first = first_of_same_poses(&self.system, &self.pieces, budget)?;
+        for (index, (piece, first)) in self.pieces.iter_mut().zip(first).enumerate() {
+            piece.same_poses_as = (first != index).then_some(first);
+        }
         if let Some(Incomplete::Stopped(stop)) = why {
             self.pieces_stopped = Some(stop);
         }

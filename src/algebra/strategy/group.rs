@@ -35,7 +35,7 @@ impl Problem {
     }
 
     /// Problems that share no variable and no group, each in the ring of all variables.
-    pub(super) fn independent(&self) -> Vec<Self> {
+    pub(in crate::algebra) fn independent(&self) -> Vec<Self> {
         let tied = self.groups.iter().map(|g| g.equations.as_slice());
         independent_parts(&self.equations, self.variables, tied)
             .into_iter()

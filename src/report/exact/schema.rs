@@ -3,8 +3,8 @@
 use super::motions::{Motion, motions, unsettled};
 use super::values::{FixedJoint, doubles, fixed_freedoms, fixed_joints};
 use crate::algebra::{
-    Case, DesignConditions, ExactAnswer, ExactOptions, Formulation, Irreducible, Meaning, Method,
-    MonomialOrder, PolynomialSystem, RealPoints, RelationFinding, RelationVerdict, Stop,
+    Case, DesignConditions, ExactAnswer, ExactOptions, Family, Formulation, Irreducible, Meaning,
+    Method, MonomialOrder, PolynomialSystem, RealPoints, RelationFinding, RelationVerdict, Stop,
 };
 use crate::mechanism::{LinkId, Mechanism};
 use serde::Serialize;
@@ -52,9 +52,9 @@ pub struct Modulo {
 pub struct Fixed {
     /// Its name.
     pub variable: String,
-    /// The equation it satisfies.
-    pub polynomial: String,
-    /// The real roots of that equation, in double precision.
+    /// The equation it satisfies; `null` where there are finitely many solutions, which tell the values.
+    pub polynomial: Option<String>,
+    /// The real roots of that equation, or its values at the real solutions, in double precision.
     pub values: Vec<f64>,
 }
 
@@ -73,6 +73,8 @@ pub struct Piece {
     pub real_points: Option<usize>,
     /// Whether the drawn pose lies on it; `null` where that pose is not known exactly.
     pub contains_home: Option<bool>,
+    /// The number (from 1) of an earlier piece that consists of the same poses, by the other sign of quaternions.
+    pub same_poses_as: Option<usize>,
     /// Variables that can be chosen freely on it.
     pub free: Vec<String>,
     /// Its equations.
@@ -216,7 +218,7 @@ pub fn exact_report(mechanism: &Mechanism, answer: &ExactAnswer, request: &Reque
         mechanism: mechanism.name().to_owned(),
         file: request.file.clone(),
         formulation: formulation_word(request.options.system.formulation),
-        method: match request.options.method {
+        method: match answer.method {
             Method::Brute => "brute",
             Method::Divide => "divide",
             Method::Incremental => "incremental",
@@ -244,7 +246,7 @@ pub fn exact_report(mechanism: &Mechanism, answer: &ExactAnswer, request: &Reque
             .iter()
             .map(|fixed| Fixed {
                 variable: names[fixed.variable].clone(),
-                polynomial: fixed.polynomial.text(&names),
+                polynomial: fixed.polynomial.as_ref().map(|p| p.text(&names)),
                 values: doubles(fixed),
             })
             .collect(),
@@ -335,6 +337,7 @@ fn piece(piece: &crate::algebra::Piece, names: &[String]) -> Piece {
             _ => None,
         },
         contains_home: piece.contains_home,
+        same_poses_as: piece.same_poses_as.map(|first| first + 1),
         free: component.free.iter().map(|&v| names[v].clone()).collect(),
         equations: component.equations.iter().map(|p| p.text(names)).collect(),
     }
@@ -453,6 +456,15 @@ pub struct ConditionRow {
     pub factors: Vec<String>,
 }
 
+/// One way to satisfy all conditions.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FamilyRow {
+    /// How many parameters can be chosen freely.
+    pub dimension: usize,
+    /// The equations of the parameters.
+    pub equations: Vec<String>,
+}
+
 /// Conditions on measures that were left open.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Conditions {
@@ -470,16 +482,22 @@ pub struct Conditions {
     pub outcome: Outcome,
     /// What has to vanish; empty: no condition; `null` where it was not found.
     pub conditions: Option<Vec<ConditionRow>>,
+    /// Ways to satisfy all conditions together; `null` where they were not asked for or not found.
+    pub families: Option<Vec<FamilyRow>>,
+    /// Whether every family is proven irreducible over the rationals.
+    pub families_fully_split: Option<bool>,
     /// What the equations leave out of the mechanism.
     pub relaxations: Vec<String>,
 }
 
-/// Design conditions as data; `joint` is the one that is to move, if any.
+/// Design conditions as data; `joint` is the one that is to move, if any. `families` are those of
+/// [`DesignConditions::families`].
 #[must_use]
 pub fn conditions_report(
     mechanism: &Mechanism,
     system: &PolynomialSystem,
     found: Result<&DesignConditions, Stop>,
+    families: Option<&(Vec<Family>, bool)>,
     joint: Option<&str>,
     request: &Request,
 ) -> Conditions {
@@ -502,6 +520,14 @@ pub fn conditions_report(
             };
             found.conditions.iter().map(row).collect()
         }),
+        families: families.map(|(families, _)| {
+            let row = |family: &Family| FamilyRow {
+                dimension: family.dimension,
+                equations: family.equations.iter().map(&text).collect(),
+            };
+            families.iter().map(row).collect()
+        }),
+        families_fully_split: families.map(|(_, complete)| *complete),
         relaxations: system.relaxations.iter().map(ToString::to_string).collect(),
     }
 }

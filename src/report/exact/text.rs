@@ -5,6 +5,9 @@ use super::schema::{Conditions, ExactReport, Outcome, Piece, Relations};
 use crate::report::text::words::{counted, figure};
 use crate::report::text::{Cell, Column, Layout, Page, Table, Tint};
 
+/// Conditions that are shown where the ways to satisfy them are shown as well.
+const CONDITIONS: usize = 6;
+
 /// Sets of free variables that are shown.
 const FREE_SHOWN: usize = 4;
 
@@ -184,8 +187,7 @@ fn pieces(report: &ExactReport, page: &mut Page) {
         .column("degree", Column::Numbers)
         .column("one piece over the rationals", Column::Words)
         .column("real points", Column::Words)
-        .column("pose drawn", Column::Words)
-        .column("free", Column::Shrinking);
+        .column("pose drawn", Column::Words);
     for (index, piece) in pieces.iter().enumerate() {
         table.row(vec![
             Cell::new((index + 1).to_string()),
@@ -193,15 +195,35 @@ fn pieces(report: &ExactReport, page: &mut Page) {
             Cell::new(piece.degree.map_or("?".to_owned(), |d| d.to_string())),
             Cell::new(piece.irreducible),
             Cell::new(real_words(piece)),
-            Cell::new(match piece.contains_home {
-                Some(true) => "on it",
-                Some(false) => "",
-                None => "?",
+            Cell::new(match (piece.contains_home, piece.same_poses_as) {
+                (_, Some(first)) => format!("the poses of {first}"),
+                (Some(true), None) => "on it".to_owned(),
+                (Some(false), None) => String::new(),
+                (None, None) => "?".to_owned(),
             }),
-            Cell::new(piece.free.join(", ")),
         ]);
     }
     page.table(&table, "pieces");
+    let different = pieces.iter().filter(|piece| piece.same_poses_as.is_none());
+    let different = different.count();
+    if different < pieces.len() {
+        page.item(
+            &format!(
+                "up to the sign of quaternions, which makes no difference to the poses, {}",
+                counted(different, "piece")
+            ),
+            Tint::Plain,
+        );
+    }
+    for (index, piece) in pieces.iter().enumerate() {
+        // What is free on the largest ones is said above.
+        if !report.free.contains(&piece.free) && !piece.free.is_empty() {
+            page.item(
+                &format!("free on piece {}: {}", index + 1, piece.free.join(", ")),
+                Tint::Plain,
+            );
+        }
+    }
     if !report.fully_split {
         page.item(
             "not split further: some piece may fall apart into more",
@@ -422,10 +444,46 @@ pub fn render_conditions(report: &Conditions, layout: Layout) -> String {
         page.item(&sentence, Tint::Doubtful);
     }
     let rows = report.conditions.as_deref().unwrap_or_default();
+    let shown = match (&report.families, page.layout().verbose) {
+        (Some(families), false) if !families.is_empty() && rows.len() > CONDITIONS => CONDITIONS,
+        _ => rows.len(),
+    };
     if rows.len() > 1 || rows.iter().any(|row| row.factors.len() > 1) {
-        for row in rows {
+        for row in &rows[..shown] {
             let ways: Vec<String> = row.factors.iter().map(|f| format!("{f} = 0")).collect();
             page.item(&ways.join(" or "), Tint::Plain);
+        }
+        if shown < rows.len() {
+            let left = counted(rows.len() - shown, "condition");
+            page.item(&format!("{left} more, listed with --verbose"), Tint::Quiet);
+        }
+    }
+    if let Some(families) = report.families.as_deref().filter(|_| rows.len() > 1) {
+        page.heading("Ways to satisfy all of it");
+        for (index, family) in families.iter().enumerate() {
+            let equations: Vec<String> = family
+                .equations
+                .iter()
+                .map(|e| format!("{e} = 0"))
+                .collect();
+            page.item(
+                &format!(
+                    "{}: {} ({} free)",
+                    index + 1,
+                    equations.join(", "),
+                    counted(family.dimension, "measure")
+                ),
+                Tint::Plain,
+            );
+        }
+        if families.is_empty() {
+            page.item("none where no denominator vanishes", Tint::Notable);
+        }
+        if report.families_fully_split == Some(false) {
+            page.item(
+                "not split further: some of them may fall apart into more",
+                Tint::Notable,
+            );
         }
     }
     for relaxation in &report.relaxations {
