@@ -38,6 +38,7 @@ mod file_pose;
 mod flatten;
 mod fraction;
 mod home;
+mod home_screws;
 mod implicit;
 mod joint_form;
 mod model;

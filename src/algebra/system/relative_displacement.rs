@@ -8,19 +8,16 @@
 //! n, w or c over the field of the mechanism's numbers. All of it is exact.
 
 use super::PolynomialSystem;
-use super::displacement::{Displacement, Factor, relative, values_at};
 use super::element::{Element, Exponents, trim};
 use super::field::{Field, Relation};
 use super::fraction::{Fraction, from_rational, to_rational};
 use super::poly::Poly;
 use super::space::{
-    Doubles, Matrix, Polynomials, Pose, Vector, add, apply, cross, dot, identity, matrix, multiply,
-    pose, rotation, rotation_of_quaternion, scale, subtract, vector,
+    Matrix, Polynomials, Vector, apply, cross, dot, identity, pose, subtract, transpose,
 };
-use super::variables::Names;
 use super::walks::Walker;
 use crate::algebra::{Polynomial, Rational, Stop};
-use crate::mechanism::{JointId, JointKind, Mechanism};
+use crate::mechanism::{JointId, JointKind};
 use num_traits::Zero;
 use std::collections::BTreeMap;
 
@@ -130,32 +127,6 @@ impl PolynomialSystem {
         construction.linear[joint.0].is_none() && (!displacement.factors.is_empty() || is_fixed)
     }
 
-    /// The screws (ω; v) of a joint's steps at the drawn pose, in the world: since then it has displaced its successor by
-    /// a product of exponentials along them, a screw's turn and travel taken one by one. `None` where that pose is not
-    /// known, or where the joint's values there cannot be told.
-    pub(in crate::algebra) fn screws_at_home(
-        &self,
-        mechanism: &Mechanism,
-        joint: JointId,
-    ) -> Option<Vec<[f64; 6]>> {
-        let construction = &self.construction;
-        let drawn = construction.drawn.as_ref()?;
-        let (field, model) = (&construction.field, &construction.models[joint.0]);
-        let doubles = Doubles(field);
-        let ends = construction.ends[joint.0].map(|link| pose(&doubles, &drawn[link]));
-        // Its variables by themselves: it need not have any in the system.
-        let of_joint = mechanism.joint(joint);
-        let own = Displacement::new(field, &mut Names::default(), of_joint, joint, model);
-        let values = values_at(
-            &doubles,
-            field,
-            model,
-            &relative(&doubles, model, &ends[0], &ends[1]),
-        )?;
-        let frame = ends[0].then(&doubles, &pose(&doubles, &model.sides[0]));
-        Some(screws(field, &own, frame, &values))
-    }
-
     /// The direction of a joint's one axis at the drawn pose, in the world; `None` where it has none or two.
     pub(in crate::algebra) fn axis_at_home(&self, joint: JointId) -> Option<ExactVector> {
         let construction = &self.construction;
@@ -166,7 +137,7 @@ impl PolynomialSystem {
         let [predecessor, _] = construction.ends[joint.0];
         let field = &construction.field;
         let frame = construction.drawn.as_ref()?[predecessor].then(field, &model.sides[0]);
-        let direction = super::space::apply(field, &frame.rotation, &axis.direction);
+        let direction = apply(field, &frame.rotation, &axis.direction);
         Some(ExactVector(direction))
     }
 
@@ -176,60 +147,6 @@ impl PolynomialSystem {
             .iter()
             .all(Element::is_zero)
     }
-}
-
-/// The screws (ω; v) of a joint's steps in the world, given its frame and the values of its variables.
-fn screws(
-    field: &Field,
-    displacement: &Displacement,
-    frame: Pose<f64>,
-    values: &[f64],
-) -> Vec<[f64; 6]> {
-    let doubles = Doubles(field);
-    let value = |variable: usize| values.get(variable).copied().unwrap_or_default();
-    let mut place = frame;
-    let mut screws = Vec::new();
-    let revolute = |place: &Pose<f64>, direction: &Vector<f64>| {
-        let along = apply(&doubles, &place.rotation, direction);
-        let moment = cross(&doubles, &place.translation, &along);
-        [
-            along[0], along[1], along[2], moment[0], moment[1], moment[2],
-        ]
-    };
-    for factor in &displacement.factors {
-        match factor {
-            Factor::Constant(constant) => {
-                place.rotation = multiply(&doubles, &place.rotation, &matrix(&doubles, constant));
-            }
-            Factor::Turn { axis, cosine, sine } => {
-                screws.push(revolute(&place, &vector(&doubles, &axis.direction)));
-                let turn = rotation(
-                    &doubles,
-                    &axis.direction,
-                    &axis.inverse_square,
-                    &value(*cosine),
-                    &value(*sine),
-                    field,
-                );
-                place.rotation = multiply(&doubles, &place.rotation, &turn);
-            }
-            Factor::Slide { along, way } => {
-                let along = apply(&doubles, &place.rotation, &vector(&doubles, along));
-                screws.push([0.0, 0.0, 0.0, along[0], along[1], along[2]]);
-                let moved = scale(&doubles, &along, &value(*way));
-                place.translation = add(&doubles, &place.translation, &moved);
-            }
-            Factor::Ball(q) => {
-                for i in 0..3 {
-                    let unit = [0, 1, 2].map(|j| f64::from(u8::from(i == j)));
-                    screws.push(revolute(&place, &unit));
-                }
-                let turn = rotation_of_quaternion(&doubles, &q.map(value));
-                place.rotation = multiply(&doubles, &place.rotation, &turn);
-            }
-        }
-    }
-    screws
 }
 
 /// One linear condition Σⱼ aⱼ xⱼ + b = 0 on an unknown vector x.
@@ -299,7 +216,7 @@ impl RelativeDisplacement<'_> {
         reduce: &Reduce<'_>,
     ) -> Result<Option<ExactVector>, Stop> {
         let ring = Polynomials(self.field);
-        let columns = super::space::transpose(&self.turning);
+        let columns = transpose(&self.turning);
         let conditions = [0, 1, 2].map(|i| {
             let unit = [0, 1, 2].map(|j| Element::integer(i64::from(i == j)));
             let across = cross(self.field, &unit, &direction.0).map(Poly::constant);
@@ -389,8 +306,8 @@ impl RelativeDisplacement<'_> {
 
     /// A polynomial as one in the ring, for every monomial in what the ring does not hold. Those monomials are independent
     /// over the ring, so that the whole lies in an ideal of the ring where all parts do.
-    fn split(&self, poly: &Poly) -> BTreeMap<Vec<(usize, u16)>, Polynomial> {
-        let mut parts: BTreeMap<Vec<(usize, u16)>, Vec<(Vec<u32>, Rational)>> = BTreeMap::new();
+    fn split(&self, poly: &Poly) -> BTreeMap<Outside, Polynomial> {
+        let mut parts: BTreeMap<Outside, Vec<(Vec<u32>, Rational)>> = BTreeMap::new();
         let unplaced = self.places.len();
         for (unknowns, element) in poly.terms() {
             for (numbers, coefficient) in &element.0 {
@@ -496,8 +413,11 @@ impl Condition {
     }
 }
 
+/// A monomial in what a ring does not hold: variables and generators with their powers.
+type Outside = Vec<(usize, u16)>;
+
 /// Entries of a column by row: condition, ideal, monomial outside the ring, monomial of the ring.
-type Column = BTreeMap<(usize, usize, Vec<(usize, u16)>, Vec<u32>), Rational>;
+type Column = BTreeMap<(usize, usize, Outside, Vec<u32>), Rational>;
 
 /// A basis of the linear relations between some columns. The last column has a part in the last relation at most, and
 /// there with the factor one.
