@@ -16,6 +16,7 @@ use super::{
     home, positional,
 };
 use crate::closure::Rigid;
+use crate::graph::ConstraintGraph;
 use crate::mechanism::{Configuration, JointId, JointKind, LinkId, Mechanism};
 
 /// What the equations are made of.
@@ -147,7 +148,10 @@ pub fn polynomial_system(
         generators: Vec::new(),
         point: None,
     };
-    let charts = charts(&draft.names, mechanism);
+    let mut charts = charts(&draft.names, mechanism);
+    if options.formulation != Formulation::Positional {
+        charts.extend(unattached(mechanism));
+    }
     let mut system = flatten::system(draft, construction, joint_variables, charts);
     system.rounded_numbers = !mechanism.precision().is_exact();
     system.home = home::drawn_point(&mut system, not_drawn);
@@ -179,6 +183,29 @@ fn configuration<'a>(
             })
         }
     }
+}
+
+/// Links that no joint holds to the ground: the joint forms have no variables for their place.
+fn unattached(mechanism: &Mechanism) -> Option<String> {
+    let graph = ConstraintGraph::of(mechanism);
+    let ground = mechanism.ground().0;
+    let loose: Vec<String> = graph
+        .components()
+        .iter()
+        .filter(|component| !component.contains(&ground))
+        .map(|component| {
+            let links = component
+                .iter()
+                .map(|&l| mechanism.links()[l].name.as_str());
+            format!("`{}`", links.collect::<Vec<_>>().join("` with `"))
+        })
+        .collect();
+    (!loose.is_empty()).then(|| {
+        format!(
+            "{}: joined to nothing that is joined to the ground; six freedoms each, which are not counted here",
+            loose.join(", ")
+        )
+    })
 }
 
 fn charts(names: &Names, mechanism: &Mechanism) -> Vec<String> {
