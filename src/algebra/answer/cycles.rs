@@ -2,9 +2,10 @@
 
 use super::Piece;
 use super::clusters::{clusters, rigid_joints};
-use super::fixed::{FixedVariable, fixed_variable};
+use super::fixed::{FixedVariable, fixed_variables};
 use super::pieces::Pieces;
 use super::relative_motion::{Part, ProvenMotion, Settled};
+use super::solutions::isolated_solutions;
 use crate::algebra::strategy::Local;
 use crate::algebra::system::CycleEquations;
 use crate::algebra::{Budget, GroebnerBasis, MonomialOrder, PolynomialSystem, Stop};
@@ -82,16 +83,18 @@ pub(super) fn cycle_answer(
     if basis.is_inconsistent() {
         return Ok(answer);
     }
-    for (place, &variable) in local.variables.iter().enumerate() {
-        if system.variables[variable].meaning.joint().is_none() {
-            continue;
-        }
-        if let Some(fixed) = fixed_variable(&basis, place, variable, budget)? {
-            answer.fixed.push(fixed);
-        }
-    }
+    let solutions = isolated_solutions(system, &local.variables, &basis, budget)?;
+    let solutions = solutions.as_ref();
+    answer.fixed = fixed_variables(system, &local.variables, &basis, solutions, budget)?;
+    // Links' places are not the cycle's own.
+    let of_joint = |f: &FixedVariable| system.variables[f.variable].meaning.joint().is_some();
+    answer.fixed.retain(of_joint);
     answer.rigid = rigid_joints(system, &answer.fixed, answer.joints.iter().copied());
     answer.clusters = clusters(mechanism, &answer.rigid);
+    if answer.dimension == Some(0) {
+        // Nothing moves; that is all that can be said of its links.
+        return Ok(answer);
+    }
     if system.home.exact().is_none() {
         answer.settled = Settled::NoHome;
         return Ok(answer);

@@ -1,5 +1,6 @@
 //! Variables that take finitely many values.
 
+use super::solutions::Solutions;
 use crate::algebra::univariate::RealRoot;
 use crate::algebra::{
     Budget, GroebnerBasis, Meaning, Polynomial, PolynomialSystem, RealSolution, Stop, Univariate,
@@ -21,54 +22,53 @@ pub struct FixedVariable {
 /// Bits to which values are enclosed.
 const BITS: u64 = 64;
 
-/// The numbers of the unknowns: algebraic numbers and parameters of the mechanism itself are left out.
-fn unknowns(system: &PolynomialSystem) -> impl Iterator<Item = usize> {
-    let variables = system.variables.iter().enumerate();
-    variables.filter_map(|(index, variable)| {
-        let given = matches!(
-            variable.meaning,
-            Meaning::Algebraic { .. } | Meaning::Parameter { .. }
-        );
-        (!given).then_some(index)
-    })
-}
-
-/// All unknowns that are fixed.
+/// All unknowns that are fixed, given the basis in the ring of some variables and the solutions where they are finitely many:
+/// every variable is fixed then, and equations in one variable alone would take much longer than the solutions did.
 pub(super) fn fixed_variables(
     system: &PolynomialSystem,
+    variables: &[usize],
     basis: &GroebnerBasis,
+    solutions: Option<&Solutions>,
     budget: &Budget,
 ) -> Result<Vec<FixedVariable>, Stop> {
-    unknowns(system)
-        .filter_map(|v| fixed_variable(basis, v, v, budget).transpose())
-        .collect()
+    let given = |variable: usize| {
+        matches!(
+            system.variables[variable].meaning,
+            Meaning::Algebraic { .. } | Meaning::Parameter { .. }
+        )
+    };
+    let places = variables.iter().copied().enumerate();
+    let unknowns = places.filter(|(_, variable)| !given(*variable));
+    match solutions {
+        Some(solutions) => Ok(unknowns
+            .map(|(place, variable)| at_solutions(place, variable, &solutions.real))
+            .collect()),
+        None => unknowns
+            .filter_map(|(place, variable)| {
+                fixed_variable(basis, place, variable, budget).transpose()
+            })
+            .collect(),
+    }
 }
 
-/// All unknowns, where the solutions are finitely many: equations in one variable alone would take longer than these.
-pub(super) fn values_of_solutions(
-    system: &PolynomialSystem,
-    real: &[RealSolution],
-) -> Vec<FixedVariable> {
-    unknowns(system)
-        .map(|variable| {
-            let coordinate = |solution: &RealSolution| {
-                let (low, high) = solution.coordinates[variable].clone();
-                RealRoot { low, high }
-            };
-            let mut values: Vec<RealRoot> = real.iter().map(coordinate).collect();
-            values.sort_by(|a, b| a.low.cmp(&b.low));
-            values.dedup_by(|next, kept| next.low <= kept.high);
-            FixedVariable {
-                variable,
-                polynomial: None,
-                values,
-            }
-        })
-        .collect()
+/// A variable's values at the solutions.
+fn at_solutions(place: usize, variable: usize, real: &[RealSolution]) -> FixedVariable {
+    let coordinate = |solution: &RealSolution| {
+        let (low, high) = solution.coordinates[place].clone();
+        RealRoot { low, high }
+    };
+    let mut values: Vec<RealRoot> = real.iter().map(coordinate).collect();
+    values.sort_by(|a, b| a.low.cmp(&b.low));
+    values.dedup_by(|next, kept| next.low <= kept.high);
+    FixedVariable {
+        variable,
+        polynomial: None,
+        values,
+    }
 }
 
 /// Whether a variable of the basis's ring, called `variable` outside, is fixed.
-pub(super) fn fixed_variable(
+fn fixed_variable(
     basis: &GroebnerBasis,
     place: usize,
     variable: usize,

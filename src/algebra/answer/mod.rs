@@ -8,33 +8,34 @@ mod clusters;
 mod conditions;
 mod cycles;
 mod fixed;
+mod hints;
 mod pieces;
 mod relative_motion;
 mod same_poses;
+mod solutions;
 mod subgroup;
 
 pub use conditions::{Condition, DesignConditions, Family, assembly_conditions, motion_conditions};
 pub use cycles::CycleAnswer;
 pub use fixed::FixedVariable;
 pub use relative_motion::{ProvenMotion, Scope, Settled};
+pub use solutions::Solutions;
 
 use super::strategy::{Group, Incremental, Local, Problem, Relation, Step, brute_force_noting};
 use super::{
-    AlgebraicNumber, Budget, Component, Decomposition, FinitePoints, Formulation, GroebnerBasis,
-    Hints, Incomplete, Meaning, MonomialOrder, Origin, Polynomial, PolynomialSystem, Rational,
-    RealSolution, Stop, SystemError, SystemOptions, Univariate, components, divide_and_conquer,
-    incremental_instancing, polynomial_system,
+    Budget, Component, Decomposition, Formulation, GroebnerBasis, Incomplete, MonomialOrder,
+    Origin, Polynomial, PolynomialSystem, Stop, SystemError, SystemOptions, components,
+    divide_and_conquer, incremental_instancing, polynomial_system,
 };
 use crate::mechanism::{LinkId, Mechanism};
 use clusters::mechanism_clusters;
 use cycles::{Whole, cycle_answer};
-use fixed::{fixed_variables, values_of_solutions};
+use fixed::fixed_variables;
+use hints::hints;
 use pieces::Pieces;
 use relative_motion::Part;
 use same_poses::first_of_same_poses;
-
-/// Bits to which the coordinates of isolated real solutions are enclosed.
-const SOLUTION_BITS: u64 = 64;
+use solutions::isolated_solutions;
 
 /// Most sets of free variables that are listed.
 const FREE_SETS: usize = 64;
@@ -84,15 +85,6 @@ pub struct Piece {
     pub contains_home: Option<bool>,
     /// The first piece that consists of the same poses, by the other sign of some quaternions; `None` where this is it.
     pub same_poses_as: Option<usize>,
-}
-
-/// Isolated solutions.
-#[derive(Clone, Debug)]
-pub struct Solutions {
-    /// Number of distinct complex ones. Where algebraic numbers are among the variables, those of all conjugates count.
-    pub complex: usize,
-    /// The real ones, each coordinate enclosed.
-    pub real: Vec<RealSolution>,
 }
 
 /// What the polynomials say.
@@ -247,37 +239,20 @@ impl ExactAnswer {
         }
     }
 
-    /// Of finitely many solutions every variable is fixed, and they tell its values.
     fn find_fixed(&mut self, budget: &Budget) -> Result<(), Stop> {
-        let Some(basis) = self.basis.as_ref().filter(|b| !b.is_inconsistent()) else {
-            return Ok(());
-        };
-        self.fixed = match &self.solutions {
-            Some(solutions) => values_of_solutions(&self.system, &solutions.real),
-            None => fixed_variables(&self.system, basis, budget)?,
-        };
+        if let Some(basis) = self.basis.as_ref().filter(|b| !b.is_inconsistent()) {
+            let all: Vec<usize> = (0..self.system.variables.len()).collect();
+            let solutions = self.solutions.as_ref();
+            self.fixed = fixed_variables(&self.system, &all, basis, solutions, budget)?;
+        }
         Ok(())
     }
 
     fn find_solutions(&mut self, budget: &Budget) -> Result<(), Stop> {
-        let Some(basis) = self.basis.as_ref().filter(|b| b.dimension() == Some(0)) else {
-            return Ok(());
-        };
-        let Some(points) = FinitePoints::new(basis, budget)? else {
-            return Ok(());
-        };
-        let hints = hints(&self.system, budget)?;
-        let mut real = points.real_solutions(SOLUTION_BITS, budget)?;
-        real.retain(|solution| {
-            hints.numbers.iter().all(|number| {
-                let (low, high) = &solution.coordinates[number.variable];
-                *low <= number.high && number.low <= *high
-            })
-        });
-        self.solutions = Some(Solutions {
-            complex: points.count(),
-            real,
-        });
+        if let Some(basis) = &self.basis {
+            let all: Vec<usize> = (0..self.system.variables.len()).collect();
+            self.solutions = isolated_solutions(&self.system, &all, basis, budget)?;
+        }
         Ok(())
     }
 
@@ -347,7 +322,8 @@ impl ExactAnswer {
         let [first, ..] = self.system.cycles.as_slice() else {
             return;
         };
-        let Some(basis) = self.basis.as_ref().filter(|b| !b.is_inconsistent()) else {
+        let Some(basis) = self.basis.as_ref().filter(|b| b.dimension() > Some(0)) else {
+            // Nothing is there, or nothing moves.
             return;
         };
         if first.equations.len() == self.system.equations.len() {
@@ -420,72 +396,6 @@ pub(super) fn problem(mechanism: &Mechanism, system: &PolynomialSystem) -> Probl
         equations: system.polynomials(),
         groups,
     }
-}
-
-/// What the meaning of the variables says: angles and algebraic numbers.
-fn hints(system: &PolynomialSystem, budget: &Budget) -> Result<Hints, Stop> {
-    let mut hints = Hints::default();
-    for (index, variable) in system.variables.iter().enumerate() {
-        match &variable.meaning {
-            Meaning::Sine {
-                joint,
-                freedom,
-                axis_square,
-            } if *axis_square == crate::number::Number::one() => {
-                let cosine = system.variables.iter().position(|other| {
-                    matches!(&other.meaning, Meaning::Cosine { joint: j, freedom: f }
-                        if j == joint && f == freedom)
-                });
-                if let Some(cosine) = cosine {
-                    hints.angles.push((cosine, index));
-                }
-            }
-            Meaning::Algebraic { value } => {
-                if let Some(number) = isolated(system, index, value, budget)? {
-                    hints.numbers.push(number);
-                }
-            }
-            _ => {}
-        }
-    }
-    Ok(hints)
-}
-
-/// The interval of an algebraic number that no conjugate shares; `None` where its equation holds other variables too.
-fn isolated(
-    system: &PolynomialSystem,
-    variable: usize,
-    value: &crate::number::Number,
-    budget: &Budget,
-) -> Result<Option<AlgebraicNumber>, Stop> {
-    let equation = system.equations.iter().find(
-        |e| matches!(e.origin, super::Origin::MinimalPolynomial { variable: v } if v == variable),
-    );
-    let Some(univariate) =
-        equation.and_then(|e| Univariate::from_polynomial(&e.polynomial, variable))
-    else {
-        return Ok(None);
-    };
-    let Some(near) = Rational::from_float(value.value()) else {
-        return Ok(None);
-    };
-    let nearest = univariate
-        .real_roots(budget)?
-        .into_iter()
-        .map(|root| univariate.refine(&root, SOLUTION_BITS))
-        .min_by_key(|root| {
-            let off = root.middle() - &near;
-            if off < Rational::from_integer(0.into()) {
-                -off
-            } else {
-                off
-            }
-        });
-    Ok(nearest.map(|root| AlgebraicNumber {
-        variable,
-        low: root.low,
-        high: root.high,
-    }))
 }
 
 /// The relations of a mechanism for [`relation_by_relation`](super::relation_by_relation): the system, the equations that

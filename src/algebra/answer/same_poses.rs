@@ -80,3 +80,19 @@ fn flipped(polynomial: &Polynomial, variables: &[usize]) -> Polynomial {
     });
     Polynomial::from_terms(terms.collect(), polynomial.variables())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn even_and_odd_polynomials_stay_as_they_are() {
+        let [q0, q1, x] = [0, 1, 2].map(|i| Polynomial::variable(i, 3));
+        let even = &(&q0 * &q1) + &x;
+        assert_eq!(flipped(&even, &[0, 1]), even);
+        let odd = &(&q0 * &x) + &q1;
+        assert_eq!(flipped(&odd, &[0, 1]), odd);
+        let mixed = &q0 - &Polynomial::one(3);
+        assert_eq!(flipped(&mixed, &[0, 1]), -&(&q0 + &Polynomial::one(3)));
+    }
+}
