@@ -98,3 +98,19 @@ fn angles_without_an_algebraic_cosine_are_refused() {
     assert_eq!(output.status.code(), Some(2), "{said}");
     assert!(said.contains('j') && said.contains("1.5708"), "{said}");
 }
+
+/// What was found before the time was over is told, with the reason; `--strict` makes a failure of it.
+#[test]
+fn a_time_limit_is_told() {
+    for (strict, code) in [(None, 0), (Some("--strict"), 3)] {
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .args(["exact", "mechanisms/delta.urdf", "--time", "0.3"])
+            .args(strict)
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(code));
+        let said = String::from_utf8(output.stdout).unwrap();
+        assert!(said.contains("the time limit was reached"), "{said}");
+    }
+}

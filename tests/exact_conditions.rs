@@ -234,3 +234,30 @@ fn a_joint_without_variables_is_no_question() {
     assert!(!output.status.success());
     assert!(said.contains("--variables canonical"), "{said}");
 }
+
+/// Several conditions, and the ways to satisfy all of them, as text and as data.
+#[test]
+fn the_ways_to_satisfy_conditions_are_listed() {
+    let ask = |format: &str| {
+        let output = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .args(["exact", "tests/conditions/bennett_measures.urdf"])
+            .args(
+                ["a", "b", "a2", "b2"]
+                    .iter()
+                    .flat_map(|m| ["--symbolic", m]),
+            )
+            .args(["--moving", "hinge_2", "--format", format])
+            .output()
+            .unwrap();
+        assert!(output.status.success());
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let text = ask("text");
+    assert!(text.contains("Ways to satisfy all of it"), "{text}");
+    let data: serde_json::Value = serde_json::from_str(&ask("json")).unwrap();
+    let families = data["families"].as_array().unwrap();
+    assert_eq!(families.len(), 2);
+    assert!(families.iter().all(|family| family["dimension"] == 1));
+    assert_eq!(data["families_fully_split"], true);
+}

@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use super::interrupt::{self, INTERRUPTED};
-use super::{DONE, load, output, terminal};
+use super::{DONE, UNDECIDED, load, output, terminal};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressDrawTarget};
 use kutzbach::algebra::{
@@ -51,6 +51,9 @@ pub struct Arguments {
     /// Stop after so many seconds and say what is known
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     time: f64,
+    /// Exit with code 3 if it stopped before everything was answered
+    #[arg(long)]
+    strict: bool,
     /// Start at a configuration of the file instead of the home pose
     #[arg(long, value_name = "CONFIGURATION")]
     at: Option<String>,
@@ -136,10 +139,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         Ended::Failed(failure) => failure,
     })?;
     arguments.destination.put(&text)?;
-    Ok(if stopped == Some(Stop::Cancelled) {
-        INTERRUPTED
-    } else {
-        DONE
+    Ok(match stopped {
+        Some(Stop::Cancelled) => INTERRUPTED,
+        Some(_) if arguments.strict => UNDECIDED,
+        _ => DONE,
     })
 }
 

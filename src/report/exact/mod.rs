@@ -1,15 +1,18 @@
 //! What the polynomials say, as data and as a page: `kutzbach exact`.
 
+mod conditions;
 mod motions;
+mod relations;
 mod schema;
 mod text;
 mod values;
 
+pub use conditions::{ConditionRow, Conditions, FamilyRow, conditions_report, render_conditions};
 pub use motions::Motion;
+pub use relations::{RelationRow, Relations, relations_report, render_relations};
 pub use schema::{
-    ConditionRow, Conditions, Cycle, EXACT_SCHEMA, ExactReport, FamilyRow, Fixed, Modulo, Outcome,
-    Piece, RelationRow, Relations, Request, Solutions, StepRow, conditions_report, exact_report,
-    relations_report,
+    Cycle, EXACT_SCHEMA, ExactReport, Fixed, Modulo, Outcome, Piece, Request, Solutions, StepRow,
+    exact_report,
 };
-pub use text::{render, render_conditions, render_relations};
+pub use text::render;
 pub use values::{FixedFreedom, FixedJoint};

@@ -3,8 +3,8 @@
 use super::motions::{Motion, motions, unsettled};
 use super::values::{FixedJoint, doubles, fixed_freedoms, fixed_joints};
 use crate::algebra::{
-    Case, DesignConditions, ExactAnswer, ExactOptions, Family, Formulation, Irreducible, Meaning,
-    Method, MonomialOrder, PolynomialSystem, RealPoints, RelationFinding, RelationVerdict, Stop,
+    Case, ExactAnswer, ExactOptions, Formulation, Irreducible, Method, MonomialOrder, RealPoints,
+    Stop,
 };
 use crate::mechanism::{LinkId, Mechanism};
 use serde::Serialize;
@@ -289,7 +289,7 @@ pub fn exact_report(mechanism: &Mechanism, answer: &ExactAnswer, request: &Reque
     }
 }
 
-fn formulation_word(formulation: Formulation) -> &'static str {
+pub(super) fn formulation_word(formulation: Formulation) -> &'static str {
     match formulation {
         Formulation::Canonical => "canonical",
         Formulation::Tree => "tree",
@@ -305,7 +305,7 @@ fn order_word(order: &MonomialOrder) -> String {
     }
 }
 
-fn outcome(stopped: Option<(&'static str, Stop)>) -> Outcome {
+pub(super) fn outcome(stopped: Option<(&'static str, Stop)>) -> Outcome {
     Outcome {
         word: if stopped.is_some() { "stopped" } else { "done" },
         at: stopped.map(|(at, _)| at),
@@ -381,153 +381,4 @@ fn steps(answer: &ExactAnswer, timing: bool) -> Vec<StepRow> {
             seconds: timing.then_some(step.time.as_secs_f64()),
         })
         .collect()
-}
-
-/// One relation and what it adds.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct RelationRow {
-    /// The joint, cycle or coupling.
-    pub name: String,
-    /// `accepted`, `redundant` or `inconsistent`.
-    pub verdict: &'static str,
-    /// Complex dimension of what the relations accepted so far leave possible.
-    pub dimension: usize,
-    /// Polynomials of the basis after it.
-    pub basis: usize,
-}
-
-/// Relations added one by one.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Relations {
-    /// [`EXACT_SCHEMA`].
-    pub schema: &'static str,
-    /// The mechanism.
-    pub mechanism: String,
-    /// The file.
-    pub file: String,
-    /// `canonical`, `tree` or `positional`.
-    pub formulation: &'static str,
-    /// Whether it came to its end.
-    pub outcome: Outcome,
-    /// In the order in which they were added.
-    pub relations: Vec<RelationRow>,
-    /// What the equations leave out of the mechanism.
-    pub relaxations: Vec<String>,
-}
-
-/// The management of constraints as data.
-#[must_use]
-pub fn relations_report(
-    mechanism: &Mechanism,
-    system: &PolynomialSystem,
-    findings: &[RelationFinding],
-    stopped: Option<Stop>,
-    request: &Request,
-) -> Relations {
-    Relations {
-        schema: EXACT_SCHEMA,
-        mechanism: mechanism.name().to_owned(),
-        file: request.file.clone(),
-        formulation: formulation_word(request.options.system.formulation),
-        outcome: outcome(stopped.map(|stop| ("the relations", stop))),
-        relations: findings
-            .iter()
-            .map(|finding| RelationRow {
-                name: finding.name.clone(),
-                verdict: match finding.verdict {
-                    RelationVerdict::Accepted => "accepted",
-                    RelationVerdict::Redundant => "redundant",
-                    RelationVerdict::Inconsistent => "inconsistent",
-                },
-                dimension: finding.dimension,
-                basis: finding.basis,
-            })
-            .collect(),
-        relaxations: system.relaxations.iter().map(ToString::to_string).collect(),
-    }
-}
-
-/// A condition on the parameters.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ConditionRow {
-    /// The polynomial that has to vanish.
-    pub polynomial: String,
-    /// Its factors, one of which has to vanish.
-    pub factors: Vec<String>,
-}
-
-/// One way to satisfy all conditions.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct FamilyRow {
-    /// How many parameters can be chosen freely.
-    pub dimension: usize,
-    /// The equations of the parameters.
-    pub equations: Vec<String>,
-}
-
-/// Conditions on measures that were left open.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Conditions {
-    /// [`EXACT_SCHEMA`].
-    pub schema: &'static str,
-    /// The mechanism.
-    pub mechanism: String,
-    /// The file.
-    pub file: String,
-    /// `assembly`, or the joint that is to take every position.
-    pub question: String,
-    /// The parameters: their variables.
-    pub parameters: Vec<String>,
-    /// Whether it came to its end.
-    pub outcome: Outcome,
-    /// What has to vanish; empty: no condition; `null` where it was not found.
-    pub conditions: Option<Vec<ConditionRow>>,
-    /// Ways to satisfy all conditions together; `null` where they were not asked for or not found.
-    pub families: Option<Vec<FamilyRow>>,
-    /// Whether every family is proven irreducible over the rationals.
-    pub families_fully_split: Option<bool>,
-    /// What the equations leave out of the mechanism.
-    pub relaxations: Vec<String>,
-}
-
-/// Design conditions as data; `joint` is the one that is to move, if any. `families` are those of
-/// [`DesignConditions::families`].
-#[must_use]
-pub fn conditions_report(
-    mechanism: &Mechanism,
-    system: &PolynomialSystem,
-    found: Result<&DesignConditions, Stop>,
-    families: Option<&(Vec<Family>, bool)>,
-    joint: Option<&str>,
-    request: &Request,
-) -> Conditions {
-    let names = system.names();
-    let text = |p: &crate::algebra::Polynomial| p.text(&names);
-    Conditions {
-        schema: EXACT_SCHEMA,
-        mechanism: mechanism.name().to_owned(),
-        file: request.file.clone(),
-        question: joint.unwrap_or("assembly").to_owned(),
-        parameters: (0..names.len())
-            .filter(|&v| matches!(system.variables[v].meaning, Meaning::Parameter { .. }))
-            .map(|v| names[v].clone())
-            .collect(),
-        outcome: outcome(found.err().map(|stop| ("the elimination", stop))),
-        conditions: found.ok().map(|found| {
-            let row = |condition: &crate::algebra::Condition| ConditionRow {
-                polynomial: text(&condition.polynomial),
-                factors: condition.factors.iter().map(&text).collect(),
-            };
-            found.conditions.iter().map(row).collect()
-        }),
-        families: families.map(|(families, _)| {
-            let row = |family: &Family| FamilyRow {
-                dimension: family.dimension,
-                equations: family.equations.iter().map(&text).collect(),
-            };
-            families.iter().map(row).collect()
-        }),
-        families_fully_split: families.map(|(_, complete)| *complete),
-        relaxations: system.relaxations.iter().map(ToString::to_string).collect(),
-    }
 }

@@ -1,12 +1,9 @@
 //! The exact report as a page.
 
 use super::motions::cluster_text;
-use super::schema::{Conditions, ExactReport, Outcome, Piece, Relations};
+use super::schema::{ExactReport, Outcome, Piece};
 use crate::report::text::words::{counted, figure};
 use crate::report::text::{Cell, Column, Layout, Page, Table, Tint};
-
-/// Conditions that are shown where the ways to satisfy them are shown as well.
-const CONDITIONS: usize = 6;
 
 /// Sets of free variables that are shown.
 const FREE_SHOWN: usize = 4;
@@ -106,7 +103,8 @@ fn headline(report: &ExactReport) -> String {
     }
 }
 
-fn stopped(outcome: &Outcome) -> Option<String> {
+/// Where and why it ended early, if it did.
+pub(super) fn stopped(outcome: &Outcome) -> Option<String> {
     let why = outcome.why.as_ref()?;
     Some(format!(
         "stopped at {}: {why}; what is said here holds, but more may hold",
@@ -357,149 +355,4 @@ fn listing(title: &str, lines: Option<&[String]>, page: &mut Page) {
     for line in lines {
         page.paragraph(line, Tint::Plain, "  ", "      ");
     }
-}
-
-/// Relations added one by one, as a page of text.
-#[must_use]
-pub fn render_relations(report: &Relations, layout: Layout) -> String {
-    let mut page = Page::new(layout);
-    let count = |word: &str| {
-        report
-            .relations
-            .iter()
-            .filter(|relation| relation.verdict == word)
-            .count()
-    };
-    page.paragraph(
-        &format!(
-            "Of {}, {} accepted, {} redundant, {} inconsistent.",
-            counted(report.relations.len(), "relation"),
-            count("accepted"),
-            count("redundant"),
-            count("inconsistent")
-        ),
-        Tint::Strong,
-        "",
-        "",
-    );
-    if let Some(sentence) = stopped(&report.outcome) {
-        page.item(&sentence, Tint::Doubtful);
-    }
-    for relaxation in &report.relaxations {
-        page.item(relaxation, Tint::Notable);
-    }
-    page.gap();
-    page.paragraph(
-        &format!(
-            "{} ({}), in {} form; relations in the order of the file.",
-            report.mechanism, report.file, report.formulation
-        ),
-        Tint::Quiet,
-        "",
-        "",
-    );
-    page.gap();
-    let mut table = Table::new()
-        .column("relation", Column::Shrinking)
-        .column("", Column::Words)
-        .column("dimension after it", Column::Numbers)
-        .column("basis", Column::Numbers);
-    for relation in &report.relations {
-        let tint = match relation.verdict {
-            "accepted" => Tint::Good,
-            "redundant" => Tint::Notable,
-            _ => Tint::Bad,
-        };
-        table.row(vec![
-            Cell::new(&relation.name),
-            Cell::new(relation.verdict).tint(tint),
-            Cell::new(relation.dimension.to_string()),
-            Cell::new(relation.basis.to_string()),
-        ]);
-    }
-    page.table(&table, "relations");
-    page.into_text()
-}
-
-/// Design conditions as a page of text.
-#[must_use]
-pub fn render_conditions(report: &Conditions, layout: Layout) -> String {
-    let mut page = Page::new(layout);
-    let does = if report.question == "assembly" {
-        "can be put together".to_owned()
-    } else {
-        format!("can move with `{}` taking every position", report.question)
-    };
-    let headline = match report.conditions.as_deref() {
-        None => "Undecided: the computation ended before it had an answer.".to_owned(),
-        Some([]) => format!("It {does} whatever the values (complex ones included)."),
-        Some([one]) if one.polynomial == "1" => format!("There are no values for which it {does}."),
-        Some([one]) if one.factors.len() == 1 => {
-            format!("It {does} only if {} = 0.", one.factors[0])
-        }
-        Some(_) => format!("It {does} only if all of this holds:"),
-    };
-    page.paragraph(&headline, Tint::Strong, "", "");
-    if let Some(sentence) = stopped(&report.outcome) {
-        page.item(&sentence, Tint::Doubtful);
-    }
-    let rows = report.conditions.as_deref().unwrap_or_default();
-    let shown = match (&report.families, page.layout().verbose) {
-        (Some(families), false) if !families.is_empty() && rows.len() > CONDITIONS => CONDITIONS,
-        _ => rows.len(),
-    };
-    if rows.len() > 1 || rows.iter().any(|row| row.factors.len() > 1) {
-        for row in &rows[..shown] {
-            let ways: Vec<String> = row.factors.iter().map(|f| format!("{f} = 0")).collect();
-            page.item(&ways.join(" or "), Tint::Plain);
-        }
-        if shown < rows.len() {
-            let left = counted(rows.len() - shown, "condition");
-            page.item(&format!("{left} more, listed with --verbose"), Tint::Quiet);
-        }
-    }
-    if let Some(families) = report.families.as_deref().filter(|_| rows.len() > 1) {
-        page.heading("Ways to satisfy all of it");
-        for (index, family) in families.iter().enumerate() {
-            let equations: Vec<String> = family
-                .equations
-                .iter()
-                .map(|e| format!("{e} = 0"))
-                .collect();
-            page.item(
-                &format!(
-                    "{}: {} ({} free)",
-                    index + 1,
-                    equations.join(", "),
-                    counted(family.dimension, "measure")
-                ),
-                Tint::Plain,
-            );
-        }
-        if families.is_empty() {
-            page.item("none where no denominator vanishes", Tint::Notable);
-        }
-        if report.families_fully_split == Some(false) {
-            page.item(
-                "not split further: some of them may fall apart into more",
-                Tint::Notable,
-            );
-        }
-    }
-    for relaxation in &report.relaxations {
-        page.item(relaxation, Tint::Notable);
-    }
-    page.gap();
-    page.paragraph(
-        &format!(
-            "{} ({}), left open: {}. The conditions are necessary; complex solutions count.",
-            report.mechanism,
-            report.file,
-            report.parameters.join(", ")
-        ),
-        Tint::Quiet,
-        "",
-        "",
-    );
-    page.into_text()
 }
