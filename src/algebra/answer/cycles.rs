@@ -70,10 +70,16 @@ pub(super) fn cycle_answer(
         Some(basis) => basis.clone(),
         None => local.basis(&MonomialOrder::Degrevlex, budget)?,
     };
+    // A variable of its joints that no equation mentions is free.
+    let of_joints = cycle
+        .joints
+        .iter()
+        .flat_map(|(j, _)| &system.joint_variables[j.0]);
+    let unmentioned = of_joints.filter(|v| !local.variables.contains(v)).count();
     let mut answer = CycleAnswer {
         name: cycle_name(mechanism, cycle),
         joints: cycle.joints.iter().map(|(joint, _)| *joint).collect(),
-        dimension: basis.dimension(),
+        dimension: basis.dimension().map(|d| d + unmentioned),
         fixed: Vec::new(),
         rigid: Vec::new(),
         clusters: Vec::new(),
