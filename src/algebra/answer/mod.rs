@@ -239,10 +239,14 @@ impl ExactAnswer {
         }
     }
 
+    /// The ring of the whole: every variable at its own place.
+    fn all_variables(&self) -> Vec<usize> {
+        (0..self.system.variables.len()).collect()
+    }
+
     fn find_fixed(&mut self, budget: &Budget) -> Result<(), Stop> {
         if let Some(basis) = self.basis.as_ref().filter(|b| !b.is_inconsistent()) {
-            let all: Vec<usize> = (0..self.system.variables.len()).collect();
-            let solutions = self.solutions.as_ref();
+            let (all, solutions) = (self.all_variables(), self.solutions.as_ref());
             self.fixed = fixed_variables(&self.system, &all, basis, solutions, budget)?;
         }
         Ok(())
@@ -250,7 +254,7 @@ impl ExactAnswer {
 
     fn find_solutions(&mut self, budget: &Budget) -> Result<(), Stop> {
         if let Some(basis) = &self.basis {
-            let all: Vec<usize> = (0..self.system.variables.len()).collect();
+            let all = self.all_variables();
             self.solutions = isolated_solutions(&self.system, &all, basis, budget)?;
         }
         Ok(())
@@ -272,6 +276,10 @@ impl ExactAnswer {
             why,
         } = components(&equations, self.system.variables.len(), &hints, budget)?;
         self.decomposed = complete;
+        // Before anything else that may end here: what follows must not take these pieces for all there are.
+        if let Some(Incomplete::Stopped(stop)) = why {
+            self.pieces_stopped = Some(stop);
+        }
         self.pieces = pieces
             .into_iter()
             .map(|component| {
@@ -290,9 +298,6 @@ impl ExactAnswer {
         let first = first_of_same_poses(&self.system, &self.pieces, budget)?;
         for (index, (piece, first)) in self.pieces.iter_mut().zip(first).enumerate() {
             piece.same_poses_as = (first != index).then_some(first);
-        }
-        if let Some(Incomplete::Stopped(stop)) = why {
-            self.pieces_stopped = Some(stop);
         }
         // A piece that is too large is not the end of everything; time that is over is.
         budget.check()

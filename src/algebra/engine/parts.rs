@@ -13,7 +13,7 @@ impl GroebnerBasis {
     ///
     /// Leading monomials of different sets have no common factor, so that the S-polynomials reduce to zero (Buchberger's
     /// first criterion; Cox, Little and O'Shea 2015, §2.9, proposition 4), and nothing needs to be computed. The certificate
-    /// is that of the set with the fewest primes.
+    /// is the weakest: that of the set with the fewest primes.
     ///
     /// # Errors
     /// [`Stop::Memory`] if an exponent does not fit, which no basis has.
@@ -25,12 +25,7 @@ impl GroebnerBasis {
         let certificate = parts
             .iter()
             .map(|(basis, _)| basis.certificate())
-            .min_by_key(|c| {
-                (
-                    c.primes + usize::from(c.proven) * usize::MAX / 2,
-                    c.fresh_prime,
-                )
-            })
+            .min_by_key(|c| (c.proven, c.primes, c.fresh_prime))
             .cloned()
             .unwrap_or_else(Certificate::over_the_rationals);
         if parts.iter().any(|(basis, _)| basis.is_inconsistent()) {

@@ -1,7 +1,7 @@
 //! Incremental instancing: what a cycle determines goes into the next ones, in as many cases as there are choices.
 
 use super::divide::{Clock, Step};
-use super::group::{Local, Problem, about_the_same, basis_by_parts};
+use super::group::{Local, Problem, about_the_same, basis_by_parts, mentioned};
 use crate::algebra::{Budget, GroebnerBasis, MonomialOrder, Polynomial, Rational, Stop, factor};
 
 /// Most cases that are carried side by side. Beyond it a choice stays an equation, and nothing is lost.
@@ -80,10 +80,7 @@ pub fn incremental_instancing(problem: &Problem, budget: &Budget) -> Result<Incr
     let mut result = Incremental {
         steps: Vec::new(),
         parts: Vec::new(),
-        unused: problem.variables
-            - Local::new(&problem.equations, problem.variables)
-                .variables
-                .len(),
+        unused: problem.variables - mentioned(&problem.equations, problem.variables).len(),
         contradictions: Vec::new(),
         unsplit: false,
     };
@@ -110,7 +107,7 @@ impl Incremental {
                 let pieces = pieces(&equations, variables, room, budget)?;
                 self.unsplit |= pieces.unsplit;
                 if let Some(first) = pieces.whole {
-                    let n = Local::new(&equations, variables).variables.len();
+                    let n = mentioned(&equations, variables).len();
                     let absent = variables - n;
                     let step = clock.step(&group.name, n, equations.len(), &first, absent);
                     self.steps.push(step);
@@ -122,7 +119,7 @@ impl Incremental {
             }
             open = next;
         }
-        let own = Local::new(&part.equations, variables).variables.len();
+        let own = mentioned(&part.equations, variables).len();
         let rest = part.ungrouped();
         let mut cases = Vec::new();
         for known in open {
@@ -131,7 +128,7 @@ impl Incremental {
             equations.dedup();
             let clock = Clock::start(budget);
             let basis = basis_by_parts(&equations, variables, &MonomialOrder::Degrevlex, budget)?;
-            let n = Local::new(&equations, variables).variables.len();
+            let n = mentioned(&equations, variables).len();
             let step = clock.step("what remains", n, equations.len(), &basis, variables - n);
             self.steps.push(step);
             match basis.dimension() {

@@ -1,6 +1,6 @@
 //! Brute force, and divide and conquer.
 
-use super::group::{Local, Problem, about_the_same, basis_by_parts};
+use super::group::{Local, Problem, about_the_same, basis_by_parts, mentioned};
 use crate::algebra::engine::groebner_basis_noting;
 use crate::algebra::{Budget, GroebnerBasis, MonomialOrder, Polynomial, Stop};
 use std::time::{Duration, Instant};
@@ -57,7 +57,7 @@ pub(in crate::algebra) fn brute_force_noting(
     let clock = Clock::start(budget);
     let variables = problem.variables;
     let basis = groebner_basis_noting(&problem.equations, variables, order, budget, modulo)?;
-    let variables = Local::new(&problem.equations, problem.variables).variables;
+    let variables = mentioned(&problem.equations, problem.variables);
     let step = clock.step(
         "all equations",
         variables.len(),
@@ -107,7 +107,7 @@ pub fn divide_and_conquer(
         }
     }
     let basis = basis_by_parts(&together, problem.variables, order, budget)?;
-    let variables = Local::new(&together, problem.variables).variables;
+    let variables = mentioned(&together, problem.variables);
     steps.push(clock.step(
         "all cycles together",
         variables.len(),

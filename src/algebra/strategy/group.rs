@@ -155,6 +155,13 @@ pub(super) fn basis_by_parts(
     GroebnerBasis::of_parts(&parts, variables, order)
 }
 
+/// The variables that occur in some equations, ascending.
+pub(super) fn mentioned(equations: &[Polynomial], all: usize) -> Vec<usize> {
+    (0..all)
+        .filter(|&v| equations.iter().any(|p| p.mentions(v)))
+        .collect()
+}
+
 /// Some equations in the ring of just the variables that occur in them.
 pub(in crate::algebra) struct Local {
     /// The variables of the large ring, in its order.
@@ -168,9 +175,7 @@ pub(in crate::algebra) struct Local {
 impl Local {
     /// Moves equations into the ring of their own variables.
     pub(in crate::algebra) fn new(equations: &[Polynomial], all: usize) -> Self {
-        let variables: Vec<usize> = (0..all)
-            .filter(|&v| equations.iter().any(|p| p.mentions(v)))
-            .collect();
+        let variables = mentioned(equations, all);
         let mut places = vec![0; all];
         for (place, &variable) in variables.iter().enumerate() {
             places[variable] = place;

@@ -1,8 +1,9 @@
 //! Which joints get variables: spanning trees and the joints that close them.
 
 use super::{Formulation, SystemOptions};
-use crate::graph::{ConstraintGraph, Cycle, CycleBasis, SpanningTree, fundamental_cycle};
+use crate::graph::{ConstraintGraph, Cycle, CycleBasis, SpanningTree, fundamental_cycles};
 use crate::mechanism::{JointKind, Mechanism};
+use petgraph::unionfind::UnionFind;
 
 /// The graph of a mechanism and the basic cycles whose equations are written, all of whose joints are asked about.
 pub(super) fn basic_cycles(
@@ -14,11 +15,7 @@ pub(super) fn basic_cycles(
     let mut cycles: Vec<Cycle> = match options.formulation {
         Formulation::Tree => lightest_tree_cycles(&graph, &tree, mechanism),
         _ if options.shortest_cycles => CycleBasis::minimum(&graph, &tree).cycles,
-        _ => tree
-            .chords()
-            .iter()
-            .filter_map(|&chord| fundamental_cycle(&graph, &tree, chord))
-            .collect(),
+        _ => fundamental_cycles(&graph, &tree),
     };
     cycles.retain(|c| c.edges.iter().all(|(edge, _)| options.includes(*edge)));
     (graph, cycles)
@@ -31,12 +28,7 @@ fn lightest_tree_cycles(
     low_depth: &SpanningTree,
     mechanism: &Mechanism,
 ) -> Vec<Cycle> {
-    let coupled: Vec<usize> = mechanism
-        .couplings()
-        .iter()
-        .flat_map(|c| &c.terms)
-        .map(|term| term.joint.0)
-        .collect();
+    let coupled = coupled_joints(mechanism);
     let mut order: Vec<usize> = graph.edges_by_name().to_vec();
     order.sort_by_key(|&edge| {
         let kind = mechanism.joints()[edge].kind;
@@ -47,14 +39,11 @@ fn lightest_tree_cycles(
         };
         (weight, !low_depth.contains(edge))
     });
-    let mut piece: Vec<usize> = (0..graph.node_count()).collect();
+    let mut joined = UnionFind::<usize>::new(graph.node_count());
     let mut kept = vec![false; graph.edge_count()];
     for &edge in &order {
-        let [a, b] = graph.edge(edge).ends.map(|end| piece[end]);
-        if a != b {
-            kept[edge] = true;
-            piece.iter_mut().filter(|p| **p == b).for_each(|p| *p = a);
-        }
+        let [a, b] = graph.edge(edge).ends;
+        kept[edge] = joined.union(a, b);
     }
     let specs = |keep: bool| {
         graph
@@ -64,6 +53,12 @@ fn lightest_tree_cycles(
             .filter(move |&edge| kept[edge] == keep)
     };
     cycles_of_tree(graph, specs.clone()(true).collect(), specs(false).collect())
+}
+
+/// Joints that couplings speak of, which need their variables.
+fn coupled_joints(mechanism: &Mechanism) -> Vec<usize> {
+    let terms = mechanism.couplings().iter().flat_map(|c| &c.terms);
+    terms.map(|term| term.joint.0).collect()
 }
 
 fn variable_count(kind: JointKind) -> usize {
@@ -125,12 +120,7 @@ pub(super) fn implicit_joints(
     for (edge, _) in cycles.iter().flat_map(|c| &c.edges) {
         passed[*edge] += 1;
     }
-    let coupled: Vec<usize> = mechanism
-        .couplings()
-        .iter()
-        .flat_map(|c| &c.terms)
-        .map(|term| term.joint.0)
-        .collect();
+    let coupled = coupled_joints(mechanism);
     cycles
         .iter()
         .map(|cycle| {
