@@ -8,21 +8,14 @@ mod known;
 mod table;
 
 use super::failure::Failure;
-use super::{BAD_INPUT, DISAGREEMENT, DONE, load, output, terminal};
+use super::{BAD_INPUT, DISAGREEMENT, DONE, files, load, output, terminal};
 use clap::{Args, ValueEnum};
 use known::Known;
 use kutzbach::mechanism::Expectation;
 use kutzbach::report::{Disagreement, Options, compare};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc;
-use std::time::{Duration, Instant};
-
-/// Stack of a worker, as large as a main thread's usually is.
-const STACK: usize = 8 << 20;
 
 /// Compare reports with what is known of the mechanisms
 #[derive(Debug, Args)]
@@ -93,9 +86,9 @@ enum Outcome {
 /// # Errors
 /// Where a path does not exist, an `expected.json` is malformed, or the output cannot be written.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let files = known::mechanism_files(&arguments.paths)?;
+    let files = files::mechanism_files(&arguments.paths)?;
     let known = Known::beside(&files)?;
-    let outcomes = outcomes(&files, &known);
+    let outcomes = files::each(&files, |file| outcome(file, &known));
     let mut failures = Vec::new();
     let mut checked = Checked {
         schema: "kutzbach-check-1",
@@ -165,50 +158,7 @@ impl Checked {
     }
 }
 
-/// Reads, analyses and compares all files, as many at a time as there are processors; outcomes in the order of files.
-fn outcomes(files: &[PathBuf], known: &Known) -> Vec<Outcome> {
-    let workers = std::thread::available_parallelism()
-        .map_or(1, std::num::NonZero::get)
-        .min(files.len());
-    let next = AtomicUsize::new(0);
-    let (send, receive) = mpsc::channel();
-    let mut outcomes: Vec<Option<Outcome>> = files.iter().map(|_| None).collect();
-    std::thread::scope(|scope| {
-        for _ in 0..workers {
-            let (send, next) = (send.clone(), &next);
-            let work = move || {
-                while let Some((index, file)) = {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    files.get(index).map(|file| (index, file))
-                } {
-                    if send.send((index, outcome(file, known))).is_err() {
-                        break;
-                    }
-                }
-            };
-            let spawned = std::thread::Builder::new()
-                .stack_size(STACK)
-                .spawn_scoped(scope, work);
-            // Fewer workers do the same work; with none at all it is done below.
-            if spawned.is_err() {
-                break;
-            }
-        }
-        drop(send);
-        let mut progress = Progress::new(files.len());
-        for (index, outcome) in receive {
-            outcomes[index] = Some(outcome);
-            progress.step();
-        }
-        progress.clear();
-    });
-    outcomes
-        .into_iter()
-        .zip(files)
-        .map(|(done, file)| done.unwrap_or_else(|| outcome(file, known)))
-        .collect()
-}
-
+/// Reads, analyses and compares one file.
 fn outcome(file: &Path, known: &Known) -> Outcome {
     let reading = match load::mechanism(file, &[]) {
         Ok(reading) => reading,
@@ -232,43 +182,5 @@ fn outcome(file: &Path, known: &Known) -> Outcome {
                 .collect(),
         ),
         Err(failure) => Outcome::Unreadable(failure),
-    }
-}
-
-/// A count on standard error for whoever waits longer than a second; none where standard error is no terminal.
-struct Progress {
-    all: usize,
-    done: usize,
-    started: Instant,
-    shown: Option<Instant>,
-    wanted: bool,
-}
-
-impl Progress {
-    fn new(all: usize) -> Self {
-        Self {
-            all,
-            done: 0,
-            started: Instant::now(),
-            shown: None,
-            wanted: std::io::stderr().is_terminal(),
-        }
-    }
-
-    fn step(&mut self) {
-        self.done += 1;
-        let due = self
-            .shown
-            .is_none_or(|last| last.elapsed() > Duration::from_millis(100));
-        if self.wanted && due && self.started.elapsed() > Duration::from_secs(1) {
-            let _ = write!(std::io::stderr(), "\r{} of {} files", self.done, self.all);
-            self.shown = Some(Instant::now());
-        }
-    }
-
-    fn clear(&self) {
-        if self.shown.is_some() {
-            let _ = write!(std::io::stderr(), "\r\u{1b}[K");
-        }
     }
 }

@@ -49,7 +49,7 @@ fn list(layout: Layout) -> String {
             Cell::new(definition.also.join(", ")),
         ]);
     }
-    page.table(&table, "definitions");
+    page.table(table, "definitions");
     page.into_text()
 }
 

@@ -3,7 +3,9 @@
 use super::failure::Failure;
 use clap::Args;
 use kutzbach::format::{ReadOptions, Reading, read_file, read_file_with};
-use kutzbach::report::{Options, Report, report};
+use kutzbach::mobility::Analysis;
+use kutzbach::report::html::{Assets, Prepared};
+use kutzbach::report::{Options, Report, analysed_report};
 use std::path::{Path, PathBuf};
 
 /// Which mechanism: a file, and properties of it that are to differ.
@@ -51,9 +53,32 @@ pub fn mechanism(file: &Path, settings: &[(String, String)]) -> Result<Reading, 
 /// # Errors
 /// Where the options ask for what the mechanism does not have.
 pub fn report_on(reading: &Reading, file: &Path, options: &Options) -> Result<Report, Failure> {
-    report(reading, &file.display().to_string(), options).map_err(|error| Failure::Plain {
+    analysed(reading, file, options).map(|(report, _)| report)
+}
+
+/// Analyses what was read; the report, and the analysis that it tells of.
+///
+/// # Errors
+/// As [`report_on`].
+pub fn analysed(
+    reading: &Reading,
+    file: &Path,
+    options: &Options,
+) -> Result<(Report, Analysis), Failure> {
+    analysed_report(reading, &file.display().to_string(), options).map_err(|error| Failure::Plain {
         message: format!("{}: {error}", file.display()),
         help: Some(error.help()),
+    })
+}
+
+/// A report as a page.
+///
+/// # Errors
+/// Where data have no JSON form, which would be a fault of this program.
+pub fn html(prepared: &Prepared<'_>, assets: Assets) -> Result<String, Failure> {
+    prepared.page(assets).map_err(|error| Failure::Plain {
+        message: format!("cannot be written as a page: {error}"),
+        help: None,
     })
 }
 

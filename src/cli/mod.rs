@@ -7,6 +7,8 @@ mod exact;
 mod excerpt;
 mod explain;
 mod failure;
+mod files;
+mod gallery;
 mod graph;
 mod interrupt;
 mod load;
@@ -49,6 +51,7 @@ enum Command {
     Graph(graph::Arguments),
     Exact(exact::Arguments),
     Trace(trace::Arguments),
+    Gallery(gallery::Arguments),
     Explain(explain::Arguments),
 }
 
@@ -61,6 +64,7 @@ pub fn run() -> ExitCode {
         Command::Graph(arguments) => graph::run(&arguments),
         Command::Exact(arguments) => exact::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
+        Command::Gallery(arguments) => gallery::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
     };
     match outcome {

@@ -1,11 +1,20 @@
 //! `kutzbach report FILE`: the mobility report.
 
 use super::failure::Failure;
+use super::progress::Progress;
 use super::{DONE, UNDECIDED, load, output, terminal};
 use clap::{Args, ValueEnum};
-use kutzbach::mobility::ExactBudget;
+use kutzbach::closure::{Arithmetic, Geometry};
+use kutzbach::format::Reading;
+use kutzbach::mechanism::Mechanism;
+use kutzbach::mobility::{Analysis, ExactBudget};
+use kutzbach::report::html::{Assets, Facts, Prepared};
 use kutzbach::report::text::render;
-use kutzbach::report::{Options, Verdict};
+use kutzbach::report::{Options, Report, Verdict};
+use kutzbach::simulate::verification::{
+    Moment, Observer, Passage, Verification, VerificationOptions, verify,
+};
+use std::ops::ControlFlow;
 
 /// Say how a mechanism can move, and why
 #[derive(Debug, Args)]
@@ -39,6 +48,9 @@ pub struct Arguments {
     /// Say how link A moves, seen from link B, on every branch; may be repeated
     #[arg(long, num_args = 2, value_names = ["A", "B"])]
     between: Vec<String>,
+    /// Let the physics engine put the prediction to the test too, and show what it says (with `--format html`)
+    #[arg(long)]
+    verify: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -47,6 +59,8 @@ enum Format {
     Text,
     /// Everything, for a program
     Json,
+    /// One page that shows how the mechanism moves, for any browser
+    Html,
 }
 
 /// A time that is none is a slip, not a wish for no limit.
@@ -76,13 +90,22 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             .map(|pair| (pair[0].clone(), pair[1].clone()))
             .collect(),
     };
-    let report = load::report_on(&reading, &arguments.source.file, &options)?;
+    if arguments.verify && arguments.format != Format::Html {
+        return Err(Failure::Plain {
+            message: "`--verify` shows its evidence in a page".to_owned(),
+            help: Some(
+                "add `--format html`; `kutzbach simulate FILE` tells it in words".to_owned(),
+            ),
+        });
+    }
+    let (report, analysis) = load::analysed(&reading, &arguments.source.file, &options)?;
     let text = match arguments.format {
         Format::Text => render(
             &report,
             terminal::layout(arguments.destination.file().is_some(), arguments.verbose),
         ),
         Format::Json => output::json(&report)?,
+        Format::Html => page(arguments, &reading, &report, &analysis)?,
     };
     arguments.destination.put(&text)?;
     let undecided = report.mobility.verdict == Verdict::Undecided;
@@ -91,4 +114,71 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     } else {
         DONE
     })
+}
+
+/// The page, with a verification where it was asked for.
+fn page(
+    arguments: &Arguments,
+    reading: &Reading,
+    report: &Report,
+    analysis: &Analysis,
+) -> Result<String, Failure> {
+    let configuration = arguments.at.as_deref().filter(|name| *name != "home");
+    let verification = match arguments.verify {
+        true => Some(verified(
+            arguments,
+            &reading.mechanism,
+            analysis,
+            configuration,
+        )?),
+        false => None,
+    };
+    load::html(
+        &Prepared::new(Facts {
+            mechanism: &reading.mechanism,
+            report,
+            analysis,
+            configuration,
+            verification: verification.as_ref(),
+        }),
+        Assets::Inside,
+    )
+}
+
+fn verified(
+    arguments: &Arguments,
+    mechanism: &Mechanism,
+    analysis: &Analysis,
+    configuration: Option<&str>,
+) -> Result<Verification, Failure> {
+    let geometry = Geometry::new(
+        mechanism,
+        configuration.and_then(|name| mechanism.configuration(name)),
+        &Arithmetic::double(),
+    );
+    let options = VerificationOptions {
+        configuration: configuration.map(str::to_owned),
+        ..VerificationOptions::default()
+    };
+    let mut watch = Watch(Progress::new("simulating"));
+    let verification = verify(mechanism, &geometry, analysis, &options, &mut watch);
+    watch.0.finish();
+    verification.map_err(|error| Failure::Plain {
+        message: format!("{}: {error}", arguments.source.file.display()),
+        help: None,
+    })
+}
+
+/// Shows how far a simulation has come, and breaks it off at Ctrl-C.
+struct Watch(Progress);
+
+impl Observer for Watch {
+    fn begin(&mut self, _: &Passage) -> ControlFlow<()> {
+        self.0.tick(0, 1000)
+    }
+
+    fn moment(&mut self, moment: &Moment<'_>) -> ControlFlow<()> {
+        self.0
+            .tick((moment.done.clamp(0.0, 1.0) * 1e3) as u64, 1000)
+    }
 }

@@ -107,6 +107,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         hold: arguments.hold.clone(),
         samples: arguments.samples,
         configuration,
+        ..TraceOptions::default()
     };
     let traced = trace(mechanism, &analysis, &options)
         .map_err(|error| plain(error.to_string(), error.help()))?;

@@ -18,6 +18,7 @@ mod displacement;
 mod geometry;
 mod jacobian;
 mod positional;
+mod quaternion;
 mod rigid;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]

@@ -207,6 +207,25 @@ pub fn decide_by_singular_values<R: Real>(
     Ok(decision)
 }
 
+/// All singular values in double precision, relative to the largest, in falling order: as many as the shorter side is long.
+/// `None` for a matrix of zeros, or where the decomposition does not converge. Cost: cubic.
+///
+/// # Errors
+/// [`MatrixError`] for entries that are not finite.
+pub fn relative_singular_values(
+    matrix: &SparseMatrix<f64>,
+) -> Result<Option<Vec<f64>>, MatrixError> {
+    let scale = matrix.largest_entry()?;
+    if scale == 0.0 {
+        return Ok(None);
+    }
+    let values = svd::singular_values(matrix, scale);
+    Ok(values.map(|values| {
+        let first = values.first().copied().unwrap_or(1.0);
+        values.iter().map(|value| value / first).collect()
+    }))
+}
+
 /// [`decide`] by sparse QR whatever the size; also returns the factorization, for null vectors.
 ///
 /// # Errors

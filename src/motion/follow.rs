@@ -49,8 +49,8 @@ const LONGEST_WAY: f64 = 0.2;
 const FIRST_STEP: f64 = 0.1;
 const SHORTEST_STEP: f64 = 1e-5;
 
-/// A hinge is followed for so many turns, a slide for as many radians in part lengths.
-const MOST_TURNS: f64 = 12.0;
+/// A motion whose variables come and go is followed for so many times its reach.
+const WAYS: f64 = 40.0;
 
 /// More poses are not computed.
 const MOST_NODES: usize = 20_000;
@@ -269,8 +269,7 @@ fn far_enough(solver: &Solver, start: &Node, here: &Node) -> bool {
         .zip(weights)
         .map(|((a, b), w)| (b - a).abs() * w)
         .fold(0.0, f64::max);
-    far > MOST_TURNS * std::f64::consts::TAU
-        || here.arc - start.arc > 40.0 * MOST_TURNS * std::f64::consts::TAU
+    far > solver.reach || here.arc - start.arc > WAYS * solver.reach
 }
 
 /// The pose between two nodes where an unknown first meets its limit.

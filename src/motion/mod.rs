@@ -21,6 +21,7 @@
 //! | `curve` | poses by arclength and by drive value ([`Curve`]) |
 //! | `dead_centres`, `ranges`, `sampling` | what is read off a curve |
 //! | `inputs`, `wishes` | what is driven and held |
+//! | `words` | what is met and where it ends, for people |
 //! | `trace`, `trace/…` | from an analysis to a [`Trace`]: where a part starts, which curve serves, what is told of it |
 //!
 //! Cost: one pose of a single loop takes some microseconds; dense factorizations grow with the cube of a part's unknowns
@@ -51,6 +52,7 @@ mod trace;
 mod vectors;
 mod walk;
 mod wishes;
+mod words;
 
 pub use curve::{Curve, CurvePose};
 pub use inputs::Variable;
@@ -61,3 +63,4 @@ pub use result::{
 pub use system::{Evaluation, LoopSystem, SystemPose};
 pub use trace::trace;
 pub use wishes::variable_named;
+pub use words::value_text;

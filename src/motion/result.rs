@@ -5,6 +5,9 @@ use super::inputs::Variable;
 use crate::closure::{JointState, Rigid};
 use thiserror::Error;
 
+/// Where nothing else is said, a hinge is followed for so many turns, a slide for as many radians in part lengths.
+const MOST_TURNS: f64 = 12.0;
+
 /// What to trace.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TraceOptions {
@@ -20,6 +23,9 @@ pub struct TraceOptions {
     pub samples: usize,
     /// The configuration that was analysed; the home pose if `None`.
     pub configuration: Option<String>,
+    /// How far a variable may go from its start before the curve has been followed far enough: rad, and units of the
+    /// part's length for slides.
+    pub reach: f64,
 }
 
 impl Default for TraceOptions {
@@ -31,6 +37,7 @@ impl Default for TraceOptions {
             hold: Vec::new(),
             samples: 100,
             configuration: None,
+            reach: MOST_TURNS * std::f64::consts::TAU,
         }
     }
 }
@@ -78,6 +85,12 @@ pub enum TraceError {
         /// Where it was to end.
         to: f64,
     },
+    /// The reach is not positive.
+    #[error("a motion cannot be followed for {reach}")]
+    Reach {
+        /// What was wanted.
+        reach: f64,
+    },
     /// Too many or too few samples.
     #[error("{samples} samples; from 2 to 10000000 are possible")]
     Samples {
@@ -110,6 +123,7 @@ impl TraceError {
                 "on a branch of d freedoms, d − 1 independent variables can be held".to_owned()
             }
             Self::Range { .. } => "write it as --drive joint=from..to".to_owned(),
+            Self::Reach { .. } => "a positive number of radians".to_owned(),
             Self::Samples { .. } => "--samples 100".to_owned(),
             Self::OutOfRange(_) => "check the unit of the numbers".to_owned(),
         }

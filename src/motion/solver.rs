@@ -9,6 +9,7 @@
 //! equations, chosen or not, are held against what is allowed at the end.
 
 use super::deflation::Deflation;
+use super::result::TraceOptions;
 use super::rows::DenseRows;
 use super::sparse_rows::SparseRows;
 use super::system::{Evaluation, LoopSystem, SystemPose};
@@ -66,6 +67,8 @@ pub(super) struct Solver {
     row: Vec<f64>,
     /// Largest closure that counts as closed: rounding, or what the file's digits leave.
     pub allowed: f64,
+    /// How far a variable may go from its start (metric).
+    pub reach: f64,
 }
 
 impl Solver {
@@ -120,6 +123,7 @@ impl Solver {
             step: vec![0.0; unknowns],
             row: vec![0.0; unknowns],
             allowed,
+            reach: TraceOptions::default().reach,
         };
         solver.linearise(start).then_some(solver)
     }

@@ -40,6 +40,11 @@ pub fn trace(
             samples: options.samples,
         });
     }
+    if !(options.reach > 0.0 && options.reach.is_finite()) {
+        return Err(TraceError::Reach {
+            reach: options.reach,
+        });
+    }
     if let Some((from, to)) = options.range
         && !(from.is_finite() && to.is_finite())
     {
@@ -92,6 +97,7 @@ struct Tracer<'a> {
     branch: &'a Branch,
     geometry: Geometry<f64>,
     stages: Vec<Stage>,
+    reach: f64,
 }
 
 /// Everything found about one curve.
@@ -163,6 +169,7 @@ impl<'a> Tracer<'a> {
             branch,
             geometry,
             stages,
+            reach: options.reach,
         }
     }
 

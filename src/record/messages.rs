@@ -1,7 +1,7 @@
 //! Numbers in, typed messages out.
 
 use super::error::RecordError;
-use super::vectors::{Point, is_finite, quaternion};
+use super::vectors::{Point, is_finite};
 use crate::closure::Rigid;
 use crate::mechanism::Mechanism;
 use foxglove::messages::{Pose, Quaternion, Timestamp, Vector3};
@@ -190,7 +190,7 @@ pub fn vector(point: Point) -> Vector3 {
 }
 
 pub fn rotation(pose: &Rigid<f64>) -> Quaternion {
-    let [x, y, z, w] = quaternion(&pose.rotation);
+    let [x, y, z, w] = pose.quaternion();
     Quaternion { x, y, z, w }
 }
 

@@ -30,6 +30,7 @@ mod names;
 mod predicted_motion;
 mod recorder;
 mod robot_description;
+mod roles;
 mod scene;
 mod shapes;
 mod simulation_log;

@@ -53,39 +53,6 @@ pub fn pose_of(frame: &Frame) -> Rigid<f64> {
     pose
 }
 
-/// A rotation as a unit quaternion `(x, y, z, w)`, `w ≥ 0`.
-///
-/// The largest component comes first, from a sum that is at least one (Shepperd 1978, *Quaternion from rotation matrix*),
-/// so that nothing is lost near half turns.
-pub fn quaternion(rotation: &[[f64; 3]; 3]) -> [f64; 4] {
-    let r = rotation;
-    let trace = r[0][0] + r[1][1] + r[2][2];
-    let squares = [r[0][0], r[1][1], r[2][2], trace];
-    let mut largest = 3;
-    for i in [0, 1, 2] {
-        if squares[i] > squares[largest] {
-            largest = i;
-        }
-    }
-    let mut q = [0.0; 4];
-    if largest == 3 {
-        q[0] = r[2][1] - r[1][2];
-        q[1] = r[0][2] - r[2][0];
-        q[2] = r[1][0] - r[0][1];
-        q[3] = 1.0 + trace;
-    } else {
-        let (i, j, k) = (largest, (largest + 1) % 3, (largest + 2) % 3);
-        q[i] = 1.0 + r[i][i] - r[j][j] - r[k][k];
-        q[j] = r[j][i] + r[i][j];
-        q[k] = r[k][i] + r[i][k];
-        q[3] = r[k][j] - r[j][k];
-    }
-    let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let sign = if q[3] < 0.0 { -1.0 } else { 1.0 };
-    // Adding zero turns −0 into 0.
-    q.map(|x| x * sign / length + 0.0)
-}
-
 /// URDF's `rpy`: `R = Rz(yaw) Ry(pitch) Rx(roll)`. Where the pitch is a quarter turn, the yaw is zero.
 pub fn roll_pitch_yaw(rotation: &[[f64; 3]; 3]) -> [f64; 3] {
     let r = rotation;
@@ -105,28 +72,6 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// The rotation of a unit quaternion, by the textbook formula.
-    fn rotation_of(q: [f64; 4]) -> [[f64; 3]; 3] {
-        let [x, y, z, w] = q;
-        [
-            [
-                1.0 - 2.0 * (y * y + z * z),
-                2.0 * (x * y - z * w),
-                2.0 * (x * z + y * w),
-            ],
-            [
-                2.0 * (x * y + z * w),
-                1.0 - 2.0 * (x * x + z * z),
-                2.0 * (y * z - x * w),
-            ],
-            [
-                2.0 * (x * z - y * w),
-                2.0 * (y * z + x * w),
-                1.0 - 2.0 * (x * x + y * y),
-            ],
-        ]
-    }
-
     fn turned(angles: [f64; 3]) -> Rigid<f64> {
         let mut pose = Rigid::identity(&0.0);
         for axis in [2, 1, 0] {
@@ -141,20 +86,6 @@ mod tests {
     fn far(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3]) -> f64 {
         let pairs = a.iter().flatten().zip(b.iter().flatten());
         pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
-    }
-
-    #[test]
-    fn half_turns_keep_their_axes() {
-        for axis in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.6, 0.0, 0.8]] {
-            let half = Rigid::rotation(&axis, &-1.0, &0.0);
-            let q = quaternion(&half.rotation);
-            assert!(far(&rotation_of(q), &half.rotation) < 1e-15, "{q:?}");
-            assert!(q[3].abs() < 1e-15);
-        }
-        assert_eq!(
-            quaternion(&Rigid::identity(&0.0).rotation),
-            [0.0, 0.0, 0.0, 1.0]
-        );
     }
 
     #[test]
@@ -178,9 +109,6 @@ mod tests {
         #[test]
         fn rotations_survive(angles in prop::array::uniform3(-3.2..3.2f64)) {
             let pose = turned(angles);
-            let q = quaternion(&pose.rotation);
-            prop_assert!(q[3] >= 0.0);
-            prop_assert!(far(&rotation_of(q), &pose.rotation) < 4e-15);
             let again = turned(roll_pitch_yaw(&pose.rotation));
             prop_assert!(far(&again.rotation, &pose.rotation) < 1e-12);
         }

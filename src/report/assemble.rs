@@ -10,7 +10,9 @@ use super::schema::{
 use crate::format::Reading;
 use crate::mechanism::{Coupling, Mechanism};
 use crate::mobility::Verdict;
-use crate::mobility::{AnalysisError, AnalysisOptions, ExactBudget, analyse, kutzbach_count};
+use crate::mobility::{
+    Analysis, AnalysisError, AnalysisOptions, ExactBudget, analyse, kutzbach_count,
+};
 use crate::number::Number;
 use std::time::Instant;
 use thiserror::Error;
@@ -102,6 +104,18 @@ impl ReportError {
 /// # Errors
 /// [`ReportError`] where the options ask for what the mechanism does not have.
 pub fn report(reading: &Reading, file: &str, options: &Options) -> Result<Report, ReportError> {
+    analysed_report(reading, file, options).map(|(report, _)| report)
+}
+
+/// The report on a mechanism read from a file, and the analysis that it tells of.
+///
+/// # Errors
+/// [`ReportError`] where the options ask for what the mechanism does not have.
+pub fn analysed_report(
+    reading: &Reading,
+    file: &str,
+    options: &Options,
+) -> Result<(Report, Analysis), ReportError> {
     let place =
         |line: usize, column: usize, text: &str| format!("line {line}, column {column}: {text}");
     let warnings: Vec<String> = reading
@@ -121,7 +135,7 @@ pub fn report(reading: &Reading, file: &str, options: &Options) -> Result<Report
         warnings: &warnings,
         skipped: &skipped,
     };
-    report_on(&input, options)
+    analysed_report_on(&input, options)
 }
 
 /// The report on a mechanism from anywhere, such as one built in code.
@@ -129,6 +143,17 @@ pub fn report(reading: &Reading, file: &str, options: &Options) -> Result<Report
 /// # Errors
 /// [`ReportError`] where the options ask for what the mechanism does not have.
 pub fn report_on(input: &Input<'_>, options: &Options) -> Result<Report, ReportError> {
+    analysed_report_on(input, options).map(|(report, _)| report)
+}
+
+/// The report, and the analysis that it tells of.
+///
+/// # Errors
+/// [`ReportError`] where the options ask for what the mechanism does not have.
+pub fn analysed_report_on(
+    input: &Input<'_>,
+    options: &Options,
+) -> Result<(Report, Analysis), ReportError> {
     let mechanism = input.mechanism;
     let configuration = match options.configuration.as_deref() {
         Some(name) if name != HOME && mechanism.configuration(name).is_none() => {
@@ -168,7 +193,7 @@ pub fn report_on(input: &Input<'_>, options: &Options) -> Result<Report, ReportE
             stages: Vec::new(),
         });
     }
-    Ok(report)
+    Ok((report, analysis))
 }
 
 /// A report that holds what counting alone tells.

@@ -25,6 +25,7 @@
 //! | `extras` | what a report holds only where it was asked for: pairs of links, evidence |
 //! | `text` | how a report becomes a page |
 //! | `expectation`, `expected_file` | whether a report agrees with what is known |
+//! | `html` | how a report becomes a page that moves |
 //! | `exact` | what the polynomials say, as data and as a page |
 //! | `definitions` | what a word means |
 
@@ -35,6 +36,7 @@ mod expectation;
 mod expected_file;
 mod extras;
 mod findings;
+pub mod html;
 mod natural;
 #[cfg(test)]
 #[allow(clippy::wildcard_imports)]
@@ -43,7 +45,9 @@ mod schema;
 pub mod text;
 
 pub use crate::mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
-pub use assemble::{Input, Options, ReportError, report, report_on};
+pub use assemble::{
+    Input, Options, ReportError, analysed_report, analysed_report_on, report, report_on,
+};
 pub use expectation::{Comparison, Disagreement, compare};
 pub use expected_file::{ExpectedFile, ExpectedFileError};
 pub use natural::natural_order;

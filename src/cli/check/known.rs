@@ -1,6 +1,7 @@
 //! Which files to check, and what is known of them.
 
 use crate::cli::failure::Failure;
+use crate::cli::files::cannot_read;
 use kutzbach::mechanism::Expectation;
 use kutzbach::report::ExpectedFile;
 use std::collections::{BTreeMap, BTreeSet};
@@ -8,67 +9,6 @@ use std::path::{Path, PathBuf};
 
 /// The name of the file that holds what is known of a folder.
 const EXPECTED: &str = "expected.json";
-
-/// Extensions of mechanism files in a folder.
-const EXTENSIONS: [&str; 1] = ["urdf"];
-
-/// Folders in folders are followed this deep, which ends circles of links too.
-const DEEPEST: usize = 16;
-
-/// Files named, and mechanism files of folders named, each once, by path.
-///
-/// # Errors
-/// Where a path does not exist or a folder cannot be read; where there is no file at all.
-pub fn mechanism_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
-    let mut files = BTreeSet::new();
-    for path in paths {
-        if path.is_dir() {
-            collect(path, DEEPEST, &mut files).map_err(|error| cannot_read(path, &error))?;
-        } else if path.exists() {
-            files.insert(path.clone());
-        } else {
-            return Err(Failure::Plain {
-                message: format!("there is no file or folder `{}`", path.display()),
-                help: None,
-            });
-        }
-    }
-    if files.is_empty() {
-        return Err(Failure::Plain {
-            message: "there is no mechanism file to check".to_owned(),
-            help: Some("folders are searched for files that end in `.urdf`".to_owned()),
-        });
-    }
-    Ok(files.into_iter().collect())
-}
-
-fn collect(
-    folder: &Path,
-    depth: usize,
-    files: &mut BTreeSet<PathBuf>,
-) -> Result<(), std::io::Error> {
-    for entry in std::fs::read_dir(folder)? {
-        let path = entry?.path();
-        if path.is_dir() {
-            if depth > 0 {
-                collect(&path, depth - 1, files)?;
-            }
-        } else if path
-            .extension()
-            .is_some_and(|own| EXTENSIONS.iter().any(|known| own == *known))
-        {
-            files.insert(path);
-        }
-    }
-    Ok(())
-}
-
-fn cannot_read(path: &Path, error: &std::io::Error) -> Failure {
-    Failure::Plain {
-        message: format!("cannot read `{}`: {error}", path.display()),
-        help: None,
-    }
-}
 
 /// The `expected.json` of every folder that holds a file to check.
 #[derive(Debug, Default)]

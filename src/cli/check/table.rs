@@ -70,7 +70,7 @@ fn disagreements(checked: &Checked, page: &mut Page) {
             Cell::new(&row.disagreement.found).tint(Tint::Bad),
         ]);
     }
-    page.table(&table, "disagreements");
+    page.table(table, "disagreements");
 }
 
 fn fields(checked: &Checked, page: &mut Page) {
@@ -91,5 +91,5 @@ fn fields(checked: &Checked, page: &mut Page) {
             Cell::new(tally.open.to_string()),
         ]);
     }
-    page.table(&table, "fields");
+    page.table(table, "fields");
 }

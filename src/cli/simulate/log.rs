@@ -11,8 +11,7 @@ use kutzbach::mechanism::Mechanism;
 use kutzbach::mobility::{Analysis, Branch};
 use kutzbach::motion::{Trace, TraceOptions, trace};
 use kutzbach::record::{
-    Header, Level, LogFile, RecordError, Recorder, Role, Roles, SimulationLog, Summary,
-    record_motion,
+    Header, Level, LogFile, RecordError, Recorder, Roles, SimulationLog, Summary, record_motion,
 };
 use kutzbach::report::Options;
 use kutzbach::simulate::JointGap;
@@ -180,42 +179,11 @@ impl<'a> Log<'a> {
         Ok(())
     }
 
-    /// What links and joints do along a branch.
+    /// What links and joints do along a branch; along the first where none is named.
     fn roles(&self, branch: Option<&Branch>, driven: Option<usize>) -> Roles {
-        let locked = |locked| if locked { Role::Locked } else { Role::Moving };
         let branches = self.analysis.branches.as_deref().unwrap_or_default();
-        let Some(branch) = branch.or_else(|| branches.first()) else {
-            // Nothing moves, or nothing is known to.
-            return Roles {
-                links: Vec::new(),
-                joints: self
-                    .analysis
-                    .roles
-                    .iter()
-                    .map(|role| locked(role.locked == Some(true)))
-                    .collect(),
-            };
-        };
-        let mut roles = Roles {
-            links: vec![Role::Moving; self.mechanism.links().len()],
-            joints: branch
-                .roles
-                .iter()
-                .map(|role| locked(role.locked == Some(true)))
-                .collect(),
-        };
-        for motion in &branch.motions {
-            if motion.freedom == 0 {
-                roles.links[motion.link] = Role::Locked;
-            }
-        }
-        for idle in &branch.idle {
-            roles.links[idle.link] = Role::Idle;
-        }
-        if let Some(joint) = driven {
-            roles.joints[joint] = Role::Driven;
-        }
-        roles
+        let branch = branch.or_else(|| branches.first());
+        Roles::of(self.mechanism, self.analysis, branch, driven)
     }
 
     /// Does something while it is logged and its progress shown; Ctrl-C breaks it off.

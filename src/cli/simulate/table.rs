@@ -181,7 +181,7 @@ fn branch_page(branch: &BranchVerification, page: &mut Page) {
                 Cell::new(seconds(rung.wall_time)),
             ]);
         }
-        page.table(&table, "rungs");
+        page.table(table, "rungs");
         page.paragraph(
             &sentence(&ladder.finding),
             tint(ladder.finding.outcome),
@@ -226,7 +226,7 @@ fn pushing_page(pushing: &Pushing, page: &mut Page) {
             Cell::new(seconds(rung.wall_time)),
         ]);
     }
-    page.table(&table, "rungs");
+    page.table(table, "rungs");
 }
 
 fn scene_page(run: &SceneRun, page: &mut Page) {
@@ -302,7 +302,7 @@ fn cost_page(rows: &[CostRow], page: &mut Page) {
             Cell::new(row.pieces.dampings.to_string()),
         ]);
     }
-    page.table(&table, "rows");
+    page.table(table, "rows");
 }
 
 /// Everything, for a program. Times on the clock differ from run to run and are given on request only; `cost` is nothing

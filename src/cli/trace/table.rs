@@ -1,93 +1,16 @@
 //! A trace as text, as comma-separated rows and as JSON.
 
 use kutzbach::closure::Rigid;
-use kutzbach::mechanism::{FreedomPart, Mechanism};
-use kutzbach::motion::{EndReason, EventKind, Motion, Spacing, Trace, Variable};
+use kutzbach::mechanism::Mechanism;
+use kutzbach::motion::{
+    EndReason, EventKind, Motion, Spacing, Trace, Variable, value_text as short,
+};
 use kutzbach::report::text::visible;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// The version of the JSON.
 const SCHEMA: &str = "kutzbach-trace-1";
-
-fn unit(mechanism: &Mechanism, variable: &Variable) -> &'static str {
-    match mechanism.joints()[variable.joint].kind.freedoms()[variable.freedom] {
-        FreedomPart::Translation => "m",
-        FreedomPart::Rotation | FreedomPart::Screw => "rad",
-    }
-}
-
-/// Six digits behind the point; zero without a sign.
-fn short(value: f64) -> String {
-    let text = format!("{value:.6}");
-    if text
-        .trim_start_matches('-')
-        .chars()
-        .all(|c| c == '0' || c == '.')
-    {
-        "0.000000".to_owned()
-    } else {
-        text
-    }
-}
-
-fn end_reason(reason: &EndReason) -> String {
-    match reason {
-        EndReason::JointLimit { variable, value } => {
-            format!("joint limit of {} at {}", variable.name, short(*value))
-        }
-        EndReason::GoesOn => "it goes on; followed far enough".to_owned(),
-        EndReason::CannotGoOn => "no pose is found beyond".to_owned(),
-    }
-}
-
-fn event_text(kind: &EventKind) -> String {
-    let at_home = |home: &bool| if *home { ", the pose analysed" } else { "" };
-    match kind {
-        EventKind::DeadCentre {
-            variable,
-            value,
-            greatest,
-        } => format!(
-            "dead centre of {}: {} {}",
-            variable.name,
-            if *greatest { "greatest" } else { "least" },
-            short(*value)
-        ),
-        EventKind::JointLimit { variable, value } => {
-            format!("joint limit of {}: {}", variable.name, short(*value))
-        }
-        EventKind::Singular {
-            freedom,
-            excess: 0,
-            home,
-            ..
-        } => format!(
-            "what is held leaves the motion open here (freedom {freedom}){}",
-            at_home(home)
-        ),
-        EventKind::Singular {
-            freedom,
-            crosses,
-            home,
-            ..
-        } => format!(
-            "singular pose, freedom {freedom}: {}{}",
-            if *crosses {
-                "branches cross (bifurcation)"
-            } else {
-                "branches touch (tangential)"
-            },
-            at_home(home)
-        ),
-        EventKind::Cusp { home } => {
-            format!(
-                "cusp: the motion turns back on its other half{}",
-                at_home(home)
-            )
-        }
-    }
-}
 
 fn extent(motion: &Motion) -> String {
     match motion.closed {
@@ -101,7 +24,7 @@ fn extent(motion: &Motion) -> String {
                         "at {} = {}: {}",
                         motion.driven.name,
                         short(end.drive),
-                        end_reason(&end.reason)
+                        end.reason
                     )
                 })
                 .collect();
@@ -138,14 +61,14 @@ pub fn text(mechanism: &Mechanism, trace: &Trace) -> String {
     line(format!(
         "  • driven: {} ({})",
         motion.driven.name,
-        unit(mechanism, &motion.driven)
+        motion.driven.unit(mechanism)
     ));
     for held in &motion.held {
         line(format!(
             "  • held: {} = {} {}",
             held.variable.name,
             short(held.value),
-            unit(mechanism, &held.variable)
+            held.variable.unit(mechanism)
         ));
     }
     if !motion.starts_at_home {
@@ -186,7 +109,7 @@ pub fn text(mechanism: &Mechanism, trace: &Trace) -> String {
             vec![
                 short(event.arclength),
                 short(event.drive),
-                event_text(&event.kind),
+                event.kind.to_string(),
             ]
         }))
         .collect();
@@ -209,7 +132,7 @@ pub fn text(mechanism: &Mechanism, trace: &Trace) -> String {
         .chain(motion.ranges.iter().map(|range| {
             let mut row = vec![
                 range.variable.name.clone(),
-                unit(mechanism, &range.variable).to_owned(),
+                range.variable.unit(mechanism).to_owned(),
                 short(range.min),
                 short(range.max),
                 short(range.travel),
@@ -260,49 +183,10 @@ fn aligned(rows: &[Vec<String>], right: &[bool]) -> Vec<String> {
         .collect()
 }
 
-/// The rotation of a pose as a unit quaternion (w, x, y, z) with w ≥ 0 (Shepperd 1978).
+/// The rotation of a pose as a unit quaternion (w, x, y, z).
 fn quaternion(pose: &Rigid<f64>) -> [f64; 4] {
-    let r = &pose.rotation;
-    let trace = r[0][0] + r[1][1] + r[2][2];
-    let squares = [
-        1.0 + trace,
-        1.0 + 2.0 * r[0][0] - trace,
-        1.0 + 2.0 * r[1][1] - trace,
-        1.0 + 2.0 * r[2][2] - trace,
-    ];
-    let largest = (0..4).fold(
-        0,
-        |best, i| if squares[i] > squares[best] { i } else { best },
-    );
-    let root = squares[largest].max(0.0).sqrt();
-    let half = 0.5 / root;
-    let q = match largest {
-        0 => [
-            0.5 * root,
-            (r[2][1] - r[1][2]) * half,
-            (r[0][2] - r[2][0]) * half,
-            (r[1][0] - r[0][1]) * half,
-        ],
-        1 => [
-            (r[2][1] - r[1][2]) * half,
-            0.5 * root,
-            (r[0][1] + r[1][0]) * half,
-            (r[0][2] + r[2][0]) * half,
-        ],
-        2 => [
-            (r[0][2] - r[2][0]) * half,
-            (r[0][1] + r[1][0]) * half,
-            0.5 * root,
-            (r[1][2] + r[2][1]) * half,
-        ],
-        _ => [
-            (r[1][0] - r[0][1]) * half,
-            (r[0][2] + r[2][0]) * half,
-            (r[1][2] + r[2][1]) * half,
-            0.5 * root,
-        ],
-    };
-    if q[0] < 0.0 { q.map(|x| -x) } else { q }
+    let [x, y, z, w] = pose.quaternion();
+    [w, x, y, z]
 }
 
 /// A field of a row: quoted where a name has a comma, a quotation mark or a line break in it (RFC 4180).
@@ -357,18 +241,8 @@ fn event_json(kind: &EventKind) -> Value {
         EventKind::JointLimit { variable, value } => {
             json!({"kind": "joint_limit", "joint": variable.name, "value": value})
         }
-        EventKind::Singular {
-            freedom,
-            excess,
-            crosses,
-            home,
-        } => {
-            let kind = match (excess, crosses) {
-                (0, _) => "input_singularity",
-                (_, true) => "bifurcation",
-                (_, false) => "tangential",
-            };
-            json!({"kind": kind, "freedom": freedom, "home": home})
+        EventKind::Singular { freedom, home, .. } => {
+            json!({"kind": kind.word(), "freedom": freedom, "home": home})
         }
         EventKind::Cusp { home } => json!({"kind": "cusp", "home": home}),
     }
@@ -424,9 +298,9 @@ pub fn json(mechanism: &Mechanism, trace: &Trace) -> Value {
         "branch": motion.branch,
         "branches": motion.branches,
         "dimension": motion.dimension,
-        "driven": {"joint": motion.driven.name, "unit": unit(mechanism, &motion.driven)},
+        "driven": {"joint": motion.driven.name, "unit": motion.driven.unit(mechanism)},
         "held": motion.held.iter().map(|h| json!({
-            "joint": h.variable.name, "value": h.value, "unit": unit(mechanism, &h.variable),
+            "joint": h.variable.name, "value": h.value, "unit": h.variable.unit(mechanism),
         })).collect::<Vec<_>>(),
         "starts_at_home": motion.starts_at_home,
         "closed": motion.closed,
@@ -437,7 +311,7 @@ pub fn json(mechanism: &Mechanism, trace: &Trace) -> Value {
             "arclength": e.arclength, "drive": e.drive, "event": event_json(&e.kind), "values": e.values,
         })).collect::<Vec<_>>(),
         "ranges": motion.ranges.iter().map(|r| json!({
-            "joint": r.variable.name, "unit": unit(mechanism, &r.variable), "min": r.min, "max": r.max,
+            "joint": r.variable.name, "unit": r.variable.unit(mechanism), "min": r.min, "max": r.max,
             "travel": r.travel, "turns": r.turns, "moves": r.moves, "dead_centres": r.dead_centres,
         })).collect::<Vec<_>>(),
         "spacing": match motion.spacing { Spacing::Drive => "drive", Spacing::Arclength => "arclength" },
@@ -448,7 +322,7 @@ pub fn json(mechanism: &Mechanism, trace: &Trace) -> Value {
         "largest_closure": motion.largest_closure,
         "allowed_closure": motion.allowed_closure,
         "notes": motion.notes,
-        "columns": variables.iter().map(|v| json!({"joint": v.name, "unit": unit(mechanism, v)})).collect::<Vec<_>>(),
+        "columns": variables.iter().map(|v| json!({"joint": v.name, "unit": v.unit(mechanism)})).collect::<Vec<_>>(),
         "links": mechanism.links().iter().map(|l| l.name.as_str()).collect::<Vec<_>>(),
         "samples": samples,
     })

@@ -130,6 +130,6 @@ pub fn render_relations(report: &Relations, layout: Layout) -> String {
             Cell::new(relation.basis.to_string()),
         ]);
     }
-    page.table(&table, "relations");
+    page.table(table, "relations");
     page.into_text()
 }

@@ -201,7 +201,7 @@ fn pieces(report: &ExactReport, page: &mut Page) {
             }),
         ]);
     }
-    page.table(&table, "pieces");
+    page.table(table, "pieces");
     let different = pieces.iter().filter(|piece| piece.same_poses_as.is_none());
     let different = different.count();
     if different < pieces.len() {
@@ -328,7 +328,7 @@ fn steps(report: &ExactReport, page: &mut Page) {
         }
         table.row(row);
     }
-    page.table(&table, "steps");
+    page.table(table, "steps");
     for (index, cases) in report.cases.iter().flatten().enumerate() {
         let several = report.cases.as_ref().is_some_and(|parts| parts.len() > 1);
         let part = match several {

@@ -4,7 +4,7 @@ use super::cite;
 use super::page::Page;
 use super::sections::{limit, unsure};
 use super::style::Tint;
-use super::table::{Cell, Column, Table};
+use super::table::{Cell, Column, Subject, Table};
 use super::words::names;
 use crate::report::natural::natural_order;
 use crate::report::schema::{Evidence, Motion, Report};
@@ -15,7 +15,7 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 const MOTIONS: usize = 12;
 
 /// The branches through the pose.
-pub(super) fn branches(report: &Report, page: &mut Page) {
+pub(in crate::report) fn branches(report: &Report, page: &mut Page) {
     let Some(branches) = report.branches.as_ref().filter(|b| !b.is_empty()) else {
         return;
     };
@@ -57,12 +57,12 @@ pub(super) fn branches(report: &Report, page: &mut Page) {
         cells.push(Cell::new(names(&idle, most)));
         table.row(cells);
     }
-    page.table(&table, "branches");
+    page.table(table, "branches");
 }
 
 /// How links move relative to one another: the pairs that were asked for, then the rest, which a first screen shows the
 /// most interesting rows of.
-pub(super) fn motions(report: &Report, page: &mut Page) {
+pub(in crate::report) fn motions(report: &Report, page: &mut Page) {
     let (asked, others): (Vec<&Motion>, Vec<&Motion>) =
         report.motions.iter().partition(|motion| motion.asked);
     let several = report.branches.as_ref().is_some_and(|b| b.len() > 1);
@@ -111,9 +111,9 @@ fn motion_table(motions: &[&Motion], several: bool, page: &mut Page) {
             Cell::new(motion.freedom.to_string()),
             Cell::new(format!("{}: {}", motion.class, motion.text)),
         ]);
-        table.row(cells);
+        table.row_about(Subject::Link(motion.link.clone()), cells);
     }
-    page.table(&table, "motions");
+    page.table(table, "motions");
 }
 
 /// The rows for a first screen: ends of open chains first, since tools are held there, then the links with most joints
@@ -153,7 +153,7 @@ fn foremost<'a>(report: &Report, mut motions: Vec<&'a Motion>) -> Vec<&'a Motion
 }
 
 /// What every engine found, where it was asked for.
-pub(super) fn evidence(report: &Report, page: &mut Page) {
+pub(in crate::report) fn evidence(report: &Report, page: &mut Page) {
     let Some(evidence) = &report.evidence else {
         return;
     };

@@ -9,7 +9,7 @@ use crate::mobility::{PoseKind, SingularKind, Verdict};
 use crate::report::schema::{Home, Report};
 
 /// Writes the counts.
-pub(super) fn write(report: &Report, page: &mut Page) {
+pub(in crate::report) fn write(report: &Report, page: &mut Page) {
     page.heading("Freedoms");
     let mut table = Table::new()
         .column("", Column::Words)
@@ -35,7 +35,7 @@ pub(super) fn write(report: &Report, page: &mut Page) {
     }
     let home = &report.home;
     if report.mobility.verdict == Verdict::Unassembled {
-        page.table(&table, "counts");
+        page.table(table, "counts");
         page.paragraph(
             "No pose closes the loops, so nothing but counting can be said.",
             Tint::Plain,
@@ -79,7 +79,7 @@ pub(super) fn write(report: &Report, page: &mut Page) {
             .map_or_else(|| "?".to_owned(), |n| n.to_string()),
         "constraint equations that repeat others at this pose".to_owned(),
     );
-    page.table(&table, "counts");
+    page.table(table, "counts");
     for sentence in [
         Some(difference(report)),
         geometry(report),

@@ -4,23 +4,24 @@
 //! take part; which loops hold it; what to change; what to beware of. Everything shown stands in the [`Report`], nothing
 //! is computed here but sums and words.
 
-mod branches;
+pub(super) mod branches;
 mod cite;
-mod counts;
+pub(super) mod counts;
 mod escape;
 mod page;
-mod sections;
+pub(super) mod sections;
 mod style;
 mod table;
-mod verdict;
+pub(super) mod verdict;
 pub mod words;
 
 pub use escape::{clipped, columns, visible};
-pub use page::Page;
+pub use page::{Block, Page};
 pub use style::{Layout, NARROWEST_PAGE, Tint};
-pub use table::{ABRIDGED_ROWS, Cell, Column, Table};
+pub use table::{ABRIDGED_ROWS, Cell, Column, Row, Subject, Table};
 
 use super::schema::Report;
+use std::collections::BTreeMap;
 
 /// The report as a page of text, ending in a line break.
 #[must_use]
@@ -30,7 +31,7 @@ pub fn render(report: &Report, layout: Layout) -> String {
     counts::write(report, &mut page);
     sections::assembly(report, &mut page);
     branches::branches(report, &mut page);
-    sections::joints(report, &mut page);
+    sections::joints(report, &BTreeMap::new(), &mut page);
     sections::couplings(report, &mut page);
     sections::cycles(report, &mut page);
     branches::motions(report, &mut page);

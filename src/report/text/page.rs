@@ -1,14 +1,57 @@
-//! A page under construction: headings, wrapped paragraphs and tables.
+//! A page under construction: headings, paragraphs and tables, and how they become text.
+//!
+//! What a page says is kept as blocks, so that text and HTML are made from the same words.
 
 use super::escape::{columns, visible};
 use super::style::{Layout, NARROWEST_PAGE, Tint};
 use super::table::Table;
 
-/// A page of text.
+/// One piece of a page. Texts are as the caller gave them; whoever renders them makes them harmless.
+#[derive(Clone, Debug)]
+pub enum Block {
+    /// A heading, set off from what came before.
+    Heading(String),
+    /// A blank line, unless it would be the first.
+    Gap,
+    /// Running text.
+    Paragraph {
+        /// The text.
+        text: String,
+        /// What its colour stands for.
+        tint: Tint,
+        /// Before its first line.
+        first: &'static str,
+        /// Before all others.
+        rest: &'static str,
+    },
+    /// A point of a list.
+    Item {
+        /// The text.
+        text: String,
+        /// What its colour stands for.
+        tint: Tint,
+    },
+    /// A line that keeps its spaces; never wrapped.
+    Formula {
+        /// The line.
+        line: String,
+        /// Before it.
+        indent: &'static str,
+    },
+    /// A table.
+    Table {
+        /// Its columns and rows.
+        table: Table,
+        /// What its rows are, in plural.
+        things: &'static str,
+    },
+}
+
+/// A page: what it says, in order, whatever it will be shown on.
 #[derive(Debug)]
 pub struct Page {
     layout: Layout,
-    text: String,
+    blocks: Vec<Block>,
 }
 
 impl Page {
@@ -17,7 +60,7 @@ impl Page {
     pub fn new(layout: Layout) -> Self {
         Self {
             layout,
-            text: String::new(),
+            blocks: Vec::new(),
         }
     }
 
@@ -27,59 +70,106 @@ impl Page {
         &self.layout
     }
 
+    /// What it says.
+    #[must_use]
+    pub fn blocks(&self) -> &[Block] {
+        &self.blocks
+    }
+
     /// A heading, set off from what came before.
     pub fn heading(&mut self, title: &str) {
-        self.gap();
-        self.text
-            .push_str(&Tint::Strong.paint(&visible(title), self.layout.color));
-        self.text.push('\n');
+        self.blocks.push(Block::Heading(title.to_owned()));
     }
 
     /// A blank line, unless the page is empty.
     pub fn gap(&mut self) {
-        if !self.text.is_empty() {
-            self.text.push('\n');
-        }
+        self.blocks.push(Block::Gap);
     }
 
     /// A paragraph, wrapped to the page; the first line is indented by `first`, all others by `rest`.
-    pub fn paragraph(&mut self, text: &str, tint: Tint, first: &str, rest: &str) {
+    pub fn paragraph(&mut self, text: &str, tint: Tint, first: &'static str, rest: &'static str) {
+        self.blocks.push(Block::Paragraph {
+            text: text.to_owned(),
+            tint,
+            first,
+            rest,
+        });
+    }
+
+    /// A line that keeps its spaces, such as a formula; never wrapped.
+    pub fn formula(&mut self, line: &str, indent: &'static str) {
+        self.blocks.push(Block::Formula {
+            line: line.to_owned(),
+            indent,
+        });
+    }
+
+    /// A point of a list.
+    pub fn item(&mut self, text: &str, tint: Tint) {
+        self.blocks.push(Block::Item {
+            text: text.to_owned(),
+            tint,
+        });
+    }
+
+    /// A table of `things`.
+    pub fn table(&mut self, table: Table, things: &'static str) {
+        self.blocks.push(Block::Table { table, things });
+    }
+
+    /// The finished page as text for a terminal or a file.
+    #[must_use]
+    pub fn into_text(self) -> String {
+        let mut text = String::new();
+        for block in &self.blocks {
+            self.layout.write(block, &mut text);
+        }
+        text
+    }
+}
+
+impl Layout {
+    fn write(&self, block: &Block, out: &mut String) {
+        match block {
+            Block::Heading(title) => {
+                self.write(&Block::Gap, out);
+                out.push_str(&Tint::Strong.paint(&visible(title), self.color));
+                out.push('\n');
+            }
+            Block::Gap => {
+                if !out.is_empty() {
+                    out.push('\n');
+                }
+            }
+            Block::Paragraph {
+                text,
+                tint,
+                first,
+                rest,
+            } => self.write_lines(text, *tint, [first, rest], out),
+            Block::Item { text, tint } => self.write_lines(text, *tint, ["  • ", "    "], out),
+            Block::Formula { line, indent } => {
+                out.push_str(indent);
+                out.push_str(&Tint::Strong.paint(&visible(line), self.color));
+                out.push('\n');
+            }
+            Block::Table { table, things } => table.render(self, things, out),
+        }
+    }
+
+    fn write_lines(&self, text: &str, tint: Tint, [first, rest]: [&str; 2], out: &mut String) {
         let text = visible(text);
-        let width = self.layout.width.max(NARROWEST_PAGE);
+        let width = self.width.max(NARROWEST_PAGE);
         let mut lead = first;
         for line in wrapped(
             &text,
             width.saturating_sub(columns(first).max(columns(rest))),
         ) {
-            self.text.push_str(lead);
-            self.text.push_str(&tint.paint(&line, self.layout.color));
-            self.text.push('\n');
+            out.push_str(lead);
+            out.push_str(&tint.paint(&line, self.color));
+            out.push('\n');
             lead = rest;
         }
-    }
-
-    /// A line that keeps its spaces, such as a formula; never wrapped.
-    pub fn formula(&mut self, line: &str, indent: &str) {
-        self.text.push_str(indent);
-        self.text
-            .push_str(&Tint::Strong.paint(&visible(line), self.layout.color));
-        self.text.push('\n');
-    }
-
-    /// A point of a list.
-    pub fn item(&mut self, text: &str, tint: Tint) {
-        self.paragraph(text, tint, "  • ", "    ");
-    }
-
-    /// A table of `things`.
-    pub fn table(&mut self, table: &Table, things: &str) {
-        table.render(&self.layout, things, &mut self.text);
-    }
-
-    /// The finished page.
-    #[must_use]
-    pub fn into_text(self) -> String {
-        self.text
     }
 }
 

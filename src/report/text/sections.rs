@@ -2,16 +2,17 @@
 
 use super::page::Page;
 use super::style::Tint;
-use super::table::{Cell, Column, Table};
+use super::table::{Cell, Column, Subject, Table};
 use super::words::{counted, figure, names};
 use crate::mobility::Verdict;
 use crate::report::schema::{Branch, Cycle, JointRow, Report};
+use std::collections::BTreeMap;
 
 /// Lists of names in a table show this many.
 const NAMES_IN_CELL: usize = 12;
 
 /// How the loops close.
-pub(super) fn assembly(report: &Report, page: &mut Page) {
+pub(in crate::report) fn assembly(report: &Report, page: &mut Page) {
     let assembly = &report.assembly;
     if report.mobility.verdict == Verdict::Unassembled || assembly.closed == Some(false) {
         if assembly.gaps.is_empty() {
@@ -23,13 +24,17 @@ pub(super) fn assembly(report: &Report, page: &mut Page) {
             .column("gap (m)", Column::Numbers)
             .column("angle (°)", Column::Numbers);
         for gap in &assembly.gaps {
-            table.row(vec![
-                Cell::new(&gap.cycle),
-                Cell::new(figure(gap.left_position)).tint(Tint::Bad),
-                Cell::new(figure(gap.left_angle.to_degrees())),
-            ]);
+            let subject = Subject::Cycle(gap.cycle.clone());
+            table.row_about(
+                subject,
+                vec![
+                    Cell::new(&gap.cycle),
+                    Cell::new(figure(gap.left_position)).tint(Tint::Bad),
+                    Cell::new(figure(gap.left_angle.to_degrees())),
+                ],
+            );
         }
-        page.table(&table, "loops");
+        page.table(table, "loops");
         return;
     }
     let Some(moved) = assembly.moved.filter(|moved| *moved > 0.0) else {
@@ -60,8 +65,12 @@ pub(super) fn assembly(report: &Report, page: &mut Page) {
     page.paragraph(&text, Tint::Plain, "  ", "  ");
 }
 
-/// One row per joint.
-pub(super) fn joints(report: &Report, page: &mut Page) {
+/// One row per joint; with its range, where ranges are known.
+pub(in crate::report) fn joints(
+    report: &Report,
+    ranges: &BTreeMap<String, String>,
+    page: &mut Page,
+) {
     if report.joints.is_empty() {
         return;
     }
@@ -91,6 +100,9 @@ pub(super) fn joints(report: &Report, page: &mut Page) {
         Verdict::Mobile => "moves",
         _ => "gives way",
     };
+    if !ranges.is_empty() {
+        table = table.column("range", Column::Shrinking);
+    }
     if wrenches {
         table = table.column("undetermined", Column::Numbers);
     }
@@ -104,6 +116,11 @@ pub(super) fn joints(report: &Report, page: &mut Page) {
         ];
         if roles {
             row.push(role(joint, branches, moves));
+        }
+        if !ranges.is_empty() {
+            row.push(Cell::new(
+                ranges.get(&joint.name).map_or("–", String::as_str),
+            ));
         }
         if wrenches {
             row.push(match joint.redundant_wrenches {
@@ -120,9 +137,9 @@ pub(super) fn joints(report: &Report, page: &mut Page) {
             })
             .tint(Tint::Quiet),
         );
-        table.row(row);
+        table.row_about(Subject::Joint(joint.name.clone()), row);
     }
-    page.table(&table, "joints");
+    page.table(table, "joints");
     if wrenches {
         page.paragraph(
             "undetermined: directions of a joint's reaction that equilibrium alone does not fix, because constraints \
@@ -164,7 +181,7 @@ fn role(joint: &JointRow, branches: &[Branch], moves: &str) -> Cell {
 }
 
 /// The couplings' equations.
-pub(super) fn couplings(report: &Report, page: &mut Page) {
+pub(in crate::report) fn couplings(report: &Report, page: &mut Page) {
     if report.couplings.is_empty() {
         return;
     }
@@ -175,11 +192,11 @@ pub(super) fn couplings(report: &Report, page: &mut Page) {
     for coupling in &report.couplings {
         table.row(vec![Cell::new(&coupling.name), Cell::new(&coupling.text)]);
     }
-    page.table(&table, "couplings");
+    page.table(table, "couplings");
 }
 
 /// One row per basic cycle.
-pub(super) fn cycles(report: &Report, page: &mut Page) {
+pub(in crate::report) fn cycles(report: &Report, page: &mut Page) {
     if report.cycles.is_empty() {
         return;
     }
@@ -194,21 +211,25 @@ pub(super) fn cycles(report: &Report, page: &mut Page) {
         .column("freedom alone", Column::Numbers)
         .column("locks alone", Column::Shrinking);
     for cycle in &report.cycles {
-        table.row(vec![
-            Cell::new(&cycle.name).tint(Tint::Strong),
-            Cell::new(joints_of(cycle, most)),
-            Cell::new(space(cycle)),
-            Cell::new(unsure(cycle.rank)),
-            Cell::new(unsure(cycle.redundant)),
-            Cell::new(unsure(cycle.mobility)),
-            Cell::new(if cycle.locks.is_empty() {
-                "–".to_owned()
-            } else {
-                names(&cycle.locks, most)
-            }),
-        ]);
+        let subject = Subject::Cycle(cycle.name.clone());
+        table.row_about(
+            subject,
+            vec![
+                Cell::new(&cycle.name).tint(Tint::Strong),
+                Cell::new(joints_of(cycle, most)),
+                Cell::new(space(cycle)),
+                Cell::new(unsure(cycle.rank)),
+                Cell::new(unsure(cycle.redundant)),
+                Cell::new(unsure(cycle.mobility)),
+                Cell::new(if cycle.locks.is_empty() {
+                    "–".to_owned()
+                } else {
+                    names(&cycle.locks, most)
+                }),
+            ],
+        );
     }
-    page.table(&table, "loops");
+    page.table(table, "loops");
 }
 
 fn joints_of(cycle: &Cycle, most: usize) -> String {
@@ -237,7 +258,7 @@ pub(super) fn unsure(count: Option<impl ToString>) -> String {
 }
 
 /// What to change.
-pub(super) fn advice(report: &Report, page: &mut Page) {
+pub(in crate::report) fn advice(report: &Report, page: &mut Page) {
     if report.advice.is_empty() {
         return;
     }
@@ -267,7 +288,7 @@ pub(super) fn advice(report: &Report, page: &mut Page) {
 const ADVICE: usize = 8;
 
 /// What to beware of.
-pub(super) fn warnings(report: &Report, page: &mut Page) {
+pub(in crate::report) fn warnings(report: &Report, page: &mut Page) {
     if report.warnings.is_empty() {
         return;
     }
@@ -288,7 +309,7 @@ pub(super) fn warnings(report: &Report, page: &mut Page) {
 }
 
 /// What only a verbose page shows, and times where they were asked for.
-pub(super) fn details(report: &Report, page: &mut Page) {
+pub(in crate::report) fn details(report: &Report, page: &mut Page) {
     if page.layout().verbose {
         blocks(report, page);
         rank_details(report, page);
@@ -319,7 +340,7 @@ pub(super) fn details(report: &Report, page: &mut Page) {
                     Cell::new(link.depth.to_string()),
                 ]);
             }
-            page.table(&table, "links");
+            page.table(table, "links");
         }
     }
     if let Some(timing) = &report.timing {
@@ -337,7 +358,7 @@ pub(super) fn details(report: &Report, page: &mut Page) {
             Cell::new("all").tint(Tint::Strong),
             Cell::new(format!("{:.3}", timing.total_ms)),
         ]);
-        page.table(&table, "stages");
+        page.table(table, "stages");
     }
 }
 
@@ -361,7 +382,7 @@ fn blocks(report: &Report, page: &mut Page) {
             Cell::new(unsure(block.instantaneous)),
         ]);
     }
-    page.table(&table, "blocks");
+    page.table(table, "blocks");
 }
 
 fn rank_details(report: &Report, page: &mut Page) {

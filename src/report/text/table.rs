@@ -29,6 +29,18 @@ impl Cell {
         }
     }
 
+    /// Its text, harmless.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Its tint.
+    #[must_use]
+    pub fn its_tint(&self) -> Tint {
+        self.tint
+    }
+
     /// The same cell in a tint.
     #[must_use]
     pub fn tint(mut self, tint: Tint) -> Self {
@@ -48,11 +60,31 @@ pub enum Column {
     Numbers,
 }
 
+/// What a row speaks of, by name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Subject {
+    /// A link.
+    Link(String),
+    /// A joint.
+    Joint(String),
+    /// A basic cycle.
+    Cycle(String),
+}
+
+/// Cells side by side.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// What it speaks of, where that is one thing.
+    pub subject: Option<Subject>,
+    /// One for each column.
+    pub cells: Vec<Cell>,
+}
+
 /// Rows under headings.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
     columns: Vec<(String, Column)>,
-    rows: Vec<Vec<Cell>>,
+    rows: Vec<Row>,
 }
 
 impl Table {
@@ -71,8 +103,29 @@ impl Table {
 
     /// Adds a row of as many cells as there are columns.
     pub fn row(&mut self, cells: Vec<Cell>) {
+        self.add(None, cells);
+    }
+
+    /// Adds a row that speaks of one thing.
+    pub fn row_about(&mut self, subject: Subject, cells: Vec<Cell>) {
+        self.add(Some(subject), cells);
+    }
+
+    fn add(&mut self, subject: Option<Subject>, cells: Vec<Cell>) {
         debug_assert_eq!(cells.len(), self.columns.len(), "a cell for each column");
-        self.rows.push(cells);
+        self.rows.push(Row { subject, cells });
+    }
+
+    /// Titles and kinds of the columns.
+    #[must_use]
+    pub fn columns(&self) -> &[(String, Column)] {
+        &self.columns
+    }
+
+    /// The rows.
+    #[must_use]
+    pub fn rows(&self) -> &[Row] {
+        &self.rows
     }
 
     /// Writes the table, abridged to [`ABRIDGED_ROWS`] rows unless the layout is verbose; then a line says how many more
@@ -94,7 +147,7 @@ impl Table {
             self.line(&titles, &widths, layout, out);
         }
         for row in rows {
-            self.line(row, &widths, layout, out);
+            self.line(&row.cells, &widths, layout, out);
         }
         let left = self.rows.len() - shown;
         if left > 0 {
@@ -110,11 +163,11 @@ impl Table {
 
     /// Natural widths; where the page is too narrow, shrinking columns give way first, then headings wider than what
     /// stands below them, then everything.
-    fn widths(&self, rows: &[Vec<Cell>], page: usize) -> Vec<usize> {
+    fn widths(&self, rows: &[Row], page: usize) -> Vec<usize> {
         let content: Vec<usize> = (0..self.columns.len())
             .map(|index| {
                 rows.iter()
-                    .filter_map(|row| row.get(index))
+                    .filter_map(|row| row.cells.get(index))
                     .map(|cell| columns(&cell.text))
                     .max()
                     .unwrap_or(0)

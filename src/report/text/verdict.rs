@@ -10,7 +10,7 @@ use crate::mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind, V
 use crate::report::schema::{Assembly, Branch, Report};
 
 /// Writes the verdict, its reasons and the line that says what was read.
-pub(super) fn write(report: &Report, page: &mut Page) {
+pub(in crate::report) fn write(report: &Report, page: &mut Page) {
     let tint = match report.mobility.verdict {
         Verdict::Mobile => Tint::Good,
         Verdict::Rigid => Tint::Notable,
@@ -38,7 +38,7 @@ pub(super) fn write(report: &Report, page: &mut Page) {
 }
 
 /// The answer in one sentence.
-pub(super) fn sentence(report: &Report) -> String {
+pub(in crate::report) fn sentence(report: &Report) -> String {
     match report.mobility.verdict {
         Verdict::Unassembled => unassembled(&report.assembly),
         Verdict::Rigid => rigid(report),

@@ -1,0 +1,156 @@
+//! Many mechanism files: which ones, and something done with each.
+
+use super::failure::Failure;
+use std::collections::BTreeSet;
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
+use std::time::{Duration, Instant};
+
+/// Stack of a worker, as large as a main thread's usually is.
+const STACK: usize = 8 << 20;
+
+/// Extensions of mechanism files in a folder.
+const EXTENSIONS: [&str; 1] = ["urdf"];
+
+/// Folders in folders are followed this deep, which ends circles of links too.
+const DEEPEST: usize = 16;
+
+/// Files named, and mechanism files of folders named, each once, by path.
+///
+/// # Errors
+/// Where a path does not exist or a folder cannot be read; where there is no file at all.
+pub fn mechanism_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+    let mut files = BTreeSet::new();
+    for path in paths {
+        if path.is_dir() {
+            collect(path, DEEPEST, &mut files).map_err(|error| cannot_read(path, &error))?;
+        } else if path.exists() {
+            files.insert(path.clone());
+        } else {
+            return Err(Failure::Plain {
+                message: format!("there is no file or folder `{}`", path.display()),
+                help: None,
+            });
+        }
+    }
+    if files.is_empty() {
+        return Err(Failure::Plain {
+            message: "there is no mechanism file".to_owned(),
+            help: Some("folders are searched for files that end in `.urdf`".to_owned()),
+        });
+    }
+    Ok(files.into_iter().collect())
+}
+
+fn collect(
+    folder: &Path,
+    depth: usize,
+    files: &mut BTreeSet<PathBuf>,
+) -> Result<(), std::io::Error> {
+    for entry in std::fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.is_dir() {
+            if depth > 0 {
+                collect(&path, depth - 1, files)?;
+            }
+        } else if path
+            .extension()
+            .is_some_and(|own| EXTENSIONS.iter().any(|known| own == *known))
+        {
+            files.insert(path);
+        }
+    }
+    Ok(())
+}
+
+/// A path cannot be read, and what the system says.
+pub fn cannot_read(path: &Path, error: &std::io::Error) -> Failure {
+    Failure::Plain {
+        message: format!("cannot read `{}`: {error}", path.display()),
+        help: None,
+    }
+}
+
+/// Does something with every file, as many at a time as there are processors; results in the order of files.
+pub fn each<T: Send>(files: &[PathBuf], work: impl Fn(&Path) -> T + Sync) -> Vec<T> {
+    let workers = std::thread::available_parallelism()
+        .map_or(1, std::num::NonZero::get)
+        .min(files.len());
+    let next = AtomicUsize::new(0);
+    let (send, receive) = mpsc::channel();
+    let mut results: Vec<Option<T>> = files.iter().map(|_| None).collect();
+    std::thread::scope(|scope| {
+        for _ in 0..workers {
+            let (send, next, work) = (send.clone(), &next, &work);
+            let one_after_another = move || {
+                while let Some((index, file)) = {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    files.get(index).map(|file| (index, file))
+                } {
+                    if send.send((index, work(file))).is_err() {
+                        break;
+                    }
+                }
+            };
+            let spawned = std::thread::Builder::new()
+                .stack_size(STACK)
+                .spawn_scoped(scope, one_after_another);
+            // Fewer workers do the same work; with none at all it is done below.
+            if spawned.is_err() {
+                break;
+            }
+        }
+        drop(send);
+        let mut progress = Progress::new(files.len());
+        for (index, result) in receive {
+            results[index] = Some(result);
+            progress.step();
+        }
+        progress.clear();
+    });
+    results
+        .into_iter()
+        .zip(files)
+        .map(|(done, file)| done.unwrap_or_else(|| work(file)))
+        .collect()
+}
+
+/// A count on standard error for whoever waits longer than a second; none where standard error is no terminal.
+struct Progress {
+    all: usize,
+    done: usize,
+    started: Instant,
+    shown: Option<Instant>,
+    wanted: bool,
+}
+
+impl Progress {
+    fn new(all: usize) -> Self {
+        Self {
+            all,
+            done: 0,
+            started: Instant::now(),
+            shown: None,
+            wanted: std::io::stderr().is_terminal(),
+        }
+    }
+
+    fn step(&mut self) {
+        self.done += 1;
+        let due = self
+            .shown
+            .is_none_or(|last| last.elapsed() > Duration::from_millis(100));
+        if self.wanted && due && self.started.elapsed() > Duration::from_secs(1) {
+            let _ = write!(std::io::stderr(), "\r{} of {} files", self.done, self.all);
+            self.shown = Some(Instant::now());
+        }
+    }
+
+    fn clear(&self) {
+        if self.shown.is_some() {
+            let _ = write!(std::io::stderr(), "\r\u{1b}[K");
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! `kutzbach gallery DIR`: a page for every mechanism of a folder, and one that leads to them.
+
+use super::failure::Failure;
+use super::{BAD_INPUT, DONE, files, load, output};
+use clap::Args;
+use kutzbach::report::Options;
+use kutzbach::report::html::{Assets, Entry, Facts, Prepared, SCRIPT, STYLE, index, script, style};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Make a page for every mechanism of a folder, and an index with a picture of each
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// Mechanism files, or folders of them
+    #[arg(required = true, value_name = "DIR")]
+    paths: Vec<PathBuf>,
+    /// Folder to write to; made where it does not exist
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+    /// Title of the index
+    #[arg(long, default_value = "Mechanisms")]
+    title: String,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Where a path does not exist or the output cannot be written. A file that cannot be read is told of in the index and on
+/// standard error, and all others are still done.
+pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let files = files::mechanism_files(&arguments.paths)?;
+    let pages = page_names(&files);
+    std::fs::create_dir_all(&arguments.output).map_err(|error| Failure::Plain {
+        message: format!("cannot make `{}`: {error}", arguments.output.display()),
+        help: None,
+    })?;
+    let put = |name: &str, text: &str| output::put(text, Some(&arguments.output.join(name)));
+    put(SCRIPT, script())?;
+    put(STYLE, &style())?;
+    let done = files::each(&files, |file| {
+        let name = &pages[file];
+        let (entry, page) = one(file, name)?;
+        put(name, &page)?;
+        Ok(entry)
+    });
+    let mut code = DONE;
+    let mut entries = Vec::new();
+    for (file, result) in files.iter().zip(done) {
+        entries.push(result.unwrap_or_else(|failure: Failure| {
+            code = BAD_INPUT;
+            let why = failure.line();
+            failure.tell();
+            Entry::unreadable(&file.display().to_string(), &why)
+        }));
+    }
+    put("index.html", &index(&arguments.title, &entries))?;
+    Ok(code)
+}
+
+/// Reads, analyses and draws one file.
+fn one(file: &Path, page: &str) -> Result<(Entry, String), Failure> {
+    let reading = load::mechanism(file, &[])?;
+    let (report, analysis) = load::analysed(&reading, file, &Options::default())?;
+    let prepared = Prepared::new(Facts {
+        mechanism: &reading.mechanism,
+        report: &report,
+        analysis: &analysis,
+        configuration: None,
+        verification: None,
+    });
+    let text = load::html(&prepared, Assets::Beside)?;
+    Ok((prepared.entry(page), text))
+}
+
+/// A page name for every file: its own, numbered where several files have the same.
+fn page_names(files: &[PathBuf]) -> BTreeMap<PathBuf, String> {
+    let mut used: BTreeMap<String, usize> = BTreeMap::new();
+    files
+        .iter()
+        .map(|file| {
+            let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+            let safe: String = stem
+                .chars()
+                .map(|c| {
+                    if c.is_alphanumeric() || "-_.".contains(c) {
+                        c
+                    } else {
+                        '_'
+                    }
+                })
+                .collect();
+            let count = used.entry(safe.to_lowercase()).or_insert(0);
+            *count += 1;
+            // An index of the folder is there already.
+            let name = match (*count, safe.as_str()) {
+                (1, safe) if safe != "index" => format!("{safe}.html"),
+                (n, safe) => format!("{safe}-{n}.html"),
+            };
+            (file.clone(), name)
+        })
+        .collect()
+}

@@ -1,0 +1,200 @@
+//! The order of the page, its policy, script and style.
+
+use super::blocks::blocks;
+use super::drawing::page_data;
+use super::escape::{escaped, in_script};
+use super::names::Names;
+use super::ranges::ranges;
+use super::{Assets, Facts, Stage, plots};
+use crate::graph::{self, ConstraintGraph, SpanningTree};
+use crate::report::definitions;
+use crate::report::picture;
+use crate::report::text::{Layout, Page, branches, counts, sections, verdict};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use sha2::{Digest, Sha256};
+
+/// Names of the files that pages of a gallery share.
+pub const SCRIPT: &str = "viewer.js";
+/// See [`SCRIPT`].
+pub const STYLE: &str = "page.css";
+
+/// The script of every page, built from `viewer/src`; see `viewer/README.md`.
+#[must_use]
+pub fn script() -> &'static str {
+    include_str!("../../../viewer/dist/viewer.js")
+}
+
+/// The style of every page.
+#[must_use]
+pub fn style() -> String {
+    let page = include_str!("../../../viewer/dist/page.css");
+    format!("{page}\n{}\n{}", picture::STYLE, graph::FRAGMENT_STYLE)
+}
+
+/// The still has room for this many pixels.
+const STILL: [f64; 2] = [960.0, 540.0];
+
+pub(super) fn document(
+    facts: &Facts<'_>,
+    stage: &Stage,
+    assets: Assets,
+) -> Result<String, serde_json::Error> {
+    let names = Names::new(facts.mechanism, facts.report);
+    let data = serde_json::to_string(&page_data(facts, stage, &names))?;
+    let title = format!("{}: how it moves", facts.mechanism.name());
+    let mut content = String::with_capacity(data.len() + 200_000);
+    content.push_str("<main>\n");
+    body(facts, stage, &names, &mut content);
+    content.push_str("</main>\n<script type=\"application/json\" id=\"page-data\">");
+    content.push_str(&in_script(&data));
+    content.push_str("</script>\n");
+    Ok(shell(&title, &content, assets))
+}
+
+/// A document around its content, with policy, style and script.
+pub(super) fn shell(title: &str, content: &str, assets: Assets) -> String {
+    let (policy, style, script) = match assets {
+        Assets::Inside => {
+            let style = style();
+            (
+                policy(&hash(script()), &hash(&style)),
+                format!("<style>{style}</style>"),
+                format!("<script>{}</script>", script()),
+            )
+        }
+        Assets::Beside => (
+            // A folder that is opened without a server is its own origin in some browsers only.
+            policy("'self' file:", "'self' file:"),
+            format!("<link rel=\"stylesheet\" href=\"{STYLE}\">"),
+            format!("<script src=\"{SCRIPT}\"></script>"),
+        ),
+    };
+    format!(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta name=\"color-scheme\" content=\"light dark\">\n<link rel=\"icon\" href=\"data:,\">\n\
+         <title>{}</title>\n{style}\n</head>\n<body>\n{content}{script}\n</body>\n</html>\n",
+        escaped(title)
+    )
+}
+
+/// Nothing may be loaded but the page's own script and style, and only these are obeyed.
+fn policy(script: &str, style: &str) -> String {
+    format!(
+        "default-src 'none'; script-src {script}; style-src {style}; img-src data:; base-uri 'none'; form-action 'none'"
+    )
+}
+
+fn hash(text: &str) -> String {
+    format!(
+        "'sha256-{}'",
+        STANDARD.encode(Sha256::digest(text.as_bytes()))
+    )
+}
+
+fn body(facts: &Facts<'_>, stage: &Stage, names: &Names, out: &mut String) {
+    let report = facts.report;
+    header(facts, names, out);
+    out.push_str("<section id=\"motion\"><h2>Motion</h2>\n<div id=\"stage\">");
+    out.push_str(&still(stage, STILL));
+    out.push_str("</div>\n<div id=\"controls\"></div>\n</section>\n");
+    let section = |id: &str, write: &dyn Fn(&mut Page), out: &mut String| {
+        let mut page = Page::new(Layout {
+            verbose: true,
+            ..Layout::default()
+        });
+        write(&mut page);
+        if !page.blocks().is_empty() {
+            out.push_str(&format!("<section id=\"{id}\">\n"));
+            blocks(&page, names, out);
+            out.push_str("</section>\n");
+        }
+    };
+    section("freedoms", &|page| counts::write(report, page), out);
+    section("assembly", &|page| sections::assembly(report, page), out);
+    section("branches", &|page| branches::branches(report, page), out);
+    let ranges = ranges(facts.mechanism, stage);
+    section(
+        "joints",
+        &|page| sections::joints(report, &ranges, page),
+        out,
+    );
+    section("couplings", &|page| sections::couplings(report, page), out);
+    graph_section(facts, out);
+    section("loops", &|page| sections::cycles(report, page), out);
+    section("motions", &|page| branches::motions(report, page), out);
+    plots::section(facts, stage, out);
+    section("advice", &|page| sections::advice(report, page), out);
+    section("warnings", &|page| sections::warnings(report, page), out);
+    section("evidence", &|page| branches::evidence(report, page), out);
+    section("details", &|page| sections::details(report, page), out);
+    definition_list(out);
+}
+
+fn header(facts: &Facts<'_>, names: &Names, out: &mut String) {
+    let report = facts.report;
+    let mut page = Page::new(Layout {
+        verbose: true,
+        ..Layout::default()
+    });
+    verdict::write(report, &mut page);
+    out.push_str("<header id=\"verdict\">\n");
+    out.push_str(&picture::pictogram(picture::Meaning::of(report)));
+    out.push_str(&format!("\n<h1>{}</h1>\n", escaped(&report.mechanism)));
+    blocks(&page, names, out);
+    out.push_str("</header>\n");
+}
+
+/// The mechanism at the pose analysed, with where it goes drawn faintly.
+pub(super) fn still(stage: &Stage, size: [f64; 2]) -> String {
+    let played = stage.repertoire.played.first();
+    let ghosts: Vec<&[crate::closure::Rigid<f64>]> = played
+        .map(|played| {
+            let all = played.poses.len();
+            // On a closed curve the last is the first again.
+            (0..4)
+                .map(|k| played.poses[(2 * k + 1) * (all - 1) / 8].links.as_slice())
+                .collect()
+        })
+        .unwrap_or_default();
+    picture::sketch(&stage.drawing, &stage.home, &ghosts, &stage.view, size)
+}
+
+fn graph_section(facts: &Facts<'_>, out: &mut String) {
+    let graph = ConstraintGraph::of(facts.mechanism);
+    let tree = SpanningTree::low_depth(&graph);
+    out.push_str(
+        "<section id=\"graph\">\n<h2>Constraint graph</h2>\n<p class=\"quiet\">Links are boxes, joints are lines: those of \
+         the spanning <a class=\"term\" href=\"#D15\">tree</a> solid, those that close \
+         <a class=\"term\" href=\"#D14\">loops</a> dashed.</p>\n<div class=\"scroll\">",
+    );
+    out.push_str(&graph::to_svg_fragment(&graph, &tree));
+    out.push_str("</div>\n</section>\n");
+}
+
+fn definition_list(out: &mut String) {
+    out.push_str("<section id=\"definitions\">\n<h2>Definitions</h2>\n");
+    for definition in definitions::all() {
+        out.push_str(&format!(
+            "<details id=\"{0}\"><summary>{0} {1}</summary>\n",
+            definition.number,
+            escaped(definition.title)
+        ));
+        for (index, part) in definition.body.split("```").enumerate() {
+            if index % 2 == 1 {
+                // The first line is the language.
+                let formula = part.split_once('\n').map_or(part, |(_, rest)| rest);
+                out.push_str(&format!("<pre>{}</pre>\n", escaped(formula.trim_end())));
+                continue;
+            }
+            for paragraph in part.split("\n\n").map(str::trim).filter(|p| !p.is_empty()) {
+                let text = paragraph.replace('\n', " ").replace('*', "");
+                out.push_str(&format!("<p>{}</p>\n", super::blocks::prose(&text)));
+            }
+        }
+        out.push_str("</details>\n");
+    }
+    out.push_str("</section>\n");
+}

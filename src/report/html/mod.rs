@@ -1,0 +1,139 @@
+//! The report as one HTML file that moves.
+//!
+//! # The problem
+//! People who design mechanisms would rather look than read: what moves, along which branch, how far, and where it is
+//! close to being something else. They get a file by mail, open it on whatever they have, and print it.
+//!
+//! # What holds
+//! * One file, no network: the script and the style are inside, and a content security policy forbids everything that is
+//!   not, by hash. Names from a mechanism file are text, never markup.
+//! * Everything that can be read stands in the file as plain HTML and SVG, made here from the same pages as the text
+//!   report, so that neither says what the other does not. The script makes the mechanism move, links names to what they
+//!   stand for, sorts tables and reads plots; without it nothing but motion is lost.
+//! * The poses played are those of [`crate::motion`], told in single precision relative to the middle of the mechanism.
+//! * The same mechanism gives the same bytes.
+//!
+//! # What it costs
+//! Tracing every branch; the rest is linear in the poses shown, which are bounded ([`motions`]). The script is two thirds
+//! of a small page.
+//!
+//! | file | says |
+//! |---|---|
+//! | `document` | the order of the page, its policy, script and style |
+//! | `blocks`, `escape`, `names` | pages as HTML; text as text; names as indices |
+//! | `motions` | what is played |
+//! | `drawing`, `data` | the mechanism and its motions for the script |
+//! | `plots`, `ranges` | what is read off them |
+//!
+//! `docs/src/page.md` describes what page and script agree on.
+
+mod blocks;
+mod data;
+mod document;
+mod drawing;
+mod escape;
+mod gallery;
+mod motions;
+mod names;
+mod plots;
+mod ranges;
+
+use super::schema::Report;
+use crate::closure::{Arithmetic, Geometry, Rigid, spanning_poses};
+use crate::mechanism::Mechanism;
+use crate::mobility::Analysis;
+use crate::record::{Drawing, Roles};
+use crate::report::picture::View;
+use crate::simulate::verification::Verification;
+pub use document::{SCRIPT, STYLE, script, style};
+pub use gallery::{Entry, index};
+use motions::{Repertoire, repertoire};
+
+/// What a page is made of.
+#[derive(Clone, Copy, Debug)]
+pub struct Facts<'a> {
+    /// The mechanism.
+    pub mechanism: &'a Mechanism,
+    /// The report on it.
+    pub report: &'a Report,
+    /// The analysis that the report tells of.
+    pub analysis: &'a Analysis,
+    /// The configuration that was analysed; the home pose if `None`.
+    pub configuration: Option<&'a str>,
+    /// What simulation says, where it was asked.
+    pub verification: Option<&'a Verification>,
+}
+
+/// Where a page has its script and its style.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Assets {
+    /// In itself: one file.
+    Inside,
+    /// In [`SCRIPT`] and [`STYLE`] in the same folder, for many pages.
+    Beside,
+}
+
+/// The mechanism as it is drawn.
+#[derive(Debug)]
+struct Stage {
+    drawing: Drawing,
+    /// `world_from_link` at the pose analysed.
+    home: Vec<Rigid<f64>>,
+    /// The middle of the mechanism (m).
+    centre: [f64; 3],
+    view: View,
+    repertoire: Repertoire,
+}
+
+impl Stage {
+    fn new(facts: &Facts<'_>) -> Self {
+        let configuration = facts
+            .configuration
+            .and_then(|name| facts.mechanism.configuration(name));
+        let geometry = Geometry::new(facts.mechanism, configuration, &Arithmetic::double());
+        let (home, _) = spanning_poses(facts.mechanism, &geometry, &facts.analysis.assembly.states);
+        let branches = facts.analysis.branches.as_deref().unwrap_or_default();
+        let roles = Roles::of(facts.mechanism, facts.analysis, branches.first(), None);
+        let drawing = Drawing::new(facts.mechanism, &geometry, &roles);
+        let [low, high] = drawing.bounds;
+        Self {
+            centre: [0, 1, 2].map(|i| 0.5 * (low[i] + high[i])),
+            view: View::of(facts.mechanism, &geometry, &home),
+            repertoire: repertoire(facts.mechanism, facts.analysis, facts.configuration),
+            home,
+            drawing,
+        }
+    }
+}
+
+/// A mechanism with its motions traced, ready to be shown.
+#[derive(Debug)]
+pub struct Prepared<'a> {
+    facts: Facts<'a>,
+    stage: Stage,
+}
+
+impl<'a> Prepared<'a> {
+    /// Traces every branch.
+    #[must_use]
+    pub fn new(facts: Facts<'a>) -> Self {
+        Self {
+            stage: Stage::new(&facts),
+            facts,
+        }
+    }
+
+    /// The page as a complete HTML document.
+    ///
+    /// # Errors
+    /// Where data have no JSON form, which would be a fault of this program.
+    pub fn page(&self, assets: Assets) -> Result<String, serde_json::Error> {
+        document::document(&self.facts, &self.stage, assets)
+    }
+
+    /// The entry of a gallery that leads to the page of this name.
+    #[must_use]
+    pub fn entry(&self, page: &str) -> Entry {
+        Entry::new(page, self.facts.report, &self.stage)
+    }
+}

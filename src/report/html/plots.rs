@@ -1,0 +1,272 @@
+//! What is read off a rank, a motion and a simulation.
+
+use super::escape::escaped;
+use super::motions::Played;
+use super::{Facts, Stage};
+use crate::matrix::relative_singular_values;
+use crate::mechanism::Mechanism;
+use crate::mobility::PartRank;
+use crate::motion::{EventKind, Variable};
+use crate::report::picture::plot::{Axis, Form, Level, Mark, MarkKind, Plot, Scale, Series};
+use crate::report::text::words::{counted, figure};
+use crate::simulate::verification::{Outcome, Verification};
+
+/// All singular values are computed up to this many unknowns: their number is that of the bars, their cost its cube.
+const MOST_UNKNOWNS: usize = 160;
+
+/// Blocks whose singular values are shown.
+const MOST_BLOCKS: usize = 4;
+
+/// Variables in one plot; more lines nobody tells apart.
+const MOST_VARIABLES: usize = 12;
+
+/// Singular values below this share of the largest are drawn there: rounding, whose digits differ from machine to machine.
+const LEAST: f64 = 1e-17;
+
+/// All plots, in the order of the questions: how sure is the rank; how does it move; what does simulation say.
+pub(super) fn section(facts: &Facts<'_>, stage: &Stage, out: &mut String) {
+    let mut inner = String::new();
+    spectra(facts, &mut inner);
+    for (index, played) in stage.repertoire.played.iter().enumerate() {
+        inner.push_str(&format!(
+            "<div class=\"motion-plots\" data-motion=\"{index}\"{}>\n<h3>Branch {}, driven by <code>{}</code></h3>\n",
+            if index == 0 { "" } else { " hidden" },
+            escaped(&played.motion.branch),
+            escaped(&played.motion.driven.name)
+        ));
+        motion_plots(facts.mechanism, played, &mut inner);
+        inner.push_str("</div>\n");
+    }
+    if let Some(verification) = facts.verification {
+        simulation(verification, &mut inner);
+    }
+    if !inner.is_empty() {
+        out.push_str(&format!(
+            "<section id=\"plots\">\n<h2>Figures</h2>\n{inner}</section>\n"
+        ));
+    }
+}
+
+fn figure_of(plot: &Plot, caption: &str, out: &mut String) {
+    out.push_str(&format!(
+        "<figure class=\"scroll\">{}<figcaption>{}</figcaption></figure>\n",
+        plot.fragment(),
+        super::blocks::prose(caption)
+    ));
+}
+
+/// The singular values of the blocks with the thinnest margins, and below what they count as zero.
+fn spectra(facts: &Facts<'_>, out: &mut String) {
+    let analysis = facts.analysis;
+    let mut blocks: Vec<(&PartRank, &str)> = analysis
+        .parts
+        .iter()
+        .zip(&analysis.structure.parts)
+        .filter(|(rank, _)| rank.unknowns() > 0 && rank.equations() > 0)
+        .map(|(rank, part)| {
+            let first = part.joints.first();
+            let name = first.map_or("", |&joint| analysis.structure.graph.edge_name(joint));
+            (rank, name)
+        })
+        .collect();
+    let several = blocks.len() > 1;
+    let margin = |rank: &PartRank| rank.decision.kept / rank.decision.tolerance.max(f64::MIN_POSITIVE);
+    blocks.sort_by(|a, b| margin(a.0).total_cmp(&margin(b.0)));
+    for (rank, name) in blocks.into_iter().take(MOST_BLOCKS) {
+        let of_block = match several {
+            true => format!(" of the block of `{name}`"),
+            false => String::new(),
+        };
+        let decision = &rank.decision;
+        if rank.unknowns() > MOST_UNKNOWNS {
+            out.push_str(&format!(
+                "<p>{}</p>\n",
+                super::blocks::prose(&format!(
+                    "The singular values{of_block} are not drawn: it has {}. The smallest kept is estimated as {} of the \
+                     largest, those dropped as {} at most; below {} counts as zero.",
+                    counted(rank.unknowns(), "unknown"),
+                    figure(decision.kept),
+                    figure(decision.dropped),
+                    figure(decision.tolerance)
+                ))
+            ));
+            continue;
+        }
+        let Ok(Some(mut values)) = relative_singular_values(&rank.matrix) else {
+            continue;
+        };
+        // Unknowns that no equation is left for are as free as those whose value is zero.
+        values.resize(rank.unknowns(), 0.0);
+        let least = values.iter().copied().fold(decision.tolerance, f64::min);
+        let plot_title = format!("Singular values{}", of_block.replace('`', ""));
+        let mut plot = Plot::new(
+            plot_title,
+            Axis::new("number", Scale::Linear, [0.0, values.len() as f64 + 1.0]),
+            Axis::new(
+                "relative to the largest",
+                Scale::Log,
+                [(0.1 * least).clamp(LEAST, 0.1), 2.0],
+            ),
+        );
+        let kept = decision.rank.unwrap_or(decision.candidates.0);
+        for (name, colour, range) in [("kept", 0, 0..kept), ("dropped", 1, kept..values.len())] {
+            let points = range.filter_map(|i| values.get(i).map(|v| (i as f64 + 1.0, v.max(LEAST))));
+            let mut series = Series::line(name, "", colour, points);
+            series.form = Form::Bars;
+            if !series.values.is_empty() {
+                plot.series.push(series);
+            }
+        }
+        plot.levels.push(Level {
+            at: decision.tolerance,
+            label: "counts as zero".to_owned(),
+        });
+        let mut caption = format!(
+            "Each bar is a singular value of the closure equations{of_block} at this pose; those below the line count as \
+             zero, and each of them is a freedom (D3)."
+        );
+        if rank.bits > 53 {
+            caption.push_str(&format!(
+                " Drawn as double precision sees them; decided with {} bits.",
+                rank.bits
+            ));
+        }
+        figure_of(&plot, &caption, out);
+    }
+}
+
+fn motion_plots(mechanism: &Mechanism, played: &Played, out: &mut String) {
+    let variables = Variable::all(mechanism);
+    let moving: Vec<usize> = played
+        .motion
+        .ranges
+        .iter()
+        .filter(|range| range.moves)
+        .filter_map(|range| variables.iter().position(|v| *v == range.variable))
+        .collect();
+    let (Some(first), Some(last)) = (played.poses.first(), played.poses.last()) else {
+        return;
+    };
+    let span = [first.arclength, last.arclength];
+    let arclength = || Axis::new("arclength along the motion", Scale::Linear, span);
+    for (unit, shown, label) in [("rad", "°", "joint angle (°)"), ("m", "m", "joint travel (m)")] {
+        let factor = if unit == "rad" { 1f64.to_degrees() } else { 1.0 };
+        let columns: Vec<usize> = moving
+            .iter()
+            .copied()
+            .filter(|&c| variables[c].unit(mechanism) == unit)
+            .collect();
+        if columns.is_empty() {
+            continue;
+        }
+        let series: Vec<Series> = columns
+            .iter()
+            .take(MOST_VARIABLES)
+            .enumerate()
+            .map(|(colour, &column)| {
+                let values = played
+                    .poses
+                    .iter()
+                    .map(|pose| (pose.arclength, factor * pose.values[column]));
+                Series::line(&variables[column].name, shown, colour, values)
+            })
+            .collect();
+        let all = series.iter().flat_map(|s| s.values.iter().map(|v| v.y));
+        let mut plot = Plot::new("", arclength(), Axis::around(label, Scale::Linear, all));
+        plot.series = series;
+        plot.marks = marks(played, &|kind| !matches!(kind, EventKind::DeadCentre { .. }));
+        plot.follows_arclength = true;
+        let mut caption = "Joint variables along the motion (D1).".to_owned();
+        if columns.len() > MOST_VARIABLES {
+            caption.push_str(&format!(
+                " {} of {}: the first by name.",
+                MOST_VARIABLES,
+                columns.len()
+            ));
+        }
+        figure_of(&plot, &caption, out);
+    }
+    let margins: Vec<(f64, f64)> = played
+        .motion
+        .curve
+        .margins()
+        .filter(|(arclength, _)| (span[0]..=span[1]).contains(arclength))
+        .collect();
+    if margins.is_empty() {
+        return;
+    }
+    let values = margins.iter().map(|(_, margin)| *margin);
+    let axis = Axis::around("smallest singular value", Scale::Log, values);
+    let mut plot = Plot::new("", arclength(), axis);
+    plot.series.push(Series::line("smallest singular value", "", 0, margins));
+    plot.marks = marks(played, &|kind| {
+        matches!(kind, EventKind::Singular { .. } | EventKind::Cusp { .. })
+    });
+    plot.follows_arclength = true;
+    let caption = "The smallest singular value that the equations keep along the motion, with what is held: where it goes to \
+                   zero the pose is singular (D6), and near there a pose is known less well than its loops close.";
+    figure_of(&plot, caption, out);
+}
+
+fn marks(played: &Played, wanted: &dyn Fn(&EventKind) -> bool) -> Vec<Mark> {
+    let events = played.motion.events.iter().filter(|e| wanted(&e.kind));
+    events
+        .map(|event| Mark {
+            at: event.arclength,
+            label: event.kind.to_string(),
+            kind: match event.kind {
+                EventKind::Singular { .. } | EventKind::Cusp { .. } => MarkKind::Singular,
+                EventKind::DeadCentre { .. } | EventKind::JointLimit { .. } => MarkKind::Event,
+            },
+        })
+        .collect()
+}
+
+/// Closure error against substeps, branch by branch, and what follows of it.
+fn simulation(verification: &Verification, out: &mut String) {
+    let finding = &verification.finding;
+    let class = match finding.outcome {
+        Outcome::Confirmed => "good",
+        Outcome::Contradicted => "bad",
+        Outcome::Inconclusive => "doubtful",
+    };
+    out.push_str(&format!(
+        "<h3>Simulation</h3>\n<p class=\"{class}\">The physics engine says: {}. {}</p>\n",
+        finding.outcome.word(),
+        super::blocks::prose(&finding.why)
+    ));
+    let mut series = Vec::new();
+    for branch in &verification.branches {
+        for ladder in &branch.ladders {
+            let rungs = ladder.rungs.iter();
+            let points = rungs.map(|rung| (rung.substeps as f64, rung.closure_error));
+            let name = format!(
+                "{}, {} driven, {}",
+                branch.branch,
+                ladder.driven,
+                ladder.solver.word()
+            );
+            series.push(Series::line(name, "", series.len(), points));
+        }
+    }
+    if series.iter().all(|s| s.values.is_empty()) {
+        return;
+    }
+    let (mut x, mut y) = (Vec::new(), Vec::new());
+    for value in series.iter().flat_map(|s| &s.values) {
+        x.push(value.x);
+        y.push(value.y);
+    }
+    let mut plot = Plot::new(
+        "",
+        Axis::around("substeps of a step", Scale::Log, x),
+        Axis::around("closure error (lengths, rad)", Scale::Log, y),
+    );
+    plot.series = series;
+    figure_of(
+        &plot,
+        "How far the simulated loops are from closing, over the number of substeps. Where a motion is real, the error falls \
+         as their square; where it levels off, what is left is a defect of the geometry.",
+        out,
+    );
+}
