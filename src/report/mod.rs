@@ -26,6 +26,7 @@
 //! | `text` | how a report becomes a page |
 //! | `expectation`, `expected_file` | whether a report agrees with what is known |
 //! | `exact` | what the polynomials say, as data and as a page |
+//! | `picture` | plots, the mechanism drawn, a sign for each answer: still, as SVG |
 //! | `definitions` | what a word means |
 
 mod assemble;
@@ -36,6 +37,7 @@ mod expected_file;
 mod extras;
 mod findings;
 mod natural;
+pub mod picture;
 #[cfg(test)]
 #[allow(clippy::wildcard_imports)]
 pub(crate) mod samples;
