@@ -61,4 +61,4 @@ pub use cycles::{Cycle, Overlap, fundamental_cycle, fundamental_cycles, overlaps
 pub use draw::to_dot;
 pub use spanning_tree::SpanningTree;
 pub use summary::{BlockSummary, CycleSummary, CyclesSummary, GraphSummary, TreeNode};
-pub use svg::to_svg;
+pub use svg::{SVG_STYLE, svg_fragment, to_svg};

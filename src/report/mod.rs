@@ -27,6 +27,7 @@
 //! | `expectation`, `expected_file` | whether a report agrees with what is known |
 //! | `html` | how a report becomes a page that moves |
 //! | `exact` | what the polynomials say, as data and as a page |
+//! | `picture` | plots, the mechanism drawn, a sign for each answer: still, as SVG |
 //! | `definitions` | what a word means |
 
 mod assemble;
@@ -38,6 +39,7 @@ mod extras;
 mod findings;
 pub mod html;
 mod natural;
+pub mod picture;
 #[cfg(test)]
 #[allow(clippy::wildcard_imports)]
 pub(crate) mod samples;

@@ -1,0 +1,38 @@
+//! Still pictures: plots, the mechanism itself, a sign for each kind of answer.
+//!
+//! # The problem
+//! A page has to say most of what it knows without running anything: in a mail client, on paper, before a script has
+//! started. What moves can be stilled; what is a list of numbers can be seen. Here are the pictures for that, written as
+//! SVG, since it is text, sharp at every size and understood wherever a page is.
+//!
+//! # What holds
+//! * Every picture comes as a *fragment*: an `svg` element without style of its own, for a page that has the `STYLE` of its
+//!   module in its own style sheet. Plots and sketches come as a document too, which carries its style.
+//! * Colours are custom properties with values for light and for dark screens; beside each stands a fixed colour for
+//!   viewers that know no custom properties.
+//! * Nothing in a fragment is an inline style, refers to an `id` or runs: pages with a strict content security policy can
+//!   hold any number of them.
+//! * Names come from files. They are written as text only, escaped, with control characters made visible; numbers that are
+//!   not finite never reach an attribute.
+//! * The same data give the same bytes: coordinates have one decimal, and what decides about more than a coordinate is
+//!   built from comparisons with room for rounding.
+//!
+//! # What it costs
+//! Plots are linear in their points. A sketch compares parts that overlap, quadratic in their number up to a couple of
+//! thousand parts and a sort beyond; its text stays below about 150 kB for mechanisms of hundreds of joints.
+//!
+//! # Where to look
+//! | file | what it answers |
+//! |---|---|
+//! | `plot`, `plot/…` | curves, points and bars over axes |
+//! | `view` | from which side a mechanism is looked at |
+//! | `sketch`, `sketch/…` | what a mechanism looks like |
+//! | `pictogram` | which sign stands for which answer |
+//! | `markup` | how text and numbers are written |
+
+mod markup;
+pub mod pictogram;
+pub mod plot;
+pub mod sketch;
+mod vector;
+pub mod view;
