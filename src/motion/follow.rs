@@ -52,9 +52,6 @@ const SHORTEST_STEP: f64 = 1e-5;
 /// A motion whose variables come and go is followed for so many times its reach.
 const WAYS: f64 = 40.0;
 
-/// More poses are not computed.
-const MOST_NODES: usize = 20_000;
-
 /// Nor these, where every one takes the derivative of a rank.
 const MOST_DEFLATED_NODES: usize = 250;
 
@@ -173,7 +170,7 @@ pub(super) fn follow(
         let most = if solver.is_deflated() {
             MOST_DEFLATED_NODES
         } else {
-            MOST_NODES
+            solver.poses
         };
         if nodes.len() > most || here.arc - start.arc > farthest || far_enough(solver, start, &here)
         {

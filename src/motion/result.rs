@@ -8,6 +8,9 @@ use thiserror::Error;
 /// Where nothing else is said, a hinge is followed for so many turns, a slide for as many radians in part lengths.
 const MOST_TURNS: f64 = 12.0;
 
+/// Where nothing else is said, no more poses are computed each way.
+const MOST_POSES: usize = 20_000;
+
 /// What to trace.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TraceOptions {
@@ -26,6 +29,8 @@ pub struct TraceOptions {
     /// How far a variable may go from its start before the curve has been followed far enough: rad, and units of the
     /// part's length for slides.
     pub reach: f64,
+    /// Poses computed each way before the curve has been followed far enough.
+    pub poses: usize,
 }
 
 impl Default for TraceOptions {
@@ -38,6 +43,7 @@ impl Default for TraceOptions {
             samples: 100,
             configuration: None,
             reach: MOST_TURNS * std::f64::consts::TAU,
+            poses: MOST_POSES,
         }
     }
 }

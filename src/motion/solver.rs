@@ -69,6 +69,8 @@ pub(super) struct Solver {
     pub allowed: f64,
     /// How far a variable may go from its start (metric).
     pub reach: f64,
+    /// Poses computed each way before a curve has been followed far enough.
+    pub poses: usize,
 }
 
 impl Solver {
@@ -124,6 +126,7 @@ impl Solver {
             row: vec![0.0; unknowns],
             allowed,
             reach: TraceOptions::default().reach,
+            poses: TraceOptions::default().poses,
         };
         solver.linearise(start).then_some(solver)
     }

@@ -97,7 +97,8 @@ struct Tracer<'a> {
     branch: &'a Branch,
     geometry: Geometry<f64>,
     stages: Vec<Stage>,
-    reach: f64,
+    /// How far, and for how many poses each way, curves are followed.
+    limits: (f64, usize),
 }
 
 /// Everything found about one curve.
@@ -169,7 +170,7 @@ impl<'a> Tracer<'a> {
             branch,
             geometry,
             stages,
-            reach: options.reach,
+            limits: (options.reach, options.poses),
         }
     }
 

@@ -15,6 +15,17 @@ pub enum Solver {
     Impulse,
 }
 
+impl Solver {
+    /// The word for it.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Multibody => "multibody",
+            Self::Impulse => "impulse",
+        }
+    }
+}
+
 /// The physical effects of a world beside its joints and drives. Each adds its own pieces and nothing else.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Effects {

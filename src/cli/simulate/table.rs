@@ -40,13 +40,6 @@ fn sentence(finding: &Finding) -> String {
     format!("{word}: {}.", finding.why)
 }
 
-fn solver_word(solver: Solver) -> &'static str {
-    match solver {
-        Solver::Multibody => "multibody",
-        Solver::Impulse => "impulse",
-    }
-}
-
 /// A duration in seconds, to three digits.
 fn seconds(time: f64) -> String {
     if time < 1e-3 {
@@ -242,7 +235,7 @@ fn scene_page(run: &SceneRun, page: &mut Page) {
             run.time,
             1e3 * run.time_step,
             counted(run.substeps, "substep"),
-            solver_word(run.solver),
+            run.solver.word(),
             seconds(run.wall_time)
         ),
         Tint::Plain,

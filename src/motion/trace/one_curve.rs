@@ -35,7 +35,7 @@ impl Tracer<'_> {
         ) else {
             return Ok(None);
         };
-        solver.reach = self.reach;
+        (solver.reach, solver.poses) = self.limits;
         let toward = self.forward(&solver, drive);
         let Some(start) = node_at(&mut solver, pose, &toward, 0.0) else {
             return Ok(None);

@@ -7,8 +7,11 @@ use super::names::Names;
 use super::ranges::ranges;
 use super::{Assets, Facts, Stage, plots};
 use crate::graph::{self, ConstraintGraph, SpanningTree};
+use crate::mechanism::Mechanism;
 use crate::report::definitions;
-use crate::report::picture;
+use crate::report::picture::pictogram::{self, Pictogram};
+use crate::report::picture::plot;
+use crate::report::picture::sketch::{self, Sketch};
 use crate::report::text::{Layout, Page, branches, counts, sections, verdict};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -29,8 +32,18 @@ pub fn script() -> &'static str {
 #[must_use]
 pub fn style() -> String {
     let page = include_str!("../../../viewer/dist/page.css");
-    format!("{page}\n{}\n{}", picture::STYLE, graph::FRAGMENT_STYLE)
+    [
+        page,
+        plot::STYLE,
+        sketch::STYLE,
+        pictogram::STYLE,
+        graph::SVG_STYLE,
+    ]
+    .join("\n")
 }
+
+/// Poses drawn faintly in the still.
+const GHOSTS: usize = 4;
 
 /// The still has room for this many pixels.
 const STILL: [f64; 2] = [960.0, 540.0];
@@ -98,7 +111,7 @@ fn body(facts: &Facts<'_>, stage: &Stage, names: &Names, out: &mut String) {
     let report = facts.report;
     header(facts, names, out);
     out.push_str("<section id=\"motion\"><h2>Motion</h2>\n<div id=\"stage\">");
-    out.push_str(&still(stage, STILL));
+    out.push_str(&still(facts.mechanism, stage, STILL));
     out.push_str("</div>\n<div id=\"controls\"></div>\n</section>\n");
     let section = |id: &str, write: &dyn Fn(&mut Page), out: &mut String| {
         let mut page = Page::new(Layout {
@@ -141,25 +154,26 @@ fn header(facts: &Facts<'_>, names: &Names, out: &mut String) {
     });
     verdict::write(report, &mut page);
     out.push_str("<header id=\"verdict\">\n");
-    out.push_str(&picture::pictogram(picture::Meaning::of(report)));
+    let mobility = &report.mobility;
+    let sign = Pictogram::of(mobility.verdict, mobility.class, report.home.kind);
+    out.push_str(&sign.fragment());
     out.push_str(&format!("\n<h1>{}</h1>\n", escaped(&report.mechanism)));
     blocks(&page, names, out);
     out.push_str("</header>\n");
 }
 
 /// The mechanism at the pose analysed, with where it goes drawn faintly.
-pub(super) fn still(stage: &Stage, size: [f64; 2]) -> String {
-    let played = stage.repertoire.played.first();
-    let ghosts: Vec<&[crate::closure::Rigid<f64>]> = played
-        .map(|played| {
-            let all = played.poses.len();
-            // On a closed curve the last is the first again.
-            (0..4)
-                .map(|k| played.poses[(2 * k + 1) * (all - 1) / 8].links.as_slice())
-                .collect()
-        })
-        .unwrap_or_default();
-    picture::sketch(&stage.drawing, &stage.home, &ghosts, &stage.view, size)
+pub(super) fn still(mechanism: &Mechanism, stage: &Stage, size: [f64; 2]) -> String {
+    let mut sketch = Sketch::new(mechanism, &stage.drawing, &stage.home, stage.view);
+    sketch.size = size;
+    sketch.gaps.clone_from(&stage.gaps);
+    if let Some(played) = stage.repertoire.played.first() {
+        // On a closed curve the last pose is the first again.
+        let all = played.poses.len().saturating_sub(1);
+        let poses = (0..GHOSTS).map(|k| (2 * k + 1) * all / (2 * GHOSTS));
+        sketch.ghosts = poses.map(|k| played.poses[k].links.as_slice()).collect();
+    }
+    sketch.fragment()
 }
 
 fn graph_section(facts: &Facts<'_>, out: &mut String) {
@@ -170,7 +184,7 @@ fn graph_section(facts: &Facts<'_>, out: &mut String) {
          the spanning <a class=\"term\" href=\"#D15\">tree</a> solid, those that close \
          <a class=\"term\" href=\"#D14\">loops</a> dashed.</p>\n<div class=\"scroll\">",
     );
-    out.push_str(&graph::to_svg_fragment(&graph, &tree));
+    out.push_str(&graph::svg_fragment(&graph, &tree));
     out.push_str("</div>\n</section>\n");
 }
 

@@ -1,23 +1,6 @@
 //! Text from files inside markup and inside data.
 
-use crate::report::text::visible;
-
-/// Text as it may stand between tags and in quoted attributes; control characters are written out.
-#[must_use]
-pub fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in visible(text).chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\'' => out.push_str("&#39;"),
-            c => out.push(c),
-        }
-    }
-    out
-}
+pub use crate::report::picture::markup::escaped;
 
 /// JSON as it may stand in a script element: no `<`, which could end the element or open a comment.
 #[must_use]

@@ -3,6 +3,7 @@
 use super::document::shell;
 use super::escape::escaped;
 use super::{Assets, Stage};
+use crate::mechanism::Mechanism;
 use crate::mobility::Verdict;
 use crate::report::Report;
 use crate::report::text::{verdict, words::counted};
@@ -53,7 +54,7 @@ impl Group {
 }
 
 impl Entry {
-    pub(super) fn new(page: &str, report: &Report, stage: &Stage) -> Self {
+    pub(super) fn new(page: &str, mechanism: &Mechanism, report: &Report, stage: &Stage) -> Self {
         let size = &report.size;
         Self {
             page: Some(page.to_owned()),
@@ -66,7 +67,7 @@ impl Entry {
                 counted(size.loops, "loop"),
                 report.kutzbach
             ),
-            picture: super::document::still(stage, THUMBNAIL),
+            picture: super::document::still(mechanism, stage, THUMBNAIL),
             group: match report.mobility.verdict {
                 Verdict::Mobile => Group::Mobile,
                 Verdict::Rigid => Group::Rigid,

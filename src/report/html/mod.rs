@@ -43,7 +43,7 @@ use crate::closure::{Arithmetic, Geometry, Rigid, spanning_poses};
 use crate::mechanism::Mechanism;
 use crate::mobility::Analysis;
 use crate::record::{Drawing, Roles};
-use crate::report::picture::View;
+use crate::report::picture::view::View;
 use crate::simulate::verification::Verification;
 pub use document::{SCRIPT, STYLE, script, style};
 pub use gallery::{Entry, index};
@@ -82,6 +82,8 @@ struct Stage {
     /// The middle of the mechanism (m).
     centre: [f64; 3],
     view: View,
+    /// Points that should be one, where the mechanism does not assemble (world, m).
+    gaps: Vec<[[f64; 3]; 2]>,
     repertoire: Repertoire,
 }
 
@@ -98,12 +100,28 @@ impl Stage {
         let [low, high] = drawing.bounds;
         Self {
             centre: [0, 1, 2].map(|i| 0.5 * (low[i] + high[i])),
-            view: View::of(facts.mechanism, &geometry, &home),
+            view: View::of(&drawing, &geometry.displacements, &home),
+            gaps: gaps(facts, &geometry, &home),
             repertoire: repertoire(facts.mechanism, facts.analysis, facts.configuration),
             home,
             drawing,
         }
     }
+}
+
+/// Where the loops of a mechanism that does not assemble stay open: the two sides of the joint that closes each.
+fn gaps(facts: &Facts<'_>, geometry: &Geometry<f64>, links: &[Rigid<f64>]) -> Vec<[[f64; 3]; 2]> {
+    let assembly = &facts.analysis.assembly;
+    if assembly.closed {
+        return Vec::new();
+    }
+    let side = |joint: usize, side: usize| {
+        let known = &facts.mechanism.joints()[joint];
+        let link = [known.predecessor.link.0, known.successor.link.0][side];
+        links[link].apply(&geometry.sides[joint][side].translation)
+    };
+    let open = assembly.gaps.iter();
+    open.map(|gap| [0, 1].map(|k| side(gap.joint, k))).collect()
 }
 
 /// A mechanism with its motions traced, ready to be shown.
@@ -134,6 +152,6 @@ impl<'a> Prepared<'a> {
     /// The entry of a gallery that leads to the page of this name.
     #[must_use]
     pub fn entry(&self, page: &str) -> Entry {
-        Entry::new(page, self.facts.report, &self.stage)
+        Entry::new(page, self.facts.mechanism, self.facts.report, &self.stage)
     }
 }

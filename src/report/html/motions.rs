@@ -19,12 +19,19 @@ const SAMPLES: [usize; 2] = [24, 240];
 /// Motions of a branch of several freedoms, at most.
 const DRIVES: usize = 6;
 
+/// Of large mechanisms fewer: so many variables all together, the cost of a pose being about the square of their number.
+const DRIVEN_VARIABLES: usize = 120;
+
 /// Branches that are traced at most.
 const BRANCHES: usize = 12;
 
 /// How far a joint of a branch of several freedoms is followed (rad, part lengths): once around, and a little more to see
 /// that it closes.
 const REACH: f64 = 7.0;
+
+/// Poses computed of such a motion each way: enough for once around in a mechanism of few joints, and to see where it goes
+/// in one of many.
+const POSES: usize = 300;
 
 /// What goes on and on is shown for two turns of a hinge, or for a slide by the part's length.
 const SHOWN_TURN: f64 = 4.0 * std::f64::consts::PI;
@@ -110,36 +117,21 @@ pub(super) fn repertoire(
             repertoire.still.push(Some(text));
             continue;
         }
-        let mut options = TraceOptions {
+        let options = TraceOptions {
             branch: Some(branch.name.clone()),
             ..options.clone()
         };
-        if branch.dimension > 1 {
-            options.reach = REACH;
-        }
-        match trace(mechanism, analysis, &options) {
-            Ok(Trace::Moving(motion)) => {
-                let others = if motion.dimension > 1 {
-                    other_drives(mechanism, branch, &motion)
-                } else {
-                    Vec::new()
-                };
-                found.push((index, *motion));
-                for drive in others {
-                    let options = TraceOptions {
-                        drive: Some(drive.name),
-                        ..options.clone()
-                    };
-                    // What cannot be driven is not offered.
-                    if let Ok(Trace::Moving(motion)) = trace(mechanism, analysis, &options) {
-                        found.push((index, *motion));
-                    }
-                }
-                repertoire.still.push(None);
+        let mut still = None;
+        for options in ways(mechanism, branch, &options) {
+            match trace(mechanism, analysis, &options) {
+                Ok(Trace::Moving(motion)) => found.push((index, *motion)),
+                Ok(Trace::Still(why)) => still = still.or(Some(why.reason)),
+                Err(error) => still = still.or(Some(error.to_string())),
             }
-            Ok(Trace::Still(still)) => repertoire.still.push(Some(still.reason)),
-            Err(error) => repertoire.still.push(Some(error.to_string())),
         }
+        // What cannot be driven is not offered, as long as something is.
+        still = still.filter(|_| found.last().is_none_or(|(branch, _)| *branch != index));
+        repertoire.still.push(still);
     }
     let links = mechanism.links().len().max(1);
     let [least, most] = SAMPLES;
@@ -168,33 +160,48 @@ fn can_drive(mechanism: &Mechanism, variable: &Variable) -> bool {
     turns <= 1 || freedoms[variable.freedom] != FreedomPart::Rotation
 }
 
-/// Other variables of a branch that can be driven: those at the ground first, then by name.
-fn other_drives(mechanism: &Mechanism, branch: &Branch, motion: &Motion) -> Vec<Variable> {
-    let Some(pose) = branch.poses.first() else {
-        return Vec::new();
+/// What to trace of a branch: one curve, or for several freedoms one for each of some joints that are driven. Marked inputs
+/// come first, then joints of one freedom, those at the ground, and names.
+fn ways(mechanism: &Mechanism, branch: &Branch, options: &TraceOptions) -> Vec<TraceOptions> {
+    let Some(pose) = branch.poses.first().filter(|_| branch.dimension > 1) else {
+        return vec![options.clone()];
     };
-    let mut others: Vec<(bool, String, Variable)> = Variable::all(mechanism)
+    let driven_by_scene = |variable: &Variable| {
+        let drives = mechanism.scene().map(|scene| &scene.drives[..]);
+        drives.is_some_and(|drives| drives.iter().any(|d| d.joint.0 == variable.joint))
+    };
+    let mut variables: Vec<((bool, bool, bool, bool), Variable)> = Variable::all(mechanism)
         .into_iter()
         .enumerate()
         .filter(|(column, variable)| {
             let moves = pose.tangents.iter().any(|tangent| tangent[*column] != 0.0);
-            moves && *variable != motion.driven && can_drive(mechanism, variable)
+            moves && can_drive(mechanism, variable)
         })
         .map(|(_, variable)| {
             let joint = &mechanism.joints()[variable.joint];
-            let ground =
-                [joint.predecessor.link, joint.successor.link].contains(&mechanism.ground());
-            (!ground, variable.name.clone(), variable)
+            let ends = [joint.predecessor.link, joint.successor.link];
+            let order = (
+                !driven_by_scene(&variable),
+                joint.independent != Some(true),
+                joint.freedom() > 1,
+                !ends.contains(&mechanism.ground()),
+            );
+            (order, variable)
         })
         .collect();
-    others.sort_by(|a, b| {
-        let by_name = || crate::report::natural_order(&a.1, &b.1);
+    variables.sort_by(|a, b| {
+        let by_name = || crate::report::natural_order(&a.1.name, &b.1.name);
         a.0.cmp(&b.0).then_with(by_name)
     });
-    others.truncate(DRIVES - 1);
-    others
-        .into_iter()
-        .map(|(_, _, variable)| variable)
+    let most = (DRIVEN_VARIABLES / mechanism.freedom().max(1)).clamp(1, DRIVES);
+    let drives = variables.into_iter().take(most);
+    drives
+        .map(|(_, variable)| TraceOptions {
+            drive: Some(variable.name),
+            reach: REACH,
+            poses: POSES,
+            ..options.clone()
+        })
         .collect()
 }
 

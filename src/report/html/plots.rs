@@ -70,7 +70,8 @@ fn spectra(facts: &Facts<'_>, out: &mut String) {
         })
         .collect();
     let several = blocks.len() > 1;
-    let margin = |rank: &PartRank| rank.decision.kept / rank.decision.tolerance.max(f64::MIN_POSITIVE);
+    let margin =
+        |rank: &PartRank| rank.decision.kept / rank.decision.tolerance.max(f64::MIN_POSITIVE);
     blocks.sort_by(|a, b| margin(a.0).total_cmp(&margin(b.0)));
     for (rank, name) in blocks.into_iter().take(MOST_BLOCKS) {
         let of_block = match several {
@@ -110,7 +111,8 @@ fn spectra(facts: &Facts<'_>, out: &mut String) {
         );
         let kept = decision.rank.unwrap_or(decision.candidates.0);
         for (name, colour, range) in [("kept", 0, 0..kept), ("dropped", 1, kept..values.len())] {
-            let points = range.filter_map(|i| values.get(i).map(|v| (i as f64 + 1.0, v.max(LEAST))));
+            let points =
+                range.filter_map(|i| values.get(i).map(|v| (i as f64 + 1.0, v.max(LEAST))));
             let mut series = Series::line(name, "", colour, points);
             series.form = Form::Bars;
             if !series.values.is_empty() {
@@ -149,8 +151,15 @@ fn motion_plots(mechanism: &Mechanism, played: &Played, out: &mut String) {
     };
     let span = [first.arclength, last.arclength];
     let arclength = || Axis::new("arclength along the motion", Scale::Linear, span);
-    for (unit, shown, label) in [("rad", "°", "joint angle (°)"), ("m", "m", "joint travel (m)")] {
-        let factor = if unit == "rad" { 1f64.to_degrees() } else { 1.0 };
+    for (unit, shown, label) in [
+        ("rad", "°", "joint angle (°)"),
+        ("m", "m", "joint travel (m)"),
+    ] {
+        let factor = if unit == "rad" {
+            1f64.to_degrees()
+        } else {
+            1.0
+        };
         let columns: Vec<usize> = moving
             .iter()
             .copied()
@@ -174,7 +183,9 @@ fn motion_plots(mechanism: &Mechanism, played: &Played, out: &mut String) {
         let all = series.iter().flat_map(|s| s.values.iter().map(|v| v.y));
         let mut plot = Plot::new("", arclength(), Axis::around(label, Scale::Linear, all));
         plot.series = series;
-        plot.marks = marks(played, &|kind| !matches!(kind, EventKind::DeadCentre { .. }));
+        plot.marks = marks(played, &|kind| {
+            !matches!(kind, EventKind::DeadCentre { .. })
+        });
         plot.follows_arclength = true;
         let mut caption = "Joint variables along the motion (D1).".to_owned();
         if columns.len() > MOST_VARIABLES {
@@ -198,7 +209,8 @@ fn motion_plots(mechanism: &Mechanism, played: &Played, out: &mut String) {
     let values = margins.iter().map(|(_, margin)| *margin);
     let axis = Axis::around("smallest singular value", Scale::Log, values);
     let mut plot = Plot::new("", arclength(), axis);
-    plot.series.push(Series::line("smallest singular value", "", 0, margins));
+    plot.series
+        .push(Series::line("smallest singular value", "", 0, margins));
     plot.marks = marks(played, &|kind| {
         matches!(kind, EventKind::Singular { .. } | EventKind::Cusp { .. })
     });

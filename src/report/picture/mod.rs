@@ -30,7 +30,7 @@
 //! | `pictogram` | which sign stands for which answer |
 //! | `markup` | how text and numbers are written |
 
-mod markup;
+pub(super) mod markup;
 pub mod pictogram;
 pub mod plot;
 pub mod sketch;
