@@ -104,6 +104,12 @@ impl Curve {
         self.nodes.iter().map(|node| (node.arc, node.margin))
     }
 
+    /// (arclength, unknowns of the part) at the poses that the curve is made of, in the order of the arclength.
+    pub fn poses(&self) -> impl Iterator<Item = (f64, &[f64])> {
+        let nodes = self.nodes.iter();
+        nodes.map(|node| (node.arc, node.pose.values.as_slice()))
+    }
+
     /// The pose at an arclength; `None` beyond the ends of a curve that is not closed. On a closed curve angles go on
     /// counting.
     pub fn pose_at_arclength(&mut self, arclength: f64) -> Option<CurvePose> {

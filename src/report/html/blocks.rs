@@ -3,15 +3,15 @@
 use super::escape::escaped;
 use super::names::Names;
 use crate::report::definitions;
-use crate::report::text::{Block, Cell, Column, Page, Row, Table, Tint};
+use crate::report::text::{Block, Cell, Column, Row, Table, Tint};
 
 /// Tables longer than this are abridged: nobody reads on, and a browser gets slow.
 const ROWS: usize = 2000;
 
-/// Everything a page says, headings as `<h2>`.
-pub(super) fn blocks(page: &Page, names: &Names, out: &mut String) {
+/// What a page says, headings as `<h2>`.
+pub(super) fn write(blocks: &[Block], names: &Names, out: &mut String) {
     let mut listed = false;
-    for block in page.blocks() {
+    for block in blocks {
         let item = matches!(block, Block::Item { .. });
         if item != listed {
             out.push_str(if item { "<ul>\n" } else { "</ul>\n" });

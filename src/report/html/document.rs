@@ -1,6 +1,6 @@
 //! The order of the page, its policy, script and style.
 
-use super::blocks::blocks;
+use super::blocks;
 use super::drawing::page_data;
 use super::escape::{escaped, in_script};
 use super::names::Names;
@@ -8,11 +8,12 @@ use super::ranges::ranges;
 use super::{Assets, Facts, Stage, plots};
 use crate::graph::{self, ConstraintGraph, SpanningTree};
 use crate::mechanism::Mechanism;
+use crate::report::Report;
 use crate::report::definitions;
 use crate::report::picture::pictogram::{self, Pictogram};
 use crate::report::picture::plot;
 use crate::report::picture::sketch::{self, Sketch};
-use crate::report::text::{Layout, Page, branches, counts, sections, verdict};
+use crate::report::text::{Block, Layout, Page, branches, counts, sections, verdict};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use sha2::{Digest, Sha256};
@@ -38,6 +39,7 @@ pub fn style() -> String {
         sketch::STYLE,
         pictogram::STYLE,
         graph::SVG_STYLE,
+        include_str!("gallery.css"),
     ]
     .join("\n")
 }
@@ -107,21 +109,33 @@ fn hash(text: &str) -> String {
     )
 }
 
+/// A page that has room for everything.
+fn verbose() -> Page {
+    Page::new(Layout {
+        verbose: true,
+        ..Layout::default()
+    })
+}
+
 fn body(facts: &Facts<'_>, stage: &Stage, names: &Names, out: &mut String) {
     let report = facts.report;
-    header(facts, names, out);
+    let mut page = verbose();
+    verdict::write(report, &mut page);
+    let is_reason = |block: &Block| matches!(block, Block::Item { .. } | Block::Gap);
+    let all = page.blocks();
+    let (answer, reasons) = all.split_at(all.iter().position(is_reason).unwrap_or(all.len()));
+    header(report, answer, names, out);
     out.push_str("<section id=\"motion\"><h2>Motion</h2>\n<div id=\"stage\">");
     out.push_str(&still(facts.mechanism, stage, STILL));
-    out.push_str("</div>\n<div id=\"controls\"></div>\n</section>\n");
+    out.push_str("</div>\n<div id=\"controls\"></div>\n</section>\n<section id=\"reasons\">\n");
+    blocks::write(reasons, names, out);
+    out.push_str("</section>\n");
     let section = |id: &str, write: &dyn Fn(&mut Page), out: &mut String| {
-        let mut page = Page::new(Layout {
-            verbose: true,
-            ..Layout::default()
-        });
+        let mut page = verbose();
         write(&mut page);
         if !page.blocks().is_empty() {
             out.push_str(&format!("<section id=\"{id}\">\n"));
-            blocks(&page, names, out);
+            blocks::write(page.blocks(), names, out);
             out.push_str("</section>\n");
         }
     };
@@ -146,19 +160,16 @@ fn body(facts: &Facts<'_>, stage: &Stage, names: &Names, out: &mut String) {
     definition_list(out);
 }
 
-fn header(facts: &Facts<'_>, names: &Names, out: &mut String) {
-    let report = facts.report;
-    let mut page = Page::new(Layout {
-        verbose: true,
-        ..Layout::default()
-    });
-    verdict::write(report, &mut page);
-    out.push_str("<header id=\"verdict\">\n");
+/// What to read first; the reasons stand below the mechanism.
+fn header(report: &Report, answer: &[Block], names: &Names, out: &mut String) {
     let mobility = &report.mobility;
     let sign = Pictogram::of(mobility.verdict, mobility.class, report.home.kind);
-    out.push_str(&sign.fragment());
-    out.push_str(&format!("\n<h1>{}</h1>\n", escaped(&report.mechanism)));
-    blocks(&page, names, out);
+    out.push_str(&format!(
+        "<header id=\"verdict\">\n{}\n<h1>{}</h1>\n",
+        sign.fragment(),
+        escaped(&report.mechanism)
+    ));
+    blocks::write(answer, names, out);
     out.push_str("</header>\n");
 }
 

@@ -11,10 +11,10 @@ use crate::motion::{EndReason, Motion, Trace, TraceOptions, Variable, trace};
 use crate::record::Roles;
 
 /// Poses of links that a page holds at most, all motions together; about 40 bytes each.
-const LINK_POSES: usize = 24_000;
+const LINK_POSES: usize = 12_000;
 
 /// Samples of a motion, at least and at most, whatever the number of links.
-const SAMPLES: [usize; 2] = [24, 240];
+const SAMPLES: [usize; 2] = [24, 180];
 
 /// Motions of a branch of several freedoms, at most.
 const DRIVES: usize = 6;
@@ -35,9 +35,6 @@ const POSES: usize = 300;
 
 /// What goes on and on is shown for two turns of a hinge, or for a slide by the part's length.
 const SHOWN_TURN: f64 = 4.0 * std::f64::consts::PI;
-
-/// Poses looked at to see how far that is.
-const LOOKS: usize = 256;
 
 /// Samples closer than this (parts of the whole way) cannot be told apart in single precision.
 const SAME: f64 = 1e-6;
@@ -212,7 +209,7 @@ fn play(
     roles: Roles,
     samples: usize,
 ) -> Played {
-    let window = window(mechanism, &mut motion);
+    let window = window(mechanism, &motion);
     motion
         .events
         .retain(|event| (window.0..=window.1).contains(&event.arclength));
@@ -251,7 +248,7 @@ fn play(
 
 /// The arclengths to show: all of a curve that closes or has ends; of one that goes on, as long as no joint has gone too
 /// far from the start.
-fn window(mechanism: &Mechanism, motion: &mut Motion) -> (f64, f64) {
+fn window(mechanism: &Mechanism, motion: &Motion) -> (f64, f64) {
     let (first, last) = motion.curve.arclengths();
     let goes_on = motion
         .ends
@@ -260,40 +257,38 @@ fn window(mechanism: &Mechanism, motion: &mut Motion) -> (f64, f64) {
     if motion.closed.is_some() || !goes_on {
         return (first, last);
     }
-    let most: Vec<f64> = Variable::all(mechanism)
+    let unknowns = motion.curve.system().variables();
+    let most: Vec<f64> = unknowns
         .iter()
-        .map(|variable| match variable.unit(mechanism) {
-            "m" => motion.length_unit,
-            _ => SHOWN_TURN,
-        })
+        .map(
+            |&(joint, freedom)| match Variable::of(mechanism, joint, freedom).unit(mechanism) {
+                "m" => motion.length_unit,
+                _ => SHOWN_TURN,
+            },
+        )
         .collect();
-    let curve = &mut motion.curve;
-    let mut values = |arclength: f64| -> Option<Vec<f64>> {
-        let found = curve.pose_at_arclength(arclength)?;
-        Some(all_values(&curve.states(&found.pose)))
-    };
-    let Some(start) = values(0.0) else {
+    let Some((_, start)) = motion
+        .curve
+        .poses()
+        .find(|(arclength, _)| *arclength >= 0.0)
+    else {
         return (first, last);
     };
-    let mut reached = |end: f64| {
-        let mut kept = 0.0;
-        for look in 1..=LOOKS {
-            let arclength = end * look as f64 / LOOKS as f64;
-            let near = values(arclength).is_some_and(|values| {
-                let pairs = values.iter().zip(&start).zip(&most);
-                pairs
-                    .into_iter()
-                    .all(|((a, b), most)| (a - b).abs() <= *most)
-            });
-            if !near {
-                break;
-            }
-            kept = arclength;
-        }
-        kept
+    let near = |values: &[f64]| {
+        let mut pairs = values.iter().zip(start).zip(&most);
+        pairs.all(|((a, b), most)| (a - b).abs() <= *most)
     };
-    let shown = (reached(first), reached(last));
-    // A step of the look-out may be too long already.
+    // The last pose near the start on either side; whatever lies beyond one that is far is not shown.
+    let mut shown = (0.0, 0.0);
+    for (arclength, values) in motion.curve.poses() {
+        match (near(values), arclength < 0.0) {
+            (true, true) if shown.0 == 0.0 => shown.0 = arclength,
+            (false, true) => shown.0 = 0.0,
+            (true, false) => shown.1 = arclength,
+            (true, true) => {}
+            (false, false) => break,
+        }
+    }
     if shown.1 > shown.0 {
         shown
     } else {
