@@ -36,9 +36,20 @@ pub fn svg_fragment(graph: &ConstraintGraph, tree: &SpanningTree) -> String {
     written(graph, tree, false)
 }
 
+/// Attributes by which a page finds a link or joint, and by which the keyboard reaches it. A document of its own has none:
+/// indices depend on the order of the file, and nothing reads them.
+fn handle(alone: bool, what: &str, index: usize, reached: bool) -> String {
+    match (alone, reached) {
+        (true, _) => String::new(),
+        (false, false) => format!(" data-{what}=\"{index}\""),
+        (false, true) => format!(" data-{what}=\"{index}\" tabindex=\"0\""),
+    }
+}
+
 fn written(graph: &ConstraintGraph, tree: &SpanningTree, alone: bool) -> String {
     let layout = Layout::new(graph, tree);
-    let (width, height) = layout.size(tree);
+    let curves = layout.curves(graph, tree);
+    let (width, height) = layout.size(&curves);
     let title = format!(
         "Constraint graph: {} links, {} joints, {} independent loops",
         graph.node_count(),
@@ -65,15 +76,14 @@ fn written(graph: &ConstraintGraph, tree: &SpanningTree, alone: bool) -> String 
             ),
         );
     }
-    let curves = layout.curves(graph, tree);
     for &edge in tree.edges().iter().chain(tree.chords()) {
-        write_edge(&mut svg, graph, tree, edge, &curves[edge]);
+        write_edge(&mut svg, graph, tree, edge, &curves[edge], alone);
     }
     for &node in graph.nodes_by_name() {
-        write_node(&mut svg, graph, node, layout.boxes[node]);
+        write_node(&mut svg, graph, node, layout.boxes[node], alone);
     }
     if graph.edge_count() <= PLACED_EDGES {
-        write_edge_names(&mut svg, graph, tree, &layout, &curves);
+        write_edge_names(&mut svg, graph, tree, &layout, &curves, alone);
     }
     write_legend(&mut svg, width, height - LEGEND_HEIGHT / 2.0);
     svg.push_str("</svg>\n");
@@ -86,6 +96,7 @@ fn write_edge(
     tree: &SpanningTree,
     edge: usize,
     curve: &Curve,
+    alone: bool,
 ) {
     let spec = graph.edge(edge);
     let class = if tree.contains(edge) {
@@ -102,11 +113,11 @@ fn write_edge(
         svg,
         format_args!(
             concat!(
-                "<g data-joint=\"{edge}\" tabindex=\"0\"><title>{name} ({class_of}, freedom {freedom}): {from} to {to}</title>",
+                "<g{handle}><title>{name} ({class_of}, freedom {freedom}): {from} to {to}</title>",
                 // Wide and unseen: something to point at.
                 "<path class=\"touch\" d=\"{path}\"/><path class=\"{class}\" d=\"{path}\"/></g>\n"
             ),
-            edge = edge,
+            handle = handle(alone, "joint", edge, true),
             name = escaped(&spec.name),
             class_of = escaped(&spec.class),
             freedom = spec.freedom,
@@ -118,7 +129,13 @@ fn write_edge(
     );
 }
 
-fn write_node(svg: &mut String, graph: &ConstraintGraph, node: usize, place: Rectangle) {
+fn write_node(
+    svg: &mut String,
+    graph: &ConstraintGraph,
+    node: usize,
+    place: Rectangle,
+    alone: bool,
+) {
     let (box_class, text_class) = if node == graph.ground() {
         ("link ground", " class=\"ground-name\"")
     } else {
@@ -127,7 +144,7 @@ fn write_node(svg: &mut String, graph: &ConstraintGraph, node: usize, place: Rec
     put(
         svg,
         format_args!(
-            "<g data-link=\"{node}\" tabindex=\"0\"><title>{name}</title><rect class=\"{box_class}\" x=\"{:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{:.1}\" rx=\"5\"/><text{text_class} x=\"{:.1}\" y=\"{:.1}\">{name}</text></g>\n",
+            "<g{handle}><title>{name}</title><rect class=\"{box_class}\" x=\"{:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{:.1}\" rx=\"5\"/><text{text_class} dy=\"0.35em\" x=\"{:.1}\" y=\"{:.1}\">{name}</text></g>\n",
             place.centre.x - place.half_width,
             place.centre.y - place.half_height,
             2.0 * place.half_width,
@@ -135,6 +152,7 @@ fn write_node(svg: &mut String, graph: &ConstraintGraph, node: usize, place: Rec
             place.centre.x,
             place.centre.y,
             name = escaped(graph.node_name(node)),
+            handle = handle(alone, "link", node, true),
         ),
     );
 }
@@ -146,6 +164,7 @@ fn write_edge_names(
     tree: &SpanningTree,
     layout: &Layout,
     curves: &[Curve],
+    alone: bool,
 ) {
     const PLACES: [f64; 11] = [
         0.5, 0.44, 0.56, 0.38, 0.62, 0.32, 0.68, 0.26, 0.74, 0.2, 0.8,
@@ -173,10 +192,10 @@ fn write_edge_names(
             format_args!(
                 concat!(
                     // The halo is a text of its own: not every viewer knows `paint-order`.
-                    "<g data-joint=\"{edge}\"><text class=\"halo\" aria-hidden=\"true\" x=\"{x:.1}\" y=\"{y:.1}\">{name}</text>",
-                    "<text class=\"{class}\" x=\"{x:.1}\" y=\"{y:.1}\">{name}</text></g>\n"
+                    "<g{handle}><text class=\"halo\" aria-hidden=\"true\" dy=\"0.35em\" x=\"{x:.1}\" y=\"{y:.1}\">{name}</text>",
+                    "<text class=\"{class}\" dy=\"0.35em\" x=\"{x:.1}\" y=\"{y:.1}\">{name}</text></g>\n"
                 ),
-                edge = edge,
+                handle = handle(alone, "joint", edge, false),
                 x = label.centre.x,
                 y = label.centre.y,
                 name = escaped(name),
@@ -192,9 +211,9 @@ fn write_legend(svg: &mut String, width: f64, y: f64) {
         svg,
         format_args!(
             concat!(
-                "<g transform=\"translate({left:.1} {y:.1})\"><path class=\"edge\" d=\"M0 0H36\"/><text x=\"92\" y=\"0\">spanning tree</text>",
-                "<path class=\"edge chord\" d=\"M160 0H196\"/><text x=\"252\" y=\"0\">closes a loop</text>",
-                "<rect class=\"link ground\" x=\"322\" y=\"-7\" width=\"36\" height=\"14\" rx=\"3\"/><text x=\"386\" y=\"0\">ground</text></g>\n"
+                "<g transform=\"translate({left:.1} {y:.1})\"><path class=\"edge\" d=\"M0 0H36\"/><text x=\"92\" y=\"0\" dy=\"0.35em\">spanning tree</text>",
+                "<path class=\"edge chord\" d=\"M160 0H196\"/><text x=\"252\" y=\"0\" dy=\"0.35em\">closes a loop</text>",
+                "<rect class=\"link ground\" x=\"322\" y=\"-7\" width=\"36\" height=\"14\" rx=\"3\"/><text x=\"386\" y=\"0\" dy=\"0.35em\">ground</text></g>\n"
             ),
             left = (width - 410.0) / 2.0,
             y = y,
@@ -235,6 +254,48 @@ mod tests {
         assert_eq!(svg.matches("class=\"edge chord\"").count(), 5 + 1);
         assert_eq!(svg.matches("class=\"edge\"").count(), 4 + 1);
         assert_eq!(svg.matches("class=\"link ground\"").count(), 1 + 1);
+    }
+
+    #[test]
+    fn the_element_for_pages_knows_links_and_joints() {
+        let graph = samples::cartesian_table();
+        let svg = svg_fragment(&graph, &SpanningTree::low_depth(&graph));
+        let document = roxmltree::Document::parse(&svg).unwrap();
+        assert_eq!(document.root_element().attribute("class"), Some("graph"));
+        assert!(!svg.contains("style"));
+        let reached = |attribute: &str, index: usize| {
+            let index = index.to_string();
+            let found: Vec<_> = document
+                .descendants()
+                .filter(|n| n.attribute(attribute) == Some(&index))
+                .collect();
+            let focused = found
+                .iter()
+                .filter(|n| n.attribute("tabindex") == Some("0"));
+            assert_eq!(focused.count(), 1);
+            let title = found
+                .iter()
+                .find_map(|n| n.children().find(|c| c.has_tag_name("title")));
+            title.and_then(|t| t.text()).unwrap().to_owned()
+        };
+        for node in 0..graph.node_count() {
+            assert_eq!(reached("data-link", node), graph.node_name(node));
+        }
+        for edge in 0..graph.edge_count() {
+            assert!(reached("data-joint", edge).starts_with(graph.edge_name(edge)));
+        }
+    }
+
+    #[test]
+    fn nodes_and_edges_are_links_and_joints() {
+        let mechanism = crate::families::scissor_lift(2).unwrap();
+        let graph = ConstraintGraph::of(&mechanism);
+        for (index, link) in mechanism.links().iter().enumerate() {
+            assert_eq!(graph.node_name(index), link.name);
+        }
+        for (index, joint) in mechanism.joints().iter().enumerate() {
+            assert_eq!(graph.edge_name(index), joint.name);
+        }
     }
 
     #[test]

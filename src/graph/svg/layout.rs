@@ -122,12 +122,16 @@ impl Layout {
         }
     }
 
-    pub fn size(&self, tree: &SpanningTree) -> (f64, f64) {
-        #[allow(clippy::cast_precision_loss)]
-        let rows = tree.height() as f64;
-        // Chords within the lowest row hang below it.
-        let height = 2.0 * MARGIN + BOX_HEIGHT + ROW * rows + 70.0 + LEGEND_HEIGHT;
-        (self.width, height)
+    /// Width and height that hold all links, all curves and the legend.
+    pub fn size(&self, curves: &[Curve]) -> (f64, f64) {
+        // Chords within a row hang below it.
+        let lowest_box = self
+            .boxes
+            .iter()
+            .map(|place| place.centre.y + place.half_height);
+        let lowest_name = curves.iter().map(|curve| curve.at(0.5).y + NAME_FONT);
+        let lowest = lowest_box.chain(lowest_name).fold(MARGIN, f64::max);
+        (self.width, lowest + MARGIN + LEGEND_HEIGHT)
     }
 
     /// One curve for each edge, by edge.

@@ -34,22 +34,12 @@ const FAR: f64 = 1e6;
 /// A coordinate in pixels with at most one decimal; what is not a number is zero, and nothing is farther than a million.
 #[must_use]
 pub fn px(value: f64) -> String {
-    rounded(value, 1)
-}
-
-/// The same with two decimals, for what is small itself.
-#[must_use]
-pub fn fine(value: f64) -> String {
-    rounded(value, 2)
-}
-
-fn rounded(value: f64, decimals: usize) -> String {
     let value = if value.is_nan() {
         0.0
     } else {
         value.clamp(-FAR, FAR)
     };
-    let mut text = format!("{value:.decimals$}");
+    let mut text = format!("{value:.1}");
     let kept = text.trim_end_matches('0').trim_end_matches('.').len();
     text.truncate(kept);
     if text == "-0" { "0".to_owned() } else { text }
@@ -82,7 +72,6 @@ mod tests {
         for (value, text) in cases {
             assert_eq!(px(value), text);
         }
-        assert_eq!(fine(0.125), "0.12");
     }
 
     #[test]

@@ -200,9 +200,9 @@ impl Plot {
             );
         }
         frame.write_axes(svg, self);
+        series::write(svg, &frame, self);
         frame.write_levels(svg, &self.levels);
         frame.write_marks(svg, &self.marks);
-        series::write(svg, &frame, self);
         frame.write_names(svg, self);
         if self.follows_arclength {
             let x = px(frame.x.at(self.x.drawn_range()[0].max(0.0)));

@@ -28,7 +28,7 @@ pub struct View {
 }
 
 /// The usual view: the x axis to the right and somewhat towards the eye, y away from it, z up.
-const USUAL: Vector = [0.42, -0.8, 0.43];
+const USUAL: Vector = [0.52, -0.72, 0.46];
 /// Tilt of the eye against the normal of a planar mechanism (rad), to the side and up or down.
 const TILT: [f64; 2] = [0.16, 0.40];
 /// Where axes are not along the normal there is more to be seen from the side.
@@ -294,7 +294,7 @@ impl<'a> Cloud<'a> {
 /// The best of many places of the eye on the upper half of a sphere.
 fn from_above(cloud: &Cloud<'_>) -> View {
     /// Heights of the eye above the horizon (rad).
-    const HEIGHTS: [f64; 4] = [0.30, 0.45, 0.62, 0.85];
+    const HEIGHTS: [f64; 4] = [0.36, 0.48, 0.62, 0.80];
     const AROUND: u32 = 36;
     let usual = unit(USUAL).unwrap_or(USUAL);
     let up = [0.0, 0.0, 1.0];
@@ -312,9 +312,9 @@ fn from_above(cloud: &Cloud<'_>) -> View {
                 .max(0.0)
                 .sqrt();
             let apart = cloud.apart(toward);
-            let liking = 0.72 + 0.28 * dot(toward, usual);
+            let liking = 0.5 + 0.5 * dot(toward, usual);
             // Points on a line cover no area from anywhere.
-            let value = (area + 0.02) * apart * apart * liking;
+            let value = (area + 0.02).sqrt() * apart * liking;
             // Equal up to rounding is equal.
             if value > best.0 * (1.0 + 1e-9) || best.0 < 0.0 {
                 best = (value, toward);

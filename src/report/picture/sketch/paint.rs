@@ -49,8 +49,14 @@ pub fn write(
         let order = back_to_front(sketch.mechanism, &scene.items);
         let items: Vec<&Item> = order.iter().map(|&i| &scene.items[i]).collect();
         let together = |a: &&Item, b: &&Item| owner(a) == owner(b);
+        let mut webs = scene.webs.clone();
         for group in items.chunk_by(together) {
-            write_group(&mut svg, sketch, group, detail);
+            // The body lies below the first of its rods.
+            let web = match group[0].part {
+                Part::Link => webs.remove(&group[0].link),
+                _ => None,
+            };
+            write_group(&mut svg, sketch, group, web, detail);
         }
     }
     for [a, b] in &scene.gaps {
@@ -79,7 +85,13 @@ fn owner(item: &Item) -> (bool, usize, bool) {
     }
 }
 
-fn write_group(svg: &mut String, sketch: &Sketch<'_>, group: &[&Item], detail: Detail) {
+fn write_group(
+    svg: &mut String,
+    sketch: &Sketch<'_>,
+    group: &[&Item],
+    web: Option<Vec<[f64; 2]>>,
+    detail: Detail,
+) {
     let Some(first) = group.first() else {
         return;
     };
@@ -104,6 +116,20 @@ fn write_group(svg: &mut String, sketch: &Sketch<'_>, group: &[&Item], detail: D
     put(svg, format_args!("<g{attributes}>"));
     if let (Some(name), true) = (name, detail <= Detail::Plain) {
         put(svg, format_args!("<title>{}</title>", escaped(name)));
+    }
+    if let Some(web) = web {
+        let points: Vec<String> = web
+            .iter()
+            .map(|p| format!("{} {}", px(p[0]), px(p[1])))
+            .collect();
+        put(
+            svg,
+            format_args!(
+                "<path class=\"web\" d=\"M{}Z\" fill=\"{}\" fill-opacity=\"0.24\"/>",
+                points.join("L"),
+                hex(first.colour)
+            ),
+        );
     }
     // Rods next to each other are one figure, so that no outline runs across their corners.
     let rods = |a: &&Item, b: &&Item| matches!((a.solid, b.solid), (Solid::Rod { radius: r, .. }, Solid::Rod { radius: s, .. }) if r == s);

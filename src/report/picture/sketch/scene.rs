@@ -5,14 +5,19 @@ use super::{Detail, Sketch};
 use crate::closure::Rigid;
 use crate::mechanism::{JointId, JointKind};
 use crate::record::{Colour, Part, Primitive, Shape};
-use crate::report::picture::vector::{Vector, difference, is_finite, norm, sum, times, unit};
+use crate::report::picture::vector::{
+    Vector, cross, difference, dot, is_finite, norm, sum, times, unit,
+};
+
+use std::collections::BTreeMap;
 
 /// Room left around the picture (px).
 const MARGIN: f64 = 6.0;
-/// Symbols of joints are at least that large (px).
+/// Symbols of joints are at least that large (px), unless that takes more than this factor: they would cover the rods.
 const LEAST_RADIUS: f64 = 1.7;
+const MOST_BOOST: f64 = 2.5;
 /// Axes reach that far from their joint, in radii of the symbol.
-const AXIS_REACH: f64 = 4.6;
+const AXIS_REACH: f64 = 6.0;
 /// Where an axis leaves the symbol, in the same unit.
 const AXIS_START: f64 = 1.5;
 /// Axes that point to the eye more than this (cosine) are not drawn.
@@ -39,6 +44,8 @@ pub struct Scene {
     pub paths: Vec<(Colour, Vec<[f64; 2]>)>,
     /// Lines across gaps.
     pub gaps: Vec<[[f64; 2]; 2]>,
+    /// The outlines of links that join three joints or more, by link.
+    pub webs: BTreeMap<usize, Vec<[f64; 2]>>,
 }
 
 impl Scene {
@@ -55,12 +62,8 @@ impl Scene {
         // The size of symbols depends on the scale, and this hardly on the symbols.
         let first = collected(1.0);
         let scale = first.fit(size).0;
-        let boost = (LEAST_RADIUS / (sketch.drawing.radius * scale)).max(1.0);
-        let mut all = if boost > 1.0 && boost.is_finite() {
-            collected(boost)
-        } else {
-            first
-        };
+        let boost = (LEAST_RADIUS / (sketch.drawing.radius * scale)).clamp(1.0, MOST_BOOST);
+        let mut all = if boost > 1.0 { collected(boost) } else { first };
         let (scale, [x, y]) = all.fit(size);
         let place = |p: Vector| [x + scale * p[0], y - scale * p[1], scale * p[2]];
         for item in all.items.iter_mut().chain(all.ghosts.iter_mut().flatten()) {
@@ -75,8 +78,14 @@ impl Scene {
             let p = place(*p);
             [p[0], p[1]]
         };
+        let webs = if detail < Detail::Dots {
+            webs(&all.items)
+        } else {
+            BTreeMap::new()
+        };
         Self {
             size,
+            webs,
             items: all.items,
             ghosts: all.ghosts,
             paths: all
@@ -179,6 +188,51 @@ impl Collected {
         ];
         (scale, origin)
     }
+}
+
+/// The convex outlines of links of three rods or more: bodies rather than bars.
+fn webs(items: &[Item]) -> BTreeMap<usize, Vec<[f64; 2]>> {
+    let mut ends_of: BTreeMap<usize, Vec<[f64; 2]>> = BTreeMap::new();
+    for item in items {
+        if let (Part::Link, Solid::Rod { ends, .. }) = (item.part, item.solid) {
+            let points = ends_of.entry(item.link).or_default();
+            points.extend(ends.map(|p| [p[0], p[1]]));
+        }
+    }
+    ends_of
+        .into_iter()
+        .filter(|(_, points)| points.len() >= 6)
+        .map(|(link, points)| (link, convex_outline(points)))
+        .filter(|(_, outline)| outline.len() >= 3)
+        .collect()
+}
+
+/// The convex hull, counted around (Andrew 1979).
+fn convex_outline(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    points.dedup();
+    let turns = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| {
+        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    };
+    let mut outline: Vec<[f64; 2]> = Vec::new();
+    for upper in [false, true] {
+        let least = outline.len() + 1;
+        for k in 0..points.len() {
+            let point = points[if upper { points.len() - 1 - k } else { k }];
+            while outline.len() > least
+                && !(turns(
+                    outline[outline.len() - 2],
+                    outline[outline.len() - 1],
+                    point,
+                ) > 0.0)
+            {
+                outline.pop();
+            }
+            outline.push(point);
+        }
+        outline.pop();
+    }
+    outline
 }
 
 /// The shapes of links, link by link.
@@ -299,6 +353,10 @@ fn link_items(sketch: &Sketch<'_>, shapes: &[&Shape], links: &[Rigid<f64>], item
 /// Symbols and axes of joints.
 fn joint_items(sketch: &Sketch<'_>, detail: Detail, boost: f64, items: &mut Vec<Item>) {
     let radius = boost * sketch.drawing.radius;
+    let meeting = match detail {
+        Detail::Full => meeting_point(sketch),
+        _ => None,
+    };
     let mut last = None;
     for shape in &sketch.drawing.shapes {
         let Some(pose) = world_pose(shape, sketch.links) else {
@@ -329,19 +387,63 @@ fn joint_items(sketch: &Sketch<'_>, detail: Detail, boost: f64, items: &mut Vec<
                 let Some(axis) = unit(sketch.view.project(pose.rotate(&[0.0, 0.0, 1.0]))) else {
                     continue;
                 };
-                if axis[2].abs() > AXIS_TO_THE_EYE {
+                if axis[2].abs() > AXIS_TO_THE_EYE && meeting.is_none() {
                     continue;
                 }
                 for sign in [-1.0, 1.0] {
                     let at = |reach: f64| sum(centre, times(axis, sign * reach * radius));
+                    let end = match meeting {
+                        Some(point) if sign * dot(axis, difference(point, centre)) > 0.0 => point,
+                        _ => at(AXIS_REACH),
+                    };
                     add(Solid::Line {
-                        ends: [at(AXIS_START), at(AXIS_REACH)],
+                        ends: [at(AXIS_START), end],
                     });
                 }
             }
             Part::Axis(_) | Part::Link => {}
         }
     }
+}
+
+/// Where the axes of a spherical mechanism meet, in view coordinates; `None` where there are fewer than three axes, some
+/// joint has none, or they do not meet in one point away from the symbols.
+fn meeting_point(sketch: &Sketch<'_>) -> Option<Vector> {
+    let mut lines: Vec<(Vector, Vector)> = Vec::new();
+    for shape in &sketch.drawing.shapes {
+        let Part::Axis(joint) = shape.part else {
+            continue;
+        };
+        let joint = sketch.mechanism.joints().get(joint)?;
+        if joint.kind != JointKind::Revolute {
+            return None;
+        }
+        let pose = world_pose(shape, sketch.links)?;
+        let axis = unit(pose.rotate(&[0.0, 0.0, 1.0]))?;
+        lines.push((pose.translation, axis));
+    }
+    if lines.len() < 3 || lines.len() != sketch.mechanism.joints().len() {
+        return None;
+    }
+    // The first axis and the one least parallel to it say where; all have to go through it.
+    let (p, u) = lines[0];
+    let &(q, v) = lines.iter().max_by(|a, b| {
+        let off = |line: &(Vector, Vector)| norm(cross(u, line.1));
+        off(a).total_cmp(&off(b))
+    })?;
+    let normal = cross(u, v);
+    let square = dot(normal, normal);
+    if !(square > 1e-4) {
+        return None;
+    }
+    let along = dot(cross(difference(q, p), v), normal) / square;
+    let point = sum(p, times(u, along));
+    let far = |(q, v): &(Vector, Vector)| norm(cross(difference(point, *q), *v));
+    let symbol = 3.0 * sketch.drawing.radius;
+    let meets = lines.iter().all(|line| {
+        far(line) < 1e-5 * sketch.drawing.extent && norm(difference(point, line.0)) > symbol
+    });
+    meets.then(|| sketch.view.project(point))
 }
 
 /// Joints that keep two points at a distance are rods which belong to neither link.
