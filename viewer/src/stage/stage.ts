@@ -1,4 +1,4 @@
-import { PerspectiveCamera, Scene, Vector3, WebGLRenderer, type ShaderMaterial } from "three";
+import { Color, ColorManagement, PerspectiveCamera, Scene, Vector3, WebGLRenderer, type ShaderMaterial } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { jointColour, linkColour, mix, onPage, type Rgb } from "../colours";
 import { element } from "../dom";
@@ -21,8 +21,13 @@ export type ViewName = "home" | "x" | "y" | "z";
 /** Height of the view as an angle, in degrees: narrow, so that parallel things look parallel. */
 const ANGLE = 26;
 const SLOPE = Math.tan((ANGLE * Math.PI) / 360);
+// Colours go to the screen as they are given.
+ColorManagement.enabled = false;
+
+/** Beyond so many joints, their axes hide more than they show unless they are asked for. */
+const AXES_BY_DEFAULT = 40;
 /** Beyond so many shapes, shadows cost more than they tell. */
-const SHADOWED = 1500;
+const SHADOWED = 250;
 /** How near a pointer must come to a thin rod, in pixels. */
 const MOUSE_SLACK = 4;
 const FINGER_SLACK = 14;
@@ -30,7 +35,7 @@ const FINGER_SLACK = 14;
 /** The mechanism in three dimensions, in a canvas that takes the place of the still sketch. */
 export class Stage {
   readonly canvas: HTMLCanvasElement;
-  axes = true;
+  axes: boolean;
   paths: boolean;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
@@ -54,15 +59,14 @@ export class Stage {
     private readonly lights: Lights,
     private readonly frames: Frames,
     canvas: HTMLCanvasElement,
-    context: WebGL2RenderingContext,
+    { context, software }: Drawing,
   ) {
     const { data } = player;
     this.canvas = canvas;
-    this.renderer = new WebGLRenderer({ canvas, context, preserveDrawingBuffer: true, alpha: true });
+    this.renderer = new WebGLRenderer({ canvas, context, preserveDrawingBuffer: true, alpha: false });
     // Asking for errors makes the first frame wait for every shader.
     this.renderer.debug.checkShaderErrors = false;
-    this.renderer.setClearAlpha(0);
-    this.resolution = new Resolution(this.renderer);
+    this.resolution = new Resolution(this.renderer, software, () => this.invalidate());
     this.theme = readTheme(host);
 
     this.points = sweptPoints(
@@ -98,6 +102,8 @@ export class Stage {
     canvas.addEventListener("blur", () => (this.orbit.enableZoom = false));
     canvas.addEventListener("pointerdown", () => canvas.focus({ preventScroll: true }));
 
+    this.axes = data.joints.length <= AXES_BY_DEFAULT;
+    this.showAxes(this.axes);
     this.showPaths(this.paths);
     this.recolour();
     player.onChange((change) => {
@@ -112,6 +118,8 @@ export class Stage {
     onThemeChange(() => {
       this.theme = readTheme(host);
       this.recolour();
+      // Paper gets every pixel.
+      this.resolution.refine();
       this.draw();
     });
     frames.each((seconds) => this.step(seconds));
@@ -122,10 +130,9 @@ export class Stage {
   /** Null where the browser has no three-dimensional drawing. */
   static open(host: HTMLElement, player: Player, lights: Lights, frames: Frames): Stage | null {
     const canvas = element("canvas", { tabindex: "0", "aria-label": `${player.data.mechanism}, in motion` });
-    const options = { alpha: true, antialias: true, preserveDrawingBuffer: true, powerPreference: "default" };
-    const context = canvas.getContext("webgl2", options) as WebGL2RenderingContext | null;
-    if (context === null) return null;
-    const stage = new Stage(host, player, lights, frames, canvas, context);
+    const drawing = openDrawing(canvas);
+    if (drawing === null) return null;
+    const stage = new Stage(host, player, lights, frames, canvas, drawing);
     host.append(canvas);
     host.classList.add("live");
     stage.resize();
@@ -318,9 +325,31 @@ export class Stage {
       const colour = mix(onPage(linkColour(data, roles, link), dark), background, 0.25);
       return shade(colour, lights.has("link", link) || lights.has("joint", joint));
     });
+    this.renderer.setClearColor(new Color(...background));
     this.materials.shadow.uniforms["tone"]?.value.setRGB(...this.theme.shadow);
     this.materials.grid.uniforms["tone"]?.value.setRGB(...this.theme.grid);
     this.invalidate();
   }
 }
 
+
+interface Drawing {
+  readonly context: WebGL2RenderingContext;
+  /** Drawn by the processor: there every pixel counts. */
+  readonly software: boolean;
+}
+
+/**
+ * The canvas' drawing context; null where there is none. Opaque, because laying a transparent picture over the page costs
+ * as much as drawing it, and kept after drawing so that it can be printed.
+ */
+function openDrawing(canvas: HTMLCanvasElement): Drawing | null {
+  const options: WebGLContextAttributes = { alpha: false, preserveDrawingBuffer: true };
+  const open = (more: WebGLContextAttributes): WebGL2RenderingContext | null =>
+    canvas.getContext("webgl2", { ...options, ...more });
+  const fast = open({ antialias: true, failIfMajorPerformanceCaveat: true });
+  if (fast !== null) return { context: fast, software: false };
+  // Smooth edges then come from drawing finer as soon as the picture rests.
+  const slow = open({ antialias: false });
+  return slow === null ? null : { context: slow, software: true };
+}
