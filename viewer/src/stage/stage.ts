@@ -7,6 +7,7 @@ import type { Lights, Thing } from "../lights";
 import type { ShapeData } from "../page_data";
 import type { Player } from "../player";
 import { onThemeChange, readTheme, type Theme } from "../theme";
+import { openDrawing, type Drawing } from "./drawing";
 import { floorFor, type Floor } from "./floor";
 import { frame } from "./framing";
 import { colouredLineMaterial, lineMaterial, shadowMaterial, solidMaterial } from "./materials";
@@ -258,7 +259,8 @@ export class Stage {
     const gliding = this.glide?.(seconds) ?? false;
     if (!gliding) this.glide = null;
     const turning = this.orbit.update();
-    const busy = gliding || turning || this.player.playing;
+    // A scrubber that is dragged is a motion as well.
+    const busy = gliding || turning || this.player.playing || this.moved;
     if (this.resolution.follow(busy, this.frames.perSecond)) this.dirty = true;
     if (this.dirty) this.draw();
     return busy;
@@ -322,7 +324,7 @@ export class Stage {
       return shade(onPage(plain, dark), lights.has("joint", joint));
     });
     this.pathLines.paint(({ link, joint }) => {
-      const colour = mix(onPage(linkColour(data, roles, link), dark), background, 0.25);
+      const colour = mix(onPage(linkColour(data, roles, link), dark), background, 0.1);
       return shade(colour, lights.has("link", link) || lights.has("joint", joint));
     });
     this.renderer.setClearColor(new Color(...background));
@@ -330,26 +332,4 @@ export class Stage {
     this.materials.grid.uniforms["tone"]?.value.setRGB(...this.theme.grid);
     this.invalidate();
   }
-}
-
-
-interface Drawing {
-  readonly context: WebGL2RenderingContext;
-  /** Drawn by the processor: there every pixel counts. */
-  readonly software: boolean;
-}
-
-/**
- * The canvas' drawing context; null where there is none. Opaque, because laying a transparent picture over the page costs
- * as much as drawing it, and kept after drawing so that it can be printed.
- */
-function openDrawing(canvas: HTMLCanvasElement): Drawing | null {
-  const options: WebGLContextAttributes = { alpha: false, preserveDrawingBuffer: true };
-  const open = (more: WebGLContextAttributes): WebGL2RenderingContext | null =>
-    canvas.getContext("webgl2", { ...options, ...more });
-  const fast = open({ antialias: true, failIfMajorPerformanceCaveat: true });
-  if (fast !== null) return { context: fast, software: false };
-  // Smooth edges then come from drawing finer as soon as the picture rests.
-  const slow = open({ antialias: false });
-  return slow === null ? null : { context: slow, software: true };
 }
