@@ -40,3 +40,27 @@ export class Frames {
     if (more) this.request();
   }
 }
+
+/**
+ * Calls back now, but not again within some milliseconds: a last call at the end of that time makes up for those left
+ * out. For figures and marks that nobody can read sixty times in a second.
+ */
+export function atMostEvery(milliseconds: number, act: () => void): () => void {
+  let next = -Infinity;
+  let waiting = false;
+  const run = (): void => {
+    waiting = false;
+    next = performance.now() + milliseconds;
+    act();
+  };
+  return () => {
+    const left = next - performance.now();
+    if (waiting) return;
+    if (left <= 0) {
+      run();
+      return;
+    }
+    waiting = true;
+    setTimeout(run, left);
+  };
+}

@@ -7,6 +7,7 @@ import { branchChoice, driveChoice, loopChoice, speedChoice, toggles, viewButton
 import { Transport } from "./controls/transport";
 import { element } from "./dom";
 import { Frames } from "./frames";
+import { fitGraphs } from "./graph";
 import { Lights, followPage } from "./lights";
 import { readPageData, type PageData } from "./page_data";
 import { Player } from "./player";
@@ -39,7 +40,7 @@ function start(data: PageData, host: HTMLElement, panel: HTMLElement): void {
   player.onChange((change) => {
     if (change === "playing" && player.playing) frames.request();
   });
-  const transport = new Transport(player, frames);
+  const transport = new Transport(player);
   panel.append(transport.root, new Hint(player).root);
   followPlots(player, tooltip, document);
   for (const part of document.querySelectorAll<HTMLElement>("main section")) {
@@ -69,14 +70,10 @@ function aboutPicture(stage: Stage | null, player: Player, host: HTMLElement): H
     const note = "This browser shows no 3D pictures (WebGL is off or missing); the sketch shows the pose analysed.";
     return [element("p", { class: "note" }, note)];
   }
-  const caption = element(
-    "p",
-    { class: "caption" },
-    element("span", {}, `grid ${fourDigits(stage.gridCell)} m`),
-    element("span", { class: "how" }, "drag to turn, click and scroll to zoom"),
-  );
-  host.append(caption);
-  return [legend(player, host)];
+  // Beside the colours, not over the picture: what lies over a moving picture makes the browser put both together anew.
+  const size = element("span", {}, `grid ${fourDigits(stage.gridCell)} m`);
+  const how = element("span", { class: "how" }, "drag to turn, click and scroll to zoom");
+  return [element("div", { class: "about" }, legend(player, host), element("p", { class: "caption" }, size, how))];
 }
 
 function options(stage: Stage | null, player: Player): HTMLElement {
@@ -93,6 +90,7 @@ function options(stage: Stage | null, player: Player): HTMLElement {
 }
 
 makeSortable(document);
+fitGraphs(document);
 const data = readPageData();
 const host = document.getElementById("stage");
 const panel = document.getElementById("controls");

@@ -1,4 +1,5 @@
 import { svgElement } from "./dom";
+import { atMostEvery } from "./frames";
 import { fourDigits } from "./number_text";
 import type { Player } from "./player";
 import { pixelAt, readAxis, valueAt, type PlotAxis } from "./plot_axis";
@@ -19,6 +20,9 @@ export interface Vertex {
   readonly name: string;
   readonly unit: string;
 }
+
+/** How often the line moves while the mechanism plays. */
+const CURSOR_MILLISECONDS = 50;
 
 /** Farther away than this many pixels of the plot, nothing is meant. */
 const REACH = 40;
@@ -41,20 +45,39 @@ export function followPlots(player: Player, tooltip: Tooltip, root: ParentNode):
     const shown = player.motion?.index;
     for (const group of groups) group.hidden = Number(group.getAttribute("data-motion")) !== shown;
   };
+  const inView = followView(plots.map((plot) => plot.svg));
   const move = (): void => {
     for (const { svg, x, cursor } of plots) {
-      if (cursor === null || svg.closest("[hidden]") !== null) continue;
+      if (cursor === null || !inView.has(svg)) continue;
       const place = pixelAt(x, player.arclength).toFixed(2);
       cursor.setAttribute("x1", place);
       cursor.setAttribute("x2", place);
     }
   };
+  const later = atMostEvery(CURSOR_MILLISECONDS, move);
   player.onChange((change) => {
     if (change === "motion") choose();
-    if (change !== "playing") move();
+    if (change === "pose" && player.playing) later();
+    else move();
   });
+  inView.onChange(move);
   choose();
   move();
+}
+
+/** Which elements can be seen: drawing the others anew would be for nobody. */
+function followView(elements: readonly Element[]): { has(element: Element): boolean; onChange(act: () => void): void } {
+  const seen = new Set<Element>();
+  let changed = (): void => {};
+  const observer = new IntersectionObserver((entries) => {
+    for (const { isIntersecting, target } of entries) {
+      if (isIntersecting) seen.add(target);
+      else seen.delete(target);
+    }
+    changed();
+  });
+  for (const element of elements) observer.observe(element);
+  return { has: (element) => seen.has(element), onChange: (act) => (changed = act) };
 }
 
 /** The point of the plot's own pixels under the pointer; null before it is laid out. */

@@ -1,7 +1,8 @@
 import { element, setText } from "../dom";
+import { atMostEvery } from "../frames";
 import type { EventData } from "../page_data";
 import type { Player } from "../player";
-import { tickClass } from "./transport";
+import { READ_MILLISECONDS, tickClass } from "./transport";
 
 /** How near an event must be to be told of, in parts of the motion's length. */
 const NEAR_CROSSING = 0.035;
@@ -19,7 +20,11 @@ export class Hint {
 
   constructor(private readonly player: Player) {
     this.root.append(this.text, this.ways);
-    player.onChange(() => this.refresh());
+    const later = atMostEvery(READ_MILLISECONDS, () => this.refresh());
+    player.onChange((change) => {
+      if (change === "pose" && player.playing) later();
+      else this.refresh();
+    });
     this.refresh();
   }
 

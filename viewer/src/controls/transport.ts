@@ -1,9 +1,12 @@
 import { element, setText } from "../dom";
-import type { Frames } from "../frames";
+import { atMostEvery } from "../frames";
 import type { EventData } from "../page_data";
 import type { Player } from "../player";
 import { valueText } from "../variables";
 import { icon } from "./icons";
+
+/** How often figures change while the mechanism plays. */
+export const READ_MILLISECONDS = 50;
 
 /** The play button, the scrubber with the marks of what is met on the way, and the value of the driven variable. */
 export class Transport {
@@ -20,10 +23,7 @@ export class Transport {
   private readonly value = element("span", { class: "value" });
   private shownIcon: "play" | "pause" | null = null;
 
-  constructor(
-    private readonly player: Player,
-    private readonly frames: Frames,
-  ) {
+  constructor(private readonly player: Player) {
     const readout = element("div", { class: "readout" }, this.name, this.value);
     const track = element("div", { class: "track" }, this.scrubber, this.ticks);
     this.root = element("div", { class: "transport" }, this.button, track, readout);
@@ -32,9 +32,11 @@ export class Transport {
       player.pause();
       player.scrub(Number(this.scrubber.value));
     });
+    const later = atMostEvery(READ_MILLISECONDS, () => this.refresh());
     player.onChange((change) => {
       if (change === "motion") this.mark();
-      this.refresh();
+      if (change === "pose" && player.playing) later();
+      else this.refresh();
     });
     this.mark();
     this.refresh();
@@ -48,7 +50,6 @@ export class Transport {
       this.shownIcon = wanted;
       this.button.replaceChildren(icon(wanted));
       this.button.setAttribute("aria-label", player.playing ? "Pause" : "Play");
-      if (player.playing) this.frames.request();
     }
     const { motion, driven } = player;
     if (motion === null) return;

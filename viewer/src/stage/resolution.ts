@@ -8,16 +8,29 @@ const COARSEST = 0.6;
 const WANTED_RATE = 34;
 /** Frames to wait before judging the rate again. */
 const PATIENCE = 24;
+/** Milliseconds of rest before the picture is drawn finely. */
+const REST = 200;
 
-/** Draws fewer pixels where the machine cannot keep up, and all of them as soon as the picture stands still. */
+/**
+ * Draws fewer pixels while things move and the machine cannot keep up, and all of them as soon as the picture rests.
+ * Where the processor draws, all means more than the screen has: that smooths the edges, which is left out while things
+ * move.
+ */
 export class Resolution {
   private width = 1;
   private height = 1;
   private share = 1;
-  private coarse = false;
+  private fine: boolean;
   private waited = 0;
+  private timer: number | undefined;
 
-  constructor(private readonly renderer: WebGLRenderer) {}
+  constructor(
+    private readonly renderer: WebGLRenderer,
+    private readonly software: boolean,
+    private readonly changed: () => void,
+  ) {
+    this.fine = !software;
+  }
 
   resize(width: number, height: number): void {
     this.width = width;
@@ -27,33 +40,48 @@ export class Resolution {
 
   /** Called with every frame; true where the canvas has changed and must be drawn anew. */
   follow(busy: boolean, rate: number): boolean {
+    clearTimeout(this.timer);
     if (!busy) {
       this.waited = 0;
-      if (!this.coarse) return false;
-      this.coarse = false;
-      this.apply();
-      return true;
+      if (!this.fine) {
+        this.timer = window.setTimeout(() => {
+          this.refine();
+          this.changed();
+        }, REST);
+      }
+      return false;
     }
-    if (!this.coarse && this.share < 1) {
-      this.coarse = true;
+    if (this.fine && (this.software || this.share < 1)) {
+      this.fine = false;
       this.apply();
       return true;
     }
     this.waited += 1;
-    if (this.waited < PATIENCE || rate === 0 || rate > WANTED_RATE || this.share * full() <= COARSEST) return false;
+    const coarsest = COARSEST / this.usual;
+    if (this.waited < PATIENCE || rate === 0 || rate > WANTED_RATE || this.share <= coarsest) return false;
     this.waited = 0;
-    this.coarse = true;
-    this.share = Math.max(COARSEST / full(), 0.75 * this.share);
+    this.fine = false;
+    this.share = Math.max(coarsest, 0.75 * this.share);
     this.apply();
     return true;
   }
 
+  /** Takes every pixel, from the next drawing on. */
+  refine(): void {
+    if (this.fine) return;
+    this.fine = true;
+    this.apply();
+  }
+
+  /** Pixels of the canvas for one of the page's, in a motion that the machine can follow. */
+  private get usual(): number {
+    const device = Math.min(FINEST, window.devicePixelRatio || 1);
+    return this.software ? Math.min(1, device) : device;
+  }
+
   private apply(): void {
-    this.renderer.setPixelRatio(full() * (this.coarse ? this.share : 1));
+    const finest = this.software ? FINEST : this.usual;
+    this.renderer.setPixelRatio(this.fine ? finest : this.usual * this.share);
     this.renderer.setSize(this.width, this.height, false);
   }
-}
-
-function full(): number {
-  return Math.min(FINEST, window.devicePixelRatio || 1);
 }

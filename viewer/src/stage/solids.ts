@@ -1,7 +1,7 @@
 import { InstancedBufferAttribute, InstancedMesh, type Scene, type ShaderMaterial } from "three";
 import type { Rgb } from "../colours";
 import type { PageData, ShapeData, ShapeKind } from "../page_data";
-import { detailFor, primitive } from "./primitives";
+import { COARSE, detailFor, primitive } from "./primitives";
 import { quaternionOf, rotationOf } from "./rotation";
 
 const KINDS: readonly ShapeKind[] = ["box", "cylinder", "sphere", "arrow"];
@@ -48,7 +48,7 @@ export class Solids {
       const mesh = new InstancedMesh(geometry, solid, count);
       mesh.instanceColor = new InstancedBufferAttribute(new Float32Array(3 * count), 3);
       // Axes are marks, not bodies: they throw no shadow.
-      const thrown = shadow !== null && kind !== "arrow" ? new InstancedMesh(geometry, shadow, count) : null;
+      const thrown = shadow !== null && kind !== "arrow" ? new InstancedMesh(primitive(kind, COARSE), shadow, count) : null;
       if (thrown !== null) {
         thrown.instanceMatrix = mesh.instanceMatrix;
         thrown.renderOrder = -1;

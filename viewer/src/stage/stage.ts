@@ -1,4 +1,4 @@
-import { PerspectiveCamera, Scene, Vector3, WebGLRenderer, type ShaderMaterial } from "three";
+import { Color, ColorManagement, PerspectiveCamera, Scene, Vector3, WebGLRenderer, type ShaderMaterial } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { jointColour, linkColour, mix, onPage, type Rgb } from "../colours";
 import { element } from "../dom";
@@ -7,6 +7,7 @@ import type { Lights, Thing } from "../lights";
 import type { ShapeData } from "../page_data";
 import type { Player } from "../player";
 import { onThemeChange, readTheme, type Theme } from "../theme";
+import { openDrawing, type Drawing } from "./drawing";
 import { floorFor, type Floor } from "./floor";
 import { frame } from "./framing";
 import { colouredLineMaterial, lineMaterial, shadowMaterial, solidMaterial } from "./materials";
@@ -21,8 +22,13 @@ export type ViewName = "home" | "x" | "y" | "z";
 /** Height of the view as an angle, in degrees: narrow, so that parallel things look parallel. */
 const ANGLE = 26;
 const SLOPE = Math.tan((ANGLE * Math.PI) / 360);
+// Colours go to the screen as they are given.
+ColorManagement.enabled = false;
+
+/** Beyond so many joints, their axes hide more than they show unless they are asked for. */
+const AXES_BY_DEFAULT = 40;
 /** Beyond so many shapes, shadows cost more than they tell. */
-const SHADOWED = 1500;
+const SHADOWED = 250;
 /** How near a pointer must come to a thin rod, in pixels. */
 const MOUSE_SLACK = 4;
 const FINGER_SLACK = 14;
@@ -30,7 +36,7 @@ const FINGER_SLACK = 14;
 /** The mechanism in three dimensions, in a canvas that takes the place of the still sketch. */
 export class Stage {
   readonly canvas: HTMLCanvasElement;
-  axes = true;
+  axes: boolean;
   paths: boolean;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
@@ -54,15 +60,14 @@ export class Stage {
     private readonly lights: Lights,
     private readonly frames: Frames,
     canvas: HTMLCanvasElement,
-    context: WebGL2RenderingContext,
+    { context, software }: Drawing,
   ) {
     const { data } = player;
     this.canvas = canvas;
-    this.renderer = new WebGLRenderer({ canvas, context, preserveDrawingBuffer: true, alpha: true });
+    this.renderer = new WebGLRenderer({ canvas, context, preserveDrawingBuffer: true, alpha: false });
     // Asking for errors makes the first frame wait for every shader.
     this.renderer.debug.checkShaderErrors = false;
-    this.renderer.setClearAlpha(0);
-    this.resolution = new Resolution(this.renderer);
+    this.resolution = new Resolution(this.renderer, software, () => this.invalidate());
     this.theme = readTheme(host);
 
     this.points = sweptPoints(
@@ -98,6 +103,8 @@ export class Stage {
     canvas.addEventListener("blur", () => (this.orbit.enableZoom = false));
     canvas.addEventListener("pointerdown", () => canvas.focus({ preventScroll: true }));
 
+    this.axes = data.joints.length <= AXES_BY_DEFAULT;
+    this.showAxes(this.axes);
     this.showPaths(this.paths);
     this.recolour();
     player.onChange((change) => {
@@ -112,6 +119,8 @@ export class Stage {
     onThemeChange(() => {
       this.theme = readTheme(host);
       this.recolour();
+      // Paper gets every pixel.
+      this.resolution.refine();
       this.draw();
     });
     frames.each((seconds) => this.step(seconds));
@@ -122,10 +131,9 @@ export class Stage {
   /** Null where the browser has no three-dimensional drawing. */
   static open(host: HTMLElement, player: Player, lights: Lights, frames: Frames): Stage | null {
     const canvas = element("canvas", { tabindex: "0", "aria-label": `${player.data.mechanism}, in motion` });
-    const options = { alpha: true, antialias: true, preserveDrawingBuffer: true, powerPreference: "default" };
-    const context = canvas.getContext("webgl2", options) as WebGL2RenderingContext | null;
-    if (context === null) return null;
-    const stage = new Stage(host, player, lights, frames, canvas, context);
+    const drawing = openDrawing(canvas);
+    if (drawing === null) return null;
+    const stage = new Stage(host, player, lights, frames, canvas, drawing);
     host.append(canvas);
     host.classList.add("live");
     stage.resize();
@@ -251,7 +259,8 @@ export class Stage {
     const gliding = this.glide?.(seconds) ?? false;
     if (!gliding) this.glide = null;
     const turning = this.orbit.update();
-    const busy = gliding || turning || this.player.playing;
+    // A scrubber that is dragged is a motion as well.
+    const busy = gliding || turning || this.player.playing || this.moved;
     if (this.resolution.follow(busy, this.frames.perSecond)) this.dirty = true;
     if (this.dirty) this.draw();
     return busy;
@@ -315,12 +324,12 @@ export class Stage {
       return shade(onPage(plain, dark), lights.has("joint", joint));
     });
     this.pathLines.paint(({ link, joint }) => {
-      const colour = mix(onPage(linkColour(data, roles, link), dark), background, 0.25);
+      const colour = mix(onPage(linkColour(data, roles, link), dark), background, 0.1);
       return shade(colour, lights.has("link", link) || lights.has("joint", joint));
     });
+    this.renderer.setClearColor(new Color(...background));
     this.materials.shadow.uniforms["tone"]?.value.setRGB(...this.theme.shadow);
     this.materials.grid.uniforms["tone"]?.value.setRGB(...this.theme.grid);
     this.invalidate();
   }
 }
-
