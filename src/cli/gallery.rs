@@ -61,14 +61,15 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
 fn one(file: &Path, page: &str) -> Result<(Entry, String), Failure> {
     let reading = load::mechanism(file, &[])?;
     let (report, analysis) = load::analysed(&reading, file, &Options::default())?;
-    let prepared = Prepared::new(Facts {
+    let facts = Facts {
         mechanism: &reading.mechanism,
         report: &report,
         analysis: &analysis,
         configuration: None,
         verification: None,
-    });
-    let text = load::html(&prepared, Assets::Beside)?;
+    };
+    let prepared = Prepared::new(facts, Assets::Beside);
+    let text = load::html(&prepared)?;
     Ok((prepared.entry(page), text))
 }
 

@@ -4,7 +4,7 @@ use super::failure::Failure;
 use clap::Args;
 use kutzbach::format::{ReadOptions, Reading, read_file, read_file_with};
 use kutzbach::mobility::Analysis;
-use kutzbach::report::html::{Assets, Prepared};
+use kutzbach::report::html::Prepared;
 use kutzbach::report::{Options, Report, analysed_report};
 use std::path::{Path, PathBuf};
 
@@ -75,8 +75,8 @@ pub fn analysed(
 ///
 /// # Errors
 /// Where data have no JSON form, which would be a fault of this program.
-pub fn html(prepared: &Prepared<'_>, assets: Assets) -> Result<String, Failure> {
-    prepared.page(assets).map_err(|error| Failure::Plain {
+pub fn html(prepared: &Prepared<'_>) -> Result<String, Failure> {
+    prepared.page().map_err(|error| Failure::Plain {
         message: format!("cannot be written as a page: {error}"),
         help: None,
     })

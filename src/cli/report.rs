@@ -133,16 +133,14 @@ fn page(
         )?),
         false => None,
     };
-    load::html(
-        &Prepared::new(Facts {
-            mechanism: &reading.mechanism,
-            report,
-            analysis,
-            configuration,
-            verification: verification.as_ref(),
-        }),
-        Assets::Inside,
-    )
+    let facts = Facts {
+        mechanism: &reading.mechanism,
+        report,
+        analysis,
+        configuration,
+        verification: verification.as_ref(),
+    };
+    load::html(&Prepared::new(facts, Assets::Inside))
 }
 
 fn verified(

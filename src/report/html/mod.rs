@@ -73,6 +73,16 @@ pub enum Assets {
     Beside,
 }
 
+impl Assets {
+    /// Poses of links that a page may hold, all motions together; about 40 bytes each. A gallery is many pages.
+    fn link_poses(self) -> usize {
+        match self {
+            Self::Inside => 12_000,
+            Self::Beside => 4_000,
+        }
+    }
+}
+
 /// The mechanism as it is drawn.
 #[derive(Debug)]
 struct Stage {
@@ -88,7 +98,7 @@ struct Stage {
 }
 
 impl Stage {
-    fn new(facts: &Facts<'_>) -> Self {
+    fn new(facts: &Facts<'_>, assets: Assets) -> Self {
         let configuration = facts
             .configuration
             .and_then(|name| facts.mechanism.configuration(name));
@@ -102,7 +112,12 @@ impl Stage {
             centre: [0, 1, 2].map(|i| 0.5 * (low[i] + high[i])),
             view: View::of(&drawing, &geometry.displacements, &home),
             gaps: gaps(facts, &geometry, &home),
-            repertoire: repertoire(facts.mechanism, facts.analysis, facts.configuration),
+            repertoire: repertoire(
+                facts.mechanism,
+                facts.analysis,
+                facts.configuration,
+                assets.link_poses(),
+            ),
             home,
             drawing,
         }
@@ -129,15 +144,17 @@ fn gaps(facts: &Facts<'_>, geometry: &Geometry<f64>, links: &[Rigid<f64>]) -> Ve
 pub struct Prepared<'a> {
     facts: Facts<'a>,
     stage: Stage,
+    assets: Assets,
 }
 
 impl<'a> Prepared<'a> {
     /// Traces every branch.
     #[must_use]
-    pub fn new(facts: Facts<'a>) -> Self {
+    pub fn new(facts: Facts<'a>, assets: Assets) -> Self {
         Self {
-            stage: Stage::new(&facts),
+            stage: Stage::new(&facts, assets),
             facts,
+            assets,
         }
     }
 
@@ -145,8 +162,8 @@ impl<'a> Prepared<'a> {
     ///
     /// # Errors
     /// Where data have no JSON form, which would be a fault of this program.
-    pub fn page(&self, assets: Assets) -> Result<String, serde_json::Error> {
-        document::document(&self.facts, &self.stage, assets)
+    pub fn page(&self) -> Result<String, serde_json::Error> {
+        document::document(&self.facts, &self.stage, self.assets)
     }
 
     /// The entry of a gallery that leads to the page of this name.

@@ -10,9 +10,6 @@ use crate::mobility::{Analysis, Branch};
 use crate::motion::{EndReason, Motion, Trace, TraceOptions, Variable, trace};
 use crate::record::Roles;
 
-/// Poses of links that a page holds at most, all motions together; about 40 bytes each.
-const LINK_POSES: usize = 12_000;
-
 /// Samples of a motion, at least and at most, whatever the number of links.
 const SAMPLES: [usize; 2] = [24, 180];
 
@@ -81,11 +78,12 @@ pub(super) struct Repertoire {
     pub nothing: Option<String>,
 }
 
-/// Traces every branch.
+/// Traces every branch. `link_poses`: how many poses of links there may be, all motions together.
 pub(super) fn repertoire(
     mechanism: &Mechanism,
     analysis: &Analysis,
     configuration: Option<&str>,
+    link_poses: usize,
 ) -> Repertoire {
     let mut repertoire = Repertoire {
         played: Vec::new(),
@@ -132,7 +130,7 @@ pub(super) fn repertoire(
     }
     let links = mechanism.links().len().max(1);
     let [least, most] = SAMPLES;
-    let samples = (LINK_POSES / links / found.len().max(1)).clamp(least, most);
+    let samples = (link_poses / links / found.len().max(1)).clamp(least, most);
     for (branch, motion) in found {
         let roles = Roles::of(
             mechanism,
