@@ -56,7 +56,7 @@ impl View {
         let mut points = Vec::new();
         let mut axes = Vec::new();
         let mut spatial = false;
-        let mut seen: Vec<bool> = vec![false; displacements.len()];
+        let mut seen: Vec<Option<Vector>> = vec![None; displacements.len()];
         for shape in &drawing.shapes {
             let (Some(link), Part::Joint(joint)) = (links.get(shape.link), shape.part) else {
                 continue;
@@ -64,10 +64,18 @@ impl View {
             let Some(displacement) = displacements.get(joint) else {
                 continue;
             };
-            if std::mem::replace(&mut seen[joint], true) {
-                continue;
-            }
-            points.push(link.apply(&shape.pose.translation));
+            let point = link.apply(&shape.pose.translation);
+            // The two sides of a joint may be far from each other, as the balls of a rod.
+            let first = match &mut seen[joint] {
+                Some(at) if norm(difference(point, *at)) > 1e-6 * drawing.extent => {
+                    points.push(point);
+                    continue;
+                }
+                Some(_) => continue,
+                unseen => unseen,
+            };
+            *first = Some(point);
+            points.push(point);
             match displacement.kind() {
                 JointKind::Fixed
                 | JointKind::Prismatic
@@ -294,7 +302,7 @@ impl<'a> Cloud<'a> {
 /// The best of many places of the eye on the upper half of a sphere.
 fn from_above(cloud: &Cloud<'_>) -> View {
     /// Heights of the eye above the horizon (rad).
-    const HEIGHTS: [f64; 4] = [0.36, 0.48, 0.62, 0.80];
+    const HEIGHTS: [f64; 4] = [0.36, 0.47, 0.58, 0.70];
     const AROUND: u32 = 36;
     let usual = unit(USUAL).unwrap_or(USUAL);
     let up = [0.0, 0.0, 1.0];

@@ -85,10 +85,10 @@ fn line(svg: &mut String, frame: &Frame, series: &Series, colour: usize, data: &
             }
         }
         for outside in run.chunk_by(|a, b| a.y.beyond == b.y.beyond) {
-            if let ([first, ..], [.., last]) = (outside, outside) {
-                if first.y.beyond != 0 {
-                    beyond(svg, frame, colour, [first.x.at, last.x.at], first.y);
-                }
+            if let ([first, ..], [.., last]) = (outside, outside)
+                && first.y.beyond != 0
+            {
+                beyond(svg, frame, colour, [first.x.at, last.x.at], first.y);
             }
         }
     }

@@ -169,6 +169,22 @@ fn what_is_nearer_covers_what_is_farther() {
     }
 }
 
+/// All feet lie in a plane, but the tops of the rods do not.
+#[test]
+fn a_platform_on_rods_is_seen_from_its_side() {
+    let drawn = Drawn::read(include_str!("../../../../mechanisms/wren_platform.urdf"));
+    let view = drawn.view();
+    assert!(view.up[2] > 0.7, "{view:?}");
+    let svg = drawn.sketch().fragment();
+    everything_is_inside(&svg, [480.0, 360.0]);
+    // A rod for each joint, and a body for the platform and for the ground.
+    for joint in 0..drawn.mechanism.joints().len() {
+        let rod = format!("<g data-joint=\"{joint}\"><title>");
+        assert!(svg.contains(&rod));
+    }
+    assert_eq!(svg.matches("class=\"web\"").count(), 2);
+}
+
 #[test]
 fn other_poses_are_faint_and_ways_dotted() {
     let drawn = Drawn::read(FOUR_BAR);
