@@ -77,6 +77,13 @@ fn pages(to: &Path) {
         to,
     );
     write(
+        "far",
+        &folder("tests/pages/far_from_origin.urdf"),
+        &["A"],
+        &[],
+        to,
+    );
+    write(
         "hostile",
         &folder("tests/pages/hostile_names.urdf"),
         &["A"],

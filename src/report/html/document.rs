@@ -8,11 +8,11 @@ use super::ranges::ranges;
 use super::{Assets, Facts, Stage, plots};
 use crate::graph::{self, ConstraintGraph, SpanningTree};
 use crate::mechanism::Mechanism;
-use crate::report::Report;
 use crate::report::definitions;
 use crate::report::picture::pictogram::{self, Pictogram};
 use crate::report::picture::plot;
 use crate::report::picture::sketch::{self, Sketch};
+use crate::report::schema::{Cycle, Report};
 use crate::report::text::{Block, Layout, Page, branches, counts, sections, verdict};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -196,7 +196,30 @@ fn graph_section(facts: &Facts<'_>, out: &mut String) {
          <a class=\"term\" href=\"#D14\">loops</a> dashed.</p>\n<div class=\"scroll\">",
     );
     out.push_str(&graph::svg_fragment(&graph, &tree));
-    out.push_str("</div>\n</section>\n");
+    out.push_str("</div>\n");
+    loop_chips(&facts.report.cycles, out);
+    out.push_str("</section>\n");
+}
+
+/// Loops shown beside the graph; the table has all.
+const CHIPS: usize = 60;
+
+/// The loops to point at, close to graph and picture.
+fn loop_chips(cycles: &[Cycle], out: &mut String) {
+    if cycles.is_empty() {
+        return;
+    }
+    out.push_str("<p class=\"chips\">Loops: ");
+    for (index, cycle) in cycles.iter().enumerate().take(CHIPS) {
+        out.push_str(&format!(
+            "<span class=\"chip\" data-cycle=\"{index}\" tabindex=\"0\">{}</span> ",
+            escaped(&cycle.name)
+        ));
+    }
+    if cycles.len() > CHIPS {
+        out.push_str(&format!("and {} more", cycles.len() - CHIPS));
+    }
+    out.push_str("</p>\n");
 }
 
 fn definition_list(out: &mut String) {

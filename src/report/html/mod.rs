@@ -172,3 +172,7 @@ impl<'a> Prepared<'a> {
         Entry::new(page, self.facts.mechanism, self.facts.report, &self.stage)
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;

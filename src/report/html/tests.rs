@@ -1,0 +1,119 @@
+use super::motions::{Played, repertoire};
+use super::ranges::ranges;
+use super::*;
+use crate::mobility::{AnalysisOptions, analyse};
+use crate::motion::EventKind;
+use crate::report::{Input, Options, analysed_report_on};
+
+fn own(name: &str) -> Mechanism {
+    let path = format!("{}/mechanisms/{name}.urdf", env!("CARGO_MANIFEST_DIR"));
+    crate::format::read_file(std::path::Path::new(&path), &[])
+        .unwrap()
+        .mechanism
+}
+
+fn played(mechanism: &Mechanism) -> Repertoire {
+    let analysis = analyse(mechanism, &AnalysisOptions::default()).unwrap();
+    repertoire(mechanism, &analysis, None, 12_000)
+}
+
+fn ascending(played: &Played) -> bool {
+    played
+        .poses
+        .windows(2)
+        .all(|pair| (pair[0].arclength as f32) < pair[1].arclength as f32)
+}
+
+#[test]
+fn what_is_met_has_a_sample_of_its_own() {
+    let mechanism = own("parallelogram_flat");
+    let repertoire = played(&mechanism);
+    assert_eq!(repertoire.played.len(), 2);
+    for played in &repertoire.played {
+        assert!(ascending(played));
+        let crossings: Vec<_> = played
+            .motion
+            .events
+            .iter()
+            .filter(|event| matches!(event.kind, EventKind::Singular { .. }))
+            .collect();
+        assert!(!crossings.is_empty());
+        for event in crossings {
+            let sample = &played.poses[played.nearest(event.arclength)];
+            assert!((sample.arclength - event.arclength).abs() < 1e-12);
+        }
+        assert_eq!(played.poses[played.start].arclength, 0.0);
+    }
+    // Both branches pass through the pose analysed, so that a page can go over from one to the other.
+    let at_home: Vec<Vec<f64>> = repertoire
+        .played
+        .iter()
+        .map(|played| {
+            let mut events = played.motion.events.iter();
+            let home = events.find(|event| event.kind.is_home()).unwrap();
+            played.poses[played.nearest(home.arclength)].values.clone()
+        })
+        .collect();
+    for (a, b) in at_home[0].iter().zip(&at_home[1]) {
+        assert!(((a - b) / std::f64::consts::TAU).rem_euclid(1.0).min(1.0) < 1e-6 || (a - b).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn what_slides_on_and_on_is_shown_for_the_length_of_its_loop() {
+    let mechanism = own("cartesian_table");
+    let repertoire = played(&mechanism);
+    assert!(repertoire.played.len() > 1, "several joints can be driven");
+    for played in &repertoire.played {
+        assert!(ascending(played));
+        let start = &played.poses[played.start].values;
+        let variables = crate::motion::Variable::all(&mechanism);
+        for pose in &played.poses {
+            for ((variable, a), b) in variables.iter().zip(&pose.values).zip(start) {
+                if variable.unit(&mechanism) == "m" {
+                    assert!((a - b).abs() <= 1.001 * played.motion.length_unit);
+                }
+            }
+        }
+    }
+    let drives: Vec<&str> = repertoire
+        .played
+        .iter()
+        .map(|played| played.drives[0].name.as_str())
+        .collect();
+    let mut different = drives.clone();
+    different.dedup();
+    assert_eq!(drives, different);
+}
+
+#[test]
+fn ranges_are_those_of_curves() {
+    let mechanism = own("slider_crank");
+    let input = Input {
+        mechanism: &mechanism,
+        file: "slider_crank.urdf",
+        format: "urdf",
+        warnings: &[],
+        skipped: &[],
+    };
+    let (report, analysis) = analysed_report_on(&input, &Options::default()).unwrap();
+    let facts = Facts {
+        mechanism: &mechanism,
+        report: &report,
+        analysis: &analysis,
+        configuration: None,
+        verification: None,
+    };
+    let ranges = ranges(&mechanism, &Stage::new(&facts, Assets::Inside));
+    let texts: Vec<&str> = ranges.values().map(String::as_str).collect();
+    assert!(texts.contains(&"turns fully"), "{texts:?}");
+    assert!(texts.iter().any(|text| text.ends_with(" m")), "{texts:?}");
+    assert!(texts.iter().any(|text| text.ends_with('°')), "{texts:?}");
+}
+
+#[test]
+fn a_rigid_mechanism_says_why_nothing_moves() {
+    let repertoire = played(&own("shaky_triangle"));
+    assert!(repertoire.played.is_empty());
+    assert!(repertoire.nothing.unwrap().contains("rigid"));
+}
