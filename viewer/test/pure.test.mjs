@@ -13,6 +13,8 @@ const { hit } = await source("stage/picking.ts");
 const { rotationOf, quaternionOf } = await source("stage/rotation.ts");
 const { roundLength } = await source("stage/floor.ts");
 const { nearestVertex } = await source("plots.ts");
+const { neededPoints } = await source("stage/paths.ts");
+const { rgb, hex, onPage } = await source("colours.ts");
 const { numericOrder } = await source("tables.ts");
 
 test("base64 gives back little-endian floats", () => {
@@ -160,4 +162,21 @@ test("the nearest vertex must be within reach", () => {
   const vertices = [{ x: 0, y: 0, name: "a" }, { x: 10, y: 0, name: "b" }];
   assert.equal(nearestVertex(vertices, 6, 0, 5).name, "b");
   assert.equal(nearestVertex(vertices, 6, 50, 5), null);
+});
+
+test("paths leave out what lies on a line, and keep their ends and corners", () => {
+  const straight = Float64Array.from({ length: 30 }, (_, i) => (i % 3 === 0 ? i / 30 : 0));
+  assert.deepEqual(neededPoints(straight), [0, 9]);
+  const corner = Float64Array.from([0, 0, 0, 0.5, 0, 0, 1, 0, 0, 1, 0.5, 0, 1, 1, 0]);
+  assert.deepEqual(neededPoints(corner), [0, 2, 4]);
+  // There and back again: the turning point is kept.
+  assert.deepEqual(neededPoints(Float64Array.from([0, 0, 0, 1, 0, 0, 2, 0, 0, 1, 0, 0])), [0, 2, 3]);
+});
+
+test("colours", () => {
+  assert.deepEqual(rgb("#fff"), [1, 1, 1]);
+  assert.equal(hex(rgb(" #2EA847 ")), "#2ea847");
+  assert.equal(hex(rgb("red")), "#808080");
+  assert.ok(onPage("#101010", true)[0] > 0.3);
+  assert.equal(hex(onPage("#101010", false)), "#101010");
 });
