@@ -180,3 +180,16 @@ test("colours", () => {
   assert.ok(onPage("#101010", true)[0] > 0.3);
   assert.equal(hex(onPage("#101010", false)), "#101010");
 });
+
+test("the picture turns about the axis that stands upright", async () => {
+  const { Vector3, pole } = await source("stage/framing.ts", 'export { Vector3 } from "three";');
+  const turned = (view, up) => pole(new Vector3(...view).normalize(), new Vector3(...up).normalize()).toArray();
+  // Up is given at right angles to the view.
+  const view = [0.52, -0.72, 0.46];
+  const square = view.reduce((sum, x) => sum + x * x, 0);
+  const up = [0, 0, 1].map((x, i) => x - (view[2] / square) * view[i]);
+  assert.deepEqual(turned(view, up), [0, 0, 1]);
+  assert.deepEqual(turned([0, 0, 1], [0, 1, 0]), [0, 1, 0]);
+  const leaning = turned([0, 0, 1], [1, 1, 0]);
+  assert.ok(Math.abs(leaning[0] - Math.SQRT1_2) < 1e-12 && leaning[2] === 0);
+});

@@ -66,3 +66,20 @@ export function frame(points: readonly Vector3[], towards: Vector3, up: Vector3,
 const NEAREST = 0.2;
 /** A little air around the mechanism. */
 const MARGIN = 1.12;
+
+/**
+ * The axis about which a picture is turned: the axis of the world that stands upright in the first view, so that
+ * turning keeps it upright; where none does, what the view calls up.
+ */
+export function pole(view: Vector3, up: Vector3): Vector3 {
+  for (const [axis, sign] of [[2, 1], [1, 1], [0, 1], [2, -1], [1, -1], [0, -1]] as const) {
+    const upright = new Vector3().setComponent(axis, sign);
+    const seen = upright.clone().addScaledVector(view, -upright.dot(view));
+    // An axis that points at the eye has no direction on the screen.
+    if (seen.length() > 0.2 && seen.angleTo(up) < UPRIGHT) return upright;
+  }
+  return up.clone();
+}
+
+/** Leaning by less than this angle is not seen. */
+const UPRIGHT = 0.03;

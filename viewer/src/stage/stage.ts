@@ -9,7 +9,7 @@ import type { Player } from "../player";
 import { onThemeChange, readTheme, type Theme } from "../theme";
 import { openDrawing, type Drawing } from "./drawing";
 import { floorFor, type Floor } from "./floor";
-import { frame } from "./framing";
+import { frame, pole } from "./framing";
 import { ribbonMaterial, lineMaterial, shadowMaterial, solidMaterial } from "./materials";
 import { PATHS_BY_DEFAULT, PathLines, pathsOf } from "./paths";
 import { hit } from "./picking";
@@ -87,7 +87,7 @@ export class Stage {
     this.paths = data.joints.length <= PATHS_BY_DEFAULT;
     this.scene.add(this.floor.grid, this.pathLines.mesh);
 
-    this.camera.up.set(...data.up);
+    this.camera.up.copy(pole(new Vector3(...data.view), new Vector3(...data.up)));
     this.orbit = new OrbitControls(this.camera, canvas);
     this.orbit.enableDamping = true;
     this.orbit.dampingFactor = 0.14;
