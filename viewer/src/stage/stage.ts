@@ -73,9 +73,11 @@ export class Stage {
     this.resolution = new Resolution(this.renderer, software, () => this.invalidate());
     this.theme = readTheme(host, false);
 
+    this.axes = data.joints.length <= AXES_BY_DEFAULT;
     this.points = sweptPoints(
       data,
       data.motions.slice(0, 12).map((_, index) => player.motions.get(index)),
+      this.axes,
     );
     const gridMaterial = lineMaterial();
     this.floor = floorFor(data, this.points, gridMaterial);
@@ -106,7 +108,6 @@ export class Stage {
     canvas.addEventListener("blur", () => (this.orbit.enableZoom = false));
     canvas.addEventListener("pointerdown", () => canvas.focus({ preventScroll: true }));
 
-    this.axes = data.joints.length <= AXES_BY_DEFAULT;
     this.showAxes(this.axes);
     this.showPaths(this.paths);
     this.recolour();
