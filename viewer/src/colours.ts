@@ -3,12 +3,15 @@ import type { PageData, Palette, Role, Roles } from "./page_data";
 /** A colour as red, green and blue from 0 to 1, as screens mix them. */
 export type Rgb = readonly [number, number, number];
 
-/** Reads `#rrggbb`; middle grey where it is not one. */
+/** Reads `#rrggbb` or `#rgb`; middle grey where it is neither. */
 export function rgb(text: string): Rgb {
-  const found = /^#([0-9a-f]{2})([0-9a-f]{2})([0-9a-f]{2})$/i.exec(text.trim());
-  if (found === null) return [0.5, 0.5, 0.5];
-  const part = (i: number): number => parseInt(found[i] ?? "80", 16) / 255;
-  return [part(1), part(2), part(3)];
+  const digits = /^#([0-9a-f]{3}|[0-9a-f]{6})$/i.exec(text.trim())?.[1] ?? "808080";
+  const each = digits.length / 3;
+  const part = (i: number): number => {
+    const pair = digits.slice(i * each, (i + 1) * each);
+    return parseInt(each === 1 ? pair + pair : pair, 16) / 255;
+  };
+  return [part(0), part(1), part(2)];
 }
 
 /** `share` of the way from one colour to another. */

@@ -9,12 +9,12 @@ export interface Theme {
   readonly lit: Rgb;
 }
 
-/** Reads them from the style sheet, which knows about dark pages and paper. */
-export function readTheme(host: Element): Theme {
+/** Reads them from the style sheet, which knows about dark pages. Paper is white before the browser says that it prints. */
+export function readTheme(host: Element, paper: boolean): Theme {
   const style = getComputedStyle(host);
-  const colour = (name: string): Rgb => rgb(style.getPropertyValue(name));
+  const colour = (name: string): Rgb => rgb(style.getPropertyValue(paper ? `${name}-on-paper` : name));
   return {
-    dark: style.getPropertyValue("--dark").trim() === "1",
+    dark: !paper && style.getPropertyValue("--dark").trim() === "1",
     background: colour("--stage"),
     shadow: colour("--stage-shadow"),
     grid: colour("--stage-grid"),
@@ -23,10 +23,10 @@ export function readTheme(host: Element): Theme {
 }
 
 /** Calls back when the theme may have changed; at once, because paper does not wait for the next frame. */
-export function onThemeChange(listener: () => void): void {
-  for (const query of ["(prefers-color-scheme: dark)", "print"]) {
-    window.matchMedia(query).addEventListener("change", listener);
-  }
-  window.addEventListener("beforeprint", listener);
-  window.addEventListener("afterprint", listener);
+export function onThemeChange(listener: (paper: boolean) => void): void {
+  const print = window.matchMedia("print");
+  print.addEventListener("change", () => listener(print.matches));
+  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => listener(print.matches));
+  window.addEventListener("beforeprint", () => listener(true));
+  window.addEventListener("afterprint", () => listener(false));
 }

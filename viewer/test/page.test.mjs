@@ -278,15 +278,27 @@ test("a tap tells what is under the finger", async () => {
   });
 });
 
+test("what was dark is white on paper", async () => {
+  const features = [{ name: "prefers-color-scheme", value: "dark" }];
+  await withPage(browser, "four_bar", { features }, async (page) => {
+    await page.pdf();
+    const corner = await page.evaluate(() => {
+      const copy = document.querySelector("#stage canvas.copy");
+      return [...copy.getContext("2d").getImageData(1, 1, 1, 1).data];
+    });
+    assert.deepEqual(corner, [255, 255, 255, 255]);
+  });
+});
+
 test("paper has the picture, the tables and no controls", async () => {
   await withPage(browser, "four_bar", {}, async (page) => {
     await page.emulateMediaType("print");
     const seen = await page.evaluate(() => ({
-      stage: document.querySelector("#stage canvas").checkVisibility(),
+      stage: [...document.querySelectorAll("#stage canvas")].filter((canvas) => canvas.checkVisibility()).length,
       table: document.querySelector("#joints table").checkVisibility(),
       controls: [...document.querySelectorAll(".transport, .options, .hint")].some((part) => part.checkVisibility()),
     }));
-    assert.deepEqual(seen, { stage: true, table: true, controls: false });
+    assert.deepEqual(seen, { stage: 1, table: true, controls: false });
     const pdf = await page.pdf();
     assert.ok(pdf.length > 10_000);
   });

@@ -13,6 +13,8 @@ const { hit } = await source("stage/picking.ts");
 const { rotationOf, quaternionOf } = await source("stage/rotation.ts");
 const { roundLength } = await source("stage/floor.ts");
 const { nearestVertex } = await source("plots.ts");
+const { neededPoints } = await source("stage/paths.ts");
+const { rgb, hex, onPage } = await source("colours.ts");
 const { numericOrder } = await source("tables.ts");
 
 test("base64 gives back little-endian floats", () => {
@@ -160,4 +162,34 @@ test("the nearest vertex must be within reach", () => {
   const vertices = [{ x: 0, y: 0, name: "a" }, { x: 10, y: 0, name: "b" }];
   assert.equal(nearestVertex(vertices, 6, 0, 5).name, "b");
   assert.equal(nearestVertex(vertices, 6, 50, 5), null);
+});
+
+test("paths leave out what lies on a line, and keep their ends and corners", () => {
+  const straight = Float64Array.from({ length: 30 }, (_, i) => (i % 3 === 0 ? i / 30 : 0));
+  assert.deepEqual(neededPoints(straight), [0, 9]);
+  const corner = Float64Array.from([0, 0, 0, 0.5, 0, 0, 1, 0, 0, 1, 0.5, 0, 1, 1, 0]);
+  assert.deepEqual(neededPoints(corner), [0, 2, 4]);
+  // There and back again: the turning point is kept.
+  assert.deepEqual(neededPoints(Float64Array.from([0, 0, 0, 1, 0, 0, 2, 0, 0, 1, 0, 0])), [0, 2, 3]);
+});
+
+test("colours", () => {
+  assert.deepEqual(rgb("#fff"), [1, 1, 1]);
+  assert.equal(hex(rgb(" #2EA847 ")), "#2ea847");
+  assert.equal(hex(rgb("red")), "#808080");
+  assert.ok(onPage("#101010", true)[0] > 0.3);
+  assert.equal(hex(onPage("#101010", false)), "#101010");
+});
+
+test("the picture turns about the axis that stands upright", async () => {
+  const { Vector3, pole } = await source("stage/framing.ts", 'export { Vector3 } from "three";');
+  const turned = (view, up) => pole(new Vector3(...view).normalize(), new Vector3(...up).normalize()).toArray();
+  // Up is given at right angles to the view.
+  const view = [0.52, -0.72, 0.46];
+  const square = view.reduce((sum, x) => sum + x * x, 0);
+  const up = [0, 0, 1].map((x, i) => x - (view[2] / square) * view[i]);
+  assert.deepEqual(turned(view, up), [0, 0, 1]);
+  assert.deepEqual(turned([0, 0, 1], [0, 1, 0]), [0, 1, 0]);
+  const leaning = turned([0, 0, 1], [1, 1, 0]);
+  assert.ok(Math.abs(leaning[0] - Math.SQRT1_2) < 1e-12 && leaning[2] === 0);
 });

@@ -5,10 +5,11 @@ import { fileURLToPath } from "node:url";
 
 const root = join(dirname(fileURLToPath(import.meta.url)), "..");
 
-export async function source(path) {
+/** `more`: further exports, for what the file takes from libraries. */
+export async function source(path, more = "") {
   const { outputFiles } = await build({
     absWorkingDir: root,
-    entryPoints: [`src/${path}`],
+    stdin: { contents: `export * from "./src/${path}";\n${more}`, resolveDir: root },
     bundle: true,
     format: "esm",
     write: false,

@@ -7,8 +7,8 @@ import { onThemeChange, readTheme } from "../theme";
 /** What the colours mean: only those that occur. */
 export function legend(player: Player, host: HTMLElement): HTMLElement {
   const root = element("ul", { class: "legend", "aria-label": "Colours" });
-  const fill = (): void => {
-    const { dark } = readTheme(host);
+  const fill = (paper = false): void => {
+    const { dark } = readTheme(host, paper);
     const { palette } = player.data;
     const roles = player.roles();
     const link = (role: Role): boolean =>

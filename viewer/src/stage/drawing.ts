@@ -9,7 +9,7 @@ export interface Drawing {
  * Opens a canvas for drawing; null where the browser has no three-dimensional drawing.
  *
  * Opaque, because laying a transparent picture over the page costs as much as drawing it, and kept after drawing so that
- * it can be printed. Edges are smoothed by the graphics card; the processor would need half as long again for it, so there
+ * it can be copied for paper at any time. Edges are smoothed by the graphics card; the processor would need half as long again for it, so there
  * they are smoothed by drawing finer as soon as the picture rests.
  */
 export function openDrawing(canvas: HTMLCanvasElement): Drawing | null {

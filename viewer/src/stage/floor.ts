@@ -1,5 +1,6 @@
 import { BufferGeometry, Float32BufferAttribute, LineSegments, Vector3, Vector4, type ShaderMaterial } from "three";
 import type { PageData } from "../page_data";
+import { pole } from "./framing";
 
 /** The sheet under or behind the mechanism that takes its shadow and a grid to read sizes by. */
 export interface Floor {
@@ -22,7 +23,7 @@ const BORDER = 1;
 
 export function floorFor(data: PageData, points: readonly Vector3[], material: ShaderMaterial): Floor {
   const view = new Vector3(...data.view);
-  const up = new Vector3(...data.up);
+  const up = pole(view, new Vector3(...data.up));
   const axes = [0, 1, 2] as const;
   const least = [0, 0, 0];
   const greatest = [0, 0, 0];

@@ -1,4 +1,4 @@
-import { Color, ShaderMaterial, Vector3, Vector4 } from "three";
+import { Color, DoubleSide, ShaderMaterial, type Vector2, type Vector3, type Vector4 } from "three";
 
 // Shaders of our own: a few lines each, so that they compile at once and run well where there is no graphics card.
 // Colours are given and written as screens mix them; only the light is computed with their squares, which is close
@@ -84,21 +84,38 @@ export function lineMaterial(): ShaderMaterial {
   });
 }
 
-const COLOURED_LINE_VERTEX = `
+/** Width of a path in the page's pixels. */
+const RIBBON = "1.7";
+
+// Every point of a path is drawn twice, half the width to either side of its tangent as the screen sees it.
+const RIBBON_VERTEX = `
+uniform vec2 screen;
+attribute vec3 along;
+attribute float side;
 attribute vec3 tint;
 varying vec3 vTint;
 void main() {
   vTint = tint;
-  gl_Position = projectionMatrix * (modelViewMatrix * vec4(position, 1.0));
+  vec4 here = projectionMatrix * (modelViewMatrix * vec4(position, 1.0));
+  vec4 ahead = projectionMatrix * (modelViewMatrix * vec4(position + along, 1.0));
+  vec2 way = (ahead.xy / ahead.w - here.xy / here.w) * screen;
+  vec2 aside = vec2(-way.y, way.x) / max(length(way), 1e-9);
+  here.xy += side * ${RIBBON} * aside / screen * here.w;
+  gl_Position = here;
 }`;
 
-const COLOURED_LINE_FRAGMENT = `
+const RIBBON_FRAGMENT = `
 varying vec3 vTint;
 void main() {
   gl_FragColor = vec4(vTint, 1.0);
 }`;
 
-/** Lines with a colour for every point. */
-export function colouredLineMaterial(): ShaderMaterial {
-  return new ShaderMaterial({ vertexShader: COLOURED_LINE_VERTEX, fragmentShader: COLOURED_LINE_FRAGMENT });
+/** Lines of a constant width on the screen, with a colour for every point. `screen`: its size in the page's pixels. */
+export function ribbonMaterial(screen: Vector2): ShaderMaterial {
+  return new ShaderMaterial({
+    uniforms: { screen: { value: screen } },
+    vertexShader: RIBBON_VERTEX,
+    fragmentShader: RIBBON_FRAGMENT,
+    side: DoubleSide,
+  });
 }

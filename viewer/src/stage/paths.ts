@@ -1,4 +1,4 @@
-import { BufferGeometry, Float32BufferAttribute, LineSegments, type ShaderMaterial } from "three";
+import { BufferGeometry, Float32BufferAttribute, Mesh, type ShaderMaterial } from "three";
 import type { Rgb } from "../colours";
 import type { Motion, PageData } from "../page_data";
 import { rotationOf } from "./rotation";
@@ -64,39 +64,85 @@ function gap(a: Float64Array, i: number, b: Float64Array, j: number): number {
   return Math.hypot(a[i]! - b[j]!, a[i + 1]! - b[j + 1]!, a[i + 2]! - b[j + 2]!);
 }
 
+/** Points of a path that lie on the line between their neighbours, to this part of the mechanism's size, are left out. */
+const STRAIGHT = 4e-4;
+
+/** Indices of the points that a drawing of the path needs: as far ahead as the points between stay near the chord. */
+export function neededPoints(points: Float64Array): number[] {
+  const count = points.length / 3;
+  const needed = [0];
+  let from = 0;
+  while (from < count - 1) {
+    let to = from + 1;
+    while (to + 1 < count && straight(points, from, to + 1)) to += 1;
+    needed.push(to);
+    from = to;
+  }
+  return needed;
+}
+
+function straight(points: Float64Array, from: number, to: number): boolean {
+  const [ax, ay, az] = [points[3 * from]!, points[3 * from + 1]!, points[3 * from + 2]!];
+  const [ux, uy, uz] = [points[3 * to]! - ax, points[3 * to + 1]! - ay, points[3 * to + 2]! - az];
+  const square = ux * ux + uy * uy + uz * uz;
+  for (let i = from + 1; i < to; i += 1) {
+    const [px, py, pz] = [points[3 * i]! - ax, points[3 * i + 1]! - ay, points[3 * i + 2]! - az];
+    const share = square > 0 ? Math.min(1, Math.max(0, (px * ux + py * uy + pz * uz) / square)) : 0;
+    if (Math.hypot(px - share * ux, py - share * uy, pz - share * uz) > STRAIGHT) return false;
+  }
+  return true;
+}
+
 /** Draws paths as thin lines in the colours of their links. */
 export class PathLines {
-  readonly lines: LineSegments;
-  private paths: readonly Path[] = [];
+  readonly mesh: Mesh;
+  private paths: readonly { readonly path: Path; readonly corners: number }[] = [];
 
   constructor(material: ShaderMaterial) {
-    this.lines = new LineSegments(new BufferGeometry(), material);
-    this.lines.frustumCulled = false;
+    this.mesh = new Mesh(new BufferGeometry(), material);
+    this.mesh.frustumCulled = false;
   }
 
   set(paths: readonly Path[]): void {
-    this.paths = paths;
     const places: number[] = [];
-    for (const { points } of paths) {
-      for (let i = 3; i < points.length; i += 3) {
-        places.push(...points.subarray(i - 3, i), ...points.subarray(i, i + 3));
-      }
-    }
-    this.lines.geometry.dispose();
-    this.lines.geometry = new BufferGeometry();
-    this.lines.geometry.setAttribute("position", new Float32BufferAttribute(places, 3));
-    this.lines.geometry.setAttribute("tint", new Float32BufferAttribute(new Float32Array(places.length), 3));
+    const along: number[] = [];
+    const sides: number[] = [];
+    const indices: number[] = [];
+    this.paths = paths.map((path) => {
+      const { points } = path;
+      const needed = neededPoints(points);
+      const first = sides.length;
+      needed.forEach((point, i) => {
+        const [before, after] = [needed[i - 1] ?? point, needed[i + 1] ?? point];
+        const tangent = [0, 1, 2].map((c) => 0.05 * (points[3 * after + c]! - points[3 * before + c]!));
+        for (const side of [-1, 1]) {
+          places.push(...points.subarray(3 * point, 3 * point + 3));
+          along.push(...tangent);
+          sides.push(side);
+        }
+        const here = first + 2 * i;
+        if (i > 0) indices.push(here - 2, here - 1, here, here, here - 1, here + 1);
+      });
+      return { path, corners: sides.length - first };
+    });
+    const geometry = new BufferGeometry();
+    geometry.setIndex(indices);
+    geometry.setAttribute("position", new Float32BufferAttribute(places, 3));
+    geometry.setAttribute("along", new Float32BufferAttribute(along, 3));
+    geometry.setAttribute("side", new Float32BufferAttribute(sides, 1));
+    geometry.setAttribute("tint", new Float32BufferAttribute(new Float32Array(places.length), 3));
+    this.mesh.geometry.dispose();
+    this.mesh.geometry = geometry;
   }
 
   paint(colourOf: (path: Path) => Rgb): void {
-    const tints = this.lines.geometry.getAttribute("tint");
+    const tints = this.mesh.geometry.getAttribute("tint");
     if (tints === undefined) return;
-    let point = 0;
-    for (const path of this.paths) {
+    let corner = 0;
+    for (const { path, corners } of this.paths) {
       const colour = colourOf(path);
-      const count = 2 * (path.points.length / 3 - 1);
-      for (let i = 0; i < count; i += 1) tints.setXYZ(point + i, ...colour);
-      point += count;
+      for (let i = 0; i < corners; i += 1) tints.setXYZ(corner + i, ...colour);
+      corner += corners;
     }
     tints.needsUpdate = true;
   }

@@ -1,4 +1,4 @@
-import { Color, ColorManagement, PerspectiveCamera, Scene, Vector3, WebGLRenderer, type ShaderMaterial } from "three";
+import { Color, ColorManagement, PerspectiveCamera, Scene, Vector2, Vector3, WebGLRenderer, type ShaderMaterial } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { jointColour, linkColour, mix, onPage, type Rgb } from "../colours";
 import { element } from "../dom";
@@ -9,8 +9,8 @@ import type { Player } from "../player";
 import { onThemeChange, readTheme, type Theme } from "../theme";
 import { openDrawing, type Drawing } from "./drawing";
 import { floorFor, type Floor } from "./floor";
-import { frame } from "./framing";
-import { colouredLineMaterial, lineMaterial, shadowMaterial, solidMaterial } from "./materials";
+import { frame, pole } from "./framing";
+import { ribbonMaterial, lineMaterial, shadowMaterial, solidMaterial } from "./materials";
 import { PATHS_BY_DEFAULT, PathLines, pathsOf } from "./paths";
 import { hit } from "./picking";
 import { Resolution } from "./resolution";
@@ -48,7 +48,10 @@ export class Stage {
   private readonly materials: Readonly<Record<"shadow" | "grid", ShaderMaterial>>;
   private readonly points: readonly Vector3[];
   private readonly resolution: Resolution;
+  /** Size of the picture in the page's pixels. */
+  private readonly screen = new Vector2(1, 1);
   private theme: Theme;
+  private readonly copy = element("canvas", { class: "copy" });
   private view: ViewName | null = "home";
   private glide: ((seconds: number) => boolean) | null = null;
   private moved = true;
@@ -68,11 +71,13 @@ export class Stage {
     // Asking for errors makes the first frame wait for every shader.
     this.renderer.debug.checkShaderErrors = false;
     this.resolution = new Resolution(this.renderer, software, () => this.invalidate());
-    this.theme = readTheme(host);
+    this.theme = readTheme(host, false);
 
+    this.axes = data.joints.length <= AXES_BY_DEFAULT;
     this.points = sweptPoints(
       data,
       data.motions.slice(0, 12).map((_, index) => player.motions.get(index)),
+      this.axes,
     );
     const gridMaterial = lineMaterial();
     this.floor = floorFor(data, this.points, gridMaterial);
@@ -80,11 +85,11 @@ export class Stage {
     this.materials = { shadow, grid: gridMaterial };
     this.scene.matrixWorldAutoUpdate = false;
     this.solids = new Solids(data, this.scene, solidMaterial(), data.shapes.length <= SHADOWED ? shadow : null);
-    this.pathLines = new PathLines(colouredLineMaterial());
+    this.pathLines = new PathLines(ribbonMaterial(this.screen));
     this.paths = data.joints.length <= PATHS_BY_DEFAULT;
-    this.scene.add(this.floor.grid, this.pathLines.lines);
+    this.scene.add(this.floor.grid, this.pathLines.mesh);
 
-    this.camera.up.set(...data.up);
+    this.camera.up.copy(pole(new Vector3(...data.view), new Vector3(...data.up)));
     this.orbit = new OrbitControls(this.camera, canvas);
     this.orbit.enableDamping = true;
     this.orbit.dampingFactor = 0.14;
@@ -103,7 +108,6 @@ export class Stage {
     canvas.addEventListener("blur", () => (this.orbit.enableZoom = false));
     canvas.addEventListener("pointerdown", () => canvas.focus({ preventScroll: true }));
 
-    this.axes = data.joints.length <= AXES_BY_DEFAULT;
     this.showAxes(this.axes);
     this.showPaths(this.paths);
     this.recolour();
@@ -116,12 +120,13 @@ export class Stage {
       this.invalidate();
     });
     lights.onChange(() => this.recolour());
-    onThemeChange(() => {
-      this.theme = readTheme(host);
+    onThemeChange((paper) => {
+      this.theme = readTheme(host, paper);
       this.recolour();
       // Paper gets every pixel.
       this.resolution.refine();
       this.draw();
+      if (paper) this.copyForPaper();
     });
     frames.each((seconds) => this.step(seconds));
     this.resize();
@@ -162,7 +167,7 @@ export class Stage {
 
   showPaths(shown: boolean): void {
     this.paths = shown;
-    this.pathLines.lines.visible = shown;
+    this.pathLines.mesh.visible = shown;
     this.tracePaths();
     this.recolour();
   }
@@ -255,6 +260,14 @@ export class Stage {
     this.dirty = false;
   }
 
+  /** Browsers print the last picture of such a canvas that was on the screen; of a plain one they print what it holds. */
+  private copyForPaper(): void {
+    const { canvas, copy } = this;
+    [copy.width, copy.height] = [canvas.width, canvas.height];
+    copy.getContext("2d")?.drawImage(canvas, 0, 0);
+    if (!copy.isConnected) canvas.after(copy);
+  }
+
   private step(seconds: number): boolean {
     const gliding = this.glide?.(seconds) ?? false;
     if (!gliding) this.glide = null;
@@ -295,6 +308,7 @@ export class Stage {
     if (width === 0 || height === 0) return;
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
+    this.screen.set(width, height);
     this.resolution.resize(width, height);
     if (this.view !== null) {
       const { eye, target } = this.framing(this.view);
@@ -316,7 +330,7 @@ export class Stage {
     const { lights } = this;
     const shade = (colour: Rgb, isLit: boolean): Rgb => {
       if (!lights.any) return colour;
-      return isLit ? mix(colour, lit, 0.45) : mix(colour, background, 0.68);
+      return isLit ? mix(colour, lit, 0.85) : mix(colour, background, 0.62);
     };
     this.solids.paint(({ link, joint, axis }) => {
       if (joint === null) return shade(onPage(linkColour(data, roles, link), dark), lights.has("link", link));

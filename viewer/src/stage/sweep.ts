@@ -8,10 +8,11 @@ const SHAPES = 400;
 
 /**
  * Corners of the shapes in the poses of some motions and at home, relative to the page's centre in units of its extent:
- * what a picture must have room for.
+ * what a picture must have room for; with the tips of axes
+ * where these are shown.
  */
-export function sweptPoints(data: PageData, motions: readonly Motion[]): Vector3[] {
-  const bodies = data.shapes.filter((shape) => !shape.axis);
+export function sweptPoints(data: PageData, motions: readonly Motion[], axes: boolean): Vector3[] {
+  const bodies = data.shapes.filter((shape) => axes || !shape.axis);
   const every = Math.max(1, Math.ceil(bodies.length / SHAPES));
   const corners = bodies.filter((_, index) => index % every === 0).map(cornersOf(data.extent));
   const points: Vector3[] = [];
@@ -47,7 +48,8 @@ function cornersOf(extent: number): (shape: ShapeData) => { link: number; places
     rotationOf(shape.pose, 3, rotation);
     const [a, b, c] = shape.size.map((size) => size / 2 / extent) as [number, number, number];
     const rod = shape.kind === "cylinder" && c > 4 * a;
-    const signs = rod ? [[0, 0, -1], [0, 0, 1]] : CORNERS;
+    // An arrow starts at its origin: its tip is twice half its length away.
+    const signs = shape.kind === "arrow" ? [[0, 0, 2]] : rod ? [[0, 0, -1], [0, 0, 1]] : CORNERS;
     const places = signs.map(([x = 0, y = 0, z = 0]) =>
       turned(rotation, new Vector3(x * a, y * b, z * c), shape.pose, 0, extent),
     );
