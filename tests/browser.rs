@@ -64,7 +64,13 @@ fn pages(to: &Path) {
         &[],
         to,
     );
-    write("slider", &own("slider_crank"), &["A"], &["--verify"], to);
+    write(
+        "slider",
+        &own("slider_hitting_stop"),
+        &["A"],
+        &["--verify"],
+        to,
+    );
     write("still", &own("shaky_triangle"), &[], &[], to);
     write("locked", &own("cardan_shaft"), &["A"], &[], to);
     write("bennett", &own("bennett"), &["A"], &[], to);

@@ -261,3 +261,28 @@ fn every_own_mechanism_has_a_page() {
     }
     assert!(pages > 100);
 }
+
+#[test]
+fn a_verification_is_shown_where_it_was_asked_for() {
+    let file = folder("mechanisms/slider_crank.urdf");
+    let page = page_of(&file, &["--verify"]);
+    assert!(page.contains("The physics engine says: confirmed."));
+    assert!(page.contains("substeps of a step"));
+    assert!(!self::page("slider_crank").contains("The physics engine says"));
+    let refused = kutzbach(&["report", &file.to_string_lossy(), "--verify"]);
+    assert_eq!(refused.status.code(), Some(2));
+    let told = String::from_utf8_lossy(&refused.stderr);
+    assert!(told.contains("--format html"), "{told}");
+}
+
+#[test]
+fn a_page_of_a_configuration_starts_there() {
+    let file = folder("mechanisms/planar_3rrr.urdf");
+    let mechanism = read_file(&file, &[]).unwrap().mechanism;
+    let Some(configuration) = mechanism.configurations().first() else {
+        panic!("the file has no configuration");
+    };
+    let there = data(&page_of(&file, &["--at", &configuration.name]));
+    let home = data(&page_of(&file, &[]));
+    assert_ne!(there["home"], home["home"]);
+}

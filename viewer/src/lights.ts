@@ -85,7 +85,7 @@ function thingsOf(element: Element): Thing[] {
  * each would bar the way to everything behind.
  */
 function makeReachable(root: HTMLElement): void {
-  for (const group of root.querySelectorAll("table, svg.graph")) {
+  for (const group of root.querySelectorAll("table, svg.graph, p.chips")) {
     const stops = (): NodeListOf<SVGElement | HTMLElement> => group.querySelectorAll<SVGElement | HTMLElement>(ANY);
     stops().forEach((stop, index) => stop.setAttribute("tabindex", index === 0 ? "0" : "-1"));
     group.addEventListener("keydown", (event) => {

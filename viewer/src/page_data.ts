@@ -11,7 +11,7 @@ export interface PageData {
   readonly view: readonly [number, number, number];
   readonly up: readonly [number, number, number];
   readonly ground: number;
-  readonly links: readonly { readonly name: string }[];
+  readonly links: readonly LinkData[];
   readonly joints: readonly JointData[];
   readonly cycles: readonly { readonly name: string; readonly joints: readonly number[] }[];
   readonly shapes: readonly ShapeData[];
@@ -22,6 +22,15 @@ export interface PageData {
   readonly motions: readonly MotionData[];
   /** Roles while nothing moves; unknown where left out. */
   readonly roles?: Roles;
+}
+
+export interface LinkData {
+  readonly name: string;
+  /**
+   * Where its drawn frame stands in the link's own (m); at its origin where left out. Links whose own frame is far away are
+   * drawn by a nearer one, parallel to it, so that single precision suffices; all poses and shapes are told by that.
+   */
+  readonly origin?: readonly [number, number, number];
 }
 
 export interface JointData {

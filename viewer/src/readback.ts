@@ -62,7 +62,8 @@ export function readBack(player: Player, frames: Frames, ready: Promise<void>, s
         const drawn = stage()?.drawnSolids.drawnPose(link) ?? wanted;
         // Of the two signs of a quaternion, the one in the data.
         const dot = [3, 4, 5, 6].reduce((sum, i) => sum + (drawn[i] ?? 0) * (wanted[i] ?? 0), 0);
-        return drawn.map((x, i) => (i < 3 ? x + (data.centre[i] ?? 0) : dot < 0 ? -x : x));
+        const pose = drawn.map((x, i) => (i < 3 ? x + (data.centre[i] ?? 0) : dot < 0 ? -x : x));
+        return ownFrame(pose, data.links[link]?.origin);
       });
     },
     shapeMatrix: (index) => {
@@ -84,4 +85,19 @@ export function readBack(player: Player, frames: Frames, ready: Promise<void>, s
     framesPerSecond: () => frames.perSecond,
     firstFrame: () => performance.getEntriesByName(FIRST_FRAME)[0]?.startTime ?? null,
   };
+}
+
+/** From the pose of the frame a link is drawn by to that of its own frame. */
+function ownFrame(pose: number[], origin: readonly [number, number, number] | undefined): number[] {
+  if (origin === undefined) return pose;
+  const [x = 0, y = 0, z = 0, w = 1, a = 0, b = 0, c = 0] = pose;
+  const [u, v, t] = origin;
+  // v' = v + 2 q × (q × v + w v), q being the vector part.
+  const first = [b * t - c * v + w * u, c * u - a * t + w * v, a * v - b * u + w * t] as const;
+  const turned = [
+    u + 2 * (b * first[2] - c * first[1]),
+    v + 2 * (c * first[0] - a * first[2]),
+    t + 2 * (a * first[1] - b * first[0]),
+  ] as const;
+  return [x - turned[0], y - turned[1], z - turned[2], w, a, b, c];
 }

@@ -32,6 +32,15 @@ if (!directory) {
 
 export const pagePath = (name) => join(directory, `${name}.html`);
 
+/** A vector turned by a unit quaternion w, x, y, z. */
+function turned([w, x, y, z], [a, b, c]) {
+  return [
+    (1 - 2 * (y * y + z * z)) * a + 2 * (x * y - w * z) * b + 2 * (x * z + w * y) * c,
+    2 * (x * y + w * z) * a + (1 - 2 * (x * x + z * z)) * b + 2 * (y * z - w * x) * c,
+    2 * (x * z - w * y) * a + 2 * (y * z + w * x) * b + (1 - 2 * (x * x + y * y)) * c,
+  ];
+}
+
 /** The data written into a page, with its numbers decoded. */
 export function pageData(name) {
   const text = readFileSync(pagePath(name), "utf8");
@@ -44,11 +53,11 @@ export function pageData(name) {
     for (const key of ["arclengths", "values", "poses"]) motion[key] = floats(motion[key]);
     const width = 7 * data.links.length;
     motion.poseOf = (sample) =>
-      data.links.map((_, link) =>
-        motion.poses
-          .slice(sample * width + 7 * link, sample * width + 7 * link + 7)
-          .map((x, i) => (i < 3 ? x + data.centre[i] : x)),
-      );
+      data.links.map(({ origin }, link) => {
+        const drawn = motion.poses.slice(sample * width + 7 * link, sample * width + 7 * link + 7);
+        const own = turned(drawn.slice(3), origin ?? [0, 0, 0]);
+        return drawn.map((x, i) => (i < 3 ? x + data.centre[i] - own[i] : x));
+      });
   }
   return data;
 }

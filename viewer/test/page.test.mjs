@@ -77,10 +77,10 @@ test("a loop lights itself and its joints", async () => {
 test("rows light by keyboard, one stop of the tab key for each table", async () => {
   await withPage(browser, "four_bar", {}, async (page) => {
     assert.equal((await page.$$("#joints table [tabindex='0']")).length, 1);
-    await page.focus("#joints tr[data-joint='0']");
-    await page.waitForSelector("#joints tr[data-joint='0'].lit");
+    await page.focus("#joints tbody tr:nth-child(1)");
+    await page.waitForSelector("#joints tbody tr:nth-child(1).lit");
     await page.keyboard.press("ArrowDown");
-    await page.waitForSelector("#joints tr[data-joint='1'].lit");
+    await page.waitForSelector("#joints tbody tr:nth-child(2).lit");
   });
 });
 

@@ -96,7 +96,7 @@ fn write_table(table: &Table, things: &str, names: &Names, out: &mut String) {
 fn write_row(row: &Row, columns: &[(String, Column)], names: &Names, out: &mut String) {
     let subject = row.subject.as_ref().and_then(|s| names.attribute(s));
     match subject {
-        Some(attribute) => out.push_str(&format!("<tr {attribute} tabindex=\"0\">")),
+        Some(attribute) => out.push_str(&format!("<tr {attribute}>")),
         None => out.push_str("<tr>"),
     }
     for (index, (cell, (_, column))) in row.cells.iter().zip(columns).enumerate() {

@@ -31,6 +31,8 @@ pub struct PageData {
     pub shapes: Vec<ShapeData>,
     /// `world_from_link` at the pose analysed.
     pub home: Vec<Pose>,
+    /// What links and joints do where no motion is shown.
+    pub roles: RoleData,
     pub palette: Palette,
     pub branches: Vec<BranchData>,
     /// Why nothing moves at all, where nothing does.
@@ -41,6 +43,9 @@ pub struct PageData {
 #[derive(Debug, Serialize)]
 pub struct LinkData {
     pub name: String,
+    /// Where its drawn frame stands in its own (m); at its origin if `None`. All its poses and shapes are told by that.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub origin: Option<[f64; 3]>,
 }
 
 #[derive(Debug, Serialize)]

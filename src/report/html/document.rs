@@ -33,13 +33,13 @@ pub fn script() -> &'static str {
 #[must_use]
 pub fn style() -> String {
     let page = include_str!("../../../viewer/dist/page.css");
+    // The page has the last word on colours.
     [
-        page,
         plot::STYLE,
         sketch::STYLE,
         pictogram::STYLE,
         graph::SVG_STYLE,
-        include_str!("gallery.css"),
+        page,
     ]
     .join("\n")
 }
@@ -212,7 +212,7 @@ fn loop_chips(cycles: &[Cycle], out: &mut String) {
     out.push_str("<p class=\"chips\">Loops: ");
     for (index, cycle) in cycles.iter().enumerate().take(CHIPS) {
         out.push_str(&format!(
-            "<span class=\"chip\" data-cycle=\"{index}\" tabindex=\"0\">{}</span> ",
+            "<span class=\"chip\" data-cycle=\"{index}\">{}</span> ",
             escaped(&cycle.name)
         ));
     }

@@ -22,7 +22,6 @@ pub(super) fn page_data(facts: &Facts<'_>, stage: &Stage, names: &Names) -> Page
     let offsets = mechanism.variable_offsets();
     let variables = Variable::all(mechanism);
     let column = |variable: &Variable| offsets[variable.joint] + variable.freedom;
-    let from_centre = |pose: &Rigid<f64>| pose_data(pose, &stage.centre);
     PageData {
         schema: SCHEMA,
         mechanism: shown(mechanism.name()),
@@ -35,8 +34,10 @@ pub(super) fn page_data(facts: &Facts<'_>, stage: &Stage, names: &Names) -> Page
         links: mechanism
             .links()
             .iter()
-            .map(|link| LinkData {
+            .zip(&stage.origins)
+            .map(|(link, origin)| LinkData {
                 name: shown(&link.name),
+                origin: *origin,
             })
             .collect(),
         joints: mechanism
@@ -68,7 +69,8 @@ pub(super) fn page_data(facts: &Facts<'_>, stage: &Stage, names: &Names) -> Page
             })
             .collect(),
         shapes: shapes(stage),
-        home: stage.home.iter().map(from_centre).collect(),
+        home: placed(&stage.home, stage),
+        roles: roles(mechanism, &stage.roles),
         palette: palette(),
         branches: branches(facts, &stage.repertoire),
         still: stage.repertoire.nothing.clone(),
@@ -76,12 +78,27 @@ pub(super) fn page_data(facts: &Facts<'_>, stage: &Stage, names: &Names) -> Page
             .repertoire
             .played
             .iter()
-            .map(|played| motion(mechanism, played, &stage.centre, &column))
+            .map(|played| motion(mechanism, played, stage, &column))
             .collect(),
     }
 }
 
-/// Relative to a point; for shapes, which stand in their links, that is the origin.
+/// `world_from_link` of every link, by the frame it is drawn by and relative to the middle of the mechanism.
+fn placed(links: &[Rigid<f64>], stage: &Stage) -> Vec<Pose> {
+    placed_links(links, stage).collect()
+}
+
+fn placed_links<'a>(links: &'a [Rigid<f64>], stage: &'a Stage) -> impl Iterator<Item = Pose> + 'a {
+    links
+        .iter()
+        .zip(&stage.origins)
+        .map(|(pose, origin)| match origin {
+            None => pose_data(pose, &stage.centre),
+            Some(origin) => pose_data(&pose.compose(&Rigid::translation(*origin)), &stage.centre),
+        })
+}
+
+/// Relative to a point.
 fn pose_data(pose: &Rigid<f64>, centre: &[f64; 3]) -> Pose {
     let [x, y, z, w] = pose.quaternion();
     let at = &pose.translation;
@@ -114,7 +131,7 @@ fn shapes(stage: &Stage) -> Vec<ShapeData> {
                 Primitive::Arrow { .. } => "arrow",
             },
             size: shape.primitive.size(),
-            pose: pose_data(&shape.pose, &[0.0; 3]),
+            pose: pose_data(&shape.pose, &stage.origins[shape.link].unwrap_or([0.0; 3])),
         }
     };
     stage.drawing.shapes.iter().map(shape).collect()
@@ -158,24 +175,23 @@ fn branches(facts: &Facts<'_>, repertoire: &Repertoire) -> Vec<BranchData> {
 fn motion(
     mechanism: &Mechanism,
     played: &Played,
-    centre: &[f64; 3],
+    stage: &Stage,
     column: &dyn Fn(&Variable) -> usize,
 ) -> MotionData {
     let poses = &played.poses;
     let links = mechanism.links().len();
-    let mut placed: Vec<f64> = Vec::with_capacity(poses.len() * links * 7);
+    let mut all: Vec<f64> = Vec::with_capacity(poses.len() * links * 7);
     for (sample, pose) in poses.iter().enumerate() {
-        for (link, at) in pose.links.iter().enumerate() {
-            let mut own = pose_data(at, centre);
+        for (link, mut own) in placed_links(&pose.links, stage).enumerate() {
             // Of the two quaternions of a rotation the one close to that before: what lies between is read off them.
             if sample > 0 {
-                let before = &placed[((sample - 1) * links + link) * 7 + 3..][..4];
+                let before = &all[((sample - 1) * links + link) * 7 + 3..][..4];
                 let along: f64 = before.iter().zip(&own[3..]).map(|(a, b)| a * b).sum();
                 if along < 0.0 {
                     own[3..].iter_mut().for_each(|x| *x = -*x);
                 }
             }
-            placed.extend(own);
+            all.extend(own);
         }
     }
     MotionData {
@@ -184,7 +200,7 @@ fn motion(
         samples: poses.len(),
         arclengths: packed(poses.iter().map(|pose| pose.arclength)),
         values: packed(poses.iter().flat_map(|pose| pose.values.iter().copied())),
-        poses: packed(placed.into_iter()),
+        poses: packed(all.into_iter()),
         start: played.start,
         drives: played.drives.iter().map(column).collect(),
         held: played

@@ -83,14 +83,21 @@ impl Assets {
     }
 }
 
+/// A link's frame farther than so many extents from the mechanism is too far for single precision.
+const FAR: f64 = 4.0;
+
 /// The mechanism as it is drawn.
 #[derive(Debug)]
 struct Stage {
     drawing: Drawing,
+    /// What links and joints do on the first branch, or at the pose where there is none.
+    roles: Roles,
     /// `world_from_link` at the pose analysed.
     home: Vec<Rigid<f64>>,
     /// The middle of the mechanism (m).
     centre: [f64; 3],
+    /// Of links whose frames are far from what is drawn: a point in the link that is near (m).
+    origins: Vec<Option<[f64; 3]>>,
     view: View,
     /// Points that should be one, where the mechanism does not assemble (world, m).
     gaps: Vec<[[f64; 3]; 2]>,
@@ -108,8 +115,15 @@ impl Stage {
         let roles = Roles::of(facts.mechanism, facts.analysis, branches.first(), None);
         let drawing = Drawing::new(facts.mechanism, &geometry, &roles);
         let [low, high] = drawing.bounds;
+        let centre = [0, 1, 2].map(|i| 0.5 * (low[i] + high[i]));
+        let near = |link: &Rigid<f64>| {
+            let far =
+                (0..3).any(|i| (link.translation[i] - centre[i]).abs() > FAR * drawing.extent);
+            far.then(|| link.inverse().apply(&centre))
+        };
         Self {
-            centre: [0, 1, 2].map(|i| 0.5 * (low[i] + high[i])),
+            origins: home.iter().map(near).collect(),
+            centre,
             view: View::of(&drawing, &geometry.displacements, &home),
             gaps: gaps(facts, &geometry, &home),
             repertoire: repertoire(
@@ -120,6 +134,7 @@ impl Stage {
             ),
             home,
             drawing,
+            roles,
         }
     }
 }

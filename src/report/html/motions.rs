@@ -16,8 +16,11 @@ const SAMPLES: [usize; 2] = [24, 180];
 /// Motions of a branch of several freedoms, at most.
 const DRIVES: usize = 6;
 
-/// Of large mechanisms fewer: so many variables all together, the cost of a pose being about the square of their number.
-const DRIVEN_VARIABLES: usize = 120;
+/// Of large mechanisms fewer: their variables, over all motions.
+const DRIVEN_VARIABLES: usize = 80;
+
+/// Larger mechanisms are not traced for a page: nobody sees one link of so many.
+const LINKS: usize = 1500;
 
 /// Branches that are traced at most.
 const BRANCHES: usize = 12;
@@ -26,9 +29,12 @@ const BRANCHES: usize = 12;
 /// that it closes.
 const REACH: f64 = 7.0;
 
-/// Poses computed of such a motion each way: enough for once around in a mechanism of few joints, and to see where it goes
-/// in one of many.
-const POSES: usize = 300;
+/// Poses computed of such a motion each way, at least and at most: enough for once around in a mechanism of few joints, and
+/// to see where it goes in one of many.
+const POSES: [usize; 2] = [40, 300];
+
+/// What they may cost, all motions of a branch together, a pose costing about the square of the number of variables.
+const WORK: usize = 250_000;
 
 /// What goes on and on is shown for two turns of a hinge, or for a slide by the part's length.
 const SHOWN_TURN: f64 = 4.0 * std::f64::consts::PI;
@@ -104,6 +110,13 @@ pub(super) fn repertoire(
         });
         return repertoire;
     }
+    let links = mechanism.links().len().max(1);
+    if links > LINKS {
+        repertoire.nothing = Some(format!(
+            "not shown: a page plays up to {LINKS} links, this mechanism has {links}; `kutzbach trace` follows it"
+        ));
+        return repertoire;
+    }
     let mut found: Vec<(usize, Motion)> = Vec::new();
     for (index, branch) in branches.iter().enumerate() {
         if index >= BRANCHES {
@@ -128,7 +141,6 @@ pub(super) fn repertoire(
         still = still.filter(|_| found.last().is_none_or(|(branch, _)| *branch != index));
         repertoire.still.push(still);
     }
-    let links = mechanism.links().len().max(1);
     let [least, most] = SAMPLES;
     let samples = (link_poses / links / found.len().max(1)).clamp(least, most);
     for (branch, motion) in found {
@@ -189,12 +201,15 @@ fn ways(mechanism: &Mechanism, branch: &Branch, options: &TraceOptions) -> Vec<T
         a.0.cmp(&b.0).then_with(by_name)
     });
     let most = (DRIVEN_VARIABLES / mechanism.freedom().max(1)).clamp(1, DRIVES);
+    let cost = mechanism.freedom().pow(2).max(1) * most;
+    let [least_poses, most_poses] = POSES;
+    let poses = (WORK / cost).clamp(least_poses, most_poses);
     let drives = variables.into_iter().take(most);
     drives
         .map(|(_, variable)| TraceOptions {
             drive: Some(variable.name),
             reach: REACH,
-            poses: POSES,
+            poses,
             ..options.clone()
         })
         .collect()

@@ -55,7 +55,10 @@ fn what_is_met_has_a_sample_of_its_own() {
         })
         .collect();
     for (a, b) in at_home[0].iter().zip(&at_home[1]) {
-        assert!(((a - b) / std::f64::consts::TAU).rem_euclid(1.0).min(1.0) < 1e-6 || (a - b).abs() < 1e-6);
+        assert!(
+            ((a - b) / std::f64::consts::TAU).rem_euclid(1.0).min(1.0) < 1e-6
+                || (a - b).abs() < 1e-6
+        );
     }
 }
 
