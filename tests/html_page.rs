@@ -277,7 +277,7 @@ fn a_verification_is_shown_where_it_was_asked_for() {
 
 #[test]
 fn a_page_of_a_configuration_starts_there() {
-    let file = folder("mechanisms/planar_3rrr.urdf");
+    let file = folder("mechanisms/planar_four_bar.urdf");
     let mechanism = read_file(&file, &[]).unwrap().mechanism;
     let Some(configuration) = mechanism.configurations().first() else {
         panic!("the file has no configuration");

@@ -144,15 +144,11 @@ pub(super) fn repertoire(
     let [least, most] = SAMPLES;
     let samples = (link_poses / links / found.len().max(1)).clamp(least, most);
     for (branch, motion) in found {
-        let roles = Roles::of(
-            mechanism,
-            analysis,
-            Some(&branches[branch]),
-            Some(motion.driven.joint),
-        );
-        repertoire
-            .played
-            .push(play(mechanism, branch, motion, roles, samples));
+        let drives = drives(mechanism, &motion);
+        let driven = drives.first().map(|variable| variable.joint);
+        let roles = Roles::of(mechanism, analysis, Some(&branches[branch]), driven);
+        let played = play(mechanism, branch, motion, drives, roles, samples);
+        repertoire.played.push(played);
     }
     repertoire
 }
@@ -204,6 +200,9 @@ fn ways(mechanism: &Mechanism, branch: &Branch, options: &TraceOptions) -> Vec<T
     let cost = mechanism.freedom().pow(2).max(1) * most;
     let [least_poses, most_poses] = POSES;
     let poses = (WORK / cost).clamp(least_poses, most_poses);
+    if variables.is_empty() {
+        return vec![options.clone()];
+    }
     let drives = variables.into_iter().take(most);
     drives
         .map(|(_, variable)| TraceOptions {
@@ -215,10 +214,44 @@ fn ways(mechanism: &Mechanism, branch: &Branch, options: &TraceOptions) -> Vec<T
         .collect()
 }
 
+/// What can be driven. On a curve that is any joint that moves, and nobody has said which: one at the ground that never
+/// turns back comes first, as a motor would sit there.
+fn drives(mechanism: &Mechanism, motion: &Motion) -> Vec<Variable> {
+    let mut drives = vec![motion.driven.clone()];
+    if motion.dimension > 1 {
+        return drives;
+    }
+    let moving = motion.ranges.iter().filter(|range| range.moves);
+    drives.extend(
+        moving
+            .map(|range| range.variable.clone())
+            .filter(|v| *v != motion.driven && can_drive(mechanism, v)),
+    );
+    let at_ground = |variable: &Variable| {
+        let joint = &mechanism.joints()[variable.joint];
+        [joint.predecessor.link, joint.successor.link].contains(&mechanism.ground())
+    };
+    let never_turns_back = |variable: &Variable| {
+        let mut ranges = motion.ranges.iter();
+        ranges.any(|range| range.variable == *variable && range.dead_centres == 0)
+    };
+    let said = mechanism
+        .scene()
+        .is_some_and(|scene| !scene.drives.is_empty());
+    let suited = |variable: &Variable| at_ground(variable) && never_turns_back(variable);
+    if let Some(first) = drives.iter().position(suited)
+        && !said
+    {
+        drives[..=first].rotate_right(1);
+    }
+    drives
+}
+
 fn play(
     mechanism: &Mechanism,
     branch: usize,
     mut motion: Motion,
+    drives: Vec<Variable>,
     roles: Roles,
     samples: usize,
 ) -> Played {
@@ -237,15 +270,6 @@ fn play(
                 links: motion.curve.link_poses(&found.pose),
             });
         }
-    }
-    let mut drives = vec![motion.driven.clone()];
-    if motion.dimension == 1 {
-        let moving = motion.ranges.iter().filter(|range| range.moves);
-        drives.extend(
-            moving
-                .map(|range| range.variable.clone())
-                .filter(|v| *v != motion.driven && can_drive(mechanism, v)),
-        );
     }
     let mut played = Played {
         branch,

@@ -32,7 +32,7 @@ pub(super) fn section(facts: &Facts<'_>, stage: &Stage, out: &mut String) {
             "<div class=\"motion-plots\" data-motion=\"{index}\"{}>\n<h3>Branch {}, driven by <code>{}</code></h3>\n",
             if index == 0 { "" } else { " hidden" },
             escaped(&played.motion.branch),
-            escaped(&played.motion.driven.name)
+            escaped(played.drives.first().map_or("", |drive| &drive.name))
         ));
         motion_plots(facts.mechanism, played, &mut inner);
         inner.push_str("</div>\n");
