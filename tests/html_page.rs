@@ -114,7 +114,7 @@ fn poses_in_the_page_are_those_of_the_trace() {
         "cartesian_table",
     ] {
         let data = data(&page(name));
-        let mechanism = read_file(&folder(&format!("mechanisms/{name}.urdf")), &[])
+        let mechanism = read_file(folder(&format!("mechanisms/{name}.urdf")), &[])
             .unwrap()
             .mechanism;
         let analysis = analyse(&mechanism, &AnalysisOptions::default()).unwrap();

@@ -14,7 +14,7 @@
 //! * The same mechanism gives the same bytes.
 //!
 //! # What it costs
-//! Tracing every branch; the rest is linear in the poses shown, which are bounded ([`motions`]). The script is two thirds
+//! Tracing every branch; the rest is linear in the poses shown, which are bounded (`motions`). The script is two thirds
 //! of a small page.
 //!
 //! | file | says |
@@ -89,6 +89,7 @@ const FAR: f64 = 4.0;
 /// The mechanism as it is drawn.
 #[derive(Debug)]
 struct Stage {
+    geometry: Geometry<f64>,
     drawing: Drawing,
     /// What links and joints do on the first branch, or at the pose where there is none.
     roles: Roles,
@@ -135,6 +136,7 @@ impl Stage {
             home,
             drawing,
             roles,
+            geometry,
         }
     }
 }

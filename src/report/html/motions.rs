@@ -17,7 +17,7 @@ const SAMPLES: [usize; 2] = [24, 180];
 const DRIVES: usize = 6;
 
 /// Of large mechanisms fewer: their variables, over all motions.
-const DRIVEN_VARIABLES: usize = 80;
+const DRIVEN_VARIABLES: usize = 160;
 
 /// Larger mechanisms are not traced for a page: nobody sees one link of so many.
 const LINKS: usize = 1500;
@@ -47,6 +47,7 @@ const SAME: f64 = 1e-6;
 pub(super) struct Pose {
     pub arclength: f64,
     pub values: Vec<f64>,
+    pub states: Vec<JointState<f64>>,
     pub links: Vec<Rigid<f64>>,
 }
 
@@ -268,6 +269,7 @@ fn play(
                 arclength,
                 values: all_values(&states),
                 links: motion.curve.link_poses(&found.pose),
+                states,
             });
         }
     }

@@ -3,8 +3,8 @@
 use super::escape::escaped;
 use super::motions::Played;
 use super::{Facts, Stage};
+use crate::closure::jacobian;
 use crate::matrix::relative_singular_values;
-use crate::mechanism::Mechanism;
 use crate::mobility::PartRank;
 use crate::motion::{EventKind, Variable};
 use crate::report::picture::plot::{Axis, Form, Level, Mark, MarkKind, Plot, Scale, Series};
@@ -13,6 +13,13 @@ use crate::simulate::verification::{Outcome, Verification};
 
 /// All singular values are computed up to this many unknowns: their number is that of the bars, their cost its cube.
 const MOST_UNKNOWNS: usize = 160;
+
+/// Along a motion they are computed up to this many, some hundred times.
+const FOLLOWED_UNKNOWNS: usize = 40;
+
+/// Along a motion, singular values below this share of the largest are zero: poses are closed to 1e-12, and what vanishes at
+/// a pose passed by interpolation does so to its square root.
+const SINGULAR: f64 = 1e-6;
 
 /// Blocks whose singular values are shown.
 const MOST_BLOCKS: usize = 4;
@@ -34,7 +41,7 @@ pub(super) fn section(facts: &Facts<'_>, stage: &Stage, out: &mut String) {
             escaped(&played.motion.branch),
             escaped(played.drives.first().map_or("", |drive| &drive.name))
         ));
-        motion_plots(facts.mechanism, played, &mut inner);
+        motion_plots(facts, stage, played, &mut inner);
         inner.push_str("</div>\n");
     }
     if let Some(verification) = facts.verification {
@@ -137,7 +144,8 @@ fn spectra(facts: &Facts<'_>, out: &mut String) {
     }
 }
 
-fn motion_plots(mechanism: &Mechanism, played: &Played, out: &mut String) {
+fn motion_plots(facts: &Facts<'_>, stage: &Stage, played: &Played, out: &mut String) {
+    let mechanism = facts.mechanism;
     let variables = Variable::all(mechanism);
     let moving: Vec<usize> = played
         .motion
@@ -197,27 +205,67 @@ fn motion_plots(mechanism: &Mechanism, played: &Played, out: &mut String) {
         }
         figure_of(&plot, &caption, out);
     }
-    let margins: Vec<(f64, f64)> = played
-        .motion
-        .curve
-        .margins()
-        .filter(|(arclength, _)| (span[0]..=span[1]).contains(arclength))
-        .collect();
-    if margins.is_empty() {
+    let least = least_singular_values(facts, stage, played);
+    let (values, caption) = match least {
+        Some(values) => (
+            values,
+            "The smallest singular value of the closure equations that does not vanish all along the motion, relative to the \
+             largest: where it goes to zero the pose is singular (D6), and near there a pose is known less well than its loops \
+             close.",
+        ),
+        None => (
+            played
+                .motion
+                .curve
+                .margins()
+                .filter(|(arclength, _)| (span[0]..=span[1]).contains(arclength))
+                .collect(),
+            "The smallest singular value that the equations chosen for following the motion keep, with what is held: where it \
+             goes to zero the pose is singular (D6).",
+        ),
+    };
+    if values.is_empty() {
         return;
     }
-    let values = margins.iter().map(|(_, margin)| *margin);
-    let axis = Axis::around("smallest singular value", Scale::Log, values);
+    let positive = values.iter().map(|(_, value)| value.max(SINGULAR));
+    let axis = Axis::around("smallest singular value", Scale::Log, positive);
     let mut plot = Plot::new("", arclength(), axis);
-    plot.series
-        .push(Series::line("smallest singular value", "", 0, margins));
+    let line = Series::line("smallest singular value", "", 0, values);
+    plot.series.push(line);
     plot.marks = marks(played, &|kind| {
         matches!(kind, EventKind::Singular { .. } | EventKind::Cusp { .. })
     });
     plot.follows_arclength = true;
-    let caption = "The smallest singular value that the equations keep along the motion, with what is held: where it goes to \
-                   zero the pose is singular (D6), and near there a pose is known less well than its loops close.";
     figure_of(&plot, caption, out);
+}
+
+/// At every pose shown: the singular value of the moving part's equations whose number is their rank along the motion,
+/// relative to the largest. `None` where the part is too large for that.
+fn least_singular_values(
+    facts: &Facts<'_>,
+    stage: &Stage,
+    played: &Played,
+) -> Option<Vec<(f64, f64)>> {
+    let driven = played.motion.driven.joint;
+    let mut parts = facts.analysis.structure.parts.iter();
+    let part = parts.find(|part| part.joints.contains(&driven))?;
+    let mut spectra = Vec::with_capacity(played.poses.len());
+    for pose in &played.poses {
+        let linearised = jacobian(facts.mechanism, &stage.geometry, &pose.states, part).ok()?;
+        let mut matrix = linearised.matrix;
+        if matrix.columns() > FOLLOWED_UNKNOWNS {
+            return None;
+        }
+        matrix.scale_columns();
+        spectra.push((pose.arclength, relative_singular_values(&matrix).ok()??));
+    }
+    let rank = |values: &Vec<f64>| values.iter().filter(|value| **value > SINGULAR).count();
+    let rank = spectra.iter().map(|(_, values)| rank(values)).max()?;
+    let last = rank.checked_sub(1)?;
+    spectra
+        .into_iter()
+        .map(|(arclength, values)| Some((arclength, *values.get(last)?)))
+        .collect()
 }
 
 fn marks(played: &Played, wanted: &dyn Fn(&EventKind) -> bool) -> Vec<Mark> {
