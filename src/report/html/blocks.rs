@@ -11,7 +11,7 @@ const ROWS: usize = 2000;
 /// What a page says, headings as `<h2>`.
 pub(super) fn write(blocks: &[Block], names: &Names, out: &mut String) {
     let mut listed = false;
-    for block in blocks {
+    for (index, block) in blocks.iter().enumerate() {
         let item = matches!(block, Block::Item { .. });
         if item != listed {
             out.push_str(if item { "<ul>\n" } else { "</ul>\n" });
@@ -27,7 +27,13 @@ pub(super) fn write(blocks: &[Block], names: &Names, out: &mut String) {
                 out.push_str(&format!("<li{}>{}</li>\n", class(*tint), prose(text)));
             }
             Block::Formula { line, .. } => {
-                out.push_str(&format!("<pre>{}</pre>\n", escaped(line)));
+                // Lines that follow one another are one formula.
+                let is_formula = |at: usize| matches!(blocks.get(at), Some(Block::Formula { .. }));
+                let first = index == 0 || !is_formula(index - 1);
+                let last = !is_formula(index + 1);
+                out.push_str(if first { "<pre>" } else { "" });
+                out.push_str(&escaped(line));
+                out.push_str(if last { "</pre>\n" } else { "\n" });
             }
             Block::Table { table, things } => write_table(table, things, names, out),
         }

@@ -6,14 +6,14 @@ use super::escape::{escaped, in_script};
 use super::names::Names;
 use super::ranges::ranges;
 use super::{Assets, Facts, Stage, plots};
-use crate::graph::{self, ConstraintGraph, SpanningTree};
+use crate::graph;
 use crate::mechanism::Mechanism;
 use crate::report::definitions;
 use crate::report::picture::pictogram::{self, Pictogram};
 use crate::report::picture::plot;
 use crate::report::picture::sketch::{self, Sketch};
 use crate::report::schema::{Cycle, Report};
-use crate::report::text::{Block, Layout, Page, branches, counts, sections, verdict};
+use crate::report::text::{Block, Layout, Page, branches, counts, explanation, sections, verdict};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use sha2::{Digest, Sha256};
@@ -157,7 +157,7 @@ fn body(facts: &Facts<'_>, stage: &Stage, names: &Names, out: &mut String) {
     section("warnings", &|page| sections::warnings(report, page), out);
     section("evidence", &|page| branches::evidence(report, page), out);
     section("details", &|page| sections::details(report, page), out);
-    definition_list(out);
+    definition_list(names, out);
 }
 
 /// What to read first; the reasons stand below the mechanism.
@@ -188,14 +188,13 @@ pub(super) fn still(mechanism: &Mechanism, stage: &Stage, size: [f64; 2]) -> Str
 }
 
 fn graph_section(facts: &Facts<'_>, out: &mut String) {
-    let graph = ConstraintGraph::of(facts.mechanism);
-    let tree = SpanningTree::low_depth(&graph);
+    let structure = &facts.analysis.structure;
     out.push_str(
         "<section id=\"graph\">\n<h2>Constraint graph</h2>\n<p class=\"quiet\">Links are boxes, joints are lines: those of \
          the spanning <a class=\"term\" href=\"#D15\">tree</a> solid, those that close \
          <a class=\"term\" href=\"#D14\">loops</a> dashed.</p>\n<div class=\"scroll\">",
     );
-    out.push_str(&graph::svg_fragment(&graph, &tree));
+    out.push_str(&graph::svg_fragment(&structure.graph, &structure.tree));
     out.push_str("</div>\n");
     loop_chips(&facts.report.cycles, out);
     out.push_str("</section>\n");
@@ -222,7 +221,7 @@ fn loop_chips(cycles: &[Cycle], out: &mut String) {
     out.push_str("</p>\n");
 }
 
-fn definition_list(out: &mut String) {
+fn definition_list(names: &Names, out: &mut String) {
     out.push_str("<section id=\"definitions\">\n<h2>Definitions</h2>\n");
     for definition in definitions::all() {
         out.push_str(&format!(
@@ -230,18 +229,9 @@ fn definition_list(out: &mut String) {
             definition.number,
             escaped(definition.title)
         ));
-        for (index, part) in definition.body.split("```").enumerate() {
-            if index % 2 == 1 {
-                // The first line is the language.
-                let formula = part.split_once('\n').map_or(part, |(_, rest)| rest);
-                out.push_str(&format!("<pre>{}</pre>\n", escaped(formula.trim_end())));
-                continue;
-            }
-            for paragraph in part.split("\n\n").map(str::trim).filter(|p| !p.is_empty()) {
-                let text = paragraph.replace('\n', " ").replace('*', "");
-                out.push_str(&format!("<p>{}</p>\n", super::blocks::prose(&text)));
-            }
-        }
+        let mut page = verbose();
+        explanation::write(&definition, &mut page);
+        blocks::write(page.blocks(), names, out);
         out.push_str("</details>\n");
     }
     out.push_str("</section>\n");

@@ -8,6 +8,7 @@ pub(super) mod branches;
 mod cite;
 pub(super) mod counts;
 mod escape;
+pub mod explanation;
 mod page;
 pub(super) mod sections;
 mod style;
