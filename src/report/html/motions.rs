@@ -17,7 +17,7 @@ const SAMPLES: [usize; 2] = [24, 180];
 const DRIVES: usize = 6;
 
 /// Of large mechanisms fewer: their variables, over all motions.
-const DRIVEN_VARIABLES: usize = 160;
+const DRIVEN_VARIABLES: usize = 140;
 
 /// Larger mechanisms are not traced for a page: nobody sees one link of so many.
 const LINKS: usize = 1500;
@@ -31,10 +31,10 @@ const REACH: f64 = 7.0;
 
 /// Poses computed of such a motion each way, at least and at most: enough for once around in a mechanism of few joints, and
 /// to see where it goes in one of many.
-const POSES: [usize; 2] = [40, 300];
+const POSES: [usize; 2] = [24, 300];
 
 /// What they may cost, all motions of a branch together, a pose costing about the square of the number of variables.
-const WORK: usize = 250_000;
+const WORK: usize = 80_000;
 
 /// What goes on and on is shown for two turns of a hinge, or for a slide by the part's length.
 const SHOWN_TURN: f64 = 4.0 * std::f64::consts::PI;
