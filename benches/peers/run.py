@@ -64,7 +64,10 @@ def task_lift(peer, job):
     from mechanism import scissor_lift
 
     lift = scissor_lift(job["stages"])
-    rounds = [peer.count(lift)]
+    try:
+        rounds = [peer.count(lift)]
+    except Exception as problem:
+        return {"why_not": str(problem).strip().splitlines()[0]}
     while len(rounds) < job["rounds"] and sum(r[0] + r[1] for r in rounds) < 5:
         rounds.append(peer.count(lift))
     return {"freedom": rounds[0][2], "rounds": len(rounds),
@@ -174,8 +177,14 @@ def measure_lift(program, rounds):
             best = None
             for threads in (1, 2):
                 found, _ = in_own_process(peer, "lift", {"stages": stages, "rounds": rounds}, threads, LIMIT * 1.5)
-                if found and (best is None or found["count"]["median"] < best["count"]["median"]):
+                if found is None or "why_not" in found:
+                    best = best or (found and {"stages": stages, **found})
+                    break
+                if best is None or found["count"]["median"] < best["count"]["median"]:
                     best = {"stages": stages, "threads": threads, **found}
+            if best and "why_not" in best:
+                answer[peer].append(best)
+                break
             if best is None or best["build"]["median"] + best["count"]["median"] > LIMIT:
                 answer[peer].append({"stages": stages, "why_not": f"more than {LIMIT:.0f} s"})
                 break
@@ -249,7 +258,7 @@ def main():
         import own
 
         program = str(Path(given.kutzbach).resolve())
-        record = json.loads(RECORD.read_text()) if given.only else {}
+        record = json.loads(RECORD.read_text()) if given.only and RECORD.exists() else {}
         record |= {"date": given.date, "machine": given.machine, "rounds": given.rounds, "limit": LIMIT}
         record["versions"] = {"kutzbach": own.version(program), "python": sys.version.split()[0]} | {
             name: line.split("==")[1] for line in (HERE / "requirements.txt").read_text().split() for name in [line.split("==")[0]]}
@@ -260,6 +269,7 @@ def main():
         for name, measure in (("zoo", measure_zoo), ("lift", measure_lift), ("turn", measure_turn)):
             if not given.only or name in given.only:
                 record[name] = measure(program, given.rounds)
+                RECORD.write_text(json.dumps(record, indent=1) + "\n")
         record["processes"] = measure_processes(record["turn"], given.rounds)
         RECORD.write_text(json.dumps(record, indent=1) + "\n")
     import page
