@@ -205,7 +205,7 @@ def measure_turn(program, rounds):
         rows = []
         for samples in SAMPLES:
             arguments = ("trace", file, "--format", "csv", "--samples", samples)
-            times = [own.seconds_of(program, *arguments) for _ in range(2 * rounds + 1)]
+            times = [own.seconds_of(program, *arguments) for _ in range(3 * rounds + 1)][1:]
             error = closure_error(mechanism, *own.poses(program, file, samples), length)
             rows.append({"steps": samples, "time": spread(times), "closure_error": digits(error)})
         answer[name] = {"length": digits(length), "kutzbach": rows}
@@ -226,9 +226,11 @@ def quickest(rows, error, at_least=0):
     return min(fit, key=lambda row: row["time"]["median"], default=None)
 
 
-def measure_processes(turns, rounds):
-    """Whole processes of the peers: interpreter, import, model, one answer."""
-    answer = {}
+def measure_processes(program, turns, rounds):
+    """Whole processes of the peers: interpreter, import, model, one answer; and the start of kutzbach."""
+    import own
+
+    answer = {"kutzbach": spread([own.seconds_of(program, "--version") for _ in range(5 * rounds)])}
     for peer in PEERS:
         row = {"count": spread([
             in_own_process(peer, "once", {"what": "count", "file": "bennett_rational"})[1] for _ in range(rounds)])}
@@ -270,7 +272,7 @@ def main():
             if not given.only or name in given.only:
                 record[name] = measure(program, given.rounds)
                 RECORD.write_text(json.dumps(record, indent=1) + "\n")
-        record["processes"] = measure_processes(record["turn"], given.rounds)
+        record["processes"] = measure_processes(program, record["turn"], given.rounds)
         RECORD.write_text(json.dumps(record, indent=1) + "\n")
     import page
 
