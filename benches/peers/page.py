@@ -203,7 +203,8 @@ def ratios(record):
             for tool in PEERS:
                 best = quickest(data[tool], 1e-6, poses)
                 cells.append(f"{NAMES[tool]} " + (
-                    f"{time_of(best['time']['median'])} ({words(tool, best)}; {best['steps']} poses, {error_of(best['closure_error'])})"
+                    f"{time_of(best['time']['median'])} ({words(tool, best)}; {best['steps']} poses, {error_of(best['closure_error'])}"
+                    + (f", {best['unconfirmed']} of them not confirmed" if best["unconfirmed"] else "") + ")"
                     if best else "at no setting"))
             text.append(f"  - {'with any number of poses' if not poses else 'with at least 240 poses'}: " + "; ".join(cells) + ".")
         whole = [f"{NAMES[t]} {time_of(record['processes'][t][name]['median'])}" for t in PEERS if name in record["processes"][t]]
