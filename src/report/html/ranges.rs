@@ -2,7 +2,7 @@
 
 use super::Stage;
 use crate::mechanism::Mechanism;
-use crate::motion::Range;
+use crate::motion::{EndReason, Range};
 use crate::report::text::words::figure;
 use std::collections::BTreeMap;
 
@@ -13,6 +13,9 @@ pub(super) fn ranges(mechanism: &Mechanism, stage: &Stage) -> BTreeMap<String, S
     let several = played.iter().any(|p| p.branch != 0);
     let mut ranges: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for played in played.iter().filter(|p| p.motion.dimension == 1) {
+        // How far a motion without end was followed is no range.
+        let mut ends = played.motion.ends.iter();
+        let endless = ends.any(|end| end.reason == EndReason::GoesOn);
         for range in played.motion.ranges.iter().filter(|range| range.moves) {
             let joint = &mechanism.joints()[range.variable.joint];
             let part = range
@@ -27,6 +30,7 @@ pub(super) fn ranges(mechanism: &Mechanism, stage: &Stage) -> BTreeMap<String, S
             if !part.is_empty() {
                 text.push_str(&format!("{part} "));
             }
+            text.push_str(if endless { "at least " } else { "" });
             text.push_str(&one(range, mechanism));
             ranges.entry(joint.name.clone()).or_default().push(text);
         }

@@ -87,29 +87,45 @@ fn what_slides_on_and_on_is_shown_for_the_length_of_its_loop() {
     assert_eq!(drives, different);
 }
 
-#[test]
-fn ranges_are_those_of_curves() {
-    let mechanism = own("slider_crank");
+fn range_texts(mechanism: &Mechanism) -> Vec<String> {
     let input = Input {
-        mechanism: &mechanism,
-        file: "slider_crank.urdf",
+        mechanism,
+        file: "test.urdf",
         format: "urdf",
         warnings: &[],
         skipped: &[],
     };
     let (report, analysis) = analysed_report_on(&input, &Options::default()).unwrap();
     let facts = Facts {
-        mechanism: &mechanism,
+        mechanism,
         report: &report,
         analysis: &analysis,
         configuration: None,
         verification: None,
     };
-    let ranges = ranges(&mechanism, &Stage::new(&facts, Assets::Inside));
-    let texts: Vec<&str> = ranges.values().map(String::as_str).collect();
-    assert!(texts.contains(&"turns fully"), "{texts:?}");
+    let ranges = ranges(mechanism, &Stage::new(&facts, Assets::Inside));
+    ranges.into_values().collect()
+}
+
+#[test]
+fn ranges_are_those_of_curves() {
+    let texts = range_texts(&own("slider_crank"));
+    assert!(texts.iter().any(|text| text == "turns fully"), "{texts:?}");
     assert!(texts.iter().any(|text| text.ends_with(" m")), "{texts:?}");
     assert!(texts.iter().any(|text| text.ends_with('°')), "{texts:?}");
+}
+
+#[test]
+fn how_far_a_motion_without_end_was_followed_is_no_range() {
+    let text = r#"<robot name="endless"><link name="rail"/><link name="carriage"/>
+        <joint name="slide" type="prismatic"><parent link="rail"/><child link="carriage"/>
+        <axis xyz="1 0 0"/></joint></robot>"#;
+    let mechanism = crate::format::read(text, "endless.urdf", &[])
+        .unwrap()
+        .mechanism;
+    let texts = range_texts(&mechanism);
+    assert_eq!(texts.len(), 1);
+    assert!(texts[0].starts_with("at least "), "{texts:?}");
 }
 
 #[test]
