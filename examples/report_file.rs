@@ -65,7 +65,9 @@ fn print_verdict(analysis: &Analysis) {
 
 fn print_counts(analysis: &Analysis) {
     println!("\nKutzbach       {:>4}", analysis.kutzbach);
-    println!("generic        {:>4}", analysis.generic.mobility);
+    if let Some(generic) = analysis.generic {
+        println!("generic        {:>4}", generic.mobility);
+    }
     // Without a closed pose there is nothing to rank.
     if let Some(home) = &analysis.home {
         println!("instantaneous  {:>4}", or_dash(home.instantaneous));

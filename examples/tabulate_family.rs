@@ -87,7 +87,7 @@ fn print_row(first: &str, mechanism: &Mechanism) -> Result<(), Box<dyn Error>> {
         mechanism.links().len(),
         mechanism.joints().len(),
         analysis.kutzbach,
-        analysis.generic.mobility,
+        analysis.generic.map_or(0, |generic| generic.mobility),
         or_dash(instantaneous.map(|value| value.to_string())),
         or_dash(redundant.map(|value| value.to_string())),
         analysis.mobility.verdict.word()

@@ -5,7 +5,7 @@ mod table;
 use super::failure::Failure;
 use super::{DONE, load, output};
 use clap::{Args, ValueEnum};
-use kutzbach::mobility::{AnalysisOptions, analyse};
+use kutzbach::mobility::{AnalysisOptions, Depth, analyse};
 use kutzbach::motion::{TraceOptions, trace};
 
 /// Follow a branch: poses, ranges of the joints, dead centres, singular poses
@@ -91,6 +91,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         mechanism,
         &AnalysisOptions {
             configuration: configuration.clone(),
+            depth: Depth::Motions,
             ..AnalysisOptions::default()
         },
     )

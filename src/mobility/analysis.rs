@@ -3,6 +3,7 @@
 use super::advice::{Advice, advice_for_part};
 use super::branch::Branch;
 use super::cycles::{CycleFacts, cycle_facts};
+use super::depth::Depth;
 use super::exact::{ExactAllowance, ExactBudget, ask_exact};
 use super::generic::{GenericCount, generic_count};
 use super::kutzbach::kutzbach_count;
@@ -12,7 +13,7 @@ use super::pose_rank::{PartRank, Pose, rank_part_with};
 use super::redundancy::SelfStresses;
 use super::roles::{JointRole, roles_of_part};
 use super::structure::Structure;
-use super::verdict::{Mobility, judge, unassembled};
+use super::verdict::{Mobility, judge, not_asked, unassembled};
 use super::whole_branches::whole_branches;
 use crate::closure::{Arithmetic, Assembly, Geometry, assemble, spanning_poses};
 use crate::matrix::MatrixError;
@@ -27,6 +28,8 @@ pub struct AnalysisOptions {
     pub configuration: Option<String>,
     /// How much work exact algebra may do.
     pub exact: ExactBudget,
+    /// How much is to be found out.
+    pub depth: Depth,
 }
 
 /// Why an analysis could not be made. That a mechanism does not assemble or stays undecided is a result, not an error.
@@ -66,32 +69,33 @@ pub struct HomeFreedom {
     pub redundant: Option<i64>,
 }
 
-/// The analysis of a mechanism at a pose.
+/// The analysis of a mechanism at a pose. What its [`Depth`] leaves out is empty or `None`, as said field by field.
 #[derive(Clone, Debug)]
 pub struct Analysis {
     /// Topology.
     pub structure: Structure,
     /// Kutzbach's count.
     pub kutzbach: i64,
-    /// The count at random geometry.
-    pub generic: GenericCount,
+    /// The count at random geometry; `None` unless [`Depth::Everything`] is asked for.
+    pub generic: Option<GenericCount>,
     /// How the mechanism closes.
     pub assembly: Assembly,
     /// The rank of every part, in the order of [`Structure::parts`]; empty if it does not assemble.
     pub parts: Vec<PartRank>,
     /// The instantaneous freedom; `None` if the mechanism does not assemble: an open pose is never ranked.
     pub home: Option<HomeFreedom>,
-    /// Roles of all joints, by joint index.
+    /// Roles of all joints, by joint index; nothing known of any unless [`Depth::Everything`] is asked for.
     pub roles: Vec<JointRole>,
     /// Indeterminate reaction directions of all joints, by joint index; `None` where the rank is open.
     pub redundant_wrenches: Vec<Option<usize>>,
-    /// Facts of the cycles shown.
+    /// Facts of the cycles shown; none unless [`Depth::Everything`] is asked for.
     pub cycles: Vec<CycleFacts>,
-    /// Repair advice, best first.
+    /// Repair advice, best first; none unless [`Depth::Everything`] is asked for.
     pub advice: Vec<Advice>,
-    /// What the engines found of every part, in the order of [`Structure::parts`].
+    /// What the engines found of every part, in the order of [`Structure::parts`]; none at [`Depth::Rank`].
     pub findings: Vec<PartFinding>,
-    /// The branches through the pose; `None` while not decided, or where there are too many to list.
+    /// The branches through the pose; `None` while not decided, where there are too many to list, or below
+    /// [`Depth::Motions`].
     pub branches: Option<Vec<Branch>>,
     /// The verdict.
     pub mobility: Mobility,
@@ -120,7 +124,10 @@ pub fn analyse(
         .collect();
     let structure = Structure::new(mechanism);
     let kutzbach = kutzbach_count(mechanism);
-    let generic = generic_count(mechanism, &structure)?;
+    let everything = options.depth == Depth::Everything;
+    let generic = everything
+        .then(|| generic_count(mechanism, &structure))
+        .transpose()?;
     let geometry = Geometry::new(mechanism, configuration, &Arithmetic::double());
     if let Some(joint) = geometry.degenerate_distance() {
         return Err(AnalysisError::NoDistance {
@@ -144,7 +151,7 @@ pub fn analyse(
         branches: None,
     };
     if analysis.assembly.closed {
-        analysis.rank(mechanism, configuration, &held, &geometry, options.exact)?;
+        analysis.rank(mechanism, configuration, &held, &geometry, options)?;
     }
     Ok(analysis)
 }
@@ -170,7 +177,7 @@ impl Analysis {
         configuration: Option<&crate::mechanism::Configuration>,
         held: &BTreeSet<usize>,
         geometry: &Geometry<f64>,
-        exact: ExactBudget,
+        options: &AnalysisOptions,
     ) -> Result<(), MatrixError> {
         let states = &self.assembly.states;
         let pose = Pose {
@@ -186,15 +193,58 @@ impl Analysis {
         for part in &self.structure.parts {
             parts.push(rank_part_with(&pose, &mut more, part)?);
         }
+        let home = self.home_freedom(mechanism, &parts);
+        if options.depth == Depth::Rank {
+            // Numbers with too few digits may hold fast what is meant to move.
+            let as_meant = !parts.iter().any(|part| part.taken_literally);
+            self.mobility = not_asked(as_meant.then_some(home.candidates.1));
+        } else {
+            let mut allowance = ExactAllowance::new(options.exact);
+            for (part, rank) in self.structure.parts.iter().zip(&parts) {
+                let mut found =
+                    part_mobility(&pose, &mut more, &self.structure, part, rank, options.depth)?;
+                if found.open.is_some() || options.depth == Depth::Everything {
+                    ask_exact(&pose, part, rank, &mut found, &mut allowance);
+                }
+                self.findings.push(found);
+            }
+            self.mobility = judge(mechanism, &self.structure, &self.findings);
+        }
+        if options.depth >= Depth::Motions {
+            self.branches = whole_branches(
+                mechanism,
+                geometry,
+                &self.structure,
+                states,
+                self.kutzbach,
+                &self.findings,
+            );
+        }
+        if options.depth == Depth::Everything {
+            self.details(mechanism, geometry, &parts, &home)?;
+        }
+        self.home = Some(home);
+        self.parts = parts;
+        Ok(())
+    }
+
+    /// What moves and what is redundant at the pose, joint by joint and cycle by cycle, and what to do about it.
+    fn details(
+        &mut self,
+        mechanism: &Mechanism,
+        geometry: &Geometry<f64>,
+        parts: &[PartRank],
+        home: &HomeFreedom,
+    ) -> Result<(), MatrixError> {
+        let states = &self.assembly.states;
         // What is tried part by part is tried on these and undone again, since copies for every part would add up.
         let mut trial = geometry.clone();
         let mut trial_states = states.clone();
-        let home = self.home_freedom(mechanism, &parts);
         for &joint in &self.structure.free_joints {
             self.roles[joint].locked = (mechanism.joints()[joint].freedom() > 0).then_some(false);
             self.redundant_wrenches[joint] = Some(0);
         }
-        for (part, rank) in self.structure.parts.iter().zip(&parts) {
+        for (part, rank) in self.structure.parts.iter().zip(parts) {
             for (joint, role) in part.joints.iter().zip(roles_of_part(
                 mechanism,
                 geometry,
@@ -230,23 +280,6 @@ impl Analysis {
             self.cycles
                 .push(cycle_facts(mechanism, geometry, states, &poses, cycle)?);
         }
-        let mut allowance = ExactAllowance::new(exact);
-        for (part, rank) in self.structure.parts.iter().zip(&parts) {
-            let mut found = part_mobility(&pose, &mut more, &self.structure, part, rank)?;
-            ask_exact(&pose, part, rank, &mut found, &mut allowance);
-            self.findings.push(found);
-        }
-        self.mobility = judge(mechanism, &self.structure, &self.findings);
-        self.branches = whole_branches(
-            mechanism,
-            geometry,
-            &self.structure,
-            states,
-            self.kutzbach,
-            &self.findings,
-        );
-        self.home = Some(home);
-        self.parts = parts;
         Ok(())
     }
 
@@ -327,6 +360,53 @@ mod tests {
     }
 
     #[test]
+    fn every_depth_says_what_the_deeper_ones_say() {
+        for mechanism in [four_bar(), general_four()] {
+            let at = |depth| {
+                let options = AnalysisOptions {
+                    depth,
+                    ..AnalysisOptions::default()
+                };
+                analyse(&mechanism, &options).unwrap()
+            };
+            let [rank, verdict, motions, everything] = [
+                Depth::Rank,
+                Depth::Verdict,
+                Depth::Motions,
+                Depth::Everything,
+            ]
+            .map(at);
+            for analysis in [&rank, &verdict, &motions] {
+                assert_eq!(analysis.home, everything.home);
+                assert_eq!(analysis.kutzbach, everything.kutzbach);
+                assert!(analysis.generic.is_none() && analysis.advice.is_empty());
+            }
+            assert_eq!(rank.mobility.finite(), None);
+            assert_eq!(
+                rank.mobility.bounds.1,
+                everything.home.as_ref().unwrap().instantaneous
+            );
+            for analysis in [&verdict, &motions] {
+                let (one, other) = (&analysis.mobility, &everything.mobility);
+                assert_eq!(one.finite(), other.finite());
+                assert_eq!(
+                    (one.pose, one.kind, one.class),
+                    (other.pose, other.kind, other.class)
+                );
+            }
+            assert!(verdict.branches.is_none());
+            let shapes = |analysis: &Analysis| {
+                let branches = analysis.branches.as_ref().unwrap();
+                branches
+                    .iter()
+                    .map(|b| (b.dimension, b.roles.clone()))
+                    .collect::<Vec<_>>()
+            };
+            assert_eq!(shapes(&motions), shapes(&everything));
+        }
+    }
+
+    #[test]
     fn two_points_that_coincide_have_no_distance() {
         let mut builder = MechanismBuilder::new("rod");
         builder.link("ground").link("arm");
@@ -394,7 +474,7 @@ mod tests {
     #[test]
     fn the_order_of_the_file_changes_no_result() {
         let plain = analyse(&general_four(), &AnalysisOptions::default()).unwrap();
-        assert_eq!(plain.generic.mobility, 0);
+        assert_eq!(plain.generic.unwrap().mobility, 0);
         let rings = |first: &str, second: &str| {
             let mut builder = MechanismBuilder::new("two");
             builder.link("ground");

@@ -25,6 +25,7 @@ mod branch_roles;
 mod branch_samples;
 mod chart;
 mod cycles;
+mod depth;
 mod exact;
 mod generic;
 mod germ;
@@ -60,6 +61,7 @@ pub use branch_facts::{BranchFacts, branch_facts};
 pub use branch_roles::branch_roles;
 pub use chart::{ChartOutcome, ChartTest, Kernel, chart_test};
 pub use cycles::{CycleFacts, cycle_facts};
+pub use depth::Depth;
 pub use exact::ExactBudget;
 pub use generic::{GenericCount, generic_count};
 pub use germ::{

@@ -17,6 +17,7 @@
 use super::chart::{
     ChartOutcome, ChartTest, Kernel, LADDER_UNKNOWNS, chart_test, literal_leftover,
 };
+use super::depth::Depth;
 use super::more_digits::MoreDigits;
 use super::pose_rank::{PartRank, Pose};
 use super::singular::{SingularFinding, singular_finding};
@@ -140,7 +141,7 @@ impl PartFinding {
     }
 }
 
-/// Asks the engines about one part.
+/// Asks the engines about one part. Below [`Depth::Motions`] the branch of a regular pose comes without poses on it.
 ///
 /// # Errors
 /// [`MatrixError`] where numbers overflow.
@@ -150,6 +151,7 @@ pub fn part_mobility(
     structure: &Structure,
     part: &Part,
     rank: &PartRank,
+    depth: Depth,
 ) -> Result<PartFinding, MatrixError> {
     let surplus = rank.unknowns() as i64 - rank.equations() as i64;
     // A special mechanism written with too few digits is, taken literally, a generic one: that more equations than unknowns
@@ -205,7 +207,11 @@ pub fn part_mobility(
             found.branches = Some(vec![PartBranch {
                 dimension: freedom,
                 half_branches: (freedom == 1).then_some(2),
-                poses: poses_of_regular_part(pose, part, rank, kernel)?,
+                poses: if depth >= Depth::Motions {
+                    poses_of_regular_part(pose, part, rank, kernel)?
+                } else {
+                    Vec::new()
+                },
             }]);
             if rank.stated > 0.0 && surplus < freedom as i64 && kernel.basis.complete {
                 found.nominal = literal_leftover(pose, more, part, rank, kernel)?

@@ -80,6 +80,25 @@ pub fn unassembled(assembly: &Assembly) -> Mobility {
     }
 }
 
+/// The verdict where only the rank was asked for: open, with the bound that the rank gives, if it gives one.
+#[must_use]
+pub(super) fn not_asked(most: Option<usize>) -> Mobility {
+    Mobility {
+        verdict: Verdict::Undecided,
+        bounds: (Some(0), most),
+        pose: None,
+        kind: None,
+        class: None,
+        complex_dimension: None,
+        level: CertificateLevel::Numeric,
+        certificate: "the rank of the closure equations at this pose bounds the freedom from above"
+            .to_owned(),
+        nominal: None,
+        why: vec!["only the rank at this pose was asked for".to_owned()],
+        evidence: Vec::new(),
+    }
+}
+
 /// Puts together what was found of each part.
 #[must_use]
 pub fn judge(mechanism: &Mechanism, structure: &Structure, parts: &[PartFinding]) -> Mobility {

@@ -11,7 +11,7 @@ use crate::format::Reading;
 use crate::mechanism::{Coupling, Mechanism};
 use crate::mobility::Verdict;
 use crate::mobility::{
-    Analysis, AnalysisError, AnalysisOptions, ExactBudget, analyse, kutzbach_count,
+    Analysis, AnalysisError, AnalysisOptions, Depth, ExactBudget, analyse, kutzbach_count,
 };
 use crate::number::Number;
 use std::time::Instant;
@@ -178,6 +178,7 @@ pub fn analysed_report_on(
             configuration: (configuration != HOME || mechanism.configuration(HOME).is_some())
                 .then(|| configuration.to_owned()),
             exact: options.exact,
+            depth: Depth::Everything,
         },
     )?;
     let mut report = counted(input, configuration);

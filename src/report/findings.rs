@@ -11,9 +11,9 @@ use crate::mobility::{Analysis, JointRole, PartRank, RelativeMotion};
 
 /// Fills in everything that the analysis decided. Linear in the size of both.
 pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis) {
-    report.generic = Some(GenericCount {
-        mobility: usize::try_from(analysis.generic.mobility).unwrap_or(0),
-        redundant: analysis.generic.redundant,
+    report.generic = analysis.generic.map(|generic| GenericCount {
+        mobility: usize::try_from(generic.mobility).unwrap_or(0),
+        redundant: generic.redundant,
     });
     report.assembly = assembly(mechanism, analysis);
     fill_home(&mut report.home, analysis);

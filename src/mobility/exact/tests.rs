@@ -3,6 +3,7 @@ use super::*;
 use crate::algebra::ModularSystem;
 use crate::closure::samples::{CRANK_ROCKER, Written, add_ring, general_four, planar, ring};
 use crate::mechanism::MechanismBuilder;
+use crate::mobility::depth::Depth;
 use crate::mobility::part_mobility::part_mobility;
 use crate::mobility::part_samples::{Posed, fresh};
 use crate::mobility::structure::Structure;
@@ -16,6 +17,7 @@ fn numeric(posed: &Posed) -> PartFinding {
         &posed.structure,
         posed.part(),
         &posed.rank(),
+        Depth::Everything,
     )
     .unwrap()
 }

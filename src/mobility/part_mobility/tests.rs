@@ -14,6 +14,7 @@ fn found_with(posed: &Posed, change: impl Fn(&mut PartRank)) -> PartFinding {
         &posed.structure,
         posed.part(),
         &rank,
+        Depth::Everything,
     )
     .unwrap()
 }
