@@ -1,4 +1,4 @@
-"""kutzbach, as its users start it: one process for every answer, from its start to its end."""
+"""kutzbach, as its users start it, one process for every answer; and as a library, within a program that has asked before."""
 
 import csv
 import io
@@ -35,13 +35,15 @@ def version(program):
 
 
 def verdict(program, file, rounds):
-    """What a report says, seconds of processes, and seconds that the reports state themselves."""
-    inside, whole = [], []
-    for _ in range(rounds):
-        report = json.loads(output(program, "report", file, "--timing", "--format", "json"))
-        inside.append(report["timing"]["total_ms"] / 1e3)
-        whole.append(seconds_of(program, "report", file))
-    return report["mobility"]["finite"], report["home"]["instantaneous"], inside, whole
+    """What a report says, and the seconds of processes that write one."""
+    report = json.loads(output(program, "report", file, "--format", "json"))
+    whole = [seconds_of(program, "report", file) for _ in range(rounds)]
+    return report["mobility"]["finite"], report["home"]["instantaneous"], whole
+
+
+def within(timed, file, rounds, *arguments):
+    """Answers of the example `timed_answers` about a file: calls within a running program, as of a library."""
+    return json.loads(output(timed, "--rounds", rounds, *arguments, file))
 
 
 def poses(program, file, samples):

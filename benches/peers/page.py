@@ -45,32 +45,33 @@ def facts(record):
     )
 
 
-def own_sum(zoo, names, key="inside"):
-    return sum(zoo[n]["kutzbach"][key]["median"] for n in names)
-
-
 def zoo(record):
     rows, data = [], record["zoo"]
     differ = [n for n, e in data.items() if e["finite"] != e["instantaneous"]]
-    for tool in ("kutzbach", *PEERS):
+    for question in ("rank", "verdict", "everything"):
+        own = lambda n, key: data[n]["kutzbach"][key]["median"]
+        rank = question == "rank"
+        found = (lambda n: data[n]["kutzbach"]["instantaneous_found"]) if rank else (lambda n: data[n]["kutzbach"]["freedom"])
+        count = [own(n, question) for n in data]
+        rows.append([
+            f"kutzbach, {question}", len(data), sum(data[n]["kutzbach"]["instantaneous_found"] == data[n]["instantaneous"] for n in data),
+            sum(found(n) == data[n]["finite"] for n in data), sum(found(n) == data[n]["finite"] for n in differ),
+            time_of(statistics.median(count)), time_of(sum(count)), time_of(sum(count) + sum(own(n, "read") for n in data)),
+            time_of(own("bennett_rational", "process")) if question == "everything" else "",
+        ])
+    for tool in PEERS:
         known = [n for n in data if "why_not" not in data[n][tool]]
         answer = lambda n: data[n][tool]["freedom"]
-        instantaneous = (lambda n: data[n][tool]["instantaneous_found"]) if tool == "kutzbach" else answer
-        if tool == "kutzbach":
-            count = [data[n][tool]["inside"]["median"] for n in known]
-            both = count
-            process = data["bennett_rational"][tool]["process"]["median"]
-        else:
-            count = [data[n][tool]["count"]["median"] for n in known]
-            both = [c + data[n][tool]["build"]["median"] for c, n in zip(count, known)]
-            process = record["processes"][tool]["count"]["median"]
+        count = [data[n][tool]["count"]["median"] for n in known]
+        both = [c + data[n][tool]["build"]["median"] for c, n in zip(count, known)]
         rows.append([
-            NAMES[tool], len(known), sum(instantaneous(n) == data[n]["instantaneous"] for n in known),
+            f"{NAMES[tool]}, rank", len(known), sum(answer(n) == data[n]["instantaneous"] for n in known),
             sum(answer(n) == data[n]["finite"] for n in known), sum(answer(n) == data[n]["finite"] for n in differ if n in known),
-            time_of(statistics.median(count)), time_of(sum(count)), time_of(sum(both)), time_of(process),
+            time_of(statistics.median(count)), time_of(sum(count)), time_of(sum(both)),
+            time_of(record["processes"][tool]["count"]["median"]),
         ])
     head = ["", f"described, of {len(data)}", "instantaneous freedom right", "finite mobility right",
-            f"the same, of {len(differ)} where they differ", "one count, median", "all counts", "all, with building",
+            f"the same, of {len(differ)} where they differ", "one answer, median", "all answers", "all, with reading or building",
             "whole process, Bennett"]
     text = [table(head, rows), ""]
     missing = {n: data[n]["exudyn"]["why_not"] for n in data if "why_not" in data[n]["exudyn"]}
@@ -82,11 +83,15 @@ def zoo(record):
             f"{data[n][tool]['freedom']}" + ("" if data[n][tool]["freedom"] == data[n]["finite"] else " ✗")
             + f", {time_of(data[n][tool]['count']['median'])}")
         rows.append([f"`{n}`", data[n]["finite"], data[n]["instantaneous"],
-                     f"{own['freedom']}" + ("" if own["freedom"] == data[n]["finite"] else " ✗") + f", {time_of(own['inside']['median'])}",
+                     f"{own['instantaneous_found']}" + ("" if own["instantaneous_found"] == data[n]["finite"] else " ✗")
+                     + f", {time_of(own['rank']['median'])}",
+                     f"{own['freedom']}" + ("" if own["freedom"] == data[n]["finite"] else " ✗") + f", {time_of(own['verdict']['median'])}",
                      *map(cell, PEERS)])
-    text.append(table(["mechanism", "finite", "instantaneous", "kutzbach: verdict", *(f"{NAMES[p]}: count" for p in PEERS)], rows))
-    text.append("\n✗: not the finite mobility. Times of kutzbach are those of the whole report, times of the others those of "
-                "the rank alone.")
+    text.append(table(["mechanism", "finite", "instantaneous", "kutzbach: rank", "kutzbach: verdict",
+                       *(f"{NAMES[p]}: rank" for p in PEERS)], rows))
+    text.append("\n✗: not the finite mobility. *Rank*, *verdict* and *everything* are the depths of an analysis "
+                "(`kutzbach::mobility::Depth`): the freedom at the pose; the finite freedom and how the pose is singular; and all "
+                "that a report shows, with advice and exact algebra.")
     return "\n".join(text)
 
 
@@ -102,12 +107,15 @@ def lift(record):
             elif "why_not" in found:
                 cells.append(found["why_not"].removeprefix("Error: "))
             elif tool == "kutzbach":
-                cells.append(f"{found['freedom']}, {time_of(found['process']['median'])}")
+                read = found["read"]["median"]
+                cells += [f"{found['freedom']}, {time_of(found[q]['median'])} ({time_of(read + found[q]['median'])})" for q in ("rank", "verdict")]
+                cells.append(time_of(found["process"]["median"]))
             else:
                 cells.append(f"{found['freedom']}, {time_of(found['count']['median'])} ({time_of(found['build']['median'] + found['count']['median'])})")
         rows.append([n, 3 * n + 4, *cells])
     return "\n".join([
-        table(["stages", "joints", "kutzbach: process", *(f"{NAMES[p]}: count (with building)" for p in PEERS)], rows),
+        table(["stages", "joints", "kutzbach: rank (with reading)", "kutzbach: verdict (with reading)", "kutzbach: process of a report",
+               *(f"{NAMES[p]}: rank (with building)" for p in PEERS)], rows),
         "", "The freedom found, then the time. A tool is left out above the first size that takes it more than "
         f"{record['limit']:.0f} s; matrices are ranked with one and with two threads, and the faster is shown.",
         "", "![Time to a mobility answer over the stages of a scissor lift](images/peers_lift.svg)",
@@ -116,11 +124,15 @@ def lift(record):
 
 def lift_figure(record):
     series = []
-    for tool in ("kutzbach", *PEERS):
+    for question in ("rank", "verdict", "report"):
+        total = lambda r: r["process"]["median"] if question == "report" else r["read"]["median"] + r[question]["median"]
+        rows = record["lift"]["kutzbach"]
+        marks = [(r["stages"], total(r), question if r is rows[-1] else None) for r in rows]
+        series.append(("kutzbach", "kutzbach, read and ranked; verdict; report", marks))
+    for tool in PEERS:
         rows = [r for r in record["lift"][tool] if "why_not" not in r]
-        total = lambda r: r["process"]["median"] if tool == "kutzbach" else r["build"]["median"] + r["count"]["median"]
-        series.append((tool, {"kutzbach": "kutzbach, process"}.get(tool, f"{NAMES[tool]}, built and ranked"),
-                       [(r["stages"], total(r), None) for r in rows]))
+        total = lambda r: r["build"]["median"] + r["count"]["median"]
+        series.append((tool, f"{NAMES[tool]}, built and ranked", [(r["stages"], total(r), None) for r in rows]))
     ticks = [row["stages"] for row in record["lift"]["kutzbach"]]
     return figure.chart("A scissor lift: time to a mobility answer", series, "stages of the lift", "time", lambda t: f"{t:g}", ticks)
 
@@ -134,7 +146,12 @@ def words(tool, row):
         return f"{row['integrator']}, {rule}"
     if tool == "drake":
         return "time steps (SAP)" if row["model"] == "discrete" else f"inverse kinematics, tolerance {row['tolerance']:g}"
-    return "trace"
+    return f"trace, {row.get('model', 'whole process')}"
+
+
+def within(data):
+    """Traces within a running program, as rows of their own."""
+    return [{**r, "time": r["within"], "model": "within a program"} for r in data["kutzbach"] if "within" in r]
 
 
 def settings(tool, row):
@@ -150,7 +167,7 @@ def turn(record):
         rows = []
         for tool in ("kutzbach", *PEERS):
             groups = {}
-            for r in data[tool]:
+            for r in within(data) + data[tool] if tool == "kutzbach" else data[tool]:
                 groups.setdefault(settings(tool, r), []).append(r)
             for group in groups.values():
                 if all("hinges about z" in r.get("why_not", "") for r in group):
@@ -163,7 +180,7 @@ def turn(record):
                 least = min(good, key=lambda r: r["closure_error"], default=None)
                 cells.append("gives up" if least is None else error_of(least["closure_error"])
                              + (f", {least['unconfirmed']} poses not confirmed" if least.get("unconfirmed") else ""))
-                rows.append([NAMES[tool], "trace, whole process" if tool == "kutzbach" else words(tool, group[0]), *cells])
+                rows.append([NAMES[tool], words(tool, group[0]), *cells])
         text += [f"**{name}**", "", table(head, rows), ""]
     text.append("The least wall time with which a setting stays below a closure error all the way round, and in brackets in how many poses; "
                 "then the same where at least 240 poses are wanted. *Not confirmed*: poses that the solver did not call a success. "
@@ -176,12 +193,12 @@ def turn_figure(record):
     series, data = [], record["turn"]["four-bar"]
     for tool in ("kutzbach", *PEERS):
         groups = {}
-        for r in data[tool]:
+        for r in within(data) + data[tool] if tool == "kutzbach" else data[tool]:
             if tool == "kutzbach" or accepted(r, 1e-1):
                 groups.setdefault(settings(tool, r), []).append(r)
         for group in groups.values():
             marks = [(max(r["closure_error"], 1e-16), r["time"]["median"], f"{r['steps']} poses" if tool == "kutzbach" and r["steps"] in (240, 4000) else None) for r in group]
-            series.append((tool, {"kutzbach": "kutzbach, process"}.get(tool, f"{NAMES[tool]}, steps alone"), marks))
+            series.append((tool, {"kutzbach": "kutzbach, whole"}.get(tool, f"{NAMES[tool]}, steps alone"), marks))
     return figure.chart("One turn of a four-bar: every setting tried", series, "closure error", "wall time",
                         lambda t: f"1e{round(math.log10(t))}", [10.0**e for e in range(-16, 1, 2)])
 
@@ -195,8 +212,10 @@ def ratios(record):
     for name, data in record["turn"].items():
         own = {r["steps"]: r for r in data["kutzbach"] if r["closure_error"] <= 1e-12}
         least = min(own.values(), key=lambda r: r["time"]["median"])
+        inside = {r["steps"]: r["time"]["median"] for r in within(data)}
         text.append(f"- **Turn, {name}.** The trace closes to {error_of(max(r['closure_error'] for r in own.values()))} at every number of "
-                    f"poses; its process takes {time_of(least['time']['median'])} at the least ({least['steps']} poses) and "
+                    f"poses. Within a program it takes {time_of(inside[12])} for 12 poses and {time_of(inside[240])} for 240, its "
+                    f"analysis included; as a process {time_of(least['time']['median'])} at the least ({least['steps']} poses) and "
                     f"{time_of(own[240]['time']['median'])} for 240 poses. Soonest at 1e-6 or better, steps alone:")
         for poses in (0, 240):
             cells = []
@@ -212,32 +231,42 @@ def ratios(record):
     data = record["zoo"]
     known = [n for n in data if "why_not" not in data[n]["exudyn"]]
     peer = lambda n, *keys: sum(data[n]["exudyn"][k]["median"] for k in keys)
-    own = lambda n, key="inside": data[n]["kutzbach"][key]["median"]
+    own = lambda n, key: data[n]["kutzbach"][key]["median"]
     start = record["processes"]["exudyn"]["count"]["median"]
+    right = [n for n in known if data[n]["exudyn"]["freedom"] == data[n]["finite"]]
+    for question, words_for in (("rank", "The rank at the pose"), ("verdict", "The verdict")):
+        within_time = lambda n: own(n, question)
+        text.append(
+            f"- **{words_for} against Exudyn's count**, {len(known)} mechanisms that both describe. No slower than the count alone: "
+            f"{sum(within_time(n) <= peer(n, 'count') for n in known)}, of the {len(right)} where that count is the finite freedom "
+            f"{sum(within_time(n) <= peer(n, 'count') for n in right)}; with reading, no slower than building and counting: "
+            f"{sum(within_time(n) + own(n, 'read') <= peer(n, 'count', 'build') for n in known)}, and "
+            f"{sum(within_time(n) + own(n, 'read') <= peer(n, 'count', 'build') for n in right)} of the {len(right)}. "
+            f"All together {time_of(sum(map(within_time, known)))} against {time_of(sum(peer(n, 'count') for n in known))}; the median "
+            f"of the quotients is {ratio(statistics.median(within_time(n) / peer(n, 'count') for n in known), 1)}.")
     text.append(
-        f"- **Verdict against Exudyn's count**, {len(known)} mechanisms that both describe. Report no slower than the count alone: "
-        f"{sum(own(n) <= peer(n, 'count') for n in known)}; no slower than building and counting: "
-        f"{sum(own(n) <= peer(n, 'count', 'build') for n in known)}; as processes, where Exudyn's takes {time_of(start)} for "
-        f"Bennett: {sum(own(n, 'process') <= start for n in known)}. All together {time_of(sum(map(own, known)))} against "
-        f"{time_of(sum(peer(n, 'count') for n in known))} and {time_of(sum(peer(n, 'count', 'build') for n in known))}; the median "
-        f"of the quotients is {ratio(statistics.median(own(n) / peer(n, 'count') for n in known), 1)} and "
-        f"{ratio(statistics.median(own(n) / peer(n, 'count', 'build') for n in known), 1)}.")
+        f"- **A report, whole process, against Exudyn's**, which takes {time_of(start)} for Bennett: quicker for "
+        f"{sum(own(n, 'process') <= start for n in known)} of {len(known)}.")
     for n in (100, 300, 1000):
         mine = next((r for r in record["lift"]["kutzbach"] if r["stages"] == n), None)
         if not mine:
             continue
+        read = mine["read"]["median"]
+        bare, verdict = mine["rank"]["median"], mine["verdict"]["median"]
         cells = []
         for tool in PEERS:
             r = next((r for r in record["lift"][tool] if r["stages"] == n), None)
             if r and "why_not" not in r:
                 total = r["build"]["median"] + r["count"]["median"]
-                cells.append(f"{NAMES[tool]} {ratio(total, mine['process']['median'])} times as long (its rank alone "
-                             f"{ratio(r['count']['median'], mine['process']['median'])})")
+                cells.append(f"{NAMES[tool]} {ratio(total, read + verdict)} times as long as the verdict and "
+                             f"{ratio(total, read + bare)} times as long as the rank; its rank alone "
+                             f"{ratio(r['count']['median'], verdict)} and {ratio(r['count']['median'], bare)} times ours")
             elif r and "more than" not in r["why_not"]:
                 cells.append(f"{NAMES[tool]} does not load it")
             elif r:
-                cells.append(f"{NAMES[tool]} more than {ratio(record['limit'], mine['process']['median'])} times")
-        text.append(f"- **Lift of {n} stages**, kutzbach {time_of(mine['process']['median'])}: " + "; ".join(cells) + ".")
+                cells.append(f"{NAMES[tool]} more than {ratio(record['limit'], read + verdict)} times")
+        text.append(f"- **Lift of {n} stages**, kutzbach with reading: verdict {time_of(read + verdict)}, rank {time_of(read + bare)}; "
+                    f"report as a process {time_of(mine['process']['median'])}. " + "; ".join(cells) + ".")
     return "\n".join(text)
 
 

@@ -1,6 +1,7 @@
 """Measures kutzbach and its peers side by side. See README.md.
 
-    python benches/peers/run.py --kutzbach target/release/kutzbach --date 2026-01-31 --machine "2 cores of an ordinary machine"
+    python benches/peers/run.py --kutzbach target/release/kutzbach --timed target/release/examples/timed_answers \\
+        --date 2026-01-31 --machine "2 cores of an ordinary machine"
 """
 
 import argparse
@@ -143,16 +144,24 @@ def answer_task(text):
 
 # What the driver asks for.
 
+QUESTIONS = ("read", "rank", "verdict", "motions", "everything")
 
-def measure_zoo(program, rounds):
+
+def rounded(seconds):
+    return {key: digits(value) for key, value in seconds.items()}
+
+
+def measure_zoo(program, timed, rounds):
     import own
 
     expected = json.loads((ROOT / "tests" / "zoo" / "expected.json").read_text())
     answer = {name: {"finite": e["finite"], "instantaneous": e["instantaneous"]} for name, e in expected.items()}
     for name, row in answer.items():
-        finite, instantaneous, inside, whole = own.verdict(program, ROOT / "tests" / "zoo" / f"{name}.urdf", rounds)
-        row["kutzbach"] = {"freedom": finite, "instantaneous_found": instantaneous,
-                           "inside": spread(inside), "process": spread(whole)}
+        file = ROOT / "tests" / "zoo" / f"{name}.urdf"
+        finite, instantaneous, whole = own.verdict(program, file, rounds)
+        within = own.within(timed, file, rounds)
+        row["kutzbach"] = {"freedom": finite, "instantaneous_found": instantaneous, "process": spread(whole)} | {
+            question: rounded(within[question]) for question in QUESTIONS}
     for peer in PEERS:
         for name, found in in_own_process(peer, "zoo", {"rounds": rounds})[0].items():
             answer[name][peer] = found
@@ -160,7 +169,7 @@ def measure_zoo(program, rounds):
     return answer
 
 
-def measure_lift(program, rounds):
+def measure_lift(program, timed, rounds):
     import own
     from mechanism import scissor_lift, write_urdf
 
@@ -169,9 +178,10 @@ def measure_lift(program, rounds):
         for stages in STAGES:
             file = Path(folder) / f"scissor_lift_{stages}.urdf"
             file.write_text(write_urdf(scissor_lift(stages)))
-            finite, _, inside, whole = own.verdict(program, file, rounds)
-            answer["kutzbach"].append({"stages": stages, "freedom": finite, "rounds": rounds,
-                                       "inside": spread(inside), "process": spread(whole)})
+            finite, _, whole = own.verdict(program, file, rounds)
+            within = own.within(timed, file, rounds)
+            answer["kutzbach"].append({"stages": stages, "freedom": finite, "rounds": rounds, "process": spread(whole)} | {
+                question: rounded(within[question]) for question in QUESTIONS})
     for peer in PEERS:
         for stages in STAGES:
             best = None
@@ -193,7 +203,7 @@ def measure_lift(program, rounds):
     return answer
 
 
-def measure_turn(program, rounds):
+def measure_turn(program, timed, rounds):
     import own
     from mechanism import closure_error, read
 
@@ -208,6 +218,11 @@ def measure_turn(program, rounds):
             times = [own.seconds_of(program, *arguments) for _ in range(3 * rounds + 1)][1:]
             error = closure_error(mechanism, *own.poses(program, file, samples), length)
             rows.append({"steps": samples, "time": spread(times), "closure_error": digits(error)})
+        within = own.within(timed, file, 3 * rounds, "--turn", job["crank"])["turns"]
+        for row in rows:
+            found = next((turn for turn in within if turn["poses"] == row["steps"]), None)
+            if found:
+                row["within"] = rounded({key: found[key] for key in ("least", "median")})
         answer[name] = {"length": digits(length), "kutzbach": rows}
         for peer in PEERS:
             answer[name][peer] = in_own_process(peer, "turn", {**job, "length": length, "rounds": rounds})[0]
@@ -247,6 +262,7 @@ def measure_processes(program, turns, rounds):
 def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("--kutzbach", help="the program, built with --release")
+    arguments.add_argument("--timed", help="its example timed_answers, built with --release")
     arguments.add_argument("--date", default="", help="the day, as the record and the page repeat it")
     arguments.add_argument("--machine", default="", help="the machine in words, such as '2 cores of an ordinary machine'")
     arguments.add_argument("--rounds", type=int, default=7)
@@ -259,7 +275,7 @@ def main():
     if not given.page:
         import own
 
-        program = str(Path(given.kutzbach).resolve())
+        program, timed = (str(Path(given_path).resolve()) for given_path in (given.kutzbach, given.timed))
         record = json.loads(RECORD.read_text()) if given.only and RECORD.exists() else {}
         record |= {"date": given.date, "machine": given.machine, "rounds": given.rounds, "limit": LIMIT}
         record["versions"] = {"kutzbach": own.version(program), "python": sys.version.split()[0]} | {
@@ -270,7 +286,7 @@ def main():
                 raise SystemExit(f"{peer} {found} is installed, requirements.txt says {record['versions'][peer]}")
         for name, measure in (("zoo", measure_zoo), ("lift", measure_lift), ("turn", measure_turn)):
             if not given.only or name in given.only:
-                record[name] = measure(program, given.rounds)
+                record[name] = measure(program, timed, given.rounds)
                 RECORD.write_text(json.dumps(record, indent=1) + "\n")
         record["processes"] = measure_processes(program, record["turn"], given.rounds)
         RECORD.write_text(json.dumps(record, indent=1) + "\n")

@@ -5,7 +5,7 @@
 
 use super::displacement::JointState;
 use super::geometry::{Geometry, Uncertainty};
-use super::rigid::{self, PlacedScrew, Rigid, Vector};
+use super::rigid::{self, PlacedScrew, Rigid, Vector, three};
 use crate::matrix::Real;
 
 /// A cycle as the closure module sees it: joints in order, and whether each is passed from predecessor to successor.
@@ -116,7 +116,7 @@ impl<R: Real> WalkedCycle<R> {
         let rotation = self.closure.rotation_vector();
         let moved = self.closure.apply(&centre);
         let [a, b, c] = rotation;
-        let [x, y, z] = [0, 1, 2].map(|i| (moved[i].clone() - centre[i].clone()) * inverse.clone());
+        let [x, y, z] = three(|i| (moved[i].clone() - centre[i].clone()) * inverse.clone());
         [a, b, c, x, y, z]
     }
 

@@ -6,7 +6,7 @@
 //! screw fixed in the frame behind its factor.
 
 use super::rigid::{
-    PlacedScrew, Rigid, Vector, cross, dot, length, perpendicular, scale, subtract, unit,
+    PlacedScrew, Rigid, Vector, cross, dot, length, perpendicular, scale, subtract, three, unit,
 };
 use crate::matrix::Real;
 use crate::mechanism::JointKind;
@@ -73,7 +73,7 @@ impl<R: Real> JointDisplacement<R> {
         distance: &R,
     ) -> Self {
         let like = pitch;
-        let zero = || [0, 1, 2].map(|_| like.zero_like());
+        let zero = || three(|_| like.zero_like());
         let axis = if kind.uses_axis() { unit(axis) } else { zero() };
         let axis2 = if kind.uses_second_axis() {
             unit(axis2)
@@ -256,7 +256,7 @@ impl<R: Real> JointDisplacement<R> {
         let mut next = 0;
         for (factor, value) in self.factors.iter().zip(&mut state.factors) {
             let zero = self.pitch.zero_like();
-            let mut angular = [0, 1, 2].map(|_| zero.clone());
+            let mut angular = three(|_| zero.clone());
             let mut linear = angular.clone();
             for generator in &factor.generators {
                 let Some(increment) = increments.get(next) else {
@@ -378,12 +378,12 @@ impl<R: Real> JointDisplacement<R> {
                 let reach = length(t);
                 let mut state = self.home();
                 if reach.to_f64() > 0.0 {
-                    let mut x = [0, 1, 2].map(|_| zero.clone());
+                    let mut x = three(|_| zero.clone());
                     x[0] = zero.one_like();
                     state.factors[0] = shortest_rotation(&x, &unit(t));
                 }
                 state.factors[1] = state.factors[0].inverse().compose(wanted);
-                state.factors[1].translation = [0, 1, 2].map(|_| zero.clone());
+                state.factors[1].translation = three(|_| zero.clone());
                 state
             }
         }

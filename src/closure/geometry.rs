@@ -1,7 +1,7 @@
 //! From the exact numbers of a mechanism to frames in an arithmetic of choice.
 
 use super::displacement::{JointDisplacement, JointState};
-use super::rigid::{Rigid, Vector, length};
+use super::rigid::{Rigid, Vector, length, three};
 use crate::matrix::Real;
 use crate::mechanism::{
     Configuration, Direction, Frame, Joint, JointKind, Mechanism, Placement, Precision,
@@ -51,7 +51,7 @@ impl<R: Real> Arithmetic<R> {
     }
 
     fn vector(&self, components: &[Number; 3]) -> Vector<R> {
-        [0, 1, 2].map(|i| self.number(&components[i]))
+        three(|i| self.number(&components[i]))
     }
 
     /// A direction, not normalised.
@@ -68,7 +68,7 @@ impl<R: Real> Arithmetic<R> {
                 continue;
             }
             let (sine, cosine) = self.number(angle).sin_cos();
-            let mut direction = [0, 1, 2].map(|_| self.one.zero_like());
+            let mut direction = three(|_| self.one.zero_like());
             direction[axis] = self.one.clone();
             pose = pose.compose(&Rigid::rotation(&direction, &cosine, &sine));
         }
@@ -223,7 +223,7 @@ impl Uncertainty {
             return sum;
         }
         let of = |numbers: &[Number; 3]| -> Vector<f64> {
-            [0, 1, 2].map(|i| precision.uncertainty(&numbers[i]))
+            three(|i| precision.uncertainty(&numbers[i]))
         };
         for side in [&joint.predecessor, &joint.successor] {
             sum.lengths = sum.lengths.hypot(length(&of(&side.frame.position)));
@@ -234,7 +234,7 @@ impl Uncertainty {
             (&joint.axis2, joint.kind.uses_second_axis()),
         ] {
             if used {
-                let size = length(&[0, 1, 2].map(|i| axis.0[i].value()));
+                let size = length(&three(|i| axis.0[i].value()));
                 sum.angles = sum.angles.hypot(length(&of(&axis.0)) / size);
             }
         }

@@ -8,33 +8,45 @@ use crate::matrix::Real;
 /// Three components.
 pub type Vector<R> = [R; 3];
 
+/// The three values of `entry`, written out: `map` on an array is a call that compilers leave standing in inner loops.
+#[inline(always)]
+pub fn three<T>(entry: impl Fn(usize) -> T) -> [T; 3] {
+    [entry(0), entry(1), entry(2)]
+}
+
 /// Σ aᵢ bᵢ.
+#[inline]
 pub fn dot<R: Real>(a: &Vector<R>, b: &Vector<R>) -> R {
     a[0].clone() * b[0].clone() + a[1].clone() * b[1].clone() + a[2].clone() * b[2].clone()
 }
 
 /// a × b.
+#[inline]
 pub fn cross<R: Real>(a: &Vector<R>, b: &Vector<R>) -> Vector<R> {
     let part = |i: usize, j: usize| a[i].clone() * b[j].clone() - a[j].clone() * b[i].clone();
     [part(1, 2), part(2, 0), part(0, 1)]
 }
 
 /// a + b.
+#[inline]
 pub fn add<R: Real>(a: &Vector<R>, b: &Vector<R>) -> Vector<R> {
-    [0, 1, 2].map(|i| a[i].clone() + b[i].clone())
+    three(|i| a[i].clone() + b[i].clone())
 }
 
 /// a − b.
+#[inline]
 pub fn subtract<R: Real>(a: &Vector<R>, b: &Vector<R>) -> Vector<R> {
-    [0, 1, 2].map(|i| a[i].clone() - b[i].clone())
+    three(|i| a[i].clone() - b[i].clone())
 }
 
 /// s a.
+#[inline]
 pub fn scale<R: Real>(a: &Vector<R>, s: &R) -> Vector<R> {
-    [0, 1, 2].map(|i| a[i].clone() * s.clone())
+    three(|i| a[i].clone() * s.clone())
 }
 
 /// Euclidean length, also of vectors whose squares leave the range of doubles.
+#[inline]
 pub fn length<R: Real>(a: &Vector<R>) -> R {
     a[0].norm(a)
 }
@@ -46,7 +58,7 @@ pub fn unit<R: Real>(a: &Vector<R>) -> Vector<R> {
         .iter()
         .map(Real::abs)
         .fold(a[0].zero_like(), |m, x| if x > m { x } else { m });
-    let a = [0, 1, 2].map(|i| a[i].clone() / largest.clone());
+    let a = three(|i| a[i].clone() / largest.clone());
     let length = length(&a);
     a.map(|x| x / length.clone())
 }
@@ -80,10 +92,10 @@ impl<R: Real> Rigid<R> {
     /// The displacement that moves nothing, in the arithmetic of `like`.
     pub fn identity(like: &R) -> Self {
         let (zero, one) = (like.zero_like(), like.one_like());
-        let row = |i: usize| [0, 1, 2].map(|j| if i == j { one.clone() } else { zero.clone() });
+        let row = |i: usize| three(|j| if i == j { one.clone() } else { zero.clone() });
         Self {
             rotation: [row(0), row(1), row(2)],
-            translation: [0, 1, 2].map(|_| zero.clone()),
+            translation: three(|_| zero.clone()),
         }
     }
 
@@ -146,7 +158,7 @@ impl<R: Real> Rigid<R> {
     fn exponential_series(angular: &Vector<R>, linear: &Vector<R>) -> Self {
         let like = &angular[0];
         let mut result = Self::identity(like);
-        let columns = [0, 1, 2].map(|j| [0, 1, 2].map(|i| result.rotation[i][j].clone()));
+        let columns = three(|j| three(|i| result.rotation[i][j].clone()));
         let terms = 2 + like.bits() as usize / 20;
         let mut turned_columns = columns;
         let mut drift = linear.clone();
@@ -167,13 +179,15 @@ impl<R: Real> Rigid<R> {
     }
 
     /// Rotates a free vector.
+    #[inline]
     pub fn rotate(&self, v: &Vector<R>) -> Vector<R> {
-        [0, 1, 2].map(|i| dot(&self.rotation[i], v))
+        three(|i| dot(&self.rotation[i], v))
     }
 
     /// Rotates a free vector back.
+    #[inline]
     pub fn rotate_back(&self, v: &Vector<R>) -> Vector<R> {
-        [0, 1, 2].map(|j| {
+        three(|j| {
             (0..3).fold(v[0].zero_like(), |sum, i| {
                 sum + self.rotation[i][j].clone() * v[i].clone()
             })
@@ -181,19 +195,21 @@ impl<R: Real> Rigid<R> {
     }
 
     /// Maps a point.
+    #[inline]
     pub fn apply(&self, p: &Vector<R>) -> Vector<R> {
         add(&self.rotate(p), &self.translation)
     }
 
     /// `self * other`: `a_from_b * b_from_c = a_from_c`.
     #[must_use]
+    #[inline]
     pub fn compose(&self, other: &Self) -> Self {
-        let columns = [0, 1, 2].map(|j| {
-            let column = [0, 1, 2].map(|i| other.rotation[i][j].clone());
+        let columns = three(|j| {
+            let column = three(|i| other.rotation[i][j].clone());
             self.rotate(&column)
         });
         Self {
-            rotation: [0, 1, 2].map(|i| [0, 1, 2].map(|j| columns[j][i].clone())),
+            rotation: three(|i| three(|j| columns[j][i].clone())),
             translation: self.apply(&other.translation),
         }
     }
@@ -203,7 +219,7 @@ impl<R: Real> Rigid<R> {
     pub fn inverse(&self) -> Self {
         let back = self.rotate_back(&self.translation).map(|x| -x);
         Self {
-            rotation: [0, 1, 2].map(|i| [0, 1, 2].map(|j| self.rotation[j][i].clone())),
+            rotation: three(|i| three(|j| self.rotation[j][i].clone())),
             translation: back,
         }
     }
@@ -233,7 +249,7 @@ impl<R: Real> Rigid<R> {
         }
         // Near a half turn the antisymmetric part vanishes; the axis is the largest column of R + Rᵀ − 2 cos I.
         let column = |j: usize| {
-            [0, 1, 2].map(|i| {
+            three(|i| {
                 let mut entry = (r[i][j].clone() + r[j][i].clone()) * half.clone();
                 if i == j {
                     entry = entry - cosine.clone();

@@ -6,7 +6,7 @@
 use super::displacement::JointState;
 use super::geometry::Geometry;
 use super::jacobian::{CycleJacobian, Part, entry_accuracy, jacobian};
-use crate::matrix::{LeastSquares, MatrixError, Real, SparseMatrix};
+use crate::matrix::{LeastSquares, MatrixError, Real, SparseMatrix, held_step};
 use crate::mechanism::Mechanism;
 
 /// The metric of a part's unknowns.
@@ -63,6 +63,9 @@ pub struct Section<'a, R> {
     /// The metric of its unknowns.
     pub metric: &'a Metric,
 }
+
+/// Steps of larger parts are looked for by a sparse factorisation first.
+const SPARSE_UNKNOWNS: usize = 40;
 
 /// A step that leads away from closing is halved so often.
 const SHORTENINGS: i32 = 6;
@@ -147,10 +150,8 @@ impl<R: Real> Section<'_, R> {
                 .residual
                 .iter()
                 .map(|r| -(r.clone() / unit.clone()).to_f64())
-                .chain(held.iter().map(|_| 0.0))
                 .collect();
-            let matrix = self.bordered(&here, held)?;
-            let mut step = LeastSquares::damped(&matrix, &right, 1e-24, None)?;
+            let mut step = self.across(&here, right, held)?;
             for direction in held {
                 let along: f64 = direction.iter().zip(&step).map(|(a, b)| a * b).sum();
                 step.iter_mut()
@@ -205,6 +206,27 @@ impl<R: Real> Section<'_, R> {
             }
         }
         Ok(closing)
+    }
+
+    /// The least step that closes to first order and does not move along the held directions, in the metric.
+    fn across(
+        &self,
+        here: &CycleJacobian<R>,
+        mut right: Vec<f64>,
+        held: &[Vec<f64>],
+    ) -> Result<Vec<f64>, MatrixError> {
+        if here.matrix.columns() > SPARSE_UNKNOWNS {
+            let blocks = (0..here.matrix.block_count()).map(|b| here.matrix.block_rows(b).start);
+            let matrix = self
+                .bordered(here, &[])?
+                .with_row_blocks(blocks.collect())?;
+            if let Some(step) = held_step(&matrix, &right, held)? {
+                return Ok(step);
+            }
+        }
+        let matrix = self.bordered(here, held)?;
+        right.extend(held.iter().map(|_| 0.0));
+        LeastSquares::damped(&matrix, &right, 1e-24, None)
     }
 
     /// The Jacobian in the metric, in double precision, with the held directions as further rows.
