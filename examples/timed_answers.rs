@@ -1,7 +1,7 @@
 //! How long answers take within a running program: what a library's user waits for, after a first call.
 //!
 //! ```text
-//! cargo run --release --example timed_answers -- [--rounds N] [--turn JOINT] FILE...
+//! cargo run --release --example timed_answers -- [--rounds N] [--turn JOINT [--poses N]] FILE...
 //! ```
 //!
 //! Prints a line of JSON for every file: the freedom found, and for each question the least and the median seconds over the
@@ -23,7 +23,7 @@ const DEPTHS: [(&str, Depth); 4] = [
     ("everything", Depth::Everything),
 ];
 
-/// Poses of a turn.
+/// Poses of a turn, where none are asked for.
 const POSES: [usize; 6] = [12, 24, 60, 240, 1000, 4000];
 
 #[derive(Serialize)]
@@ -75,7 +75,12 @@ fn timed<T, E>(
     ))
 }
 
-fn answers(file: &str, rounds: usize, turn: Option<&str>) -> Result<Answers, Box<dyn Error>> {
+fn answers(
+    file: &str,
+    rounds: usize,
+    turn: Option<&str>,
+    poses: &[usize],
+) -> Result<Answers, Box<dyn Error>> {
     let text = std::fs::read_to_string(file)?;
     let (reading, read) = timed(rounds, || kutzbach::format::read(&text, file, &[]))?;
     let mechanism = &reading.mechanism;
@@ -95,7 +100,7 @@ fn answers(file: &str, rounds: usize, turn: Option<&str>) -> Result<Answers, Box
     let mut turns = Vec::new();
     for (joint, poses) in turn
         .into_iter()
-        .flat_map(|joint| POSES.map(|poses| (joint, poses)))
+        .flat_map(|joint| poses.iter().map(move |poses| (joint, *poses)))
     {
         let (closure_error, seconds) = timed(rounds, || -> Result<f64, Box<dyn Error>> {
             let options = AnalysisOptions {
@@ -130,6 +135,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let mut rounds = 5;
     let mut turn = None;
+    let mut poses = POSES.to_vec();
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
             "--rounds" => {
@@ -140,9 +146,10 @@ fn main() -> Result<(), Box<dyn Error>> {
                     .max(1)
             }
             "--turn" => turn = Some(arguments.next().ok_or("--turn JOINT")?),
+            "--poses" => poses = vec![arguments.next().ok_or("--poses N")?.parse()?],
             file => println!(
                 "{}",
-                serde_json::to_string(&answers(file, rounds, turn.as_deref())?)?
+                serde_json::to_string(&answers(file, rounds, turn.as_deref(), &poses)?)?
             ),
         }
     }
