@@ -47,6 +47,8 @@ pub struct Assembly {
     pub states: Vec<JointState<f64>>,
     /// The loops of the file.
     pub gaps: Vec<LoopGap>,
+    /// The equations at the final pose, one entry per part where the part was closed: whoever ranks them next takes them.
+    pub(crate) jacobians: Vec<Option<CycleJacobian<f64>>>,
 }
 
 /// However coarsely the numbers are stated or rounded, a cycle that misses by more than this (rad, or cycle lengths) is not closed.
@@ -73,12 +75,15 @@ pub fn assemble(
         steps: 0,
         states: geometry.states.clone(),
         gaps: Vec::new(),
+        jacobians: Vec::with_capacity(parts.len()),
     };
-    for part in parts
-        .iter()
-        .filter(|part| !part.cycles.is_empty() || !part.couplings.is_empty())
-    {
+    for part in parts {
+        if part.cycles.is_empty() && part.couplings.is_empty() {
+            assembly.jacobians.push(None);
+            continue;
+        }
         let outcome = close(mechanism, geometry, &mut assembly.states, part, held)?;
+        assembly.jacobians.push(outcome.jacobian);
         assembly.closed &= outcome.residual <= outcome.tolerance;
         assembly.residual = largest(&[assembly.residual, outcome.residual]);
         assembly.tolerance = assembly.tolerance.max(outcome.tolerance);
@@ -97,6 +102,8 @@ struct PartOutcome {
     residual: f64,
     tolerance: f64,
     steps: usize,
+    /// At the pose reached.
+    jacobian: Option<CycleJacobian<f64>>,
 }
 
 /// The largest magnitude; NaN if there is one, which must not pass for small.
@@ -168,6 +175,7 @@ fn close(
             residual: f64::INFINITY,
             tolerance: 0.0,
             steps: 0,
+            jacobian: None,
         },
     ));
     nearest.put_back(states);
@@ -285,6 +293,7 @@ fn descend(
         residual,
         tolerance: (stated + rounding).min(COARSEST_CLOSING),
         steps,
+        jacobian: Some(here),
     })
 }
 

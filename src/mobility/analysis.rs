@@ -179,6 +179,7 @@ impl Analysis {
         geometry: &Geometry<f64>,
         options: &AnalysisOptions,
     ) -> Result<(), MatrixError> {
+        let known = std::mem::take(&mut self.assembly.jacobians);
         let states = &self.assembly.states;
         let pose = Pose {
             mechanism,
@@ -190,8 +191,8 @@ impl Analysis {
         };
         let mut more = MoreDigits::new();
         let mut parts = Vec::with_capacity(self.structure.parts.len());
-        for part in &self.structure.parts {
-            parts.push(rank_part_with(&pose, &mut more, part)?);
+        for (part, known) in self.structure.parts.iter().zip(known) {
+            parts.push(rank_part_with(&pose, &mut more, part, known)?);
         }
         let home = self.home_freedom(mechanism, &parts);
         if options.depth == Depth::Rank {

@@ -4,9 +4,9 @@
 ///
 /// | depth | says | of the cost of a regular loop, about |
 /// |---|---|---|
-/// | `Rank` | counts, closure, and the instantaneous freedom with its margin | a tenth |
-/// | `Verdict` | finite freedom, class, singularity, certificate and evidence | a third |
-/// | `Motions` | the branches, with generic poses and roles on them | half |
+/// | `Rank` | counts, closure, and the instantaneous freedom with its margin | a twentieth |
+/// | `Verdict` | finite freedom, class, singularity, certificate and evidence | a tenth |
+/// | `Motions` | the branches, with generic poses and roles on them | a third to a half |
 /// | `Everything` | roles and redundancy at the pose, cycles, advice, and stronger certificates by exact algebra | all |
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Depth {

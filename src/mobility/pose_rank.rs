@@ -208,7 +208,7 @@ fn decide_twice<R: Real>(
 /// # Errors
 /// [`MatrixError`] where numbers overflow.
 pub fn rank_part(pose: &Pose<'_>, part: &Part) -> Result<PartRank, MatrixError> {
-    rank_part_with(pose, &mut MoreDigits::new(), part)
+    rank_part_with(pose, &mut MoreDigits::new(), part, None)
 }
 
 /// The accuracy of a part's Jacobian: (stated precision, rounding), and whether the first is too coarse to be of use.
@@ -217,13 +217,18 @@ pub(super) fn known_to(mechanism: &Mechanism, jacobian: &CycleJacobian<f64>) -> 
     (stated, rounding, stated > COARSEST_STATED)
 }
 
-/// [`rank_part`], sharing what is evaluated in many digits with other parts.
+/// [`rank_part`], sharing what is evaluated in many digits with other parts. `known` are the part's equations at the pose,
+/// where somebody has evaluated them before.
 pub(super) fn rank_part_with(
     pose: &Pose<'_>,
     more: &mut MoreDigits,
     part: &Part,
+    known: Option<CycleJacobian<f64>>,
 ) -> Result<PartRank, MatrixError> {
-    let double = jacobian(pose.mechanism, pose.geometry, pose.states, part)?;
+    let double = match known {
+        Some(known) => known,
+        None => jacobian(pose.mechanism, pose.geometry, pose.states, part)?,
+    };
     let (mut stated, rounding, mut coarse) = known_to(pose.mechanism, &double);
     let standing = Standing::of(pose, part, &double, stated + rounding)?;
     let rounding = rounding + standing.residual;
