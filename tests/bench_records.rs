@@ -37,6 +37,12 @@ fn every_case_runs() {
     });
 }
 
+/// What the list says of the two charts.
+#[test]
+fn one_chart_is_decided_in_double_precision_and_one_is_not() {
+    assert_eq!(jobs::CHARTS.map(jobs::chart_bits), [53, 106]);
+}
+
 /// The scripts' own checks, where there is a Python to run them.
 #[test]
 fn the_scripts_do_what_they_say() {

@@ -33,7 +33,7 @@ fn file(case: &str) -> Option<&'static str> {
         "stewart" => include_str!("../../mechanisms/stewart.urdf"),
         "delta" => include_str!("../../mechanisms/delta.urdf"),
         "steffen" => include_str!("../../tests/zoo/steffen_polyhedron.urdf"),
-        "double goldberg" => include_str!("../../mechanisms/wohlhart_double_goldberg.urdf"),
+        "goldberg" => include_str!("../../tests/zoo/goldberg_6r.urdf"),
         "flat kite" => include_str!("../../mechanisms/kite_flat.urdf"),
         "cusp" => include_str!("../../mechanisms/double_watt_cusp.urdf"),
         "flat miura" => include_str!("../../mechanisms/miura_flat.urdf"),

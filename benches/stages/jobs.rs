@@ -28,10 +28,10 @@ const DEGREE: usize = 4;
 const POSES: usize = 100;
 
 /// Steps of a simulation.
-pub const STEPS: usize = 100;
+const STEPS: usize = 100;
 
 /// One-loop mechanisms at regular poses. The first is decided in double precision; the second needs 106 bits.
-pub const CHARTS: [&str; 2] = ["bennett", "double goldberg"];
+pub const CHARTS: [&str; 2] = ["bennett", "goldberg"];
 
 /// Singular poses: two branches that cross, a cusp, four branches of a folded sheet.
 pub const GERMS: [&str; 3] = ["flat kite", "cusp", "flat miura"];
@@ -133,6 +133,11 @@ pub fn chart(case: &str) -> Job {
     Box::new(move || {
         black_box(black_box(&ranked).chart());
     })
+}
+
+/// Bits of the arithmetic that decides whether the pose is regular.
+pub fn chart_bits(case: &str) -> u32 {
+    Ranked::new(case).chart().bits
 }
 
 /// The power series at a singular pose, its rank being known.
@@ -248,6 +253,15 @@ pub fn simulated(case: &str) -> Job {
             world.step().expect("it stays in one piece");
         }
         black_box(world.link_poses());
+    })
+}
+
+/// One step of a world that goes on.
+pub fn stepped(case: &str) -> Job {
+    let standing = Standing::new(case);
+    let mut world = world(&standing.mechanism, &standing);
+    Box::new(move || {
+        world.step().expect("it stays in one piece");
     })
 }
 

@@ -7,9 +7,11 @@
 //! most (δ/2w)²/2, with δ = 2π/1000 and w = 0.1 rad 5e-4. And the first window has the start in it. [`EVEN`] has room for
 //! twenty of the former. Where the energy changes by a share e, squares of rates do too, and gaps with them.
 //!
-//! *Distance from the traced motion.* The same; but it is looked at after some steps only. In a window of ten turns these are
-//! 3.7 steps apart on average and twice that at most, and miss (δ/2w)²/2 of a peak with δ seven times as large: 0.025, which
-//! is [`SAMPLED`]. Where windows are few turns long that is no bound, and no claim is made.
+//! *Distance from the traced motion.* The same; but the crank's is looked at after every 37th step only. A hundred turns see
+//! every angle, so that tenths of a long run can be compared. A window of ten turns leaves gaps of 27 steps, δ = 0.17 rad, and
+//! misses (δ/2w)²/2, 7 %, of a peak that is w = 0.23 rad wide, as this one is. Which angles a window misses comes round within a
+//! few windows, so that a third of it at most is taken for a drift by a straight line: [`SAMPLED`]. Windows of one turn say less,
+//! and of them no claim is made.
 //!
 //! *Energy.* Compared with that of the traced motion it goes up and down within a turn; its mean over a window must stay: a
 //! drift over all of the run of less than [`EVEN`] of that going up and down. What swings freely has nothing that calls its
@@ -77,7 +79,7 @@ pub fn claims(run: &Run) -> Vec<Claim> {
             allowed: EVEN + changed,
         },
     ];
-    // Fewer than a hundred comparisons do not see every pose.
+    // See above: windows of one turn.
     let whole = run.steps / run.windows() >= 10_000 || run.subject != Subject::Bennett;
     if whole {
         claims.push(Claim {

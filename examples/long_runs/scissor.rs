@@ -30,7 +30,7 @@ pub const STAGES: usize = 3;
 pub const STEP_RATE: f64 = 240.0;
 
 /// Standard gravity (m/s²).
-const GRAVITY: f64 = 9.80665;
+pub const GRAVITY: f64 = 9.80665;
 
 /// Slope of the rail (rad).
 pub const SLOPE: f64 = 65.0 * std::f64::consts::PI / 180.0;
