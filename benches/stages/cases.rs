@@ -24,27 +24,42 @@ pub const ALL: [&str; 11] = [
     "miura 30",
 ];
 
+/// The file of a case that is none of a family.
+fn file(case: &str) -> Option<&'static str> {
+    Some(match case {
+        "bennett" => include_str!("../../mechanisms/bennett.urdf"),
+        "four bar" => include_str!("../../mechanisms/planar_four_bar.urdf"),
+        "sarrus" => include_str!("../../mechanisms/sarrus.urdf"),
+        "stewart" => include_str!("../../mechanisms/stewart.urdf"),
+        "delta" => include_str!("../../mechanisms/delta.urdf"),
+        "steffen" => include_str!("../../tests/zoo/steffen_polyhedron.urdf"),
+        "goldberg" => include_str!("../../tests/zoo/goldberg_6r.urdf"),
+        "flat kite" => include_str!("../../mechanisms/kite_flat.urdf"),
+        "cusp" => include_str!("../../mechanisms/double_watt_cusp.urdf"),
+        "flat miura" => include_str!("../../mechanisms/miura_flat.urdf"),
+        "oldham" => include_str!("../../mechanisms/oldham.urdf"),
+        "double peg" => include_str!("../../tests/thesis/double_peg.urdf"),
+        _ => return None,
+    })
+}
+
 /// The text of a case as a mechanism file.
 pub fn text(case: &str) -> String {
-    match case {
-        "bennett" => include_str!("../../mechanisms/bennett.urdf").to_owned(),
-        "four bar" => include_str!("../../mechanisms/planar_four_bar.urdf").to_owned(),
-        "sarrus" => include_str!("../../mechanisms/sarrus.urdf").to_owned(),
-        "stewart" => include_str!("../../mechanisms/stewart.urdf").to_owned(),
-        "delta" => include_str!("../../mechanisms/delta.urdf").to_owned(),
-        "steffen" => include_str!("../../tests/zoo/steffen_polyhedron.urdf").to_owned(),
-        family => kutzbach::format::write(&of_family(family)),
-    }
+    file(case).map_or_else(
+        || kutzbach::format::write(&of_family(case)),
+        ToOwned::to_owned,
+    )
 }
 
 /// A case as a mechanism.
 pub fn mechanism(case: &str) -> Mechanism {
-    if case.contains(' ') && case != "four bar" {
-        of_family(case)
-    } else {
-        kutzbach::format::read(&text(case), case, &[])
-            .expect("the file is part of the repository")
-            .mechanism
+    match file(case) {
+        Some(text) => {
+            kutzbach::format::read(text, case, &[])
+                .expect("the file is part of the repository")
+                .mechanism
+        }
+        None => of_family(case),
     }
 }
 

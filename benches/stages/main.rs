@@ -6,16 +6,23 @@
 //! ```
 //!
 //! One file per stage, in the order in which data flows; [`cases`] says what is measured. The process as a whole, with its
-//! memory, is timed by `--bench process`.
+//! memory, is timed by `--bench process`; instructions, which are the same on a busy machine, are counted by
+//! `benches/instructions.py`. `benches/README.md` says how to keep results and compare them.
 
 mod analyse;
 mod assemble;
 mod cases;
+mod chart;
+mod exact;
+mod germ;
 mod graph;
-mod motion;
+#[allow(dead_code)] // the counted stages use the rest
+mod jobs;
 mod parse;
 mod rank;
 mod report;
+mod simulate;
+mod trace;
 
 fn main() {
     divan::main();

@@ -1,0 +1,48 @@
+//! Stages as programs of their own, for counting instructions.
+//!
+//! ```text
+//! cargo bench --bench instructions                      # lists the cases
+//! cargo bench --bench instructions -- rank/bennett 5    # runs one five times
+//! python3 benches/instructions.py --date DATE --machine MACHINE
+//! ```
+//!
+//! The script runs each case under callgrind, without and with repetitions, and takes the difference: what has to be made
+//! ready is in both. One thread, and nothing that depends on time or on addresses.
+
+#[path = "../stages/cases.rs"]
+#[allow(dead_code)] // the timed stages use the rest
+mod cases;
+#[path = "../stages/jobs.rs"]
+#[allow(dead_code)]
+mod jobs;
+mod list;
+
+use std::error::Error;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    // `cargo bench` adds `--bench`, `cargo test --benches` nothing.
+    let arguments: Vec<String> = std::env::args()
+        .skip(1)
+        .filter(|argument| !argument.starts_with("--"))
+        .collect();
+    match arguments.as_slice() {
+        [] => {
+            for (stage, case, _) in list::all() {
+                println!("{stage}/{case}");
+            }
+        }
+        [name, repetitions] => {
+            let repetitions: usize = repetitions.parse()?;
+            let (_, case, stage) = list::all()
+                .into_iter()
+                .find(|(stage, case, _)| format!("{stage}/{case}") == *name)
+                .ok_or_else(|| format!("there is no case `{name}`"))?;
+            let mut job = stage(case);
+            for _ in 0..repetitions {
+                job();
+            }
+        }
+        _ => return Err("needed are a case and how often it is to run".into()),
+    }
+    Ok(())
+}

@@ -1,0 +1,283 @@
+//! Stages as jobs that can be run again and again: what each needs is made ready once, and is not part of it.
+//!
+//! Shared by `--bench stages`, which times some of them, and `--bench instructions`, which runs one so often.
+
+use super::cases::{Standing, mechanism, text};
+use kutzbach::algebra::{Budget, ExactOptions, SystemOptions, exact_answer, polynomial_system};
+use kutzbach::mechanism::Mechanism;
+use kutzbach::mobility::{
+    AnalysisOptions, ChartTest, Germ, GermZeroOptions, Kernel, MoreDigits, PartRank, Pose,
+    Structure, analyse, chart_test, germ_zeros, rank_part,
+};
+use kutzbach::motion::{TraceOptions, trace};
+use kutzbach::report::text::{Layout, render};
+use kutzbach::report::{Input, Options, analysed_report_on};
+use kutzbach::simulate::{Drive, World, WorldOptions};
+use std::hint::black_box;
+
+/// Something to be run.
+pub type Job = Box<dyn FnMut()>;
+
+/// At most so many vectors of a kernel, as in the analysis.
+const KERNEL_VECTORS: usize = 64;
+
+/// Degree of the series: twice the order of the germs here, as in the analysis.
+const DEGREE: usize = 4;
+
+/// Poses of a trace.
+const POSES: usize = 100;
+
+/// Steps of a simulation.
+const STEPS: usize = 100;
+
+/// One-loop mechanisms at regular poses. The first is decided in double precision; the second needs 106 bits.
+pub const CHARTS: [&str; 2] = ["bennett", "goldberg"];
+
+/// Singular poses: two branches that cross, a cusp, four branches of a folded sheet.
+pub const GERMS: [&str; 3] = ["flat kite", "cusp", "flat miura"];
+
+/// Mechanisms with exact equations: one loop, two loops, a chain of pegs and holes.
+pub const EXACTS: [&str; 3] = ["bennett", "oldham", "double peg"];
+
+/// Mechanisms that are simulated.
+pub const SIMULATIONS: [&str; 3] = ["four bar", "bennett", "scissor 100"];
+
+/// A part of a mechanism at its pose, with its rank.
+struct Ranked {
+    standing: Standing,
+    rank: PartRank,
+}
+
+impl Ranked {
+    fn new(case: &str) -> Self {
+        let standing = Standing::new(case);
+        let rank = rank_part(&pose(&standing), &standing.structure.parts[0])
+            .expect("coordinates are in range");
+        Self { standing, rank }
+    }
+
+    fn chart(&self) -> ChartTest {
+        let pose = pose(&self.standing);
+        let kernel = Kernel::of(&pose, &self.rank, KERNEL_VECTORS)
+            .expect("coordinates are in range")
+            .expect("the rank is decided");
+        let part = &self.standing.structure.parts[0];
+        // Digits are computed anew each time: keeping them would make all runs but the first cheap.
+        chart_test(&pose, &mut MoreDigits::new(), part, &self.rank, &kernel)
+            .expect("coordinates are in range")
+    }
+
+    fn germ(&self) -> Germ {
+        Germ::of_part(&self.standing.mechanism, &self.rank, DEGREE)
+            .expect("coordinates are in range")
+            .expect("the part is small")
+    }
+}
+
+fn pose(standing: &Standing) -> Pose<'_> {
+    Pose {
+        mechanism: &standing.mechanism,
+        configuration: None,
+        held: &standing.held,
+        geometry: &standing.geometry,
+        states: &standing.assembly.states,
+        as_drawn: standing.assembly.steps == 0,
+    }
+}
+
+/// Text to mechanism.
+pub fn parse(case: &str) -> Job {
+    let (text, case) = (text(case), case.to_owned());
+    Box::new(move || {
+        let read = kutzbach::format::read(black_box(&text), &case, &[]);
+        black_box(read.expect("the file is part of the repository"));
+    })
+}
+
+/// Blocks, spanning tree, cycles.
+pub fn graph(case: &str) -> Job {
+    let mechanism = mechanism(case);
+    Box::new(move || {
+        black_box(Structure::new(black_box(&mechanism)));
+    })
+}
+
+/// Closing the cycles from the file's pose.
+pub fn assemble(case: &str) -> Job {
+    let standing = Standing::new(case);
+    Box::new(move || {
+        let assembly = kutzbach::closure::assemble(
+            black_box(&standing.mechanism),
+            &standing.geometry,
+            &standing.structure.parts,
+            &standing.held,
+        );
+        black_box(assembly.expect("coordinates are in range").closed);
+    })
+}
+
+/// Jacobian and rank of all parts.
+pub fn rank(case: &str) -> Job {
+    let standing = Standing::new(case);
+    Box::new(move || {
+        for part in &standing.structure.parts {
+            let found = rank_part(black_box(&pose(&standing)), part);
+            black_box(found.expect("coordinates are in range").instantaneous);
+        }
+    })
+}
+
+/// Whether the pose is regular, its rank being known.
+pub fn chart(case: &str) -> Job {
+    let ranked = Ranked::new(case);
+    Box::new(move || {
+        black_box(black_box(&ranked).chart());
+    })
+}
+
+/// Bits of the arithmetic that decides whether the pose is regular.
+pub fn chart_bits(case: &str) -> u32 {
+    Ranked::new(case).chart().bits
+}
+
+/// The power series at a singular pose, its rank being known.
+pub fn germ_series(case: &str) -> Job {
+    let ranked = Ranked::new(case);
+    Box::new(move || {
+        black_box(black_box(&ranked).germ());
+    })
+}
+
+/// The real zeros of the power series.
+pub fn germ_branches(case: &str) -> Job {
+    let germ = Ranked::new(case).germ();
+    let order = germ.order().expect("the pose is singular");
+    Box::new(move || {
+        let options = GermZeroOptions::default();
+        let zeros = germ_zeros(
+            germ.freedom(),
+            black_box(germ.equations()),
+            germ.noise(order),
+            &options,
+        );
+        black_box(zeros.branches.len());
+    })
+}
+
+/// The equations as polynomials.
+pub fn exact_equations(case: &str) -> Job {
+    let mechanism = mechanism(case);
+    Box::new(move || {
+        let system = polynomial_system(black_box(&mechanism), &SystemOptions::default());
+        black_box(system.expect("the numbers are exact").equations.len());
+    })
+}
+
+/// From the mechanism to everything that its polynomials say.
+pub fn exact_answers(case: &str) -> Job {
+    let mechanism = mechanism(case);
+    Box::new(move || {
+        let answer = exact_answer(
+            black_box(&mechanism),
+            &ExactOptions::default(),
+            &Budget::unlimited(),
+        );
+        assert!(answer.expect("the numbers are exact").stopped.is_none());
+    })
+}
+
+/// The whole analysis.
+pub fn whole_analysis(case: &str) -> Job {
+    let mechanism = mechanism(case);
+    Box::new(move || {
+        let analysis = analyse(black_box(&mechanism), &AnalysisOptions::default());
+        black_box(analysis.expect("coordinates are in range").kutzbach);
+    })
+}
+
+/// A hundred poses of the predicted motion, from the analysis on.
+pub fn traced(case: &str) -> Job {
+    let mechanism = mechanism(case);
+    let analysis =
+        analyse(&mechanism, &AnalysisOptions::default()).expect("coordinates are in range");
+    Box::new(move || {
+        let options = TraceOptions {
+            samples: POSES,
+            ..TraceOptions::default()
+        };
+        let traced = trace(black_box(&mechanism), &analysis, &options);
+        black_box(traced.expect("nothing is asked for that is not there"));
+    })
+}
+
+/// A world at the file's pose, its first joint driven.
+fn world(mechanism: &Mechanism, standing: &Standing) -> World {
+    let states = &standing.assembly.states;
+    let mut world = World::new(
+        mechanism,
+        &standing.geometry,
+        states,
+        &WorldOptions::default(),
+    )
+    .expect("coordinates are in range");
+    let joint = mechanism
+        .joints()
+        .iter()
+        .position(|joint| joint.freedom() == 1)
+        .expect("there is a joint with a freedom");
+    world
+        .drive(Drive {
+            joint,
+            freedom: 0,
+            velocity: 0.1,
+            largest_force: f64::INFINITY,
+        })
+        .expect("the joint exists");
+    world
+}
+
+/// Building a world.
+pub fn built_world(case: &str) -> Job {
+    let standing = Standing::new(case);
+    Box::new(move || {
+        black_box(world(black_box(&standing.mechanism), &standing).pieces());
+    })
+}
+
+/// A hundred steps of a new world.
+pub fn simulated(case: &str) -> Job {
+    let standing = Standing::new(case);
+    Box::new(move || {
+        let mut world = world(black_box(&standing.mechanism), &standing);
+        for _ in 0..STEPS {
+            world.step().expect("it stays in one piece");
+        }
+        black_box(world.link_poses());
+    })
+}
+
+/// One step of a world that goes on.
+pub fn stepped(case: &str) -> Job {
+    let standing = Standing::new(case);
+    let mut world = world(&standing.mechanism, &standing);
+    Box::new(move || {
+        world.step().expect("it stays in one piece");
+    })
+}
+
+/// A report as a page of text, the analysis being known.
+pub fn written_report(case: &str) -> Job {
+    let mechanism = mechanism(case);
+    let input = Input {
+        mechanism: &mechanism,
+        file: case,
+        format: "urdf",
+        warnings: &[],
+        skipped: &[],
+    };
+    let (report, _) =
+        analysed_report_on(&input, &Options::default()).expect("the home pose exists");
+    Box::new(move || {
+        black_box(render(black_box(&report), Layout::default()));
+    })
+}

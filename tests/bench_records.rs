@@ -1,0 +1,61 @@
+//! The scripts of `benches/`, and the record of counted instructions. No time and no count is asserted.
+#![allow(clippy::unwrap_used)]
+
+#[allow(dead_code)] // the benches use the rest
+#[path = "../benches/stages/cases.rs"]
+mod cases;
+#[allow(dead_code)]
+#[path = "../benches/stages/jobs.rs"]
+mod jobs;
+#[path = "../benches/instructions/list.rs"]
+mod list;
+mod support;
+
+use serde_json::Value;
+use std::fs;
+use std::process::Command;
+use support::folder;
+
+#[test]
+fn the_record_has_a_count_for_every_case() {
+    let text = fs::read_to_string(folder("benches/record/instructions.json")).unwrap();
+    let record: Value = serde_json::from_str(&text).unwrap();
+    let counts = record["instructions"].as_object().unwrap();
+    let kept: usize = counts.values().map(|c| c.as_object().unwrap().len()).sum();
+    assert_eq!(kept, list::all().len());
+    for (stage, case, _) in list::all() {
+        let count = record["instructions"][stage][case].as_u64();
+        assert!(count.is_some_and(|count| count > 0), "{stage}/{case}");
+    }
+}
+
+/// Every case can be made ready and run: a chart that needs many bits, a germ that is singular, an exact answer.
+#[test]
+fn every_case_runs() {
+    support::in_parallel(&list::all(), |(_, case, stage)| {
+        stage(case)();
+    });
+}
+
+/// What the list says of the two charts.
+#[test]
+fn one_chart_is_decided_in_double_precision_and_one_is_not() {
+    assert_eq!(jobs::CHARTS.map(jobs::chart_bits), [53, 106]);
+}
+
+/// The scripts' own checks, where there is a Python to run them.
+#[test]
+fn the_scripts_do_what_they_say() {
+    let python = std::env::var_os("KUTZBACH_PYTHON").filter(|name| !name.is_empty());
+    let run = Command::new(python.unwrap_or_else(|| "python3".into()))
+        .arg(folder("benches/test_scripts.py"))
+        .env("PYTHONDONTWRITEBYTECODE", "1")
+        .output();
+    let Ok(run) = run else {
+        eprintln!("skipped: there is no Python to run the scripts with");
+        return;
+    };
+    let said = String::from_utf8_lossy(&run.stderr);
+    assert!(run.status.success(), "{said}");
+    assert!(said.contains("OK"), "{said}");
+}
