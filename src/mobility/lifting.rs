@@ -12,7 +12,7 @@ use super::germ::Germ;
 use super::germ_zeros::GermBranch;
 use super::more_digits::MoreDigits;
 use super::part_mobility::PartBranch;
-use super::pose_rank::{LADDER, PartRank, Pose, TALL, height};
+use super::pose_rank::{LADDER, PartRank, Pose, TALL, height_at};
 use super::tracing::{
     APPROACHES, FAR, POSES, PartPose, Tangents, natural, orthonormal, tangents_at, walk,
 };
@@ -248,7 +248,7 @@ fn stays_multiple(
     freedom: usize,
     far: bool,
 ) -> Result<bool, MatrixError> {
-    let tall = height(start.pose.mechanism, start.part);
+    let tall = height_at(start.pose, start.part);
     let rounded = start.rank.stated > start.rank.accuracy;
     if far && (rounded || tall <= TALL) {
         return Ok(true);
@@ -278,6 +278,10 @@ fn stays_multiple(
     let mut matrix = here.matrix;
     matrix.scale_columns();
     let accuracy = 10.0 * closing.residual.sqrt() + closing.rounding;
+    // What could be hidden in the last bits of the numbers has to be above it.
+    if tall > TALL && accuracy > 0.5f64.powi(tall as i32) {
+        return Ok(false);
+    }
     Ok(decide(&matrix, accuracy)?.nullity() == Some(freedom))
 }
 
