@@ -278,8 +278,9 @@ fn stays_multiple(
     let mut matrix = here.matrix;
     matrix.scale_columns();
     let accuracy = 10.0 * closing.residual.sqrt() + closing.rounding;
-    // What could be hidden in the last bits of the numbers has to be above it.
-    if tall > TALL && accuracy > 0.5f64.powi(tall as i32) {
+    // What could be hidden in the last bits of the numbers has to be above it, and a thousandth of that too: a singular value
+    // is an offset times something.
+    if tall > TALL && accuracy > 0.5f64.powi(tall as i32 + 10) {
         return Ok(false);
     }
     Ok(decide(&matrix, accuracy)?.nullity() == Some(freedom))

@@ -246,8 +246,9 @@ fn work_is_bounded() {
 /// Members that double precision decides are not evaluated in more digits.
 #[test]
 fn more_digits_are_used_where_they_are_needed() {
-    check(|_, seen| {
+    check(|family, seen| {
         let tame = seen.decades.is_some_and(|d| d.abs() <= 1.0) && seen.steps == 0;
+        let tame = tame && !family.name.ends_with("_turned");
         (tame && seen.rank_bits > 106).then(|| format!("{} bits", seen.rank_bits))
     });
 }
