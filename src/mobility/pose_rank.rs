@@ -48,7 +48,7 @@ const SUSPICIOUS: f64 = 0.05;
 pub(super) const TALL: usize = 27;
 
 /// Bits of the longest number that a part's geometry holds (see [`Number::height`](crate::number::Number::height)), or those
-/// between its largest and its smallest number, if that is more: what is written as 1 m beside 1e16 m is meant. Whole
+/// between its largest and its smallest number, if they are more than [`TALL`]: what is written as 1 m beside 1e16 m is meant. Whole
 /// numbers count for that, and those that have a height; a small fraction of a double's digits is likely to be rounding.
 pub(super) fn height(mechanism: &Mechanism, part: &Part) -> usize {
     let joints = part.joints.iter().flat_map(|&joint| {
@@ -84,7 +84,12 @@ pub(super) fn height(mechanism: &Mechanism, part: &Part) -> usize {
     } else {
         0
     };
-    longest.max(spread)
+    // Doubles hold less beside one another without loss.
+    if spread > TALL {
+        longest.max(spread)
+    } else {
+        longest
+    }
 }
 
 /// [`height`], the values that a configuration gives the part's joints included.

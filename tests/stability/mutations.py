@@ -98,7 +98,7 @@ def mutated(tree):
         if text.count(old) != 1:
             sys.exit(f"{name}: the text occurs {text.count(old)} times in {file}")
         on = f'crate::mutant("{name}")'
-        new = new.format(on=on, times=f"(if {on} {{ 100.0 }} else {{ 1.0 }})")
+        new = new.format(on=on, times=f"(if {on} {{ 100.0f64 }} else {{ 1.0 }})")
         path.write_text(text.replace(old, new))
     lib = tree / "src/lib.rs"
     lib.write_text(lib.read_text() + FUNCTION)
