@@ -142,12 +142,18 @@ def run(executable, tree, name=None):
     tests = sorted(set(re.findall(r"^test (\w+) \.\.\. FAILED", done.stdout, re.M)))
     places = re.findall(r"^([a-z_]+) at ", done.stdout, re.M)
     rows = re.findall(r"^([A-Za-z ]+): \|", done.stdout, re.M)
-    families = {place.replace("_", " ").replace("bennett", "Bennett") for place in places} | set(rows)
+    families = {title(place) for place in places} | set(rows)
     return done.returncode == 0, tests, sorted(families, key=str.lower)
 
 
+def title(name):
+    for inventor in ["Bennett", "Goldberg", "Bricard", "Miura"]:
+        name = name.replace(inventor.lower(), inventor)
+    return name.replace("_", " ")
+
+
 def table(results):
-    lines = ["| mutation | fails | first noticed by |", "|---|---|---|"]
+    lines = ["| mutation | fails | noticed in |", "|---|---|---|"]
     for result in results:
         families = result["families"]
         told = ", ".join(families[:4]) + (f" and {len(families) - 4} more" if len(families) > 4 else "")

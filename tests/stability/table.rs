@@ -35,13 +35,22 @@ fn row(family: &Climbed) -> String {
     let thinnest = right().map(Seen::margin).reduce(f64::min);
     format!(
         "| {} | {} | {} | {undecided}{reason} | {} | {} | {} |",
-        family.name.replace('_', " ").replace("bennett", "Bennett"),
+        title(family.name),
         family.parameter,
         with(&|outcome| *outcome == Outcome::Right),
         least.map_or(String::new(), |kept| format!("{kept:.0e}")),
         thinnest.map_or(String::new(), |margin| format!("{margin:.1}")),
         bits(&family.seen),
     )
+}
+
+/// The name of a family for people.
+fn title(name: &str) -> String {
+    let mut title = name.replace('_', " ");
+    for inventor in ["Bennett", "Goldberg", "Bricard", "Miura"] {
+        title = title.replace(&inventor.to_lowercase(), inventor);
+    }
+    title
 }
 
 /// The labels of the rungs with a flag, neighbours drawn together: `1e-1 … 1e-8, 0`.
