@@ -23,6 +23,10 @@ use crate::matrix::{MatrixError, Real, decide};
 /// closed.
 const POLISHING: f64 = 0.35;
 
+/// Branches that are no farther apart than this share of their distance from the pose make one another's equations nearly
+/// dependent.
+const NEAR: f64 = 1e-3;
+
 /// A branch that the mechanism really has.
 pub(super) struct Lifted {
     pub branch: PartBranch,
@@ -119,9 +123,11 @@ fn lift(
     let blurred = tangents_at(&section, &states, rank.stated + 10.0 * blur, dimension)?;
     let tells = |seen: &Option<Tangents>| seen.as_ref().and_then(|t| t.instantaneous);
     let [sharp, blurred] = [sharp, blurred].map(|seen| seen.map(|(tangents, _)| tangents));
+    let freedom_if_blurred = tells(&blurred);
     // Where the two differ the singular values are small for one of two reasons, and the series tell which: the branch is
     // not simple, or the pose that singular values grow from is near.
-    let shaky_there = !branch.reduced && tells(&blurred).is_some_and(|freedom| freedom > dimension);
+    let shaky_there =
+        !branch.reduced && freedom_if_blurred.is_some_and(|freedom| freedom > dimension);
     let Some(there) = (if shaky_there || tells(&sharp).is_none() {
         blurred
     } else {
@@ -133,6 +139,13 @@ fn lift(
         return Ok(None);
     };
     if instantaneous < dimension {
+        return Ok(None);
+    }
+    // All but a double zero, and no other branch found so near that it would account for that: it may be two, closer than
+    // series in double precision can tell, for which exact numbers of many digits may have been written.
+    let nearly_multiple =
+        instantaneous == dimension && freedom_if_blurred.is_some_and(|freedom| freedom > dimension);
+    if nearly_multiple && apart > NEAR * away && height_at(pose, part) > TALL {
         return Ok(None);
     }
     let direction: Vec<f64> = z.iter().map(|x| x / away).collect();
