@@ -23,10 +23,15 @@ const MOVES: f64 = 1e-5;
 
 /// Directions of the kernel along which single links, or chains between two balls, move by themselves at this pose and at all
 /// others: orthonormal in the metric.
+///
+/// Two axes count as one where the kernel, which is known in double precision only, cannot tell them apart. With `by_kind` that is
+/// not enough: numbers of many digits may have been written to keep them apart. Then only what the kinds of the joints make
+/// idle is taken out, the spin about the line through two balls.
 pub(super) fn idle_directions(
     mechanism: &Mechanism,
     part: &Part,
     kernel: &Kernel,
+    by_kind: bool,
 ) -> Vec<Vec<f64>> {
     let mut incident: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for &index in &part.joints {
@@ -44,7 +49,9 @@ pub(super) fn idle_directions(
     let mut found = Vec::new();
     for (&link, joints) in &incident {
         let groups = joints.iter().all(|&joint| {
-            mechanism.joints()[joint].kind.is_subgroup() && !coupled.contains(&joint)
+            let kind = mechanism.joints()[joint].kind;
+            let told = !by_kind || kind == JointKind::Spherical;
+            kind.is_subgroup() && told && !coupled.contains(&joint)
         });
         if groups {
             found.extend(moved_alone(mechanism, part, kernel, &[link], joints));

@@ -12,7 +12,7 @@ use super::germ::Germ;
 use super::germ_zeros::GermBranch;
 use super::more_digits::MoreDigits;
 use super::part_mobility::PartBranch;
-use super::pose_rank::{LADDER, PartRank, Pose, TALL, height};
+use super::pose_rank::{LADDER, PartRank, Pose, TALL, height_at};
 use super::tracing::{
     APPROACHES, FAR, POSES, PartPose, Tangents, natural, orthonormal, tangents_at, walk,
 };
@@ -22,6 +22,10 @@ use crate::matrix::{MatrixError, Real, decide};
 /// A lifted point may move by this share of its distance from the pose, and from other branches, while all equations are
 /// closed.
 const POLISHING: f64 = 0.35;
+
+/// Branches that are no farther apart than this share of their distance from the pose make one another's equations nearly
+/// dependent.
+const NEAR: f64 = 1e-3;
 
 /// A branch that the mechanism really has.
 pub(super) struct Lifted {
@@ -119,9 +123,11 @@ fn lift(
     let blurred = tangents_at(&section, &states, rank.stated + 10.0 * blur, dimension)?;
     let tells = |seen: &Option<Tangents>| seen.as_ref().and_then(|t| t.instantaneous);
     let [sharp, blurred] = [sharp, blurred].map(|seen| seen.map(|(tangents, _)| tangents));
+    let freedom_if_blurred = tells(&blurred);
     // Where the two differ the singular values are small for one of two reasons, and the series tell which: the branch is
     // not simple, or the pose that singular values grow from is near.
-    let shaky_there = !branch.reduced && tells(&blurred).is_some_and(|freedom| freedom > dimension);
+    let shaky_there =
+        !branch.reduced && freedom_if_blurred.is_some_and(|freedom| freedom > dimension);
     let Some(there) = (if shaky_there || tells(&sharp).is_none() {
         blurred
     } else {
@@ -133,6 +139,13 @@ fn lift(
         return Ok(None);
     };
     if instantaneous < dimension {
+        return Ok(None);
+    }
+    // All but a double zero, and no other branch found so near that it would account for that: it may be two, closer than
+    // series in double precision can tell, for which exact numbers of many digits may have been written.
+    let nearly_multiple =
+        instantaneous == dimension && freedom_if_blurred.is_some_and(|freedom| freedom > dimension);
+    if nearly_multiple && apart > NEAR * away && height_at(pose, part) > TALL {
         return Ok(None);
     }
     let direction: Vec<f64> = z.iter().map(|x| x / away).collect();
@@ -248,7 +261,7 @@ fn stays_multiple(
     freedom: usize,
     far: bool,
 ) -> Result<bool, MatrixError> {
-    let tall = height(start.pose.mechanism, start.part);
+    let tall = height_at(start.pose, start.part);
     let rounded = start.rank.stated > start.rank.accuracy;
     if far && (rounded || tall <= TALL) {
         return Ok(true);
@@ -278,6 +291,11 @@ fn stays_multiple(
     let mut matrix = here.matrix;
     matrix.scale_columns();
     let accuracy = 10.0 * closing.residual.sqrt() + closing.rounding;
+    // What could be hidden in the last bits of the numbers has to be above it, and a thousandth of that too: a singular value
+    // is an offset times something.
+    if tall > TALL && accuracy > 0.5f64.powi(tall as i32 + 10) {
+        return Ok(false);
+    }
     Ok(decide(&matrix, accuracy)?.nullity() == Some(freedom))
 }
 

@@ -47,24 +47,58 @@ const SUSPICIOUS: f64 = 0.05;
 /// Numbers of more bits than this (8 decimals) can hold offsets that double precision takes for rounding.
 pub(super) const TALL: usize = 27;
 
-/// Bits of the longest number that places a part's joints (see [`Number::height`](crate::number::Number::height)).
+/// Bits of the longest number that a part's geometry holds (see [`Number::height`](crate::number::Number::height)), or those
+/// between its largest and its smallest number, if they are more than [`TALL`]: what is written as 1 m beside 1e16 m is meant. Whole
+/// numbers count for that, and those that have a height; a small fraction of a double's digits is likely to be rounding.
 pub(super) fn height(mechanism: &Mechanism, part: &Part) -> usize {
-    part.joints
-        .iter()
-        .map(|&joint| {
-            let joint = &mechanism.joints()[joint];
-            let sides = [&joint.predecessor.frame, &joint.successor.frame];
-            sides
-                .into_iter()
-                .flat_map(|frame| frame.position.iter().chain(&frame.roll_pitch_yaw))
-                .chain(&joint.axis.0)
-                .chain(&joint.axis2.0)
-                .map(crate::number::Number::height)
-                .max()
-                .unwrap_or(0)
-        })
-        .max()
-        .unwrap_or(0)
+    let joints = part.joints.iter().flat_map(|&joint| {
+        let joint = &mechanism.joints()[joint];
+        let sides = [&joint.predecessor.frame, &joint.successor.frame];
+        sides
+            .into_iter()
+            .flat_map(|frame| frame.position.iter().chain(&frame.roll_pitch_yaw))
+            .chain(&joint.axis.0)
+            .chain(&joint.axis2.0)
+            .chain(&joint.lead)
+            .chain(&joint.distance)
+    });
+    let couplings = part.couplings.iter().flat_map(|&coupling| {
+        let coupling = &mechanism.couplings()[coupling];
+        let factors = coupling.terms.iter().map(|term| &term.factor);
+        factors.chain([&coupling.offset])
+    });
+    let mut longest = 0;
+    let (mut least, mut most) = (f64::INFINITY, 0.0f64);
+    for number in joints.chain(couplings) {
+        let bits = number.height();
+        longest = longest.max(bits);
+        let whole = || number.stated().is_none() && number.rational().is_some_and(|x| x.is_int());
+        let size = number.value().abs();
+        if size > 0.0 && (bits > 0 || whole()) {
+            least = least.min(size);
+            most = most.max(size);
+        }
+    }
+    let spread = if most > least {
+        (most.log2() - least.log2()).ceil() as usize
+    } else {
+        0
+    };
+    // Doubles hold less beside one another without loss.
+    if spread > TALL {
+        longest.max(spread)
+    } else {
+        longest
+    }
+}
+
+/// [`height`], the values that a configuration gives the part's joints included.
+pub(super) fn height_at(pose: &Pose<'_>, part: &Part) -> usize {
+    let values = pose.configuration.iter().flat_map(|c| &c.positions);
+    values
+        .filter(|(joint, _)| part.joints.contains(&joint.0))
+        .flat_map(|(_, values)| values.iter().map(crate::number::Number::height))
+        .fold(height(pose.mechanism, part), usize::max)
 }
 
 /// The rank of a part at a pose.
@@ -262,7 +296,7 @@ pub(super) fn rank_part_with(
         .rank
         .is_some_and(|rank| rank < columns.min(matrix.rows()));
     if stated == 0.0 && deficient && columns <= CHECKED_UNKNOWNS {
-        let tall = height(pose.mechanism, part);
+        let tall = height_at(pose, part);
         if tall > TALL {
             suspicious = true;
             finest_needed = 3 * tall;

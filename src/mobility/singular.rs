@@ -15,7 +15,7 @@ use super::germ_zeros::{GermBranch, GermZeroOptions, GermZeros, germ_zeros};
 use super::idle_directions::idle_directions;
 use super::lifting::{Lifted, Start, idle_branch, lift_all};
 use super::part_mobility::{Evidence, PartFinding};
-use super::pose_rank::{PartRank, Pose};
+use super::pose_rank::{PartRank, Pose, TALL, height_at};
 use super::vocabulary::{CertificateLevel, PoseKind, SingularKind};
 use crate::closure::Part;
 use crate::matrix::MatrixError;
@@ -102,7 +102,8 @@ pub(super) fn singular_finding(
         rank
     };
     // What is idle at all poses is a factor of the configuration space.
-    let idle = idle_directions(pose.mechanism, part, kernel);
+    let by_kind = height_at(pose, part) > TALL;
+    let idle = idle_directions(pose.mechanism, part, kernel, by_kind);
     let taken_out = match idle.len() {
         0 => String::new(),
         1 => ", 1 idle freedom taken out".to_owned(),

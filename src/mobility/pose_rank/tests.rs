@@ -385,3 +385,82 @@ fn tall_numbers_that_stay_open_leave_the_rank_open() {
     let note = rank.note.unwrap();
     assert!(note.contains("stay open by"), "{note}");
 }
+
+/// A planar four-bar with a screw, a gear between two of its links, and one side of a length given: one part.
+fn rectangle(side: Number, lead: Number, ratio: Number) -> Mechanism {
+    let mut builder = MechanismBuilder::new("rectangle");
+    let z = || Direction([Number::zero(), Number::zero(), Number::one()]);
+    let at = |x: Number, y: i64| Frame::at([x, Number::integer(y), Number::zero()]);
+    for link in ["ground", "crank", "coupler", "rocker"] {
+        builder.link(link);
+    }
+    let tree = |name, parent, child| JointBuilder::tree(name, JointKind::Revolute, parent, child);
+    builder.joint(tree("a", "ground", "crank").axis(z()));
+    builder.joint(
+        tree("b", "crank", "coupler")
+            .origin(at(Number::zero(), 1))
+            .axis(z()),
+    );
+    builder.joint(
+        tree("d", "ground", "rocker")
+            .origin(at(side.clone(), 0))
+            .axis(z()),
+    );
+    let closing = JointBuilder::closing("c", JointKind::Screw, "coupler", "rocker");
+    let closing = closing
+        .origin(at(side, 0))
+        .successor_origin(at(Number::zero(), 1));
+    builder.joint(closing.axis(z()).lead(lead));
+    builder.coupling("gear", "crank", "rocker", ratio);
+    builder.build().unwrap()
+}
+
+#[test]
+fn leads_ratios_and_sides_far_apart_count() {
+    let bits = |side: i32, lead: i32, ratio: i32| {
+        let [side, lead, ratio] =
+            [side, lead, ratio].map(|exponent| Number::integer(10).power(exponent).unwrap());
+        let mechanism = rectangle(side, lead, ratio);
+        let structure = Structure::new(&mechanism);
+        height(&mechanism, &structure.parts[0])
+    };
+    assert_eq!(bits(0, 0, 0), 0);
+    // 1000 beside 1 is nothing special; 1e16 beside 1 are 54 bits, though a double holds each of them.
+    assert_eq!(bits(3, 0, 0), 0);
+    assert_eq!(bits(16, 0, 0), 54);
+    assert_eq!(bits(0, 16, 0), 54);
+    assert_eq!(bits(0, 0, 16), 54);
+    // Fractions are as long as they are written.
+    assert_eq!(bits(0, -16, 0), 54);
+    assert_eq!(bits(0, 0, -16), 54);
+}
+
+#[test]
+fn values_of_a_configuration_count() {
+    let mut builder = MechanismBuilder::new("turned");
+    builder.link("ground").link("arm");
+    let hinge = JointBuilder::tree("hinge", JointKind::Revolute, "ground", "arm");
+    builder.joint(hinge);
+    let angle = &Number::pi() - &negative_power_of_ten(14);
+    builder.configuration("turned", vec![("hinge".to_owned(), vec![angle])]);
+    let mechanism = builder.build().unwrap();
+    let part = Part {
+        joints: vec![0],
+        ..Part::default()
+    };
+    let held = BTreeSet::new();
+    let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
+    let at = |configuration| {
+        let pose = Pose {
+            mechanism: &mechanism,
+            configuration,
+            held: &held,
+            geometry: &geometry,
+            states: &geometry.states,
+            as_drawn: true,
+        };
+        height_at(&pose, &part)
+    };
+    assert_eq!(at(None), 0);
+    assert_eq!(at(mechanism.configuration("turned")), 47);
+}
