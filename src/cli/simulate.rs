@@ -1,6 +1,6 @@
 //! `kutzbach simulate FILE`: what a physics engine says about the prediction, and the scene that the file calls for.
 
-mod aside;
+pub mod aside;
 mod choices;
 mod log;
 mod table;
