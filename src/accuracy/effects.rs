@@ -9,7 +9,8 @@ use crate::simulate::{Drive, Effects, WorldError, WorldOptions, cost_table, effe
 const STEPS: usize = 400;
 const BODY_STEPS: usize = 8_000;
 
-/// Measures a step with each effect, four substeps in 1/240 s with the tree as multibodies.
+/// Measures a step with each effect, four substeps in 1/240 s with the tree as multibodies: the best of some rounds over all
+/// effects, since what else the machine does only adds.
 ///
 /// # Errors
 /// Where no world can be made or driven.
@@ -19,6 +20,7 @@ pub(super) fn effects_of(
     states: &[JointState<f64>],
     effects: Effects,
     drives: &[Drive],
+    rounds: usize,
 ) -> Result<Vec<Effect>, WorldError> {
     let options = WorldOptions {
         effects,
@@ -26,7 +28,13 @@ pub(super) fn effects_of(
     };
     let steps = (BODY_STEPS / mechanism.links().len().max(1)).clamp(20, STEPS);
     let called_for = effect_names(&effects);
-    let rows = cost_table(mechanism, geometry, states, &options, drives, steps)?;
+    let mut rows = cost_table(mechanism, geometry, states, &options, drives, steps)?;
+    for _ in 1..rounds {
+        let again = cost_table(mechanism, geometry, states, &options, drives, steps)?;
+        for (row, again) in rows.iter_mut().zip(again) {
+            row.step_time = row.step_time.min(again.step_time);
+        }
+    }
     Ok(rows
         .into_iter()
         .map(|row| Effect {

@@ -170,9 +170,12 @@ pub fn measure(
         return Ok(accuracy);
     }
     let from = from + SHARES[2];
-    if let Some((scene, stopped)) =
-        ready.scene(&mut |done, _| watch(Stage::Scene, from + SHARES[3] * done))?
-    {
+    let wanted = options
+        .wanted
+        .filter(|_| accuracy.simulation.rows.is_empty());
+    if let Some((scene, stopped)) = ready.scene(wanted, &mut |done, _| {
+        watch(Stage::Scene, from + SHARES[3] * done)
+    })? {
         accuracy.scene = Some(scene);
         accuracy.stopped = stopped;
     }
@@ -183,6 +186,7 @@ pub fn measure(
             &analysis.assembly.states,
             Effects::of_scene(mechanism),
             &scene_drives(mechanism),
+            ready.patience.runs,
         )?;
     }
     accuracy.choice = options.wanted.map(|wanted| {
@@ -215,7 +219,7 @@ pub fn measure_settings(
     let mut rows = simulation.rows;
     if rows.is_empty()
         && !stopped
-        && let Some((scene, broken)) = ready.scene(&mut |done, _| watch(done))?
+        && let Some((scene, broken)) = ready.scene(Some(wanted), &mut |done, _| watch(done))?
     {
         rows = scene.rows;
         stopped = broken;
@@ -354,13 +358,18 @@ impl<'a> Ready<'a> {
             &self.geometry,
             motion,
             &branch.name,
-            &self.options.grid,
+            (&self.options.grid, self.options.wanted),
             watch,
         )?)
     }
 
-    /// The scene of the file, where it calls for anything.
-    fn scene(&self, watch: &mut Watch<'_>) -> Result<Option<(Scene, bool)>, AccuracyError> {
+    /// The scene of the file, where it calls for anything; with settings between those of the grid where a choice has to be
+    /// made of them.
+    fn scene(
+        &self,
+        wanted: Option<f64>,
+        watch: &mut Watch<'_>,
+    ) -> Result<Option<(Scene, bool)>, AccuracyError> {
         let effects = Effects::of_scene(self.mechanism);
         let drives = scene_drives(self.mechanism);
         if !self.is_posed() || (effect_names(&effects).is_empty() && drives.is_empty()) {
@@ -371,7 +380,7 @@ impl<'a> Ready<'a> {
             &self.geometry,
             &self.analysis.assembly.states,
             (effects, &drives),
-            &self.options.grid,
+            (&self.options.grid, wanted),
             watch,
         )?))
     }

@@ -41,7 +41,7 @@ mod result;
 mod simulation;
 mod work;
 
-pub use choose::{Choice, ChoiceTiming, choose};
+pub use choose::{Choice, ChoiceTiming, Chosen, choose};
 pub use measure::{AccuracyError, AccuracyOptions, Stage, measure, measure_settings};
 pub use pareto::pareto_front;
 pub use result::{

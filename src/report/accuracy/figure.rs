@@ -102,6 +102,13 @@ impl Figure<'_> {
         );
         if let Some(plot) = &plot {
             plot.write_content(&mut svg);
+            put(
+                &mut svg,
+                format_args!(
+                    "<text class=\"note end\" x=\"{}\" y=\"17\">beside points: length of a step \u{f7} its substeps; tolerance of a trace</text>\n",
+                    px(WIDTH - 16.0)
+                ),
+            );
         }
         put(
             &mut svg,
@@ -164,20 +171,15 @@ impl Figure<'_> {
         front.sort_by(|a, b| a.0.total_cmp(&b.0));
         if front.len() > 1 {
             plot.series.push(Series::line(
-                "no simulation is better: the Pareto front",
+                "Pareto front of the simulations",
                 "",
                 7,
                 front,
             ));
         }
         for (solver, name, colour, form) in [
-            (
-                Solver::Multibody,
-                "simulated, trees by reduced coordinates",
-                0,
-                Form::Points,
-            ),
-            (Solver::Impulse, "simulated by impulses", 1, Form::Rings),
+            (Solver::Multibody, "simulated: multibody", 0, Form::Points),
+            (Solver::Impulse, "simulated: impulses", 1, Form::Rings),
         ] {
             let values: Vec<Value> = settings
                 .iter()
@@ -202,7 +204,7 @@ impl Figure<'_> {
         }
         if !traced.is_empty() {
             plot.series.push(Series {
-                name: "traced, 240 poses, by tolerance".to_owned(),
+                name: "traced: 240 poses".to_owned(),
                 unit: String::new(),
                 colour: 2,
                 form: Form::Points,
@@ -216,11 +218,15 @@ impl Figure<'_> {
                     .collect(),
             });
         }
-        plot.marks.push(Mark {
-            at: 1.0,
-            label: "as slow as the motion itself".to_owned(),
-            kind: MarkKind::Event,
-        });
+        // At the border the line would be no line.
+        let [first, last] = plot.x.drawn_range();
+        if first < 0.99 && last > 1.01 {
+            plot.marks.push(Mark {
+                at: 1.0,
+                label: "as slow as the motion itself".to_owned(),
+                kind: MarkKind::Event,
+            });
+        }
         if let Some(choice) = &accuracy.choice {
             plot.levels.push(Level {
                 at: choice.wanted,

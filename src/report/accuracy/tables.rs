@@ -254,10 +254,9 @@ fn settings(rows: &[Setting], predicted: bool, page: &mut Page) {
         ];
         if predicted {
             cells.push(Cell::new(number(row.distance)));
-            cells
-                .push(Cell::new(row.came.map_or("–".to_owned(), |came| {
-                    format!("{:.0} %", 100.0 * came)
-                })));
+            cells.push(Cell::new(row.came.map_or("–".to_owned(), |came| {
+                format!("{:.0} %", 100.0 * came.min(1.0))
+            })));
         }
         cells.push(Cell::new(row.seconds().map_or("–".to_owned(), duration)));
         cells.push(match row.state {
