@@ -269,7 +269,7 @@ fn simulation(text: &mut String, accuracy: &Accuracy) {
         say(
             text,
             &format!(
-                "{left} of {} settings were left out, for more work than about ten seconds each.\n",
+                "{left} of {} settings were left out, for more work than about four seconds each.\n",
                 rows.len()
             ),
         );

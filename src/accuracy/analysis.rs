@@ -146,12 +146,25 @@ impl Subject<'_> {
         let weight = |a: &OneEngine| (a.upper.is_some(), a.margin.unwrap_or(f64::INFINITY));
         let text = answers
             .iter()
+            .filter(|answer| answer.asked)
             .min_by(|a, b| {
                 let (a, b) = (weight(a), weight(b));
                 a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
             })
+            .or(answers.first())
             .map_or_else(|| "nothing is constrained".to_owned(), |a| a.text.clone());
         let (name, precision) = question.words();
+        if !answers.is_empty() && answers.iter().all(|answer| !answer.asked) {
+            return Ok(Way {
+                name: name.to_owned(),
+                precision,
+                says: String::new(),
+                claim: Claim::Silent,
+                decades: None,
+                text,
+                timing,
+            });
+        }
         Ok(Way {
             name: name.to_owned(),
             precision,

@@ -92,6 +92,11 @@ pub enum Stage {
     Scene,
 }
 
+/// Moments looked at in a simulation: about so many joint variables in all, within these bounds.
+const LOOKED_AT: usize = 5_000;
+const FEWEST_LOOKS: usize = 30;
+const MOST_LOOKS: usize = 240;
+
 /// Shares of the stages in the whole, for a progress bar: simulations take longest.
 const SHARES: [f64; 4] = [0.1, 0.05, 0.7, 0.15];
 
@@ -350,13 +355,16 @@ impl<'a> Ready<'a> {
             Ok(motions) => motions,
             Err(why) => return none(&why),
         };
-        let Some(motion) = motions.first() else {
+        let Some(motion) = motions.into_iter().next() else {
             return none("no stretch of the branch can be driven");
         };
+        let freedoms = self.mechanism.joints().iter().map(|joint| joint.freedom());
+        let unknowns = freedoms.sum::<usize>().max(1);
+        let motion = motion.looked_at((LOOKED_AT / unknowns).clamp(FEWEST_LOOKS, MOST_LOOKS));
         Ok(driven_rows(
             self.mechanism,
             &self.geometry,
-            motion,
+            &motion,
             &branch.name,
             (&self.options.grid, self.options.wanted),
             watch,

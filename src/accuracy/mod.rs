@@ -39,6 +39,9 @@ mod motion;
 mod pareto;
 mod result;
 mod simulation;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;
 mod work;
 
 pub use choose::{Choice, ChoiceTiming, Chosen, choose};

@@ -36,7 +36,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Both solvers, steps of 1/60, 1/240 and 1/1000 s with 1, 4, 16 and 64 substeps; a setting of more than about ten
+    /// Both solvers, steps of 1/60, 1/240 and 1/1000 s with 1, 4, 16 and 64 substeps; a setting of more than about four
     /// seconds is left out.
     #[must_use]
     pub fn full() -> Self {
@@ -44,8 +44,8 @@ impl Grid {
             solvers: vec![Solver::Multibody, Solver::Impulse],
             time_steps: vec![1.0 / 60.0, 1.0 / 240.0, 1.0 / 1000.0],
             substeps: vec![1, 4, 16, 64],
-            work: 10.0,
-            all_work: 60.0,
+            work: 4.0,
+            all_work: 25.0,
             longest: 10.0,
             scene: 1.0,
         }

@@ -38,7 +38,7 @@ pub struct Arguments {
     #[arg(long)]
     quick: bool,
     /// Leave out simulations that take longer than about so many seconds, counted in work so that the same are left out on
-    /// every machine [default: 10, with `--quick` 1]
+    /// every machine [default: 4, with `--quick` 1]
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     budget: Option<f64>,
     /// Show every detail

@@ -28,6 +28,8 @@ pub struct OneEngine {
     pub instantaneous: Option<usize>,
     /// By what factor the figures that it rests on stand clear of what counts as zero; `None` where there is no such figure.
     pub margin: Option<f64>,
+    /// Whether it was asked; otherwise the rank has decided before.
+    pub asked: bool,
     /// In a few words.
     pub text: String,
 }
@@ -39,6 +41,7 @@ impl OneEngine {
             upper: None,
             instantaneous: None,
             margin: None,
+            asked: true,
             text: text.into(),
         }
     }
@@ -82,6 +85,7 @@ pub fn rank_alone(
         upper: Some(columns - decision.candidates.0),
         instantaneous,
         margin: rank_margin(&decision),
+        asked: true,
         text: format!(
             "{rows} equations, {columns} unknowns; kept {:.1e}, dropped {:.1e}, zero below {:.1e}",
             decision.kept, decision.dropped, decision.tolerance
@@ -98,7 +102,8 @@ fn settled(rank: &PartRank) -> Option<OneEngine> {
         upper: Some(freedom),
         instantaneous: Some(freedom),
         margin: None,
-        text: "the rank has decided".to_owned(),
+        asked: false,
+        text: "not asked: the rank has decided".to_owned(),
     })
 }
 
@@ -128,6 +133,7 @@ pub fn subgroups_alone(
         upper: found.finite.or(found.upper),
         instantaneous: None,
         margin: None,
+        asked: true,
         text: found.text,
     })
 }
@@ -173,6 +179,7 @@ pub fn chart_alone(
         upper: Some(upper),
         instantaneous: None,
         margin: clearness(&test, rank.stated),
+        asked: true,
         text: format!(
             "{word}; left over {:.1e} at a distance of {:.1e}, noise {:.1e}",
             test.leftover, test.radius, test.noise
@@ -209,6 +216,7 @@ pub fn germ_alone(
         upper: Some(upper),
         instantaneous: None,
         margin,
+        asked: true,
         text,
     };
     let Some(first) = germ.order() else {
@@ -269,6 +277,7 @@ pub fn exact_alone(
             upper: evidence.bounds.1,
             instantaneous: None,
             margin: None,
+            asked: true,
             text: evidence.text,
         },
         None => OneEngine::silent("not asked"),

@@ -295,7 +295,7 @@ fn rows(svg: &mut String, ways: &[Way]) {
             svg,
             format_args!(
                 "<text class=\"end\" x=\"{}\" y=\"{}\">{}</text>\n<path class=\"grid zero\" d=\"M{} {y}H{}\"/>\n\
-                 <circle class=\"point {class}\" cx=\"{}\" cy=\"{y}\" r=\"4\"><title>{}</title></circle>\n\
+                 <circle class=\"{class}\" cx=\"{}\" cy=\"{y}\" r=\"4\"><title>{}</title></circle>\n\
                  <text class=\"note\" x=\"{}\" y=\"{}\">{}</text>\n",
                 px(NAMES),
                 px(y + 4.0),

@@ -97,6 +97,11 @@ pub fn choice_text(choice: &Choice) -> String {
     }
 }
 
+/// A joint variable without its rounding: zero where it is next to it.
+fn rounded(value: f64) -> f64 {
+    if value.abs() < 1e-12 { 0.0 } else { value }
+}
+
 /// An error in two digits.
 fn error(value: f64) -> String {
     format!("{value:.1e}")
@@ -192,8 +197,8 @@ fn simulation(accuracy: &Accuracy, page: &mut Page) {
                  no other setting beats in both time and error.",
                 driven.branch,
                 driven.variable,
-                figure(driven.from),
-                figure(driven.to),
+                figure(rounded(driven.from)),
+                figure(rounded(driven.to)),
                 driven.ends,
                 figure(driven.seconds)
             ),

@@ -36,7 +36,7 @@ const FASTEST: f64 = 10.0 * RATE;
 /// A drive gets so many times as long as its way takes before it counts as stalled.
 const PATIENCE: f64 = 3.0;
 
-/// So many moments of a passage are measured and shown.
+/// So many moments of a passage are measured and shown, unless something else is wanted.
 const MOMENTS: usize = 240;
 
 /// A drive that has gone this share of its way has arrived.
@@ -53,6 +53,8 @@ pub struct DrivenMotion<'a> {
     freedom: usize,
     /// Characteristic length (m).
     length: f64,
+    /// So many moments of a passage are measured and shown.
+    moments: usize,
 }
 
 /// What one simulation of a driven motion showed.
@@ -115,6 +117,7 @@ impl<'a> DrivenMotion<'a> {
                 way,
                 freedom,
                 length,
+                moments: MOMENTS,
             })
             .collect())
     }
@@ -165,6 +168,16 @@ impl<'a> DrivenMotion<'a> {
     #[must_use]
     pub fn length(&self) -> f64 {
         self.length
+    }
+
+    /// Looks at so many moments, at least one. Each takes Newton's method and a rank, which for large mechanisms is more work
+    /// than the steps between.
+    #[must_use]
+    pub fn looked_at(self, moments: usize) -> Self {
+        Self {
+            moments: moments.max(1),
+            ..self
+        }
     }
 
     /// Goes the way once.
@@ -223,7 +236,7 @@ impl<'a> DrivenMotion<'a> {
         let mut states = way.start.clone();
         let mut stepping = Duration::ZERO;
         let steps = (PATIENCE * duration / options.time_step).ceil() as usize;
-        let every = ((duration / options.time_step) as usize / MOMENTS).max(1);
+        let every = ((duration / options.time_step) as usize / self.moments).max(1);
         for step in 1..=steps {
             if run.stopped || run.progress >= ALL_OF_IT {
                 break;
