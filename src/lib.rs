@@ -13,10 +13,12 @@
 //! 9. [`mobility`]: engines and the verdict.
 //! 10. [`motion`]: a branch followed as a curve: predicted motion.
 //! 11. [`simulate`]: a world of rigid bodies for a mechanism, and what it says about a prediction.
-//! 12. [`record`]: logs of both for viewers.
-//! 13. [`families`]: mechanisms of any size for examples, benches and tests.
-//! 14. [`report`]: what a person or a program reads.
+//! 12. [`accuracy`]: what every way to an answer costs, and how far off it is.
+//! 13. [`record`]: logs of both for viewers.
+//! 14. [`families`]: mechanisms of any size for examples, benches and tests.
+//! 15. [`report`]: what a person or a program reads.
 
+pub mod accuracy;
 pub mod algebra;
 pub mod closure;
 pub mod families;

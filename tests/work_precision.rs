@@ -49,7 +49,7 @@ fn kept() -> Record {
 }
 
 fn the_page() -> String {
-    fs::read_to_string(folder("docs/src/accuracy.md")).unwrap()
+    fs::read_to_string(folder("docs/src/work_precision.md")).unwrap()
 }
 
 /// What a substep overlooks is quadratic in its motion. Terms of third order are a few percent at these settings.

@@ -72,5 +72,6 @@ fn facts<'a>(mechanism: &'a Mechanism, report: &'a Report, analysis: &'a Analysi
         analysis,
         configuration: None,
         verification: None,
+        accuracy: None,
     }
 }

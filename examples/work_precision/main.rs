@@ -9,7 +9,7 @@
 //! ```
 //!
 //! `--update` measures and writes the record `benches/record/work_precision.json`, the figure
-//! `docs/src/images/work_precision.svg` and the measured part of `docs/src/accuracy.md`; `--redraw` writes the figure and
+//! `docs/src/images/work_precision.svg` and the measured part of `docs/src/work_precision.md`; `--redraw` writes the figure and
 //! the page again from the record. `tests/work_precision.rs` holds all three against each other and against a fresh
 //! measurement.
 
@@ -25,7 +25,7 @@ use std::fs;
 
 const RECORD: &str = "benches/record/work_precision.json";
 const FIGURE: &str = "docs/src/images/work_precision.svg";
-const PAGE: &str = "docs/src/accuracy.md";
+const PAGE: &str = "docs/src/work_precision.md";
 
 fn main() -> Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

@@ -67,6 +67,7 @@ fn one(file: &Path, page: &str) -> Result<(Entry, String), Failure> {
         analysis: &analysis,
         configuration: None,
         verification: None,
+        accuracy: None,
     };
     let prepared = Prepared::new(facts, Assets::Beside);
     let text = load::html(&prepared)?;

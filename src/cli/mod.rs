@@ -2,6 +2,7 @@
 //!
 //! Exit codes: 0 done; 1 an expectation or a verification failed; 2 bad input; 3 undecided where `--strict` was given; 130 interrupted.
 
+mod accuracy;
 mod check;
 mod exact;
 mod excerpt;
@@ -51,6 +52,7 @@ enum Command {
     Graph(graph::Arguments),
     Exact(exact::Arguments),
     Trace(trace::Arguments),
+    Accuracy(accuracy::Arguments),
     Gallery(gallery::Arguments),
     Explain(explain::Arguments),
 }
@@ -64,6 +66,7 @@ pub fn run() -> ExitCode {
         Command::Graph(arguments) => graph::run(&arguments),
         Command::Exact(arguments) => exact::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
+        Command::Accuracy(arguments) => accuracy::run(&arguments),
         Command::Gallery(arguments) => gallery::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
     };

@@ -1,9 +1,11 @@
 //! `kutzbach report FILE`: the mobility report.
 
+use super::accuracy::measured;
 use super::failure::Failure;
 use super::progress::Progress;
 use super::{DONE, UNDECIDED, load, output, terminal};
 use clap::{Args, ValueEnum};
+use kutzbach::accuracy::AccuracyOptions;
 use kutzbach::closure::{Arithmetic, Geometry};
 use kutzbach::format::Reading;
 use kutzbach::mechanism::Mechanism;
@@ -51,6 +53,9 @@ pub struct Arguments {
     /// Let the physics engine put the prediction to the test too, and show what it says (with `--format html`)
     #[arg(long)]
     verify: bool,
+    /// Measure what every way to an answer costs, and show it in the page (with `--format html`)
+    #[arg(long)]
+    accuracy: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -98,6 +103,15 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             ),
         });
     }
+    if arguments.accuracy && arguments.format != Format::Html {
+        return Err(Failure::Plain {
+            message: "`--accuracy` shows its figure in a page".to_owned(),
+            help: Some(
+                "add `--format html`; `kutzbach accuracy FILE` has it as text, JSON and SVG"
+                    .to_owned(),
+            ),
+        });
+    }
     let (report, analysis) = load::analysed(&reading, &arguments.source.file, &options)?;
     let text = match arguments.format {
         Format::Text => render(
@@ -133,12 +147,27 @@ fn page(
         )?),
         false => None,
     };
+    let accuracy = match arguments.accuracy {
+        true => {
+            let options = AccuracyOptions {
+                configuration: configuration.map(str::to_owned),
+                ..AccuracyOptions::default()
+            };
+            let measured = measured(&reading.mechanism, analysis, &options);
+            Some(measured.map_err(|error| Failure::Plain {
+                message: format!("{}: {error}", arguments.source.file.display()),
+                help: None,
+            })?)
+        }
+        false => None,
+    };
     let facts = Facts {
         mechanism: &reading.mechanism,
         report,
         analysis,
         configuration,
         verification: verification.as_ref(),
+        accuracy: accuracy.as_ref(),
     };
     load::html(&Prepared::new(facts, Assets::Inside))
 }

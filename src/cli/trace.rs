@@ -25,6 +25,14 @@ pub struct Arguments {
     /// Number of poses
     #[arg(long, default_value_t = 100)]
     samples: usize,
+    /// How well the loops of each pose have to close (rad, loop lengths); as well as numbers allow if not given
+    #[arg(
+        long,
+        value_name = "TOLERANCE",
+        default_value_t = 0.0,
+        hide_default_value = true
+    )]
+    tolerance: f64,
     /// Form of the answer
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -107,6 +115,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         range: arguments.drive.as_ref().and_then(|d| d.range),
         hold: arguments.hold.clone(),
         samples: arguments.samples,
+        tolerance: arguments.tolerance,
         configuration,
         ..TraceOptions::default()
     };

@@ -300,6 +300,60 @@ fn climb(
     Ok(test)
 }
 
+/// The test in so many bits and no others, with what the stated precision leaves open.
+pub(super) fn chart_in_bits(
+    pose: &Pose<'_>,
+    more: &mut MoreDigits,
+    part: &Part,
+    rank: &PartRank,
+    kernel: &Kernel,
+    bits: u32,
+) -> Result<ChartTest, MatrixError> {
+    let ways = directions(&kernel.basis);
+    let (radius, stated) = (first_radius(rank), rank.stated);
+    let metric = &kernel.metric;
+    let section = |geometry| Section {
+        mechanism: pose.mechanism,
+        geometry,
+        part,
+        metric,
+    };
+    if bits <= 53 {
+        return probe(
+            &section(pose.geometry),
+            pose.states,
+            kernel,
+            &ways,
+            radius,
+            stated,
+        );
+    }
+    let (geometry, states) = more.polished(pose, part, !pose.as_drawn, bits)?;
+    let section = Section {
+        mechanism: pose.mechanism,
+        geometry,
+        part,
+        metric,
+    };
+    probe(&section, states, kernel, &ways, radius, stated)
+}
+
+/// By what factor a test stands clear of the noise: what a germ of the highest order seen would leave over at least, or what
+/// is left over; `None` where the test says nothing.
+pub(super) fn clearness(test: &ChartTest, stated: f64) -> Option<f64> {
+    let orders = if stated > 0.5 * test.noise {
+        ORDERS_SEEN_ROUNDED
+    } else {
+        ORDERS_SEEN
+    };
+    let clear = match test.outcome {
+        ChartOutcome::Regular => COEFFICIENT * test.radius.powi(orders) / test.noise,
+        ChartOutcome::Singular { .. } => test.leftover / test.noise,
+        ChartOutcome::Thin => return None,
+    };
+    clear.is_finite().then_some(clear)
+}
+
 fn probe<R: Real>(
     section: &Section<'_, R>,
     base: &[JointState<R>],

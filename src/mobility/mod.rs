@@ -36,6 +36,7 @@ mod kutzbach;
 mod lifting;
 mod link_twists;
 mod more_digits;
+mod one_engine;
 mod one_sided;
 mod part_mobility;
 #[cfg(test)]
@@ -71,6 +72,9 @@ pub use germ_zeros::{GermBranch, GermZeroOptions, GermZeros, HalfBranch, Isolati
 pub use idle::idle_links;
 pub use kutzbach::kutzbach_count;
 pub use more_digits::MoreDigits;
+pub use one_engine::{
+    OneEngine, chart_alone, exact_alone, germ_alone, kernel_of, rank_alone, subgroups_alone,
+};
 pub use part_mobility::{Evidence, PartBranch, PartFinding, part_mobility};
 pub use pose_rank::{LADDER, PartRank, Pose, rank_part};
 pub use redundancy::SelfStresses;

@@ -88,7 +88,7 @@ pub struct PartFinding {
 }
 
 impl PartFinding {
-    fn open(lower: usize, upper: usize, why: String) -> Self {
+    pub(super) fn open(lower: usize, upper: usize, why: String) -> Self {
         Self {
             lower,
             upper,

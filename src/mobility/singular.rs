@@ -30,7 +30,7 @@ const STARTS: usize = 600;
 const TERMS: usize = 1_000_000;
 
 /// How many starts a search on a germ may make.
-fn most_starts(germ: &Germ) -> usize {
+pub(super) fn most_starts(germ: &Germ) -> usize {
     let variables = germ.freedom();
     let terms: usize = germ
         .equations()

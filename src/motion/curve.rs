@@ -92,6 +92,13 @@ impl Curve {
         self.drive
     }
 
+    /// How well the loops of the poses asked for from here on have to close (rad, cycle lengths). Zero asks for rounding,
+    /// which a curve begins with. The curve itself stays as it was found: between two of its poses a cubic predicts to about
+    /// 1e-7, so that a pose closed less well than that costs no step of Newton's method, and one closed to rounding two.
+    pub fn set_tolerance(&mut self, tolerance: f64) {
+        self.solver.tolerance = tolerance.max(0.0);
+    }
+
     /// The equations of the moving part.
     #[must_use]
     pub fn system(&self) -> &super::LoopSystem {

@@ -31,6 +31,9 @@ pub struct TraceOptions {
     pub reach: f64,
     /// Poses computed each way before the curve has been followed far enough.
     pub poses: usize,
+    /// How well the loops of a sample have to close (rad, cycle lengths): Newton's method stops there. Zero asks for
+    /// rounding. The curve itself, its ends and what is met on it are found to rounding in any case.
+    pub tolerance: f64,
 }
 
 impl Default for TraceOptions {
@@ -44,6 +47,7 @@ impl Default for TraceOptions {
             configuration: None,
             reach: MOST_TURNS * std::f64::consts::TAU,
             poses: MOST_POSES,
+            tolerance: 0.0,
         }
     }
 }
@@ -97,6 +101,12 @@ pub enum TraceError {
         /// What was wanted.
         reach: f64,
     },
+    /// The tolerance is negative or no number.
+    #[error("loops cannot be closed to {tolerance}")]
+    Tolerance {
+        /// What was wanted.
+        tolerance: f64,
+    },
     /// Too many or too few samples.
     #[error("{samples} samples; from 2 to 10000000 are possible")]
     Samples {
@@ -130,6 +140,7 @@ impl TraceError {
             }
             Self::Range { .. } => "write it as --drive joint=from..to".to_owned(),
             Self::Reach { .. } => "a positive number of radians".to_owned(),
+            Self::Tolerance { .. } => "a number such as 1e-9, or 0 for rounding".to_owned(),
             Self::Samples { .. } => "--samples 100".to_owned(),
             Self::OutOfRange(_) => "check the unit of the numbers".to_owned(),
         }

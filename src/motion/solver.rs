@@ -67,6 +67,8 @@ pub(super) struct Solver {
     row: Vec<f64>,
     /// Largest closure that counts as closed: rounding, or what the file's digits leave.
     pub allowed: f64,
+    /// A pose whose equations and condition are met to this is taken as it is; zero asks for rounding.
+    pub tolerance: f64,
     /// How far a variable may go from its start (metric).
     pub reach: f64,
     /// Poses computed each way before a curve has been followed far enough.
@@ -125,6 +127,7 @@ impl Solver {
             step: vec![0.0; unknowns],
             row: vec![0.0; unknowns],
             allowed,
+            tolerance: 0.0,
             reach: TraceOptions::default().reach,
             poses: TraceOptions::default().poses,
         };
@@ -310,10 +313,14 @@ impl Solver {
         let mut factored = false;
         for _ in 0..STEP_LIMIT {
             self.look(pose);
+            let rest = self.fill_condition(pose, along);
+            if self.is_good_enough(rest) {
+                let closure = self.closure();
+                return Some(Corrected { way, closure });
+            }
             if !factored && !self.factor(pose) {
                 return None;
             }
-            let rest = self.fill_condition(pose, along);
             let mut step = std::mem::take(&mut self.step);
             self.shortest(&self.right, &mut step);
             let tangent = self.tangent();
@@ -346,6 +353,12 @@ impl Solver {
         self.system.evaluate(pose, &mut self.evaluation);
         let closure = self.closure();
         (closure <= self.allowed && before < 1e-6).then_some(Corrected { way, closure })
+    }
+
+    /// Whether every equation, and the condition that is off by `rest`, is met to the tolerance.
+    fn is_good_enough(&self, rest: f64) -> bool {
+        let met = |off: &f64| off.abs() <= self.tolerance;
+        self.tolerance > 0.0 && met(&rest) && self.right.iter().all(met)
     }
 
     /// Puts the row of the further condition into `self.row`; returns how far it is from being met, in the metric.

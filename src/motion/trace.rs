@@ -45,6 +45,11 @@ pub fn trace(
             reach: options.reach,
         });
     }
+    if !(options.tolerance >= 0.0 && options.tolerance.is_finite()) {
+        return Err(TraceError::Tolerance {
+            tolerance: options.tolerance,
+        });
+    }
     if let Some((from, to)) = options.range
         && !(from.is_finite() && to.is_finite())
     {

@@ -26,10 +26,12 @@
 //! | `text` | how a report becomes a page |
 //! | `expectation`, `expected_file` | whether a report agrees with what is known |
 //! | `html` | how a report becomes a page that moves |
+//! | `accuracy` | what every way to an answer costs, as a page and as a figure |
 //! | `exact` | what the polynomials say, as data and as a page |
 //! | `picture` | plots, the mechanism drawn, a sign for each answer: still, as SVG |
 //! | `definitions` | what a word means |
 
+pub mod accuracy;
 mod assemble;
 pub mod definitions;
 pub mod exact;

@@ -2,8 +2,8 @@
 
 use super::options::{Energy, JointGap};
 use super::world::World;
-use crate::closure::{JointDisplacement, JointState, Rigid};
-use crate::mechanism::{FreedomPart, JointKind};
+use crate::closure::{Geometry, JointDisplacement, JointState, Rigid};
+use crate::mechanism::{FreedomPart, JointKind, Mechanism};
 
 impl World {
     /// How every joint stands: its displacement fitted into its set. Angles about fixed axes are continued from `before`
@@ -29,15 +29,7 @@ impl World {
         let poses = self.link_poses();
         let joints = self.displacements.iter().enumerate();
         joints
-            .map(|(joint, displacement)| {
-                let relative = self.relative(&poses, joint);
-                let nearest = displacement.displacement(&displacement.fit(&relative));
-                let off = nearest.inverse().compose(&relative);
-                JointGap {
-                    position: norm(&off.translation),
-                    angle: norm(&off.rotation_vector()),
-                }
-            })
+            .map(|(joint, displacement)| gap_of(displacement, &self.relative(&poses, joint)))
             .collect()
     }
 
@@ -92,6 +84,36 @@ impl World {
                 Some((joint, (lower - value).max(value - upper).max(0.0)))
             })
             .collect()
+    }
+}
+
+/// For every joint, how far its two frames are from what it allows where the links are in given poses (`world_from_link`, by
+/// link index): the yardstick of [`World::gaps`], for poses that come from elsewhere.
+#[must_use]
+pub fn joint_gaps(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    links: &[Rigid<f64>],
+) -> Vec<JointGap> {
+    let joints = mechanism.joints().iter();
+    joints
+        .zip(&geometry.sides)
+        .zip(&geometry.displacements)
+        .map(|((joint, sides), displacement)| {
+            let ends = [joint.predecessor.link.0, joint.successor.link.0];
+            let [p, s] = [0, 1].map(|i| links[ends[i]].compose(&sides[i]));
+            gap_of(displacement, &p.inverse().compose(&s))
+        })
+        .collect()
+}
+
+/// How far a joint's displacement is from the nearest that it allows.
+fn gap_of(displacement: &JointDisplacement<f64>, relative: &Rigid<f64>) -> JointGap {
+    let nearest = displacement.displacement(&displacement.fit(relative));
+    let off = nearest.inverse().compose(relative);
+    JointGap {
+        position: norm(&off.translation),
+        angle: norm(&off.rotation_vector()),
     }
 }
 

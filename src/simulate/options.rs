@@ -2,10 +2,10 @@
 
 use super::WorldError;
 use crate::mechanism::Mechanism;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// How the joints of the spanning tree are held. Joints that close a loop are impulse joints either way.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Solver {
     /// By reduced coordinates: a joint of the tree cannot open.

@@ -56,6 +56,9 @@ pub struct SceneRun {
     /// Seconds on the clock.
     #[serde(skip)]
     pub wall_time: f64,
+    /// Seconds on the clock that the steps took, looking not counted.
+    #[serde(skip)]
+    pub step_time: f64,
 }
 
 /// The effects that are on, by name.
@@ -132,6 +135,7 @@ pub fn run_scene(
         ended_early: None,
         not_simulated: world.not_simulated().to_vec(),
         wall_time: 0.0,
+        step_time: 0.0,
     };
     let effects = run.effects.join(", ");
     let passage = Passage {
@@ -157,7 +161,10 @@ pub fn run_scene(
             run.ended_early = Some("broken off".to_owned());
             break;
         }
-        if let Err(error) = world.step() {
+        let before = std::time::Instant::now();
+        let stepped = world.step();
+        run.step_time += before.elapsed().as_secs_f64();
+        if let Err(error) = stepped {
             run.ended_early = Some(error.to_string());
             break;
         }

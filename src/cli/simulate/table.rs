@@ -1,7 +1,9 @@
 //! What a simulation said, as tables and as JSON.
 
+use kutzbach::accuracy::Choice;
 use kutzbach::mechanism::Mechanism;
 use kutzbach::record::Summary;
+use kutzbach::report::accuracy::choice_text;
 use kutzbach::report::text::words::counted;
 use kutzbach::report::text::{Cell, Column, Layout, Page, Table, Tint};
 use kutzbach::simulate::verification::{
@@ -16,12 +18,29 @@ const SCHEMA: &str = "kutzbach-simulation-1";
 /// Everything that was simulated.
 pub struct Simulated<'a> {
     pub mechanism: &'a Mechanism,
+    /// Which setting a wanted error called for.
+    pub choice: Option<Choice>,
     pub verification: Verification,
     pub scene: Option<SceneRun>,
     pub cost: Option<Vec<CostRow>>,
     pub log: Option<(String, Summary)>,
     /// Whether Ctrl-C ended it.
     pub stopped: bool,
+}
+
+impl Simulated<'_> {
+    /// Whether an error was wanted that no setting, or not the scene, keeps.
+    pub fn misses(&self) -> bool {
+        self.choice
+            .as_ref()
+            .is_some_and(|choice| !choice.reached || self.scene_beyond(choice).is_some())
+    }
+
+    /// By how much the scene came open, where that is more than was wanted.
+    fn scene_beyond(&self, choice: &Choice) -> Option<f64> {
+        let error = self.scene.as_ref()?.closure_error;
+        (!(error <= choice.wanted)).then_some(error)
+    }
 }
 
 fn tint(outcome: Outcome) -> Tint {
@@ -71,6 +90,9 @@ pub fn text(simulated: &Simulated<'_>, layout: Layout) -> String {
         "",
         "",
     );
+    if let Some(choice) = &simulated.choice {
+        choice_page(choice, &mut page);
+    }
     for branch in &verification.branches {
         branch_page(branch, &mut page);
     }
@@ -79,6 +101,19 @@ pub fn text(simulated: &Simulated<'_>, layout: Layout) -> String {
     }
     if let Some(run) = &simulated.scene {
         scene_page(run, &mut page);
+        if let Some(beyond) = simulated
+            .choice
+            .as_ref()
+            .and_then(|choice| simulated.scene_beyond(choice))
+        {
+            page.item(
+                &format!(
+                    "the loops came open by {beyond:.1e}, more than was wanted: the setting was chosen by the motion without \
+                     the scene's forces"
+                ),
+                Tint::Doubtful,
+            );
+        }
     }
     if let Some(rows) = &simulated.cost {
         cost_page(rows, &mut page);
@@ -119,6 +154,21 @@ pub fn text(simulated: &Simulated<'_>, layout: Layout) -> String {
         );
     }
     page.into_text()
+}
+
+fn choice_page(choice: &Choice, page: &mut Page) {
+    let tint = if choice.reached {
+        Tint::Plain
+    } else {
+        Tint::Doubtful
+    };
+    let mut text = choice_text(choice);
+    text.push_str(match (choice.reached, &choice.best) {
+        (true, _) => " It is used, and the verification begins with it.",
+        (false, Some(_)) => " The best is used.",
+        (false, None) => " The usual settings are used.",
+    });
+    page.paragraph(&text, tint, "", "");
 }
 
 fn branch_page(branch: &BranchVerification, page: &mut Page) {
@@ -306,6 +356,9 @@ pub fn json(simulated: &Simulated<'_>, timing: bool) -> Value {
         "mechanism": simulated.mechanism.name(),
         "verification": simulated.verification,
     });
+    if let Some(choice) = &simulated.choice {
+        value["accuracy"] = json!(choice);
+    }
     if let Some(run) = &simulated.scene {
         value["scene"] = json!(run);
     }

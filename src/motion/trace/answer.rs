@@ -48,6 +48,7 @@ impl Tracer<'_> {
                 })
                 .collect()
         };
+        found.curve.set_tolerance(options.tolerance);
         let sampled = sample(&mut found.curve, options, &ends);
         let (low, high) = found.curve.arclengths();
         let start = &found.curve.nodes[found.start];

@@ -1,5 +1,6 @@
 //! The order of the page, its policy, script and style.
 
+use super::accuracy;
 use super::blocks;
 use super::drawing::page_data;
 use super::escape::{escaped, in_script};
@@ -153,6 +154,9 @@ fn body(facts: &Facts<'_>, stage: &Stage, names: &Names, out: &mut String) {
     section("loops", &|page| sections::cycles(report, page), out);
     section("motions", &|page| branches::motions(report, page), out);
     plots::section(facts, stage, out);
+    if let Some(accuracy) = facts.accuracy {
+        accuracy::section(accuracy, names, out);
+    }
     section("advice", &|page| sections::advice(report, page), out);
     section("warnings", &|page| sections::warnings(report, page), out);
     section("evidence", &|page| branches::evidence(report, page), out);
@@ -221,7 +225,7 @@ fn loop_chips(cycles: &[Cycle], out: &mut String) {
     out.push_str("</p>\n");
 }
 
-fn definition_list(names: &Names, out: &mut String) {
+pub(super) fn definition_list(names: &Names, out: &mut String) {
     out.push_str("<section id=\"definitions\">\n<h2>Definitions</h2>\n");
     for definition in definitions::all() {
         out.push_str(&format!(

@@ -22,11 +22,13 @@
 //! | `document` | the order of the page, its policy, script and style |
 //! | `blocks`, `escape`, `names` | pages as HTML; text as text; names as indices |
 //! | `motions` | what is played |
+//! | `accuracy` | what accuracy costs, in the page and as one of its own |
 //! | `drawing`, `data` | the mechanism and its motions for the script |
 //! | `plots`, `ranges` | what is read off them |
 //!
 //! `docs/src/page.md` describes what page and script agree on.
 
+mod accuracy;
 mod blocks;
 mod data;
 mod document;
@@ -39,12 +41,14 @@ mod plots;
 mod ranges;
 
 use super::schema::Report;
+use crate::accuracy::Accuracy;
 use crate::closure::{Arithmetic, Geometry, Rigid, spanning_poses};
 use crate::mechanism::Mechanism;
 use crate::mobility::Analysis;
 use crate::record::{Drawing, Roles};
 use crate::report::picture::view::View;
 use crate::simulate::verification::Verification;
+pub use accuracy::accuracy_page;
 pub use document::{SCRIPT, STYLE, script, style};
 pub use gallery::{Entry, index};
 use motions::{Repertoire, repertoire};
@@ -62,6 +66,8 @@ pub struct Facts<'a> {
     pub configuration: Option<&'a str>,
     /// What simulation says, where it was asked.
     pub verification: Option<&'a Verification>,
+    /// What accuracy costs, where it was measured.
+    pub accuracy: Option<&'a Accuracy>,
 }
 
 /// Where a page has its script and its style.

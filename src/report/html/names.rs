@@ -25,6 +25,15 @@ impl Names {
         }
     }
 
+    /// No name of anything, for pages without a picture of the mechanism.
+    pub fn none() -> Self {
+        Self {
+            links: BTreeMap::new(),
+            joints: BTreeMap::new(),
+            cycles: BTreeMap::new(),
+        }
+    }
+
     pub fn joint(&self, name: &str) -> Option<usize> {
         self.joints.get(name).copied()
     }

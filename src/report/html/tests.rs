@@ -102,6 +102,7 @@ fn range_texts(mechanism: &Mechanism) -> Vec<String> {
         analysis: &analysis,
         configuration: None,
         verification: None,
+        accuracy: None,
     };
     let ranges = ranges(mechanism, &Stage::new(&facts, Assets::Inside));
     ranges.into_values().collect()

@@ -166,6 +166,23 @@ impl Plot {
         svg
     }
 
+    /// What the plot consists of, without the element around it: for a picture that has more in it, and the plot at its upper
+    /// left corner.
+    pub fn write_content(&self, svg: &mut String) {
+        self.write_inside(&Frame::new(self), svg);
+    }
+
+    /// The attributes by which a script gets from pixels back to values.
+    #[must_use]
+    pub fn scale_attributes(&self) -> String {
+        let frame = Frame::new(self);
+        format!(
+            " data-x=\"{}\" data-y=\"{}\"",
+            frame.x.described(self.x.word()),
+            frame.y.described(self.y.word())
+        )
+    }
+
     fn write(&self, svg: &mut String, style: Option<&str>) {
         let frame = Frame::new(self);
         let [width, height] = frame.size;
@@ -199,8 +216,13 @@ impl Plot {
                 ),
             );
         }
+        self.write_inside(&frame, svg);
+        svg.push_str("</svg>\n");
+    }
+
+    fn write_inside(&self, frame: &Frame, svg: &mut String) {
         frame.write_axes(svg, self);
-        series::write(svg, &frame, self);
+        series::write(svg, frame, self);
         frame.write_levels(svg, &self.levels);
         frame.write_marks(svg, &self.marks);
         frame.write_names(svg, self);
@@ -215,7 +237,6 @@ impl Plot {
                 ),
             );
         }
-        svg.push_str("</svg>\n");
     }
 
     /// What the plot shows, for those who cannot see it.

@@ -53,6 +53,23 @@ fn trimmed(digits: &str) -> String {
     }
 }
 
+/// A time on the clock, in two or three digits and the unit that fits: `3.1 µs`, `12 ms`, `1.4 s`.
+#[must_use]
+pub fn duration(seconds: f64) -> String {
+    let (value, unit) = match seconds {
+        s if !s.is_finite() => return "–".to_owned(),
+        s if s < 0.9995e-6 => (s * 1e9, "ns"),
+        s if s < 0.9995e-3 => (s * 1e6, "µs"),
+        s if s < 0.9995 => (s * 1e3, "ms"),
+        s => (s, "s"),
+    };
+    if value < 9.95 {
+        format!("{value:.1} {unit}")
+    } else {
+        format!("{value:.0} {unit}")
+    }
+}
+
 /// `a`, `a and b`, `a, b and c`; above `most` names, `a, b and 12 more`.
 #[must_use]
 pub fn names(list: &[String], most: usize) -> String {

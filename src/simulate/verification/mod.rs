@@ -15,6 +15,7 @@
 //!
 //! # The way through
 //! - [`verify`](fn@verify): which worlds are run for which prediction, and the outcome.
+//! - [`DrivenMotion`]: such a stretch, simulated once with any settings.
 //! - `driven_way`: along which stretch of a branch a drive goes; never through a singular pose.
 //! - [`Prediction`]: the pose of the branch next to a simulated one.
 //! - [`judge_motion`]: what a ladder of errors says.
@@ -22,6 +23,7 @@
 //! - [`count_freedoms`]: the rank of the response to blows at random.
 //! - [`Observer`]: logs and progress bars look on.
 
+mod driven_motion;
 mod driven_way;
 mod error;
 mod excitation;
@@ -32,11 +34,12 @@ mod pushing;
 mod scale;
 mod verify;
 
+pub use driven_motion::{DrivenMotion, DrivenRun};
 pub use error::VerificationError;
 pub use excitation::{FreedomCount, count_freedoms};
 pub use ladder::{Finding, Outcome, Rung, defect, judge_motion, order_between, undecided};
 pub use observer::{Moment, Observer, Passage, PredictedPose, Unobserved};
-pub use prediction::Prediction;
+pub use prediction::{Prediction, distance_between};
 pub use pushing::{PushRung, Pushing, judge_pushing};
 pub use verify::{
     BranchVerification, Ladder, Verification, VerificationOptions, largest_gap, verify,

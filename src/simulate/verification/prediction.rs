@@ -109,27 +109,13 @@ impl<'a> Prediction<'a> {
     /// Largest distance of a link from where it is predicted: of its joints, in characteristic lengths, or its turn (rad).
     #[must_use]
     pub fn distance(&self, simulated: &[Rigid<f64>]) -> f64 {
-        let mut largest: f64 = 0.0;
-        for (joint, sides) in self.mechanism.joints().iter().zip(&self.geometry.sides) {
-            for (side, frame) in [&joint.predecessor, &joint.successor]
-                .into_iter()
-                .zip(sides)
-            {
-                let here = &simulated[side.link.0];
-                let there = &self.poses[side.link.0];
-                let a = here.apply(&frame.translation);
-                let b = there.apply(&frame.translation);
-                let apart = (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt();
-                let turn = there.inverse().compose(here).rotation_vector();
-                let angle = turn.iter().map(|x| x * x).sum::<f64>().sqrt();
-                let distance = (apart / self.length).max(angle);
-                // A number that is none must not pass for a small one.
-                if !(distance <= largest) {
-                    largest = distance;
-                }
-            }
-        }
-        largest
+        distance_between(
+            self.mechanism,
+            self.geometry,
+            simulated,
+            &self.poses,
+            self.length,
+        )
     }
 
     fn take_tangents(&mut self) -> Result<(), VerificationError> {
@@ -150,4 +136,37 @@ impl<'a> Prediction<'a> {
         }
         Ok(())
     }
+}
+
+/// Largest distance of a link between two poses of a mechanism (`world_from_link`, by link index): of its joints, in units of
+/// `length` (m), or its turn (rad). What is not a number counts as far.
+#[must_use]
+pub fn distance_between(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    one: &[Rigid<f64>],
+    other: &[Rigid<f64>],
+    length: f64,
+) -> f64 {
+    let mut largest: f64 = 0.0;
+    for (joint, sides) in mechanism.joints().iter().zip(&geometry.sides) {
+        for (side, frame) in [&joint.predecessor, &joint.successor]
+            .into_iter()
+            .zip(sides)
+        {
+            let here = &one[side.link.0];
+            let there = &other[side.link.0];
+            let a = here.apply(&frame.translation);
+            let b = there.apply(&frame.translation);
+            let apart = (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt();
+            let turn = there.inverse().compose(here).rotation_vector();
+            let angle = turn.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let distance = (apart / length).max(angle);
+            // A number that is none must not pass for a small one.
+            if !(distance <= largest) {
+                largest = distance;
+            }
+        }
+    }
+    largest
 }

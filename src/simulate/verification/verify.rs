@@ -9,17 +9,15 @@
 //! None of it is a proof: it is evidence from physics that knows nothing of the analysis, and it is stated with the size
 //! of the defect that it could have missed.
 
-use super::driven_way::{DrivenWay, RATE, value, ways_along};
+use super::driven_motion::DrivenMotion;
 use super::ladder::{Finding, Outcome, Rung, judge_motion, order_between, undecided};
-use super::observer::{Moment, Observer, Passage};
-use super::prediction::Prediction;
+use super::observer::Observer;
 use super::pushing::{Pushed, Pushing};
 use super::{FreedomCount, VerificationError, count_freedoms};
-use crate::closure::{Geometry, variable_unit};
+use crate::closure::Geometry;
 use crate::mechanism::Mechanism;
 use crate::mobility::{Analysis, Branch, Verdict};
-use crate::motion::Variable;
-use crate::simulate::{Drive, JointGap, Solver, World, WorldOptions};
+use crate::simulate::{JointGap, Solver, World, WorldOptions};
 use serde::Serialize;
 
 /// How to verify.
@@ -117,29 +115,6 @@ pub struct Verification {
     pub notes: Vec<String>,
 }
 
-/// Largest torque of a drive, in moments of inertia of the whole mechanism (mass × length²) per s². A mechanism of its own
-/// size and mass comes to speed in a thirtieth of a second.
-const EFFORT: f64 = 30.0;
-
-/// What holds an input gets ten times as much: it has to stand what the drive does.
-const HOLDING_EFFORT: f64 = 300.0;
-
-/// A drive comes to its pace over this time (s), smoothly: a jerk would excite the give of the joints.
-const START_UP: f64 = 0.25;
-
-/// A drive that is off its schedule, or an input off its place, is to be back in this time (s).
-const CATCH_UP: f64 = 0.1;
-
-/// While catching up, no drive is asked for more than this (rad/s, characteristic lengths per second). Where constraints
-/// repeat one another the solver's sweeps do not come to an agreement, and a drive gets a fraction of what it asks for.
-const FASTEST: f64 = 10.0 * RATE;
-
-/// A drive gets so many times as long as its way takes before it counts as stalled.
-const PATIENCE: f64 = 3.0;
-
-/// So many moments of a passage are measured and shown.
-const MOMENTS: usize = 240;
-
 /// The largest gap: distances in characteristic lengths, angles in rad.
 #[must_use]
 pub fn largest_gap(gaps: &[JointGap], length: f64) -> f64 {
@@ -211,7 +186,6 @@ pub fn verify(
             geometry,
             analysis,
             options,
-            length,
         };
         for branch in chosen {
             let (found, stopped) = test.branch(branch, observer)?;
@@ -331,7 +305,6 @@ struct Test<'a> {
     geometry: &'a Geometry<f64>,
     analysis: &'a Analysis,
     options: &'a VerificationOptions,
-    length: f64,
 }
 
 impl Test<'_> {
@@ -348,26 +321,24 @@ impl Test<'_> {
             freedoms: None,
             finding: Finding::new(Outcome::Inconclusive, String::new()),
         };
-        let ways = match ways_along(
+        let motions = match DrivenMotion::along(
             self.mechanism,
             self.geometry,
-            (self.length, self.options.longest),
             self.analysis,
             branch,
-            self.options.configuration.as_deref(),
-            self.options.drive.as_deref(),
+            self.options,
         ) {
-            Ok(ways) => ways,
+            Ok(motions) => motions,
             Err(why) => {
                 found.finding.why = why;
                 return Ok((found, false));
             }
         };
         let mut findings = Vec::new();
-        for way in &ways {
+        for motion in &motions {
             let begun = found.ladders.len();
             for &solver in &self.options.solvers {
-                let (ladder, stopped) = self.ladder(way, branch, solver, observer)?;
+                let (ladder, stopped) = self.ladder(motion, solver, observer)?;
                 let confirmed = ladder.finding.outcome == Outcome::Confirmed;
                 found.ladders.push(ladder);
                 if stopped {
@@ -403,34 +374,46 @@ impl Test<'_> {
 
     fn ladder(
         &self,
-        way: &DrivenWay,
-        branch: &Branch,
+        motion: &DrivenMotion<'_>,
         solver: Solver,
         observer: &mut dyn Observer,
     ) -> Result<(Ladder, bool), VerificationError> {
         let mut ladder = Ladder {
             solver,
-            driven: way.driven.name.clone(),
-            from: way.from,
-            to: way.to,
-            ends: way.ends.clone(),
-            held: way.held.iter().map(|v| v.name.clone()).collect(),
+            driven: motion.driven().name.clone(),
+            from: motion.from(),
+            to: motion.to(),
+            ends: motion.ends().to_owned(),
+            held: motion.held().iter().map(|v| v.name.clone()).collect(),
             largest_force: 0.0,
             rungs: Vec::new(),
             finding: Finding::new(Outcome::Inconclusive, String::new()),
         };
         let mut decided = None;
         for &substeps in &self.options.ladder {
-            let mut climb = self.climb(way, branch, solver, substeps, observer)?;
-            ladder.largest_force = climb.largest_force;
-            climb.rung.order = ladder.rungs.last().and_then(|before| {
+            let options = WorldOptions {
+                solver,
+                time_step: self.options.time_step,
+                substeps,
+                ..WorldOptions::default()
+            };
+            let run = motion.run(&options, observer)?;
+            ladder.largest_force = run.largest_force;
+            let order = ladder.rungs.last().and_then(|before| {
                 order_between(
                     (before.substeps, before.closure_error),
-                    (climb.rung.substeps, climb.rung.closure_error),
+                    (substeps, run.closure_error),
                 )
             });
-            ladder.rungs.push(climb.rung);
-            if climb.stopped {
+            ladder.rungs.push(Rung {
+                substeps,
+                closure_error: run.closure_error,
+                distance: run.distance,
+                progress: run.progress,
+                order,
+                wall_time: run.wall_time,
+            });
+            if run.stopped {
                 ladder.finding.why = "broken off".to_owned();
                 return Ok((ladder, true));
             }
@@ -442,159 +425,4 @@ impl Test<'_> {
         ladder.finding = decided.unwrap_or_else(|| undecided(&ladder.rungs));
         Ok((ladder, false))
     }
-
-    /// Goes the way once.
-    fn climb(
-        &self,
-        way: &DrivenWay,
-        branch: &Branch,
-        solver: Solver,
-        substeps: usize,
-        observer: &mut dyn Observer,
-    ) -> Result<Climb, VerificationError> {
-        let begun = std::time::Instant::now();
-        let options = WorldOptions {
-            solver,
-            time_step: self.options.time_step,
-            substeps,
-            ..WorldOptions::default()
-        };
-        let mut world = World::new(self.mechanism, self.geometry, &way.start, &options)?;
-        let (_, effort) = world.scale();
-        let unit = |input: &Variable| {
-            let kind = self.mechanism.joints()[input.joint].kind;
-            variable_unit(kind.freedoms()[input.freedom], self.length)
-        };
-        let drive = |world: &mut World, input: &Variable, velocity: f64, effort: f64| {
-            let fastest = FASTEST * unit(input);
-            world.drive(Drive {
-                joint: input.joint,
-                freedom: input.freedom,
-                velocity: velocity.clamp(-fastest, fastest),
-                largest_force: effort / unit(input),
-            })
-        };
-        let places: Vec<f64> = way
-            .held
-            .iter()
-            .map(|held| value(self.geometry, held, &way.start, &way.start))
-            .collect();
-        let travel = way.to - way.from;
-        let duration = way.duration() + 0.5 * START_UP;
-        let mut climb = Climb {
-            rung: Rung {
-                substeps,
-                closure_error: 0.0,
-                distance: 0.0,
-                progress: 0.0,
-                order: None,
-                wall_time: 0.0,
-            },
-            largest_force: EFFORT * effort / unit(&way.driven),
-            stopped: observer
-                .begin(&Passage {
-                    title: format!(
-                        "branch {}: `{}`, {substeps} substeps",
-                        branch.name, way.driven.name
-                    ),
-                    branch: branch.name.clone(),
-                    driven: Some(way.driven.clone()),
-                    substeps,
-                    duration,
-                })
-                .is_break(),
-        };
-        let mut prediction = Prediction::new(
-            self.mechanism,
-            self.geometry,
-            &self.analysis.structure,
-            &way.start,
-            self.loop_freedom(branch),
-            self.length,
-        )?;
-        let mut states = way.start.clone();
-        let steps = (PATIENCE * duration / self.options.time_step).ceil() as usize;
-        let every = ((duration / self.options.time_step) as usize / MOMENTS).max(1);
-        for step in 1..=steps {
-            if climb.stopped || climb.rung.progress >= 0.999 {
-                break;
-            }
-            let (place, rate) = way.target(pace(world.time() + self.options.time_step));
-            let now = value(self.geometry, &way.driven, &way.start, &states);
-            let velocity = rate + (place - now) / CATCH_UP;
-            drive(&mut world, &way.driven, velocity, EFFORT * effort)?;
-            for (held, place) in way.held.iter().zip(&places) {
-                let off = value(self.geometry, held, &way.start, &states) - place;
-                drive(&mut world, held, -off / CATCH_UP, HOLDING_EFFORT * effort)?;
-            }
-            if world.step().is_err() {
-                climb.rung.closure_error = f64::NAN;
-                break;
-            }
-            states = world.states(&states);
-            if step % every != 0 {
-                continue;
-            }
-            prediction.follow(&states)?;
-            let poses = world.link_poses();
-            let gaps = world.gaps();
-            let closure_error = largest_gap(&gaps, self.length);
-            let distance = prediction.distance(&poses);
-            climb.rung.progress =
-                (value(self.geometry, &way.driven, &way.start, &states) - way.from) / travel;
-            for (most, now) in [
-                (&mut climb.rung.closure_error, closure_error),
-                (&mut climb.rung.distance, distance),
-            ] {
-                if !(now <= *most) {
-                    *most = now;
-                }
-            }
-            climb.stopped = observer
-                .moment(&Moment {
-                    time: world.time(),
-                    done: climb.rung.progress.clamp(0.0, 1.0),
-                    simulated: &poses,
-                    states: &states,
-                    predicted: Some((prediction.poses(), prediction.states())),
-                    gaps: &gaps,
-                    closure_error,
-                    distance,
-                })
-                .is_break();
-        }
-        climb.rung.wall_time = begun.elapsed().as_secs_f64();
-        Ok(climb)
-    }
-}
-
-/// The time on the schedule at a time of the simulation: it starts from rest.
-fn pace(time: f64) -> f64 {
-    if time < START_UP {
-        // The integral of the smooth step 3 x² − 2 x³.
-        let x = time / START_UP;
-        START_UP * (x.powi(3) - 0.5 * x.powi(4))
-    } else {
-        time - 0.5 * START_UP
-    }
-}
-
-impl Test<'_> {
-    /// Instantaneous freedom of the parts with loops at a generic pose of the branch.
-    fn loop_freedom(&self, branch: &Branch) -> usize {
-        let structure = &self.analysis.structure;
-        let free: usize = structure
-            .free_joints
-            .iter()
-            .map(|&j| self.mechanism.joints()[j].freedom())
-            .sum();
-        let all = branch.instantaneous.unwrap_or(branch.dimension);
-        all.saturating_sub(free + 6 * structure.loose_pieces)
-    }
-}
-
-struct Climb {
-    rung: Rung,
-    largest_force: f64,
-    stopped: bool,
 }
