@@ -210,10 +210,10 @@ fn what_cannot_be_wanted_is_refused() {
         (vec!["accuracy", BENNETT, "--drive", "hing_1"], "hinge_1"),
         (vec!["accuracy", BENNETT, "--branch", "Z"], "no branch `Z`"),
         (vec!["accuracy", BENNETT, "--at", "open"], "open"),
-        (vec!["accuracy", BENNETT, "--budget", "-1"], "seconds"),
+        (vec!["accuracy", BENNETT, "--budget=-1"], "seconds"),
         (vec!["report", BENNETT, "--accuracy"], "--format html"),
         (
-            vec!["simulate", BENNETT, "--accuracy", "-1"],
+            vec!["simulate", BENNETT, "--accuracy=-1"],
             "a positive number",
         ),
         (

@@ -205,7 +205,11 @@ fn analysis(text: &mut String, accuracy: &Accuracy) {
                 way.claim.word(),
                 way.decades
                     .map_or(String::new(), |d| format!("{d:.0} decades")),
-                duration(way.timing.seconds)
+                if way.timing.runs > 0 {
+                    duration(way.timing.seconds)
+                } else {
+                    "not asked".to_owned()
+                }
             ),
         );
     }

@@ -162,7 +162,7 @@ impl Subject<'_> {
                 claim: Claim::Silent,
                 decades: None,
                 text,
-                timing,
+                timing: WayTiming::default(),
             });
         }
         Ok(Way {

@@ -1,13 +1,21 @@
 //! What gravity, contact, limits, friction and damping cost, each alone and as the scene has them together.
 
 use super::result::{Effect, EffectTiming};
+use super::work::seconds_per_second;
 use crate::closure::{Geometry, JointState};
 use crate::mechanism::Mechanism;
-use crate::simulate::{Drive, Effects, WorldError, WorldOptions, cost_table, effect_names};
+use crate::simulate::{Drive, Effects, World, WorldError, WorldOptions, cost_table, effect_names};
 
-/// Steps that are measured, and fewer where a step is long: about so many bodies are stepped.
-const STEPS: usize = 400;
-const BODY_STEPS: usize = 8_000;
+/// Steps that are measured, and fewer where a step is long: about so many seconds of them, counted in work.
+const STEPS: f64 = 400.0;
+const FEWEST: f64 = 10.0;
+const SECONDS: f64 = 0.1;
+
+/// Rounds are begun until all of them would take about so many seconds, counted in work; one is always made.
+const ALL_SECONDS: f64 = 5.0;
+
+/// No effects, five effects, and the scene.
+const ROWS: f64 = 7.0;
 
 /// Measures a step with each effect, four substeps in 1/240 s with the tree as multibodies: the best of some rounds over all
 /// effects, since what else the machine does only adds.
@@ -26,7 +34,12 @@ pub(super) fn effects_of(
         effects,
         ..WorldOptions::default()
     };
-    let steps = (BODY_STEPS / mechanism.links().len().max(1)).clamp(20, STEPS);
+    let pieces = World::new(mechanism, geometry, states, &options)?.pieces();
+    let (length, substeps) = (options.time_step, options.substeps);
+    let step = length * seconds_per_second(options.solver, &pieces, length, substeps);
+    let steps = (SECONDS / step).clamp(FEWEST, STEPS);
+    let rounds = rounds.min((ALL_SECONDS / (ROWS * steps * step)) as usize);
+    let steps = steps as usize;
     let called_for = effect_names(&effects);
     let mut rows = cost_table(mechanism, geometry, states, &options, drives, steps)?;
     for _ in 1..rounds {

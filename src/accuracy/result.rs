@@ -93,7 +93,7 @@ pub struct Way {
 pub struct WayTiming {
     /// Seconds on the clock: the median of the runs.
     pub seconds: f64,
-    /// Runs.
+    /// Runs; none where it was not asked.
     pub runs: usize,
 }
 

@@ -252,7 +252,8 @@ fn rows(svg: &mut String, ways: &[Way]) {
     if ways.is_empty() {
         return;
     }
-    let times = ways.iter().map(|way| way.timing.seconds.max(1e-9));
+    let asked = ways.iter().filter(|way| way.timing.runs > 0);
+    let times = asked.map(|way| way.timing.seconds.max(1e-9));
     let (low, high) = times.fold((f64::INFINITY, 0.0f64), |(low, high), t| {
         (low.min(t), high.max(t))
     });
@@ -294,19 +295,27 @@ fn rows(svg: &mut String, ways: &[Way]) {
         put(
             svg,
             format_args!(
-                "<text class=\"end\" x=\"{}\" y=\"{}\">{}</text>\n<path class=\"grid zero\" d=\"M{} {y}H{}\"/>\n\
-                 <circle class=\"{class}\" cx=\"{}\" cy=\"{y}\" r=\"4\"><title>{}</title></circle>\n\
-                 <text class=\"note\" x=\"{}\" y=\"{}\">{}</text>\n",
+                "<text class=\"end\" x=\"{}\" y=\"{base}\">{}</text>\n\
+                 <text class=\"note\" x=\"{}\" y=\"{base}\">{}</text>\n",
                 px(NAMES),
-                px(y + 4.0),
                 escaped(&clipped(&name, 28)),
+                px(WORDS),
+                escaped(&clipped(&claim_text(way), 58)),
+                base = px(y + 4.0),
+            ),
+        );
+        if way.timing.runs == 0 {
+            continue;
+        }
+        put(
+            svg,
+            format_args!(
+                "<path class=\"grid zero\" d=\"M{} {y}H{}\"/>\n\
+                 <circle class=\"{class}\" cx=\"{}\" cy=\"{y}\" r=\"4\"><title>{}</title></circle>\n",
                 px(left),
                 px(x),
                 px(x),
                 escaped(&format!("{}: {}", name, duration(way.timing.seconds))),
-                px(WORDS),
-                px(y + 4.0),
-                escaped(&clipped(&claim_text(way), 58)),
                 y = px(y),
             ),
         );

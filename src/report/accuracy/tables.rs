@@ -136,7 +136,11 @@ fn analysis(accuracy: &Accuracy, page: &mut Page) {
                 way.decades
                     .map_or(String::new(), |d| format!("{d:.1} decades")),
             ),
-            Cell::new(duration(way.timing.seconds)),
+            Cell::new(if way.timing.runs > 0 {
+                duration(way.timing.seconds)
+            } else {
+                String::new()
+            }),
             Cell::new(&way.text).tint(Tint::Quiet),
         ]);
     }
