@@ -70,7 +70,7 @@ pub fn drawn(name: &str, places: &[Place], away: &Number) -> MechanismBuilder {
     let mut builder = MechanismBuilder::new(name);
     let mut origins: BTreeMap<&str, Triple> = BTreeMap::new();
     let moved = |point: &Triple, index: usize| -> Triple {
-        let sign = Number::integer(if index % 2 == 0 { 1 } else { -1 });
+        let sign = Number::integer(if index.is_multiple_of(2) { 1 } else { -1 });
         std::array::from_fn(|i| {
             if i == index % 3 {
                 &point[i] + &(&sign * away)
