@@ -77,7 +77,8 @@ class Compare(unittest.TestCase):
         for path in sorted((instructions.ROOT / "benches" / "record").glob("*.json")):
             record = json.loads(path.read_text(encoding="utf-8"))
             rows, gone, added = compare.compared(record, record)
-            self.assertTrue(rows, path.name)
+            # That of the mutations has words only.
+            self.assertTrue(rows or path.stem == "stability_mutations", path.name)
             self.assertEqual((gone, added, {row[3] for row in rows}), ([], [], {1.0}), path.name)
 
 
