@@ -131,8 +131,8 @@ mod tests {
                 .map(|_| (0..6).map(|_| random.symmetric()).collect())
                 .collect();
             for row in 0..4 {
-                for column in 0..6 {
-                    triplets.push((4 * block + row, 4 * block + column, rows[row % 3][column]));
+                for (column, entry) in rows[row % 3].iter().enumerate() {
+                    triplets.push((4 * block + row, 4 * block + column, *entry));
                 }
             }
         }
