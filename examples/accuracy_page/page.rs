@@ -304,7 +304,11 @@ fn scene(text: &mut String, accuracy: &Accuracy) {
         text,
         &format!(
             "Under its scene ({}), loops stay closed {}.\n",
-            scene.effects.join(", "),
+            if scene.effects.is_empty() {
+                "drives only".to_owned()
+            } else {
+                scene.effects.join(", ")
+            },
             if cells.is_empty() {
                 "within 1e-3 at no setting".to_owned()
             } else {
