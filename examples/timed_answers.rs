@@ -93,8 +93,12 @@ fn answers(
             ..AnalysisOptions::default()
         };
         let (analysis, spent) = timed(rounds, || analyse(mechanism, &options))?;
-        finite = analysis.mobility.finite();
-        instantaneous = analysis.home.and_then(|home| home.instantaneous);
+        // Each from the depth whose time stands for it.
+        match depth {
+            Depth::Rank => instantaneous = analysis.home.and_then(|home| home.instantaneous),
+            Depth::Verdict => finite = analysis.mobility.finite(),
+            Depth::Motions | Depth::Everything => {}
+        }
         seconds.insert(name, spent);
     }
     let mut turns = Vec::new();

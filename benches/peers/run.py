@@ -160,6 +160,8 @@ def measure_zoo(program, timed, rounds):
         file = ROOT / "tests" / "zoo" / f"{name}.urdf"
         finite, instantaneous, whole = own.verdict(program, file, rounds)
         within = own.within(timed, file, rounds)
+        if (within["finite"], within["instantaneous"]) != (finite, instantaneous):
+            raise SystemExit(f"{name}: a report says otherwise than the depths that are timed")
         row["kutzbach"] = {"freedom": finite, "instantaneous_found": instantaneous, "process": spread(whole)} | {
             question: rounded(within[question]) for question in QUESTIONS}
     for peer in PEERS:

@@ -9,7 +9,7 @@ use kutzbach::mechanism::Mechanism;
 use kutzbach::mobility::{Analysis, AnalysisOptions, analyse};
 use kutzbach::motion::{Curve, TraceOptions, trace};
 use kutzbach::simulate::verification::{Prediction, largest_gap};
-use kutzbach::simulate::{Drive, JointGap, Solver, World, WorldOptions};
+use kutzbach::simulate::{Drive, Solver, World, WorldOptions, joint_gaps};
 use std::error::Error;
 use std::f64::consts::TAU;
 use std::hint::black_box;
@@ -286,28 +286,9 @@ impl Ready {
 
     /// The largest gap of any joint (characteristic lengths, rad) where the links are in given poses (`world_from_link`).
     pub fn closure_error(&self, poses: &[Rigid<f64>]) -> f64 {
-        let joints = self.mechanism.joints().iter();
-        let gaps: Vec<JointGap> = joints
-            .zip(&self.geometry.sides)
-            .zip(&self.geometry.displacements)
-            .map(|((joint, [before, after]), displacement)| {
-                let p = poses[joint.predecessor.link.0].compose(before);
-                let s = poses[joint.successor.link.0].compose(after);
-                let relative = p.inverse().compose(&s);
-                let nearest = displacement.displacement(&displacement.fit(&relative));
-                let off = nearest.inverse().compose(&relative);
-                JointGap {
-                    position: norm(&off.translation),
-                    angle: norm(&off.rotation_vector()),
-                }
-            })
-            .collect();
+        let gaps = joint_gaps(&self.mechanism, &self.geometry, poses);
         largest_gap(&gaps, self.length)
     }
-}
-
-fn norm(v: &[f64; 3]) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 fn follow(subject: Subject, mechanism: &Mechanism, analysis: &Analysis) -> Result<Curve> {

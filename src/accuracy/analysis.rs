@@ -6,9 +6,9 @@ use crate::closure::{Arithmetic, Geometry, Part};
 use crate::matrix::MatrixError;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::mobility::{
-    Analysis, AnalysisOptions, ExactBudget, MoreDigits, OneEngine, PartRank, Pose, Structure,
-    Verdict, analyse, chart_alone, exact_alone, generic_count, germ_alone, kernel_of,
-    kutzbach_count, rank_alone, subgroups_alone,
+    Analysis, AnalysisOptions, MoreDigits, OneEngine, PartRank, Pose, Structure, Verdict, analyse,
+    chart_alone, exact_alone, generic_count, germ_alone, kernel_of, kutzbach_count, rank_alone,
+    subgroups_alone,
 };
 use std::collections::BTreeSet;
 use std::hint::black_box;
@@ -26,7 +26,6 @@ pub(super) struct Subject<'a> {
     pub geometry: &'a Geometry<f64>,
     pub analysis: &'a Analysis,
     pub options: &'a AnalysisOptions,
-    pub exact: ExactBudget,
     pub patience: Patience,
 }
 
@@ -197,6 +196,7 @@ impl Subject<'_> {
     ) -> Result<OneEngine, MatrixError> {
         match question {
             Question::Rank(53) => {
+                // More digits begin with the numbers of the file; so that times compare, doubles do too.
                 let geometry =
                     Geometry::new(pose.mechanism, pose.configuration, &Arithmetic::double());
                 black_box(&geometry);
@@ -212,7 +212,7 @@ impl Subject<'_> {
                 let kernel = kernel_of(pose, rank)?;
                 germ_alone(pose, part, rank, kernel.as_ref(), order)
             }
-            Question::Exact => Ok(exact_alone(pose, part, rank, self.exact)),
+            Question::Exact => Ok(exact_alone(pose, part, rank, self.options.exact)),
         }
     }
 

@@ -143,7 +143,6 @@ pub fn measure(
         geometry: &ready.geometry,
         analysis,
         options: &analysis_options,
-        exact: options.exact,
         patience: ready.patience,
     };
     let (ways, stopped) =

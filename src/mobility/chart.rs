@@ -255,28 +255,10 @@ fn climb(
     } else {
         53
     };
-    let moved = !pose.as_drawn;
     let mut test;
     let mut rungs = LADDER.iter().filter(|rung| **rung > rank.bits);
     loop {
-        test = if bits == 53 {
-            let section = Section {
-                mechanism: pose.mechanism,
-                geometry: pose.geometry,
-                part,
-                metric: &kernel.metric,
-            };
-            probe(&section, pose.states, kernel, &ways, radius, stated)?
-        } else {
-            let (geometry, states) = more.polished(pose, part, moved, bits)?;
-            let section = Section {
-                mechanism: pose.mechanism,
-                geometry,
-                part,
-                metric: &kernel.metric,
-            };
-            probe(&section, states, kernel, &ways, radius, stated)?
-        };
+        test = probe_in_bits(pose, more, part, kernel, &ways, (radius, stated), bits)?;
         test.bits = bits;
         // Steps are computed in double precision, where a singular value this small is damped away: closing then fails at
         // regular poses too.
@@ -310,42 +292,53 @@ pub(super) fn chart_in_bits(
     bits: u32,
 ) -> Result<ChartTest, MatrixError> {
     let ways = directions(&kernel.basis);
-    let (radius, stated) = (first_radius(rank), rank.stated);
-    let metric = &kernel.metric;
-    let section = |geometry| Section {
-        mechanism: pose.mechanism,
-        geometry,
-        part,
-        metric,
-    };
+    let reach = (first_radius(rank), rank.stated);
+    probe_in_bits(pose, more, part, kernel, &ways, reach, bits)
+}
+
+/// One probe in so many bits, at a radius and with what the stated precision leaves open.
+fn probe_in_bits(
+    pose: &Pose<'_>,
+    more: &mut MoreDigits,
+    part: &Part,
+    kernel: &Kernel,
+    ways: &[Vec<f64>],
+    (radius, stated): (f64, f64),
+    bits: u32,
+) -> Result<ChartTest, MatrixError> {
+    let (mechanism, metric) = (pose.mechanism, &kernel.metric);
     if bits <= 53 {
-        return probe(
-            &section(pose.geometry),
-            pose.states,
-            kernel,
-            &ways,
-            radius,
-            stated,
-        );
+        let section = Section {
+            mechanism,
+            geometry: pose.geometry,
+            part,
+            metric,
+        };
+        return probe(&section, pose.states, kernel, ways, radius, stated);
     }
     let (geometry, states) = more.polished(pose, part, !pose.as_drawn, bits)?;
     let section = Section {
-        mechanism: pose.mechanism,
+        mechanism,
         geometry,
         part,
         metric,
     };
-    probe(&section, states, kernel, &ways, radius, stated)
+    probe(&section, states, kernel, ways, radius, stated)
+}
+
+/// Up to which order a germ is told from none with such a noise.
+fn orders_seen(stated: f64, noise: f64) -> i32 {
+    if stated > 0.5 * noise {
+        ORDERS_SEEN_ROUNDED
+    } else {
+        ORDERS_SEEN
+    }
 }
 
 /// By what factor a test stands clear of the noise: what a germ of the highest order seen would leave over at least, or what
 /// is left over; `None` where the test says nothing.
 pub(super) fn clearness(test: &ChartTest, stated: f64) -> Option<f64> {
-    let orders = if stated > 0.5 * test.noise {
-        ORDERS_SEEN_ROUNDED
-    } else {
-        ORDERS_SEEN
-    };
+    let orders = orders_seen(stated, test.noise);
     let clear = match test.outcome {
         ChartOutcome::Regular => COEFFICIENT * test.radius.powi(orders) / test.noise,
         ChartOutcome::Singular { .. } => test.leftover / test.noise,
@@ -385,11 +378,7 @@ fn probe<R: Real>(
         }
     }
     let (index, leftover) = worst;
-    let orders = if stated > 0.5 * noise {
-        ORDERS_SEEN_ROUNDED
-    } else {
-        ORDERS_SEEN
-    };
+    let orders = orders_seen(stated, noise);
     let visible = COEFFICIENT * radius.powi(orders) > noise;
     let outcome = if leftover <= noise {
         if visible {
