@@ -1,12 +1,12 @@
 //! How long answers take within a running program: what a library's user waits for, after a first call.
 //!
 //! ```text
-//! cargo run --release --example timed_answers -- [--rounds N] [--turn JOINT [--poses N]] FILE...
+//! cargo run --release --example timed_answers -- [--rounds N] [--depth NAME] [--turn JOINT [--poses N]] FILE...
 //! ```
 //!
 //! Prints a line of JSON for every file: the freedom found, and for each question the least and the median seconds over the
 //! rounds. `read` is from the file's text to the mechanism; `rank`, `verdict`, `motions` and `everything` are analyses of
-//! that [`Depth`], from the mechanism; `turn` is a whole turn of the joint in so many poses, from the mechanism too, with
+//! that [`Depth`], from the mechanism, one of them only with `--depth`; `turn` is a whole turn of the joint in so many poses, from the mechanism too, with
 //! the largest gap of its loops. `benches/peers` sets these beside other tools.
 
 use kutzbach::mobility::{AnalysisOptions, Depth, analyse};
@@ -61,8 +61,10 @@ fn timed<T, E>(
     let mut seconds = Vec::with_capacity(rounds);
     for _ in 0..rounds {
         let start = Instant::now();
-        last = question()?;
+        let answer = question()?;
         seconds.push(start.elapsed().as_secs_f64());
+        // Nobody waits for the last answer to be thrown away.
+        last = answer;
     }
     seconds.sort_by(f64::total_cmp);
     let at = |index: usize| seconds.get(index).copied().unwrap_or(f64::NAN);
@@ -78,6 +80,7 @@ fn timed<T, E>(
 fn answers(
     file: &str,
     rounds: usize,
+    only: Option<&str>,
     turn: Option<&str>,
     poses: &[usize],
 ) -> Result<Answers, Box<dyn Error>> {
@@ -87,7 +90,10 @@ fn answers(
     let mut seconds = BTreeMap::from([("read", read)]);
     let mut finite = None;
     let mut instantaneous = None;
-    for (name, depth) in DEPTHS {
+    for (name, depth) in DEPTHS
+        .into_iter()
+        .filter(|(name, _)| only.is_none_or(|only| only == *name))
+    {
         let options = AnalysisOptions {
             depth,
             ..AnalysisOptions::default()
@@ -138,6 +144,7 @@ fn answers(
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let mut rounds = 5;
+    let mut only = None;
     let mut turn = None;
     let mut poses = POSES.to_vec();
     while let Some(argument) = arguments.next() {
@@ -149,11 +156,26 @@ fn main() -> Result<(), Box<dyn Error>> {
                     .parse::<usize>()?
                     .max(1)
             }
+            "--depth" => {
+                let name = arguments.next().unwrap_or_default();
+                if !DEPTHS.iter().any(|(known, _)| *known == name) {
+                    return Err(
+                        format!("--depth rank|verdict|motions|everything, not `{name}`").into(),
+                    );
+                }
+                only = Some(name);
+            }
             "--turn" => turn = Some(arguments.next().ok_or("--turn JOINT")?),
             "--poses" => poses = vec![arguments.next().ok_or("--poses N")?.parse()?],
             file => println!(
                 "{}",
-                serde_json::to_string(&answers(file, rounds, turn.as_deref(), &poses)?)?
+                serde_json::to_string(&answers(
+                    file,
+                    rounds,
+                    only.as_deref(),
+                    turn.as_deref(),
+                    &poses
+                )?)?
             ),
         }
     }

@@ -107,6 +107,11 @@ impl<R: Real> WalkedCycle<R> {
         }
     }
 
+    /// Number of screws, of all joints together.
+    pub fn screw_count(&self) -> usize {
+        self.joints.iter().map(|joint| joint.screws.len()).sum()
+    }
+
     /// The six closure equations' value, about the centre: rotation vector (rad), then displacement of the centre in
     /// units of the cycle's length.
     pub fn residual(&self) -> [R; 6] {

@@ -1,10 +1,12 @@
 //! The derivative of the cycle equations: joint screws stacked cycle by cycle.
 
-use super::cycle::{Walk, WalkedCycle};
+use super::cycle::WalkedCycle;
 use super::displacement::JointState;
+use super::equations::Equations;
 use super::geometry::{Geometry, Uncertainty};
 use crate::matrix::{MatrixError, Real, SparseMatrix};
 use crate::mechanism::{FreedomPart, Mechanism};
+use std::collections::HashMap;
 
 /// A part of a mechanism whose equations stand alone: some joints, the cycles through them, the couplings between them.
 #[derive(Clone, Debug, Default)]
@@ -67,20 +69,7 @@ pub fn jacobian<R: Real>(
     states: &[JointState<R>],
     part: &Part,
 ) -> Result<CycleJacobian<R>, MatrixError> {
-    for (what, found) in [
-        ("joints of the geometry", geometry.displacements.len()),
-        ("joint states", states.len()),
-    ] {
-        let expected = mechanism.joints().len();
-        if found != expected {
-            return Err(MatrixError::Length {
-                what,
-                expected,
-                found,
-            });
-        }
-    }
-    linearised(geometry, states, part)
+    Equations::at(mechanism, geometry, states, part)?.linearised(geometry, part)
 }
 
 /// [`jacobian`] of a geometry that may differ from any mechanism's, as where a joint is relaxed to see what that would do.
@@ -89,95 +78,70 @@ pub(crate) fn linearised<R: Real>(
     states: &[JointState<R>],
     part: &Part,
 ) -> Result<CycleJacobian<R>, MatrixError> {
-    let one = &geometry.one;
-    let freedoms = |joint: usize| geometry.displacements[joint].kind().freedoms();
-    let walks: Vec<WalkedCycle<R>> = part
-        .cycles
-        .iter()
-        .map(|cycle: &Vec<(usize, bool)>| WalkedCycle::walk(geometry, states, cycle as &Walk))
-        .collect();
-    let lengths: Vec<f64> = walks.iter().map(|walk| walk.length).collect();
-    let length = if walks.is_empty() {
-        1.0
-    } else {
-        0.0.norm(&lengths) / (walks.len() as f64).sqrt()
-    };
-    let mut first_column = std::collections::HashMap::with_capacity(part.joints.len());
-    let mut variables = Vec::new();
-    for &joint in &part.joints {
-        first_column.insert(joint, variables.len());
-        variables.extend((0..freedoms(joint).len()).map(|variable| (joint, variable)));
-    }
-    let mut triplets = Vec::new();
-    let mut residual = Vec::new();
-    for (index, walk) in walks.iter().enumerate() {
-        for joint in &walk.joints {
-            let Some(&first) = first_column.get(&joint.joint) else {
-                continue;
-            };
-            for (variable, screw) in joint.screws.iter().enumerate() {
-                let part = freedoms(joint.joint)[variable];
-                let unit = one.constant(variable_unit(part, length));
-                for (row, entry) in walk.column(joint, screw).into_iter().enumerate() {
-                    let entry = if part == FreedomPart::Translation {
-                        entry * unit.clone()
-                    } else {
-                        entry
-                    };
-                    triplets.push((6 * index + row, first + variable, entry));
+    Equations::evaluated(geometry, states, part)?.linearised(geometry, part)
+}
+
+impl<R: Real> Equations<R> {
+    /// With their derivative; of the geometry and the part that they were evaluated for.
+    ///
+    /// # Errors
+    /// [`MatrixError::NotFinite`] where a screw leaves the range of numbers.
+    pub fn linearised(
+        self,
+        geometry: &Geometry<R>,
+        part: &Part,
+    ) -> Result<CycleJacobian<R>, MatrixError> {
+        let one = &geometry.one;
+        let freedoms = |joint: usize| geometry.displacements[joint].kind().freedoms();
+        let mut first_column = HashMap::with_capacity(part.joints.len());
+        let mut variables = Vec::new();
+        for &joint in &part.joints {
+            first_column.insert(joint, variables.len());
+            variables.extend((0..freedoms(joint).len()).map(|variable| (joint, variable)));
+        }
+        let entries: usize = self.walks.iter().map(|w| 6 * w.screw_count()).sum();
+        let mut triplets = Vec::with_capacity(entries);
+        for (index, walk) in self.walks.iter().enumerate() {
+            for joint in &walk.joints {
+                let Some(&first) = first_column.get(&joint.joint) else {
+                    continue;
+                };
+                for (variable, screw) in joint.screws.iter().enumerate() {
+                    let part = freedoms(joint.joint)[variable];
+                    let unit = one.constant(variable_unit(part, self.length));
+                    for (row, entry) in walk.column(joint, screw).into_iter().enumerate() {
+                        let entry = if part == FreedomPart::Translation {
+                            entry * unit.clone()
+                        } else {
+                            entry
+                        };
+                        triplets.push((6 * index + row, first + variable, entry));
+                    }
                 }
             }
         }
-        residual.extend(walk.residual());
-    }
-    let mut block_starts: Vec<usize> = (0..walks.len()).map(|i| 6 * i).collect();
-    for &coupling in &part.couplings {
-        let row = residual.len();
-        block_starts.push(row);
-        let (terms, offset) = &geometry.couplings[coupling];
-        let weights: Vec<(usize, R, R)> = terms
-            .iter()
-            .map(|(joint, factor)| {
-                let unit = freedoms(*joint)
-                    .first()
-                    .map_or(1.0, |part| variable_unit(*part, length));
-                (*joint, factor.clone(), factor.clone() * one.constant(unit))
-            })
-            .collect();
-        // The row is brought to unit length, so that a gear of ratio 1000 weighs as much as one of ratio 1.
-        let row_entries: Vec<R> = weights
-            .iter()
-            .map(|(_, _, weight)| weight.clone())
-            .collect();
-        let mut norm = one.norm(&row_entries);
-        if norm.is_zero() {
-            norm = one.clone();
-        }
-        let mut value = -offset.clone();
-        for (joint, factor, weight) in weights {
-            if let Some(variable) = states[joint].values.first() {
-                value = value + factor * variable.clone();
-            }
-            if let Some(&first) = first_column.get(&joint) {
-                triplets.push((row, first, weight / norm.clone()));
+        let mut block_starts: Vec<usize> = (0..self.walks.len()).map(|i| 6 * i).collect();
+        for row in self.coupling_rows {
+            let index = 6 * self.walks.len() + block_starts.len() - self.walks.len();
+            block_starts.push(index);
+            for (joint, weight) in row {
+                if let Some(&first) = first_column.get(&joint) {
+                    triplets.push((index, first, weight));
+                }
             }
         }
-        residual.push(value / norm);
-    }
-    let matrix =
-        SparseMatrix::from_triplets(residual.len(), variables.len(), one.zero_like(), triplets)?
+        let shape = (self.residual.len(), variables.len());
+        let matrix = SparseMatrix::from_triplets(shape.0, shape.1, one.zero_like(), triplets)?
             .with_row_blocks(block_starts)?;
-    matrix.largest_entry()?;
-    if let Some(row) = residual.iter().position(|r| !r.is_finite()) {
-        return Err(MatrixError::NotFinite { row, column: 0 });
+        matrix.largest_entry()?;
+        Ok(CycleJacobian {
+            matrix,
+            variables,
+            residual: self.residual,
+            length: self.length,
+            walks: self.walks,
+        })
     }
-    Ok(CycleJacobian {
-        matrix,
-        variables,
-        residual,
-        length,
-        walks,
-    })
 }
 
 /// How far the entries of a part's Jacobian may be from those of the mechanism meant, relative to unit columns, in the
@@ -190,25 +154,30 @@ pub(crate) fn linearised<R: Real>(
 /// is then off by at most `√n` times as much. Rounding in the arithmetic is bounded the same way, with `u` = unit roundoff
 /// times the largest coordinate met, summed, since it is not random.
 pub fn entry_accuracy<R: Real>(mechanism: &Mechanism, jacobian: &CycleJacobian<R>) -> (f64, f64) {
-    let exact = mechanism.precision().is_exact();
     let mut stated = 0.0f64;
-    let mut rounding = 0.0f64;
-    let roundoff = jacobian.matrix.zero().unit_roundoff();
-    for walk in &jacobian.walks {
-        let columns: usize = walk.joints.iter().map(|j| j.screws.len()).sum();
-        let spread = (2.0 * columns as f64).sqrt();
-        if !exact {
+    if !mechanism.precision().is_exact() {
+        for walk in &jacobian.walks {
             let Uncertainty { lengths, angles } = walk.uncertainty;
             let places = lengths / walk.length;
             let tilts = angles * (walk.extent / walk.length).hypot(1.0);
-            stated = stated.max(2.0 * (columns as f64).sqrt() * places.hypot(tilts));
+            stated = stated.max(2.0 * (walk.screw_count() as f64).sqrt() * places.hypot(tilts));
         }
+    }
+    let roundoff = jacobian.matrix.zero().unit_roundoff();
+    (stated, rounding_of(&jacobian.walks, roundoff))
+}
+
+/// The share of the arithmetic in [`entry_accuracy`].
+pub(crate) fn rounding_of<R: Real>(walks: &[WalkedCycle<R>], roundoff: f64) -> f64 {
+    let mut rounding = 0.0f64;
+    for walk in walks {
+        let spread = (2.0 * walk.screw_count() as f64).sqrt();
         // Each joint composes three displacements; a dozen roundings of coordinates up to the reach, in units of length.
         let steps = 12.0 * walk.joints.len() as f64;
         rounding = rounding.max(spread * steps * roundoff * (1.0 + walk.reach / walk.length));
     }
     // Couplings: their factors are exact or rounded like any number; one rounding each.
-    (stated, rounding.max(4.0 * roundoff))
+    rounding.max(4.0 * roundoff)
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@
 mod assembly;
 mod cycle;
 mod displacement;
+mod equations;
 mod geometry;
 mod jacobian;
 mod positional;

@@ -4,8 +4,9 @@
 //! the weights `w` such that every column of the Jacobian had unit length there. A direction is a unit vector in `z`.
 
 use super::displacement::JointState;
+use super::equations::Equations;
 use super::geometry::Geometry;
-use super::jacobian::{CycleJacobian, Part, entry_accuracy, jacobian};
+use super::jacobian::{CycleJacobian, Part, rounding_of};
 use crate::matrix::{LeastSquares, MatrixError, Real, SparseMatrix, held_step};
 use crate::mechanism::Mechanism;
 
@@ -70,16 +71,6 @@ const SPARSE_UNKNOWNS: usize = 40;
 /// A step that leads away from closing is halved so often.
 const SHORTENINGS: i32 = 6;
 
-fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0f64, |m, x| {
-        if m.is_nan() || x.abs() <= m {
-            m
-        } else {
-            x.abs()
-        }
-    })
-}
-
 impl<R: Real> Section<'_, R> {
     /// Moves the part's joints by `z`.
     pub fn advance(&self, states: &mut [JointState<R>], z: &[R]) {
@@ -132,11 +123,10 @@ impl<R: Real> Section<'_, R> {
         held: &[Vec<f64>],
         limit: usize,
     ) -> Result<Closing, MatrixError> {
-        let mut here = jacobian(self.mechanism, self.geometry, states, self.part)?;
-        let (_, rounding) = entry_accuracy(self.mechanism, &here);
-        let size = |r: &[R]| largest(&r.iter().map(Real::to_f64).collect::<Vec<_>>());
+        let mut here = self.equations(states)?;
+        let rounding = rounding_of(&here.walks, self.geometry.one.unit_roundoff());
         let mut closing = Closing {
-            residual: size(&here.residual),
+            residual: here.largest(),
             rounding,
             way: 0.0,
             last_step: 0.0,
@@ -146,12 +136,13 @@ impl<R: Real> Section<'_, R> {
         let mut kept = Vec::new();
         while closing.steps < limit && closing.residual > floor {
             let unit = self.geometry.one.constant(closing.residual);
-            let right: Vec<f64> = here
+            let linear = here.linearised(self.geometry, self.part)?;
+            let right: Vec<f64> = linear
                 .residual
                 .iter()
                 .map(|r| -(r.clone() / unit.clone()).to_f64())
                 .collect();
-            let mut step = self.across(&here, right, held)?;
+            let mut step = self.across(&linear, right, held)?;
             for direction in held {
                 let along: f64 = direction.iter().zip(&step).map(|(a, b)| a * b).sum();
                 step.iter_mut()
@@ -183,8 +174,8 @@ impl<R: Real> Section<'_, R> {
                     .map(|x| self.geometry.one.constant(*x) * factor.clone())
                     .collect();
                 self.advance(states, &z);
-                let found = jacobian(self.mechanism, self.geometry, states, self.part)?;
-                let reached = size(&found.residual);
+                let found = self.equations(states)?;
+                let reached = found.largest();
                 if reached < closing.residual {
                     there = Some((found, reached));
                     length *= 0.5f64.powi(halving);
@@ -206,6 +197,10 @@ impl<R: Real> Section<'_, R> {
             }
         }
         Ok(closing)
+    }
+
+    fn equations(&self, states: &[JointState<R>]) -> Result<Equations<R>, MatrixError> {
+        Equations::at(self.mechanism, self.geometry, states, self.part)
     }
 
     /// The least step that closes to first order and does not move along the held directions, in the metric.

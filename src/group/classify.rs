@@ -44,10 +44,19 @@ pub struct Classification {
 /// # Errors
 /// [`GroupError::NoConvergence`].
 pub fn classify(system: &ScrewSystem) -> Result<Classification, GroupError> {
+    let (closed, closing) = system.is_closed()?;
+    classify_known(system, closed, closing)
+}
+
+/// [`classify`] where it is known whether the space is closed under the bracket, and by which margin.
+pub(super) fn classify_known(
+    system: &ScrewSystem,
+    closed: bool,
+    closing: Margin,
+) -> Result<Classification, GroupError> {
     let dimension = system.dimension();
     let angular = Decomposition::of(3, dimension, true, |i, j| system.basis[j][i])?;
     let (rotations, decision) = Margin::decide(&angular.values, system.uncertainty + ROUNDING);
-    let (closed, closing) = system.is_closed()?;
     let mut result = Classification {
         subgroup: None,
         rotations,

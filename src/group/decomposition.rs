@@ -103,6 +103,19 @@ impl Decomposition {
             });
         }
         let matrix = Mat::from_fn(rows, columns, entry);
+        if columns == 1 && !full {
+            // A single column is its own decomposition.
+            let norm = matrix.norm_l2();
+            return Ok(Self {
+                left: if norm > 0.0 {
+                    matrix * faer::Scale(1.0 / norm)
+                } else {
+                    Mat::from_fn(rows, 1, |i, _| f64::from(u8::from(i == 0)))
+                },
+                right: Mat::identity(1, 1),
+                values: vec![norm],
+            });
+        }
         let svd = if full {
             matrix.svd()
         } else {

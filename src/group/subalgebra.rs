@@ -2,7 +2,7 @@
 
 use super::GroupError;
 use super::class::DisplacementSubgroup;
-use super::classify::classify;
+use super::classify::classify_known;
 use super::decomposition::Margin;
 use super::gauge::Gauge;
 use super::system::ScrewSystem;
@@ -117,7 +117,7 @@ impl Subalgebra {
     /// # Errors
     /// [`GroupError::NoConvergence`].
     pub fn subgroup(&self) -> Result<Option<DisplacementSubgroup>, GroupError> {
-        Ok(classify(&self.0)?.subgroup)
+        Ok(classify_known(&self.0, true, self.margin())?.subgroup)
     }
 }
 

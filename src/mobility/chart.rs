@@ -206,6 +206,7 @@ pub(super) fn literal_leftover(
     let double = probe(
         &section(pose.geometry),
         pose.states,
+        None,
         kernel,
         &ways,
         radius,
@@ -229,7 +230,8 @@ pub(super) fn literal_leftover(
         part,
         metric,
     };
-    let fine = probe(&section, states, kernel, &ways, radius, 0.0)?;
+    let guide = Guide::of(pose, part, metric);
+    let fine = probe(&section, states, Some(&guide), kernel, &ways, radius, 0.0)?;
     Ok((fine.leftover > fine.noise).then_some(fine.leftover))
 }
 
@@ -314,7 +316,7 @@ fn probe_in_bits(
             part,
             metric,
         };
-        return probe(&section, pose.states, kernel, ways, radius, stated);
+        return probe(&section, pose.states, None, kernel, ways, radius, stated);
     }
     let (geometry, states) = more.polished(pose, part, !pose.as_drawn, bits)?;
     let section = Section {
@@ -323,7 +325,8 @@ fn probe_in_bits(
         part,
         metric,
     };
-    probe(&section, states, kernel, ways, radius, stated)
+    let guide = Guide::of(pose, part, metric);
+    probe(&section, states, Some(&guide), kernel, ways, radius, stated)
 }
 
 /// Up to which order a germ is told from none with such a noise.
@@ -347,9 +350,39 @@ pub(super) fn clearness(test: &ChartTest, stated: f64) -> Option<f64> {
     clear.is_finite().then_some(clear)
 }
 
+/// Closes in double precision what is to be closed in more digits: that takes most of the steps, which then cost little.
+struct Guide<'a> {
+    section: Section<'a, f64>,
+    base: &'a [JointState<f64>],
+}
+
+impl<'a> Guide<'a> {
+    fn of(pose: &Pose<'a>, part: &'a Part, metric: &'a Metric) -> Self {
+        Self {
+            section: Section {
+                mechanism: pose.mechanism,
+                geometry: pose.geometry,
+                part,
+                metric,
+            },
+            base: pose.states,
+        }
+    }
+
+    /// The way from the pose to where a way along the kernel leads and closing ends.
+    fn closed(&self, along: &[f64], held: &[Vec<f64>]) -> Result<Vec<f64>, MatrixError> {
+        let mut states = self.base.to_vec();
+        self.section.advance_by(&mut states, along);
+        self.section.close(&mut states, held, 40)?;
+        Ok(self.section.way_between(self.base, &states))
+    }
+}
+
+/// Goes along each of the ways by the radius and closes, in the arithmetic of the section.
 fn probe<R: Real>(
     section: &Section<'_, R>,
     base: &[JointState<R>],
+    guide: Option<&Guide<'_>>,
     kernel: &Kernel,
     ways: &[Vec<f64>],
     radius: f64,
@@ -360,7 +393,10 @@ fn probe<R: Real>(
         for &joint in &section.part.joints {
             states[joint] = base[joint].clone();
         }
-        let z: Vec<f64> = way.iter().map(|x| x * radius).collect();
+        let mut z: Vec<f64> = way.iter().map(|x| x * radius).collect();
+        if let Some(guide) = guide {
+            z = guide.closed(&z, &kernel.basis.vectors)?;
+        }
         section.advance_by(&mut states, &z);
         let closing = section.close(&mut states, &kernel.basis.vectors, 40)?;
         Ok((closing.residual, closing.rounding))

@@ -201,22 +201,32 @@ pub fn part_mobility(
         found.branches = Some(Vec::new());
         return Ok(found.with(evidence));
     }
-    let kernel = Kernel::of(pose, rank, KERNEL_LIMIT)?;
-    let one_branch = |found: &mut PartFinding, more: &mut MoreDigits| -> Result<(), MatrixError> {
-        if let Some(kernel) = &kernel {
-            found.branches = Some(vec![PartBranch {
-                dimension: freedom,
-                half_branches: (freedom == 1).then_some(2),
-                poses: if depth >= Depth::Motions {
-                    poses_of_regular_part(pose, part, rank, kernel)?
-                } else {
-                    Vec::new()
-                },
-            }]);
-            if rank.stated > 0.0 && surplus < freedom as i64 && kernel.basis.complete {
-                found.nominal = literal_leftover(pose, more, part, rank, kernel)?
-                    .map(|left| left * rank.jacobian.length);
-            }
+    let kernel_here = || Kernel::of(pose, rank, KERNEL_LIMIT);
+    let one_branch = |found: &mut PartFinding,
+                      more: &mut MoreDigits,
+                      known: Option<&Kernel>|
+     -> Result<(), MatrixError> {
+        if rank.settled().is_none() {
+            return Ok(());
+        }
+        let followed = depth >= Depth::Motions;
+        let rounded = rank.stated > 0.0 && surplus < freedom as i64;
+        let own = match known {
+            None if followed || rounded => kernel_here()?,
+            _ => None,
+        };
+        let kernel = known.or(own.as_ref());
+        found.branches = Some(vec![PartBranch {
+            dimension: freedom,
+            half_branches: (freedom == 1).then_some(2),
+            poses: match kernel {
+                Some(kernel) if followed => poses_of_regular_part(pose, part, rank, kernel)?,
+                _ => Vec::new(),
+            },
+        }]);
+        if rounded && let Some(kernel) = kernel.filter(|kernel| kernel.basis.complete) {
+            found.nominal = literal_leftover(pose, more, part, rank, kernel)?
+                .map(|left| left * rank.jacobian.length);
         }
         Ok(())
     };
@@ -249,7 +259,7 @@ pub fn part_mobility(
             CertificateLevel::Subgroup,
             subgroups.text.clone(),
         );
-        one_branch(&mut found, more)?;
+        one_branch(&mut found, more, None)?;
         return Ok(found.with(evidence));
     }
     if surplus == freedom as i64 {
@@ -261,11 +271,12 @@ pub fn part_mobility(
             CertificateLevel::Numeric,
             text.to_owned(),
         );
-        one_branch(&mut found, more)?;
+        one_branch(&mut found, more, None)?;
         return Ok(found.with(evidence));
     }
     // Fewer equations than unknowns leave a motion over the complex numbers, but not always a real one (x² + y² = 0).
     let lower = subgroups.lower;
+    let kernel = kernel_here()?;
     let Some(kernel) = kernel.as_ref().filter(|k| k.basis.complete) else {
         let why = format!(
             "{freedom} instantaneous freedoms in one block are too many to follow; driving or fixing some joints would decide"
@@ -299,7 +310,7 @@ pub fn part_mobility(
                 CertificateLevel::Numeric,
                 text,
             );
-            one_branch(&mut found, more)?;
+            one_branch(&mut found, more, Some(kernel))?;
             Ok(found.with(evidence))
         }
         ChartOutcome::Singular { .. } => {

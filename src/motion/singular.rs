@@ -28,6 +28,10 @@ const PLACES: [f64; 6] = [0.25, 0.38, 0.53, 0.7, 0.86, 1.0];
 const ROUNDS: usize = 9;
 const AGREEMENT: f64 = 1e-11;
 
+/// A least value of g that the parabola does not bring below this share of the largest around is not taken for zero. Where g
+/// touches zero the parabola is off by the next orders only, which are far smaller.
+const NEARLY_ZERO: f64 = 0.5;
+
 /// Where inner and outer poses disagree by more than this about the root, in steps of the curve, none is believed.
 const DOUBTFUL: f64 = 1e-6;
 
@@ -92,6 +96,11 @@ impl Probe<'_> {
             g: self.bordered(),
             pose,
         })
+    }
+
+    /// The value of g at a node.
+    fn at_node(&mut self, node: &Node) -> Option<f64> {
+        self.solver.linearise(&node.pose).then(|| self.bordered())
     }
 
     /// g at the last linearised pose: with p the shortest solution of B p = u and t the tangent, x is a combination of both.
@@ -171,8 +180,8 @@ fn locate_in(
     // Where g vanishes, roughly: from readings at the nodes.
     let mut seen: Vec<(f64, f64)> = Vec::new();
     for node in nodes {
-        if let Some(reading) = probe.read(node.arc) {
-            seen.push((node.arc, reading.g));
+        if let Some(g) = probe.at_node(node) {
+            seen.push((node.arc, g));
         }
     }
     let mut centre = rough_root(&seen)?;
@@ -369,7 +378,9 @@ fn rough_root(seen: &[(f64, f64)]) -> Option<f64> {
     let (d0, d1) = ((y1 - y0) / (x1 - x0), (y2 - y1) / (x2 - x1));
     let bend = (d1 - d0) / (x2 - x0);
     let root = 0.5 * (x0 + x1) - 0.5 * d0 / bend;
-    (root > x0 && root < x2).then_some(root)
+    let there = y0 + (root - x0) * (d0 + (root - x1) * bend);
+    let largest = seen.iter().fold(0.0f64, |m, (_, y)| m.max(y.abs()));
+    (root > x0 && root < x2 && there.abs() < NEARLY_ZERO * largest).then_some(root)
 }
 
 /// The root of a polynomial near a guess; where it does not change sign, that of its derivative.

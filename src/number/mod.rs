@@ -63,7 +63,7 @@ use dashu::float::round::mode::HalfEven;
 use dashu::rational::RBig;
 use evaluate::Decision;
 use std::fmt;
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, LazyLock, OnceLock};
 use tree::{MAX_NODES, Operation, STORED_BITS};
 
 /// Binary floating-point number of any precision, rounded half to even.
@@ -174,13 +174,16 @@ impl Number {
     /// The number 0.
     #[must_use]
     pub fn zero() -> Self {
-        Self::from_rational(RBig::ZERO)
+        // Frames and axes are full of it: one that all share.
+        static ZERO: LazyLock<Number> = LazyLock::new(|| Number::from_rational(RBig::ZERO));
+        ZERO.clone()
     }
 
     /// The number 1.
     #[must_use]
     pub fn one() -> Self {
-        Self::from_rational(RBig::ONE)
+        static ONE: LazyLock<Number> = LazyLock::new(|| Number::from_rational(RBig::ONE));
+        ONE.clone()
     }
 
     /// The ratio of a circle's circumference to its diameter.

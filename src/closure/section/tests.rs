@@ -1,4 +1,5 @@
 use super::super::geometry::Arithmetic;
+use super::super::jacobian::jacobian;
 use super::super::samples::{
     CRANK_ROCKER, Place, Written, flat_parallelogram, four_bar, planar, ring, sarrus,
 };
@@ -51,8 +52,8 @@ impl<R: Real> Drawn<R> {
     }
 
     fn residual(&self, states: &[JointState<R>]) -> f64 {
-        let there = jacobian(&self.mechanism, &self.geometry, states, &self.part).unwrap();
-        largest(&there.residual.iter().map(Real::to_f64).collect::<Vec<_>>())
+        let there = Equations::at(&self.mechanism, &self.geometry, states, &self.part).unwrap();
+        there.largest()
     }
 }
 

@@ -1,12 +1,9 @@
 //! Chains of screws and of what replaced whole loops, between two links.
 
+use super::axes::Axes;
 use super::clear;
 use crate::group::{Gauge, GroupError, Margin, ScrewSystem, Subalgebra, Twist};
 use crate::mechanism::JointKind;
-use nalgebra::Vector6;
-
-/// How many times its error a number must exceed to be told from zero without a decomposition.
-const SAFE: f64 = 100.0;
 
 /// One member of a chain: a smooth map into SE(3), the identity at the pose.
 #[derive(Clone, Debug)]
@@ -184,42 +181,19 @@ pub fn swept_by<'a>(
 
 /// A quick look that spares most decompositions: false only where the span is certainly not closed, or only just.
 ///
-/// Of less than six freedoms, two turns about directions that differ generate a group that they span only if it is that of
-/// the rotations about a point: then there are no translations and all axes meet. Numbers within [`SAFE`] times their
-/// accuracy are left to the decompositions.
-fn may_close<'a>(pieces: impl IntoIterator<Item = &'a Piece> + Clone, gauge: &Gauge) -> bool {
+/// Of less than six freedoms, turns whose algebra has six dimensions do not span it; see [`Axes`].
+pub fn may_close<'a>(pieces: impl IntoIterator<Item = &'a Piece> + Clone, gauge: &Gauge) -> bool {
     if freedom(pieces.clone()) >= 6 {
         return true;
     }
-    let mut first: Option<Vector6<f64>> = None;
-    let mut parallel = true;
-    let mut slides = false;
-    let mut skew = false;
-    let visible = SAFE * gauge.tolerance().max(1e-12);
+    let mut axes = Axes::new(gauge);
     for piece in pieces {
         let Piece::Factor { twists, .. } = piece else {
             return true;
         };
-        for twist in twists {
-            let own = gauge.measure(twist);
-            let (turn, moment) = (own.fixed_rows::<3>(0), own.fixed_rows::<3>(3));
-            let size = own.norm();
-            if turn.norm() < 0.5 {
-                slides = true;
-                continue;
-            }
-            skew |= turn.dot(&moment).abs() > visible * size * size;
-            let Some(other) = first else {
-                first = Some(own);
-                continue;
-            };
-            let (turn2, moment2) = (other.fixed_rows::<3>(0), other.fixed_rows::<3>(3));
-            parallel &= turn.cross(&turn2).norm() <= visible;
-            let meeting = turn.dot(&moment2) + turn2.dot(&moment);
-            skew |= meeting.abs() > visible * size * other.norm();
-        }
+        twists.iter().for_each(|twist| axes.add(twist));
     }
-    parallel || !(slides || skew)
+    !axes.generate_everything()
 }
 
 /// Whether one algebra clearly lies in another.

@@ -50,6 +50,7 @@
 //! of cuts, of which loops have up to [`MOST_CUTS`](one_loop::MOST_CUTS); most chains are ruled out by a look at their
 //! axes. Rule 3: one such loop for every pair of chains between the same links, on parts of up to [`MOST_JOINTS`] joints.
 
+mod axes;
 mod chain;
 mod loop_spaces;
 mod network;

@@ -1,6 +1,6 @@
 //! Why the configurations of one loop of pieces are a manifold with tangent space ker J.
 
-use super::chain::{Piece, freedom, span, swept, swept_by};
+use super::chain::{Piece, freedom, may_close, span, swept, swept_by};
 use super::clear;
 use crate::group::{Gauge, GroupError, Margin, Subalgebra};
 use std::collections::BTreeMap;
@@ -64,7 +64,9 @@ impl Proof {
 /// matter.
 pub fn prove(pieces: &[&Piece], gauge: &Gauge) -> Result<Option<Proof>, GroupError> {
     let span = span(pieces.iter().copied(), gauge)?;
-    if let Some(group) = swept_by(pieces.iter().copied(), &span)? {
+    if may_close(pieces.iter().copied(), gauge)
+        && let Some(group) = swept_by(pieces.iter().copied(), &span)?
+    {
         return Ok(Some(Proof::Whole(group)));
     }
     if !clear(span.margin()) {
@@ -91,6 +93,11 @@ pub fn prove(pieces: &[&Piece], gauge: &Gauge) -> Result<Option<Proof>, GroupErr
         cuts,
         known: BTreeMap::new(),
     };
+    if pieces.len() > 2 && arcs.none_closes() {
+        // One of two arcs has several pieces, and arcs of one piece each add up to all the freedom, which is more than the
+        // rank.
+        return Ok(None);
+    }
     if let Some(split) = arcs.split()? {
         return Ok(Some(split).filter(|split| split.rank() == rank));
     }
@@ -191,6 +198,21 @@ impl Arcs<'_> {
         Ok(group.map(|group| Arc { pieces, group }))
     }
 
+    /// Whether no arc of several pieces can be a submersion onto a subgroup, at a look.
+    fn none_closes(&self) -> bool {
+        let all = 0..self.cuts.len();
+        all.clone()
+            .flat_map(|from| all.clone().map(move |to| (from, to)))
+            .filter(|(from, to)| from != to)
+            .map(|(from, to)| self.between(from, to))
+            .filter(|arc| arc.len() > 1)
+            .all(|arc| !self.may_close(&arc))
+    }
+
+    fn may_close(&self, arc: &[usize]) -> bool {
+        may_close(arc.iter().map(|&i| self.pieces[i]), self.gauge)
+    }
+
     /// Two complementary arcs that are submersions onto subgroups. Arcs of like length come first: they explain best.
     fn split(&mut self) -> Result<Option<Proof>, GroupError> {
         let count = self.cuts.len();
@@ -208,6 +230,9 @@ impl Arcs<'_> {
         pairs.sort_unstable();
         for (_, from, to) in pairs {
             let (inside, outside) = (self.between(from, to), self.between(to, from));
+            if !(self.may_close(&inside) && self.may_close(&outside)) {
+                continue;
+            }
             let Some(first) = self.arc(inside)? else {
                 continue;
             };
