@@ -72,7 +72,18 @@ fn two_runs_differ_in_times_only() {
     assert_eq!(claim("rank"), ["bounds"; 3]);
     assert_eq!(claim("chart test"), ["decides"; 3]);
     assert_eq!(claim("germ"), ["bounds"; 5]);
-    assert_eq!(claim("all together"), ["decides"]);
+    // The verdict comes without exact algebra, which the report asks for a stronger certificate.
+    for (name, certificate) in [("verdict", "numeric"), ("whole report", "exact")] {
+        assert_eq!(claim(name), ["decides"]);
+        let way = ways.iter().find(|way| way["name"] == name).unwrap();
+        assert_eq!(way["certificate"], certificate, "{name}");
+        assert_eq!(way["says"], "1", "{name}");
+        let asked = way["text"].as_str().unwrap();
+        assert_eq!(asked.contains("exact"), certificate == "exact", "{asked}");
+    }
+    assert!(ways.iter().all(|way| way["name"] == "verdict"
+        || way["name"] == "whole report"
+        || way["certificate"].is_null()));
     // More digits, more margin.
     let margins: Vec<f64> = ways
         .iter()
@@ -116,7 +127,8 @@ fn the_page_names_the_cheapest_setting_and_what_was_left_out() {
     for wanted in [
         "What accuracy costs for bennett: mobile, finite freedom 1",
         "For an error of 1.0e-4 the cheapest setting is",
-        "all together",
+        "verdict",
+        "whole report",
         "1e-14",
         "★",
         "Left out, since they would take too long",
@@ -143,6 +155,9 @@ fn the_figure_is_xml_and_stands_in_the_page() {
         "Pareto front of the simulations",
         "time on the clock for one second of motion (s)",
         "chart test, 53 bits",
+        "verdict, as needed",
+        "1: decided, numeric certificate",
+        "whole report, as needed",
     ] {
         assert!(texts.contains(&wanted), "{wanted}: {texts:?}");
     }

@@ -48,8 +48,13 @@ fn crossings_at_small_angles_are_not_contacts() {
     let found = near("crossing_at_1e-5");
     assert_eq!(found.mobility.kind, Some(SingularKind::Bifurcation));
     assert_eq!(found.branches.unwrap().len(), 2);
-    let found = near("crossing_at_1e-12").mobility;
-    assert!([None, Some(SingularKind::Bifurcation)].contains(&found.kind));
+    for name in ["crossing_at_1e-10", "crossing_at_1e-12"] {
+        let kind = near(name).mobility.kind;
+        assert!(
+            [None, Some(SingularKind::Bifurcation)].contains(&kind),
+            "{name}: {kind:?}"
+        );
+    }
 }
 
 #[test]

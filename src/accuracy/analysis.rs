@@ -1,14 +1,14 @@
-//! The ways to know how a mechanism can move, each by itself.
+//! The ways to know how a mechanism can move, each by itself, and then all of them as a user asks them.
 
+use super::all_engines::WAITED_FOR;
 use super::clock::Patience;
 use super::result::{Claim, Way, WayTiming};
 use crate::closure::{Arithmetic, Geometry, Part};
 use crate::matrix::MatrixError;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::mobility::{
-    Analysis, AnalysisOptions, MoreDigits, OneEngine, PartRank, Pose, Structure, Verdict, analyse,
-    chart_alone, exact_alone, generic_count, germ_alone, kernel_of, kutzbach_count, rank_alone,
-    subgroups_alone,
+    Analysis, AnalysisOptions, MoreDigits, OneEngine, PartRank, Pose, Structure, chart_alone,
+    exact_alone, generic_count, germ_alone, kernel_of, kutzbach_count, rank_alone, subgroups_alone,
 };
 use std::collections::BTreeSet;
 use std::hint::black_box;
@@ -70,17 +70,20 @@ impl Subject<'_> {
             asked.extend(ORDERS.map(Question::Germ));
             asked.push(Question::Exact);
         }
-        let total = asked.len() as f64 + 1.0;
+        let total = (asked.len() + WAITED_FOR.len()) as f64;
+        let alone = asked.len();
         for (index, question) in asked.into_iter().enumerate() {
             if watch(index as f64 / total) {
                 return Ok((ways, true));
             }
             ways.push(self.way(&pose, question)?);
         }
-        if watch(1.0 - 1.0 / total) {
-            return Ok((ways, true));
+        for (index, (name, depth)) in WAITED_FOR.into_iter().enumerate() {
+            if watch((alone + index) as f64 / total) {
+                return Ok((ways, true));
+            }
+            ways.push(self.all_engines(name, depth));
         }
-        ways.push(self.together());
         Ok((ways, false))
     }
 
@@ -115,6 +118,7 @@ impl Subject<'_> {
             says: number.to_string(),
             claim,
             decades: None,
+            certificate: None,
             text: text.to_owned(),
             timing,
         }
@@ -160,6 +164,7 @@ impl Subject<'_> {
                 says: String::new(),
                 claim: Claim::Silent,
                 decades: None,
+                certificate: None,
                 text,
                 timing: WayTiming::default(),
             });
@@ -170,12 +175,14 @@ impl Subject<'_> {
             says: bounds_text(lower, upper),
             claim: self.claim(lower, upper),
             decades: margin.filter(|m| *m > 0.0).map(f64::log10),
+            certificate: None,
             text,
             timing,
         })
     }
 
-    fn claim(&self, lower: usize, upper: Option<usize>) -> Claim {
+    /// What bounds are worth.
+    pub(super) fn claim(&self, lower: usize, upper: Option<usize>) -> Claim {
         let Some(upper) = upper else {
             return Claim::Silent;
         };
@@ -215,42 +222,6 @@ impl Subject<'_> {
             Question::Exact => Ok(exact_alone(pose, part, rank, self.options.exact)),
         }
     }
-
-    /// All engines, as a report asks them.
-    fn together(&self) -> Way {
-        let (_, timing) = self
-            .patience
-            .time(|| analyse(black_box(self.mechanism), self.options).is_ok());
-        let mobility = &self.analysis.mobility;
-        let (lower, upper) = mobility.bounds;
-        let claim = match (mobility.verdict, upper) {
-            (Verdict::Unassembled, _) | (_, None) => Claim::Silent,
-            (Verdict::Undecided, _) => Claim::Bounds,
-            _ => Claim::Decides,
-        };
-        let engines: BTreeSet<&str> = mobility.evidence.iter().map(|(_, e)| e.engine).collect();
-        let engines: Vec<&str> = engines.into_iter().collect();
-        Way {
-            name: "all together".to_owned(),
-            precision: "as needed".to_owned(),
-            says: if claim == Claim::Silent {
-                String::new()
-            } else {
-                bounds_text(lower.unwrap_or(0), upper)
-            },
-            claim,
-            decades: None,
-            text: match engines.as_slice() {
-                [] => "no engine is needed".to_owned(),
-                several => format!(
-                    "{} certificate; asked: {}",
-                    mobility.level.word(),
-                    several.join(", ")
-                ),
-            },
-            timing,
-        }
-    }
 }
 
 /// One way with its precision.
@@ -275,7 +246,8 @@ impl Question {
     }
 }
 
-fn bounds_text(lower: usize, upper: Option<usize>) -> String {
+/// Bounds on the freedom, as short as they can be said; empty where there is none from above.
+pub(super) fn bounds_text(lower: usize, upper: Option<usize>) -> String {
     match upper {
         None => String::new(),
         Some(upper) if upper == lower => upper.to_string(),

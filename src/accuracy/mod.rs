@@ -17,6 +17,7 @@
 //! | file | says |
 //! |---|---|
 //! | `analysis` | the ways to know how a mechanism can move |
+//! | `all_engines` | the last two of them: the verdict and the whole report, which users wait for |
 //! | `motion` | poses per second of a trace, by the tolerance of its samples |
 //! | `simulation`, `work` | every setting of a simulation; how much work each is |
 //! | `effects` | what gravity, contact and the like cost |
@@ -30,6 +31,7 @@
 //! Source of the picture: work–precision diagrams (Hairer, Nørsett, Wanner 1993, *Solving ordinary differential equations I*,
 //! section II.10).
 
+mod all_engines;
 mod analysis;
 mod choose;
 mod clock;

@@ -1,6 +1,7 @@
 //! What is told of one mechanism. Fields named `timing` differ from run to run, nothing else does.
 
 use super::choose::Choice;
+use crate::mobility::CertificateLevel;
 use crate::simulate::Solver;
 use serde::{Deserialize, Serialize};
 
@@ -72,7 +73,7 @@ impl Claim {
 /// A way to know how a mechanism can move.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Way {
-    /// Its name, such as `rank`.
+    /// Its name, such as `rank`; `verdict` and `whole report` are all engines together, asked for no more than that.
     pub name: String,
     /// Digits or order, such as `106 bits`; empty where there is nothing to choose.
     pub precision: String,
@@ -82,6 +83,8 @@ pub struct Way {
     pub claim: Claim,
     /// By how many powers of ten the figures that it rests on stand clear of noise; the least of all parts.
     pub decades: Option<f64>,
+    /// How strong the certificate of a decision is; only of all engines together, which give one.
+    pub certificate: Option<CertificateLevel>,
     /// In a few words, of the part that hangs on least.
     pub text: String,
     /// How long it takes.

@@ -46,7 +46,9 @@ fn a_four_bar_is_measured_all_the_way() {
     assert_eq!(claims(&accuracy, "rank"), [("at most 1", Claim::Bounds); 3]);
     assert_eq!(claims(&accuracy, "chart test"), [("1", Claim::Decides); 3]);
     assert_eq!(claims(&accuracy, "subgroups"), [("1", Claim::Decides)]);
-    assert_eq!(claims(&accuracy, "all together"), [("1", Claim::Decides)]);
+    for waited_for in ["verdict", "whole report"] {
+        assert_eq!(claims(&accuracy, waited_for), [("1", Claim::Decides)]);
+    }
     assert_eq!(accuracy.motion.rows.len(), 7);
     for pair in accuracy.motion.rows.windows(2) {
         assert!(pair[1].error() <= pair[0].error() + 1e-15);

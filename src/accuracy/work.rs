@@ -6,7 +6,9 @@
 //! measured times (one core of a machine of 2024; four-bar, Bricard, Delta, Stewart, Miura, scissors). The model is right to
 //! a factor of two or three, which is enough to tell seconds from hours.
 
-use crate::simulate::{Pieces, Solver};
+use crate::closure::{Geometry, JointState};
+use crate::mechanism::Mechanism;
+use crate::simulate::{Pieces, Solver, World, WorldError, WorldOptions};
 
 /// Seconds of a substep: for every joint held by impulses; for every one of a tree; for each pair of the two; and for the cube
 /// of a tree's joints.
@@ -34,6 +36,32 @@ pub(super) fn seconds_per_second(
         }
     };
     (BODY * pieces.bodies as f64 + substeps as f64 * substep) / time_step
+}
+
+/// The work of a simulated second with each setting.
+///
+/// # Errors
+/// Where no world can be made.
+pub(super) fn work_of(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    states: &[JointState<f64>],
+) -> Result<impl Fn(Solver, f64, usize) -> f64, WorldError> {
+    let pieces = |solver| -> Result<_, WorldError> {
+        let options = WorldOptions {
+            solver,
+            ..WorldOptions::default()
+        };
+        Ok(World::new(mechanism, geometry, states, &options)?.pieces())
+    };
+    let (tree, impulses) = (pieces(Solver::Multibody)?, pieces(Solver::Impulse)?);
+    Ok(move |solver, time_step, substeps| {
+        let pieces = match solver {
+            Solver::Multibody => &tree,
+            Solver::Impulse => &impulses,
+        };
+        seconds_per_second(solver, pieces, time_step, substeps)
+    })
 }
 
 #[cfg(test)]

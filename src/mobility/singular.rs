@@ -9,6 +9,9 @@
 //! What is idle at every pose is taken out first ([`idle_directions`]). One variable left needs no search: an analytic
 //! function of one variable that does not vanish identically has an isolated zero, so that only what is idle moves.
 
+mod resolution;
+
+use self::resolution::Resolution;
 use super::chart::{ChartTest, Kernel};
 use super::germ::{ComplexDimension, Germ, complex_dimension, prestress_certificate};
 use super::germ_zeros::{GermBranch, GermZeroOptions, GermZeros, germ_zeros};
@@ -40,8 +43,8 @@ pub(super) fn most_starts(germ: &Germ) -> usize {
     (TERMS / (variables * terms).max(1)).min(STARTS)
 }
 
-/// Branches whose directions differ by less than the first (rad) share a tangent, from the second on they do not. Directions
-/// are known to some 1e-5.
+/// Branches whose directions differ by less than the first (rad) may share a tangent, from the second on they do not, as far
+/// as [`Resolution`] allows to tell. Directions are known to some 1e-5.
 const SAME_DIRECTION: [f64; 2] = [1e-4, 3e-3];
 
 /// What is known of a singular pose.
@@ -237,7 +240,8 @@ pub(super) fn singular_finding(
                     continue;
                 }
                 found.upper = top;
-                found.kind = kind_of(&lifted, &zeros.branches);
+                let resolution = Resolution::of(&germ, height_at(pose, part));
+                found.kind = kind_of(&lifted, &zeros.branches, &resolution);
                 found.certificate = format!(
                     "the real zeros of the equations' power series give {} the loops close at finite distances from this pose",
                     if lifted.len() == 1 {
@@ -347,7 +351,11 @@ fn isolated(found: &mut PartFinding, start: &Start<'_>) -> Result<(), MatrixErro
 }
 
 /// D7, from the branches through the pose.
-fn kind_of(lifted: &[Lifted], zeros: &[GermBranch]) -> Option<SingularKind> {
+fn kind_of(
+    lifted: &[Lifted],
+    zeros: &[GermBranch],
+    resolution: &Resolution,
+) -> Option<SingularKind> {
     let first = lifted.first()?;
     if lifted
         .iter()
@@ -378,9 +386,10 @@ fn kind_of(lifted: &[Lifted], zeros: &[GermBranch]) -> Option<SingularKind> {
             angle.min(std::f64::consts::PI - angle)
         })
         .fold(0.0, f64::max);
-    if widest < SAME_DIRECTION[0] {
+    let unresolved = resolution.unresolved(lines.len());
+    if widest < SAME_DIRECTION[0] && resolution.least > unresolved.max(SAME_DIRECTION[0]) {
         Some(SingularKind::Tangential)
-    } else if widest > SAME_DIRECTION[1] {
+    } else if widest > unresolved.max(SAME_DIRECTION[1]) {
         Some(SingularKind::Bifurcation)
     } else {
         None

@@ -191,6 +191,12 @@ fn branch(dimension: usize, shaky: bool, halves: &[[f64; 2]]) -> (Lifted, GermBr
     (lifted, germ)
 }
 
+/// Numbers of few digits at a pose known to rounding.
+const SHARP: Resolution = Resolution {
+    noise: 1e-14,
+    least: 1.0,
+};
+
 #[test]
 fn kinds_follow_from_dimensions_and_tangents() {
     let right = [1.0, 0.0];
@@ -199,7 +205,7 @@ fn kinds_follow_from_dimensions_and_tangents() {
     let down = [0.0, -1.0];
     let kind = |branches: Vec<(Lifted, GermBranch)>| {
         let (lifted, zeros): (Vec<_>, Vec<_>) = branches.into_iter().unzip();
-        kind_of(&lifted, &zeros)
+        kind_of(&lifted, &zeros, &SHARP)
     };
     let through = |a, b| branch(1, false, &[a, b]);
     assert_eq!(kind(vec![]), None);
@@ -220,6 +226,50 @@ fn kinds_follow_from_dimensions_and_tangents() {
     // Surfaces have no half-branches to compare.
     let surfaces = vec![branch(2, false, &[]), branch(2, false, &[])];
     assert_eq!(kind(surfaces), Some(SingularKind::Bifurcation));
+}
+
+#[test]
+fn an_angle_that_cannot_be_resolved_gives_no_kind() {
+    let crossing = |angle: f64, resolution: &Resolution| {
+        let (sine, cosine) = angle.sin_cos();
+        let lines = [[1.0, 0.0], [cosine, sine]];
+        let through = lines.map(|line| branch(1, false, &[line, line.map(|x| -x)]));
+        let (lifted, zeros): (Vec<_>, Vec<_>) = through.into_iter().unzip();
+        kind_of(&lifted, &zeros, resolution)
+    };
+    for (angle, kind) in [
+        (0.0, Some(SingularKind::Tangential)),
+        (5e-5, Some(SingularKind::Tangential)),
+        (1e-3, None),
+        (5e-3, Some(SingularKind::Bifurcation)),
+    ] {
+        assert_eq!(crossing(angle, &SHARP), kind, "{angle}");
+    }
+    // Numbers of 34 bits can put two branches so close.
+    let tall = Resolution {
+        least: 0.5f64.powi(34),
+        ..SHARP
+    };
+    // An error of 1e-5 opens a double line by 6e-3, and numbers of 8 bits can have meant as much.
+    let coarse = Resolution {
+        noise: 1e-5,
+        least: 0.5f64.powi(8),
+    };
+    for (angle, resolution, kind) in [
+        (0.0, &tall, None),
+        (5e-5, &tall, None),
+        (5e-3, &tall, Some(SingularKind::Bifurcation)),
+        (0.0, &coarse, None),
+        (5e-3, &coarse, None),
+        (1e-2, &coarse, Some(SingularKind::Bifurcation)),
+    ] {
+        assert_eq!(crossing(angle, resolution), kind, "{angle} {resolution:?}");
+    }
+    let whole = Resolution {
+        noise: 1e-5,
+        ..SHARP
+    };
+    assert_eq!(crossing(0.0, &whole), Some(SingularKind::Tangential));
 }
 
 #[test]

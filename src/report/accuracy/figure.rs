@@ -356,8 +356,11 @@ fn claim_text(way: &Way) -> String {
     let clear = way.decades.map_or(String::new(), |d| {
         format!(", clear by {d:.0} powers of ten")
     });
+    let certificate = way.certificate.map_or(String::new(), |level| {
+        format!(", {} certificate", level.word())
+    });
     match way.claim {
-        Claim::Decides => format!("{}: decided{clear}", way.says),
+        Claim::Decides => format!("{}: decided{clear}{certificate}", way.says),
         Claim::Bounds => format!("{}{clear}", way.says),
         Claim::Equal => format!("{}: right, but proves nothing", way.says),
         Claim::Wrong => format!("{}: not the answer", way.says),

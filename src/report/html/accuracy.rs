@@ -19,7 +19,8 @@ pub(super) fn section(accuracy: &Accuracy, names: &Names, out: &mut String) {
 fn content(accuracy: &Accuracy, names: &Names, out: &mut String) {
     out.push_str(&format!(
         "<figure class=\"scroll\">{}<figcaption>Above: how far off a pose is, over the time that a second of motion takes; left \
-         and low is better. Below: what every way to know how it can move takes, and what it says.</figcaption></figure>\n",
+         and low is better. Below: what every way to know how it can move takes, and what it says; the last two, the verdict and the \
+         whole report, are all engines together.</figcaption></figure>\n",
         figure(accuracy).fragment()
     ));
     let layout = Layout {
