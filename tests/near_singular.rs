@@ -6,7 +6,7 @@
 mod support;
 
 use kutzbach::format::read_file;
-use kutzbach::mobility::{Analysis, PoseKind, SingularKind, Verdict};
+use kutzbach::mobility::{Analysis, AnalysisOptions, PoseKind, SingularKind, Verdict, analyse};
 use support::{analysis, folder};
 
 fn near(name: &str) -> Analysis {
@@ -41,6 +41,21 @@ fn a_four_bar_that_hardly_moves_is_not_rigid() {
     assert_ne!(found.verdict, Verdict::Rigid);
     assert_eq!(found.bounds.1, Some(1));
     assert_ne!(found.pose, Some(PoseKind::Singular));
+}
+
+#[test]
+fn a_pose_beside_a_crossing_is_not_one() {
+    let path = folder("tests/near").join("assembled_beside_crossing.urdf");
+    let mechanism = read_file(&path, &[]).unwrap().mechanism;
+    let options = AnalysisOptions {
+        configuration: Some("off".to_owned()),
+        ..AnalysisOptions::default()
+    };
+    let found = analyse(&mechanism, &options).unwrap();
+    assert!(found.assembly.closed);
+    assert_ne!(found.home.unwrap().instantaneous, Some(2));
+    assert_ne!(found.mobility.pose, Some(PoseKind::Singular));
+    assert!([None, Some(1)].contains(&found.mobility.finite()));
 }
 
 #[test]

@@ -294,7 +294,7 @@ pub(super) fn rank_part_with(
     let mut stays_open = None;
     let deficient = nominal
         .rank
-        .is_some_and(|rank| rank < columns.min(matrix.rows()));
+        .is_none_or(|rank| rank < columns.min(matrix.rows()));
     if stated == 0.0 && deficient && columns <= CHECKED_UNKNOWNS {
         let tall = height_at(pose, part);
         if tall > TALL {
