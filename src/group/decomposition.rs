@@ -149,6 +149,15 @@ impl Decomposition {
         })
     }
 
+    /// A matrix with six rows of which nothing is known but that its singular values are at most this. Its vectors mean nothing.
+    pub fn bounded_by(norm: f64) -> Self {
+        Self {
+            left: Mat::identity(6, 1),
+            right: Mat::identity(1, 1),
+            values: vec![norm],
+        }
+    }
+
     /// Thin decomposition of a list of six-vectors as columns.
     pub fn of_columns(columns: &[Vector6<f64>]) -> Result<Self, GroupError> {
         Self::of(6, columns.len(), false, |i, j| columns[j][i])

@@ -29,6 +29,10 @@ pub struct ScrewSystem {
     pub(super) margin: Margin,
 }
 
+/// Residuals whose norm, which bounds every singular value, is below this share of the tolerance are zero without a look at
+/// their directions. What is kept stands ten tolerances above zero in a clear margin, which then is a thousand times as much.
+const NEGLIGIBLE: f64 = 0.01;
+
 impl ScrewSystem {
     /// The space of no motion.
     pub fn empty(gauge: &Gauge) -> Self {
@@ -265,7 +269,13 @@ impl ScrewSystem {
         }
         let pairs = residuals.len() as f64;
         let tolerance = (3.47 * self.uncertainty + ROUNDING) * pairs.sqrt();
-        Ok((Decomposition::of_columns(&residuals)?, tolerance))
+        let squares: f64 = residuals.iter().map(|r| r.norm_squared()).sum();
+        let outside = if squares.sqrt() <= NEGLIGIBLE * tolerance {
+            Decomposition::bounded_by(squares.sqrt())
+        } else {
+            Decomposition::of_columns(&residuals)?
+        };
+        Ok((outside, tolerance))
     }
 
     /// Whether the bracket of any two twists of this space stays in it, and how clearly.
