@@ -6,8 +6,8 @@
 //!
 //! Prints a line of JSON for every file: the freedom found, and for each question the least and the median seconds over the
 //! rounds. `read` is from the file's text to the mechanism; `rank`, `verdict`, `motions` and `everything` are analyses of
-//! that [`Depth`], from the mechanism, one of them only with `--depth`; `turn` is a whole turn of the joint in so many poses, from the mechanism too, with
-//! the largest gap of its loops. `benches/peers` sets these beside other tools.
+//! that [`Depth`], from the mechanism, one of them only with `--depth`; `turn` is a whole turn of the joint in so many
+//! poses, from the mechanism too, with the largest gap of its loops. `benches/peers` sets these beside other tools.
 
 use kutzbach::mobility::{AnalysisOptions, Depth, analyse};
 use kutzbach::motion::{TraceOptions, trace};

@@ -4,7 +4,7 @@ use super::between::settings_between;
 use super::grid::{Grid, Wish};
 use super::watch::{Watch, Watched};
 use crate::accuracy::pareto::pareto_front;
-use crate::accuracy::result::{Setting, State};
+use crate::accuracy::result::{RunTiming, Setting, State};
 use crate::simulate::{Solver, WorldOptions};
 
 /// Goes over a grid and keeps account of the work.
@@ -17,8 +17,24 @@ pub(super) struct Account<'g, 'w, 'v> {
     watch: &'v mut Watch<'w>,
 }
 
-/// What became of a setting; `None` where it was broken off.
-pub(super) type Run<'r> = dyn FnMut(&WorldOptions, &mut Watched<'_, '_>) -> Option<Setting> + 'r;
+/// Runs a setting; `None` where it was broken off.
+pub(super) type Run<'r, E> =
+    dyn FnMut(&WorldOptions, &mut Watched<'_, '_>) -> Result<Option<Outcome>, E> + 'r;
+
+/// What became of a setting.
+pub(super) struct Outcome {
+    pub state: State,
+    /// Largest gap of any loop (rad, characteristic lengths).
+    pub closure_error: f64,
+    /// Distance to the predicted motion (rad, characteristic lengths), where there is one.
+    pub distance: Option<f64>,
+    /// The share of the drive that was covered, where there is one.
+    pub came: Option<f64>,
+    /// Wall time of all steps (s).
+    pub step_time: f64,
+    /// Simulated time (s).
+    pub time: f64,
+}
 
 /// Settings looked for between those of the grid take this share of the whole, for a progress bar.
 const REFINED: f64 = 0.2;
@@ -34,23 +50,26 @@ impl<'g, 'w, 'v> Account<'g, 'w, 'v> {
     }
 
     /// Runs every setting that there is room for; also whether that was broken off. `cost`: the work of a setting.
-    pub fn rows(
+    ///
+    /// # Errors
+    /// The first of `run`, after which no setting is tried.
+    pub fn rows<E>(
         &mut self,
         cost: &dyn Fn(Solver, f64, usize) -> f64,
-        run: &mut Run<'_>,
-    ) -> (Vec<Setting>, bool) {
+        run: &mut Run<'_, E>,
+    ) -> Result<(Vec<Setting>, bool), E> {
         let share = if self.wanted.is_some() {
             1.0 - REFINED
         } else {
             1.0
         };
         let settings = self.grid.settings();
-        let (mut rows, mut stopped) = self.all(&settings, (0.0, share), cost, run);
+        let (mut rows, mut stopped) = self.all(&settings, (0.0, share), cost, run)?;
         if let Some(wanted) = self.wanted
             && !stopped
         {
             let between = settings_between(&rows, wanted, cost);
-            let (more, broken) = self.all(&between, (share, REFINED), cost, run);
+            let (more, broken) = self.all(&between, (share, REFINED), cost, run)?;
             rows.extend(more.into_iter().filter(|row| row.state != State::LeftOut));
             stopped = broken;
         }
@@ -64,16 +83,16 @@ impl<'g, 'w, 'v> Account<'g, 'w, 'v> {
                 timing.pareto = on_front;
             }
         }
-        (rows, stopped)
+        Ok((rows, stopped))
     }
 
-    fn all(
+    fn all<E>(
         &mut self,
         settings: &[Wish],
         (from, share): (f64, f64),
         cost: &dyn Fn(Solver, f64, usize) -> f64,
-        run: &mut Run<'_>,
-    ) -> (Vec<Setting>, bool) {
+        run: &mut Run<'_, E>,
+    ) -> Result<(Vec<Setting>, bool), E> {
         // The cheapest settings come first, whatever their place in the table.
         let mut order: Vec<usize> = (0..settings.len()).collect();
         let work = |i: usize| cost(settings[i].0, settings[i].1, settings[i].2);
@@ -106,8 +125,8 @@ impl<'g, 'w, 'v> Account<'g, 'w, 'v> {
                 from: from + share * done / total,
                 share: share * work(i) / total,
             };
-            match run(&options, &mut watched) {
-                Some(setting) => rows[i] = setting,
+            match run(&options, &mut watched)? {
+                Some(outcome) => rows[i].take(&outcome),
                 None => {
                     rows[i].state = State::BrokenOff;
                     stopped = true;
@@ -115,12 +134,27 @@ impl<'g, 'w, 'v> Account<'g, 'w, 'v> {
             }
             done += work(i);
         }
-        (rows, stopped)
+        Ok((rows, stopped))
+    }
+}
+
+impl Setting {
+    /// Takes over what became of it. Errors that are no numbers are left out: there is no place for them in a figure.
+    fn take(&mut self, outcome: &Outcome) {
+        let finite = |x: &f64| x.is_finite();
+        self.state = outcome.state;
+        self.closure_error = Some(outcome.closure_error).filter(finite);
+        self.distance = outcome.distance.filter(finite);
+        self.came = outcome.came.filter(finite);
+        self.timing = Some(RunTiming {
+            seconds_per_second: outcome.step_time / outcome.time.max(self.time_step),
+            pareto: false,
+        });
     }
 }
 
 /// A setting that was not run.
-pub(super) fn left_out(&(solver, time_step, substeps): &Wish) -> Setting {
+fn left_out(&(solver, time_step, substeps): &Wish) -> Setting {
     Setting {
         solver,
         time_step,

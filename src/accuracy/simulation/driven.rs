@@ -1,9 +1,9 @@
 //! The predicted motion, driven in every setting.
 
-use super::account::Account;
+use super::account::{Account, Outcome};
 use super::grid::Grid;
 use super::watch::Watch;
-use crate::accuracy::result::{Driven, RunTiming, Setting, Simulation, State};
+use crate::accuracy::result::{Driven, Simulation, State};
 use crate::accuracy::work::work_of;
 use crate::closure::Geometry;
 use crate::mechanism::Mechanism;
@@ -24,44 +24,28 @@ pub(in crate::accuracy) fn driven_rows(
     (grid, wanted): (&Grid, Option<f64>),
     watch: &mut Watch<'_>,
 ) -> Result<(Simulation, bool), VerificationError> {
-    let (cost, mut failed) = (work_of(mechanism, geometry, motion.start())?, None);
+    let cost = work_of(mechanism, geometry, motion.start())?;
     let seconds = motion.duration();
     let mut account = Account::new(grid, wanted, watch);
     let (rows, stopped) = account.rows(
         &|solver, step, n| seconds * cost(solver, step, n),
-        &mut |options, watched| match motion.run(options, watched) {
-            Ok(run) if run.stopped => None,
-            Ok(run) => {
-                let finite = |x: f64| Some(x).filter(|x| x.is_finite());
-                Some(Setting {
-                    solver: options.solver,
-                    time_step: options.time_step,
-                    substeps: options.substeps,
-                    state: if !run.closure_error.is_finite() || !run.distance.is_finite() {
-                        State::CameApart
-                    } else if run.progress >= ARRIVED {
-                        State::Arrived
-                    } else {
-                        State::Stalled
-                    },
-                    closure_error: finite(run.closure_error),
-                    distance: finite(run.distance),
-                    came: finite(run.progress),
-                    timing: Some(RunTiming {
-                        seconds_per_second: run.step_time / run.time.max(options.time_step),
-                        pareto: false,
-                    }),
-                })
-            }
-            Err(error) => {
-                failed = Some(error);
-                None
-            }
+        &mut |options, watched| {
+            let run = motion.run(options, watched)?;
+            let whole = run.closure_error.is_finite() && run.distance.is_finite();
+            Ok::<_, VerificationError>((!run.stopped).then_some(Outcome {
+                state: match whole {
+                    false => State::CameApart,
+                    true if run.progress >= ARRIVED => State::Arrived,
+                    true => State::Stalled,
+                },
+                closure_error: run.closure_error,
+                distance: Some(run.distance),
+                came: Some(run.progress),
+                step_time: run.step_time,
+                time: run.time,
+            }))
         },
-    );
-    if let Some(error) = failed {
-        return Err(error);
-    }
+    )?;
     let simulation = Simulation {
         why_not: None,
         driven: Some(Driven {

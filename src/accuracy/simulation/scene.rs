@@ -1,9 +1,9 @@
 //! The file's scene, run in every setting.
 
-use super::account::Account;
+use super::account::{Account, Outcome};
 use super::grid::Grid;
 use super::watch::{Stopped, Watch};
-use crate::accuracy::result::{RunTiming, Scene, Setting, State};
+use crate::accuracy::result::{Scene, State};
 use crate::accuracy::work::work_of;
 use crate::closure::{Geometry, JointState};
 use crate::mechanism::Mechanism;
@@ -24,7 +24,6 @@ pub(in crate::accuracy) fn scene_rows(
     watch: &mut Watch<'_>,
 ) -> Result<(Scene, bool), WorldError> {
     let cost = work_of(mechanism, geometry, states)?;
-    let mut failed = None;
     let mut account = Account::new(grid, wanted, watch);
     let (rows, stopped) = account.rows(
         &|solver, step, n| grid.scene * cost(solver, step, n),
@@ -41,35 +40,22 @@ pub(in crate::accuracy) fn scene_rows(
                 inner: watched,
                 stopped: false,
             };
-            match run_scene(mechanism, geometry, states, &scene, &mut stopped) {
-                Ok(_) if stopped.stopped => None,
-                Ok(run) => Some(Setting {
-                    solver: options.solver,
-                    time_step: options.time_step,
-                    substeps: options.substeps,
-                    state: if run.ended_early.is_some() || !run.closure_error.is_finite() {
-                        State::CameApart
-                    } else {
-                        State::Arrived
-                    },
-                    closure_error: Some(run.closure_error).filter(|x| x.is_finite()),
-                    distance: None,
-                    came: None,
-                    timing: Some(RunTiming {
-                        seconds_per_second: run.step_time / run.time.max(options.time_step),
-                        pareto: false,
-                    }),
-                }),
-                Err(error) => {
-                    failed = Some(error);
-                    None
-                }
-            }
+            let run = run_scene(mechanism, geometry, states, &scene, &mut stopped)?;
+            let whole = run.ended_early.is_none() && run.closure_error.is_finite();
+            Ok::<_, WorldError>((!stopped.stopped).then_some(Outcome {
+                state: if whole {
+                    State::Arrived
+                } else {
+                    State::CameApart
+                },
+                closure_error: run.closure_error,
+                distance: None,
+                came: None,
+                step_time: run.step_time,
+                time: run.time,
+            }))
         },
-    );
-    if let Some(error) = failed {
-        return Err(error);
-    }
+    )?;
     let scene = Scene {
         effects: effect_names(&effects)
             .into_iter()

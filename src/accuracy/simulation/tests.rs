@@ -1,37 +1,38 @@
 //! Settings of a method of order two, without any simulation.
 
-use super::account::{Account, left_out};
+use super::account::{Account, Outcome};
 use super::between::BETWEEN;
 use super::grid::Grid;
-use crate::accuracy::result::{RunTiming, Setting, State};
+use crate::accuracy::result::{Setting, State};
 use crate::simulate::WorldOptions;
+use std::convert::Infallible;
 use std::ops::ControlFlow;
 
 /// What a method of order two does, at a cost of a substep each.
-fn pretend(options: &WorldOptions) -> Setting {
+fn pretend(options: &WorldOptions) -> Outcome {
     let substep = options.time_step / options.substeps as f64;
-    Setting {
+    Outcome {
         state: State::Arrived,
-        closure_error: Some(substep.powi(2)),
+        closure_error: substep.powi(2),
         distance: Some(0.0),
-        timing: Some(RunTiming {
-            seconds_per_second: 1e-6 / substep,
-            pareto: false,
-        }),
-        ..left_out(&(options.solver, options.time_step, options.substeps))
+        came: None,
+        step_time: 1e-6 / substep,
+        time: 1.0,
     }
 }
 
 fn rows(grid: &Grid, wanted: Option<f64>) -> (Vec<Setting>, bool) {
     let mut quiet = |_: f64, _: &str| ControlFlow::Continue(());
     let mut account = Account::new(grid, wanted, &mut quiet);
-    account.rows(
-        &|_, step, n| 1e-6 * n as f64 / step,
-        &mut |options, watched| {
-            assert!(watched.from + watched.share <= 1.0 + 1e-12);
-            Some(pretend(options))
-        },
-    )
+    account
+        .rows::<Infallible>(
+            &|_, step, n| 1e-6 * n as f64 / step,
+            &mut |options, watched| {
+                assert!(watched.from + watched.share <= 1.0 + 1e-12);
+                Ok(Some(pretend(options)))
+            },
+        )
+        .unwrap()
 }
 
 #[test]
@@ -85,11 +86,49 @@ fn a_break_ends_it_and_is_said() {
     let mut quiet = |_: f64, _: &str| ControlFlow::Continue(());
     let mut account = Account::new(&grid, None, &mut quiet);
     let mut left = 3;
-    let (rows, stopped) = account.rows(&|_, _, _| 1e-3, &mut |options, _| {
-        left -= 1;
-        (left > 0).then(|| pretend(options))
-    });
+    let (rows, stopped) = account
+        .rows::<Infallible>(&|_, _, _| 1e-3, &mut |options, _| {
+            left -= 1;
+            Ok((left > 0).then(|| pretend(options)))
+        })
+        .unwrap();
     assert!(stopped);
     let broken = rows.iter().filter(|row| row.state == State::BrokenOff);
     assert_eq!(broken.count(), 22);
+}
+
+#[test]
+fn an_error_ends_it() {
+    let grid = Grid::full();
+    let mut quiet = |_: f64, _: &str| ControlFlow::Continue(());
+    let mut runs = 0;
+    let ended = Account::new(&grid, None, &mut quiet).rows(&|_, _, _| 1e-3, &mut |options, _| {
+        runs += 1;
+        if runs < 3 {
+            Ok(Some(pretend(options)))
+        } else {
+            Err("no world")
+        }
+    });
+    assert_eq!((ended.err(), runs), (Some("no world"), 3));
+}
+
+#[test]
+fn errors_that_are_no_numbers_are_left_out() {
+    let grid = Grid::full();
+    let mut quiet = |_: f64, _: &str| ControlFlow::Continue(());
+    let (rows, _) = Account::new(&grid, None, &mut quiet)
+        .rows::<Infallible>(&|_, _, _| 1e-3, &mut |options, _| {
+            Ok(Some(Outcome {
+                state: State::CameApart,
+                closure_error: f64::INFINITY,
+                distance: Some(f64::NAN),
+                ..pretend(options)
+            }))
+        })
+        .unwrap();
+    for row in &rows {
+        assert_eq!((row.closure_error, row.distance), (None, None));
+        assert!(row.timing.is_some() && row.error().is_none());
+    }
 }
