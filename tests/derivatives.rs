@@ -9,7 +9,7 @@ use kutzbach::closure::{
     Arithmetic, CycleJacobian, Geometry, JointState, Part, Rigid, WalkedCycle, assemble, jacobian,
     refine,
 };
-use kutzbach::matrix::{Big, LeastSquares, Real, SplitMix64};
+use kutzbach::matrix::{Extended, LeastSquares, Real, SplitMix64};
 use kutzbach::mechanism::{Direction, Frame, JointBuilder, JointKind, Mechanism, MechanismBuilder};
 use kutzbach::mobility::Structure;
 use kutzbach::number::Number;
@@ -391,8 +391,8 @@ fn polishing_reaches_the_last_digits() {
         let mut geometry = Geometry::new(mechanism, None, &Arithmetic::double());
         perturb(mechanism, &mut geometry, &structure.parts, 0.05, 5);
         let assembly = assemble(mechanism, &geometry, &structure.parts, &held).unwrap();
-        let precise = Geometry::new(mechanism, None, &Arithmetic::<Big>::bits(BITS));
-        let mut states: Vec<JointState<Big>> = precise
+        let precise = Geometry::new(mechanism, None, &Arithmetic::bits(BITS));
+        let mut states: Vec<JointState<Extended>> = precise
             .displacements
             .iter()
             .zip(geometry.displacements.iter().zip(&assembly.states))

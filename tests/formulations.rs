@@ -12,7 +12,7 @@ use kutzbach::closure::{
     Arithmetic, Geometry, Part, entry_accuracy, jacobian, positional_jacobian, refine,
 };
 use kutzbach::families::{miura_sheet, scissor_lift};
-use kutzbach::matrix::{Big, Real, SparseMatrix, decide};
+use kutzbach::matrix::{Real, SparseMatrix, decide};
 use kutzbach::mechanism::Mechanism;
 use std::collections::BTreeSet;
 use support::{analysis, assert_none, in_parallel, own_mechanisms, zoo, zoo_mechanism};
@@ -122,7 +122,7 @@ fn twice_the_digits() {
     let wrong = in_parallel(&names, |name| {
         let mechanism = zoo_mechanism(name);
         let expected = analysis(&mechanism);
-        let geometry = Geometry::new(&mechanism, None, &Arithmetic::<Big>::bits(BITS));
+        let geometry = Geometry::new(&mechanism, None, &Arithmetic::bits(BITS));
         let mut states = geometry.states.clone();
         let mut wrong = Vec::new();
         for (part, rank) in expected.structure.parts.iter().zip(&expected.parts) {

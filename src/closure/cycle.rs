@@ -52,7 +52,8 @@ impl<R: Real> WalkedCycle<R> {
         let far = |p: &Vector<R>| p.iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
         for &(joint, forward) in cycle {
             let [predecessor, successor] = &geometry.sides[joint];
-            let displacement = geometry.displacements[joint].displacement(&states[joint]);
+            let (displacement, screws) =
+                geometry.displacements[joint].displacement_and_screws(&states[joint]);
             reach = reach
                 .max(far(&predecessor.translation))
                 .max(far(&successor.translation));
@@ -66,8 +67,7 @@ impl<R: Real> WalkedCycle<R> {
                 frame
             };
             reach = reach.max(far(&joint_frame.translation));
-            let screws = geometry.displacements[joint]
-                .screws(&states[joint])
+            let screws = screws
                 .iter()
                 .map(|screw| screw.moved(&joint_frame))
                 .collect();

@@ -20,8 +20,8 @@ pub(crate) struct Generator<R> {
 
 #[derive(Clone, Debug)]
 pub(crate) struct Factor<R> {
-    /// Constant displacement before the factor.
-    pub(crate) before: Rigid<R>,
+    /// Constant displacement before the factor; none is the identity.
+    pub(crate) before: Option<Rigid<R>>,
     pub(crate) generators: Vec<Generator<R>>,
 }
 
@@ -80,7 +80,6 @@ impl<R: Real> JointDisplacement<R> {
         } else {
             zero()
         };
-        let here = || Rigid::identity(like);
         let base = |i: usize| {
             let mut v = zero();
             v[i] = like.one_like();
@@ -99,10 +98,10 @@ impl<R: Real> JointDisplacement<R> {
             linear: a.clone().map(|x| x * pitch.clone()),
         };
         let single = |generator: Generator<R>| Factor {
-            before: here(),
+            before: None,
             generators: vec![generator],
         };
-        let ball = |before: Rigid<R>| Factor {
+        let ball = |before: Option<Rigid<R>>| Factor {
             before,
             generators: (0..3).map(|i| turn(&base(i))).collect(),
         };
@@ -121,7 +120,7 @@ impl<R: Real> JointDisplacement<R> {
                 let (e1, e2) = perpendicular(&axis);
                 vec![single(slide(&e1)), single(slide(&e2)), single(turn(&axis))]
             }
-            JointKind::Spherical => vec![ball(here())],
+            JointKind::Spherical => vec![ball(None)],
             JointKind::Translational => (0..3).map(|i| single(slide(&base(i)))).collect(),
             JointKind::TranslatingScrew => {
                 let (e1, e2) = perpendicular(&axis);
@@ -132,15 +131,15 @@ impl<R: Real> JointDisplacement<R> {
                 factors.push(single(turn(&axis)));
                 factors
             }
-            JointKind::PointOnLine => vec![ball(here()), single(slide(&axis2))],
+            JointKind::PointOnLine => vec![ball(None), single(slide(&axis2))],
             JointKind::PointOnPlane => {
                 let (e1, e2) = perpendicular(&axis2);
-                vec![ball(here()), single(slide(&e1)), single(slide(&e2))]
+                vec![ball(None), single(slide(&e1)), single(slide(&e2))]
             }
             JointKind::LineOnPlane => {
                 let (e1, e2) = perpendicular(&axis2);
                 let mut first = single(slide(&e1));
-                first.before = into_plane(&axis, &axis2);
+                first.before = Some(into_plane(&axis, &axis2));
                 vec![
                     single(turn(&axis)),
                     first,
@@ -152,10 +151,10 @@ impl<R: Real> JointDisplacement<R> {
                 let rod = base(0).map(|x| x * distance.clone());
                 vec![
                     Factor {
-                        before: here(),
+                        before: None,
                         generators: vec![turn(&base(1)), turn(&base(2))],
                     },
-                    ball(Rigid::translation(rod)),
+                    ball(Some(Rigid::translation(rod))),
                 ]
             }
         };
@@ -202,29 +201,55 @@ impl<R: Real> JointDisplacement<R> {
 
     /// The displacement `predecessor_frame -> successor_frame` of a state.
     pub fn displacement(&self, state: &JointState<R>) -> Rigid<R> {
-        let mut total = Rigid::identity(&self.pitch);
-        for (factor, value) in self.factors.iter().zip(&state.factors) {
-            total = total.compose(&factor.before).compose(value);
-        }
-        total
+        self.displacement_of(&state.factors)
+    }
+
+    /// [`Self::displacement`] where its factors are given.
+    pub(crate) fn displacement_of(&self, factors: &[Rigid<R>]) -> Rigid<R> {
+        self.passed(factors, |_, _| {})
     }
 
     /// One screw per variable, in the predecessor's joint frame, at a state: the successor's twist relative to the
     /// predecessor is their sum weighted by the rates.
     pub fn screws(&self, state: &JointState<R>) -> Vec<PlacedScrew<R>> {
+        self.displacement_and_screws(state).1
+    }
+
+    /// [`Self::displacement`] and [`Self::screws`] in one go.
+    pub fn displacement_and_screws(
+        &self,
+        state: &JointState<R>,
+    ) -> (Rigid<R>, Vec<PlacedScrew<R>>) {
         let mut screws = Vec::with_capacity(self.freedom());
-        let mut total = Rigid::identity(&self.pitch);
-        for (factor, value) in self.factors.iter().zip(&state.factors) {
-            total = total.compose(&factor.before).compose(value);
-            for generator in &factor.generators {
-                screws.push(PlacedScrew {
-                    angular: total.rotate(&generator.angular),
-                    point: total.translation.clone(),
-                    linear: total.rotate(&generator.linear),
-                });
+        let displacement = self.passed(&state.factors, |here, generators| {
+            screws.extend(generators.iter().map(|generator| PlacedScrew {
+                angular: here.rotate_unless_zero(&generator.angular),
+                point: here.translation.clone(),
+                linear: here.rotate_unless_zero(&generator.linear),
+            }));
+        });
+        (displacement, screws)
+    }
+
+    /// Goes through the joint from factor to factor; `behind` is shown the displacement up to and with each of them.
+    fn passed(
+        &self,
+        values: &[Rigid<R>],
+        mut behind: impl FnMut(&Rigid<R>, &[Generator<R>]),
+    ) -> Rigid<R> {
+        let then = |first: Option<Rigid<R>>, second: &Rigid<R>| {
+            first.map_or_else(|| second.clone(), |first| first.compose(second))
+        };
+        let mut total = None;
+        for (factor, value) in self.factors.iter().zip(values) {
+            if let Some(before) = &factor.before {
+                total = Some(then(total, before));
             }
+            let here = then(total, value);
+            behind(&here, &factor.generators);
+            total = Some(here);
         }
-        screws
+        total.unwrap_or_else(|| Rigid::identity(&self.pitch))
     }
 
     /// A state found in double precision, taken over into this arithmetic. `double` is the same joint there.

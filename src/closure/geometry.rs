@@ -2,7 +2,7 @@
 
 use super::displacement::{JointDisplacement, JointState};
 use super::rigid::{Rigid, Vector, length, three};
-use crate::matrix::Real;
+use crate::matrix::{Extended, Real};
 use crate::mechanism::{
     Configuration, Direction, Frame, Joint, JointKind, Mechanism, Placement, Precision,
 };
@@ -25,16 +25,16 @@ impl Arithmetic<f64> {
     }
 }
 
-impl Arithmetic<crate::matrix::Big> {
+impl Arithmetic<Extended> {
     /// As many bits as asked for.
     #[must_use]
     pub fn bits(bits: u32) -> Self {
         Self {
             // A few bits more than the working precision, so that conversion rounds once.
             convert: Box::new(move |number| {
-                crate::matrix::Big::from_float(&number.evaluate(bits as usize + 8), bits)
+                Extended::from_float(&number.evaluate(bits as usize + 8), bits)
             }),
-            one: crate::matrix::Big::new(1.0, bits),
+            one: Extended::new(1.0, bits),
         }
     }
 }
@@ -297,7 +297,7 @@ fn joint_displacement<R: Real>(
 mod tests {
     use super::super::samples::{Written, four_bar, planar, ring};
     use super::*;
-    use crate::matrix::{Big, Ring};
+    use crate::matrix::Ring;
     use crate::mechanism::{JointBuilder, MechanismBuilder};
 
     fn decimal(text: &str) -> Number {
@@ -437,7 +437,7 @@ mod tests {
 
     #[test]
     fn numbers_are_evaluated_in_the_arithmetic_asked_for() {
-        let tenth = Arithmetic::<Big>::bits(212).number(&decimal("0.1"));
+        let tenth = Arithmetic::bits(212).number(&decimal("0.1"));
         let ten = tenth.constant(10.0);
         assert!((tenth * ten.clone() - ten.one_like()).abs().to_f64() < 1e-62);
     }

@@ -120,16 +120,18 @@ impl<R: Real> Equations<R> {
                 }
             }
         }
-        let mut block_starts: Vec<usize> = (0..self.walks.len()).map(|i| 6 * i).collect();
-        for row in self.coupling_rows {
-            let index = 6 * self.walks.len() + block_starts.len() - self.walks.len();
-            block_starts.push(index);
+        let of_cycles = 6 * self.walks.len();
+        for (index, row) in (of_cycles..).zip(self.coupling_rows) {
             for (joint, weight) in row {
                 if let Some(&first) = first_column.get(&joint) {
                     triplets.push((index, first, weight));
                 }
             }
         }
+        let block_starts = (0..of_cycles)
+            .step_by(6)
+            .chain(of_cycles..self.residual.len())
+            .collect();
         let shape = (self.residual.len(), variables.len());
         let matrix = SparseMatrix::from_triplets(shape.0, shape.1, one.zero_like(), triplets)?
             .with_row_blocks(block_starts)?;
@@ -188,7 +190,7 @@ mod tests {
         CRANK_ROCKER, Place, Written, four_bar, planar, ring, sarrus_places,
     };
     use super::*;
-    use crate::matrix::{Big, decide};
+    use crate::matrix::decide;
     use crate::mechanism::{JointKind, MechanismBuilder};
     use crate::number::Number;
 
@@ -219,7 +221,7 @@ mod tests {
         // the twist of the closure is compared, not the matrix's own residual away from it.
         let mechanism = mixed();
         let part = whole(&mechanism);
-        let geometry = Geometry::new(&mechanism, None, &Arithmetic::<Big>::bits(212));
+        let geometry = Geometry::new(&mechanism, None, &Arithmetic::bits(212));
         let here = jacobian(&mechanism, &geometry, &geometry.states, &part).unwrap();
         assert!(
             here.residual.iter().all(|r| r.to_f64().abs() < 1e-60),

@@ -17,6 +17,7 @@ mod cycle;
 mod displacement;
 mod equations;
 mod geometry;
+mod guided;
 mod jacobian;
 mod positional;
 mod quaternion;

@@ -214,6 +214,15 @@ impl<R: Real> Rigid<R> {
         }
     }
 
+    /// The vector rotated; a zero vector, as turns and slides have one each, as it is.
+    pub(super) fn rotate_unless_zero(&self, v: &Vector<R>) -> Vector<R> {
+        if v.iter().all(R::is_zero) {
+            v.clone()
+        } else {
+            self.rotate(v)
+        }
+    }
+
     /// The inverse displacement.
     #[must_use]
     pub fn inverse(&self) -> Self {
@@ -296,9 +305,9 @@ impl<R: Real> PlacedScrew<R> {
     #[must_use]
     pub fn moved(&self, displacement: &Rigid<R>) -> Self {
         Self {
-            angular: displacement.rotate(&self.angular),
+            angular: displacement.rotate_unless_zero(&self.angular),
             point: displacement.apply(&self.point),
-            linear: displacement.rotate(&self.linear),
+            linear: displacement.rotate_unless_zero(&self.linear),
         }
     }
 }

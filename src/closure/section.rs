@@ -106,7 +106,7 @@ impl<R: Real> Section<'_, R> {
     }
 
     /// Newton steps of least length that close the cycles and do not move along the `held` directions (orthonormal in the
-    /// metric). Stops where the equations hold to rounding, where the largest of them does not get smaller, or after `limit`
+    /// metric). Stops where the equations hold to the last digits, where the largest of them does not get smaller, or after `limit`
     /// steps. Where the equations cannot be met the pose is one nearby where no step makes the largest one smaller.
     ///
     /// Held directions are those of every single step. Turns of a ball do not commute, so that the sum of several steps may
@@ -123,6 +123,32 @@ impl<R: Real> Section<'_, R> {
         held: &[Vec<f64>],
         limit: usize,
     ) -> Result<Closing, MatrixError> {
+        let floor = 8.0 * self.geometry.one.unit_roundoff();
+        self.close_down_to(|_| floor, states, held, limit)
+    }
+
+    /// [`Self::close`] for whoever only asks whether that is possible: stops where the equations hold as well as rounding
+    /// lets anybody tell ([`Closing::rounding`]). Their last digits would take some more steps.
+    ///
+    /// # Errors
+    /// [`MatrixError`] where numbers overflow.
+    pub fn close_within_rounding(
+        &self,
+        states: &mut [JointState<R>],
+        held: &[Vec<f64>],
+        limit: usize,
+    ) -> Result<Closing, MatrixError> {
+        self.close_down_to(|rounding| rounding, states, held, limit)
+    }
+
+    /// `floor`: what is small enough, if rounding is as it is.
+    fn close_down_to(
+        &self,
+        floor: impl Fn(f64) -> f64,
+        states: &mut [JointState<R>],
+        held: &[Vec<f64>],
+        limit: usize,
+    ) -> Result<Closing, MatrixError> {
         let mut here = self.equations(states)?;
         let rounding = rounding_of(&here.walks, self.geometry.one.unit_roundoff());
         let mut closing = Closing {
@@ -132,7 +158,7 @@ impl<R: Real> Section<'_, R> {
             last_step: 0.0,
             steps: 0,
         };
-        let floor = 8.0 * self.geometry.one.unit_roundoff();
+        let floor = floor(rounding);
         let mut kept = Vec::new();
         while closing.steps < limit && closing.residual > floor {
             let unit = self.geometry.one.constant(closing.residual);
@@ -199,12 +225,12 @@ impl<R: Real> Section<'_, R> {
         Ok(closing)
     }
 
-    fn equations(&self, states: &[JointState<R>]) -> Result<Equations<R>, MatrixError> {
+    pub(super) fn equations(&self, states: &[JointState<R>]) -> Result<Equations<R>, MatrixError> {
         Equations::at(self.mechanism, self.geometry, states, self.part)
     }
 
     /// The least step that closes to first order and does not move along the held directions, in the metric.
-    fn across(
+    pub(super) fn across(
         &self,
         here: &CycleJacobian<R>,
         mut right: Vec<f64>,

@@ -18,7 +18,8 @@
 //!   [`MatrixError`], never a panic.
 //!
 //! # The way through
-//! - [`real`]: arithmetic in general; `f64`, and [`big`] for any number of bits.
+//! - [`real`]: arithmetic in general; `f64`, and [`extended`] for more bits: pairs of doubles
+//!   ([`twofold`]) up to 106, [`big`] beyond.
 //! - [`sparse`]: matrices with rows in blocks.
 //! - [`rank`]: the decision. Small matrices by singular values (faer, checked; [`jacobi`] for many
 //!   digits), large ones by sparse QR ([`frontal`], in the order of [`ordering`]) with the smallest
@@ -34,6 +35,7 @@ pub mod big;
 pub mod coloops;
 pub mod error;
 pub mod estimate;
+pub mod extended;
 pub mod frontal;
 pub mod held_step;
 pub mod jacobi;
@@ -47,10 +49,12 @@ pub mod rank;
 pub mod real;
 pub mod sparse;
 mod svd;
+pub mod twofold;
 
 pub use big::Big;
 pub use coloops::{Coloops, coloops};
 pub use error::MatrixError;
+pub use extended::Extended;
 pub use frontal::{Factorization, factor};
 pub use held_step::held_step;
 pub use least_squares::LeastSquares;
@@ -62,6 +66,7 @@ pub use rank::{
 };
 pub use real::{Real, Ring};
 pub use sparse::SparseMatrix;
+pub use twofold::Twofold;
 
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]

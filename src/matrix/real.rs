@@ -46,7 +46,7 @@ pub trait Ring:
     }
 }
 
-/// Real numbers with rounding: `f64`, or [`super::big::Big`] with any number of bits.
+/// Real numbers with rounding: `f64`, [`super::twofold::Twofold`] or [`super::big::Big`] with any number of bits.
 ///
 /// Operations never panic. What has no finite real value (division by zero, square root of a
 /// negative number, overflow) gives NaN or an infinity, both of which fail [`Real::is_finite`] and

@@ -17,10 +17,13 @@
 //!
 //! A finite number of directions and orders proves nothing about all of them: the certificate is numeric.
 
+mod guide;
+
 use super::more_digits::MoreDigits;
 use super::pose_rank::{LADDER, PartRank, Pose};
-use crate::closure::{JointState, Metric, Part, Section};
+use crate::closure::{Closing, Metric, Part, Section};
 use crate::matrix::{MatrixError, NullVectors, Real, SplitMix64, null_vectors};
+use guide::Guide;
 
 /// A germ whose leftover vanishes to a higher order than this is not told from none. Order 4 decides all that is known;
 /// two more are a margin, which rounded numbers do not have.
@@ -194,24 +197,9 @@ pub(super) fn literal_leftover(
     if pose.mechanism.precision().significant >= DIGITS_OF_A_DOUBLE {
         return Ok(None);
     }
-    let radius = first_radius(rank);
-    let ways = directions(&kernel.basis);
-    let metric = &kernel.metric;
-    let section = |geometry| Section {
-        mechanism: pose.mechanism,
-        geometry,
-        part,
-        metric,
-    };
-    let double = probe(
-        &section(pose.geometry),
-        pose.states,
-        None,
-        kernel,
-        &ways,
-        radius,
-        0.0,
-    )?;
+    let reach = (first_radius(rank), 0.0);
+    let mut probes = Probes::new(pose, part, kernel, rank.unknowns() > LADDER_UNKNOWNS);
+    let double = probes.in_bits(more, reach, 53)?;
     if double.leftover > double.noise {
         return Ok(Some(double.leftover));
     }
@@ -223,15 +211,7 @@ pub(super) fn literal_leftover(
     else {
         return Ok(None);
     };
-    let (geometry, states) = more.polished(pose, part, !pose.as_drawn, bits)?;
-    let section = Section {
-        mechanism: pose.mechanism,
-        geometry,
-        part,
-        metric,
-    };
-    let guide = Guide::of(pose, part, metric);
-    let fine = probe(&section, states, Some(&guide), kernel, &ways, radius, 0.0)?;
+    let fine = probes.in_bits(more, reach, bits)?;
     Ok((fine.leftover > fine.noise).then_some(fine.leftover))
 }
 
@@ -250,7 +230,7 @@ fn climb(
     mut radius: f64,
     stated: f64,
 ) -> Result<ChartTest, MatrixError> {
-    let ways = directions(&kernel.basis);
+    let mut probes = Probes::new(pose, part, kernel, rank.unknowns() > LADDER_UNKNOWNS);
     // Exact numbers that needed more digits for the rank need them here too: what they leave over may be as small as they are.
     let mut bits = if stated == 0.0 && rank.unknowns() <= LADDER_UNKNOWNS {
         rank.bits
@@ -260,7 +240,7 @@ fn climb(
     let mut test;
     let mut rungs = LADDER.iter().filter(|rung| **rung > rank.bits);
     loop {
-        test = probe_in_bits(pose, more, part, kernel, &ways, (radius, stated), bits)?;
+        test = probes.in_bits(more, (radius, stated), bits)?;
         test.bits = bits;
         // Steps are computed in double precision, where a singular value this small is damped away: closing then fails at
         // regular poses too.
@@ -293,40 +273,64 @@ pub(super) fn chart_in_bits(
     kernel: &Kernel,
     bits: u32,
 ) -> Result<ChartTest, MatrixError> {
-    let ways = directions(&kernel.basis);
-    let reach = (first_radius(rank), rank.stated);
-    probe_in_bits(pose, more, part, kernel, &ways, reach, bits)
+    Probes::new(pose, part, kernel, true).in_bits(more, (first_radius(rank), rank.stated), bits)
 }
 
-/// One probe in so many bits, at a radius and with what the stated precision leaves open.
-fn probe_in_bits(
-    pose: &Pose<'_>,
-    more: &mut MoreDigits,
-    part: &Part,
-    kernel: &Kernel,
-    ways: &[Vec<f64>],
-    (radius, stated): (f64, f64),
-    bits: u32,
-) -> Result<ChartTest, MatrixError> {
-    let (mechanism, metric) = (pose.mechanism, &kernel.metric);
-    if bits <= 53 {
+/// What all probes of a chart test share.
+struct Probes<'a> {
+    pose: &'a Pose<'a>,
+    part: &'a Part,
+    kernel: &'a Kernel,
+    ways: Vec<Vec<f64>>,
+    guide: Guide<'a>,
+}
+
+impl<'a> Probes<'a> {
+    /// `once`: whether no more than one number of bits will be asked for.
+    fn new(pose: &'a Pose<'a>, part: &'a Part, kernel: &'a Kernel, once: bool) -> Self {
         let section = Section {
-            mechanism,
+            mechanism: pose.mechanism,
             geometry: pose.geometry,
             part,
-            metric,
+            metric: &kernel.metric,
         };
-        return probe(&section, pose.states, None, kernel, ways, radius, stated);
+        Self {
+            pose,
+            part,
+            kernel,
+            ways: directions(&kernel.basis),
+            guide: Guide::new(section, pose.states, &kernel.basis.vectors, !once),
+        }
     }
-    let (geometry, states) = more.polished(pose, part, !pose.as_drawn, bits)?;
-    let section = Section {
-        mechanism,
-        geometry,
-        part,
-        metric,
-    };
-    let guide = Guide::of(pose, part, metric);
-    probe(&section, states, Some(&guide), kernel, ways, radius, stated)
+
+    /// One probe in so many bits, at a radius and with what the stated precision leaves open.
+    fn in_bits(
+        &mut self,
+        more: &mut MoreDigits,
+        reach: (f64, f64),
+        bits: u32,
+    ) -> Result<ChartTest, MatrixError> {
+        let Self {
+            pose, part, guide, ..
+        } = self;
+        let mut near = pose.states.to_vec();
+        if bits <= 53 {
+            return probe(&self.ways, reach, 53, &mut |way, radius| {
+                guide.closed(&mut near, way, radius)
+            });
+        }
+        let (geometry, base) = more.polished(pose, part, !pose.as_drawn, bits)?;
+        let section = Section {
+            mechanism: pose.mechanism,
+            geometry,
+            part,
+            metric: &self.kernel.metric,
+        };
+        let mut states = base.to_vec();
+        probe(&self.ways, reach, bits, &mut |way, radius| {
+            guide.finished(&section, base, (&mut states, &mut near), way, radius)
+        })
+    }
 }
 
 /// Up to which order a germ is told from none with such a noise.
@@ -350,61 +354,23 @@ pub(super) fn clearness(test: &ChartTest, stated: f64) -> Option<f64> {
     clear.is_finite().then_some(clear)
 }
 
-/// Closes in double precision what is to be closed in more digits: that takes most of the steps, which then cost little.
-struct Guide<'a> {
-    section: Section<'a, f64>,
-    base: &'a [JointState<f64>],
-}
+/// A way with its number, closed at a radius.
+type Close<'c> = dyn FnMut((usize, &[f64]), f64) -> Result<Closing, MatrixError> + 'c;
 
-impl<'a> Guide<'a> {
-    fn of(pose: &Pose<'a>, part: &'a Part, metric: &'a Metric) -> Self {
-        Self {
-            section: Section {
-                mechanism: pose.mechanism,
-                geometry: pose.geometry,
-                part,
-                metric,
-            },
-            base: pose.states,
-        }
-    }
-
-    /// The way from the pose to where a way along the kernel leads and closing ends.
-    fn closed(&self, along: &[f64], held: &[Vec<f64>]) -> Result<Vec<f64>, MatrixError> {
-        let mut states = self.base.to_vec();
-        self.section.advance_by(&mut states, along);
-        self.section.close(&mut states, held, 40)?;
-        Ok(self.section.way_between(self.base, &states))
-    }
-}
-
-/// Goes along each of the ways by the radius and closes, in the arithmetic of the section.
-fn probe<R: Real>(
-    section: &Section<'_, R>,
-    base: &[JointState<R>],
-    guide: Option<&Guide<'_>>,
-    kernel: &Kernel,
+/// Goes along each of the ways by the radius and closes, in so many bits.
+fn probe(
     ways: &[Vec<f64>],
-    radius: f64,
-    stated: f64,
+    (radius, stated): (f64, f64),
+    bits: u32,
+    close: &mut Close<'_>,
 ) -> Result<ChartTest, MatrixError> {
-    let mut states = base.to_vec();
-    let mut left = |way: &[f64], radius: f64| -> Result<(f64, f64), MatrixError> {
-        for &joint in &section.part.joints {
-            states[joint] = base[joint].clone();
-        }
-        let mut z: Vec<f64> = way.iter().map(|x| x * radius).collect();
-        if let Some(guide) = guide {
-            z = guide.closed(&z, &kernel.basis.vectors)?;
-        }
-        section.advance_by(&mut states, &z);
-        let closing = section.close(&mut states, &kernel.basis.vectors, 40)?;
-        Ok((closing.residual, closing.rounding))
-    };
+    let mut left = |index: usize, radius: f64| close((index, &ways[index]), radius);
     let mut worst = (0, 0.0f64);
     let mut noise = 0.0f64;
-    for (index, way) in ways.iter().enumerate() {
-        let (residual, rounding) = left(way, radius)?;
+    for index in 0..ways.len() {
+        let Closing {
+            residual, rounding, ..
+        } = left(index, radius)?;
         noise = noise.max(4.0 * rounding + stated);
         if residual > worst.1 || !residual.is_finite() {
             worst = (index, residual);
@@ -423,8 +389,8 @@ fn probe<R: Real>(
             ChartOutcome::Thin
         }
     } else {
-        let (half, _) = left(&ways[index], 0.5 * radius)?;
-        let (quarter, _) = left(&ways[index], 0.25 * radius)?;
+        let half = left(index, 0.5 * radius)?.residual;
+        let quarter = left(index, 0.25 * radius)?.residual;
         let orders = [(leftover / half).log2(), (half / quarter).log2()];
         let power = |order: f64| (1.5..=ORDERS_SEEN as f64 + 2.5).contains(&order);
         if quarter > CLEAR * noise && orders.iter().all(|o| power(*o)) {
@@ -439,7 +405,7 @@ fn probe<R: Real>(
         leftover,
         noise,
         directions: ways.len(),
-        bits: section.geometry.one.bits(),
+        bits,
         followed: 0.0,
         literal: false,
     })

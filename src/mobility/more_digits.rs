@@ -2,16 +2,16 @@
 
 use super::pose_rank::Pose;
 use crate::closure::{Arithmetic, Geometry, JointState, Part, entry_accuracy, jacobian, refine};
-use crate::matrix::{Big, MatrixError, Real, SparseMatrix};
+use crate::matrix::{Extended, MatrixError, Real, SparseMatrix};
 use std::collections::BTreeMap;
 
 /// The mechanism evaluated in many digits, once for every number of bits however many parts need it.
 #[derive(Debug, Default)]
-pub struct MoreDigits(BTreeMap<u32, (Geometry<Big>, Vec<JointState<Big>>)>);
+pub struct MoreDigits(BTreeMap<u32, (Geometry<Extended>, Vec<JointState<Extended>>)>);
 
 /// A part's Jacobian with unit columns.
 pub(super) struct FinerMatrix {
-    pub matrix: SparseMatrix<Big>,
+    pub matrix: SparseMatrix<Extended>,
     /// Relative uncertainty by rounding in this arithmetic.
     pub rounding: f64,
     /// What is left of the cycles (rad, cycle lengths).
@@ -33,7 +33,7 @@ impl MoreDigits {
         part: &Part,
         moved: bool,
         bits: u32,
-    ) -> Result<(&Geometry<Big>, &[JointState<Big>]), MatrixError> {
+    ) -> Result<(&Geometry<Extended>, &[JointState<Extended>]), MatrixError> {
         let (geometry, states) = self.0.entry(bits).or_insert_with(|| {
             let geometry =
                 Geometry::new(pose.mechanism, pose.configuration, &Arithmetic::bits(bits));

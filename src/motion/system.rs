@@ -235,7 +235,10 @@ impl LoopSystem {
                 constant = constant.compose(predecessor);
                 for (offset, factor) in factors.iter().enumerate() {
                     passages.push(Passage {
-                        before: constant.compose(&factor.before),
+                        before: match &factor.before {
+                            Some(before) => constant.compose(before),
+                            None => constant,
+                        },
                         factor: first + offset,
                         forward,
                     });
@@ -250,7 +253,10 @@ impl LoopSystem {
                         factor: first + offset,
                         forward,
                     });
-                    constant = factors[offset].before.inverse();
+                    constant = match &factors[offset].before {
+                        Some(before) => before.inverse(),
+                        None => Rigid::identity(&1.0),
+                    };
                 }
                 constant = constant.compose(&predecessor.inverse());
             }

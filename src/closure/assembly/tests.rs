@@ -3,7 +3,6 @@ use super::super::samples::{
     CRANK_ROCKER, Place, Written, add_ring, four_bar, planar, ring, sarrus, sarrus_places,
 };
 use super::*;
-use crate::matrix::Big;
 use crate::mechanism::{JointKind, MechanismBuilder};
 use crate::mobility::Structure;
 use crate::number::Number;
@@ -298,7 +297,7 @@ fn refining_reaches_the_digits_of_the_arithmetic() {
     let mechanism = ring(&planar(&CRANK_ROCKER), [0.5, -0.25, 0.0], Written::Exactly);
     let (double, assembly) = assembled(&mechanism, &[]);
     let part = the_part(&mechanism);
-    let geometry = Geometry::new(&mechanism, None, &Arithmetic::<Big>::bits(212));
+    let geometry = Geometry::new(&mechanism, None, &Arithmetic::bits(212));
     let mut states: Vec<_> = geometry
         .displacements
         .iter()

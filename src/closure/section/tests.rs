@@ -314,3 +314,81 @@ proptest! {
         prop_assert!(rest.iter().all(|x| x.abs() < 1e-12), "{rest:?}");
     }
 }
+
+#[test]
+fn within_rounding_is_reached_sooner_than_the_last_digit() {
+    let mut steps = [0, 0];
+    for mechanism in [four_bar(), cylinders(), mixed()] {
+        let drawn = drawn(mechanism);
+        let section = drawn.section();
+        let mut best = drawn.geometry.states.clone();
+        section.advance_by(&mut best, &random(drawn.metric.weights.len(), 0.1));
+        let mut enough = best.clone();
+        let long = section.close(&mut best, &[], 30).unwrap();
+        let short = section.close_within_rounding(&mut enough, &[], 30).unwrap();
+        assert!(short.residual <= short.rounding, "{short:?}");
+        steps[0] += short.steps;
+        steps[1] += long.steps;
+        // The steps taken are the same.
+        assert!(0.0.norm(&section.way_between(&best, &enough)) < 1e-8);
+    }
+    assert!(steps[0] < steps[1], "{steps:?}");
+}
+
+/// A part closed in double precision at a distance along its kernel, and that way.
+fn closed_away(drawn: &Drawn<f64>) -> (Vec<JointState<f64>>, Vec<f64>) {
+    let section = drawn.section();
+    let mut states = drawn.geometry.states.clone();
+    let z: Vec<f64> = drawn.kernel[0].iter().map(|x| 0.2 * x).collect();
+    section.advance_by(&mut states, &z);
+    section
+        .close_within_rounding(&mut states, &drawn.kernel, 30)
+        .unwrap();
+    let led = section.way_between(&drawn.geometry.states, &states);
+    (states, led)
+}
+
+#[test]
+fn many_digits_follow_double_precision() {
+    for mechanism in [four_bar(), cylinders()] {
+        let double = drawn(mechanism.clone());
+        let (near, led) = closed_away(&double);
+        for bits in [106, 212, 424] {
+            let fine = Drawn::new(mechanism.clone(), &Arithmetic::bits(bits));
+            let section = fine.section();
+            let mut states = fine.geometry.states.clone();
+            section.advance_by(&mut states, &led);
+            let open = fine.residual(&states);
+            assert!(open > 1e-20, "{bits}: nothing is to do");
+            let closing = section
+                .close_guided(&mut states, (&double.section(), &near), &double.kernel, 60)
+                .unwrap();
+            assert_eq!(closing.residual, fine.residual(&states));
+            assert!(closing.residual <= closing.rounding, "{bits}: {closing:?}");
+            // Each step finds about as many digits as a double has.
+            assert!(
+                closing.steps <= 1 + bits as usize / 40,
+                "{bits}: {closing:?}"
+            );
+            assert!(closing.way < 1e-10, "{bits}: {closing:?}");
+        }
+    }
+}
+
+#[test]
+fn a_guide_that_stands_elsewhere_is_left() {
+    let mechanism = cylinders();
+    let double = drawn(mechanism.clone());
+    let (near, led) = closed_away(&double);
+    let fine = Drawn::new(mechanism, &Arithmetic::bits(212));
+    let section = fine.section();
+    // Half of the way: not closed, and not where the guide is.
+    let mut states = fine.geometry.states.clone();
+    let half: Vec<f64> = led.iter().map(|x| 0.5 * x).collect();
+    section.advance_by(&mut states, &half);
+    let closing = section
+        .close_guided(&mut states, (&double.section(), &near), &double.kernel, 60)
+        .unwrap();
+    assert!(closing.residual <= closing.rounding, "{closing:?}");
+    assert!(closing.way > 1e-4, "{closing:?}");
+}

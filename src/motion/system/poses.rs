@@ -204,15 +204,7 @@ impl LoopSystem {
         for (joint, displacement) in self.joints.iter().zip(&self.displacements) {
             let (first, count) = joint.factors;
             let of = |pose: &SystemPose| {
-                let mut total = Rigid::identity(&1.0);
-                for (factor, frame) in displacement
-                    .factors()
-                    .iter()
-                    .zip(&pose.frames[first..first + count])
-                {
-                    total = total.compose(&factor.before).compose(frame);
-                }
-                total
+                displacement.displacement_of(&pose.frames[first..first + count])
             };
             let off = of(a).inverse().compose(&of(b));
             let turn = norm(&off.rotation_vector());
