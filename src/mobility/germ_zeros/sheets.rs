@@ -130,8 +130,12 @@ fn walk(
         if left < 1e-3 {
             return agreement(&tangent, &to.tangent) > 0.9;
         }
+        // Along the sheet and along the sphere. The sheet need not contain the way to the origin: taking off z itself would
+        // lead out of the sheet, and most where the member is on the far side.
         let along = project(&ahead, &tangent);
-        let along = plus(&along, -dot(&along, &z), &z);
+        let climb = project(&z, &tangent);
+        let steepness = dot(&climb, &climb).max(f64::MIN_POSITIVE);
+        let along = plus(&along, -dot(&along, &climb) / steepness, &climb);
         let reach = length(&along);
         if reach < 0.1 * left {
             return false;
