@@ -12,11 +12,13 @@ use std::fmt::Write;
 pub const WANTED: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-8];
 
 /// Ways that the page shows; the figure has all of them.
-const SHOWN: [(&str, &str); 9] = [
+const SHOWN: [(&str, &str); 11] = [
     ("count", ""),
     ("rank", "53 bits"),
+    ("rank", "106 bits"),
     ("subgroups", ""),
     ("chart test", "53 bits"),
+    ("chart test", "106 bits"),
     ("chart test", "212 bits"),
     ("germ", "to order 4"),
     ("exact algebra", ""),
