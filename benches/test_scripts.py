@@ -7,6 +7,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import accuracy
 import compare
 import instructions
 import stages
@@ -24,6 +25,21 @@ stages                     fastest       │ slowest       │ median        │
       ╰─ bennett           1.2 s         │ 2 s           │ 1.5 s         │ 1.5 s         │ 10      │ 10
                            12.3 MB/s     │ 11 MB/s       │ 12 MB/s       │ 12 MB/s       │         │
 """
+
+
+class Accuracy(unittest.TestCase):
+    def test_every_step_runs_something_that_is_there(self):
+        programs = [command for _, command, _ in accuracy.steps("2026-01-31", "a machine", quick=False)]
+        self.assertEqual(len(programs), 3)
+        self.assertEqual(len(accuracy.steps("2026-01-31", "a machine", quick=True)), 2)
+        for command in programs:
+            if "--example" in command:
+                there = accuracy.ROOT / "examples" / command[command.index("--example") + 1] / "main.rs"
+            elif "--test" in command:
+                there = accuracy.ROOT / "tests" / command[command.index("--test") + 1] / "main.rs"
+            else:
+                there = accuracy.ROOT / command[1]
+            self.assertTrue(there.is_file(), there)
 
 
 class Stages(unittest.TestCase):

@@ -38,19 +38,8 @@ impl<R: Real> Section<'_, R> {
             .equations(near)?
             .linearised(guide.geometry, guide.part)?;
         while closing.residual > rounding && closing.steps < limit {
+            let step = guide.step(&derivative, &here.residual, closing.residual, held)?;
             let unit = self.geometry.one.constant(closing.residual);
-            let right: Vec<f64> = here
-                .residual
-                .iter()
-                .map(|r| -(r.clone() / unit.clone()).to_f64())
-                .collect();
-            let mut step = guide.across(&derivative, right, held)?;
-            for direction in held {
-                let along: f64 = direction.iter().zip(&step).map(|(a, b)| a * b).sum();
-                step.iter_mut()
-                    .zip(direction)
-                    .for_each(|(x, d)| *x -= along * d);
-            }
             let z: Vec<R> = step
                 .iter()
                 .map(|x| self.geometry.one.constant(*x) * unit.clone())

@@ -161,20 +161,8 @@ impl<R: Real> Section<'_, R> {
         let floor = floor(rounding);
         let mut kept = Vec::new();
         while closing.steps < limit && closing.residual > floor {
-            let unit = self.geometry.one.constant(closing.residual);
             let linear = here.linearised(self.geometry, self.part)?;
-            let right: Vec<f64> = linear
-                .residual
-                .iter()
-                .map(|r| -(r.clone() / unit.clone()).to_f64())
-                .collect();
-            let mut step = self.across(&linear, right, held)?;
-            for direction in held {
-                let along: f64 = direction.iter().zip(&step).map(|(a, b)| a * b).sum();
-                step.iter_mut()
-                    .zip(direction)
-                    .for_each(|(x, d)| *x -= along * d);
-            }
+            let step = self.step(&linear, &linear.residual, closing.residual, held)?;
             let mut length = 0.0.norm(&step) * closing.residual;
             if !length.is_finite() {
                 break;
@@ -229,8 +217,31 @@ impl<R: Real> Section<'_, R> {
         Equations::at(self.mechanism, self.geometry, states, self.part)
     }
 
-    /// The least step that closes to first order and does not move along the held directions, in the metric.
-    pub(super) fn across(
+    /// The least step that closes to first order and does not move along the held directions, in units of `largest`, the
+    /// largest of the equations. Their values may be known to more digits than the derivative.
+    pub(super) fn step<Q: Real>(
+        &self,
+        derivative: &CycleJacobian<R>,
+        values: &[Q],
+        largest: f64,
+        held: &[Vec<f64>],
+    ) -> Result<Vec<f64>, MatrixError> {
+        let right = values
+            .iter()
+            .map(|value| -(value.clone() / value.constant(largest)).to_f64())
+            .collect();
+        let mut step = self.across(derivative, right, held)?;
+        for direction in held {
+            let along: f64 = direction.iter().zip(&step).map(|(a, b)| a * b).sum();
+            step.iter_mut()
+                .zip(direction)
+                .for_each(|(x, d)| *x -= along * d);
+        }
+        Ok(step)
+    }
+
+    /// The least-squares problem of [`Self::step`]: exactly across the held directions only up to rounding.
+    fn across(
         &self,
         here: &CycleJacobian<R>,
         mut right: Vec<f64>,
