@@ -1,7 +1,6 @@
 //! Closing in many digits what is closed in double precision.
 
 use super::displacement::JointState;
-use super::jacobian::rounding_of;
 use super::section::{Closing, Section};
 use crate::matrix::{MatrixError, Real};
 
@@ -23,14 +22,8 @@ impl<R: Real> Section<'_, R> {
         limit: usize,
     ) -> Result<Closing, MatrixError> {
         let mut here = self.equations(states)?;
-        let rounding = rounding_of(&here.walks, self.geometry.one.unit_roundoff());
-        let mut closing = Closing {
-            residual: here.largest(),
-            rounding,
-            way: 0.0,
-            last_step: 0.0,
-            steps: 0,
-        };
+        let mut closing = self.before_closing(&here);
+        let rounding = closing.rounding;
         if closing.residual <= rounding {
             return Ok(closing);
         }

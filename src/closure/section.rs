@@ -150,14 +150,8 @@ impl<R: Real> Section<'_, R> {
         limit: usize,
     ) -> Result<Closing, MatrixError> {
         let mut here = self.equations(states)?;
-        let rounding = rounding_of(&here.walks, self.geometry.one.unit_roundoff());
-        let mut closing = Closing {
-            residual: here.largest(),
-            rounding,
-            way: 0.0,
-            last_step: 0.0,
-            steps: 0,
-        };
+        let mut closing = self.before_closing(&here);
+        let rounding = closing.rounding;
         let floor = floor(rounding);
         let mut kept = Vec::new();
         while closing.steps < limit && closing.residual > floor {
@@ -211,6 +205,17 @@ impl<R: Real> Section<'_, R> {
             }
         }
         Ok(closing)
+    }
+
+    /// What closing has come to before its first step.
+    pub(super) fn before_closing(&self, here: &Equations<R>) -> Closing {
+        Closing {
+            residual: here.largest(),
+            rounding: rounding_of(&here.walks, self.geometry.one.unit_roundoff()),
+            way: 0.0,
+            last_step: 0.0,
+            steps: 0,
+        }
     }
 
     pub(super) fn equations(&self, states: &[JointState<R>]) -> Result<Equations<R>, MatrixError> {

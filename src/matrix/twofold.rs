@@ -24,7 +24,7 @@ pub struct Twofold(Quad);
 /// 2^-102: sixteen times the square of 2^-53.
 const ROUNDOFF: f64 = 16.0 * (f64::EPSILON / 2.0) * (f64::EPSILON / 2.0);
 
-/// From here on the multiples of π/2 are no longer exact enough to be taken off an angle.
+/// Below, what is missing of the multiples of π/2 that are taken off an angle is less than 2^-143: nothing beside rounding.
 pub(super) const LARGEST_ANGLE: f64 = 1_048_576.0;
 
 /// π/2 in three doubles, each the nearest to what the ones before it leave: 2^-163 is missing.

@@ -198,7 +198,7 @@ pub(super) fn literal_leftover(
         return Ok(None);
     }
     let reach = (first_radius(rank), 0.0);
-    let mut probes = Probes::new(pose, part, kernel, rank.unknowns() > LADDER_UNKNOWNS);
+    let mut probes = Probes::new(pose, part, kernel);
     let double = probes.in_bits(more, reach, 53)?;
     if double.leftover > double.noise {
         return Ok(Some(double.leftover));
@@ -230,7 +230,7 @@ fn climb(
     mut radius: f64,
     stated: f64,
 ) -> Result<ChartTest, MatrixError> {
-    let mut probes = Probes::new(pose, part, kernel, rank.unknowns() > LADDER_UNKNOWNS);
+    let mut probes = Probes::new(pose, part, kernel);
     // Exact numbers that needed more digits for the rank need them here too: what they leave over may be as small as they are.
     let mut bits = if stated == 0.0 && rank.unknowns() <= LADDER_UNKNOWNS {
         rank.bits
@@ -273,7 +273,7 @@ pub(super) fn chart_in_bits(
     kernel: &Kernel,
     bits: u32,
 ) -> Result<ChartTest, MatrixError> {
-    Probes::new(pose, part, kernel, true).in_bits(more, (first_radius(rank), rank.stated), bits)
+    Probes::new(pose, part, kernel).in_bits(more, (first_radius(rank), rank.stated), bits)
 }
 
 /// What all probes of a chart test share.
@@ -286,8 +286,7 @@ struct Probes<'a> {
 }
 
 impl<'a> Probes<'a> {
-    /// `once`: whether no more than one number of bits will be asked for.
-    fn new(pose: &'a Pose<'a>, part: &'a Part, kernel: &'a Kernel, once: bool) -> Self {
+    fn new(pose: &'a Pose<'a>, part: &'a Part, kernel: &'a Kernel) -> Self {
         let section = Section {
             mechanism: pose.mechanism,
             geometry: pose.geometry,
@@ -299,7 +298,7 @@ impl<'a> Probes<'a> {
             part,
             kernel,
             ways: directions(&kernel.basis),
-            guide: Guide::new(section, pose.states, &kernel.basis.vectors, !once),
+            guide: Guide::new(section, pose.states, &kernel.basis.vectors),
         }
     }
 

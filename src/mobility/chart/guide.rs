@@ -15,23 +15,20 @@ pub(super) struct Guide<'a> {
     held: &'a [Vec<f64>],
     /// By way and radius: the way from the pose to the closed one.
     led: BTreeMap<(usize, u64), Vec<f64>>,
-    remembers: bool,
 }
 
 impl<'a> Guide<'a> {
-    /// `held`: directions along which closing does not move. Whoever asks in one arithmetic only has nothing remembered.
+    /// `held`: directions along which closing does not move.
     pub fn new(
         section: Section<'a, f64>,
         base: &'a [JointState<f64>],
         held: &'a [Vec<f64>],
-        remembers: bool,
     ) -> Self {
         Self {
             section,
             base,
             held,
             led: BTreeMap::new(),
-            remembers,
         }
     }
 
@@ -47,10 +44,8 @@ impl<'a> Guide<'a> {
         let closing = self
             .section
             .close_within_rounding(states, self.held, STEPS)?;
-        if self.remembers {
-            let led = self.section.way_between(self.base, states);
-            self.led.insert((index, radius.to_bits()), led);
-        }
+        let led = self.section.way_between(self.base, states);
+        self.led.insert((index, radius.to_bits()), led);
         Ok(closing)
     }
 
