@@ -305,6 +305,21 @@ fn every_rod_between_two_balls_is_idle() {
 }
 
 #[test]
+fn telescopic_legs_between_two_balls_spin_as_a_whole() {
+    let mechanism = zoo_mechanism("stewart_6SPS");
+    let posed = Posed::of(&mechanism);
+    let facts = branch_facts(&mechanism, &posed.geometry, &posed.structure, &posed.poses);
+    assert_eq!(facts.idle.len(), 6);
+    for idle in &facts.idle {
+        assert!(
+            idle.rod && idle.freedom == 1 && idle.with.len() == 1,
+            "{idle:?}"
+        );
+    }
+    assert!(facts.nearly_idle.is_empty());
+}
+
+#[test]
 fn long_chains_are_no_harder() {
     let mechanism = scissor_lift(300).unwrap();
     let posed = Posed::of(&mechanism);
@@ -356,7 +371,14 @@ fn told(mechanism: &Mechanism, old: &dyn Fn(&str) -> String) -> (Told, Classes) 
     told.idle = facts
         .idle
         .iter()
-        .map(|idle| (joints_of(idle.link), idle.freedom))
+        .map(|idle| {
+            // Which of several links gives its name to all depends on names.
+            let links = idle.with.iter().chain([&idle.link]);
+            (
+                links.flat_map(|&link| joints_of(link)).collect(),
+                idle.freedom,
+            )
+        })
         .collect();
     for motion in &facts.motions {
         let class = motion.class.map_or("none", |class| class.short_name());

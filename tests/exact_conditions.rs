@@ -27,6 +27,7 @@ fn open(file: &str, symbolic: &[&str], settings: &[(&str, &str)]) -> Mechanism {
             .iter()
             .map(|(name, value)| ((*name).to_owned(), (*value).to_owned()))
             .collect(),
+        ..ReadOptions::default()
     };
     let text = std::fs::read_to_string(path).unwrap();
     read_with(&text, file, &options).unwrap().mechanism

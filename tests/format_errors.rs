@@ -47,9 +47,6 @@ fn malformed_xml() {
         row("<robot name='a&b'/>", 1, 15, "starts no entity", "&amp;"),
         row("<robot name='&what;'/>", 1, 14, "`&what;` is not known", ""),
         row("<robot name='a<b'/>", 1, 15, "`<` inside an attribute", "quote"),
-        row("<robot name='r'>\n <!-- a -- b -->\n</robot>", 2, 2, "`--` inside a comment", ""),
-        row("\n<?xml version='1.0'?><robot name='r'/>", 2, 1, "very start", ""),
-        row("<robot name='r'>\n<x:y/></robot>", 2, 2, "prefix `x` is not declared", "xmlns:x"),
         row("<robot name='r'>\n<xacro:property name='a' value='1'/></robot>", 2, 2, "`xacro` is not declared", "http://www.ros.org/wiki/xacro"),
         row("<robot name='\u{1}'/>", 1, 14, "U+0001", ""),
         row("<1/>", 1, 2, "name of an element", ""),
@@ -67,10 +64,8 @@ fn not_a_robot() {
         row("<sdf version='1.6'/>", 1, 1, "needed <robot>, found <sdf>", "another format"),
         row("<Robot name='r'/>", 1, 1, "needed <robot>, found <Robot>", "did you mean <robot>?"),
         row("<html/>", 1, 1, "needed <robot>", ""),
-        row("<robot/>", 1, 1, "needs the attribute `name`", "name="),
         row("<robot name='r'/>", 1, 1, "there is no link", "<link"),
-        row("<robot name='r' vresion='1'><link name='a'/></robot>", 1, 17, "no attribute `vresion`", "did you mean `version`?"),
-        row("\u{feff}<robot nam='r'/>", 1, 1, "needs the attribute `name`", ""),
+        row("\u{feff}<robot nam='r'/>", 1, 8, "no attribute `nam`", "`name`"),
         row("\u{feff}\n é <robot name='r'/>", 2, 2, "", ""),
     ]);
 }
@@ -80,27 +75,71 @@ fn not_a_robot() {
 fn unknown_words() {
     check(&[
         (robot("<lnik name='d'/>"), 3, 1, "<lnik> is not known inside <robot>", "did you mean <link>?"),
-        (robot("<frobnicate/>"), 3, 1, "it has link, joint, loop", ""),
         (robot(" <link nmae='d'/>"), 3, 8, "<link> has no attribute `nmae`", "did you mean `name`?"),
-        (robot("<link name='d'><inertia/></link>"), 3, 16, "<inertia> is not known inside <link>", "<inertial>"),
         (chain("revolut", ""), 3, 23, "no joint type `revolut`", "did you mean `revolute`?"),
         (chain("bannana", ""), 3, 23, "no joint type `bannana`", "the types are fixed, revolute"),
         (chain("revolute", "<axes xyz='1 0 0'/>"), 5, 1, "<axes> is not known inside <joint>", "<axis>"),
-        (chain("revolute", "<axis xyz='1 0 0' rpy='0 0 0'/>"), 5, 19, "no attribute `rpy`; it has xyz", ""),
         (chain("revolute", "<axis xyz='1 0 0'/><axis xyz='0 1 0'/>"), 5, 20, "second <axis>", "remove"),
         (chain("revolute", "<axis/>"), 5, 1, "needs the attribute `xyz`", ""),
-        (chain("revolute", "<axis xyz='1 0 0'>x</axis>"), 5, 19, "found the text `x`", "comments"),
-        (chain("revolute", "  revolve"), 5, 3, "found the text `revolve`", "attributes"),
-        (chain("revolute", "<axis xyz='1 0 0'><b/></axis>"), 5, 19, "<b> is not known inside <axis>", ""),
         (chain("revolute", "<limit lowr='0'/>"), 5, 8, "no attribute `lowr`", "`lower`"),
-        (robot("<xacro:macro name='x'/>"), 3, 1, "<xacro:macro> is not evaluated", "xacro first"),
-        (robot("<link name='${n}'/>"), 3, 13, "not for names", "xacro first"),
-        (robot("<link name='d'><xacro:property name='x' value='1'/></link>"), 3, 16, "not evaluated here", "inside <robot>"),
+        (robot("<xacro:macro/>"), 3, 1, "needs the attribute `name`", ""),
+        (robot("<link name='${n}'/>"), 3, 15, "no property named `n`", ""),
+        (robot("<xacro:macro name='arm'/><link name='d'><xacro:leg name='x'/></link>"), 3, 41, "no macro named `leg`", ""),
         (robot("<expect finit='1'/>"), 3, 9, "no attribute `finit`", "`finite`"),
         (chain("fixed", "<!-- x -->").replace("</robot>", "<expect pose='reglar'/></robot>"), 8, 15, "needed regular or singular", "`regular`"),
         (chain("fixed", "").replace("</robot>", "<expect finite='1.5'/></robot>"), 8, 17, "needed a whole number, found `1.5`", ""),
         (chain("fixed", "").replace("</robot>", "<expect locked='x'/></robot>"), 8, 1, "`x`, which is neither", ""),
         (chain("fixed", "").replace("</robot>", "<scene><gravty xyz='0 0 1'/></scene></robot>"), 8, 8, "<gravty> is not known inside <scene>", "<gravity>"),
+    ]);
+}
+
+#[test]
+#[rustfmt::skip]
+fn slips_in_what_bears_on_motion() {
+    let side = |inside: &str| chain("revolute", "").replace("<child link=\"b\"/>", inside);
+    check(&[
+        (robot("<jiont name='d'/>"), 3, 1, "<jiont> is not known inside <robot>", "<joint>"),
+        (robot("<Joint name='d'/>"), 3, 1, "<Joint> is not known inside <robot>", "<joint>"),
+        (robot("<lop name='d'/>"), 3, 1, "<lop> is not known inside <robot>", "<loop>"),
+        (robot("<axis xyz='1 0 0'/>"), 3, 1, "<axis> is not known inside <robot>", ""),
+        (robot("<configuraton name='d'/>"), 3, 1, "<configuraton> is not known", "<configuration>"),
+        (robot("<link name='d'><joint name='x' type='fixed'/></link>"), 3, 16, "<joint> is not known inside <link>", ""),
+        (chain("revolute", "<axsi xyz='1 0 0'/>"), 5, 1, "<axsi> is not known inside <joint>", "did you mean <axis>?"),
+        (chain("revolute", "<orgin xyz='1 0 0'/>"), 5, 1, "<orgin> is not known", "<origin>"),
+        (chain("revolute", "<mimc joint='k'/>"), 5, 1, "<mimc> is not known", "<mimic>"),
+        (chain("revolute", "<limits lower='0'/>"), 5, 1, "<limits> is not known", "<limit>"),
+        (chain("revolute", "<origin xzy='1 0 0'/>"), 5, 9, "<origin> has no attribute `xzy`", "`xyz`"),
+        (chain("revolute", "<mimic joint='k' multiplyer='2'/>"), 5, 18, "no attribute `multiplyer`", "`multiplier`"),
+        (chain("revolute", "<axis xyz='1 0 0'/><origin xyz='0 0 1'/><origin xyz='0 0 2'/>"), 5, 41, "second <origin>", "remove"),
+        (robot("<constrant name='d'/>"), 3, 1, "<constrant> is not known", "<constraint>"),
+        (side("<chidl link='b'/>"), 4, 19, "<chidl> is not known", "<child>"),
+    ]);
+}
+
+#[test]
+#[rustfmt::skip]
+fn no_loop_is_lost() {
+    let in_gazebo = |joint: &str| chain("revolute", "").replace("</robot>", &format!("<gazebo>{joint}</gazebo></robot>"));
+    let tall = "<parent>a</parent><child>c</child>";
+    check(&[
+        (robot("<weld><link1 link='a'/><link2 link='b'/></weld>"), 3, 1, "<weld> joins two links", "<loop>"),
+        (robot("<closure body1='a' body2='b'/>"), 3, 1, "<closure> joins two links", ""),
+        (robot("<mujoco><equality><connect body1='a' body2='b' anchor='0 0 0'/></equality></mujoco>"), 3, 19, "<connect> joins two links", ""),
+        (robot("<x:tie xmlns:x='u'><body_a/><body_b/></x:tie>"), 3, 1, "<x:tie> joins two links", ""),
+        (robot("<link name='d'><joint name='x'><parent link='a'/><child link='b'/></joint></link>"), 3, 16, "<joint>", ""),
+        (in_gazebo(&format!("<joint name='l' type='gearbox'>{tall}</joint>")), 8, 31, "`gearbox` inside <gazebo> is not read", ""),
+        (in_gazebo(&format!("<joint name='l' type='revolute'>{tall}</joint>")), 8, 9, "needs <axis>", ""),
+        (in_gazebo("<joint name='l' type='fixed'><parent>a</parent><child>x</child></joint>"), 8, 63, "no link named `x`", ""),
+        (in_gazebo(&format!("<joint name='l' type='ball'>{tall}<pose relative_to='x'/></joint>")), 8, 90, "no link named `x`", ""),
+        (in_gazebo(&format!("<joint name='l' type='ball'>{tall}<pose>1 2 3</pose></joint>")), 8, 77, "expected 6 numbers", ""),
+        (in_gazebo(&format!("<joint name='l' type='ball'>{tall}<pose>1 2 3<!-- x --> 0 0 0</pose></joint>")), 8, 71, "needs a value and nothing else", ""),
+        (in_gazebo(&format!("<joint name='l' type='ball'>{tall}<pose>9e99 0 0 0 0 0</pose></joint>")).replace("<child link=\"b\"/>", "<child link=\"b\"/><origin xyz='9e99 0 0'/>"), 8, 9, "beyond the largest number", ""),
+        (in_gazebo(&format!("<joint name='l' type='screw'>{tall}<axis><xyz>0 0 1</xyz></axis></joint>")), 8, 9, "needs <screw_thread_pitch>", ""),
+        (in_gazebo("<joint:hinge2 name='l'/>").replace("<robot ", "<robot xmlns:joint='u' "), 8, 9, "<joint:hinge2> is not read", ""),
+        (robot("<d:x xmlns:d='u'/><drake:coupler_constraint xmlns:drake='u'/>"), 3, 19, "constrains, and it is not read", ""),
+        (robot("<loop_joint name='l' type='spherical'><link1 link='a'/></loop_joint>"), 3, 1, "needs two sides", ""),
+        (robot("<loop_joint name='l' type='spheric'/>"), 3, 28, "of the type `spheric` is not read", ""),
+        (robot("<constraint name='l' type='fixed'><parent link='a'/></constraint>"), 3, 1, "needs <parent", ""),
     ]);
 }
 
@@ -116,9 +155,6 @@ fn parts_that_a_joint_type_has_not() {
         (chain("screw", "<axis xyz='1 0 0'/>"), 3, 1, "needs its lead", "<screw lead"),
         (chain("distance", ""), 3, 1, "distance", ""),
         (chain("distance", "<distance value='0'/>"), 3, 1, "greater than zero", "spherical"),
-        (chain("floating", "<mimic joint='k'/>"), 5, 1, "a floating joint only places its child", ""),
-        (chain("revolute", "<dynamics damping='1'/><joint_properties damping='1'/>"), 5, 24, "given twice", ""),
-        (chain("revolute", "<limit lower='1' upper='-1'/>"), 5, 1, "the lower limit 1 is above the upper limit -1", ""),
         (robot("<loop name='l' type='floating'/>"), 3, 22, "closes no loop", ""),
         (chain("revolute", "<predecessor link='a'/>"), 5, 1, "<predecessor> is not known inside <joint>", ""),
         (chain("revolute", "").replace("name=\"j\"", "name=\"j\" independent=\"maybe\""), 3, 30, "needed true or false", ""),
@@ -160,13 +196,6 @@ fn numbers() {
         (axis("&#48; &#48; &#x7a;"), 5, 24, "a decimal number", ""),
         (axis("1\r\n\t2\r\n\tz"), 7, 2, "a decimal number", ""),
         (chain("revolute", "<origin xyz='1 2 3' rpy='1 2'/>"), 5, 26, "expected 3 numbers, found 2", ""),
-        (robot("<link name='d'><inertial><mass value='-1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>"), 3, 39, "negative", ""),
-        (robot("<link name='d'><inertial><mass value='1'/></inertial></link>"), 3, 16, "needs <inertia>", ""),
-        (robot("<link name='d'><inertial><mass value='1'/><inertia ixx='1'/></inertial></link>"), 3, 43, "needs the attribute `ixy`", ""),
-        (robot("<link name='d'><collision><geometry><sphere radius='-1'/></geometry></collision></link>"), 3, 53, "negative", ""),
-        (robot("<link name='d'><collision/></link>"), 3, 16, "needs <geometry>", ""),
-        (robot("<link name='d'><collision><geometry><ball/></geometry></collision></link>"), 3, 37, "<ball> is not known inside <geometry>", ""),
-        (robot("<link name='d'><collision><geometry><sphere radius='1'/><box size='1 1 1'/></geometry></collision></link>"), 3, 57, "second solid", ""),
     ]);
 }
 
@@ -183,15 +212,14 @@ fn definitions() {
         (two("1 + a", "1"), 3, 37, "`a` is defined by itself: a -> a", ""),
         (two("1", "1/(a - 1)"), 4, 35, "divisor that is not zero", ""),
         (two("1", "2*aa"), 4, 35, "no property named `aa`", "`a`"),
-        (two("", "1"), 3, 33, "found nothing", ""),
-        (two("1 2", "1"), 3, 35, "needed an operator", ""),
+        (two("1 2*3", "1"), 3, 35, "needed an operator", ""),
         (two("2**(10**100)", "1"), 3, 36, "exponent", ""),
         (robot("<xacro:property name='pi' value='3'/>"), 3, 23, "`pi` is built in", ""),
         (robot("<xacro:property name='2a' value='3'/>"), 3, 23, "`2a` cannot be used", ""),
         (robot("<xacro:property name='__a' value='3'/>"), 3, 23, "`__a` cannot be used", "two underscores"),
         (robot("<xacro:property name='a' valu='3'/>"), 3, 26, "no attribute `valu`", "`value`"),
         (robot("<xacro:property name='a'/>"), 3, 1, "needs the attribute `value`", ""),
-        (robot("<xacro:property name='a' value='3'/>\n<xacro:property name='a' value='3'/>"), 4, 23, "`a` is defined twice", ""),
+        (robot("<xacro:property name='a' value='3/2'/>\n<xacro:property name='a' value='3'/>"), 4, 23, "`a` is defined twice", ""),
         (robot("<xacro:arg name='a'/>"), 3, 1, "no default and was not set", "--set a="),
     ]);
 }

@@ -27,7 +27,7 @@ fn deep_wide_and_long_texts_end_in_an_error_soon() {
             .contains("100000 attributes")
     );
     let elements = robot(&"<frob/>".repeat(100_000));
-    assert!(fault(&elements).message.contains("<frob> is not known"));
+    assert!(fault(&elements).message.contains("nothing connects it"));
     let name = "x".repeat(1_000_000);
     assert!(fault(&robot(&format!("<{name}/>"))).message.chars().count() <= 1001);
     assert!(
@@ -103,7 +103,7 @@ fn reading_takes_time_in_proportion_to_the_text() {
         let time = |text: &str| {
             let started = std::time::Instant::now();
             let reading = read(text, "long", &[]).unwrap();
-            (started.elapsed(), reading.skipped.len())
+            (started.elapsed(), reading.skipped[0].count)
         };
         let (_, warm) = time(&small);
         let (short, _) = time(&small);
@@ -113,7 +113,11 @@ fn reading_takes_time_in_proportion_to_the_text() {
             large.len(),
             small.len()
         );
-        assert_eq!((warm, skipped), (3_000, 30_000), "every material is listed");
+        assert_eq!(
+            (warm, skipped),
+            (3_000, 30_000),
+            "every material is counted"
+        );
         // Ten times the text; a hundred times the time would be quadratic. The machine may be busy.
         assert!(long < 50 * short, "{long:?} against {short:?}");
     }

@@ -5,7 +5,7 @@
 mod format_support;
 
 use format_support::{chain, robot};
-use kutzbach::format::{Reading, read};
+use kutzbach::format::{ReadOptions, Reading, read, read_with};
 use kutzbach::mechanism::{CouplingOrigin, JointKind, Placement};
 
 fn reading(text: &str) -> Reading {
@@ -165,7 +165,7 @@ fn a_floating_joint_places_and_does_not_constrain() {
 }
 
 #[test]
-fn what_says_nothing_about_motion_is_skipped_and_listed() {
+fn what_says_nothing_about_motion_is_skipped_and_counted() {
     let text = chain("revolute", "<safety_controller k_velocity='1'/><calibration rising='0'/><gazebo><a>text</a></gazebo>")
         .replace("xmlns:xacro", "xmlns:o='urn:other' o:mark='1' xmlns:xacro")
         .replace(
@@ -176,39 +176,198 @@ fn what_says_nothing_about_motion_is_skipped_and_listed() {
              <joint name='m' type='fixed'><parent link='a'/><child link='d'/></joint></robot>",
         );
     let reading = reading(&text);
-    let what: Vec<&str> = reading
+    let told: Vec<(&str, usize, bool)> = reading
         .skipped
         .iter()
-        .map(|s| s.what.split(':').next().unwrap())
+        .map(|s| (s.what.as_str(), s.count, s.standard))
         .collect();
     let expected = [
-        "attribute `mark` of <robot>",
-        "<safety_controller>",
-        "<calibration>",
-        "<gazebo>",
-        "<gazebo>",
-        "<transmission>",
-        "<material>",
-        "<sensor>",
-        "<o",
-        "<visual>",
-        "<material>",
+        ("attribute `mark` of <robot>", 1, false),
+        ("<safety_controller>", 1, true),
+        ("<calibration>", 1, true),
+        ("<gazebo>", 2, true),
+        ("<transmission>", 1, true),
+        ("<material>", 2, true),
+        ("<sensor>", 1, true),
+        ("<o:thing>", 1, false),
+        (
+            "<visual>: <geometry> needs a solid, found nothing",
+            1,
+            false,
+        ),
+        ("<ball>", 1, false),
     ];
-    assert_eq!(what, expected);
-    assert_eq!((reading.skipped[1].line, reading.skipped[1].column), (5, 1));
-    assert_eq!(
-        (reading.skipped[9].line, reading.skipped[9].column),
-        (9, 16)
-    );
-    assert!(
-        reading.skipped[9].what.contains("<ball> is not known"),
-        "{:?}",
-        reading.skipped[9]
-    );
+    assert_eq!(told, expected);
+    let place = |index: usize| (reading.skipped[index].line, reading.skipped[index].column);
+    assert_eq!((place(1), place(3), place(8)), ((5, 1), (5, 61), (9, 16)));
     assert!(reading.warnings.is_empty());
     let d = reading.mechanism.link_named("d").unwrap();
     assert_eq!(reading.mechanism.link(d).visuals.len(), 1);
     assert_eq!(reading.format, "urdf");
+}
+
+#[test]
+fn what_ros_reads_is_read() {
+    let inside_link = |inside: &str| {
+        robot(&format!(
+            "<link name='d'>{inside}</link>\n\
+             <joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>\n\
+             <joint name='k' type='fixed'><parent link='a'/><child link='c'/></joint>\n\
+             <joint name='m' type='fixed'><parent link='a'/><child link='d'/></joint>"
+        ))
+    };
+    let inertia = "iyy='1' izz='1'";
+    for (text, part) in [
+        (
+            inside_link("<contact><lateral_friction value='1'/></contact>"),
+            "<contact>",
+        ),
+        (
+            inside_link("<self_collision_checking/>"),
+            "<self_collision_checking>",
+        ),
+        (inside_link("<origin xyz='1 2 3'/>"), "<origin>"),
+        (inside_link("stray"), "text inside <link>"),
+        (
+            inside_link(
+                "<inertial><mass value='-1'/><inertia ixx='1' iyy='1' izz='1'/></inertial>",
+            ),
+            "the mass is negative",
+        ),
+        (
+            inside_link("<inertial><mass value='1'/></inertial>"),
+            "needs <inertia>",
+        ),
+        (
+            inside_link(&format!(
+                "<inertial><mass value='1'/><inertia ixx='1' {inertia}/></inertial>"
+            )),
+            "`iyz`, taken as 0",
+        ),
+        (inside_link("<collision/>"), "needs <geometry>"),
+        (
+            inside_link("<collision><geometry><sphere radius='-1'/></geometry></collision>"),
+            "negative",
+        ),
+        (
+            inside_link(
+                "<collision><geometry><sphere radius='1'/><box size='1 1 1'/></geometry></collision>",
+            ),
+            "second solid",
+        ),
+        (
+            inside_link("").replace("name='d'>", "name='d' type='x'>"),
+            "attribute `type` of <link>",
+        ),
+        (
+            robot_of_one("<ros2_control name='x'/><frame name='f' link='a'/>"),
+            "<frame>",
+        ),
+        (robot_of_one("<mujoco><compiler/></mujoco>"), "<mujoco>"),
+        (
+            chain(
+                "revolute",
+                "<limit effort='1' velocity='1' command_effort='3'/>",
+            ),
+            "`command_effort` of <limit>",
+        ),
+        (
+            chain("revolute", "<axis xyz='1 0 0' rpy='0 0 0'>x<b/></axis>"),
+            "attribute `rpy` of <axis>",
+        ),
+        (
+            chain("revolute", "<dynamics damping='1'/><dynamics damping='2'/>"),
+            "second <dynamics>",
+        ),
+        (
+            chain("revolute", "<axis xyz='1 0 0'/><axis xyz='1 0 0'/>"),
+            "second <axis>",
+        ),
+        (
+            chain("revolute", "<dynamics damping='a' D='1'/>"),
+            "<dynamics>:",
+        ),
+        (
+            chain("revolute", "<limit effort='inf' velocity='1'/>"),
+            "`effort` of <limit>",
+        ),
+        (
+            chain("revolute", "").replace(
+                "<joint name=\"j\"",
+                "<joint dont_collapse='true' name=\"j\"",
+            ),
+            "`dont_collapse`",
+        ),
+    ] {
+        let reading = reading(&text);
+        let told: Vec<&str> = reading.skipped.iter().map(|s| s.what.as_str()).collect();
+        assert!(
+            told.iter().any(|what| what.contains(part)),
+            "{part}: {told:?}\n{text}"
+        );
+    }
+    // Nothing to tell of.
+    assert_eq!(
+        reading("<robot><link name='a'/></robot>").mechanism.name(),
+        "unnamed"
+    );
+    for word in ["True", "TRUE", " true "] {
+        let text = chain("revolute", "")
+            .replace("name=\"j\"", &format!("name=\"j\" independent=\"{word}\""));
+        assert_eq!(reading(&text).mechanism.joints()[0].independent, Some(true));
+    }
+    let numbers = chain("revolute", "<axis xyz='  +1\t0 \n 1E-3 '/>");
+    assert_eq!(
+        values(&reading(&numbers).mechanism.joints()[0].axis.0),
+        [1.0, 0.0, 1e-3]
+    );
+}
+
+fn robot_of_one(inside: &str) -> String {
+    format!("<robot name='r'><link name='a'/>{inside}</robot>")
+}
+
+#[test]
+fn xml_that_ros_reads_is_read() {
+    for (text, part) in [
+        (
+            "<robot name='r'><!-- a -- b ---><link name='a'/></robot>",
+            "a comment with `--`",
+        ),
+        (
+            "\n<?xml version='1.0'?><robot name='r'><link name='a'/></robot>",
+            "very start",
+        ),
+        (
+            "<robot name='r'><link name='a'/><x:y z:w='1'/></robot>",
+            "the prefix `x` is not declared",
+        ),
+    ] {
+        let reading = reading(text);
+        assert!(
+            reading.warnings[0].message.contains(part),
+            "{:?}",
+            reading.warnings
+        );
+        assert_eq!(reading.mechanism.links().len(), 1);
+    }
+}
+
+#[test]
+fn a_strict_reading_refuses_what_is_skipped() {
+    let strict = |text: &str| {
+        let options = ReadOptions {
+            strict: true,
+            ..ReadOptions::default()
+        };
+        read_with(text, "file", &options)
+    };
+    let text = robot_of_one("\n<frame name='f'/><frame name='g'/><material name='red'/>");
+    let error = strict(&text).unwrap_err();
+    assert_eq!((error.line, error.column), (2, 1));
+    assert_eq!(error.message, "<frame> is not read, here and 1 times more");
+    assert!(error.others.is_empty());
+    assert!(strict(&text.replace("frame", "material")).is_ok());
 }
 
 #[test]
@@ -225,7 +384,9 @@ fn what_may_be_meant_otherwise_is_warned_of() {
         (chain("planar", "<limit effort='1' velocity='1'/>"), 5, 1, "<limit> means nothing for a planar joint"),
         (chain("revolute", "<joint_properties friction='0'/>"), 5, 1, "old name of <dynamics>"),
         (chain("continuous", "<limit lower='-1' upper='1' effort='3'/>"), 5, 1, "turns without end"),
-        (chain("revolute", "<limit effort='3' acceleration='1'/>"), 5, 1, "acceleration"),
+        (chain("revolute", "<limit lower='1' upper='-1'/>"), 5, 1, "means no limit"),
+        (chain("fixed", "<mimic joint='k'/>"), 5, 1, "<mimic> means nothing for a fixed joint"),
+        (chain("floating", "<mimic joint='k'/>"), 5, 1, "<mimic> means nothing for a floating joint"),
         (
             chain("revolute", "").replace("</robot>", "<joint name='m' type='revolute'><parent link='a'/><child link='c'/></joint></robot>"),
             8, 1, "joint `m` closes a loop: link `c` is the child of joint `k` already",
@@ -247,4 +408,93 @@ fn names_and_text_survive_the_quirks_of_xml() {
     let reading = reading(text);
     assert_eq!(reading.mechanism.name(), "a & 'b' é");
     assert_eq!(reading.mechanism.links()[0].name, "λ");
+}
+
+#[test]
+fn motors_are_read_in_every_form() {
+    let actuated = |inside: &str| -> Vec<String> {
+        let text = chain("revolute", "")
+            .replace("fixed", "revolute")
+            .replace("</robot>", &format!("{inside}</robot>"));
+        let mechanism = reading(&text).mechanism;
+        let names = mechanism.actuated().iter();
+        names.map(|id| mechanism.joint(*id).name.clone()).collect()
+    };
+    assert_eq!(
+        actuated("<transmission name='t'><type>x</type><joint name='k'/></transmission>"),
+        ["k"]
+    );
+    assert_eq!(
+        actuated(
+            "<transmission type='t' name='t'><joint name='k'/><joint name='j'/></transmission>"
+        ),
+        ["j", "k"]
+    );
+    let control = "<ros2_control name='r'><hardware><plugin>p</plugin></hardware>\
+                   <joint name='j'><command_interface name='position'/></joint>\
+                   <joint name='k'><state_interface name='position'/></joint></ros2_control>";
+    assert_eq!(actuated(control), ["j"]);
+    assert_eq!(
+        actuated(
+            "<mujoco><actuator><motor joint='j'/><position name='p' joint='k'/></actuator></mujoco>"
+        ),
+        ["j", "k"]
+    );
+    assert!(actuated("").is_empty());
+    // A motor of a joint that does not exist, and one of a joint that cannot move.
+    let text = chain("fixed", "").replace(
+        "</robot>",
+        "<transmission><joint name='j'/></transmission><transmission><joint name='x'/></transmission></robot>",
+    );
+    let reading = reading(&text);
+    assert!(reading.mechanism.actuated().is_empty());
+    let told = |part: &str| reading.skipped.iter().any(|s| s.what.contains(part));
+    assert!(told("`j` cannot move") && told("`x` does not exist"));
+}
+
+#[test]
+fn a_call_left_over_from_an_expansion_is_skipped_and_said_so() {
+    let text = chain("revolute", "").replace(
+        "</robot>",
+        "<xacro:sensors xmlns:xacro='http://www.ros.org/wiki/xacro' side='left'/></robot>",
+    );
+    let reading = reading(&text);
+    assert_eq!(reading.format, "urdf");
+    let told: Vec<&str> = reading.skipped.iter().map(|s| s.what.as_str()).collect();
+    assert!(
+        told.iter()
+            .any(|what| what.contains("<xacro:sensors>, the call of a macro")),
+        "{told:?}"
+    );
+}
+
+#[test]
+fn rates_and_forces_of_a_limit_are_no_slips_of_each_other() {
+    let limit = "<limit effort='1' k_velocity='0' velocity='2'/>";
+    let reading = reading(&chain("revolute", limit));
+    assert_eq!(reading.skipped.len(), 1);
+    let slip = chain("revolute", "<limit lowr='0' upper='1'/>");
+    let error = kutzbach::format::read(&slip, "slip.urdf", &[]).unwrap_err();
+    assert_eq!(error.help.as_deref(), Some("did you mean `lower`?"));
+}
+
+#[test]
+fn a_quaternion_turns_a_frame_as_its_angles_do() {
+    let with = |turned: &str| {
+        let text = chain("revolute", &format!("<origin xyz='1 2 3' {turned}/>"));
+        kutzbach::format::read(&text, "turned.urdf", &[])
+    };
+    let yaw = |turned: &str| {
+        let mechanism = with(turned)
+            .unwrap_or_else(|error| panic!("{error}"))
+            .mechanism;
+        let joint = mechanism.joint_named("j").expect("the joint");
+        mechanism.joint(joint).predecessor.frame.roll_pitch_yaw[2].value()
+    };
+    let by_angle = yaw("rpy='0 0 1.5707963267948966'");
+    let by_quaternion = yaw("quat_xyzw='0 0 0.70710678118654757 0.70710678118654757'");
+    assert_eq!(by_angle, by_quaternion);
+    assert!(with("rpy='0 0 1' quat_xyzw='0 0 0 1'").is_err());
+    assert!(with("quat_xyzw='0 0 0 0'").is_err());
+    assert!(with("quat_xyzw='0 0 1'").is_err());
 }

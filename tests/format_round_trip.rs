@@ -5,7 +5,7 @@
 mod format_support;
 
 use format_support::difference;
-use kutzbach::format::{read, write};
+use kutzbach::format::{ReadOptions, read_with, write};
 use kutzbach::mechanism::{
     Direction, Dynamics, Expectation, Frame, Geometry, Inertial, JointBuilder, JointKind, Limit,
     MechanismBuilder, Scene, Shape,
@@ -342,7 +342,12 @@ proptest! {
         // Not every tree has a path that can be coupled.
         let mechanism = coupled.build().or_else(|_| builder.build()).unwrap();
         let text = write(&mechanism);
-        let reading = match read(&text, "written", &[]) {
+        // As written: a decimal that is a constant within its digits is one, and the builder's was not read.
+        let literal = ReadOptions {
+            literal: true,
+            ..ReadOptions::default()
+        };
+        let reading = match read_with(&text, "written", &literal) {
             Ok(reading) => reading,
             Err(error) => return Err(TestCaseError::fail(format!("{error} {:?}\n{text}", error.help))),
         };

@@ -14,7 +14,7 @@ use std::panic::catch_unwind;
 use std::time::Instant;
 
 /// Between them, these use every element of the format.
-const SEEDS: [&str; 5] = [
+const SEEDS: [&str; 8] = [
     r#"<?xml version="1.0"?>
 <robot name="four_bar" version="1.0">
   <link name="base"><inertial><origin xyz="0 0 0.1" rpy="0 0 1"/><mass value="1.5"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1e-3"/></inertial></link>
@@ -65,12 +65,58 @@ const SEEDS: [&str; 5] = [
   <expect finite="1" instantaneous="1" redundant="3" kutzbach="-2" pose="singular" kind="cusp" locked="j k.trans" idle="b" branches="2" branch_dimensions="1 2"/>
 </robot>
 "#,
+    // What other tools add, and how they write loops.
+    r#"<robot name="dialects" xmlns:joint="urn:joint">
+  <link name="a" type="x"><contact/><origin xyz="0 0 1"/>text<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial></link>
+  <link name="b"/><link name="c"/><link name="d"/>
+  <joint name="j" type="revolute" independent="True"><parent link="a"/><child link="b"/><origin xyz="0 1 0" rpy="1.5707963 0 0.25"/><axis xyz="0 0 1" rpy="0 0 0"/><limit lower="1" upper="-1" command_effort="3"/><hardware/></joint>
+  <joint name="k" type="continuous"><parent link="b"/><child link="c"/><origin xyz="2 0 0" rpy="0 ${pi/2} 0"/><drake:mimic joint="j" multiplier="2"/></joint>
+  <joint name="m" type="fixed"><parent link="a"/><child link="d"/><mimic joint="j"/><axis xyz="0 0 0"/></joint>
+  <gazebo><joint name="l" type="revolute"><parent>c</parent><child>r::d</child><pose degrees="true">0 -0.5 0 0 0 30</pose><axis><xyz expressed_in="__model__">0 0 1</xyz><limit><lower>-1</lower><upper>1e16</upper></limit></axis></joint></gazebo>
+  <gazebo><joint name="s" type="screw"><parent>world</parent><child>c</child><axis><xyz>0 1 0</xyz><use_parent_model_frame>1</use_parent_model_frame></axis><thread_pitch>-100</thread_pitch></joint></gazebo>
+  <gazebo><link name="e"><pose relative_to="b">2 0.5 0 0 0 0</pose></link><joint name="u" type="revolute2"><parent>d</parent><child>e</child><axis><xyz>0 0 1</xyz></axis><axis2><xyz>0 1 0</xyz></axis2></joint></gazebo>
+  <gazebo><joint:slider name="j"><body1>a</body1><body2>c</body2><anchor>c</anchor><axis>0 1 0</axis><anchorOffset>0 -1 0</anchorOffset></joint:slider></gazebo>
+  <ros2_control name="r"><joint name="j"><command_interface name="position"/></joint></ros2_control>
+  <transmission name="t"><type>x</type><joint name="k"/><joint name="x"/></transmission>
+</robot>
+"#,
+    r#"<robot xmlns:drake="urn:drake"><!-- a -- b -->
+  <link name="a"/><link name="b"/><link name="c"/><link name="closing_p_1"/><link name="closing_p_2"/>
+  <drake:joint name="j" type="screw"><parent link="a"/><child link="b"/><drake:screw_thread_pitch value="0.02"/></drake:joint>
+  <drake:joint name="k" type="universal"><parent link="b"/><child link="c"/></drake:joint>
+  <joint name="f" type="fixed"><parent link="b"/><child link="closing_p_1"/></joint>
+  <joint name="g" type="fixed"><parent link="c"/><child link="closing_p_2"/></joint>
+  <drake:ball_constraint><drake:ball_constraint_body_A name="a"/><drake:ball_constraint_body_B name="c"/><drake:ball_constraint_p_AP value="0 1 0"/><drake:ball_constraint_p_BQ value="0 0 0.5"/></drake:ball_constraint>
+  <drake:distance_constraint><drake:distance_constraint_body_A name="a"/><drake:distance_constraint_body_B name="c"/><drake:distance_constraint_p_AP value="0 1 0"/><drake:distance_constraint_p_BQ value="0 0 0.5"/><drake:distance_constraint_distance value="0.5"/></drake:distance_constraint>
+  <loop_joint name="l" type="spherical"><link1 link="a" xyz="0 1 0" rpy="0 0 0"/><link2 link="c" xyz="0 0 0"/></loop_joint>
+  <constraint name="m" type="universal"><parent link="a"/><parent_origin xyz="0 1 0"/><parent_axis xyz="0 0 1"/><child link="c"/><child_origin xyz="0 0 3"/><child_axis xyz="1 0 0"/></constraint>
+  <coupling name="h" type="rolling"><predecessor link="a"/><successor link="b"/><ratio value="6.0"/></coupling>
+  <undeclared:thing undeclared:x="1"/>
+  <mujoco><actuator><motor joint="j"/></actuator></mujoco>
+</robot>
+"#,
     "<robot name=\"é&lt;&#65;\">\r\n  <link name='a'/>\r\n  <gazebo><x y=\"1\"/>text</gazebo>\r\n  <![CDATA[ ]]><transmission/>\r\n</robot>",
+    r#"<robot name="expanded" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:arg name="side" default="left"/>
+  <xacro:property name="sizes" value="${[0.5, 2, sqrt(2)/2]}"/>
+  <xacro:property name="a" value="0.25" lazy_eval="false"/>
+  <xacro:macro name="leg" params="name parent reflect:=1 at:=^|'0 0 1' *axis">
+    <link name="${name}"/>
+    <joint name="${name}_j" type="revolute"><parent link="${parent}"/><child link="${name}"/>
+      <origin xyz="${reflect * a} 0 ${sizes[2]}" rpy="0 ${pi/2} ${radians(30)}"/><xacro:insert_block name="axis"/></joint>
+    <xacro:if value="${len(name) &lt; 3 and reflect == 1}"><xacro:leg name="${name}_" parent="${name}"><axis xyz="${at}"/></xacro:leg></xacro:if>
+  </xacro:macro>
+  <link name="base"/>
+  <xacro:leg name="$(arg side)" parent="base"><axis xyz="1 0 0"/></xacro:leg>
+  <xacro:unless value="${'%s' % [1, 2][0:1] == '[1]'}"><bad/></xacro:unless>
+  <xacro:leg name="l" parent="base" reflect="-1"><axis xyz="0 ${1 if a > 0.1 else 2} 0"/></xacro:leg>
+</robot>
+"#,
 ];
 
 /// Words that a mutation puts in the place of others.
 #[rustfmt::skip]
-const WORDS: [&str; 58] = [
+const WORDS: [&str; 80] = [
     "0",
     "-0",
     "1",
@@ -103,6 +149,20 @@ const WORDS: [&str; 58] = [
     "${cos(1)*exp(1)}",
     "${9**999}",
     "${((((",
+    "gazebo",
+    "parent",
+    "child",
+    "pose",
+    "world",
+    "__model__",
+    "drake:mimic",
+    "loop_joint",
+    "link1",
+    "ball",
+    "rolling",
+    "True",
+    "c",
+    "x:y",
     "revolute",
     "screw",
     "distance",
@@ -129,6 +189,14 @@ const WORDS: [&str; 58] = [
     "<!--",
     "-->",
     "<!DOCTYPE x>",
+    "${[1]*99999999}",
+    "${'a'*999999}",
+    "${range(9**9)}",
+    "${name}",
+    "xacro:leg",
+    "xacro:include",
+    "${[x for x in 'abc' for y in x]}",
+    "${dict(a=1).a}",
 ];
 
 /// Numbers that a mutation puts in the place of others.

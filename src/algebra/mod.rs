@@ -16,12 +16,13 @@ mod polynomial;
 mod strategy;
 mod system;
 mod univariate;
+mod without_loops;
 mod zero_dimensional;
 
 pub use answer::{
-    Condition, CycleAnswer, DesignConditions, ExactAnswer, ExactOptions, Family, FixedVariable,
-    Method, Piece, ProvenMotion, Scope, Settled, Solutions, assembly_conditions, exact_answer,
-    motion_conditions, relations_of,
+    BlockAnswer, BlockFinding, ByBlocks, Condition, CycleAnswer, DesignConditions, ExactAnswer,
+    ExactOptions, Family, FixedVariable, Method, Piece, ProvenMotion, Scope, Settled, Solutions,
+    assembly_conditions, exact_answer, exact_by_blocks, motion_conditions, relations_of,
 };
 pub use components::{
     AlgebraicNumber, Component, Decomposition, Hints, Incomplete, Irreducible, RealPoints,
@@ -44,4 +45,5 @@ pub use system::{
     PolynomialSystem, Relaxation, SystemError, SystemOptions, Variable, polynomial_system,
 };
 pub use univariate::{RealRoot, Univariate};
+pub use without_loops::{WithoutLoops, without_loops};
 pub use zero_dimensional::{FinitePoints, RealSolution, Representation, TraceForm};

@@ -26,6 +26,11 @@ pub struct Arguments {
     /// Form of the answer
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    /// Count files of which anything unusual is not read as unreadable
+    #[arg(long)]
+    strict: bool,
+    #[command(flatten)]
+    closing: load::Closing,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -88,7 +93,9 @@ enum Outcome {
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let files = files::mechanism_files(&arguments.paths)?;
     let known = Known::beside(&files)?;
-    let outcomes = files::each(&files, |file| outcome(file, &known));
+    let outcomes = files::each(&files, |file| {
+        outcome(file, &known, arguments.strict, arguments.closing)
+    });
     let mut failures = Vec::new();
     let mut checked = Checked {
         schema: "kutzbach-check-1",
@@ -159,8 +166,8 @@ impl Checked {
 }
 
 /// Reads, analyses and compares one file.
-fn outcome(file: &Path, known: &Known) -> Outcome {
-    let reading = match load::mechanism(file, &[]) {
+fn outcome(file: &Path, known: &Known, strict: bool, closing: load::Closing) -> Outcome {
+    let reading = match load::mechanism(file, &[], strict) {
         Ok(reading) => reading,
         Err(failure) => return Outcome::Unreadable(failure),
     };
@@ -174,7 +181,11 @@ fn outcome(file: &Path, known: &Known) -> Outcome {
     if expectations.is_empty() {
         return Outcome::NothingKnown;
     }
-    match load::report_on(&reading, file, &Options::default()) {
+    let options = Options {
+        closure_tolerance: closing.closure_tolerance,
+        ..Options::default()
+    };
+    match load::report_on(&reading, file, &options) {
         Ok(report) => Outcome::Compared(
             expectations
                 .iter()

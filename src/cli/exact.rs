@@ -2,19 +2,23 @@
 
 use super::failure::Failure;
 use super::interrupt::{self, INTERRUPTED};
-use super::{DONE, UNDECIDED, load, output, terminal};
+use super::{BAD_INPUT, DONE, UNDECIDED, load, output, terminal};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressDrawTarget};
 use kutzbach::algebra::{
-    Budget, ExactOptions, Formulation, Limits, Method, MonomialOrder, Progress, Stop, SystemError,
-    SystemOptions, assembly_conditions, exact_answer, motion_conditions, polynomial_system,
-    relation_by_relation, relations_of,
+    BlockAnswer, BlockFinding, Budget, ExactOptions, Formulation, Limits, Method, MonomialOrder,
+    Progress, Stop, SystemError, SystemOptions, assembly_conditions, exact_answer, exact_by_blocks,
+    motion_conditions, polynomial_system, relation_by_relation, relations_of, without_loops,
 };
+use kutzbach::graph::ConstraintGraph;
 use kutzbach::mechanism::Mechanism;
 use kutzbach::report::exact::{
-    Request, conditions_report, exact_report, relations_report, render, render_conditions,
-    render_relations,
+    EXACT_SCHEMA, Request, blocks_report, conditions_report, exact_report, loopless_report,
+    relations_report, render, render_blocks, render_conditions, render_loopless, render_relations,
 };
+use kutzbach::report::text::visible;
+use serde_json::json;
+use std::io::IsTerminal;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -49,7 +53,7 @@ pub struct Arguments {
     #[arg(long, value_enum)]
     print: Vec<Print>,
     /// Stop after so many seconds and say what is known
-    #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 30.0)]
     time: f64,
     /// Exit with code 3 if it stopped before everything was answered
     #[arg(long)]
@@ -123,9 +127,13 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let request = arguments.request();
     let refused = |error: SystemError| Failure::Plain {
         message: format!("{}: {error}", arguments.source.file.display()),
-        help: None,
+        help: matches!(
+            error,
+            SystemError::NotAlgebraic { .. } | SystemError::Degree { .. }
+        )
+        .then(|| "`report` gives the verdict within the digits".to_owned()),
     };
-    let (text, stopped) = watched(arguments.time, |budget| {
+    let (text, stopped) = watched(arguments, |budget| {
         if !arguments.symbolic.is_empty() {
             arguments.conditions(&reading.mechanism, &request, budget)
         } else if arguments.incremental {
@@ -140,11 +148,22 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     })?;
     arguments.destination.put(&text)?;
     Ok(match stopped {
-        Some(Stop::Cancelled) => INTERRUPTED,
+        Some(Left::Stopped(Stop::Cancelled)) => INTERRUPTED,
         Some(_) if arguments.strict => UNDECIDED,
         _ => DONE,
     })
 }
+
+/// Why something was left without an answer.
+enum Left {
+    Stopped(Stop),
+    /// Not all blocks have exact equations, or they are not to be trusted.
+    Blocks,
+}
+
+/// Mechanisms of more blocks with loops than these are asked block by block from the start: the equations of all at once
+/// soon take longer than those of each.
+const BLOCKS_AT_ONCE: usize = 3;
 
 /// Why there is no text.
 enum Ended {
@@ -189,14 +208,97 @@ impl Arguments {
         mechanism: &Mechanism,
         request: &Request,
         budget: &Budget,
-    ) -> Result<(String, Option<Stop>), Ended> {
-        let answer = exact_answer(mechanism, &request.options, budget).map_err(Ended::Refused)?;
+    ) -> Result<(String, Option<Left>), Ended> {
+        if let Some(found) = without_loops(mechanism).filter(|_| self.asks_nothing_special()) {
+            let report = loopless_report(mechanism, &found, request);
+            let text = match self.format {
+                Format::Text => render_loopless(&report, self.layout()),
+                Format::Json => output::json(&report).map_err(Ended::Failed)?,
+            };
+            return Ok((text, None));
+        }
+        let plain = self.asks_nothing_special();
+        if plain && blocks_with_loops(mechanism) > BLOCKS_AT_ONCE {
+            return self.by_blocks(mechanism, request, budget);
+        }
+        let answer = match exact_answer(mechanism, &request.options, budget) {
+            Ok(answer) => answer,
+            Err(_) if plain => return self.by_blocks(mechanism, request, budget),
+            Err(error) => return Err(Ended::Refused(error)),
+        };
         let report = exact_report(mechanism, &answer, request);
         let text = match self.format {
             Format::Text => render(&report, self.layout()),
             Format::Json => output::json(&report).map_err(Ended::Failed)?,
         };
-        Ok((text, answer.stopped.map(|(_, stop)| stop)))
+        Ok((text, answer.stopped.map(|(_, stop)| Left::Stopped(stop))))
+    }
+
+    /// The blocks that have exact equations, where the whole has none; an error where that leaves nothing.
+    fn by_blocks(
+        &self,
+        mechanism: &Mechanism,
+        request: &Request,
+        budget: &Budget,
+    ) -> Result<(String, Option<Left>), Ended> {
+        let found = exact_by_blocks(mechanism, &request.options, budget);
+        let refused = |block: &BlockAnswer| matches!(block.found, BlockFinding::Refused(_));
+        if let Some(BlockAnswer {
+            found: BlockFinding::Refused(error),
+            ..
+        }) = found.blocks.first()
+            && found.blocks.iter().all(refused)
+        {
+            return Err(Ended::Refused(error.clone()));
+        }
+        let report = blocks_report(mechanism, &found, request);
+        let text = match self.format {
+            Format::Text => render_blocks(&report, self.layout()),
+            Format::Json => output::json(&report).map_err(Ended::Failed)?,
+        };
+        let stopped = found.blocks.iter().find_map(|block| match &block.found {
+            BlockFinding::Answered { stopped, .. } => stopped.map(|(_, stop)| stop),
+            _ => None,
+        });
+        let in_part = report.outcome.word != "done";
+        let stopped = stopped.map(Left::Stopped);
+        let stopped = stopped.or(in_part.then_some(Left::Blocks));
+        Ok((text, stopped))
+    }
+
+    /// Whether the answer alone is asked for, and not a form of the equations.
+    fn asks_nothing_special(&self) -> bool {
+        self.print.is_empty()
+            && self.variables.is_none()
+            && self.method.is_none()
+            && self.at.is_none()
+    }
+
+    /// What is told of work that could not be broken off: a form of its own, since there is no answer.
+    fn out_of_time(&self, phase: &str) -> String {
+        let why = format!(
+            "the time (`--time`, {} s) was over long ago, and this step could not be broken off; nothing is proved",
+            self.time
+        );
+        let file = self.source.file.display().to_string();
+        let phase = match phase {
+            "" => "writing the equations",
+            phase => phase,
+        };
+        match self.format {
+            Format::Text => format!(
+                "Undecided: stopped at {phase}: {why}.\n\n{}\n",
+                visible(&file)
+            ),
+            Format::Json => {
+                let value = json!({
+                    "schema": EXACT_SCHEMA,
+                    "file": file,
+                    "outcome": { "word": "stopped", "at": phase, "why": why },
+                });
+                format!("{value:#}\n")
+            }
+        }
     }
 
     fn relations(
@@ -204,7 +306,7 @@ impl Arguments {
         mechanism: &Mechanism,
         request: &Request,
         budget: &Budget,
-    ) -> Result<(String, Option<Stop>), Ended> {
+    ) -> Result<(String, Option<Left>), Ended> {
         let (system, always, relations) =
             relations_of(mechanism, &request.options.system).map_err(Ended::Refused)?;
         let (findings, stopped) =
@@ -217,7 +319,7 @@ impl Arguments {
             Format::Text => render_relations(&report, self.layout()),
             Format::Json => output::json(&report).map_err(Ended::Failed)?,
         };
-        Ok((text, stopped))
+        Ok((text, stopped.map(Left::Stopped)))
     }
 
     fn conditions(
@@ -225,7 +327,7 @@ impl Arguments {
         mechanism: &Mechanism,
         request: &Request,
         budget: &Budget,
-    ) -> Result<(String, Option<Stop>), Ended> {
+    ) -> Result<(String, Option<Left>), Ended> {
         let system =
             polynomial_system(mechanism, &request.options.system).map_err(Ended::Refused)?;
         let found = match &self.moving {
@@ -264,7 +366,7 @@ impl Arguments {
             Format::Text => render_conditions(&report, self.layout()),
             Format::Json => output::json(&report).map_err(Ended::Failed)?,
         };
-        Ok((text, found.err()))
+        Ok((text, found.err().map(Left::Stopped)))
     }
 
     fn layout(&self) -> kutzbach::report::text::Layout {
@@ -272,9 +374,22 @@ impl Arguments {
     }
 }
 
-/// Does the work under a time limit, with a sign of life on standard error after a second, and ends it at Ctrl-C.
-fn watched<T>(seconds: f64, work: impl FnOnce(&Budget) -> T) -> T {
+fn blocks_with_loops(mechanism: &Mechanism) -> usize {
+    let blocks = ConstraintGraph::of(mechanism).blocks();
+    blocks.iter().filter(|block| !block.bridge).count()
+}
+
+/// Work that cannot be broken off within so many times its time, and this many seconds, is given up.
+const GRACE: (f64, f64) = (1.25, 5.0);
+
+/// Where no bar is drawn, work that takes longer says so once (s).
+const SILENCE: Duration = Duration::from_secs(3);
+
+/// Does the work under a time limit, with a sign of life on standard error after a second or three, and ends it at Ctrl-C.
+/// A step that does not look at the clock is given up some time later: then the process ends here.
+fn watched<T>(arguments: &Arguments, work: impl FnOnce(&Budget) -> T) -> T {
     interrupt::listen();
+    let seconds = arguments.time;
     let progress = Arc::new(Progress::default());
     let cancelled = Arc::new(AtomicBool::new(false));
     let over = AtomicBool::new(false);
@@ -283,10 +398,12 @@ fn watched<T>(seconds: f64, work: impl FnOnce(&Budget) -> T) -> T {
         progress: Some(Arc::clone(&progress)),
         ..Limits::seconds(seconds)
     };
+    let file = arguments.source.file.display().to_string();
     std::thread::scope(|scope| {
         scope.spawn(|| {
             let began = Instant::now();
             let mut sign: Option<ProgressBar> = None;
+            let mut silent = !std::io::stderr().is_terminal();
             while !over.load(Ordering::Relaxed) {
                 std::thread::park_timeout(Duration::from_millis(100));
                 if interrupt::asked() {
@@ -300,6 +417,17 @@ fn watched<T>(seconds: f64, work: impl FnOnce(&Budget) -> T) -> T {
                     sign.set_message(format!("{}, {} entries", progress.phase(), progress.work()));
                     sign.tick();
                 }
+                if silent && began.elapsed() > SILENCE && !over.load(Ordering::Relaxed) {
+                    silent = false;
+                    eprintln!(
+                        "{}: {}; for {seconds} s at most (`--time`)",
+                        visible(&file),
+                        progress.phase()
+                    );
+                }
+                if began.elapsed().as_secs_f64() > GRACE.0 * seconds + GRACE.1 {
+                    give_up(arguments, &progress.phase());
+                }
             }
             if let Some(sign) = sign {
                 sign.finish_and_clear();
@@ -309,4 +437,18 @@ fn watched<T>(seconds: f64, work: impl FnOnce(&Budget) -> T) -> T {
         over.store(true, Ordering::Relaxed);
         result
     })
+}
+
+/// Says that there is no answer, and ends the process.
+fn give_up(arguments: &Arguments, phase: &str) -> ! {
+    let text = arguments.out_of_time(phase);
+    let code = match arguments.destination.put(&text) {
+        Ok(()) if arguments.strict => UNDECIDED,
+        Ok(()) => DONE,
+        Err(failure) => {
+            failure.tell();
+            BAD_INPUT
+        }
+    };
+    std::process::exit(i32::from(code))
 }

@@ -47,8 +47,12 @@ impl Failure {
                 text.push_str(&rendered(&Fault::plain(message, help.as_deref()), color));
             }
             Self::File(error) => {
-                let source = source_of(&error.file);
+                // Faults of a file that includes others may stand in those.
+                let mut sources = std::collections::BTreeMap::new();
                 for error in std::iter::once(&**error).chain(error.others.iter()) {
+                    let source = sources
+                        .entry(&error.file)
+                        .or_insert_with(|| source_of(&error.file));
                     text.push_str(&rendered(&Fault::located(error, source.as_deref()), color));
                 }
             }

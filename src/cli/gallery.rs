@@ -59,7 +59,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
 
 /// Reads, analyses and draws one file.
 fn one(file: &Path, page: &str) -> Result<(Entry, String), Failure> {
-    let reading = load::mechanism(file, &[])?;
+    let reading = load::mechanism(file, &[], false)?;
     let (report, analysis) = load::analysed(&reading, file, &Options::default())?;
     let facts = Facts {
         mechanism: &reading.mechanism,

@@ -3,7 +3,9 @@
 use super::failure::Failure;
 use super::{DONE, load, output};
 use clap::{Args, ValueEnum};
-use kutzbach::graph::{ConstraintGraph, CycleBasis, GraphSummary, SpanningTree, to_dot, to_svg};
+use kutzbach::graph::{
+    ConstraintGraph, CycleBasis, FoldedGraph, GraphSummary, SpanningTree, to_dot, to_svg,
+};
 use kutzbach::report::text::visible;
 
 /// Show links, joints, spanning tree and cycles
@@ -16,6 +18,9 @@ pub struct Arguments {
     format: Format,
     #[command(flatten)]
     destination: output::Destination,
+    /// Show the links that are only fixed to others too; JSON always has them
+    #[arg(long)]
+    verbose: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -36,17 +41,37 @@ enum Format {
 /// Where the file cannot be read or the output cannot be written.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let reading = arguments.source.read()?;
-    let graph = ConstraintGraph::of(&reading.mechanism);
-    let tree = SpanningTree::low_depth(&graph);
-    let summary = || GraphSummary::new(&graph, &tree, &CycleBasis::minimum(&graph, &tree));
+    let mut graph = ConstraintGraph::of(&reading.mechanism);
+    let mut tree = SpanningTree::of_mechanism(&graph, &reading.mechanism);
+    let mut folded = 0;
+    if !arguments.verbose && arguments.format != Format::Json {
+        let small = FoldedGraph::new(&graph, &tree, &reading.mechanism);
+        folded = small.folded.len();
+        (graph, tree) = (small.graph, small.tree);
+    }
+    let summary = || {
+        let shallow = SpanningTree::low_depth(&graph);
+        GraphSummary::new(&graph, &tree, &CycleBasis::minimum(&graph, &shallow))
+    };
     let text = match arguments.format {
-        Format::Text => harmless(&summary().to_string()),
+        Format::Text => harmless(&format!("{}{}", summary(), not_shown(folded))),
         Format::Json => output::json(&summary())?,
         Format::Dot => to_dot(&graph, &tree),
         Format::Svg => to_svg(&graph, &tree),
     };
     arguments.destination.put(&text)?;
     Ok(DONE)
+}
+
+/// What a folded graph leaves out.
+fn not_shown(folded: usize) -> String {
+    match folded {
+        0 => String::new(),
+        1 => "\nnot shown: a link that is fixed to another (`--verbose` shows it)\n".to_owned(),
+        many => {
+            format!("\nnot shown: {many} links that are fixed to others (`--verbose` shows them)\n")
+        }
+    }
 }
 
 /// Names may hold terminal escapes: line by line, what would steer the terminal is written out.

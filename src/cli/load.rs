@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use clap::Args;
-use kutzbach::format::{ReadOptions, Reading, read_file, read_file_with};
+use kutzbach::format::{ReadOptions, Reading, read_file_with};
 use kutzbach::mobility::Analysis;
 use kutzbach::report::html::Prepared;
 use kutzbach::report::{Options, Report, analysed_report};
@@ -16,6 +16,15 @@ pub struct Source {
     /// Give a property of the file another value, a number or an expression; may be repeated
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = setting)]
     pub settings: Vec<(String, String)>,
+    /// Take decimals as written: `1.5707963267948966` is not read as π/2, nor `6.123e-17` as 0
+    #[arg(long)]
+    pub literal: bool,
+    /// State how well the file's decimals are known, in metres and radians, whatever their digits say; 0 for exactly
+    #[arg(long, value_name = "SIZE", value_parser = precision)]
+    pub precision: Option<f64>,
+    /// Say where a ROS package is that a xacro file includes from; may be repeated
+    #[arg(long = "package", value_name = "NAME=PATH", value_parser = package)]
+    pub packages: Vec<(String, PathBuf)>,
 }
 
 impl Source {
@@ -24,7 +33,15 @@ impl Source {
     /// # Errors
     /// What is wrong with it, and where.
     pub fn read(&self) -> Result<Reading, Failure> {
-        mechanism(&self.file, &self.settings)
+        self.read_with(&[], false)
+    }
+
+    /// Reads the file; if `strict`, what would be skipped is a fault.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn read_strictly(&self, strict: bool) -> Result<Reading, Failure> {
+        self.read_with(&[], strict)
     }
 
     /// Reads the file, leaving some of its properties open.
@@ -32,20 +49,54 @@ impl Source {
     /// # Errors
     /// As [`Self::read`]; also a name that the file does not define.
     pub fn read_symbolic(&self, symbolic: &[String]) -> Result<Reading, Failure> {
+        self.read_with(symbolic, false)
+    }
+
+    fn read_with(&self, symbolic: &[String], strict: bool) -> Result<Reading, Failure> {
         let options = ReadOptions {
             settings: self.settings.clone(),
             symbolic: symbolic.to_vec(),
+            literal: self.literal,
+            precision: self.precision,
+            strict,
+            packages: self.packages.clone(),
         };
         Ok(read_file_with(&self.file, &options)?)
     }
 }
 
-/// Reads a mechanism file.
+/// What counts as closed.
+#[derive(Clone, Copy, Debug, Default, Args)]
+pub struct Closing {
+    /// Take loops with gaps up to this as closed (m; angles count by the length of the loop), instead of what the digits of
+    /// the file say; ranks are then only as certain as that
+    #[arg(long, value_name = "METRES", value_parser = gap)]
+    pub closure_tolerance: Option<f64>,
+}
+
+/// A gap that is none is a slip, not a wish for exactness.
+fn gap(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(gap) if gap > 0.0 && gap.is_finite() => Ok(gap),
+        _ => Err("a length in metres, more than 0".to_owned()),
+    }
+}
+
+/// Reads a mechanism file; if `strict`, what would be skipped is a fault.
 ///
 /// # Errors
 /// What is wrong with the file, and where.
-pub fn mechanism(file: &Path, settings: &[(String, String)]) -> Result<Reading, Failure> {
-    Ok(read_file(file, settings)?)
+pub fn mechanism(
+    file: &Path,
+    settings: &[(String, String)],
+    strict: bool,
+) -> Result<Reading, Failure> {
+    let options = ReadOptions {
+        settings: settings.to_vec(),
+        strict,
+        ..ReadOptions::default()
+    };
+    Ok(read_file_with(file, &options)?)
 }
 
 /// Analyses what was read.
@@ -80,6 +131,29 @@ pub fn html(prepared: &Prepared<'_>) -> Result<String, Failure> {
         message: format!("cannot be written as a page: {error}"),
         help: None,
     })
+}
+
+/// Reads the size of a `--precision`.
+fn precision(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(size) if size >= 0.0 && size.is_finite() => Ok(size),
+        _ => Err("a size in metres and radians, 0 or more, for example `1e-6`".to_owned()),
+    }
+}
+
+/// Reads `name=path` of a `--package`.
+///
+/// # Errors
+/// Where there is no `=`, or nothing before or after it.
+pub fn package(text: &str) -> Result<(String, PathBuf), String> {
+    match text.split_once('=') {
+        Some((name, path)) if !name.trim().is_empty() && !path.trim().is_empty() => {
+            Ok((name.trim().to_owned(), PathBuf::from(path.trim())))
+        }
+        _ => {
+            Err("write it as name=path, for example `ur_description=../ur_description`".to_owned())
+        }
+    }
 }
 
 /// Reads `name=value` of a `--set`.

@@ -12,7 +12,7 @@ use kutzbach::mechanism::Mechanism;
 use kutzbach::mobility::{Analysis, ExactBudget};
 use kutzbach::report::html::{Assets, Facts, Prepared};
 use kutzbach::report::text::render;
-use kutzbach::report::{Options, Report, Verdict};
+use kutzbach::report::{Options, Report, Verdict, assembled_file};
 use kutzbach::simulate::verification::{
     Moment, Observer, Passage, Verification, VerificationOptions, verify,
 };
@@ -31,7 +31,12 @@ pub struct Arguments {
     /// Analyse a configuration of the file instead of the home pose
     #[arg(long, value_name = "CONFIGURATION")]
     at: Option<String>,
-    /// End with exit code 3 where the verdict is undecided
+    #[command(flatten)]
+    closing: load::Closing,
+    /// Write the mechanism to a file too, with a configuration `assembled` that holds the joint values at the pose analysed
+    #[arg(long, value_name = "OUT")]
+    write_assembled: Option<std::path::PathBuf>,
+    /// End with exit code 2 where anything unusual of the file is not read, and with 3 where the verdict is undecided
     #[arg(long)]
     strict: bool,
     /// Show every row and every detail, and what of the file was skipped
@@ -50,6 +55,10 @@ pub struct Arguments {
     /// Say how link A moves, seen from link B, on every branch; may be repeated
     #[arg(long, num_args = 2, value_names = ["A", "B"])]
     between: Vec<String>,
+    /// Take these joints, or single freedoms such as `slider.trans`, for the inputs, and say what they do [default: those
+    /// that the file names]
+    #[arg(long, value_name = "JOINT,...", value_delimiter = ',')]
+    inputs: Vec<String>,
     /// Let the physics engine put the prediction to the test too, and show what it says (with `--format html`)
     #[arg(long)]
     verify: bool,
@@ -81,7 +90,7 @@ fn seconds(text: &str) -> Result<f64, String> {
 /// # Errors
 /// Where the file cannot be read, has no such configuration, or the output cannot be written.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let reading = arguments.source.read()?;
+    let reading = arguments.source.read_strictly(arguments.strict)?;
     let options = Options {
         configuration: arguments.at.clone(),
         exact: arguments
@@ -94,6 +103,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             .chunks_exact(2)
             .map(|pair| (pair[0].clone(), pair[1].clone()))
             .collect(),
+        closure_tolerance: arguments.closing.closure_tolerance,
+        inputs: arguments.inputs.clone(),
     };
     if arguments.verify && arguments.format != Format::Html {
         return Err(Failure::Plain {
@@ -122,6 +133,18 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         Format::Html => page(arguments, &reading, &report, &analysis)?,
     };
     arguments.destination.put(&text)?;
+    if let Some(out) = &arguments.write_assembled {
+        let file = assembled_file(&reading.mechanism, &analysis.assembly).ok_or_else(|| {
+            Failure::Plain {
+                message: format!(
+                    "{}: it does not assemble, so there is no pose to write",
+                    arguments.source.file.display()
+                ),
+                help: None,
+            }
+        })?;
+        output::put(&file, Some(out))?;
+    }
     let undecided = report.mobility.verdict == Verdict::Undecided;
     Ok(if arguments.strict && undecided {
         UNDECIDED

@@ -23,6 +23,8 @@ use table::Simulated;
 pub struct Arguments {
     #[command(flatten)]
     source: load::Source,
+    #[command(flatten)]
+    closing: load::Closing,
     /// Write predicted and simulated motion to this MCAP log
     #[arg(long, value_name = "LOG")]
     mcap: Option<PathBuf>,
@@ -55,6 +57,10 @@ pub struct Arguments {
     /// Seed of the blows that count freedoms
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Spend about so many seconds of work on the verification, counted in steps and not by the clock, so that the answer
+    /// is the same on every machine; what does not fit is named as not tested
+    #[arg(long, value_name = "SECONDS", value_parser = budget, default_value_t = 30.0)]
+    budget: f64,
     /// Add an effect to those of the file's scene; may be repeated
     #[arg(long = "with", value_enum, value_name = "EFFECT")]
     with: Vec<Effect>,
@@ -89,6 +95,13 @@ pub struct Arguments {
     timing: bool,
 }
 
+fn budget(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds >= 0.0 && seconds.is_finite() => Ok(seconds),
+        _ => Err(format!("`{text}` is no number of seconds, zero or more")),
+    }
+}
+
 /// Steps that the cost of an effect is measured over.
 const COST_STEPS: usize = 500;
 
@@ -109,6 +122,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         mechanism,
         &AnalysisOptions {
             configuration: configuration.clone(),
+            closure_tolerance: arguments.closing.closure_tolerance,
             ..AnalysisOptions::default()
         },
     )
@@ -137,6 +151,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         ladder: arguments.substeps.0.clone(),
         seed: arguments.seed,
         whole_ladder: arguments.whole_ladder,
+        budget: Some(arguments.budget),
         ..VerificationOptions::default()
     };
     if let Some(time_step) = arguments.time_step {

@@ -13,6 +13,8 @@ use kutzbach::motion::{TraceOptions, trace};
 pub struct Arguments {
     #[command(flatten)]
     source: load::Source,
+    #[command(flatten)]
+    closing: load::Closing,
     /// Name of the branch; the first if not given
     #[arg(long)]
     branch: Option<String>,
@@ -100,6 +102,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         &AnalysisOptions {
             configuration: configuration.clone(),
             depth: Depth::Motions,
+            closure_tolerance: arguments.closing.closure_tolerance,
             ..AnalysisOptions::default()
         },
     )

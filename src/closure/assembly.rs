@@ -7,13 +7,24 @@
 //! mechanism's own motions, so an assembled mechanism stays where it was drawn. At a singular pose that bound fails and
 //! convergence is linear; the iteration goes on until nothing improves.
 
+mod descent;
+mod limits;
+mod nearest;
+mod proof;
+mod reversal;
+mod search;
+
 use super::displacement::JointState;
 use super::geometry::{Geometry, relative};
-use super::jacobian::{CycleJacobian, Part, entry_accuracy, jacobian};
+use super::jacobian::{CycleJacobian, Part, jacobian};
 use super::rigid::{Rigid, length, subtract};
-use crate::matrix::{LeastSquares, MatrixError, Real, SplitMix64};
-use crate::mechanism::Mechanism;
-use std::collections::BTreeSet;
+use crate::matrix::{LeastSquares, MatrixError, Real};
+use crate::mechanism::{FreedomPart, Mechanism};
+use descent::{Effort, Kept, PartOutcome, Task, advance, descend, largest, movable_columns, nudge};
+pub use limits::OutsideLimit;
+pub use proof::{Obstacle, ProvenOpen};
+pub use reversal::Reversal;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The gap of one loop of the file, before and after assembly.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +41,33 @@ pub struct LoopGap {
     pub left_angle: f64,
 }
 
+/// Where assembly took a joint, in values that a configuration can hold (rad, m; a ball's turn as a rotation vector).
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointPlace {
+    /// Index of the joint.
+    pub joint: usize,
+    /// Its values as drawn.
+    pub drawn: Vec<f64>,
+    /// Its values after assembly.
+    pub values: Vec<f64>,
+    /// Largest turn of its variables from the drawn pose (rad).
+    pub turned: f64,
+    /// Largest translation of its variables from there (m).
+    pub shifted: f64,
+}
+
+/// What an assembly heeds besides the mechanism.
+#[derive(Clone, Debug, Default)]
+pub struct AssemblyOptions {
+    /// Joints that keep their configured values.
+    pub held: BTreeSet<usize>,
+    /// How far the configured values of joints may be from those meant (rad, m), because they were rounded. Where the loops
+    /// do not close with the values as they are, these joints may be corrected: see [`Assembly::corrected`].
+    pub rounded: BTreeMap<usize, f64>,
+    /// What counts as closed (m; angles count by the cycle's length), instead of what the file's digits say.
+    pub tolerance: Option<f64>,
+}
+
 /// The outcome of an assembly. Not closing is an answer, not an error.
 #[derive(Clone, Debug)]
 pub struct Assembly {
@@ -37,7 +75,8 @@ pub struct Assembly {
     pub closed: bool,
     /// Largest residual of a cycle: angle (rad), or displacement in units of the cycle's length.
     pub residual: f64,
-    /// What the residual was held against: the numbers' stated precision and rounding, whichever is larger.
+    /// What the residual was held against: the numbers' stated precision and rounding, whichever is larger; or what was
+    /// given.
     pub tolerance: f64,
     /// Largest distance a joint was moved from where the file draws it (m).
     pub moved: f64,
@@ -47,15 +86,34 @@ pub struct Assembly {
     pub states: Vec<JointState<f64>>,
     /// The loops of the file.
     pub gaps: Vec<LoopGap>,
+    /// Where every joint with a freedom stands, by joint index.
+    pub joints: Vec<JointPlace>,
+    /// The most poses that any part was closed from: 1 where all close from the drawn one.
+    pub starts: usize,
+    /// Whether a search for other starts ended at its limit on work.
+    pub work_ended: bool,
+    /// Joints that kept their configured values.
+    pub held: BTreeSet<usize>,
+    /// Joints whose configured values, rounded as they are, were corrected to close the loops.
+    pub corrected: BTreeSet<usize>,
+    /// Where the loops do not close with the held joints as they are, but do once these are released: where that takes
+    /// the held joints, by joint index.
+    pub released: Option<Vec<JointPlace>>,
+    /// Joints outside their limits at the pose, farthest first.
+    pub outside: Vec<OutsideLimit>,
+    /// A cycle that is proven to close at no pose; `None` where nothing is proven.
+    pub proven_open: Option<ProvenOpen>,
+    /// A loop with which everything closes once one of its frames is turned over.
+    pub reversal: Option<Reversal>,
     /// The equations at the final pose, one entry per part where the part was closed: whoever ranks them next takes them.
     pub(crate) jacobians: Vec<Option<CycleJacobian<f64>>>,
 }
 
-/// However coarsely the numbers are stated or rounded, a cycle that misses by more than this (rad, or cycle lengths) is not closed.
-const COARSEST_CLOSING: f64 = 0.02;
+/// Work of all searches for other starts together, in floating-point operations, roughly: a few seconds.
+const SEARCH_WORK: f64 = 1.5e10;
 
-/// Steps after which a part that does not close is given up.
-const STEP_LIMIT: usize = 200;
+/// Work of finding out what would help where nothing closes: held joints released, frames turned over.
+const REMEDY_WORK: f64 = 2e9;
 
 /// Assembles the parts of a mechanism from its file pose. `held` joints keep their configured values.
 ///
@@ -67,6 +125,26 @@ pub fn assemble(
     parts: &[Part],
     held: &BTreeSet<usize>,
 ) -> Result<Assembly, MatrixError> {
+    let options = AssemblyOptions {
+        held: held.clone(),
+        ..AssemblyOptions::default()
+    };
+    assemble_with(mechanism, geometry, parts, &options)
+}
+
+/// [`assemble`], with more to heed.
+///
+/// A part that closes from the drawn pose stays near it. One that does not is closed from poses beside it, then from up to
+/// 256 others spread widely, within a limit on work; a closing within the joint limits goes first, then the nearest one.
+///
+/// # Errors
+/// [`MatrixError`] where numbers overflow.
+pub fn assemble_with(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    parts: &[Part],
+    options: &AssemblyOptions,
+) -> Result<Assembly, MatrixError> {
     let mut assembly = Assembly {
         closed: true,
         residual: 0.0,
@@ -75,16 +153,54 @@ pub fn assemble(
         steps: 0,
         states: geometry.states.clone(),
         gaps: Vec::new(),
+        joints: Vec::new(),
+        starts: 1,
+        work_ended: false,
+        held: options.held.clone(),
+        corrected: BTreeSet::new(),
+        released: None,
+        outside: Vec::new(),
+        proven_open: None,
+        reversal: None,
         jacobians: Vec::with_capacity(parts.len()),
     };
+    let mut work = SEARCH_WORK;
+    let mut remedies = REMEDY_WORK;
     for part in parts {
         if part.cycles.is_empty() && part.couplings.is_empty() {
             assembly.jacobians.push(None);
             continue;
         }
-        let outcome = close(mechanism, geometry, &mut assembly.states, part, held)?;
+        let task = Task {
+            mechanism,
+            geometry,
+            part,
+            held: &options.held,
+            tolerance: options.tolerance,
+        };
+        let closing = close(
+            &task,
+            &mut assembly.states,
+            &geometry.states,
+            search::STARTS,
+            &mut work,
+        )?;
+        let mut outcome = closing.outcome;
+        assembly.starts = assembly.starts.max(closing.starts);
+        assembly.work_ended |= closing.work_ended;
+        if !outcome.closed() {
+            // Of several parts, one with axes that cannot meet is told first: that is a slip, the others may be digits.
+            let slip = |open: &ProvenOpen| matches!(open.obstacle, Obstacle::Directions(_));
+            if assembly.proven_open.is_none() || closing.proven_open.as_ref().is_some_and(slip) {
+                assembly.proven_open = closing.proven_open.or(assembly.proven_open);
+            }
+            if part.joints.iter().any(|joint| options.held.contains(joint)) {
+                outcome = assembly.release(&task, options, outcome, &mut remedies)?;
+            }
+        }
         assembly.jacobians.push(outcome.jacobian);
         assembly.closed &= outcome.residual <= outcome.tolerance;
+        // Of several parts the one that is farthest from closing speaks for all.
         assembly.residual = largest(&[assembly.residual, outcome.residual]);
         assembly.tolerance = assembly.tolerance.max(outcome.tolerance);
         assembly.steps += outcome.steps;
@@ -95,46 +211,103 @@ pub fn assemble(
         assembly.moved = moved(mechanism, geometry, &poses);
     }
     assembly.gaps = gaps(mechanism, geometry, &assembly.states, &poses);
+    assembly.joints = (0..mechanism.joints().len())
+        .filter(|&joint| mechanism.joints()[joint].freedom() > 0)
+        .map(|joint| place(geometry, joint, &assembly.states))
+        .collect();
+    assembly.outside = limits::outside(mechanism, &assembly.states);
+    if !assembly.closed {
+        assembly.reversal = reversal::reversal(
+            mechanism,
+            geometry,
+            parts,
+            &options.held,
+            &assembly.gaps,
+            options.tolerance,
+            &mut remedies,
+        )?;
+    }
     Ok(assembly)
 }
 
-struct PartOutcome {
-    residual: f64,
-    tolerance: f64,
-    steps: usize,
-    /// At the pose reached.
-    jacobian: Option<CycleJacobian<f64>>,
-}
-
-/// The largest magnitude; NaN if there is one, which must not pass for small.
-fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |m: f64, x| {
-        if m.is_nan() || x.abs() <= m {
-            m
-        } else {
-            x.abs()
+impl Assembly {
+    /// A part that does not close with its held joints as they are: closed with them free, from the nearest pose with them
+    /// held. If they move by no more than rounding of their values allows, that is the pose; otherwise it is only told, and
+    /// the states stay as they are.
+    ///
+    /// Each of n values is off by u at most, all together by √n u; what is free follows by up to 1/σ times as much, and may
+    /// draw the held joints along. The smallest singular value σ of a well-conditioned closure is about a tenth.
+    fn release(
+        &mut self,
+        task: &Task<'_>,
+        options: &AssemblyOptions,
+        open: PartOutcome,
+        work: &mut f64,
+    ) -> Result<PartOutcome, MatrixError> {
+        const RELEASED_STARTS: usize = 32;
+        const ONE_OVER_SIGMA: f64 = 10.0;
+        let nobody = BTreeSet::new();
+        let free = Task {
+            held: &nobody,
+            ..*task
+        };
+        let nearest = Kept::of(task.part, &self.states);
+        let reference = self.states.clone();
+        let closing = close(&free, &mut self.states, &reference, RELEASED_STARTS, work)?;
+        if !closing.outcome.closed() {
+            nearest.put_back(&mut self.states);
+            return Ok(open);
         }
-    })
-}
-
-/// Where the joints of one part stand, kept so that they can be put back: a mechanism of many parts is not copied as a
-/// whole for each.
-struct Kept<R>(Vec<(usize, JointState<R>)>);
-
-impl<R: Real> Kept<R> {
-    fn of(part: &Part, states: &[JointState<R>]) -> Self {
-        Self(
-            part.joints
-                .iter()
-                .map(|&j| (j, states[j].clone()))
-                .collect(),
-        )
+        let held = task.part.joints.iter().copied();
+        let held: Vec<usize> = held.filter(|j| options.held.contains(j)).collect();
+        let places: Vec<JointPlace> = held
+            .iter()
+            .map(|&joint| place(task.geometry, joint, &self.states))
+            .collect();
+        let squares = held.iter().map(|joint| {
+            let off = options.rounded.get(joint).copied().unwrap_or(0.0);
+            off * off * task.mechanism.joints()[*joint].freedom() as f64
+        });
+        let allowed = ONE_OVER_SIGMA * squares.sum::<f64>().sqrt();
+        if places.iter().all(|p| p.turned.max(p.shifted) <= allowed) {
+            self.corrected.extend(&held);
+            held.iter().for_each(|joint| {
+                self.held.remove(joint);
+            });
+            self.proven_open = None;
+            return Ok(PartOutcome {
+                steps: open.steps + closing.outcome.steps,
+                ..closing.outcome
+            });
+        }
+        self.released.get_or_insert_default().extend(places);
+        nearest.put_back(&mut self.states);
+        Ok(open)
     }
+}
 
-    fn put_back(&self, states: &mut [JointState<R>]) {
-        for (joint, state) in &self.0 {
-            states[*joint] = state.clone();
+/// Where a joint stands, and how far that is from where it is drawn.
+fn place(geometry: &Geometry<f64>, joint: usize, states: &[JointState<f64>]) -> JointPlace {
+    let displacement = &geometry.displacements[joint];
+    let drawn = &geometry.states[joint];
+    let freedoms = displacement.kind().freedoms();
+    let (mut turned, mut shifted) = (0.0f64, 0.0f64);
+    for (increment, freedom) in displacement
+        .increments(drawn, &states[joint])
+        .iter()
+        .zip(freedoms)
+    {
+        match freedom {
+            FreedomPart::Translation => shifted = shifted.max(increment.abs()),
+            FreedomPart::Rotation | FreedomPart::Screw => turned = turned.max(increment.abs()),
         }
+    }
+    JointPlace {
+        joint,
+        drawn: displacement.coordinates(drawn),
+        values: displacement.coordinates(&states[joint]),
+        turned,
+        shifted,
     }
 }
 
@@ -142,44 +315,155 @@ impl<R: Real> Kept<R> {
 /// or folded flat, a loop's gap may lie exactly across everything its joints can do to first order.
 const NUDGES: [f64; 8] = [0.0, 0.01, 0.03, 0.1, 0.2, 0.4, 0.7, 1.0];
 
+/// Work that poses beside the drawn one may cost a part; the drawn one itself is always followed to its end.
+const NUDGE_WORK: f64 = 1e10;
+
+/// Starts of a part that is proven to close nowhere, to find where it misses by least.
+const PROVEN_STARTS: usize = 24;
+
+/// What closing a part came to.
+struct PartClosing {
+    outcome: PartOutcome,
+    /// Poses it was closed from.
+    starts: usize,
+    work_ended: bool,
+    proven_open: Option<ProvenOpen>,
+}
+
+/// Closes a part from where its joints stand; `reference` is the pose to be near to.
 fn close(
-    mechanism: &Mechanism,
-    geometry: &Geometry<f64>,
+    task: &Task<'_>,
     states: &mut [JointState<f64>],
-    part: &Part,
-    held: &BTreeSet<usize>,
-) -> Result<PartOutcome, MatrixError> {
+    reference: &[JointState<f64>],
+    more_starts: usize,
+    work: &mut f64,
+) -> Result<PartClosing, MatrixError> {
     let mut steps = 0;
-    let drawn = Kept::of(part, states);
+    let drawn = Kept::of(task.part, states);
     let mut best: Option<(Kept<f64>, PartOutcome)> = None;
+    let mut done = PartClosing {
+        outcome: PartOutcome::none(),
+        starts: 0,
+        work_ended: false,
+        proven_open: None,
+    };
+    // Only the first attempt of a part has work of its own for these.
+    let remedy = more_starts < search::STARTS;
+    let mut nudging = if remedy { *work } else { NUDGE_WORK };
     for size in NUDGES {
+        if size > 0.0 && !(nudging > 0.0) {
+            done.work_ended = true;
+            break;
+        }
         drawn.put_back(states);
         if size > 0.0 {
-            nudge(mechanism, geometry, part, held, size, states)?;
+            nudge(task, size, states)?;
         }
-        let outcome = descend(mechanism, geometry, states, part, held)?;
+        let mut outcome = descend(task, states, Effort::LONG)?;
+        done.starts += 1;
+        nudging -= outcome.work;
+        if remedy {
+            *work -= outcome.work;
+        }
         steps += outcome.steps;
-        if outcome.residual <= outcome.tolerance {
-            return Ok(PartOutcome { steps, ..outcome });
+        if outcome.closed() {
+            if outcome.steps > 0 {
+                outcome = nearest::commensurate(task, reference, states, outcome, work)?;
+            }
+            let within = |states: &[JointState<f64>]| limits::excess(task, states);
+            if outcome.steps > 0 && within(states) > within(reference) {
+                outcome = within_limits(task, states, reference, outcome, work, &mut done)?;
+            }
+            done.outcome = PartOutcome {
+                steps: steps.max(outcome.steps),
+                ..outcome
+            };
+            return Ok(done);
         }
         if best
             .as_ref()
             .is_none_or(|(_, b)| !(b.residual <= outcome.residual))
         {
-            best = Some((Kept::of(part, states), outcome));
+            best = Some((Kept::of(task.part, states), outcome));
         }
     }
-    let (nearest, outcome) = best.unwrap_or((
-        drawn,
-        PartOutcome {
-            residual: f64::INFINITY,
-            tolerance: 0.0,
-            steps: 0,
-            jacobian: None,
-        },
-    ));
+    let (nearest, outcome) = best.unwrap_or((drawn, PartOutcome::none()));
     nearest.put_back(states);
-    Ok(PartOutcome { steps, ..outcome })
+    done.outcome = PartOutcome { steps, ..outcome };
+    let walks = done.outcome.jacobian.as_ref().map(|here| &here.walks);
+    done.proven_open = proof::proven_open(task, done.outcome.tolerance, |cycle| {
+        walks?.get(cycle).map(|walk| (walk.length, walk.extent))
+    });
+    let nothing_moves = task.part.joints.iter().all(|j| task.held.contains(j));
+    if nothing_moves {
+        return Ok(done);
+    }
+    // What cannot close is searched only for how nearly it does.
+    let starts = match done.proven_open {
+        Some(_) => more_starts.min(PROVEN_STARTS),
+        None => more_starts,
+    };
+    let before = Kept::of(task.part, states);
+    let found = search::search(task, states, reference, starts, work)?;
+    done.starts += found.starts;
+    done.work_ended |=
+        found.starts < starts && !found.best.as_ref().is_some_and(PartOutcome::closed);
+    let steps = steps + found.steps;
+    done.outcome = match found.best {
+        Some(best) if best.closed() || best.residual < done.outcome.residual => PartOutcome {
+            steps: steps.max(1),
+            ..best
+        },
+        _ => {
+            before.put_back(states);
+            PartOutcome {
+                steps,
+                ..done.outcome
+            }
+        }
+    };
+    if done.outcome.closed() {
+        done.proven_open = None;
+    }
+    Ok(done)
+}
+
+/// Where closing took joints out of the limits they were drawn within: looks for a closing that does not. The states end
+/// there, or where they were.
+fn within_limits(
+    task: &Task<'_>,
+    states: &mut [JointState<f64>],
+    reference: &[JointState<f64>],
+    outcome: PartOutcome,
+    work: &mut f64,
+    done: &mut PartClosing,
+) -> Result<PartOutcome, MatrixError> {
+    const STARTS: usize = 64;
+    // Joints drawn at a limit may have to pass it by a little; that is no reason to look for another pose.
+    const CORRECTION: f64 = 0.1;
+    if nearest::distance(task, reference, states, &outcome) < CORRECTION {
+        return Ok(outcome);
+    }
+    let as_found = Kept::of(task.part, states);
+    let outside = limits::excess(task, states);
+    nearest::unwind(task, reference, states);
+    if limits::excess(task, states) == 0.0 {
+        return Ok(outcome);
+    }
+    let found = search::search(task, states, reference, STARTS, work)?;
+    done.starts += found.starts;
+    match found.best {
+        Some(closing) if closing.closed() && limits::excess(task, states) < outside => {
+            Ok(PartOutcome {
+                steps: outcome.steps + found.steps,
+                ..closing
+            })
+        }
+        _ => {
+            as_found.put_back(states);
+            Ok(outcome)
+        }
+    }
 }
 
 /// Follows a motion of a part for a short finite way: all variables move along `direction` (in the Jacobian's units), then
@@ -200,158 +484,21 @@ pub fn follow<T>(
     let movable = vec![true; here.variables.len()];
     let before = Kept::of(part, states);
     advance(mechanism, geometry, &here, &movable, direction, states);
-    let found = match descend(mechanism, geometry, states, part, &BTreeSet::new()) {
+    let nobody = BTreeSet::new();
+    let task = Task {
+        mechanism,
+        geometry,
+        part,
+        held: &nobody,
+        tolerance: None,
+    };
+    let found = match descend(&task, states, Effort::LONG) {
         Ok(outcome) if outcome.residual <= outcome.tolerance => there(states).map(Some),
         Ok(_) => Ok(None),
         Err(error) => Err(error),
     };
     before.put_back(states);
     found
-}
-
-/// Moves the joints of a part by up to `size` (rad, or part lengths), by numbers that depend on joint names only.
-fn nudge(
-    mechanism: &Mechanism,
-    geometry: &Geometry<f64>,
-    part: &Part,
-    held: &BTreeSet<usize>,
-    size: f64,
-    states: &mut [JointState<f64>],
-) -> Result<(), MatrixError> {
-    let here = jacobian(mechanism, geometry, states, part)?;
-    let movable = movable_columns(&here, held);
-    let increments: Vec<f64> = here
-        .variables
-        .iter()
-        .map(|(joint, variable)| {
-            let mut random = SplitMix64::named(&mechanism.joints()[*joint].name);
-            (0..=*variable)
-                .map(|_| random.symmetric())
-                .last()
-                .unwrap_or(0.0)
-                * size
-        })
-        .collect();
-    advance(mechanism, geometry, &here, &movable, &increments, states);
-    Ok(())
-}
-
-/// Damped Gauss–Newton from one start until the cycles close to rounding, or nothing improves.
-fn descend(
-    mechanism: &Mechanism,
-    geometry: &Geometry<f64>,
-    states: &mut [JointState<f64>],
-    part: &Part,
-    held: &BTreeSet<usize>,
-) -> Result<PartOutcome, MatrixError> {
-    let mut here = jacobian(mechanism, geometry, states, part)?;
-    let (stated, rounding) = entry_accuracy(mechanism, &here);
-    let mut residual = largest(&here.residual);
-    let mut steps = 0;
-    let mut caution = 1.0;
-    let sum = |r: &[f64]| r.iter().map(|x| x * x).sum::<f64>();
-    // A pose that closes to the last digit is left exactly as it was drawn.
-    while residual > rounding && steps < STEP_LIMIT {
-        let square = sum(&here.residual);
-        let columns = movable_columns(&here, held);
-        let Some(increments) = step(&here, &columns, caution * square.min(1.0))? else {
-            break;
-        };
-        // What closes within the stated precision is polished only as far as that precision goes: rounded numbers leave
-        // a gap that no motion removes, and chasing it would drag the mechanism along its own freedom.
-        let within = residual <= stated.min(COARSEST_CLOSING);
-        if within && largest(&increments) > stated {
-            break;
-        }
-        let before = Kept::of(part, states);
-        advance(mechanism, geometry, &here, &columns, &increments, states);
-        let there = jacobian(mechanism, geometry, states, part)?;
-        let reached = sum(&there.residual);
-        steps += 1;
-        if within && !(reached <= 0.25 * square) {
-            before.put_back(states);
-            break;
-        }
-        if reached.is_finite() && reached < square {
-            let stalled = reached > square * (1.0 - 1e-6);
-            here = there;
-            residual = largest(&here.residual);
-            caution = (caution * 0.25).max(1e-6);
-            if stalled {
-                break;
-            }
-        } else {
-            before.put_back(states);
-            caution *= 8.0;
-            if caution > 1e12 {
-                break;
-            }
-        }
-    }
-    // What still counts as closed is the uncertainty of a walk around the cycle, which is that of a Jacobian entry.
-    Ok(PartOutcome {
-        residual,
-        tolerance: (stated + rounding).min(COARSEST_CLOSING),
-        steps,
-        jacobian: Some(here),
-    })
-}
-
-fn movable_columns<R>(jacobian: &CycleJacobian<R>, held: &BTreeSet<usize>) -> Vec<bool> {
-    jacobian
-        .variables
-        .iter()
-        .map(|(joint, _)| !held.contains(joint))
-        .collect()
-}
-
-/// The damped step `min |J x + r|² + damping |x|²`, held columns left out; `None` where nothing may move.
-fn step(
-    jacobian: &CycleJacobian<f64>,
-    movable: &[bool],
-    damping: f64,
-) -> Result<Option<Vec<f64>>, MatrixError> {
-    if !movable.iter().any(|m| *m) {
-        return Ok(None);
-    }
-    let right: Vec<f64> = jacobian.residual.iter().map(|r| -r).collect();
-    let mut increments = LeastSquares::damped(&jacobian.matrix, &right, damping, Some(movable))?;
-    // A step beyond a radian or the part's own size leaves the range of the linearisation.
-    let size = largest(&increments);
-    if !size.is_finite() {
-        return Ok(None);
-    }
-    if size > 1.0 {
-        increments.iter_mut().for_each(|x| *x /= size);
-    }
-    Ok(Some(increments))
-}
-
-/// Applies increments in the Jacobian's own units.
-fn advance<R: Real>(
-    mechanism: &Mechanism,
-    geometry: &Geometry<R>,
-    jacobian: &CycleJacobian<R>,
-    movable: &[bool],
-    increments: &[R],
-    states: &mut [JointState<R>],
-) {
-    let mut column = 0;
-    while column < jacobian.variables.len() {
-        let (joint, _) = jacobian.variables[column];
-        let freedom = geometry.displacements[joint].freedom();
-        let values: Vec<R> = (column..column + freedom)
-            .map(|c| {
-                if movable[c] {
-                    increments[c].clone() * geometry.one.constant(jacobian.unit(mechanism, c))
-                } else {
-                    geometry.one.zero_like()
-                }
-            })
-            .collect();
-        geometry.displacements[joint].advance(&mut states[joint], &values);
-        column += freedom;
-    }
 }
 
 /// Polishes states in an arithmetic of more digits, starting from states that close in double precision: Newton steps

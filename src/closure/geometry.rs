@@ -127,6 +127,13 @@ impl<R: Real> Geometry<R> {
                 [&joint.predecessor, &joint.successor].map(|side| arithmetic.frame(&side.frame))
             })
             .collect();
+        // A distance that is not stated is that at home, whatever the configuration.
+        let measured = configuration.is_some()
+            && mechanism
+                .joints()
+                .iter()
+                .any(|joint| joint.kind == JointKind::Distance && joint.distance.is_none());
+        let at_home = measured.then(|| Self::new(mechanism, None, arithmetic));
         let mut displacements: Vec<Option<JointDisplacement<R>>> = vec![None; sides.len()];
         let mut states: Vec<Option<JointState<R>>> = vec![None; sides.len()];
         let mut home = vec![Rigid::identity(&one); mechanism.links().len()];
@@ -157,7 +164,10 @@ impl<R: Real> Geometry<R> {
                 continue;
             }
             let relative = relative(&home, joint, &sides[index]);
-            let reach = length(&relative.translation);
+            let reach = match &at_home {
+                Some(at_home) => at_home.displacements[index].distance().clone(),
+                None => length(&relative.translation),
+            };
             let displacement = joint_displacement(joint, arithmetic, &reach);
             states[index] = Some(match &configured[index] {
                 Some(values) => displacement.at(values),

@@ -159,14 +159,19 @@ pub fn entry_accuracy<R: Real>(mechanism: &Mechanism, jacobian: &CycleJacobian<R
     let mut stated = 0.0f64;
     if !mechanism.precision().is_exact() {
         for walk in &jacobian.walks {
-            let Uncertainty { lengths, angles } = walk.uncertainty;
-            let places = lengths / walk.length;
-            let tilts = angles * (walk.extent / walk.length).hypot(1.0);
-            stated = stated.max(2.0 * (walk.screw_count() as f64).sqrt() * places.hypot(tilts));
+            stated = stated.max(stated_by(walk, &walk.uncertainty));
         }
     }
     let roundoff = jacobian.matrix.zero().unit_roundoff();
     (stated, rounding_of(&jacobian.walks, roundoff))
+}
+
+/// The share of one cycle's numbers in [`entry_accuracy`], if they are known to within this together.
+pub(crate) fn stated_by<R: Real>(walk: &WalkedCycle<R>, uncertainty: &Uncertainty) -> f64 {
+    let Uncertainty { lengths, angles } = uncertainty;
+    let places = lengths / walk.length;
+    let tilts = angles * (walk.extent / walk.length).hypot(1.0);
+    2.0 * (walk.screw_count() as f64).sqrt() * places.hypot(tilts)
 }
 
 /// The share of the arithmetic in [`entry_accuracy`].

@@ -13,6 +13,7 @@
 //! Cost: everything but [`assemble`] is linear in the total length of the cycles.
 
 mod assembly;
+mod coordinates;
 mod cycle;
 mod displacement;
 mod equations;
@@ -27,11 +28,15 @@ mod rigid;
 pub(crate) mod samples;
 mod section;
 
-pub use assembly::{Assembly, LoopGap, assemble, follow, refine, spanning_poses};
+pub use assembly::{
+    Assembly, AssemblyOptions, JointPlace, LoopGap, Obstacle, OutsideLimit, ProvenOpen, Reversal,
+    assemble, assemble_with, follow, refine, spanning_poses,
+};
 pub use cycle::{Walk, WalkedCycle, WalkedJoint, characteristic_length};
 pub(crate) use displacement::Factor;
 pub use displacement::{JointDisplacement, JointState};
 pub use geometry::{Arithmetic, Geometry, Uncertainty};
+pub(crate) use jacobian::stated_by;
 pub use jacobian::{CycleJacobian, Part, entry_accuracy, jacobian};
 pub(crate) use jacobian::{linearised, variable_unit};
 pub use positional::positional_jacobian;

@@ -22,7 +22,11 @@ impl<'a> Reader<'a> {
     /// `<coupling name>` with `<predecessor link/>`, `<successor link/>` and `<ratio value/>`.
     pub(super) fn read_coupling(&mut self, coupling: Element<'a>) -> Outcome<()> {
         self.uses(Dialect::UrdfPlus);
-        self.note_foreign_attributes(coupling, &["name"])?;
+        self.other_closures = true;
+        self.note_foreign_attributes(coupling, &["name", "type"])?;
+        // URDF+'s parsers (ROAM-Lab-ND/generalized_rbda, ClusterTreeParsing.cpp) read every coupling as one of rolling; the
+        // word is optional.
+        one_of(coupling, "type", &["rolling"])?;
         let name = self.directory.add(Named::Coupling, coupling)?;
         let parts = self.parts(coupling, &["predecessor", "successor", "ratio"], &[], &[])?;
         let (mut predecessor, mut successor, mut ratio) = (None, None, None);

@@ -7,6 +7,7 @@ use super::element::{Attribute, Element};
 use super::error::{Fault, MOST_FAULTS, Outcome};
 use super::number_text::{self, Names, Trouble, is_identifier};
 use super::words::{did_you_mean, quoted};
+use super::xacro::number_named;
 use crate::number::Number;
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
@@ -57,6 +58,8 @@ pub(super) struct Definitions<'a> {
     evaluating: Vec<usize>,
     /// Names that stay symbolic.
     symbolic: BTreeSet<&'a str>,
+    /// Numbers that an expanded xacro file names.
+    pub(super) numbers: &'a [Number],
 }
 
 impl<'a> Definitions<'a> {
@@ -238,7 +241,7 @@ impl<'a> Definitions<'a> {
 
     fn value(&mut self, sort: Sort, name: &str) -> Result<Option<Number>, Trouble> {
         let Some(&index) = self.by_name.get(&(sort, name)) else {
-            return Ok(None);
+            return Ok(number_named(name, self.numbers).cloned());
         };
         let here = |message: String| Trouble::Here(Fault::new(0..0, message));
         if matches!(self.all[index].state, State::Evaluating) {

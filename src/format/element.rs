@@ -16,6 +16,20 @@ pub(super) enum Owner {
     Foreign,
 }
 
+/// The elements that xacro itself has; any other one is the call of a macro.
+pub(super) const XACRO: [&str; 10] = [
+    "property",
+    "arg",
+    "macro",
+    "include",
+    "if",
+    "unless",
+    "insert_block",
+    "call",
+    "element",
+    "attribute",
+];
+
 /// An element and the text that it was parsed from.
 #[derive(Clone, Copy)]
 pub(super) struct Element<'a> {
@@ -24,16 +38,25 @@ pub(super) struct Element<'a> {
 }
 
 impl<'a> Element<'a> {
-    pub(super) fn root(document: &'a roxmltree::Document<'a>) -> Self {
+    /// The root of a document, with the text as it was written.
+    pub(super) fn root(document: &'a roxmltree::Document<'a>, text: &'a str) -> Self {
         Self {
             node: document.root_element(),
-            text: document.input_text(),
+            text,
         }
     }
 
     /// The name without its prefix.
     pub(super) fn name(&self) -> &'a str {
-        self.node.tag_name().name()
+        let name = self.node.tag_name().name();
+        // A prefix that is not declared was made part of the name so that the text could be parsed.
+        if !name.contains('.') {
+            return name;
+        }
+        match self.written_name().split_once(':') {
+            Some((_, local)) => local,
+            None => name,
+        }
     }
 
     /// The namespace's address.
@@ -44,9 +67,13 @@ impl<'a> Element<'a> {
     /// Whose element this is, in a file whose root element has that namespace.
     pub(super) fn owner(&self, root_namespace: Option<&str>) -> Owner {
         match self.namespace() {
+            None if self.written_name().contains(':') => Owner::Foreign,
             None => Owner::Format,
             Some(address) if Some(address) == root_namespace => Owner::Format,
-            Some(address) if address.contains("xacro") => Owner::Xacro,
+            // The call of a macro that is not there is left over from an expansion, and nobody knows what it stood for.
+            Some(address) if address.contains("xacro") && XACRO.contains(&self.name()) => {
+                Owner::Xacro
+            }
             Some(_) => Owner::Foreign,
         }
     }
@@ -78,6 +105,15 @@ impl<'a> Element<'a> {
         Fault::new(self.range(), message)
     }
 
+    /// All child elements, whatever stands between them.
+    pub(super) fn elements(&self) -> impl Iterator<Item = Element<'a>> + use<'a> {
+        let text = self.text;
+        self.node
+            .children()
+            .filter(|node| node.is_element())
+            .map(move |node| Element { node, text })
+    }
+
     /// All child elements, after checking that there is no text between them.
     pub(super) fn children(&self) -> Outcome<Vec<Element<'a>>> {
         let mut children = Vec::new();
@@ -106,6 +142,56 @@ impl<'a> Element<'a> {
             }
         }
         Ok(children)
+    }
+
+    /// Whether another element has the same attributes, and neither has anything inside.
+    pub(super) fn says_the_same(&self, other: &Self) -> bool {
+        let said = |element: &Self| -> Vec<(&'a str, &'a str)> {
+            let attributes = element.node.attributes();
+            attributes.map(|a| (a.name(), a.value())).collect()
+        };
+        let empty = |element: &Self| !element.node.has_children();
+        empty(self) && empty(other) && said(self) == said(other)
+    }
+
+    /// The place of the first text between the child elements, which means nothing in URDF.
+    pub(super) fn stray_text(&self) -> Option<usize> {
+        self.node.children().find_map(|node| {
+            let text = node.text().filter(|_| node.is_text())?;
+            (!text.trim().is_empty()).then(|| {
+                let range = node.range();
+                let written = self.text.get(range.clone()).unwrap_or_default();
+                range.start + (written.len() - written.trim_start().len())
+            })
+        })
+    }
+
+    /// The text inside an element that holds nothing else, as SDF writes values.
+    pub(super) fn value(&self) -> Option<Attribute<'a>> {
+        let mut nodes = self.node.children().filter(|node| !node.is_comment());
+        let node = nodes.next().filter(|node| node.is_text())?;
+        if nodes.next().is_some() {
+            return None;
+        }
+        let range = node.range();
+        Some(Attribute {
+            value: node.text()?,
+            start: range.start,
+            written: self.text.get(range).unwrap_or_default(),
+        })
+    }
+
+    /// The attributes with other names than these, with the ranges of their names.
+    pub(super) fn other_attributes<'k>(
+        &self,
+        known: &'k [&'k str],
+    ) -> impl Iterator<Item = (&'a str, Range<usize>)> + use<'a, 'k> {
+        self.node.attributes().filter_map(move |attribute| {
+            let name = attribute.name();
+            let is_known = attribute.namespace().is_none() && known.contains(&name);
+            let start = attribute.range().start;
+            (!is_known).then(|| (name, start..start + name.len()))
+        })
     }
 
     /// An attribute without prefix.
@@ -230,7 +316,7 @@ mod tests {
     fn parts_of_a_value_are_found_behind_entities_and_line_ends() {
         let text = "<a b = 'x&lt;y\r\nzé&#233;w'/>";
         let document = roxmltree::Document::parse(text).unwrap();
-        let attribute = Element::root(&document).required("b").unwrap();
+        let attribute = Element::root(&document, text).required("b").unwrap();
         assert_eq!(attribute.value, "x<y zééw");
         assert_eq!(&text[attribute.range()], "x&lt;y\r\nzé&#233;w");
         for (value, written) in [
@@ -250,7 +336,7 @@ mod tests {
     fn hostile_white_space_does_not_shift_a_value() {
         let text = format!("<a b{}='1'/>", " ".repeat(1000));
         let document = roxmltree::Document::parse(&text).unwrap();
-        let attribute = Element::root(&document).required("b").unwrap();
+        let attribute = Element::root(&document, &text).required("b").unwrap();
         assert_eq!(&text[attribute.range()], "1");
     }
 
@@ -258,7 +344,10 @@ mod tests {
     fn stray_text_is_an_error_at_its_first_letter() {
         let text = "<a> \n x <b/></a>";
         let document = roxmltree::Document::parse(text).unwrap();
-        let fault = Element::root(&document).children().map(|_| ()).unwrap_err();
+        let fault = Element::root(&document, text)
+            .children()
+            .map(|_| ())
+            .unwrap_err();
         assert_eq!(fault.range.start, 6);
     }
 
@@ -266,7 +355,7 @@ mod tests {
     fn unknown_attributes_name_the_nearest_one() {
         let text = "<a nmae='1' x:y='2' xmlns:x='u'/>";
         let document = roxmltree::Document::parse(text).unwrap();
-        let root = Element::root(&document);
+        let root = Element::root(&document, text);
         let fault = root.only_attributes(&["name"]).unwrap_err();
         assert_eq!(&text[fault.range], "nmae");
         assert_eq!(fault.help.unwrap(), "did you mean `name`?");

@@ -1,15 +1,17 @@
 //! `<joint>` and `<loop>`: the same kinds of joint, placed by their child or closing a loop.
 
-use super::element::{Attribute, Element};
+use super::element::Element;
 use super::error::Outcome;
+use super::gazebo::ordered;
 use super::names::Named;
-use super::reader::{Dialect, Reader, SKIPPED};
+use super::reader::{Dialect, Reader};
+use super::unread::{OF_JOINTS, Parts, truth};
 use super::words::{did_you_mean, quoted};
 use crate::mechanism::{Dynamics, Frame, JointBuilder, JointKind, Limit};
 use crate::number::Number;
 
 /// What may stand inside `<joint>`.
-const JOINT: [&str; 11] = [
+const JOINT: [&str; 13] = [
     "parent",
     "child",
     "origin",
@@ -21,6 +23,9 @@ const JOINT: [&str; 11] = [
     "dynamics",
     "joint_properties",
     "mimic",
+    // Drake's.
+    "drake:mimic",
+    "drake:screw_thread_pitch",
 ];
 
 /// What may stand inside `<loop>`.
@@ -37,11 +42,11 @@ const LOOP: [&str; 10] = [
     "mimic",
 ];
 
-/// Elements that say nothing about how a joint moves: those skipped everywhere, and what steers a robot's controller.
+/// Elements that say nothing about how a loop moves.
 const SKIPPED_HERE: [&str; 5] = [
-    SKIPPED[0],
-    SKIPPED[1],
-    SKIPPED[2],
+    "gazebo",
+    "transmission",
+    "sensor",
     "safety_controller",
     "calibration",
 ];
@@ -57,10 +62,15 @@ struct Type<'a> {
 impl<'a> Reader<'a> {
     /// `<joint name type>` of the file's tree.
     pub(super) fn read_joint(&mut self, joint: Element<'a>) -> Outcome<()> {
-        self.note_foreign_attributes(joint, &["name", "type", "independent"])?;
+        self.attributes_of(joint, &["name", "type", "independent"], true)?;
         let name = self.directory.add(Named::Joint, joint)?;
         let joint_type = self.joint_type(joint)?;
-        let parts = self.parts(joint, &JOINT, &[], &SKIPPED_HERE)?;
+        let kinds = Parts {
+            known: &JOINT,
+            often: &[],
+            bearing: &OF_JOINTS,
+        };
+        let parts = self.parts_of(joint, &kinds)?;
         let (mut parent, mut child, mut origin) = (None, None, Frame::identity());
         let mut body = Vec::with_capacity(parts.len());
         for part in parts {
@@ -79,6 +89,7 @@ impl<'a> Reader<'a> {
         };
         let parent = parent.ok_or_else(|| needs("parent"))?;
         let (child_element, (child, child_frame)) = child.ok_or_else(|| needs("child"))?;
+        self.join(name, [parent, child]);
         let own_frame = !child_frame.is_identity();
         if own_frame {
             self.uses(Dialect::Own);
@@ -100,6 +111,7 @@ impl<'a> Reader<'a> {
                     quoted(first)
                 );
                 self.warn(joint.start(), message);
+                self.other_closures = true;
             }
             None => {
                 self.placed_by.insert(child, name);
@@ -114,6 +126,7 @@ impl<'a> Reader<'a> {
     /// `<loop name type>` with a frame on each side.
     pub(super) fn read_loop(&mut self, element: Element<'a>) -> Outcome<()> {
         self.uses(Dialect::UrdfPlus);
+        self.other_closures = true;
         self.note_foreign_attributes(element, &["name", "type", "independent"])?;
         let name = self.directory.add(Named::Joint, element)?;
         let joint_type = self.joint_type(element)?;
@@ -142,10 +155,17 @@ impl<'a> Reader<'a> {
         };
         let (predecessor, predecessor_frame) = predecessor.ok_or_else(|| needs("predecessor"))?;
         let (successor, successor_frame) = successor.ok_or_else(|| needs("successor"))?;
+        self.join(name, [predecessor, successor]);
         let builder = JointBuilder::closing(name, kind, predecessor, successor)
             .origin(predecessor_frame)
             .successor_origin(successor_frame);
         self.read_body(element, name, joint_type, kind, builder, &body)
+    }
+
+    /// Remembers which links a joint joins.
+    pub(super) fn join(&mut self, name: &'a str, sides: [&'a str; 2]) {
+        self.sides_of.insert(name, sides);
+        self.joined.entry(ordered(sides)).or_insert(name);
     }
 
     fn joint_type(&mut self, joint: Element<'a>) -> Outcome<Type<'a>> {
@@ -169,7 +189,10 @@ impl<'a> Reader<'a> {
         if !URDF.contains(&word) {
             self.uses(Dialect::Own);
         }
-        let kind = JointKind::from_word(word);
+        let kind = match joint.written_name() {
+            "drake:joint" => Self::drake_kind(word),
+            _ => JointKind::from_word(word),
+        };
         if kind.is_none() && word != "floating" {
             let known = JointKind::ALL.map(JointKind::word);
             return Err(attribute
@@ -190,15 +213,20 @@ impl<'a> Reader<'a> {
 
     /// `<parent link/>`.
     fn link_of(&mut self, element: Element<'a>) -> Outcome<&'a str> {
-        self.leaf(element, &["link"])?;
+        self.leaf_of(element, &["link"], true)?;
         self.directory.refer(Named::Link, element, "link")
     }
 
     /// `<predecessor link>`, `<successor link>` or `<child link>` with an optional `<origin>` inside: the joint's frame there.
     fn side(&mut self, element: Element<'a>) -> Outcome<(&'a str, Frame)> {
-        self.note_foreign_attributes(element, &["link"])?;
+        self.attributes_of(element, &["link"], true)?;
         let link = self.directory.refer(Named::Link, element, "link")?;
-        let frame = match self.parts(element, &["origin"], &[], &[])?.first() {
+        let kinds = Parts {
+            known: &["origin"],
+            often: &[],
+            bearing: &OF_JOINTS,
+        };
+        let frame = match self.parts_of(element, &kinds)?.first() {
             Some(origin) => self.origin(*origin)?,
             None => Frame::identity(),
         };
@@ -210,14 +238,14 @@ impl<'a> Reader<'a> {
         joint: Element<'a>,
         name: &str,
         parent: &str,
-        child: &str,
+        child: &'a str,
         origin: Frame,
         body: &[Element<'a>],
     ) -> Outcome<()> {
         for part in body {
             match part.name() {
                 // Exporters write these for every joint.
-                "axis" | "limit" | "dynamics" | "joint_properties" => {
+                "axis" | "limit" | "dynamics" | "joint_properties" | "mimic" => {
                     self.ignore(*part, "floating");
                 }
                 other => {
@@ -233,6 +261,7 @@ impl<'a> Reader<'a> {
                 "`independent` means nothing for a floating joint and is ignored",
             );
         }
+        self.floating.insert(child);
         self.builder.floating(name, parent, child, origin);
         Ok(())
     }
@@ -252,17 +281,19 @@ impl<'a> Reader<'a> {
             builder = builder.independent(truth(attribute)?);
         }
         let word = joint_type.word;
+        if joint.written_name() == "drake:joint" && kind == JointKind::Universal {
+            builder = builder.axis2(Self::drake_second_axis());
+        }
         let mut mimic = None;
         let (mut has_lead, mut has_dynamics) = (false, false);
         for &part in body {
             match part.name() {
+                "axis" if joint.written_name() == "drake:joint" && kind == JointKind::Universal => {
+                    self.ignore(part, word);
+                }
                 "axis" if kind.uses_axis() => builder = builder.axis(self.direction(part)?),
                 // Exporters of plain URDF write an axis for every joint.
                 "axis" if matches!(kind, JointKind::Fixed | JointKind::Spherical) => {
-                    self.leaf(part, &["xyz"])?;
-                    if let Some(xyz) = part.attribute("xyz") {
-                        self.numbers::<3>(xyz)?;
-                    }
                     self.ignore(part, word);
                 }
                 "axis" => {
@@ -278,18 +309,25 @@ impl<'a> Reader<'a> {
                     builder = builder.lead(self.number(part.required("lead")?)?);
                     has_lead = true;
                 }
+                "screw_thread_pitch" if kind.uses_lead() => {
+                    builder = builder.lead(self.number(part.required("value")?)?);
+                    has_lead = true;
+                }
                 "distance" if kind == JointKind::Distance => {
                     self.leaf(part, &["value"])?;
                     builder = builder.distance(self.number(part.required("value")?)?);
                 }
-                "axis2" | "screw" | "distance" => return Err(useless(part, word)),
+                "axis2" | "screw" | "distance" | "screw_thread_pitch" => {
+                    return Err(useless(part, word));
+                }
                 "limit" if kind.freedom() == 1 => {
                     builder = builder.limit(self.read_limit(part, word)?);
                 }
                 "limit" => self.ignore(part, word),
                 "dynamics" | "joint_properties" => {
                     if has_dynamics {
-                        return Err(part.fault("the joint's friction and damping are given twice"));
+                        self.skip_because(part, "friction and damping given twice".to_owned());
+                        continue;
                     }
                     has_dynamics = true;
                     if part.name() == "joint_properties" {
@@ -298,8 +336,12 @@ impl<'a> Reader<'a> {
                             "<joint_properties> is the old name of <dynamics> and read as such",
                         );
                     }
-                    builder = builder.dynamics(self.read_dynamics(part)?);
+                    match self.read_dynamics(part) {
+                        Ok(dynamics) => builder = builder.dynamics(dynamics),
+                        Err(fault) => self.skip_faulty(part, &fault),
+                    }
                 }
+                "mimic" if kind.freedom() == 0 => self.ignore(part, word),
                 _ => mimic = Some(self.read_mimic(part)?),
             }
         }
@@ -312,7 +354,9 @@ impl<'a> Reader<'a> {
                 .help("<screw lead=\"metres per turn\"/>"));
         }
         self.builder.joint(builder);
+        self.freedoms.insert(name, kind.freedom());
         if let Some((leader, multiplier, offset)) = mimic {
+            self.followers.insert(name);
             self.builder.mimic(name, leader, multiplier, offset);
         }
         Ok(())
@@ -320,24 +364,12 @@ impl<'a> Reader<'a> {
 
     /// `<limit lower upper effort velocity/>`, each optional.
     fn read_limit(&mut self, limit: Element<'a>, word: &str) -> Outcome<Limit> {
-        const RATES: [&str; 3] = ["acceleration", "deceleration", "jerk"];
-        self.leaf(
-            limit,
-            &[
-                "lower", "upper", "effort", "velocity", RATES[0], RATES[1], RATES[2],
-            ],
-        )?;
-        if RATES.iter().any(|rate| limit.attribute(rate).is_some()) {
-            self.warn(
-                limit.start(),
-                "limits of acceleration and jerk are not read",
-            );
-        }
+        self.leaf_of(limit, &["lower", "upper", "effort", "velocity"], true)?;
         let mut read = Limit {
             lower: self.optional_number(limit, "lower")?,
             upper: self.optional_number(limit, "upper")?,
-            effort: self.optional_number(limit, "effort")?,
-            velocity: self.optional_number(limit, "velocity")?,
+            effort: self.number_if_readable(limit, "effort"),
+            velocity: self.number_if_readable(limit, "velocity"),
         };
         if word == "continuous" && (read.lower.is_some() || read.upper.is_some()) {
             self.warn(
@@ -349,17 +381,18 @@ impl<'a> Reader<'a> {
         if let (Some(lower), Some(upper)) = (&read.lower, &read.upper)
             && lower.value() > upper.value()
         {
-            return Err(limit.fault(format!(
-                "the lower limit {} is above the upper limit {}",
-                lower.value(),
-                upper.value()
-            )));
+            // Bullet's convention for a joint without limits, and no other range can be meant.
+            self.warn(
+                limit.start(),
+                "a lower limit above the upper one means no limit",
+            );
+            (read.lower, read.upper) = (None, None);
         }
         Ok(read)
     }
 
     fn read_dynamics(&mut self, dynamics: Element<'a>) -> Outcome<Dynamics> {
-        self.leaf(dynamics, &["damping", "friction"])?;
+        self.leaf_of(dynamics, &["damping", "friction"], false)?;
         Ok(Dynamics {
             damping: self.optional_number(dynamics, "damping")?,
             friction: self.optional_number(dynamics, "friction")?,
@@ -367,7 +400,7 @@ impl<'a> Reader<'a> {
     }
 
     fn read_mimic(&mut self, mimic: Element<'a>) -> Outcome<(&'a str, Number, Number)> {
-        self.leaf(mimic, &["joint", "multiplier", "offset"])?;
+        self.leaf_of(mimic, &["joint", "multiplier", "offset"], true)?;
         let leader = self.directory.refer(Named::Joint, mimic, "joint")?;
         let multiplier = self.optional_number(mimic, "multiplier")?;
         let offset = self.optional_number(mimic, "offset")?;
@@ -378,7 +411,7 @@ impl<'a> Reader<'a> {
         ))
     }
 
-    /// Skips a part that says nothing for this type of joint, with a warning.
+    /// Passes over a part that says nothing for this type of joint, with a warning.
     fn ignore(&mut self, part: Element<'a>, word: &str) {
         self.warn(
             part.start(),
@@ -387,20 +420,10 @@ impl<'a> Reader<'a> {
                 part.name()
             ),
         );
-        self.skip(part);
     }
 }
 
 fn useless(part: Element<'_>, word: &str) -> super::error::Fault {
     part.fault(format!("a {word} joint has no <{}>", part.name()))
         .help("remove it, or change the joint's type")
-}
-
-/// `true` or `false`, also `1` and `0` as XML Schema allows.
-fn truth(attribute: Attribute<'_>) -> Outcome<bool> {
-    match attribute.value {
-        "true" | "1" => Ok(true),
-        "false" | "0" => Ok(false),
-        other => Err(attribute.fault(format!("needed true or false, found {}", quoted(other)))),
-    }
 }

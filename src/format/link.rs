@@ -3,28 +3,34 @@
 use super::element::{Attribute, Element};
 use super::error::Outcome;
 use super::names::Named;
-use super::reader::{Reader, SKIPPED};
+use super::reader::Reader;
+use super::unread::Parts;
 use crate::mechanism::{Frame, Geometry, Inertial, Shape};
 use crate::number::Number;
 
 impl<'a> Reader<'a> {
     /// `<link name>` with `<inertial>`, any number of `<collision>` and `<visual>`.
     pub(super) fn read_link(&mut self, link: Element<'a>) -> Outcome<()> {
-        self.note_foreign_attributes(link, &["name"])?;
+        self.attributes_of(link, &["name"], true)?;
         let name = self.directory.add(Named::Link, link)?;
-        let parts = self.parts(link, &["inertial"], &["collision", "visual"], &SKIPPED)?;
+        let kinds = Parts {
+            known: &["inertial"],
+            often: &["collision", "visual"],
+            bearing: &["link", "joint", "loop", "coupling"],
+        };
+        let parts = self.parts_of(link, &kinds)?;
         let mut inertial = None;
         let mut collisions = Vec::new();
         let mut visuals = Vec::new();
         for part in parts {
-            match part.name() {
-                "inertial" => inertial = Some(self.read_inertial(part)?),
-                "collision" => collisions.push(self.read_shape(part)?),
-                // A picture says nothing about motion, so a faulty one is no reason to refuse the file.
-                _ => match self.read_shape(part) {
-                    Ok(shape) => visuals.push(shape),
-                    Err(fault) => self.skip_faulty(part, &fault),
-                },
+            // Nothing in a link says how it can move, so a fault there is no reason to refuse the file.
+            let read = match part.name() {
+                "inertial" => self.read_inertial(part).map(|read| inertial = Some(read)),
+                "collision" => self.read_shape(part).map(|shape| collisions.push(shape)),
+                _ => self.read_shape(part).map(|shape| visuals.push(shape)),
+            };
+            if let Err(fault) = read {
+                self.skip_faulty(part, &fault);
             }
         }
         self.builder
@@ -33,15 +39,15 @@ impl<'a> Reader<'a> {
     }
 
     fn read_inertial(&mut self, inertial: Element<'a>) -> Outcome<Inertial> {
-        self.note_foreign_attributes(inertial, &[])?;
-        let parts = self.parts(inertial, &["origin", "mass", "inertia"], &[], &[])?;
+        self.attributes_of(inertial, &[], false)?;
+        let parts = self.passive(inertial, &["origin", "mass", "inertia"])?;
         let mut origin = Frame::identity();
         let (mut mass, mut inertia) = (None, None);
         for part in parts {
             match part.name() {
                 "origin" => origin = self.origin(part)?,
                 "mass" => {
-                    self.leaf(part, &["value"])?;
+                    self.leaf_of(part, &["value"], false)?;
                     let value = part.required("value")?;
                     let number = self.number(value)?;
                     if number.value() < 0.0 {
@@ -51,10 +57,16 @@ impl<'a> Reader<'a> {
                 }
                 _ => {
                     const COMPONENTS: [&str; 6] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
-                    self.leaf(part, &COMPONENTS)?;
-                    let mut component = |name| {
-                        let attribute = part.required(name)?;
-                        self.number(attribute)
+                    self.leaf_of(part, &COMPONENTS, false)?;
+                    let mut component = |name: &str| match part.attribute(name) {
+                        Some(attribute) => self.number(attribute),
+                        // The products of inertia are zero in principal axes, and so commonly left out.
+                        None if !["ixx", "iyy", "izz"].contains(&name) => {
+                            let what = format!("<inertia> without `{name}`, taken as 0");
+                            self.skip_because(part, what);
+                            Ok(Number::zero())
+                        }
+                        None => part.required(name).map(|_| Number::zero()),
                     };
                     let [xx, xy, xz, yy, yz, zz] = COMPONENTS;
                     inertia = Some([
@@ -80,10 +92,20 @@ impl<'a> Reader<'a> {
         })
     }
 
+    /// The parts of an element that says nothing about motion.
+    fn passive(&mut self, element: Element<'a>, known: &[&str]) -> Outcome<Vec<Element<'a>>> {
+        let kinds = Parts {
+            known,
+            often: &[],
+            bearing: &[],
+        };
+        self.parts_of(element, &kinds)
+    }
+
     /// `<collision>` and `<visual>`. The material is no part of the model and recorded as skipped.
     fn read_shape(&mut self, shape: Element<'a>) -> Outcome<Shape> {
-        self.note_foreign_attributes(shape, &["name"])?;
-        let parts = self.parts(shape, &["origin", "geometry"], &[], &["material"])?;
+        self.attributes_of(shape, &["name"], false)?;
+        let parts = self.passive(shape, &["origin", "geometry"])?;
         let mut origin = Frame::identity();
         let mut geometry = None;
         for part in parts {
@@ -102,8 +124,8 @@ impl<'a> Reader<'a> {
 
     fn read_geometry(&mut self, geometry: Element<'a>) -> Outcome<Geometry> {
         const SOLIDS: [&str; 5] = ["box", "cylinder", "capsule", "sphere", "mesh"];
-        self.note_foreign_attributes(geometry, &[])?;
-        let parts = self.parts(geometry, &SOLIDS, &[], &[])?;
+        self.attributes_of(geometry, &[], false)?;
+        let parts = self.passive(geometry, &SOLIDS)?;
         let solid = match parts.as_slice() {
             [] => {
                 return Err(geometry
@@ -115,18 +137,18 @@ impl<'a> Reader<'a> {
         };
         match solid.name() {
             "box" => {
-                self.leaf(solid, &["size"])?;
+                self.leaf_of(solid, &["size"], false)?;
                 let size = solid.required("size")?;
                 Ok(Geometry::Box(self.lengths(size)?))
             }
             "sphere" => {
-                self.leaf(solid, &["radius"])?;
+                self.leaf_of(solid, &["radius"], false)?;
                 let radius = solid.required("radius")?;
                 let [radius] = self.lengths(radius)?;
                 Ok(Geometry::Sphere(radius))
             }
             "mesh" => {
-                self.leaf(solid, &["filename", "scale"])?;
+                self.leaf_of(solid, &["filename", "scale"], false)?;
                 let scale = solid.attribute("scale").map(|scale| self.numbers(scale));
                 Ok(Geometry::Mesh {
                     filename: solid.required("filename")?.value.to_owned(),
@@ -134,7 +156,7 @@ impl<'a> Reader<'a> {
                 })
             }
             round => {
-                self.leaf(solid, &["radius", "length"])?;
+                self.leaf_of(solid, &["radius", "length"], false)?;
                 let (radius, length) = (solid.required("radius")?, solid.required("length")?);
                 let ([radius], [length]) = (self.lengths(radius)?, self.lengths(length)?);
                 Ok(if round == "cylinder" {

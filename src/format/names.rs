@@ -70,10 +70,30 @@ impl<'a> Directory<'a> {
         element: Element<'a>,
         attribute: &str,
     ) -> Outcome<&'a str> {
-        let attribute = element.required(attribute)?;
+        self.refer_by(sort, element.required(attribute)?)
+    }
+
+    /// As [`Self::refer`], where the name stands wherever it does.
+    pub(super) fn refer_by(&mut self, sort: Named, attribute: Attribute<'a>) -> Outcome<&'a str> {
         check_name(attribute)?;
         self.references.push((sort, attribute));
         Ok(attribute.value)
+    }
+
+    /// Whether there is a thing of that name so far.
+    pub(super) fn has(&self, sort: Named, name: &str) -> bool {
+        self.exists(sort, name)
+    }
+
+    /// Whether a joint, loop or coupling has that name.
+    pub(super) fn has_joint_or_coupling(&self, name: &str) -> bool {
+        self.joints.contains_key(name)
+    }
+
+    /// The names of links so far, in file order.
+    pub(super) fn link_names(&self) -> impl Iterator<Item = (&'a str, Range<usize>)> {
+        let links = self.given.iter().filter(|(sort, ..)| *sort == Named::Link);
+        links.map(|(_, name, range)| (*name, range.clone()))
     }
 
     /// Where the thing of that name is.

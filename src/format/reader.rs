@@ -1,18 +1,18 @@
 //! The robot element: definitions first, then every other element in file order, then the checks that need all of them.
 
+use super::actuation::{ACTUATION, Motor};
 use super::definitions::Definitions;
-use super::element::{Attribute, Element, Owner};
+use super::element::{Element, Owner};
 use super::error::{Fault, MOST_FAULTS, Outcome, lines_and_columns};
 use super::names::{Directory, Named};
+use super::unread::{Parts, Tally, Unread};
 use super::words::{alternatives, cut, did_you_mean};
-use super::{Reading, Skipped, Warning, xml};
-use crate::mechanism::{Entity, MechanismBuilder};
+use super::{ReadOptions, Reading, Skipped, Warning, relax, xml};
+use crate::mechanism::{Entity, Frame, MechanismBuilder};
 use crate::number::Number;
-use std::collections::HashMap;
+use std::cell::OnceCell;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
-
-/// Elements of URDF that say nothing about motion; they may stand inside `robot`, `link` and `joint`.
-pub(super) const SKIPPED: [&str; 3] = ["gazebo", "transmission", "sensor"];
 
 /// How much of the dialect a file uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -30,31 +30,79 @@ pub(super) struct Reader<'a> {
     pub(super) directory: Directory<'a>,
     /// Short literals that were read already.
     pub(super) literals: HashMap<&'a str, Number>,
-    root_namespace: Option<&'a str>,
+    root: Element<'a>,
+    pub(super) root_namespace: Option<&'a str>,
     warnings: Vec<(usize, String)>,
-    skipped: Vec<(usize, String)>,
+    pub(super) unread: Tally<'a>,
     /// The joint that places each link so far.
     pub(super) placed_by: HashMap<&'a str, &'a str>,
+    /// How many freedoms each joint has that was read so far; a `floating` joint is none.
+    pub(super) freedoms: HashMap<&'a str, usize>,
+    /// What the file says of motors.
+    pub(super) motors: Vec<Motor<'a>>,
+    /// The links of each joint of the tree.
+    pub(super) sides_of: HashMap<&'a str, [&'a str; 2]>,
+    /// The first joint or loop between two links, by their names in order.
+    pub(super) joined: HashMap<[&'a str; 2], &'a str>,
+    /// Joints that are read when all links are known.
+    pub(super) late: Vec<Element<'a>>,
+    /// Links that stand inside `<gazebo>`, and where: link, what it is placed in, and its frame there.
+    pub(super) late_links: Vec<(&'a str, &'a str, Frame)>,
+    pub(super) sdf_links: HashSet<&'a str>,
+    /// Links placed by a floating joint.
+    pub(super) floating: HashSet<&'a str>,
+    /// The link that nothing places, known when all links are.
+    pub(super) tree_root: Option<&'a str>,
+    /// Whether a joint inside `<gazebo>` holds it in the world.
+    pub(super) root_is_held: bool,
+    /// Whether a joint connects to a world that is no link of the file.
+    pub(super) joins_world: bool,
+    /// How many freedoms each joint inside `<gazebo>` has, by the name it has here.
+    pub(super) in_gazebo: HashMap<String, usize>,
+    /// Where the first of them stands.
+    pub(super) first_in_gazebo: Option<usize>,
+    /// Joints that follow another one.
+    pub(super) followers: HashSet<&'a str>,
+    /// Whether loops or couplings stand elsewhere than inside `<gazebo>`.
+    pub(super) other_closures: bool,
+    /// How many constraints without a name were given one.
+    pub(super) unnamed: usize,
     ground: Option<Range<usize>>,
     scene: Option<Range<usize>>,
     expectation: Option<Range<usize>>,
 }
 
-/// Reads a text; faults are unsorted.
+/// Reads a text; faults are unsorted. A text that was expanded from xacro comes with the numbers that it names.
 pub(super) fn read(
     text: &str,
-    settings: &[(String, String)],
-    symbolic: &[String],
+    options: &ReadOptions,
+    expanded: Option<&[Number]>,
 ) -> Result<Reading, Vec<Fault>> {
-    let document = xml::parse(text).map_err(|fault| vec![fault])?;
-    let root = Element::root(&document);
-    let name = robot_name(root).map_err(|fault| vec![fault])?;
-    let mut reader = Reader::new(root, name.value);
-    let children = root.children().map_err(|fault| vec![fault])?;
+    let one = |fault| vec![fault];
+    let (relaxed, mut notes) = (OnceCell::new(), Vec::new());
+    let document = match xml::parse(text) {
+        Ok(document) => document,
+        Err(fault) => {
+            let (lenient, why) = relax::relaxed(text).ok_or_else(|| one(fault))?;
+            notes = why;
+            xml::parse(relaxed.get_or_init(|| lenient)).map_err(one)?
+        }
+    };
+    let root = Element::root(&document, text);
+    check_root(root).map_err(one)?;
+    let mut reader = Reader::new(root);
+    for (at, message) in notes {
+        reader.warn(at, message);
+    }
+    if let Some(numbers) = expanded {
+        reader.definitions.numbers = numbers;
+    }
     reader
-        .note_foreign_attributes(root, &["name", "version"])
-        .map_err(|fault| vec![fault])?;
-    reader.read_definitions(root, &children, settings, symbolic)?;
+        .attributes_of(root, &["name", "version"], true)
+        .map_err(one)?;
+    reader.skip_text(root);
+    let children: Vec<Element<'_>> = root.elements().collect();
+    reader.read_definitions(root, &children, &options.settings, &options.symbolic)?;
 
     let mut faults = Vec::new();
     for child in children {
@@ -66,7 +114,17 @@ pub(super) fn read(
         }
     }
     if faults.is_empty() {
+        faults = reader.read_late_joints();
+    }
+    if faults.is_empty() {
         faults = reader.directory.unresolved();
+    }
+    reader.add_world();
+    reader.note_tree();
+    reader.resolve_motors();
+    reader.note_closing_frames();
+    if options.strict {
+        faults.extend(reader.unread.faults(text));
     }
     if !faults.is_empty() {
         return Err(faults);
@@ -74,9 +132,9 @@ pub(super) fn read(
     reader.finish(text, root)
 }
 
-fn robot_name(root: Element<'_>) -> Outcome<Attribute<'_>> {
+fn check_root(root: Element<'_>) -> Outcome<()> {
     if root.name() == "robot" {
-        return root.required("name");
+        return Ok(());
     }
     let fault = root.fault(format!("needed <robot>, found <{}>", root.written_name()));
     Err(match root.name() {
@@ -90,17 +148,36 @@ fn robot_name(root: Element<'_>) -> Outcome<Attribute<'_>> {
 }
 
 impl<'a> Reader<'a> {
-    fn new(root: Element<'a>, name: &str) -> Self {
+    fn new(root: Element<'a>) -> Self {
+        // The name is a label; nothing refers to it.
+        let name = root.attribute("name").map_or("unnamed", |name| name.value);
         Self {
             builder: MechanismBuilder::new(name),
             dialect: Dialect::Urdf,
             definitions: Definitions::default(),
             literals: HashMap::new(),
+            root,
             root_namespace: root.namespace(),
             warnings: Vec::new(),
-            skipped: Vec::new(),
+            unread: Tally::default(),
             directory: Directory::default(),
             placed_by: HashMap::new(),
+            freedoms: HashMap::new(),
+            motors: Vec::new(),
+            sides_of: HashMap::new(),
+            joined: HashMap::new(),
+            late: Vec::new(),
+            late_links: Vec::new(),
+            sdf_links: HashSet::new(),
+            floating: HashSet::new(),
+            tree_root: None,
+            root_is_held: false,
+            joins_world: false,
+            in_gazebo: HashMap::new(),
+            first_in_gazebo: None,
+            followers: HashSet::new(),
+            other_closures: false,
+            unnamed: 0,
             ground: None,
             scene: None,
             expectation: None,
@@ -141,7 +218,7 @@ impl<'a> Reader<'a> {
     }
 
     fn read_child(&mut self, child: Element<'a>) -> Outcome<()> {
-        const KNOWN: [&str; 8] = [
+        const KNOWN: [&str; 10] = [
             "link",
             "joint",
             "loop",
@@ -150,13 +227,31 @@ impl<'a> Reader<'a> {
             "configuration",
             "scene",
             "expect",
+            "loop_joint",
+            "constraint",
+        ];
+        /// What belongs inside other elements; at the top it is a sign of a tag closed too early.
+        const BEARING: [&str; 16] = [
+            "link",
+            "joint",
+            "loop",
+            "coupling",
+            "ground",
+            "configuration",
+            "scene",
+            "expect",
+            "loop_joint",
+            "constraint",
+            "parent",
+            "child",
+            "axis",
+            "mimic",
+            "predecessor",
+            "successor",
         ];
         match child.owner(self.root_namespace) {
             Owner::Xacro => return Ok(()),
-            Owner::Foreign => {
-                self.skip(child);
-                return Ok(());
-            }
+            Owner::Foreign => return self.read_foreign(child),
             Owner::Format => {}
         }
         match child.name() {
@@ -164,6 +259,9 @@ impl<'a> Reader<'a> {
             "joint" => self.read_joint(child),
             "loop" => self.read_loop(child),
             "coupling" => self.read_coupling(child),
+            "gazebo" => self.read_gazebo(child),
+            "loop_joint" => self.read_loop_joint(child),
+            "constraint" => self.read_constraint(child),
             "ground" => {
                 let place = self.only_one(child, self.ground.clone())?;
                 self.ground = Some(place);
@@ -180,11 +278,19 @@ impl<'a> Reader<'a> {
                 self.expectation = Some(place);
                 self.read_expectation(child)
             }
-            name if name == "material" || SKIPPED.contains(&name) => {
-                self.skip(child);
+            name if ACTUATION.contains(&name) => {
+                self.check_for_joints(child)?;
+                self.read_actuation(child);
                 Ok(())
             }
-            _ => Err(unknown_element(child, "robot", &KNOWN)),
+            _ => {
+                let kinds = Parts {
+                    known: &KNOWN,
+                    often: &[],
+                    bearing: &BEARING,
+                };
+                self.skip_unknown(child, self.root, &kinds)
+            }
         }
     }
 
@@ -212,15 +318,18 @@ impl<'a> Reader<'a> {
 
     /// Records an element that is not read.
     pub(super) fn skip(&mut self, element: Element<'a>) {
-        let what = format!("<{}>", cut(element.written_name()));
-        self.skipped.push((element.start(), what));
+        self.unread.element(element);
+    }
+
+    /// Records something that is not read, in words of its own.
+    pub(super) fn skip_because(&mut self, element: Element<'a>, what: String) {
+        self.unread.text(element.start(), what);
     }
 
     /// Records an element that is not read because of a fault in it.
     pub(super) fn skip_faulty(&mut self, element: Element<'a>, fault: &Fault) {
         let name = cut(element.written_name());
-        self.skipped
-            .push((element.start(), format!("<{name}>: {}", fault.message)));
+        self.skip_because(element, format!("<{name}>: {}", fault.message));
     }
 
     /// Checks the attributes of an element; those of other tools are recorded as skipped.
@@ -231,8 +340,8 @@ impl<'a> Reader<'a> {
     ) -> Outcome<()> {
         for (start, name) in element.only_attributes(known)? {
             let element = cut(element.written_name());
-            self.skipped
-                .push((start, format!("attribute `{}` of <{element}>", cut(name))));
+            self.unread
+                .text(start, format!("attribute `{}` of <{element}>", cut(name)));
         }
         Ok(())
     }
@@ -325,16 +434,8 @@ impl<'a> Reader<'a> {
         })?;
         Ok(Reading {
             mechanism,
-            warnings: with_places(text, self.warnings)
-                .map(|(line, column, message)| Warning {
-                    line,
-                    column,
-                    message,
-                })
-                .collect(),
-            skipped: with_places(text, self.skipped)
-                .map(|(line, column, what)| Skipped { line, column, what })
-                .collect(),
+            warnings: counted_warnings(text, self.warnings),
+            skipped: counted_skips(text, self.unread),
             format: match self.dialect {
                 Dialect::Urdf => "urdf",
                 Dialect::UrdfPlus => "urdf+",
@@ -344,18 +445,44 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Notes with lines and columns, in file order.
-fn with_places(
-    text: &str,
-    mut notes: Vec<(usize, String)>,
-) -> impl Iterator<Item = (usize, usize, String)> {
-    notes.sort_by_key(|(offset, _)| *offset);
-    let offsets: Vec<usize> = notes.iter().map(|(offset, _)| *offset).collect();
-    let places = lines_and_columns(text, &offsets);
-    notes
+/// Warnings with lines and columns in file order, those that say the same counted.
+fn counted_warnings(text: &str, warnings: Vec<(usize, String)>) -> Vec<Warning> {
+    let mut tally = Tally::default();
+    for (start, message) in warnings {
+        tally.text(start, message);
+    }
+    let kinds = tally.kinds();
+    places(text, &kinds)
         .into_iter()
-        .zip(places)
-        .map(|((_, message), (line, column))| (line, column, message))
+        .zip(kinds)
+        .map(|((line, column), kind)| Warning {
+            line,
+            column,
+            message: kind.what,
+            count: kind.count,
+        })
+        .collect()
+}
+
+/// What was skipped with lines and columns, in file order.
+fn counted_skips(text: &str, unread: Tally<'_>) -> Vec<Skipped> {
+    let kinds = unread.kinds();
+    places(text, &kinds)
+        .into_iter()
+        .zip(kinds)
+        .map(|((line, column), kind)| Skipped {
+            line,
+            column,
+            what: kind.what,
+            count: kind.count,
+            standard: kind.standard,
+        })
+        .collect()
+}
+
+fn places(text: &str, kinds: &[Unread]) -> Vec<(usize, usize)> {
+    let offsets: Vec<usize> = kinds.iter().map(|kind| kind.start).collect();
+    lines_and_columns(text, &offsets)
 }
 
 fn unknown_element(element: Element<'_>, parent: &str, known: &[&str]) -> Fault {

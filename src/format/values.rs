@@ -3,6 +3,7 @@
 use super::element::{Attribute, Element};
 use super::error::{Fault, Outcome};
 use super::number_text;
+use super::quaternion::roll_pitch_yaw;
 use super::reader::{Dialect, Reader};
 use super::words::counted;
 use crate::mechanism::{Direction, Frame};
@@ -34,6 +35,23 @@ impl<'a> Reader<'a> {
             .attribute(name)
             .map(|attribute| self.number(attribute))
             .transpose()
+    }
+
+    /// A number that says nothing about motion: where it cannot be read, that is noted.
+    pub(super) fn number_if_readable(
+        &mut self,
+        element: Element<'a>,
+        name: &str,
+    ) -> Option<Number> {
+        let attribute = element.attribute(name)?;
+        match self.number(attribute) {
+            Ok(number) => Some(number),
+            Err(_) => {
+                let what = format!("`{name}` of <{}>, which is no number", element.name());
+                self.skip_because(element, what);
+                None
+            }
+        }
     }
 
     /// Exactly so many numbers.
@@ -114,9 +132,14 @@ impl<'a> Reader<'a> {
         Ok(number)
     }
 
-    /// `<origin xyz rpy/>`, both optional.
+    /// `<origin xyz rpy/>`, both optional; `quat_xyzw` may stand for `rpy`.
     pub(super) fn origin(&mut self, element: Element<'a>) -> Outcome<Frame> {
-        self.leaf(element, &["xyz", "rpy"])?;
+        self.leaf_of(element, &["xyz", "rpy", "quat_xyzw"], true)?;
+        self.frame_of(element)
+    }
+
+    /// The attributes `xyz` and `rpy` or `quat_xyzw` of whatever element has them.
+    pub(super) fn frame_of(&mut self, element: Element<'a>) -> Outcome<Frame> {
         let mut frame = Frame::identity();
         if let Some(xyz) = element.attribute("xyz") {
             frame.position = self.numbers(xyz)?;
@@ -124,12 +147,22 @@ impl<'a> Reader<'a> {
         if let Some(rpy) = element.attribute("rpy") {
             frame.roll_pitch_yaw = self.numbers(rpy)?;
         }
+        if let Some(turned) = element.attribute("quat_xyzw") {
+            if element.attribute("rpy").is_some() {
+                return Err(turned
+                    .fault("the frame is turned twice, by `rpy` and by `quat_xyzw`")
+                    .help("remove one of the two"));
+            }
+            let quaternion = self.numbers(turned)?;
+            frame.roll_pitch_yaw = roll_pitch_yaw(&quaternion)
+                .ok_or_else(|| turned.fault("the zero quaternion is no rotation"))?;
+        }
         Ok(frame)
     }
 
     /// `<axis xyz/>` or `<axis2 xyz/>`, any length but zero.
     pub(super) fn direction(&mut self, element: Element<'a>) -> Outcome<Direction> {
-        self.leaf(element, &["xyz"])?;
+        self.leaf_of(element, &["xyz"], true)?;
         let xyz = element.required("xyz")?;
         let direction = Direction(self.numbers(xyz)?);
         if direction.is_zero() {

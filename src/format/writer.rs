@@ -43,6 +43,7 @@ pub fn write(mechanism: &Mechanism) -> String {
     }
     writer.floating(mechanism);
     writer.couplings(mechanism);
+    writer.actuation(mechanism);
     writer.configurations(mechanism);
     if let Some(scene) = mechanism.scene() {
         writer.scene(mechanism, scene);
@@ -231,6 +232,18 @@ impl Writer {
                 self.line(2, &format!("<ratio{}/>", pair("value", &number(ratio))));
                 self.line(1, "</coupling>");
             }
+        }
+    }
+
+    fn actuation(&mut self, mechanism: &Mechanism) {
+        for joint in mechanism.actuated() {
+            let joint = &mechanism.joint(*joint).name;
+            let name = pair("name", &format!("{joint}_transmission"));
+            let joint = pair("name", joint);
+            self.line(
+                1,
+                &format!("<transmission{name}><joint{joint}/></transmission>"),
+            );
         }
     }
 

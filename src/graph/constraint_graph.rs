@@ -35,7 +35,7 @@ pub struct ExtraRelation {
 }
 
 /// An edge seen from one of its two nodes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Incidence {
     /// Index of the edge.
     pub edge: usize,

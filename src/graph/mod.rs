@@ -32,6 +32,7 @@
 //! | `cycles` | oriented closed walks, fundamental cycles, shared edges |
 //! | `cycle_basis` | the shortest basis; `block_graph`, `short_cycles`, `signed_cover`, `gf2` are its parts |
 //! | `invariants` | whether a tree or a set of cycles is what it claims to be |
+//! | `folded` | the graph without what is only fixed to something |
 //! | `summary`, `draw`, `svg` | the same facts for a reader: text and JSON, Graphviz, picture |
 
 mod block_graph;
@@ -40,6 +41,7 @@ mod constraint_graph;
 mod cycle_basis;
 mod cycles;
 mod draw;
+mod folded;
 mod gf2;
 pub mod invariants;
 mod of_mechanism;
@@ -59,6 +61,7 @@ pub use constraint_graph::{
 pub use cycle_basis::{BasisKind, CycleBasis, peels};
 pub use cycles::{Cycle, Overlap, fundamental_cycle, fundamental_cycles, overlaps};
 pub use draw::to_dot;
+pub use folded::FoldedGraph;
 pub use spanning_tree::SpanningTree;
 pub use summary::{BlockSummary, CycleSummary, CyclesSummary, GraphSummary, TreeNode};
-pub use svg::{SVG_STYLE, svg_fragment, to_svg};
+pub use svg::{SVG_STYLE, folded_svg_fragment, svg_fragment, to_svg};

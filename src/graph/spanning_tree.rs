@@ -3,11 +3,15 @@
 //! Every edge outside the tree (a *chord*) closes exactly one cycle with it, so the tree gives a basis of cycles, and a
 //! shallow tree gives short ones: a cycle has at most 2·height + 1 edges. Finding the shallowest tree is not attempted;
 //! the tree grows greedily from the nodes with the most edges.
+//!
+//! People are shown the tree that their file describes, rooted at the ground ([`SpanningTree::of_mechanism`]), so that
+//! report, page and graph close loops where the file does. Equations are made from the shallow one.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use super::constraint_graph::{ConstraintGraph, Incidence};
+use crate::mechanism::Mechanism;
 
 /// A spanning tree of every connected component: a rooted forest that covers all nodes.
 ///
@@ -35,7 +39,27 @@ impl SpanningTree {
     /// O((V + E) + V log V).
     #[must_use]
     pub fn low_depth(graph: &ConstraintGraph) -> Self {
-        Self::grow(graph, None)
+        Self::grow(graph, None, |_| false)
+    }
+
+    /// The tree of the file: rooted at the ground, made of the joints that the file does not write as closing a loop. One
+    /// that does is taken only where no other joint leads on, as to a body that loops alone hold. The graph's edges are
+    /// the mechanism's joints, as in [`ConstraintGraph::of`].
+    ///
+    /// # Complexity
+    /// O((V + E) log (V + E)).
+    #[must_use]
+    pub fn of_mechanism(graph: &ConstraintGraph, mechanism: &Mechanism) -> Self {
+        Self::rooted(graph, |edge| mechanism.joints()[edge].closes_loop)
+    }
+
+    /// The tree rooted at the ground in which the edges that are `last` are taken only where no other leads on.
+    ///
+    /// # Complexity
+    /// O((V + E) log (V + E)).
+    #[must_use]
+    pub fn rooted(graph: &ConstraintGraph, last: impl Fn(usize) -> bool) -> Self {
+        Self::grow(graph, Some(graph.ground()), last)
     }
 
     /// The same with `node` as the root of its component, whatever its degree.
@@ -44,10 +68,10 @@ impl SpanningTree {
     /// If `node` is not a node of the graph.
     #[must_use]
     pub fn root_at(graph: &ConstraintGraph, node: usize) -> Self {
-        Self::grow(graph, Some(node))
+        Self::grow(graph, Some(node), |_| false)
     }
 
-    fn grow(graph: &ConstraintGraph, chosen: Option<usize>) -> Self {
+    fn grow(graph: &ConstraintGraph, chosen: Option<usize>, last: impl Fn(usize) -> bool) -> Self {
         let priority = |node: usize| (graph.degree(node), Reverse(graph.node_rank(node)));
         let nodes = graph.node_count();
         let mut tree = Self {
@@ -68,14 +92,33 @@ impl SpanningTree {
             tree.roots.push(root);
             reached[root] = true;
             let mut waiting = BinaryHeap::from([(priority(root), root)]);
-            while let Some((_, node)) = waiting.pop() {
-                tree.order.push(node);
-                for incidence in graph.incident(node) {
-                    let child = incidence.node;
-                    if !std::mem::replace(&mut reached[child], true) {
+            // Edges put off, the one closest to the root first, then by name.
+            let mut later = BinaryHeap::new();
+            loop {
+                while let Some((_, node)) = waiting.pop() {
+                    tree.order.push(node);
+                    for incidence in graph.incident(node) {
+                        let child = incidence.node;
+                        if reached[child] {
+                            continue;
+                        }
+                        if last(incidence.edge) {
+                            let rank = graph.edge_rank(incidence.edge);
+                            later.push((Reverse((tree.depth[node], rank)), node, *incidence));
+                            continue;
+                        }
+                        reached[child] = true;
                         tree.attach(child, incidence.edge, node);
                         waiting.push((priority(child), child));
                     }
+                }
+                let Some((_, node, incidence)) = later.pop() else {
+                    break;
+                };
+                let child = incidence.node;
+                if !std::mem::replace(&mut reached[child], true) {
+                    tree.attach(child, incidence.edge, node);
+                    waiting.push((priority(child), child));
                 }
             }
         }
@@ -258,6 +301,34 @@ mod tests {
             tree.lowest_common_ancestor(tree.roots()[0], tree.roots()[1]),
             None
         );
+    }
+
+    ///```text
+    ///   base ─a─ hip ─b─ knee      the file's tree is the arm and the rod; `c` closes the loop, `d` and `e` hold a
+    ///     │        └─ c ──┐        body that no other joint reaches: the one nearer the base is taken
+    ///     └───r─── rod ───┘─e─ float,  base ─d─ float
+    ///```
+    #[test]
+    fn loops_close_where_the_file_closes_them() {
+        let graph = samples::graph(
+            "base",
+            &[
+                ("a", "base", "hip"),
+                ("b", "hip", "knee"),
+                ("r", "base", "rod"),
+                ("c", "hip", "rod"),
+                ("d", "base", "float"),
+                ("e", "rod", "float"),
+            ],
+        );
+        let closes = |edge: usize| ["c", "d", "e"].contains(&graph.edge_name(edge));
+        let tree = SpanningTree::rooted(&graph, closes);
+        assert_eq!(graph.node_name(tree.roots()[0]), "base");
+        assert_eq!(names(&graph, tree.chords()), ["c", "e"]);
+        assert_eq!(tree.order().len(), 5);
+        assert_eq!(tree.order()[0], graph.ground());
+        // The shallow tree is another: it starts where most joints are.
+        assert_ne!(tree, SpanningTree::low_depth(&graph));
     }
 
     #[test]

@@ -9,6 +9,7 @@ mod text;
 
 use super::constraint_graph::ConstraintGraph;
 use super::draw::put;
+use super::folded::FoldedGraph;
 use super::spanning_tree::SpanningTree;
 use layout::{Curve, LEGEND_HEIGHT, Layout, PLACED_EDGES, Rectangle};
 use text::{escaped, text_width};
@@ -25,7 +26,7 @@ pub const SVG_STYLE: &str = include_str!("svg/style.css");
 /// graph, apart from the placing of edge names, which is left out for large graphs (the names then show when pointed at).
 #[must_use]
 pub fn to_svg(graph: &ConstraintGraph, tree: &SpanningTree) -> String {
-    written(graph, tree, true)
+    written(graph, tree, &Handles::None)
 }
 
 /// The same picture as an element `svg.graph` without style, for a page that includes [`SVG_STYLE`]. Links have `data-link`
@@ -33,20 +34,54 @@ pub fn to_svg(graph: &ConstraintGraph, tree: &SpanningTree) -> String {
 /// keyboard reaches both.
 #[must_use]
 pub fn svg_fragment(graph: &ConstraintGraph, tree: &SpanningTree) -> String {
-    written(graph, tree, false)
+    written(graph, tree, &Handles::Own)
+}
+
+/// The same of a folded graph: `data-link` and `data-joint` are still indices of the mechanism.
+#[must_use]
+pub fn folded_svg_fragment(folded: &FoldedGraph) -> String {
+    written(&folded.graph, &folded.tree, &Handles::Of(folded))
 }
 
 /// Attributes by which a page finds a link or joint, and by which the keyboard reaches it. A document of its own has none:
 /// indices depend on the order of the file, and nothing reads them.
-fn handle(alone: bool, what: &str, index: usize, reached: bool) -> String {
-    match (alone, reached) {
-        (true, _) => String::new(),
-        (false, false) => format!(" data-{what}=\"{index}\""),
-        (false, true) => format!(" data-{what}=\"{index}\" tabindex=\"0\""),
+enum Handles<'a> {
+    None,
+    /// The graph's own indices.
+    Own,
+    /// Those of the mechanism that a folded graph stands for.
+    Of(&'a FoldedGraph),
+}
+
+impl Handles<'_> {
+    fn alone(&self) -> bool {
+        matches!(self, Self::None)
+    }
+
+    fn link(&self, node: usize) -> String {
+        match self {
+            Self::None => String::new(),
+            Self::Own => handle("link", node, true),
+            Self::Of(folded) => handle("link", folded.links[node], true),
+        }
+    }
+
+    fn joint(&self, edge: usize, reached: bool) -> String {
+        match self {
+            Self::None => String::new(),
+            Self::Own => handle("joint", edge, reached),
+            Self::Of(folded) => handle("joint", folded.joints[edge], reached),
+        }
     }
 }
 
-fn written(graph: &ConstraintGraph, tree: &SpanningTree, alone: bool) -> String {
+fn handle(what: &str, index: usize, reached: bool) -> String {
+    let reached = if reached { " tabindex=\"0\"" } else { "" };
+    format!(" data-{what}=\"{index}\"{reached}")
+}
+
+fn written(graph: &ConstraintGraph, tree: &SpanningTree, handles: &Handles<'_>) -> String {
+    let alone = handles.alone();
     let layout = Layout::new(graph, tree);
     let curves = layout.curves(graph, tree);
     let (width, height) = layout.size(&curves);
@@ -77,13 +112,13 @@ fn written(graph: &ConstraintGraph, tree: &SpanningTree, alone: bool) -> String 
         );
     }
     for &edge in tree.edges().iter().chain(tree.chords()) {
-        write_edge(&mut svg, graph, tree, edge, &curves[edge], alone);
+        write_edge(&mut svg, graph, tree, edge, &curves[edge], handles);
     }
     for &node in graph.nodes_by_name() {
-        write_node(&mut svg, graph, node, layout.boxes[node], alone);
+        write_node(&mut svg, graph, node, layout.boxes[node], handles);
     }
     if graph.edge_count() <= PLACED_EDGES {
-        write_edge_names(&mut svg, graph, tree, &layout, &curves, alone);
+        write_edge_names(&mut svg, graph, tree, &layout, &curves, handles);
     }
     write_legend(&mut svg, width, height - LEGEND_HEIGHT / 2.0);
     svg.push_str("</svg>\n");
@@ -96,7 +131,7 @@ fn write_edge(
     tree: &SpanningTree,
     edge: usize,
     curve: &Curve,
-    alone: bool,
+    handles: &Handles<'_>,
 ) {
     let spec = graph.edge(edge);
     let class = if tree.contains(edge) {
@@ -117,7 +152,7 @@ fn write_edge(
                 // Wide and unseen: something to point at.
                 "<path class=\"touch\" d=\"{path}\"/><path class=\"{class}\" d=\"{path}\"/></g>\n"
             ),
-            handle = handle(alone, "joint", edge, true),
+            handle = handles.joint(edge, true),
             name = escaped(&spec.name),
             class_of = escaped(&spec.class),
             freedom = spec.freedom,
@@ -134,7 +169,7 @@ fn write_node(
     graph: &ConstraintGraph,
     node: usize,
     place: Rectangle,
-    alone: bool,
+    handles: &Handles<'_>,
 ) {
     let (box_class, text_class) = if node == graph.ground() {
         ("link ground", " class=\"ground-name\"")
@@ -152,7 +187,7 @@ fn write_node(
             place.centre.x,
             place.centre.y,
             name = escaped(graph.node_name(node)),
-            handle = handle(alone, "link", node, true),
+            handle = handles.link(node),
         ),
     );
 }
@@ -164,7 +199,7 @@ fn write_edge_names(
     tree: &SpanningTree,
     layout: &Layout,
     curves: &[Curve],
-    alone: bool,
+    handles: &Handles<'_>,
 ) {
     const PLACES: [f64; 11] = [
         0.5, 0.44, 0.56, 0.38, 0.62, 0.32, 0.68, 0.26, 0.74, 0.2, 0.8,
@@ -195,7 +230,7 @@ fn write_edge_names(
                     "<g{handle}><text class=\"halo\" aria-hidden=\"true\" dy=\"0.35em\" x=\"{x:.1}\" y=\"{y:.1}\">{name}</text>",
                     "<text class=\"{class}\" dy=\"0.35em\" x=\"{x:.1}\" y=\"{y:.1}\">{name}</text></g>\n"
                 ),
-                handle = handle(alone, "joint", edge, false),
+                handle = handles.joint(edge, false),
                 x = label.centre.x,
                 y = label.centre.y,
                 name = escaped(name),

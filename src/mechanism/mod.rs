@@ -17,6 +17,7 @@
 
 mod builder;
 mod configuration;
+mod constants;
 mod coupling;
 mod error;
 mod frame;
@@ -25,10 +26,13 @@ mod kind;
 mod link;
 mod model;
 mod precision;
+mod rational_rotations;
 mod scene;
+mod set_aside;
 
 pub use builder::{JointBuilder, MechanismBuilder};
 pub use configuration::Configuration;
+pub use constants::Recognised;
 pub use coupling::{Coupling, CouplingOrigin, CouplingTerm};
 pub use error::{Entity, MechanismError};
 pub use frame::{Direction, Frame};

@@ -1,11 +1,13 @@
 //! The validated model.
 
 use super::configuration::Configuration;
+use super::constants::Recognised;
 use super::coupling::Coupling;
 use super::joint::Joint;
 use super::link::Link;
 use super::precision::Precision;
 use super::scene::{Expectation, Scene};
+use crate::number::Number;
 use std::collections::BTreeMap;
 
 /// Index of a link in [`Mechanism::links`].
@@ -25,10 +27,12 @@ pub struct Mechanism {
     pub(super) joints: Vec<Joint>,
     pub(super) couplings: Vec<Coupling>,
     pub(super) configurations: Vec<Configuration>,
+    pub(super) actuated: Vec<JointId>,
     pub(super) scene: Option<Scene>,
     pub(super) expectation: Option<Expectation>,
     pub(super) placement_order: Vec<LinkId>,
     pub(super) precision: Precision,
+    pub(super) recognised: Recognised,
     pub(super) link_by_name: BTreeMap<String, LinkId>,
     pub(super) joint_by_name: BTreeMap<String, JointId>,
 }
@@ -86,6 +90,33 @@ impl Mechanism {
     #[must_use]
     pub fn configuration(&self, name: &str) -> Option<&Configuration> {
         self.configurations.iter().find(|c| c.name == name)
+    }
+
+    /// The joints that the file says a motor drives, in file order, each once and none without freedom; empty where the
+    /// file says nothing of motors.
+    #[must_use]
+    pub fn actuated(&self) -> &[JointId] {
+        &self.actuated
+    }
+
+    /// The mechanism with one configuration more, or with that of the same name replaced. There have to be as many values
+    /// for each joint as it has freedoms.
+    #[must_use]
+    pub(crate) fn with_configuration(
+        &self,
+        name: &str,
+        positions: Vec<(JointId, Vec<Number>)>,
+    ) -> Self {
+        let mut other = self.clone();
+        let added = Configuration {
+            name: name.to_owned(),
+            positions,
+        };
+        match other.configurations.iter_mut().find(|c| c.name == name) {
+            Some(configuration) => *configuration = added,
+            None => other.configurations.push(added),
+        }
+        other
     }
 
     /// Physical effects for a simulation.

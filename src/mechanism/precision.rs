@@ -1,9 +1,10 @@
 //! How far a file's numbers may be from the numbers meant.
 
+use super::constants::{has_no_more_than_a_double, is_printed_double};
 use super::frame::{Direction, Frame};
 use super::joint::Joint;
 use super::link::{Link, Placement};
-use crate::number::Number;
+use crate::number::{Number, Stated};
 
 /// How precisely a file states its geometry.
 ///
@@ -18,7 +19,9 @@ use crate::number::Number;
 /// which is right for both manners: the first term wherever no zeros were stripped, the second where they were. Expressions
 /// are exact. A file whose numbers all have at most [`Precision::EXACT_DECIMALS`] decimals holds numbers that a designer
 /// chose, not rounded ones, and is taken as exact too. Decimals of lengths count in the decade of the longest one, if that
-/// is below 1 m: `0.125` says of metres what `1.25` says of decimetres.
+/// is below 1 m: `0.125` says of metres what `1.25` says of decimetres. Literals that were read as constants
+/// ([`Recognised`](super::Recognised)) are exact; those that were read as shorter decimals state what these state. Where every
+/// literal ends in zeros, at least three more than it needs, in twelve digits or more, these are padding and state nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Precision {
     /// Most decimals of any literal in the geometry; `None` where there is no literal.
@@ -27,16 +30,55 @@ pub struct Precision {
     pub significant: u32,
     /// Most decimals of any literal, those of lengths counted in the decade of the longest one.
     designed: i32,
+    /// Whether all literals are padded with zeros that say nothing.
+    padded: bool,
+    /// Whether the longest literals are printed doubles.
+    doubles: bool,
+    /// What is said to be known of every literal, whatever its digits say (m, rad).
+    by_hand: Option<f64>,
 }
 
 impl Precision {
+    /// Zeros at the end of every literal of a file are padding if they are so many: of few literals, too many for chance.
+    const PADDING: u32 = 3;
+
+    /// Fewer significant digits than this are what people round to, zeros included.
+    const LONG: u32 = 12;
+
+    /// Literals it takes for that.
+    const PADDED_LITERALS: usize = 4;
+
     /// Up to this many decimals in the whole file, literals are exact.
     pub const EXACT_DECIMALS: i32 = 2;
 
     /// Whether every number of the geometry is exact.
     #[must_use]
     pub fn is_exact(&self) -> bool {
-        self.designed <= Self::EXACT_DECIMALS
+        match self.by_hand {
+            Some(uncertainty) => uncertainty == 0.0 || self.decimals.is_none(),
+            None => self.designed <= Self::EXACT_DECIMALS,
+        }
+    }
+
+    /// Whether the file's digits are those of doubles that some program printed. They say how the program computes, not how
+    /// well it knows its numbers.
+    #[must_use]
+    pub fn is_of_doubles(&self) -> bool {
+        self.doubles && self.by_hand.is_none()
+    }
+
+    /// The uncertainty of every literal that was stated by hand instead of by digits (m, rad).
+    #[must_use]
+    pub fn by_hand(&self) -> Option<f64> {
+        self.by_hand
+    }
+
+    /// The precision with every literal known to within this (m, rad), whatever its digits say; 0 means exact. What is no
+    /// finite size is ignored.
+    #[must_use]
+    pub(crate) fn known_to(self, uncertainty: f64) -> Self {
+        let by_hand = (uncertainty >= 0.0 && uncertainty.is_finite()).then_some(uncertainty);
+        Self { by_hand, ..self }
     }
 
     /// How far a number of this file may be from the number meant; zero for exact ones.
@@ -45,6 +87,14 @@ impl Precision {
         let (Some(stated), Some(most), false) = (number.stated(), self.decimals, self.is_exact())
         else {
             return 0.0;
+        };
+        if let Some(uncertainty) = self.by_hand {
+            return uncertainty;
+        }
+        let stated = if self.padded {
+            bare(number, stated)
+        } else {
+            stated
         };
         // With s digits of which the last is worth 10⁻ᵈ, the first is worth 10ˢ⁻ᵈ⁻¹: so e = s − d, without a logarithm.
         let written = i64::from(stated.significant);
@@ -83,6 +133,15 @@ impl Precision {
                 .chain(&joint.distance)
                 .for_each(|x| lengths.read(x));
         }
+        let significant = lengths.significant.max(directions.significant);
+        let bare = lengths.bare.1.max(directions.bare.1);
+        let padded = significant >= Self::LONG.max(bare + Self::PADDING)
+            && lengths.count + directions.count >= Self::PADDED_LITERALS;
+        if padded {
+            for digits in [&mut lengths, &mut directions] {
+                (digits.decimals, digits.significant) = digits.bare;
+            }
+        }
         let decade = lengths.places.map_or(0, |places| places.min(0));
         Self {
             decimals: lengths.decimals.max(directions.decimals),
@@ -91,6 +150,11 @@ impl Precision {
                 .decimals
                 .map_or(0, |decimals| decimals.saturating_add(decade))
                 .max(directions.decimals.unwrap_or(0)),
+            padded,
+            doubles: (lengths.printed || directions.printed)
+                && !lengths.longer
+                && !directions.longer,
+            by_hand: None,
         }
     }
 }
@@ -102,6 +166,14 @@ struct Digits {
     decimals: Option<i32>,
     /// Most significant digits of any literal.
     significant: u32,
+    /// Both without zeros at the end.
+    bare: (Option<i32>, u32),
+    /// Literals that have a decimal point and are not zero.
+    count: usize,
+    /// Whether some literal that states its precision is a printed double.
+    printed: bool,
+    /// Whether some literal has more digits than a double holds.
+    longer: bool,
     /// Power of ten of the first digit of the largest literal: 0 for `1.25`, −1 for `0.125`.
     places: Option<i32>,
 }
@@ -113,11 +185,39 @@ impl Digits {
         };
         self.decimals = self.decimals.max(Some(stated.decimals));
         self.significant = self.significant.max(stated.significant);
+        let bare = bare(number, stated);
+        self.bare.0 = self.bare.0.max(Some(bare.decimals));
+        self.bare.1 = self.bare.1.max(bare.significant);
+        let pointed = number.literal_text().is_some_and(|text| text.contains('.'));
+        self.count += usize::from(pointed && stated.significant > 0);
+        // What was read as a shorter decimal has the digits of that.
+        if number.written() == Some(stated) {
+            self.longer |= !has_no_more_than_a_double(number);
+            self.printed |= is_printed_double(number);
+        }
         if stated.significant > 0 {
             let written = i64::from(stated.significant) - i64::from(stated.decimals) - 1;
             let place = written.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32;
             self.places = self.places.max(Some(place));
         }
+    }
+}
+
+/// The digits of a literal without the zeros at the end of its decimals.
+fn bare(number: &Number, stated: Stated) -> Stated {
+    // What was read as a shorter decimal has no such zeros.
+    let text = number
+        .literal_text()
+        .filter(|_| number.written() == Some(stated));
+    let mantissa = text.and_then(|text| text.split(['e', 'E']).next());
+    let Some((_, fraction)) = mantissa.and_then(|mantissa| mantissa.split_once('.')) else {
+        return stated;
+    };
+    let zeros = fraction.len() - fraction.trim_end_matches('0').len();
+    let zeros = u32::try_from(zeros).unwrap_or(0);
+    Stated {
+        decimals: stated.decimals.saturating_sub_unsigned(zeros),
+        significant: stated.significant.saturating_sub(zeros),
     }
 }
 
@@ -228,6 +328,41 @@ mod tests {
         let precision = of(&["0.25", "1.125"]);
         assert!(!precision.is_exact());
         assert_uncertainty(&precision, "0.25", 0.5e-3);
+    }
+
+    #[test]
+    fn zeros_at_the_end_of_every_literal_are_padding() {
+        let precision = of(&[
+            "0.112527000000",
+            "0.025656900000",
+            "1.000000000000",
+            "0.000000000000",
+            "-0.013100000000",
+        ]);
+        assert_eq!((precision.decimals, precision.significant), (Some(7), 6));
+        assert_uncertainty(&precision, "0.112527000000", 0.5e-6);
+        assert_uncertainty(&precision, "0.025656900000", 0.5e-7);
+        assert_uncertainty(&precision, "0.000000000000", 0.5e-7);
+        // One literal that has digits there, and they are stated.
+        let precision = of(&[
+            "0.112527000000",
+            "0.025656900001",
+            "1.000000000000",
+            "-0.013100000000",
+        ]);
+        assert_uncertainty(&precision, "0.112527000000", 0.5e-12);
+        // A single one may end so by choice.
+        assert!(!of(&["0.500000000000"]).is_exact());
+        assert!(!of(&["0.500000", "0.250000", "1.000000", "-0.750000"]).is_exact());
+        assert!(
+            of(&[
+                "0.500000000000",
+                "0.250000000000",
+                "1.000000000000",
+                "-0.750000000000"
+            ])
+            .is_exact()
+        );
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Everything the first engines say about a mechanism at one pose.
 
 use super::advice::{Advice, advice_for_part};
+use super::alike::treat_alike;
 use super::branch::Branch;
 use super::cycles::{CycleFacts, cycle_facts};
 use super::depth::Depth;
@@ -15,10 +16,12 @@ use super::roles::{JointRole, roles_of_part};
 use super::structure::Structure;
 use super::verdict::{Mobility, judge, not_asked, unassembled};
 use super::whole_branches::whole_branches;
-use crate::closure::{Arithmetic, Assembly, Geometry, assemble, spanning_poses};
+use crate::closure::{
+    Arithmetic, Assembly, AssemblyOptions, Geometry, assemble_with, spanning_poses,
+};
 use crate::matrix::MatrixError;
-use crate::mechanism::Mechanism;
-use std::collections::BTreeSet;
+use crate::mechanism::{Configuration, Mechanism, Precision};
+use std::collections::{BTreeMap, BTreeSet};
 use thiserror::Error;
 
 /// What to analyse.
@@ -30,6 +33,9 @@ pub struct AnalysisOptions {
     pub exact: ExactBudget,
     /// How much is to be found out.
     pub depth: Depth,
+    /// The gap up to which a loop counts as closed (m; angles count by the length of the loop); what the file's digits say if
+    /// `None`. Ranks are then only as certain as such a pose.
+    pub closure_tolerance: Option<f64>,
 }
 
 /// Why an analysis could not be made. That a mechanism does not assemble or stays undecided is a result, not an error.
@@ -121,6 +127,7 @@ pub fn analyse(
     let held: BTreeSet<usize> = configuration
         .iter()
         .flat_map(|c| c.positions.iter().map(|(joint, _)| joint.0))
+        .filter(|&joint| mechanism.joints()[joint].freedom() > 0)
         .collect();
     let structure = Structure::new(mechanism);
     let kutzbach = kutzbach_count(mechanism);
@@ -134,7 +141,16 @@ pub fn analyse(
             joint: mechanism.joints()[joint].name.clone(),
         });
     }
-    let assembly = assemble(mechanism, &geometry, &structure.parts, &held)?;
+    let assembly = assemble_with(
+        mechanism,
+        &geometry,
+        &structure.parts,
+        &AssemblyOptions {
+            held,
+            rounded: configuration.map(rounded).unwrap_or_default(),
+            tolerance: options.closure_tolerance,
+        },
+    )?;
     let mut analysis = Analysis {
         mobility: unassembled(&assembly),
         structure,
@@ -151,9 +167,35 @@ pub fn analyse(
         branches: None,
     };
     if analysis.assembly.closed {
-        analysis.rank(mechanism, configuration, &held, &geometry, options)?;
+        analysis.rank(mechanism, configuration, &geometry, options)?;
     }
     Ok(analysis)
+}
+
+/// How far the values of a configuration may be from those meant (rad, m), by joint index: half a unit of its finest decimal, if
+/// its literals have more decimals than somebody would choose.
+fn rounded(configuration: &Configuration) -> BTreeMap<usize, f64> {
+    let decimals = |values: &[crate::number::Number]| {
+        values
+            .iter()
+            .filter_map(|value| value.stated().map(|stated| stated.decimals))
+            .max()
+    };
+    let finest = configuration
+        .positions
+        .iter()
+        .filter_map(|(_, values)| decimals(values))
+        .max()
+        .filter(|finest| *finest > Precision::EXACT_DECIMALS);
+    let Some(finest) = finest else {
+        return BTreeMap::new();
+    };
+    configuration
+        .positions
+        .iter()
+        .filter(|(_, values)| decimals(values).is_some())
+        .map(|(joint, _)| (joint.0, 0.5 * 10f64.powi(-finest.min(300))))
+        .collect()
 }
 
 fn known_configurations(mechanism: &Mechanism) -> String {
@@ -174,8 +216,7 @@ impl Analysis {
     fn rank(
         &mut self,
         mechanism: &Mechanism,
-        configuration: Option<&crate::mechanism::Configuration>,
-        held: &BTreeSet<usize>,
+        configuration: Option<&Configuration>,
         geometry: &Geometry<f64>,
         options: &AnalysisOptions,
     ) -> Result<(), MatrixError> {
@@ -184,16 +225,17 @@ impl Analysis {
         let pose = Pose {
             mechanism,
             configuration,
-            held,
+            held: &self.assembly.held,
             geometry,
             states,
-            as_drawn: self.assembly.steps == 0,
+            as_drawn: self.assembly.steps == 0 && options.closure_tolerance.is_none(),
         };
         let mut more = MoreDigits::new();
         let mut parts = Vec::with_capacity(self.structure.parts.len());
         for (part, known) in self.structure.parts.iter().zip(known) {
             parts.push(rank_part_with(&pose, &mut more, part, known)?);
         }
+        treat_alike(mechanism, &self.structure.parts, &mut parts)?;
         let home = self.home_freedom(mechanism, &parts);
         if options.depth == Depth::Rank {
             // Numbers with too few digits may hold fast what is meant to move.
@@ -533,7 +575,8 @@ mod tests {
         let mechanism = builder.build().unwrap();
         let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
         let parts = Structure::new(&mechanism).parts;
-        let assembly = assemble(&mechanism, &geometry, &parts, &BTreeSet::new()).unwrap();
+        let assembly =
+            crate::closure::assemble(&mechanism, &geometry, &parts, &BTreeSet::new()).unwrap();
         assert!(assembly.closed);
         assert_eq!(parts.len(), 2000);
         assert_eq!(JointKind::Revolute.freedom() * 8000, mechanism.freedom());

@@ -17,13 +17,18 @@ pub struct BranchPose {
     pub tangents: Vec<Vec<f64>>,
 }
 
-/// A link that can move while all other links stand still.
+/// A link that can move while all other links stand still, but for those that stand for no body of their own.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct IdleLink {
-    /// Index of the link.
+    /// Index of the link; of several that move together, the heaviest, or the first by name.
     pub link: usize,
-    /// Its idle freedoms.
+    /// The others that move with it: parts fixed to it, the other links of a leg between two balls, intermediate links of balls
+    /// and universal joints that are written as hinges.
+    pub with: Vec<usize>,
+    /// Their idle freedoms, those of other entries not counted again.
     pub freedom: usize,
+    /// Whether they hang between balls: a rod or a leg that spins about its own line.
+    pub rod: bool,
 }
 
 /// How a link moves relative to another along a branch.
@@ -61,6 +66,8 @@ pub struct Branch {
     pub roles: Vec<JointRole>,
     /// Links that are idle along the branch.
     pub idle: Vec<IdleLink>,
+    /// Links that move a thousand times as much as all others in some motion along the branch: nearly idle, but not so.
+    pub nearly_idle: Vec<IdleLink>,
     /// How every link moves relative to the ground.
     pub motions: Vec<RelativeMotion>,
     /// Generic poses of the branch: never the pose itself.

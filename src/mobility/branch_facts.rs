@@ -16,6 +16,8 @@ pub struct BranchFacts {
     pub roles: Vec<JointRole>,
     /// As [`super::idle_links`] gives them.
     pub idle: Vec<IdleLink>,
+    /// Links that move a thousand times as much as all others in some motion: nearly idle.
+    pub nearly_idle: Vec<IdleLink>,
     /// As [`super::motions_to_ground`] gives them.
     pub motions: Vec<RelativeMotion>,
 }
@@ -29,9 +31,11 @@ pub fn branch_facts(
     poses: &[BranchPose],
 ) -> BranchFacts {
     let seen = link_twists(mechanism, geometry, structure, poses);
+    let idle = idle_seen(mechanism, geometry, structure, &seen);
     BranchFacts {
         roles: roles_seen(mechanism, &seen),
-        idle: idle_seen(mechanism, structure, &seen),
+        idle: idle.idle,
+        nearly_idle: idle.nearly,
         motions: motions_seen(&seen, &to_ground(mechanism)),
     }
 }

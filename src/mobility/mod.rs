@@ -15,7 +15,9 @@
 //! Cost: near-linear in the mechanism where its loops are short and hang together like a chain; fronts of the sparse
 //! elimination grow with the width of a lattice. Singular poses cost power series in the variables of one part's kernel.
 
+mod actuation;
 mod advice;
+mod alike;
 mod analysis;
 mod branch;
 mod branch_facts;
@@ -34,18 +36,24 @@ mod idle;
 mod idle_directions;
 mod kutzbach;
 mod lifting;
+mod limbs;
+mod limit_facts;
 mod link_twists;
 mod more_digits;
+mod near_singular;
 mod one_engine;
 mod one_sided;
 mod part_mobility;
+mod part_names;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod part_samples;
+mod point_chains;
 mod pose_rank;
 mod redundancy;
 mod relative_motion;
 mod roles;
+mod rounded;
 mod singular;
 mod structure;
 mod subgroup;
@@ -55,6 +63,7 @@ mod verdict;
 mod vocabulary;
 mod whole_branches;
 
+pub use actuation::{Actuation, DependentInput, Follower, Freedom, actuation};
 pub use advice::{Advice, advice_for_part};
 pub use analysis::{Analysis, AnalysisError, AnalysisOptions, HomeFreedom, analyse};
 pub use branch::{Branch, BranchPose, IdleLink, RelativeMotion};
@@ -71,12 +80,16 @@ pub use germ::{
 pub use germ_zeros::{GermBranch, GermZeroOptions, GermZeros, HalfBranch, Isolation, germ_zeros};
 pub use idle::idle_links;
 pub use kutzbach::kutzbach_count;
+pub use limbs::{Limb, Limbs, limbs};
+pub use limit_facts::{LimitFact, limit_facts};
 pub use more_digits::MoreDigits;
+pub use near_singular::{ClearerPose, NearSingular, dead_centres, near_singular, pose_of_branch};
 pub use one_engine::{
     OneEngine, chart_alone, exact_alone, germ_alone, kernel_of, rank_alone, subgroups_alone,
 };
 pub use part_mobility::{Evidence, PartBranch, PartFinding, part_mobility};
-pub use pose_rank::{LADDER, PartRank, Pose, rank_part};
+pub(crate) use part_names::{owners, with_owners};
+pub use pose_rank::{Doubt, LADDER, PartRank, Pose, rank_part};
 pub use redundancy::SelfStresses;
 pub use relative_motion::{motions_to_ground, relative_motions};
 pub use roles::{JointRole, freedom_groups, roles_of_part};

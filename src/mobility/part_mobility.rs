@@ -179,7 +179,9 @@ pub fn part_mobility(
     };
     let Some(freedom) = rank.instantaneous.filter(|_| !held_by_rounding) else {
         let why = match &rank.note {
-            Some(note) if rank.stated == 0.0 && !held_by_rounding => note.clone(),
+            Some(note) if (rank.stated == 0.0 || rank.doubt.is_some()) && !held_by_rounding => {
+                note.clone()
+            }
             _ => "the numbers as they are stated leave the rank at this pose open; more digits would decide it".to_owned(),
         };
         return Ok(PartFinding::open(0, upper, why).with(vec![rank_evidence]));
@@ -190,9 +192,13 @@ pub fn part_mobility(
             .as_written
             .is_none_or(|w| Some(w) == rank.instantaneous)
     {
-        let why = "within the precision of its numbers the mechanism could have another rank at this pose; more digits would decide";
+        let why = match &rank.note {
+            Some(note) if rank.doubt.is_some() => note.clone(),
+            _ => "within the precision of its numbers the mechanism could have another rank at this pose; more digits would decide"
+                .to_owned(),
+        };
         let upper = freedom.max(rank.candidates.1);
-        return Ok(PartFinding::open(0, upper, why.to_owned()).with(vec![rank_evidence]));
+        return Ok(PartFinding::open(0, upper, why).with(vec![rank_evidence]));
     }
     let mut evidence = vec![rank_evidence];
     if freedom == 0 {

@@ -22,6 +22,7 @@
 //! meant to be is then as open as the way it moved.
 
 use super::more_digits::MoreDigits;
+use super::rounded::{OtherRank, if_rounded};
 use crate::closure::{CycleJacobian, Geometry, JointState, Part, entry_accuracy, jacobian};
 use crate::matrix::{MatrixError, Method, RankDecision, Real, SparseMatrix, decide};
 use crate::mechanism::{Configuration, Mechanism};
@@ -118,6 +119,8 @@ pub struct PartRank {
     pub stated: f64,
     /// Relative uncertainty of the Jacobian in double precision, whatever its cause: that of everything computed from it.
     pub accuracy: f64,
+    /// What speaks against the rank though its margins are clear; then [`Self::note`] says it.
+    pub doubt: Option<Doubt>,
     /// Bits of the arithmetic that decided.
     pub bits: u32,
     /// Why the answer is not plain, in one sentence.
@@ -153,6 +156,16 @@ impl PartRank {
             ..self.decision.assuming(self.matrix.columns() - freedom)
         })
     }
+}
+
+/// What speaks against a rank whose margins are clear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Doubt {
+    /// It is another if the coordinates, though printed with the digits of doubles, are rounded: at this power of ten (m, rad)
+    /// or more coarsely.
+    Rounded(f64),
+    /// A copy or mirror image of the part has another.
+    Unlike,
 }
 
 /// What the ladder needs to evaluate a part again.
@@ -206,7 +219,9 @@ impl Standing {
                 way / here.unit(pose.mechanism, column)
             })
             .collect();
-        standing.moved = ways.iter().any(|way| *way != 0.0);
+        // A pose that is closed only because a coarser tolerance was asked for stands beside a closed one, as a moved one does.
+        let open = here.residual.iter().any(|r| r.abs() > closing);
+        standing.moved = open || ways.iter().any(|way| *way != 0.0);
         if standing.moved {
             standing.residual = 0.0.norm(&here.residual);
             let drawn = jacobian(pose.mechanism, pose.geometry, &pose.geometry.states, part)?;
@@ -346,6 +361,15 @@ pub(super) fn rank_part_with(
             }
         }
     }
+    // What sixteen digits of a program leave as written may still be rounding.
+    let mut other = None;
+    if stated > 0.0 && nominal.rank == written.rank {
+        other = if_rounded(pose.mechanism, &double, &matrix, &written)?;
+    }
+    if let (Some(OtherRank { rank, .. }), Some(literal)) = (other, written.rank) {
+        nominal.rank = None;
+        nominal.candidates = (rank, literal);
+    }
     let freedom = |rank: usize| columns - rank;
     let (least, most) = possible.unwrap_or(nominal.candidates);
     let literal = written.rank.map(freedom);
@@ -371,6 +395,18 @@ pub(super) fn rank_part_with(
             (Some(answer), nominal, Some(note))
         }
         (Some(answer), _) => (Some(answer), nominal, None),
+        (None, Some(literal)) if let Some(other) = other => {
+            let note = format!(
+                "{literal} as written, or {} if the coordinates are rounded at {:e} (m, rad) or more coarsely: singular values up to \
+                 {:.1e} of the largest stand alone, a factor of {:.0e} below the others, and the file's digits are those that \
+                 programs print, which does not say how well they are known; `--precision` states it",
+                freedom(other.rank),
+                other.rounded_at,
+                other.largest,
+                other.gap,
+            );
+            (Some(literal), written, Some(note))
+        }
         (None, Some(literal)) => {
             let note = format!(
                 "the numbers taken literally leave {literal}; within their stated precision anything from {} to {} is \
@@ -408,6 +444,7 @@ pub(super) fn rank_part_with(
         taken_literally: coarse,
         stated,
         accuracy: rounding.max(poorer).max(f64::EPSILON),
+        doubt: other.map(|other| Doubt::Rounded(other.rounded_at)),
         bits,
         note,
         matrix,

@@ -41,7 +41,8 @@ pub fn roles_of_part(
     part: &Part,
     rank: &PartRank,
 ) -> Result<Vec<JointRole>, MatrixError> {
-    let Some(decision) = rank.settled() else {
+    // Where the numbers may be rounded, what moves is as open as the rank.
+    let Some(decision) = rank.settled().filter(|_| rank.doubt.is_none()) else {
         return Ok(vec![JointRole::default(); part.joints.len()]);
     };
     let null = null_vectors(&rank.matrix, &decision, NULL_VECTORS, 1)?;

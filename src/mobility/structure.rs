@@ -1,5 +1,6 @@
 //! The topology of a mechanism, split into parts whose equations stand alone.
 
+use super::part_names::part_names;
 use crate::closure::Part;
 use crate::graph::{ConstraintGraph, Cycle, CycleBasis, SpanningTree, fundamental_cycle};
 use crate::mechanism::Mechanism;
@@ -13,7 +14,7 @@ const LISTED_TREE_CYCLES: usize = 20_000;
 pub struct Structure {
     /// Links as nodes, joints as edges, couplings as extra relations.
     pub graph: ConstraintGraph,
-    /// The low-depth spanning tree (Ruiz 1994, section 5.4.2).
+    /// The spanning tree of the file, rooted at the ground ([`SpanningTree::of_mechanism`]).
     pub tree: SpanningTree,
     /// The cycles shown to people: the tree's fundamental cycles, or the short ones where those would be too long.
     pub cycles: Vec<Cycle>,
@@ -21,6 +22,8 @@ pub struct Structure {
     pub cycles_are_fundamental: bool,
     /// Parts with loops or couplings.
     pub parts: Vec<Part>,
+    /// What people call each part: what the names of its joints have in common, or the first of them.
+    pub part_names: Vec<String>,
     /// Joints in no loop and no coupling: free to move on their own.
     pub free_joints: Vec<usize>,
     /// Connected pieces beside the ground's own: bodies that nothing holds.
@@ -32,8 +35,9 @@ impl Structure {
     #[must_use]
     pub fn new(mechanism: &Mechanism) -> Self {
         let graph = constraint_graph(mechanism);
-        let tree = SpanningTree::low_depth(&graph);
-        let basis = CycleBasis::minimum(&graph, &tree);
+        // Equations are made from short cycles; people are shown those that the file closes.
+        let basis = CycleBasis::minimum(&graph, &SpanningTree::low_depth(&graph));
+        let tree = SpanningTree::of_mechanism(&graph, mechanism);
         let blocks = graph.coupled_blocks();
         let mut part_of_edge = vec![usize::MAX; graph.edge_count()];
         let mut parts = Vec::new();
@@ -65,6 +69,7 @@ impl Structure {
                 part.cycles.push(cycle.edges.clone());
             }
         }
+        let part_names = part_names(mechanism, &graph, &parts);
         let total: usize = tree
             .chords()
             .iter()
@@ -86,6 +91,7 @@ impl Structure {
             cycles,
             cycles_are_fundamental,
             parts,
+            part_names,
             free_joints,
             loose_pieces,
         }

@@ -5,6 +5,7 @@
 //! of the whole is one branch of every part, and the pose is singular where that of some part is.
 
 use super::part_mobility::{Evidence, PartFinding};
+use super::part_names::with_owners;
 use super::structure::Structure;
 use super::vocabulary::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
 use crate::closure::Assembly;
@@ -71,8 +72,8 @@ pub fn unassembled(assembly: &Assembly) -> Mobility {
         complex_dimension: None,
         level: CertificateLevel::Numeric,
         certificate: format!(
-            "no closed pose was found from the pose drawn: the best one still misses by {:.2e} (allowed {:.2e})",
-            assembly.residual, assembly.tolerance
+            "no closed pose was found from {} starts: the best one still misses by {:.2e} (allowed {:.2e})",
+            assembly.starts, assembly.residual, assembly.tolerance
         ),
         nominal: None,
         why: vec!["a mechanism that does not close has no motions to count".to_owned()],
@@ -110,7 +111,8 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, parts: &[PartFinding]
     let base = free + 6 * structure.loose_pieces;
     let low = base + parts.iter().map(|p| p.lower).sum::<usize>();
     let high = base + parts.iter().map(|p| p.upper).sum::<usize>();
-    let open: Vec<&str> = parts.iter().filter_map(|p| p.open.as_deref()).collect();
+    let names = &structure.part_names[..];
+    let open: Vec<(usize, &str)> = each(parts, |p| p.open.as_deref());
     let poses: Vec<Option<PoseKind>> = parts.iter().map(|p| p.pose).collect();
     let pose = if poses.contains(&Some(PoseKind::Singular)) {
         Some(PoseKind::Singular)
@@ -126,17 +128,10 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, parts: &[PartFinding]
     };
     let weakest = parts.iter().min_by_key(|p| (p.open.is_none(), p.level));
     let level = weakest.map_or(CertificateLevel::Subgroup, |p| p.level);
-    let certificate = match weakest {
-        None => "no loop constrains any joint".to_owned(),
-        Some(part) => part.certificate.clone(),
-    };
-    let mut why: Vec<String> = Vec::new();
-    let contradictions = parts.iter().filter_map(|p| p.contradiction.as_deref());
-    for reason in contradictions.chain(open) {
-        if !why.iter().any(|w| w == reason) {
-            why.push(reason.to_owned());
-        }
-    }
+    let certificate = certificate(names, parts, level);
+    let contradictions = each(parts, |p| p.contradiction.as_deref());
+    let mut why = with_owners(names, contradictions.into_iter().chain(open));
+    why.extend(singular_parts(names, parts));
     let class = (verdict == Verdict::Mobile && pose == Some(PoseKind::Regular))
         .then(|| {
             parts
@@ -182,6 +177,77 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, parts: &[PartFinding]
             .flat_map(|(index, p)| p.evidence.iter().map(move |e| (index, e.clone())))
             .collect(),
     }
+}
+
+/// What is known of parts, with their numbers.
+fn each<'a>(
+    parts: &'a [PartFinding],
+    of: impl Fn(&'a PartFinding) -> Option<&'a str>,
+) -> Vec<(usize, &'a str)> {
+    parts
+        .iter()
+        .enumerate()
+        .filter_map(|(index, part)| of(part).map(|text| (index, text)))
+        .collect()
+}
+
+/// Certificates told one by one; of more the rest is counted.
+const CERTIFICATES: usize = 3;
+
+/// What the verdict rests on: the certificate of each part, those that decide how strong the whole is first.
+fn certificate(names: &[String], parts: &[PartFinding], level: CertificateLevel) -> String {
+    if parts.is_empty() {
+        return "no loop constrains any joint".to_owned();
+    }
+    let mut order: Vec<usize> = (0..parts.len()).collect();
+    order.sort_by_key(|&index| (parts[index].open.is_none(), parts[index].level));
+    let texts: Vec<String> = parts
+        .iter()
+        .map(|part| {
+            let text = part.certificate.trim_end_matches('.');
+            // Stronger than the whole is said to be.
+            match part.level == level {
+                true => text.to_owned(),
+                false => format!("{text} ({})", part.level),
+            }
+        })
+        .collect();
+    let all = with_owners(
+        names,
+        order.iter().map(|&index| (index, texts[index].as_str())),
+    );
+    let mut text = all[..all.len().min(CERTIFICATES)].join("; ");
+    match all.len().saturating_sub(CERTIFICATES) {
+        0 => {}
+        1 => text.push_str("; and another certificate"),
+        more => text.push_str(&format!("; and {more} more certificates")),
+    }
+    text
+}
+
+/// Which parts are at a singular pose, where others are not.
+fn singular_parts(names: &[String], parts: &[PartFinding]) -> Option<String> {
+    let singular: Vec<usize> = (0..parts.len())
+        .filter(|&index| parts[index].pose == Some(PoseKind::Singular))
+        .collect();
+    if singular.is_empty() || singular.len() == parts.len() {
+        return None;
+    }
+    let kinds: Vec<(usize, String)> = singular
+        .into_iter()
+        .map(|index| {
+            let kind = parts[index]
+                .kind
+                .map_or("of a kind not known", SingularKind::word);
+            (index, kind.replace('_', " "))
+        })
+        .collect();
+    let told = with_owners(names, kinds.iter().map(|(index, kind)| (*index, &kind[..])));
+    Some(format!(
+        "of the {} blocks that have loops or couplings only these are at a singular pose: {}",
+        parts.len(),
+        told.join("; ")
+    ))
 }
 
 /// What the complex solutions say about a finite freedom that is decided: that there are more dimensions of them, or that

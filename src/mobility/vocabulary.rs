@@ -45,7 +45,7 @@ words! {
         Rigid => "rigid",
         /// The bounds on the finite mobility do not meet.
         Undecided => "undecided",
-        /// The loops cannot be closed, so there is no pose to analyse.
+        /// No closed pose was found, so there is none to analyse.
         Unassembled => "unassembled",
     }
 }

@@ -88,6 +88,7 @@ pub(super) fn whole_branches(
                 half_branches: (dimension == 1).then_some(2),
                 roles: facts.roles,
                 idle: facts.idle,
+                nearly_idle: facts.nearly_idle,
                 motions: facts.motions,
                 poses,
             })

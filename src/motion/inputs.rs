@@ -3,11 +3,11 @@
 //! A branch of dimension d is cut down to a curve by holding d − 1 joint variables; a d-th one moves. The d inputs have to
 //! be coordinates of the branch near the start: the rows of its tangent basis that belong to them must be independent.
 //! They are chosen by QR with column pivoting of the transposed tangents (Businger & Golub 1965), what was asked for first,
-//! then variables marked `independent`, then other hinges and slides, then balls. A row depends on the tangent *space*
+//! then motors and variables marked `independent`, then other hinges and slides, then balls. A row depends on the tangent *space*
 //! only, so that neither the basis nor the order of the file matters; equal rows are told apart by name.
 
 use super::system::LoopSystem;
-use crate::mechanism::{Joint, Mechanism};
+use crate::mechanism::{CouplingOrigin, Joint, Mechanism};
 
 /// A variable of a joint.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -42,14 +42,49 @@ impl Variable {
             .collect()
     }
 
-    fn rank(&self, joint: &Joint) -> usize {
+    /// The smaller, the sooner a variable is driven: motors of the file, then joints marked `independent`, then other hinges
+    /// and slides, those of dummy links and followers of couplings last, then joints of several freedoms.
+    pub(crate) fn rank(&self, mechanism: &Mechanism) -> usize {
+        let joint = &mechanism.joints()[self.joint];
+        if mechanism.actuated().iter().any(|id| id.0 == self.joint) {
+            return 0;
+        }
         match (joint.independent == Some(true), joint.freedom()) {
-            (true, _) => 0,
-            (false, 1) => 1,
-            (false, _) if joint.kind.class() == "S·S" => 4,
-            (false, _) => 2 + usize::from(several_turns(joint)),
+            (true, _) => 1,
+            (false, 1) => 2 + usize::from(passive(mechanism, self.joint)),
+            (false, _) if joint.kind.class() == "S·S" => 6,
+            (false, _) => 4 + usize::from(several_turns(joint)),
         }
     }
+}
+
+/// Ranks up to this are what the file itself says is driven.
+pub(super) const SAID: usize = 1;
+
+/// Whether no motor sits at a joint, by all that a file without motors tells: it follows another by a `mimic`, or one of its
+/// links is a dummy, without mass and shape, while the mechanism has links with them.
+fn passive(mechanism: &Mechanism, joint: usize) -> bool {
+    let dummy = |link: usize| {
+        let link = &mechanism.links()[link];
+        let massless = link
+            .inertial
+            .as_ref()
+            .is_none_or(|i| !(i.mass.value() > 0.0));
+        massless && link.visuals.is_empty() && link.collisions.is_empty()
+    };
+    let ground = mechanism.ground().0;
+    let ends = &mechanism.joints()[joint];
+    let ends = [ends.predecessor.link.0, ends.successor.link.0];
+    // The first term of a `mimic` is the joint that follows.
+    let follows = mechanism.couplings().iter().any(|coupling| {
+        matches!(coupling.origin, CouplingOrigin::Mimic { .. })
+            && coupling
+                .terms
+                .first()
+                .is_some_and(|term| term.joint.0 == joint)
+    });
+    let bodies = || (0..mechanism.links().len()).any(|link| link != ground && !dummy(link));
+    follows || ends.iter().any(|&link| link != ground && dummy(link)) && bodies()
 }
 
 /// Whether a joint has rotations that do not commute.
@@ -93,7 +128,7 @@ pub(super) fn choose_inputs(
     let mut order: Vec<(usize, String, usize)> = (0..n)
         .map(|i| {
             let variable = name(i);
-            let rank = variable.rank(&mechanism.joints()[variable.joint]);
+            let rank = variable.rank(mechanism);
             (rank, variable.name, i)
         })
         .collect();

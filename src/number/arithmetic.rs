@@ -3,7 +3,7 @@
 use super::error::{NumberError, Reason};
 use super::surd::{MAX_BITS, Surd, fits};
 use super::tree::Operation;
-use super::{Exact, Form, Inner, Number, Stated};
+use super::{Exact, Form, Inner, Literal, Number};
 use dashu::base::{BitTest, Sign};
 use dashu::rational::RBig;
 use std::borrow::Cow;
@@ -107,8 +107,9 @@ impl Number {
 
     /// Minus this; a literal stays a literal with its stated precision.
     fn opposite(&self) -> Self {
-        if let (Some(x), Some((text, stated))) = (self.rational(), &self.0.literal) {
-            return self.opposite_literal(x, text, *stated);
+        // Of a literal that was read as something irrational, a name negated in a file is the negative of that.
+        if let (Some(x), Some(literal)) = (self.rational(), &self.0.literal) {
+            return self.opposite_literal(x, literal);
         }
         let opposite = match &self.0.form {
             Form::Exact(Exact::Rational(x)) => Self::from_rational(-x.clone()),
@@ -124,14 +125,17 @@ impl Number {
         opposite.with_coarsest(self.0.coarsest)
     }
 
-    fn opposite_literal(&self, x: &RBig, text: &str, stated: Stated) -> Self {
-        let flipped = match text.strip_prefix('-') {
+    fn opposite_literal(&self, x: &RBig, literal: &Literal) -> Self {
+        let flipped = match literal.text.strip_prefix('-') {
             Some(rest) => rest.to_owned(),
-            None => format!("-{}", text.trim_start_matches('+')),
+            None => format!("-{}", literal.text.trim_start_matches('+')),
         };
         Self(Arc::new(Inner {
             form: Form::Exact(Exact::Rational(-x.clone())),
-            literal: Some((flipped.into(), stated)),
+            literal: Some(Literal {
+                text: flipped.into(),
+                ..literal.clone()
+            }),
             coarsest: self.0.coarsest,
             value: OnceLock::new(),
             decision: OnceLock::new(),

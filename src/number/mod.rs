@@ -101,14 +101,24 @@ enum Form {
 
 struct Inner {
     form: Form,
-    /// The text and stated precision of a decimal that was read.
-    literal: Option<(Box<str>, Stated)>,
+    /// What a decimal was read from.
+    literal: Option<Literal>,
     /// Fewest decimals among the literals this was computed from.
     coarsest: Option<i32>,
     value: OnceLock<f64>,
     decision: OnceLock<Decision>,
     /// Ball at [`evaluate::COARSE`] bits.
     coarse: OnceLock<Clear<Ball>>,
+}
+
+/// The text of a decimal, for writing it back, and its digits.
+#[derive(Clone, Debug)]
+struct Literal {
+    text: Box<str>,
+    /// The digits of the text.
+    written: Stated,
+    /// The precision they state; `None` where the text was read as a number that is exact.
+    stated: Option<Stated>,
 }
 
 impl Number {
@@ -240,7 +250,11 @@ impl Number {
         let coarsest = (decimal.stated.decimals > 0).then_some(decimal.stated.decimals);
         Ok(Self(Arc::new(Inner {
             form: Form::Exact(Exact::Rational(decimal.value)),
-            literal: Some((text.into(), decimal.stated)),
+            literal: Some(Literal {
+                text: text.into(),
+                written: decimal.stated,
+                stated: Some(decimal.stated),
+            }),
             coarsest,
             value: OnceLock::from(decimal.nearest),
             decision: OnceLock::new(),
@@ -285,10 +299,49 @@ impl Number {
         }
     }
 
-    /// The precision stated by the digits of a literal; `None` for expressions and constructed values, which are exact.
+    /// The precision stated by the digits of a literal; `None` for expressions and constructed values, which are exact, and
+    /// for literals that were [read as](Self::read_as) such.
     #[must_use]
     pub fn stated(&self) -> Option<Stated> {
-        self.0.literal.as_ref().map(|(_, stated)| *stated)
+        self.0.literal.as_ref()?.stated
+    }
+
+    /// The digits of a literal as its text has them, whatever it was read as.
+    #[must_use]
+    pub fn written(&self) -> Option<Stated> {
+        Some(self.0.literal.as_ref()?.written)
+    }
+
+    /// The text of a literal.
+    pub(crate) fn literal_text(&self) -> Option<&str> {
+        Some(&self.0.literal.as_ref()?.text)
+    }
+
+    /// A literal read as another number: with that value and that stated precision, and with this text when it is written
+    /// back. What is no literal becomes the other number.
+    ///
+    /// ```
+    /// use kutzbach::number::Number;
+    /// let angle = Number::decimal("1.5707963267948966")?.read_as(&(&Number::pi() * &Number::decimal("0.5")?));
+    /// assert_eq!(angle.source(), "1.5707963267948966");
+    /// assert!(angle.stated().is_none() && angle.cos_sin().0.is_zero());
+    /// # Ok::<(), kutzbach::number::NumberError>(())
+    /// ```
+    #[must_use]
+    pub fn read_as(&self, other: &Self) -> Self {
+        let Some(literal) = &self.0.literal else {
+            return other.clone();
+        };
+        let stated = other.stated();
+        let mut inner = Self::build(other.0.form.clone(), stated.and(other.0.coarsest)).0;
+        // Nobody else has it yet.
+        if let Some(fresh) = Arc::get_mut(&mut inner) {
+            fresh.literal = Some(Literal {
+                stated,
+                ..literal.clone()
+            });
+        }
+        Self(inner)
     }
 
     /// Fewest decimals among the literals read by [`Number::decimal`] that this number was computed from, by whatever

@@ -29,7 +29,7 @@ impl Number {
     #[must_use]
     pub fn source(&self) -> String {
         match &self.0.literal {
-            Some((text, _)) => text.to_string(),
+            Some(literal) => literal.text.to_string(),
             None => format!("${{{}}}", self.expression_text()),
         }
     }
@@ -37,7 +37,7 @@ impl Number {
     /// For messages: the beginning of the text, and the value where the text does not say it.
     pub(super) fn shown(&self) -> String {
         let text = match &self.0.literal {
-            Some((text, _)) => text.to_string(),
+            Some(literal) => literal.text.to_string(),
             None => self.expression_text(),
         };
         let value = self.value();

@@ -32,7 +32,9 @@ impl Roles {
             roles.links[motion.link] = Role::Locked;
         }
         for idle in idle {
-            roles.links[idle.link] = Role::Idle;
+            for &link in idle.with.iter().chain([&idle.link]) {
+                roles.links[link] = Role::Idle;
+            }
         }
         if let Some(joint) = driven {
             roles.joints[joint] = Role::Driven;

@@ -5,7 +5,8 @@
 
 use super::natural::natural_order;
 use super::schema::{
-    Assembly, CouplingRow, Home, JointRow, Mobility, Report, SCHEMA, Size, Source, Timing,
+    Assembly, Constants, CouplingRow, Home, JointRow, LiteralReading, Mobility, Report, SCHEMA,
+    Size, Source, Timing,
 };
 use crate::format::Reading;
 use crate::mechanism::{Coupling, Mechanism};
@@ -36,7 +37,7 @@ pub struct Input<'a> {
 }
 
 /// What to report.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
     /// The configuration to analyse; `None` is the home pose.
     pub configuration: Option<String>,
@@ -48,6 +49,11 @@ pub struct Options {
     pub evidence: bool,
     /// Pairs of links: how does the first move, seen from the second?
     pub between: Vec<(String, String)>,
+    /// The gap up to which a loop counts as closed (m); what the file's digits say if `None`.
+    pub closure_tolerance: Option<f64>,
+    /// Names of joints, or of single freedoms such as `slider.trans`, that are to count as the inputs; where there are none, those
+    /// that the file names.
+    pub inputs: Vec<String>,
 }
 
 /// Why there is no report.
@@ -76,6 +82,18 @@ pub enum ReportError {
         /// The name it has that is closest, if one is close.
         nearest: Option<String>,
     },
+    /// No freedom of the mechanism has that name.
+    #[error("`{name}` cannot be an input of `{mechanism}`: {}", if *.fixed { "the joint has no freedom" } else { "it has no joint of that name" })]
+    UnknownInput {
+        /// The name asked for.
+        name: String,
+        /// The mechanism.
+        mechanism: String,
+        /// Whether a joint without freedom has it.
+        fixed: bool,
+        /// The name of a joint that is closest, if one is close.
+        nearest: Option<String>,
+    },
 }
 
 impl ReportError {
@@ -95,6 +113,14 @@ impl ReportError {
                 ..
             } => format!("did you mean `{nearest}`?"),
             Self::UnknownLink { .. } => "`kutzbach graph FILE` lists all links".to_owned(),
+            Self::UnknownInput { fixed: true, .. } => "name a joint that can move".to_owned(),
+            Self::UnknownInput {
+                nearest: Some(nearest),
+                ..
+            } => format!("did you mean `{nearest}`?"),
+            Self::UnknownInput { .. } => {
+                "`kutzbach report FILE --verbose` lists all joints".to_owned()
+            }
         }
     }
 }
@@ -116,17 +142,27 @@ pub fn analysed_report(
     file: &str,
     options: &Options,
 ) -> Result<(Report, Analysis), ReportError> {
-    let place =
-        |line: usize, column: usize, text: &str| format!("line {line}, column {column}: {text}");
     let warnings: Vec<String> = reading
         .warnings
         .iter()
-        .map(|warning| place(warning.line, warning.column, &warning.message))
+        .map(|warning| {
+            let place = format!("line {}, column {}", warning.line, warning.column);
+            match warning.count {
+                1 => format!("{place}: {}", warning.message),
+                count => format!("{} ({count} times, first at {place})", warning.message),
+            }
+        })
         .collect();
     let skipped: Vec<String> = reading
         .skipped
         .iter()
-        .map(|skipped| place(skipped.line, skipped.column, &skipped.what))
+        .map(|skipped| {
+            let place = format!("line {}, column {}", skipped.line, skipped.column);
+            match skipped.count {
+                1 => format!("{place}: {}", skipped.what),
+                count => format!("{count} × {} (first at {place})", skipped.what),
+            }
+        })
         .collect();
     let input = Input {
         mechanism: &reading.mechanism,
@@ -171,6 +207,7 @@ pub fn analysed_report_on(
         None => HOME,
     };
     let pairs = super::extras::pairs(mechanism, &options.between)?;
+    let inputs = super::inputs::asked(mechanism, &options.inputs)?;
     let started = Instant::now();
     let analysis = analyse(
         mechanism,
@@ -179,10 +216,13 @@ pub fn analysed_report_on(
                 .then(|| configuration.to_owned()),
             exact: options.exact,
             depth: Depth::Everything,
+            closure_tolerance: options.closure_tolerance,
         },
     )?;
     let mut report = counted(input, configuration);
     super::findings::lay_over(&mut report, mechanism, &analysis);
+    super::inputs::lay_over(&mut report, mechanism, &analysis, configuration, inputs);
+    super::pose::warn(&mut report, mechanism, &analysis, configuration);
     super::extras::ask_between(&mut report, mechanism, &analysis, configuration, &pairs);
     if options.evidence {
         report.evidence = Some(super::extras::evidence(&report, &analysis));
@@ -195,6 +235,21 @@ pub fn analysed_report_on(
         });
     }
     Ok((report, analysis))
+}
+
+fn constants(mechanism: &Mechanism) -> Option<Constants> {
+    let found = mechanism.recognised();
+    let readings = found
+        .examples
+        .iter()
+        .map(|(literal, read_as)| LiteralReading {
+            literal: literal.clone(),
+            read_as: read_as.clone(),
+        });
+    (found.count > 0).then(|| Constants {
+        count: found.count,
+        readings: readings.collect(),
+    })
 }
 
 /// A report that holds what counting alone tells.
@@ -218,16 +273,12 @@ fn counted(input: &Input<'_>, configuration: &str) -> Report {
             format: input.format.to_owned(),
             digits: precision.decimals,
             exact: precision.is_exact(),
+            precision: precision.by_hand(),
+            constants: constants(mechanism),
         },
         kutzbach: kutzbach_count(mechanism),
         generic: None,
-        assembly: Assembly {
-            closed: None,
-            residual: None,
-            moved: None,
-            tolerance: None,
-            gaps: Vec::new(),
-        },
+        assembly: Assembly::default(),
         home: Home {
             configuration: configuration.to_owned(),
             pose: None,
@@ -251,6 +302,7 @@ fn counted(input: &Input<'_>, configuration: &str) -> Report {
             method: String::new(),
             bits: None,
             blocks: Vec::new(),
+            weakest: None,
             note: None,
         },
         mobility: Mobility {
@@ -263,6 +315,8 @@ fn counted(input: &Input<'_>, configuration: &str) -> Report {
             nominal: None,
             why: Vec::new(),
         },
+        freedoms: None,
+        inputs: None,
         branches: None,
         joints: joint_rows(mechanism),
         couplings: coupling_rows(mechanism),
@@ -295,6 +349,7 @@ fn joint_rows(mechanism: &Mechanism) -> Vec<JointRow> {
             locked_parts: Vec::new(),
             redundant_wrenches: None,
             closes_loop: joint.closes_loop,
+            block: None,
         })
         .collect();
     rows.sort_by(|a, b| natural_order(&a.name, &b.name));

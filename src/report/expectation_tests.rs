@@ -211,6 +211,7 @@ fn idle_links_of_all_branches_are_compared() {
     let idle = |link: &str| crate::report::Idle {
         links: vec![link.to_owned()],
         freedom: 1,
+        rod: false,
     };
     let first = report.branches.as_ref().unwrap()[0].clone();
     report.branches = Some(vec![

@@ -2,12 +2,14 @@
 
 use super::natural::natural_order;
 use super::schema::{
-    Advice, Assembly, Block, Branch, Certificate, Cycle, Gap, GenericCount, Home, Idle, JointRow,
-    Mobility, Motion, Nominal, Report, Tree, TreeLink,
+    Advice, Block, Branch, Certificate, Cycle, GenericCount, Home, Idle, JointRow, Mobility,
+    Motion, Nominal, Report, Tree, TreeLink,
 };
 use crate::matrix::Method;
 use crate::mechanism::{JointKind, Mechanism};
-use crate::mobility::{Analysis, JointRole, PartRank, RelativeMotion};
+use crate::mobility::{
+    Analysis, IdleLink, JointRole, PartFinding, PartRank, RelativeMotion, owners, with_owners,
+};
 
 /// Fills in everything that the analysis decided. Linear in the size of both.
 pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis) {
@@ -15,9 +17,10 @@ pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &An
         mobility: usize::try_from(generic.mobility).unwrap_or(0),
         redundant: generic.redundant,
     });
-    report.assembly = assembly(mechanism, analysis);
+    report.assembly = super::assembly::assembly(mechanism, &analysis.assembly);
     fill_home(&mut report.home, analysis);
     report.mobility = verdict(analysis);
+    report.freedoms = super::inputs::freedoms(mechanism, analysis);
     report.joints = joint_rows(mechanism, analysis);
     report.branches = branch_rows(mechanism, analysis);
     report.motions = motion_rows(mechanism, analysis);
@@ -33,41 +36,29 @@ pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &An
             "the fundamental cycles of the spanning tree are too long to list; the cycles shown are a shortest basis".to_owned(),
         );
     }
-    if analysis.parts.iter().any(|part| part.taken_literally) {
-        report.warnings.push(
-            "the numbers are stated so coarsely, for a mechanism of this size, that rounding would leave every rank open; \
-             they were taken literally"
-                .to_owned(),
-        );
+    let literal: Vec<usize> = (0..analysis.parts.len())
+        .filter(|&index| analysis.parts[index].taken_literally)
+        .collect();
+    if !literal.is_empty() {
+        let text = "the numbers are stated so coarsely, for a mechanism of this size, that rounding would leave every rank \
+                    open; they were taken literally";
+        // Of all blocks or of the only one: then the whole mechanism is meant.
+        report
+            .warnings
+            .push(if literal.len() == analysis.parts.len() {
+                text.to_owned()
+            } else {
+                format!(
+                    "{}: {text}",
+                    owners(&analysis.structure.part_names, &literal)
+                )
+            });
     }
     if analysis.structure.loose_pieces > 0 {
         report.warnings.push(format!(
             "{} of the links are connected to the ground by no joint at all; each such piece counts with six freedoms",
             analysis.structure.loose_pieces
         ));
-    }
-}
-
-fn assembly(mechanism: &Mechanism, analysis: &Analysis) -> Assembly {
-    let found = &analysis.assembly;
-    let mut gaps: Vec<Gap> = found
-        .gaps
-        .iter()
-        .map(|gap| Gap {
-            cycle: mechanism.joints()[gap.joint].name.clone(),
-            position: gap.position,
-            angle: gap.angle,
-            left_position: gap.left_position,
-            left_angle: gap.left_angle,
-        })
-        .collect();
-    gaps.sort_by(|a, b| natural_order(&a.cycle, &b.cycle));
-    Assembly {
-        closed: Some(found.closed),
-        residual: Some(found.residual),
-        moved: Some(found.moved),
-        tolerance: Some(found.tolerance),
-        gaps,
     }
 }
 
@@ -86,9 +77,12 @@ fn fill_home(home: &mut Home, analysis: &Analysis) {
     // The weakest part speaks for the whole.
     let weakest = parts
         .iter()
-        .filter(|part| part.unknowns() > 0 && part.equations() > 0)
-        .min_by(|a, b| margin(a).total_cmp(&margin(b)));
-    if let Some(part) = weakest {
+        .enumerate()
+        .filter(|(_, part)| part.unknowns() > 0 && part.equations() > 0)
+        .min_by(|a, b| margin(a.1).total_cmp(&margin(b.1)));
+    let labels = &analysis.structure.part_names;
+    if let Some((index, part)) = weakest {
+        home.weakest = labels.get(index).filter(|_| parts.len() > 1).cloned();
         let decision = &part.decision;
         home.gap = decision.gap.is_finite().then_some(decision.gap);
         home.kept = Some(decision.kept);
@@ -103,20 +97,37 @@ fn fill_home(home: &mut Home, analysis: &Analysis) {
         .to_owned();
         home.bits = parts.iter().map(|part| part.bits).max();
     }
-    home.note = parts.iter().find_map(|part| part.note.clone());
-    home.blocks = parts
-        .iter()
-        .zip(&analysis.structure.parts)
-        .map(|(rank, part)| Block {
-            name: part.joints.first().map_or_else(String::new, |joint| {
-                analysis.structure.graph.edge_name(*joint).to_owned()
-            }),
-            joints: part.joints.len(),
-            unknowns: rank.unknowns(),
-            rank: rank.instantaneous.map(|freedom| rank.unknowns() - freedom),
-            instantaneous: rank.instantaneous,
+    let notes = parts.iter().enumerate();
+    let notes = notes.filter_map(|(index, part)| Some((index, part.note.as_deref()?)));
+    let notes = with_owners(labels, notes);
+    home.note = (!notes.is_empty()).then(|| notes.join("; "));
+    home.blocks = blocks(analysis);
+}
+
+fn blocks(analysis: &Analysis) -> Vec<Block> {
+    let structure = &analysis.structure;
+    let all = structure.parts.iter().zip(&structure.part_names);
+    all.zip(&analysis.parts)
+        .enumerate()
+        .map(|(index, ((part, label), rank))| {
+            let found = analysis.findings.get(index);
+            let decided = |found: &&PartFinding| found.open.is_none() && found.lower == found.upper;
+            Block {
+                name: part.joints.first().map_or_else(String::new, |joint| {
+                    structure.graph.edge_name(*joint).to_owned()
+                }),
+                label: label.clone(),
+                joints: part.joints.len(),
+                unknowns: rank.unknowns(),
+                rank: rank.instantaneous.map(|freedom| rank.unknowns() - freedom),
+                instantaneous: rank.instantaneous,
+                finite: found.filter(decided).map(|found| found.upper),
+                pose: found.and_then(|found| found.pose),
+                kind: found.and_then(|found| found.kind),
+                class: found.filter(|f| f.upper > 0).and_then(|f| f.class),
+            }
         })
-        .collect();
+        .collect()
 }
 
 /// How far the decision of a part is from being another: the smaller of its clearances from the tolerance on both sides.
@@ -202,15 +213,22 @@ fn branch_rows(mechanism: &Mechanism, analysis: &Analysis) -> Option<Vec<Branch>
             })
             .collect();
         locked.sort_by(|a, b| natural_order(a, b));
-        let mut idle: Vec<Idle> = branch
-            .idle
-            .iter()
-            .map(|idle| Idle {
-                links: vec![link(idle.link)],
-                freedom: idle.freedom,
-            })
-            .collect();
-        idle.sort_by(|a, b| natural_order(&a.links[0], &b.links[0]));
+        let idle_rows = |found: &[IdleLink]| {
+            let mut idle: Vec<Idle> = found
+                .iter()
+                .map(|idle| Idle {
+                    links: [idle.link]
+                        .iter()
+                        .chain(&idle.with)
+                        .map(|&l| link(l))
+                        .collect(),
+                    freedom: idle.freedom,
+                    rod: idle.rod,
+                })
+                .collect();
+            idle.sort_by(|a, b| natural_order(&a.links[0], &b.links[0]));
+            idle
+        };
         Branch {
             name: branch.name.clone(),
             dimension: branch.dimension,
@@ -218,7 +236,8 @@ fn branch_rows(mechanism: &Mechanism, analysis: &Analysis) -> Option<Vec<Branch>
             redundant: branch.redundant,
             half_branches: branch.half_branches,
             locked,
-            idle,
+            idle: idle_rows(&branch.idle),
+            nearly_idle: idle_rows(&branch.nearly_idle),
         }
     });
     Some(rows.collect())
@@ -285,13 +304,20 @@ fn motion_rows(mechanism: &Mechanism, analysis: &Analysis) -> Vec<Motion> {
 }
 
 fn joint_rows(mechanism: &Mechanism, analysis: &Analysis) -> Vec<JointRow> {
+    let mut block_of = vec![None; mechanism.joints().len()];
+    for (index, part) in analysis.structure.parts.iter().enumerate() {
+        for &joint in &part.joints {
+            block_of[joint] = Some(index);
+        }
+    }
     let mut rows: Vec<JointRow> = mechanism
         .joints()
         .iter()
         .enumerate()
         .map(|(index, joint)| (joint, joint_role(analysis, index)))
         .zip(&analysis.redundant_wrenches)
-        .map(|((joint, role), wrenches)| JointRow {
+        .enumerate()
+        .map(|(index, ((joint, role), wrenches))| JointRow {
             name: joint.name.clone(),
             class: joint.kind.class().to_owned(),
             kind: joint.kind.word().to_owned(),
@@ -302,6 +328,7 @@ fn joint_rows(mechanism: &Mechanism, analysis: &Analysis) -> Vec<JointRow> {
             locked_parts: role.locked_parts,
             redundant_wrenches: *wrenches,
             closes_loop: joint.closes_loop,
+            block: block_of[index].map(|part| analysis.structure.part_names[part].clone()),
         })
         .collect();
     rows.sort_by(|a, b| natural_order(&a.name, &b.name));

@@ -21,8 +21,11 @@
 //! | file | what it answers |
 //! |---|---|
 //! | `schema` | which fields there are; their words are those of `mobility` |
+//! | `assembly` | how the loops closed; the file that holds the pose found |
 //! | `assemble` | how a mechanism and its analysis become a report |
 //! | `extras` | what a report holds only where it was asked for: pairs of links, evidence |
+//! | `inputs` | useful and idle freedoms, inputs and limbs |
+//! | `pose` | limits, dead centres and singular poses nearby, for the warnings |
 //! | `text` | how a report becomes a page |
 //! | `expectation`, `expected_file` | whether a report agrees with what is known |
 //! | `html` | how a report becomes a page that moves |
@@ -33,6 +36,7 @@
 
 pub mod accuracy;
 mod assemble;
+mod assembly;
 pub mod definitions;
 pub mod exact;
 mod expectation;
@@ -40,8 +44,10 @@ mod expected_file;
 mod extras;
 mod findings;
 pub mod html;
+mod inputs;
 mod natural;
 pub mod picture;
+mod pose;
 #[cfg(test)]
 #[allow(clippy::wildcard_imports)]
 pub(crate) mod samples;
@@ -52,11 +58,13 @@ pub use crate::mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKin
 pub use assemble::{
     Input, Options, ReportError, analysed_report, analysed_report_on, report, report_on,
 };
+pub use assembly::{ASSEMBLED, assembled_file};
 pub use expectation::{Comparison, Disagreement, compare};
 pub use expected_file::{ExpectedFile, ExpectedFileError};
 pub use natural::natural_order;
 pub use schema::{
-    Advice, Assembly, Block, Branch, Certificate, CouplingRow, Cycle, Evidence, Gap, GenericCount,
-    Home, Idle, JointRow, Mobility, Motion, Nominal, Report, SCHEMA, Size, Source, Stage, Timing,
-    Tree, TreeLink,
+    Advice, Assembly, Block, Branch, Certificate, Constants, CouplingRow, Cycle, DependentInput,
+    Evidence, Follower, Freedoms, Gap, GenericCount, Home, Idle, InputSource, Inputs, JointPlace,
+    JointRow, Limb, LiteralReading, Mobility, Motion, Nominal, OutsideLimit, Report, Reversal,
+    SCHEMA, Size, Source, Stage, Timing, Tree, TreeLink,
 };

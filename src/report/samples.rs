@@ -15,6 +15,7 @@ pub(crate) fn revolute(name: &str, links: [&str; 2], closes_loop: bool) -> Joint
         locked_parts: Vec::new(),
         redundant_wrenches: Some(0),
         closes_loop,
+        block: None,
     }
 }
 
@@ -47,6 +48,8 @@ pub(crate) fn mobile() -> Report {
             format: "urdf".to_owned(),
             digits: Some(12),
             exact: false,
+            precision: None,
+            constants: None,
         },
         size: Size {
             links: 4,
@@ -65,7 +68,8 @@ pub(crate) fn mobile() -> Report {
             residual: Some(3.1e-13),
             moved: Some(0.0),
             tolerance: Some(1e-11),
-            gaps: Vec::new(),
+            starts: Some(1),
+            ..Assembly::default()
         },
         home: Home {
             configuration: "home".to_owned(),
@@ -87,11 +91,17 @@ pub(crate) fn mobile() -> Report {
             bits: Some(53),
             blocks: vec![Block {
                 name: "J1".to_owned(),
+                label: "J1".to_owned(),
                 joints: 4,
                 unknowns: 4,
                 rank: Some(3),
                 instantaneous: Some(1),
+                finite: Some(1),
+                pose: Some(PoseKind::Regular),
+                kind: None,
+                class: Some(MobilityClass::Paradoxical),
             }],
+            weakest: None,
             note: None,
         },
         mobility: Mobility {
@@ -109,6 +119,8 @@ pub(crate) fn mobile() -> Report {
                 "opposite sides are equal and lengths are as the sines of the twists".to_owned(),
             ],
         },
+        freedoms: None,
+        inputs: None,
         branches: Some(vec![Branch {
             name: "A".to_owned(),
             dimension: 1,
@@ -116,6 +128,7 @@ pub(crate) fn mobile() -> Report {
             redundant: Some(3),
             half_branches: Some(2),
             locked: Vec::new(),
+            nearly_idle: Vec::new(),
             idle: Vec::new(),
         }]),
         joints,
@@ -176,6 +189,8 @@ pub(crate) fn rigid() -> Report {
         format: "urdf".to_owned(),
         digits: Some(1),
         exact: true,
+        precision: None,
+        constants: None,
     };
     report.size = Size {
         links: 3,
@@ -263,6 +278,8 @@ pub(crate) fn unassembled() -> Report {
             left_position: 0.3,
             left_angle: 0.2,
         }],
+        starts: Some(264),
+        ..Assembly::default()
     };
     report.home = Home {
         instantaneous: None,

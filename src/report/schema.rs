@@ -31,6 +31,12 @@ pub struct Report {
     pub home: Home,
     /// The verdict.
     pub mobility: Mobility,
+    /// Its finite mobility in useful and idle freedoms; `null` while it or its branches are not known.
+    #[serde(default)]
+    pub freedoms: Option<Freedoms>,
+    /// What its inputs do (D26); `null` where nothing moves, or no branch is known.
+    #[serde(default)]
+    pub inputs: Option<Inputs>,
     /// Branches through the pose (D8): empty for an isolated assembly, `null` while not decided.
     pub branches: Option<Vec<Branch>>,
     /// One row per joint, loops included, in natural order of names.
@@ -69,6 +75,30 @@ pub struct Source {
     pub digits: Option<i32>,
     /// Whether every number is taken as exact (D13).
     pub exact: bool,
+    /// How well the literals were said to be known (m, rad), where that was said by hand instead of by digits.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub precision: Option<f64>,
+    /// Literals that were read as the constants they are within their own digits, where there are such.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub constants: Option<Constants>,
+}
+
+/// Literals that were read as constants, such as `1.5707963267948966` as π/2.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Constants {
+    /// How many.
+    pub count: usize,
+    /// Each constant once, with the first literal that was read so.
+    pub readings: Vec<LiteralReading>,
+}
+
+/// A literal and what it was read as.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct LiteralReading {
+    /// The text in the file.
+    pub literal: String,
+    /// The constant, such as `π/2`.
+    pub read_as: String,
 }
 
 /// How large a mechanism is.
@@ -96,7 +126,7 @@ pub struct GenericCount {
 }
 
 /// How the loops close.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Assembly {
     /// Whether all loops close within [`tolerance`](Self::tolerance); `null` where it was not tried.
     pub closed: Option<bool>,
@@ -104,10 +134,78 @@ pub struct Assembly {
     pub residual: Option<f64>,
     /// How far the pose had to move from the file's to close; the largest shift of a joint, in metres.
     pub moved: Option<f64>,
-    /// What the residual is held against: rounding and the numbers' stated precision.
+    /// What the residual is held against: rounding and the numbers' stated precision, or what was given.
     pub tolerance: Option<f64>,
     /// The gap of each loop of the file.
     pub gaps: Vec<Gap>,
+    /// The most poses that any part was closed from: 1 where the drawn one sufficed; `null` where it was not tried.
+    #[serde(default)]
+    pub starts: Option<usize>,
+    /// Whether the search for other starts ended at its limit on work, before all were tried.
+    #[serde(default)]
+    pub work_limited: bool,
+    /// Joints that the configuration names and that keep its values, in natural order.
+    #[serde(default)]
+    pub held: Vec<String>,
+    /// Joints whose values in the configuration are rounded, and were corrected to close the loops.
+    #[serde(default)]
+    pub corrected: Vec<String>,
+    /// Where every joint with a freedom stands, in natural order of names.
+    #[serde(default)]
+    pub joints: Vec<JointPlace>,
+    /// Joints outside their limits there, farthest first.
+    #[serde(default)]
+    pub outside_limits: Vec<OutsideLimit>,
+    /// Whether it is proven that the loops close at no pose; `false` says nothing.
+    #[serde(default)]
+    pub proven_open: bool,
+    /// The proof, in one clause.
+    #[serde(default)]
+    pub proof: Option<String>,
+    /// Where the loops do not close with the held joints as they are, but do once these are released: where that takes them.
+    #[serde(default)]
+    pub released: Option<Vec<JointPlace>>,
+    /// A loop with which everything closes once one of its frames is turned over.
+    #[serde(default)]
+    pub reversal: Option<Reversal>,
+}
+
+/// Where assembly took a joint.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct JointPlace {
+    /// Its name.
+    pub name: String,
+    /// Its values there (rad, m; the turn of a ball as a rotation vector), as a configuration holds them.
+    pub values: Vec<f64>,
+    /// Its values as drawn.
+    pub drawn: Vec<f64>,
+    /// The larger of [`turned`](Self::turned) and [`shifted`](Self::shifted), taken as numbers.
+    pub correction: f64,
+    /// Largest turn of its variables from the drawn pose (rad).
+    pub turned: f64,
+    /// Largest translation of its variables from there (m).
+    pub shifted: f64,
+}
+
+/// A joint outside its limits.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OutsideLimit {
+    /// Its name.
+    pub joint: String,
+    /// By how much (rad, m); negative below the lower limit.
+    pub by: f64,
+    /// Whether that is an angle.
+    pub angle: bool,
+}
+
+/// A frame that is to be turned over.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Reversal {
+    /// The loop.
+    #[serde(rename = "loop")]
+    pub cycle: String,
+    /// The direction about which the frame on its successor's side is to be turned by 180°, in that frame.
+    pub about: [f64; 3],
 }
 
 /// The gap of one loop.
@@ -165,6 +263,10 @@ pub struct Home {
     pub bits: Option<u32>,
     /// The biconnected blocks, each with its own rank.
     pub blocks: Vec<Block>,
+    /// The block whose rank has the least margin, by its label: `kept`, `dropped`, `gap`, `tolerance` and `accuracy` are
+    /// its; `null` where there is but one block.
+    #[serde(default)]
+    pub weakest: Option<String>,
     /// A sentence on the margin, where it matters.
     pub note: Option<String>,
 }
@@ -174,6 +276,9 @@ pub struct Home {
 pub struct Block {
     /// A name made of one of its joints.
     pub name: String,
+    /// What reasons call it: the words that the names of its joints have in common, or else `name`.
+    #[serde(default)]
+    pub label: String,
     /// Number of joints.
     pub joints: usize,
     /// Number of joint variables.
@@ -182,6 +287,18 @@ pub struct Block {
     pub rank: Option<usize>,
     /// Its share of the instantaneous freedom; `null` where undecided.
     pub instantaneous: Option<usize>,
+    /// Its share of the finite freedom; `null` where undecided.
+    #[serde(default)]
+    pub finite: Option<usize>,
+    /// Whether the pose is regular or singular for it; `null` while not decided.
+    #[serde(default)]
+    pub pose: Option<PoseKind>,
+    /// In which way singular.
+    #[serde(default)]
+    pub kind: Option<SingularKind>,
+    /// Hervé's class of its motion, where it moves.
+    #[serde(default)]
+    pub class: Option<MobilityClass>,
 }
 
 /// The verdict on finite mobility.
@@ -203,6 +320,93 @@ pub struct Mobility {
     pub nominal: Option<Nominal>,
     /// The reasons, one sentence each, weightiest first.
     pub why: Vec<String>,
+}
+
+/// The finite mobility taken apart, on the branches of the largest dimension.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Freedoms {
+    /// The others than those below.
+    pub useful: usize,
+    /// Six for each piece that no joint connects with the ground, such as the base of a robot under a `floating` joint.
+    #[serde(default)]
+    pub floating: usize,
+    /// Idle freedoms (D10).
+    pub idle: usize,
+    /// Whether all idle freedoms are rods, or legs between two balls, that spin about their own line.
+    pub rods: bool,
+    /// The ground, where the file holds it by convention only: the root link, and a body with a mass. Six freedoms more if it
+    /// floats.
+    pub base: Option<String>,
+}
+
+/// What the inputs of a mechanism do, along the first branch (D26).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Inputs {
+    /// The inputs: joints, or single freedoms such as `slider.trans`.
+    pub given: Vec<String>,
+    /// Who names them; `null` where nobody does.
+    pub source: Option<InputSource>,
+    /// How many of them are independent; `null` where a margin does not tell.
+    pub independent: Option<usize>,
+    /// How many are independent at the pose itself, fewer at a dead centre; `null` where that is not known.
+    pub independent_here: Option<usize>,
+    /// Those that follow from others before them.
+    pub dependent: Vec<DependentInput>,
+    /// Freedoms that are left when the inputs are held, idle ones not counted; `null` where a margin does not tell.
+    pub left: Option<usize>,
+    /// Further inputs that would take them, none of which could be left out.
+    pub proposed: Vec<String>,
+    /// Whether nothing is left with these.
+    pub complete: bool,
+    /// What follows from the inputs, given and proposed, in natural order of names.
+    pub followers: Vec<Follower>,
+    /// The link that the limbs hang on; `null` where there are no two limbs.
+    pub base: Option<String>,
+    /// Freedoms between the ground and that link.
+    pub trunk: Option<usize>,
+    /// The freedoms of each limb.
+    pub limbs: Vec<Limb>,
+}
+
+/// Who names the inputs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum InputSource {
+    /// The caller.
+    Asked,
+    /// The file, by its motors.
+    File,
+    /// The file, by its marks of independent coordinates.
+    Independent,
+}
+
+/// An input that others determine.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct DependentInput {
+    /// The input.
+    pub input: String,
+    /// Those it follows from; empty where it cannot move; `null` where a margin does not tell which.
+    pub on: Option<Vec<String>>,
+}
+
+/// A freedom that follows from inputs.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Follower {
+    /// The joint, or its single freedom.
+    pub joint: String,
+    /// The inputs that its rate depends on, empty where it rests; `null` where idle motion moves it too, or a margin does not tell.
+    pub of: Option<Vec<String>>,
+}
+
+/// What hangs on the base by itself.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Limb {
+    /// The link at its end.
+    pub end: String,
+    /// Its finite freedoms, idle ones included.
+    pub freedom: usize,
+    /// Its idle freedoms.
+    pub idle: usize,
 }
 
 /// What an answer rests on.
@@ -255,15 +459,21 @@ pub struct Branch {
     pub locked: Vec<String>,
     /// Idle freedoms on it (D10).
     pub idle: Vec<Idle>,
+    /// Freedoms that move these links a thousand times as much as all others: nearly idle, and counted as useful.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub nearly_idle: Vec<Idle>,
 }
 
 /// Links that can move while every other link stays.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Idle {
-    /// The links that move together.
+    /// The links that move together, the one that gives its name first.
     pub links: Vec<String>,
     /// In how many ways.
     pub freedom: usize,
+    /// Whether they hang between balls: a rod or a leg that spins about its own line.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub rod: bool,
 }
 
 /// One joint.
@@ -287,6 +497,9 @@ pub struct JointRow {
     pub redundant_wrenches: Option<usize>,
     /// Whether the file writes it as the closure of a loop.
     pub closes_loop: bool,
+    /// The label of its block ([`Block::label`]); `null` where it is in no loop and no coupling, and moves by itself.
+    #[serde(default)]
+    pub block: Option<String>,
 }
 
 /// One coupling.
@@ -301,7 +514,7 @@ pub struct CouplingRow {
 /// One basic cycle.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Cycle {
-    /// Its name: that of the joint outside the tree that closes it.
+    /// Its name in this report: `C1`, `C2`, …
     pub name: String,
     /// Its joints in order.
     pub joints: Vec<String>,
@@ -321,7 +534,8 @@ pub struct Cycle {
     pub locks: Vec<String>,
 }
 
-/// The spanning tree.
+/// The spanning tree: that of the file, rooted at the ground (D15). The joints that are not in it close the loops; they are
+/// those with [`JointRow::closes_loop`], unless a link is held by such joints alone.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Tree {
     /// The root link.

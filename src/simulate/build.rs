@@ -7,7 +7,7 @@ use super::effects;
 use super::elementary::{Elementary, Handle, TakenApart, axes};
 use super::forest::{Branch, Forest, weld_chord_screws};
 use super::inertia::{self, Mass};
-use super::options::{Note, Pieces, Solver, WorldOptions};
+use super::options::{Masses, Note, Pieces, Solver, WorldOptions};
 use super::units::Units;
 use crate::closure::{
     Geometry, JointState, PlacedScrew, Rigid, Uncertainty, characteristic_length, spanning_poses,
@@ -121,6 +121,7 @@ pub(super) fn build(
     geometry: &Geometry<f64>,
     states: &[JointState<f64>],
     options: &WorldOptions,
+    masses: Masses,
 ) -> Result<(PhysicsWorld, Units, Built), WorldError> {
     options.check()?;
     let joints = mechanism.joints();
@@ -142,7 +143,10 @@ pub(super) fn build(
     }
     let length = size_of(mechanism, geometry, states, &poses);
     let mut built = Built::default();
-    built.masses = inertia::of_links(mechanism, geometry, length, &mut built.notes);
+    built.masses = match masses {
+        Masses::Stated => inertia::of_links(mechanism, geometry, length, &mut built.notes),
+        Masses::Alike => inertia::alike(mechanism, geometry, length),
+    };
     let mut apart = TakenApart::new(mechanism, geometry, states, &poses);
     let names = body_names(mechanism, &apart);
     let joint_names = elementary_names(mechanism, &apart.joints);

@@ -51,7 +51,7 @@ impl Mass {
         )
     }
 
-    fn least_moment(&self) -> f64 {
+    pub(super) fn least_moment(&self) -> f64 {
         self.inertia.symmetric_eigenvalues().min()
     }
 
@@ -84,17 +84,52 @@ pub(super) fn of_links(
     length: f64,
     notes: &mut Vec<Note>,
 ) -> Vec<Option<Mass>> {
-    let mut points = vec![Vec::new(); mechanism.links().len()];
-    for (joint, sides) in mechanism.joints().iter().zip(&geometry.sides) {
-        points[joint.predecessor.link.0].push(sides[0].translation);
-        points[joint.successor.link.0].push(sides[1].translation);
-    }
+    let points = joint_points(mechanism, geometry);
     let links = mechanism.links().iter().zip(&points).enumerate();
     links
         .map(|(index, (link, points))| {
             (index != mechanism.ground().0).then(|| of_link(link, points, length, notes))
         })
         .collect()
+}
+
+/// Where the joints of every link are, in its frame (m).
+fn joint_points(mechanism: &Mechanism, geometry: &Geometry<f64>) -> Vec<Vec<[f64; 3]>> {
+    let mut points = vec![Vec::new(); mechanism.links().len()];
+    for (joint, sides) in mechanism.joints().iter().zip(&geometry.sides) {
+        points[joint.predecessor.link.0].push(sides[0].translation);
+        points[joint.successor.link.0].push(sides[1].translation);
+    }
+    points
+}
+
+/// Radius of gyration of links that are all alike, in characteristic lengths: that of a ball or a bar of about this size.
+const ALIKE_RADIUS: f64 = 0.3;
+
+/// One kilogram in the middle of every link's joints, with the same moment about every axis.
+pub(super) fn alike(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    length: f64,
+) -> Vec<Option<Mass>> {
+    let radius = ALIKE_RADIUS * length;
+    joint_points(mechanism, geometry)
+        .iter()
+        .enumerate()
+        .map(|(link, points)| {
+            (link != mechanism.ground().0).then(|| Mass {
+                mass: 1.0,
+                centre: middle(points).into(),
+                inertia: Matrix3::identity() * (radius * radius),
+            })
+        })
+        .collect()
+}
+
+/// The centroid of points; the origin where there are none.
+fn middle(points: &[[f64; 3]]) -> Vector3<f64> {
+    let sum: Vector3<f64> = points.iter().map(|p| Vector3::from(*p)).sum();
+    sum / points.len().max(1) as f64
 }
 
 fn of_link(link: &Link, points: &[[f64; 3]], length: f64, notes: &mut Vec<Note>) -> Mass {
@@ -157,12 +192,8 @@ fn of_shapes(shapes: &[crate::mechanism::Shape]) -> Option<Mass> {
 
 /// A ball in the centroid of the joints and a round rod from there to every joint.
 fn of_rods(points: &[[f64; 3]], length: f64) -> Mass {
+    let middle = middle(points);
     let points: Vec<Vector3<f64>> = points.iter().map(|p| Vector3::from(*p)).collect();
-    let middle = if points.is_empty() {
-        Vector3::zeros()
-    } else {
-        points.iter().sum::<Vector3<f64>>() / points.len() as f64
-    };
     let ball_radius = BALL_RADIUS * length;
     let rod_radius = ROD_RADIUS * length;
     let ball = DENSITY * 4.0 / 3.0 * std::f64::consts::PI * ball_radius.powi(3);

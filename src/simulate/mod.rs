@@ -58,6 +58,6 @@ mod world;
 pub use cost::{CostRow, cost_table};
 pub use error::WorldError;
 pub use measure::joint_gaps;
-pub use options::{Drive, Effects, Energy, JointGap, Note, Pieces, Solver, WorldOptions};
+pub use options::{Drive, Effects, Energy, JointGap, Masses, Note, Pieces, Solver, WorldOptions};
 pub use scene_run::{SceneOptions, SceneRun, effect_names, run_scene, scene_drives};
 pub use world::World;

@@ -123,6 +123,17 @@ impl WorldOptions {
     }
 }
 
+/// Where links get their masses and moments of inertia from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Masses {
+    /// The file's, or derived from shapes or joints where it states none to compute with.
+    #[default]
+    Stated,
+    /// The same for every link. How a mechanism can move does not depend on masses, but the solver's sweeps converge slowly,
+    /// or to something else, where they lie decades apart, as in a robot with a body and finger tips.
+    Alike,
+}
+
 /// A velocity motor on one freedom of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drive {

@@ -5,7 +5,7 @@ use super::build::Built;
 use super::convert::vector;
 use super::elementary::Handle;
 use super::motor::{Gain, Motor, motor_joint};
-use super::options::{Drive, Note, Pieces, WorldOptions};
+use super::options::{Drive, Masses, Note, Pieces, WorldOptions};
 use super::units::Units;
 use crate::closure::{Geometry, JointDisplacement, JointState, Rigid};
 use crate::mechanism::Mechanism;
@@ -46,7 +46,22 @@ impl World {
         states: &[JointState<f64>],
         options: &WorldOptions,
     ) -> Result<Self, WorldError> {
-        let (physics, units, built) = super::build::build(mechanism, geometry, states, options)?;
+        Self::with_masses(mechanism, geometry, states, options, Masses::Stated)
+    }
+
+    /// The same with masses of one's choice.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_masses(
+        mechanism: &Mechanism,
+        geometry: &Geometry<f64>,
+        states: &[JointState<f64>],
+        options: &WorldOptions,
+        masses: Masses,
+    ) -> Result<Self, WorldError> {
+        let (physics, units, built) =
+            super::build::build(mechanism, geometry, states, options, masses)?;
         let joints = mechanism.joints();
         Ok(Self {
             options: *options,

@@ -43,8 +43,8 @@ pub fn difference(a: &Mechanism, b: &Mechanism) -> Option<String> {
             b.couplings()
         ));
     }
-    if a.configurations() != b.configurations() {
-        return Some("configurations".to_owned());
+    if a.configurations() != b.configurations() || a.actuated() != b.actuated() {
+        return Some("configurations or actuated joints".to_owned());
     }
     if a.scene() != b.scene() || a.expectation() != b.expectation() {
         return Some("scene or expectation".to_owned());

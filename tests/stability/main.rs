@@ -233,13 +233,14 @@ fn decimals_are_worth_their_tolerance() {
     }
 }
 
-/// No member costs more than the last rung of the ladder of precisions, and assembling takes no more steps than one attempt
-/// may.
+/// No member costs more than the last rung of the ladder of precisions, and assembling takes no more steps than all starts
+/// together may: 200 each of the pose drawn, seven beside it and 256 others.
 #[test]
 fn work_is_bounded() {
     check(|_, seen| {
         let known = seen.bits == 53 || LADDER.contains(&seen.bits);
-        (!known || seen.steps > 200).then(|| format!("{} bits, {} steps", seen.bits, seen.steps))
+        (!known || seen.steps > 200 * (8 + 256))
+            .then(|| format!("{} bits, {} steps", seen.bits, seen.steps))
     });
 }
 

@@ -201,7 +201,8 @@ pub fn as_a_double(number: &Number) -> Number {
 /// Any number written with so many decimals, all of them: of a decimal, its own digits rounded; of an exact number that is no
 /// decimal, its value. Whole numbers stay as they are.
 pub fn rounded(number: &Number, decimals: i32) -> Number {
-    if number.stated().is_some() {
+    // Also of a decimal that was read as the constant which it shows.
+    if number.written().is_some() {
         return with_decimals(number, decimals);
     }
     if number.rational().is_some_and(|r| r.is_int()) {

@@ -4,6 +4,7 @@
 //! solution set, and the cycles looked at one by one. A budget that ends in the middle leaves what was found until then,
 //! and [`ExactAnswer::stopped`] says at which step and why.
 
+mod blocks;
 mod clusters;
 mod conditions;
 mod cycles;
@@ -15,6 +16,7 @@ mod same_poses;
 mod solutions;
 mod subgroup;
 
+pub use blocks::{BlockAnswer, BlockFinding, ByBlocks, exact_by_blocks};
 pub use conditions::{Condition, DesignConditions, Family, assembly_conditions, motion_conditions};
 pub use cycles::CycleAnswer;
 pub use fixed::FixedVariable;
@@ -141,34 +143,7 @@ pub fn exact_answer(
     options: &ExactOptions,
     budget: &Budget,
 ) -> Result<ExactAnswer, SystemError> {
-    let system = polynomial_system(mechanism, &options.system)?;
-    let method =
-        options
-            .method
-            .unwrap_or_else(|| match problem(mechanism, &system).independent().len() {
-                0 | 1 => Method::Brute,
-                _ => Method::Divide,
-            });
-    let mut answer = ExactAnswer {
-        system,
-        method,
-        steps: Vec::new(),
-        basis: None,
-        cases: None,
-        dimension: None,
-        dimension_modulo: None,
-        free: Vec::new(),
-        fixed: Vec::new(),
-        pieces: Vec::new(),
-        decomposed: false,
-        pieces_stopped: None,
-        solutions: None,
-        cycles: Vec::new(),
-        clusters: Vec::new(),
-        motions: Vec::new(),
-        motions_settled: None,
-        stopped: None,
-    };
+    let mut answer = ExactAnswer::unasked(mechanism, options)?;
     // Should the whole be out of reach, its cycles may not be.
     let most = budget.with_share_of_time(SHARE_OF_THE_WHOLE);
     answer.stopped = answer.find_whole(mechanism, options, &most).err();
@@ -182,6 +157,37 @@ pub fn exact_answer(
 }
 
 impl ExactAnswer {
+    /// The equations, before anything is found of them.
+    fn unasked(mechanism: &Mechanism, options: &ExactOptions) -> Result<Self, SystemError> {
+        let system = polynomial_system(mechanism, &options.system)?;
+        let method = options.method.unwrap_or_else(|| {
+            match problem(mechanism, &system).independent().len() {
+                0 | 1 => Method::Brute,
+                _ => Method::Divide,
+            }
+        });
+        Ok(Self {
+            system,
+            method,
+            steps: Vec::new(),
+            basis: None,
+            cases: None,
+            dimension: None,
+            dimension_modulo: None,
+            free: Vec::new(),
+            fixed: Vec::new(),
+            pieces: Vec::new(),
+            decomposed: false,
+            pieces_stopped: None,
+            solutions: None,
+            cycles: Vec::new(),
+            clusters: Vec::new(),
+            motions: Vec::new(),
+            motions_settled: None,
+            stopped: None,
+        })
+    }
+
     /// Everything that is asked of the whole system, or where and why it ended early.
     fn find_whole(
         &mut self,

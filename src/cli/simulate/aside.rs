@@ -24,6 +24,8 @@ const STACK: usize = 8 << 20;
 pub trait Listener<M> {
     /// The work has told something.
     fn hear(&mut self, message: M);
+    /// The work goes on; called now and then.
+    fn waits(&mut self) {}
     /// Ctrl-C was pressed, and the work does not end.
     fn abandon(&mut self) -> !;
 }
@@ -65,6 +67,7 @@ pub fn aside<M: Send, T: Send>(
                 })?;
         let mut asked: Option<Instant> = None;
         loop {
+            listener.waits();
             match receiver.recv_timeout(POLL) {
                 Ok(Heard::Message(message)) => listener.hear(message),
                 Ok(Heard::Done(result)) => return Ok(result),

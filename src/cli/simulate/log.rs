@@ -14,12 +14,15 @@ use kutzbach::record::{
     Header, Level, LogFile, RecordError, Recorder, Roles, SimulationLog, Summary, record_motion,
 };
 use kutzbach::report::Options;
+use kutzbach::report::text::visible;
 use kutzbach::simulate::JointGap;
 use kutzbach::simulate::verification::{Finding, Moment, Observer, Passage, VerificationOptions};
 use std::collections::BTreeMap;
+use std::io::IsTerminal;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 /// Seconds between the predicted motion and what follows.
 const PAUSE: f64 = 0.5;
@@ -216,6 +219,8 @@ impl<'a> Log<'a> {
             }),
             progress: Progress::new("simulating"),
             broken: &broken,
+            begun: Instant::now(),
+            sign: Some(self.sign()),
         };
         let done = aside(&mut watcher, |teller| {
             work(&mut Relay {
@@ -234,6 +239,18 @@ impl<'a> Log<'a> {
             self.recorder = Some(recorder);
         }
         Ok(done)
+    }
+
+    /// What is told of long work where no bar can be drawn: what is predicted.
+    fn sign(&self) -> String {
+        let mobility = &self.analysis.mobility;
+        let finite = mobility.finite();
+        let freedom = finite.map_or(String::new(), |n| format!(" with {n} finite freedoms"));
+        format!(
+            "{}: predicted {}{freedom}; simulating",
+            self.mechanism.name(),
+            mobility.verdict.word()
+        )
     }
 
     /// Writes the outcome and closes the log; what was logged, where there is one.
@@ -379,7 +396,13 @@ struct Watcher<'p, 'r, 'a> {
     progress: Progress,
     /// Whether the log cannot be written any more.
     broken: &'p AtomicBool,
+    begun: Instant,
+    /// What is still to be told of work that takes long.
+    sign: Option<String>,
 }
+
+/// Work that takes longer says so, where no bar shows it.
+const SILENCE: Duration = Duration::from_secs(3);
 
 /// Steps of a progress bar.
 const TICKS: f64 = 1000.0;
@@ -413,6 +436,15 @@ impl Listener<Told> for Watcher<'_, '_, '_> {
         };
         if written.is_break() {
             self.broken.store(true, Ordering::SeqCst);
+        }
+    }
+
+    fn waits(&mut self) {
+        if self.begun.elapsed() > SILENCE
+            && let Some(sign) = self.sign.take()
+            && !std::io::stderr().is_terminal()
+        {
+            eprintln!("{}", visible(&sign));
         }
     }
 

@@ -4,13 +4,19 @@ use kutzbach::accuracy::Choice;
 use kutzbach::mechanism::Mechanism;
 use kutzbach::record::Summary;
 use kutzbach::report::accuracy::choice_text;
-use kutzbach::report::text::words::counted;
+use kutzbach::report::text::words::{counted, names, runs};
 use kutzbach::report::text::{Cell, Column, Layout, Page, Table, Tint};
 use kutzbach::simulate::verification::{
     BranchVerification, Finding, Outcome, Pushing, Verification,
 };
 use kutzbach::simulate::{CostRow, SceneRun, Solver};
 use serde_json::{Value, json};
+
+/// Held joints, or runs of them, named on a first screen.
+const HELD: usize = 6;
+
+/// Tests left out that are named there.
+const UNTESTED: usize = 8;
 
 /// The version of the JSON.
 const SCHEMA: &str = "kutzbach-simulation-1";
@@ -189,7 +195,11 @@ fn branch_page(branch: &BranchVerification, page: &mut Page) {
         let held = if ladder.held.is_empty() {
             String::new()
         } else {
-            format!(", {} held", ladder.held.join(", "))
+            let named = match page.layout().verbose || ladder.held.len() <= HELD {
+                true => ladder.held.join(", "),
+                false => runs(&ladder.held, HELD),
+            };
+            format!(", {named} held")
         };
         page.paragraph(
             &format!(
@@ -231,6 +241,14 @@ fn branch_page(branch: &BranchVerification, page: &mut Page) {
             "  ",
             "  ",
         );
+    }
+    if !branch.untested.is_empty() {
+        let most = match page.layout().verbose {
+            true => branch.untested.len(),
+            false => UNTESTED,
+        };
+        let text = format!("Not tested: {}.", names(&branch.untested, most));
+        page.paragraph(&text, Tint::Doubtful, "  ", "  ");
     }
     if let Some(count) = &branch.freedoms {
         page.paragraph(

@@ -2,6 +2,7 @@ use super::super::geometry::Arithmetic;
 use super::super::samples::{
     CRANK_ROCKER, Place, Written, add_ring, four_bar, planar, ring, sarrus, sarrus_places,
 };
+use super::descent::step;
 use super::*;
 use crate::mechanism::{JointKind, MechanismBuilder};
 use crate::mobility::Structure;

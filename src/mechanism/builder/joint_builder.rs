@@ -1,5 +1,6 @@
 //! A joint as its maker describes it.
 
+use super::home_frames::HomeFrame;
 use crate::mechanism::{Direction, Dynamics, Frame, JointKind, Limit};
 use crate::number::Number;
 
@@ -20,6 +21,7 @@ pub struct JointBuilder {
     pub(super) dynamics: Option<Dynamics>,
     pub(super) independent: Option<bool>,
     pub(super) closes_loop: bool,
+    pub(super) at_home: Option<HomeFrame>,
 }
 
 impl JointBuilder {
@@ -57,6 +59,7 @@ impl JointBuilder {
             dynamics: None,
             independent: None,
             closes_loop,
+            at_home: None,
         }
     }
 
@@ -71,6 +74,21 @@ impl JointBuilder {
     #[must_use]
     pub fn successor_origin(mut self, frame: Frame) -> Self {
         self.successor_frame = frame;
+        self
+    }
+
+    /// Closes the loop at home by construction: both sides' frames follow from one, `frame` in `link`, and from where the
+    /// links are placed. With `parallel_to_root` that frame is turned to be parallel to the root link at home.
+    ///
+    /// For joints that close loops; whatever frames they have else are replaced.
+    #[must_use]
+    pub fn at_home(mut self, link: &str, frame: Frame, parallel_to_root: bool) -> Self {
+        self.closes_loop = true;
+        self.at_home = Some(HomeFrame {
+            link: link.to_owned(),
+            frame,
+            parallel_to_root,
+        });
         self
     }
 

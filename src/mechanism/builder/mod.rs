@@ -2,7 +2,7 @@
 //!
 //! A maker, be it a reader of files or a program, knows things by name and in any order; a [`Mechanism`] refers by index
 //! and is valid. Between the two stands [`MechanismBuilder::build`], which looks at the whole in the order links, joints,
-//! home poses, ground, couplings, configurations, scene, expectation, and stops at the first contradiction. The same
+//! home poses, ground, couplings, configurations, actuated joints, scene, expectation, and stops at the first contradiction. The same
 //! builder gives the same mechanism or the same error.
 //!
 //! Cost: `O(n log n)` for n names, plus the number of terms of the couplings.
@@ -15,14 +15,17 @@
 //! | `checks` | rules about single values |
 //! | `links`, `joints` | rules about one link, one joint |
 //! | `placements` | the tree of home poses |
+//! | `home_frames` | joints that are closed at home by construction |
 //! | `ratio` | the joints between two links whose rates are coupled |
-//! | `couplings`, `configurations`, `scene`, `expectation` | what refers to links and joints |
+//! | `couplings`, `configurations`, `actuation`, `scene`, `expectation` | what refers to links and joints |
 
+mod actuation;
 mod checks;
 mod configurations;
 mod couplings;
 mod did_you_mean;
 mod expectation;
+mod home_frames;
 mod joint_builder;
 mod joints;
 mod links;
@@ -39,12 +42,14 @@ pub use joint_builder::JointBuilder;
 
 use super::{
     Entity, Expectation, Frame, Inertial, JointId, Link, Mechanism, MechanismError, Placement,
-    Precision, Scene, Shape,
+    Precision, Recognised, Scene, Shape,
 };
 use crate::number::Number;
+use actuation::resolve_actuated;
 use configurations::{ConfigurationSpec, resolve_configurations};
 use couplings::{CouplingSpec, Relation, resolve_couplings};
 use expectation::check_expectation;
+use home_frames::close_at_home;
 use joints::make_joint;
 use links::check_link;
 use names::Names;
@@ -83,6 +88,7 @@ pub struct MechanismBuilder {
     floating: Vec<FloatingSpec>,
     couplings: Vec<CouplingSpec>,
     configurations: Vec<ConfigurationSpec>,
+    actuated: Vec<String>,
     scene: Option<Scene>,
     drives: Vec<DriveSpec>,
     expectation: Option<Expectation>,
@@ -198,6 +204,12 @@ impl MechanismBuilder {
         self
     }
 
+    /// Says that a motor drives this joint; saying it twice is saying it once.
+    pub fn actuate(&mut self, joint: &str) -> &mut Self {
+        self.actuated.push(joint.to_owned());
+        self
+    }
+
     /// Sets the effects of a simulation; drives are added by [`drive`](Self::drive).
     pub fn scene(&mut self, scene: Scene) -> &mut Self {
         self.scene = Some(scene);
@@ -235,14 +247,17 @@ impl MechanismBuilder {
 
         let mut placements = Placements::new(links.len());
         let mut joints = Vec::with_capacity(self.joints.len());
-        for spec in self.joints {
+        let mut at_home = Vec::new();
+        for mut spec in self.joints {
             let id = JointId(joints.len());
+            at_home.extend(spec.at_home.take().map(|frame| (id, frame)));
             joints.push(make_joint(spec, id, &mut names, &mut placements)?);
         }
         for spec in self.floating {
             placements.place_by_floating(spec, &mut names)?;
         }
         let placement_order = placements.settle(&mut links, &joints)?;
+        close_at_home(at_home, &mut joints, &links, &names)?;
         let ground = match &self.ground {
             Some(name) => names.link(&Entity::Ground, name)?,
             None => placement_order[0],
@@ -256,6 +271,7 @@ impl MechanismBuilder {
             &mut names,
         )?;
         let configurations = resolve_configurations(self.configurations, &joints, &names)?;
+        let actuated = resolve_actuated(self.actuated, &joints, &names)?;
         let scene = resolve_scene(self.scene, self.drives, &joints, &names)?;
         if let Some(expectation) = &self.expectation {
             check_expectation(expectation, &joints, &names)?;
@@ -268,10 +284,12 @@ impl MechanismBuilder {
             joints,
             couplings,
             configurations,
+            actuated,
             scene,
             expectation: self.expectation,
             placement_order,
             precision,
+            recognised: Recognised::default(),
             link_by_name: names.links,
             joint_by_name: names.joints,
         })

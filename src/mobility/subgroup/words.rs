@@ -29,6 +29,7 @@ pub fn reading(rank: &PartRank) -> &'static str {
 /// A part whose equations are all independent.
 pub fn independent(part: &Part, equations: usize, reading: &str) -> String {
     match (part.cycles.len(), part.couplings.len()) {
+        (0, 1) => format!("{reading}its only equation, that of a coupling, is independent"),
         (0, _) => format!("{reading}the {equations} coupling equations are independent"),
         (1, 0) => format!(
             "{reading}the displacements of the loop lie in no smaller group than that of all, and its six equations are \

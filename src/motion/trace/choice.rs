@@ -1,7 +1,7 @@
 //! Which curve answers the question: the one asked for, or the one that serves best.
 
 use super::{CANDIDATES, Found, Tracer};
-use crate::motion::inputs::{Variable, choose_inputs};
+use crate::motion::inputs::{SAID, Variable, choose_inputs};
 use crate::motion::result::TraceError;
 use crate::motion::system::LoopSystem;
 use std::sync::Arc;
@@ -97,6 +97,13 @@ impl Tracer<'_> {
                 Variable::of(self.mechanism, joint, freedom)
             }));
         }
+        // What the file says is driven is driven.
+        let rank = |variable: &Variable| variable.rank(self.mechanism);
+        candidates.sort_by_key(rank);
+        let first = candidates.first().map_or(usize::MAX, rank);
+        if first <= SAID {
+            candidates.retain(|candidate| rank(candidate) == first);
+        }
         let mut best: Option<(f64, Found, Variable)> = None;
         for candidate in candidates.into_iter().take(CANDIDATES) {
             let Some((found, variable)) = self.curve_driven_by(&candidate, hold)? else {
@@ -166,16 +173,17 @@ impl Tracer<'_> {
             .collect();
         // Marked ones first, then by name; the first of equals is kept.
         all.sort_by_key(|(_, v)| {
-            let joint = &self.mechanism.joints()[v.joint];
+            let several = self.mechanism.joints()[v.joint].freedom() > 1;
+            let rank = v.rank(self.mechanism);
             (
-                joint.independent != Some(true),
-                joint.freedom() > 1,
+                if rank <= SAID { rank } else { SAID + 1 },
+                several,
                 v.name.clone(),
             )
         });
         let mut best: Option<(f64, Variable)> = None;
         for (_, variable) in all {
-            let marked = self.mechanism.joints()[variable.joint].independent == Some(true);
+            let marked = variable.rank(self.mechanism) <= SAID;
             let score = self.score(found, &variable);
             if score > 0.0
                 && best

@@ -1,13 +1,17 @@
 //! What the polynomials say, as data and as a page: `kutzbach exact`.
 
+mod blocks;
 mod conditions;
+mod loopless;
 mod motions;
 mod relations;
 mod schema;
 mod text;
 mod values;
 
+pub use blocks::{BlockRow, BlocksReport, blocks_report, render_blocks};
 pub use conditions::{ConditionRow, Conditions, FamilyRow, conditions_report, render_conditions};
+pub use loopless::{LooplessReport, loopless_report, render_loopless};
 pub use motions::Motion;
 pub use relations::{RelationRow, Relations, relations_report, render_relations};
 pub use schema::{

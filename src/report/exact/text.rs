@@ -87,7 +87,16 @@ pub fn render(report: &ExactReport, layout: Layout) -> String {
 }
 
 fn headline(report: &ExactReport) -> String {
+    let rounded = report.rounded_numbers_taken_literally;
     match (report.consistent, report.dimension) {
+        (Some(false), _) if rounded => {
+            "Undecided: taken literally, the file's decimals contradict one another, which need not hold of the mechanism meant; `report` gives the verdict within the digits."
+                .to_owned()
+        }
+        (_, Some(0)) if rounded => {
+            "Undecided: taken literally, the file's decimals leave finitely many poses (dimension 0), which need not hold of the mechanism meant; `report` gives the verdict within the digits."
+                .to_owned()
+        }
         (Some(false), _) => {
             "The equations contradict one another: no pose satisfies them, not even a complex one."
                 .to_owned()

@@ -7,14 +7,16 @@ use super::escape::{escaped, in_script};
 use super::names::Names;
 use super::ranges::ranges;
 use super::{Assets, Facts, Stage, plots};
-use crate::graph;
+use crate::graph::{self, FoldedGraph};
 use crate::mechanism::Mechanism;
 use crate::report::definitions;
 use crate::report::picture::pictogram::{self, Pictogram};
 use crate::report::picture::plot;
 use crate::report::picture::sketch::{self, Sketch};
 use crate::report::schema::{Cycle, Report};
-use crate::report::text::{Block, Layout, Page, branches, counts, explanation, sections, verdict};
+use crate::report::text::{
+    Block, Layout, Page, assembly, branches, counts, explanation, joints, sections, verdict,
+};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use sha2::{Digest, Sha256};
@@ -141,18 +143,22 @@ fn body(facts: &Facts<'_>, stage: &Stage, names: &Names, out: &mut String) {
         }
     };
     section("freedoms", &|page| counts::write(report, page), out);
-    section("assembly", &|page| sections::assembly(report, page), out);
+    section("assembly", &|page| assembly::section(report, page), out);
     section("branches", &|page| branches::branches(report, page), out);
     let ranges = ranges(facts.mechanism, stage);
     section(
         "joints",
-        &|page| sections::joints(report, &ranges, page),
+        &|page| joints::joints(report, &ranges, true, page),
         out,
     );
     section("couplings", &|page| sections::couplings(report, page), out);
     graph_section(facts, out);
     section("loops", &|page| sections::cycles(report, page), out);
-    section("motions", &|page| branches::motions(report, page), out);
+    section(
+        "motions",
+        &|page| branches::motions(report, true, page),
+        out,
+    );
     plots::section(facts, stage, out);
     if let Some(accuracy) = facts.accuracy {
         accuracy::section(accuracy, names, out);
@@ -198,8 +204,15 @@ fn graph_section(facts: &Facts<'_>, out: &mut String) {
          the spanning <a class=\"term\" href=\"#D15\">tree</a> solid, those that close \
          <a class=\"term\" href=\"#D14\">loops</a> dashed.</p>\n<div class=\"scroll\">",
     );
-    out.push_str(&graph::svg_fragment(&structure.graph, &structure.tree));
+    let folded = FoldedGraph::new(&structure.graph, &structure.tree, facts.mechanism);
+    out.push_str(&graph::folded_svg_fragment(&folded));
     out.push_str("</div>\n");
+    if !folded.folded.is_empty() {
+        out.push_str(&format!(
+            "<p class=\"quiet\">Links fixed to one another are one box ({} of them are not drawn).</p>\n",
+            folded.folded.len()
+        ));
+    }
     loop_chips(&facts.report.cycles, out);
     out.push_str("</section>\n");
 }

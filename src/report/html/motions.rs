@@ -164,8 +164,8 @@ fn can_drive(mechanism: &Mechanism, variable: &Variable) -> bool {
     turns <= 1 || freedoms[variable.freedom] != FreedomPart::Rotation
 }
 
-/// What to trace of a branch: one curve, or for several freedoms one for each of some joints that are driven. Marked inputs
-/// come first, then joints of one freedom, those at the ground, and names.
+/// What to trace of a branch: one curve, or for several freedoms one for each of some joints that are driven. Motors and
+/// marked inputs come first, then joints of one freedom that are not of dummy links, those at the ground, and names.
 fn ways(mechanism: &Mechanism, branch: &Branch, options: &TraceOptions) -> Vec<TraceOptions> {
     let Some(pose) = branch.poses.first().filter(|_| branch.dimension > 1) else {
         return vec![options.clone()];
@@ -174,7 +174,7 @@ fn ways(mechanism: &Mechanism, branch: &Branch, options: &TraceOptions) -> Vec<T
         let drives = mechanism.scene().map(|scene| &scene.drives[..]);
         drives.is_some_and(|drives| drives.iter().any(|d| d.joint.0 == variable.joint))
     };
-    let mut variables: Vec<((bool, bool, bool, bool), Variable)> = Variable::all(mechanism)
+    let mut variables: Vec<((bool, usize, bool), Variable)> = Variable::all(mechanism)
         .into_iter()
         .enumerate()
         .filter(|(column, variable)| {
@@ -186,8 +186,7 @@ fn ways(mechanism: &Mechanism, branch: &Branch, options: &TraceOptions) -> Vec<T
             let ends = [joint.predecessor.link, joint.successor.link];
             let order = (
                 !driven_by_scene(&variable),
-                joint.independent != Some(true),
-                joint.freedom() > 1,
+                variable.rank(mechanism),
                 !ends.contains(&mechanism.ground()),
             );
             (order, variable)

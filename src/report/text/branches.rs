@@ -1,13 +1,15 @@
 //! The branches through the pose, how links move on them, and what the engines found.
 
 use super::cite;
+use super::folded::Folded;
 use super::page::Page;
 use super::sections::{limit, unsure};
 use super::style::Tint;
 use super::table::{Cell, Column, Subject, Table};
-use super::words::names;
+use super::words::{counted, names, runs};
+use crate::mobility::PoseKind;
 use crate::report::natural::natural_order;
-use crate::report::schema::{Evidence, Motion, Report};
+use crate::report::schema::{Branch, Evidence, Motion, Report};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
@@ -19,6 +21,9 @@ pub(in crate::report) fn branches(report: &Report, page: &mut Page) {
     let Some(branches) = report.branches.as_ref().filter(|b| !b.is_empty()) else {
         return;
     };
+    if !page.layout().verbose && says_nothing_more(report, branches) {
+        return;
+    }
     page.heading(&format!("Branches through this pose ({})", cite::BRANCH));
     let most = limit(page);
     let halves = branches.iter().any(|b| b.half_branches.is_some());
@@ -37,7 +42,11 @@ pub(in crate::report) fn branches(report: &Report, page: &mut Page) {
         let idle: Vec<String> = branch
             .idle
             .iter()
-            .map(|idle| format!("{} ({})", idle.links.join(" with "), idle.freedom))
+            .map(|idle| {
+                // What moves along with a rod stands for nothing of its own.
+                let name = idle.links.first().map_or("", String::as_str);
+                format!("{name} ({})", idle.freedom)
+            })
             .collect();
         let mut cells = vec![
             Cell::new(&branch.name).tint(Tint::Strong),
@@ -60,9 +69,21 @@ pub(in crate::report) fn branches(report: &Report, page: &mut Page) {
     page.table(table, "branches");
 }
 
+/// Whether the only branch repeats what stands above it, in a mechanism of which a first screen has more to say.
+fn says_nothing_more(report: &Report, branches: &[Branch]) -> bool {
+    report.joints.len() > LARGE
+        && matches!(branches, [only] if only.locked.is_empty()
+            && only.idle.is_empty()
+            && only.instantaneous == Some(only.dimension)
+            && report.home.pose == Some(PoseKind::Regular))
+}
+
+/// Mechanisms of more joints are large.
+const LARGE: usize = 24;
+
 /// How links move relative to one another: the pairs that were asked for, then the rest, which a first screen shows the
 /// most interesting rows of.
-pub(in crate::report) fn motions(report: &Report, page: &mut Page) {
+pub(in crate::report) fn motions(report: &Report, on_page: bool, page: &mut Page) {
     let (asked, others): (Vec<&Motion>, Vec<&Motion>) =
         report.motions.iter().partition(|motion| motion.asked);
     let several = report.branches.as_ref().is_some_and(|b| b.len() > 1);
@@ -74,21 +95,74 @@ pub(in crate::report) fn motions(report: &Report, page: &mut Page) {
         return;
     }
     page.heading(&format!("Motions ({})", cite::MOTION));
+    let verbose = page.layout().verbose;
+    if verbose && !on_page {
+        motion_table(&others, several, page);
+        return;
+    }
+    let folded = Folded::of(report);
     let all = others.len();
-    let shown = if page.layout().verbose || all <= MOTIONS {
-        others
-    } else {
-        foremost(report, others)
-    };
-    motion_table(&shown, several, page);
-    if shown.len() < all {
+    let mut shown = others;
+    shown.retain(|motion| !folded.links.contains(motion.link.as_str()));
+    let mut lines: Vec<String> = Vec::new();
+    if !verbose && shown.len() > MOTIONS && !several {
+        (shown, lines) = alike(shown);
+    }
+    let told = shown.len();
+    if !verbose && told > MOTIONS {
+        shown = foremost(report, shown);
+    }
+    if !shown.is_empty() {
+        motion_table(&shown, several, page);
+    }
+    for line in &lines {
+        page.paragraph(line, Tint::Plain, "  ", "    ");
+    }
+    if shown.len() < told {
         let text = format!(
             "… and {} more: `--verbose` or `--format json` shows all {all}, `--between A B` any pair",
-            all - shown.len()
+            told - shown.len()
         );
         page.paragraph(&text, Tint::Quiet, "  ", "  ");
     }
 }
+
+/// Motions of one kind that so many links have are told in a line.
+const ALIKE: usize = 3;
+
+/// Takes out the rows of links that move alike where they are many, and says of each kind which links they are.
+fn alike(motions: Vec<&Motion>) -> (Vec<&Motion>, Vec<String>) {
+    let mut kinds: BTreeMap<(Reverse<usize>, &str, &str), Vec<&Motion>> = BTreeMap::new();
+    for motion in motions {
+        let kind = (
+            Reverse(motion.freedom),
+            motion.class.as_str(),
+            motion.relative_to.as_str(),
+        );
+        kinds.entry(kind).or_default().push(motion);
+    }
+    let (mut rows, mut lines) = (Vec::new(), Vec::new());
+    for ((Reverse(freedom), class, relative_to), motions) in kinds {
+        if motions.len() < ALIKE {
+            rows.extend(motions);
+            continue;
+        }
+        let mut links: Vec<String> = motions.iter().map(|motion| motion.link.clone()).collect();
+        links.sort_by(|a, b| natural_order(a, b));
+        let how = match freedom {
+            0 => format!("do not move, seen from {relative_to}"),
+            6 => format!("move without restriction (6 freedoms), seen from {relative_to}"),
+            1 => format!("move in 1 way ({class}), seen from {relative_to}"),
+            n => format!("move in {n} ways ({class}), seen from {relative_to}"),
+        };
+        let many = counted(links.len(), "link");
+        lines.push(format!("{many} {how}: {}", runs(&links, ALIKE_NAMED)));
+    }
+    (rows, lines)
+}
+
+/// Links, or runs of them, named in such a line.
+const ALIKE_NAMED: usize = 5;
 
 fn motion_table(motions: &[&Motion], several: bool, page: &mut Page) {
     let mut table = Table::new();

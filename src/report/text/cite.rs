@@ -14,6 +14,8 @@ pub(super) const NOMINAL: &str = "D13";
 pub(super) const ASSEMBLED: &str = "D17";
 pub(super) const MOTION: &str = "D19";
 pub(super) const EVIDENCE: &str = "D20";
+pub(super) const IDLE: &str = "D10";
+pub(super) const INPUT: &str = "D26";
 
 /// `bifurcation, D7`.
 pub(super) fn kind(kind: SingularKind) -> String {
@@ -51,6 +53,8 @@ mod tests {
             ("assembled", ASSEMBLED),
             ("relative motion", MOTION),
             ("evidence", EVIDENCE),
+            ("idle", IDLE),
+            ("input", INPUT),
         ] {
             assert_eq!(find(word).unwrap().number, number, "{word}");
         }

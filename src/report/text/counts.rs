@@ -37,7 +37,7 @@ pub(in crate::report) fn write(report: &Report, page: &mut Page) {
     if report.mobility.verdict == Verdict::Unassembled {
         page.table(table, "counts");
         page.paragraph(
-            "No pose closes the loops, so nothing but counting can be said.",
+            "No closed pose is known, so nothing but counting can be said.",
             Tint::Plain,
             "  ",
             "  ",
@@ -219,8 +219,14 @@ fn margin(report: &Report) -> Option<String> {
     home.rank?;
     let kept = figure(home.kept?);
     let tolerance = home.tolerance.unwrap_or(0.0);
-    let mut text =
-        format!("Margin of the rank: the smallest singular value kept is {kept} of the largest");
+    // The weakest block speaks for all.
+    let whose = match &home.weakest {
+        Some(block) => format!(" (least in block `{block}`)"),
+        None => String::new(),
+    };
+    let mut text = format!(
+        "Margin of the rank{whose}: the smallest singular value kept is {kept} of the largest"
+    );
     match home.dropped {
         // Rounding differs from machine to machine, and its digits mean nothing to a person.
         Some(dropped) if dropped <= ROUNDING => text.push_str(&format!(

@@ -4,11 +4,17 @@
 //! take part; which loops hold it; what to change; what to beware of. Everything shown stands in the [`Report`], nothing
 //! is computed here but sums and words.
 
+mod alternatives;
+pub(super) mod assembly;
 pub(super) mod branches;
 mod cite;
+mod constants;
 pub(super) mod counts;
 mod escape;
 pub mod explanation;
+mod folded;
+pub(super) mod inputs;
+pub(super) mod joints;
 mod page;
 pub(super) mod sections;
 mod style;
@@ -30,12 +36,13 @@ pub fn render(report: &Report, layout: Layout) -> String {
     let mut page = Page::new(layout);
     verdict::write(report, &mut page);
     counts::write(report, &mut page);
-    sections::assembly(report, &mut page);
+    assembly::section(report, &mut page);
+    inputs::inputs(report, &mut page);
     branches::branches(report, &mut page);
-    sections::joints(report, &BTreeMap::new(), &mut page);
+    joints::joints(report, &BTreeMap::new(), false, &mut page);
     sections::couplings(report, &mut page);
     sections::cycles(report, &mut page);
-    branches::motions(report, &mut page);
+    branches::motions(report, false, &mut page);
     sections::advice(report, &mut page);
     sections::warnings(report, &mut page);
     branches::evidence(report, &mut page);

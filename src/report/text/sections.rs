@@ -1,182 +1,25 @@
 //! The parts of the page below the counts. A part about which nothing is known is left out.
 
+use super::alternatives::Alternatives;
+use super::folded::Folded;
 use super::page::Page;
 use super::style::Tint;
 use super::table::{Cell, Column, Subject, Table};
 use super::words::{counted, figure, names};
-use crate::mobility::Verdict;
-use crate::report::schema::{Branch, Cycle, JointRow, Report};
-use std::collections::BTreeMap;
+use crate::report::schema::{Advice, Cycle, Report};
+use std::collections::BTreeSet;
 
 /// Lists of names in a table show this many.
 const NAMES_IN_CELL: usize = 12;
 
-/// How the loops close.
-pub(in crate::report) fn assembly(report: &Report, page: &mut Page) {
-    let assembly = &report.assembly;
-    if report.mobility.verdict == Verdict::Unassembled || assembly.closed == Some(false) {
-        if assembly.gaps.is_empty() {
-            return;
-        }
-        page.heading("Open loops");
-        let mut table = Table::new()
-            .column("loop", Column::Shrinking)
-            .column("gap (m)", Column::Numbers)
-            .column("angle (°)", Column::Numbers);
-        for gap in &assembly.gaps {
-            let subject = Subject::Cycle(gap.cycle.clone());
-            table.row_about(
-                subject,
-                vec![
-                    Cell::new(&gap.cycle),
-                    Cell::new(figure(gap.left_position)).tint(Tint::Bad),
-                    Cell::new(figure(gap.left_angle.to_degrees())),
-                ],
-            );
-        }
-        page.table(table, "loops");
-        return;
-    }
-    let Some(moved) = assembly.moved.filter(|moved| *moved > 0.0) else {
-        return;
-    };
-    page.heading("Assembly");
-    let worst = assembly
-        .gaps
-        .iter()
-        .max_by(|a, b| a.position.total_cmp(&b.position));
-    let mut text = match worst {
-        Some(gap) => format!(
-            "As the file draws it, loop `{}` is open by {} m and {}°.",
-            gap.cycle,
-            figure(gap.position),
-            figure(gap.angle.to_degrees())
-        ),
-        None => "The file's pose does not satisfy its couplings.".to_owned(),
-    };
-    text.push_str(&format!(
-        " It was assembled by moving joints by up to {} m",
-        figure(moved)
-    ));
-    if let Some(residual) = assembly.residual {
-        text.push_str(&format!("; {} of a loop's size is left", figure(residual)));
-    }
-    text.push_str(". Everything here holds at the assembled pose.");
-    page.paragraph(&text, Tint::Plain, "  ", "  ");
-}
+/// Couplings shown on a first screen.
+const COUPLINGS: usize = 8;
 
-/// One row per joint; with its range, where ranges are known.
-pub(in crate::report) fn joints(
-    report: &Report,
-    ranges: &BTreeMap<String, String>,
-    page: &mut Page,
-) {
-    if report.joints.is_empty() {
-        return;
-    }
-    page.heading("Joints");
-    let roles = report.joints.iter().any(|joint| joint.locked.is_some());
-    let wrenches = report
-        .joints
-        .iter()
-        .any(|joint| joint.redundant_wrenches.is_some_and(|n| n > 0));
-    let mut table = Table::new()
-        .column("joint", Column::Shrinking)
-        .column("type", Column::Words)
-        .column("between", Column::Shrinking)
-        .column("freedom", Column::Numbers);
-    // Roles are those on the branches where there are any, and those at the pose otherwise.
-    let branches = report.branches.as_deref().unwrap_or_default();
-    if roles {
-        let title = if branches.is_empty() {
-            "here"
-        } else {
-            "in motion"
-        };
-        table = table.column(title, Column::Shrinking);
-    }
-    // A velocity that is not known to lead anywhere is no motion.
-    let moves = match report.mobility.verdict {
-        Verdict::Mobile => "moves",
-        _ => "gives way",
-    };
-    if !ranges.is_empty() {
-        table = table.column("range", Column::Shrinking);
-    }
-    if wrenches {
-        table = table.column("undetermined", Column::Numbers);
-    }
-    table = table.column("", Column::Words);
-    for joint in &report.joints {
-        let mut row = vec![
-            Cell::new(&joint.name).tint(Tint::Strong),
-            Cell::new(format!("{} {}", joint.class, joint.kind.replace('_', " "))),
-            Cell::new(format!("{} – {}", joint.links[0], joint.links[1])),
-            Cell::new(joint.freedom.to_string()),
-        ];
-        if roles {
-            row.push(role(joint, branches, moves));
-        }
-        if !ranges.is_empty() {
-            row.push(Cell::new(
-                ranges.get(&joint.name).map_or("–", String::as_str),
-            ));
-        }
-        if wrenches {
-            row.push(match joint.redundant_wrenches {
-                Some(0) => Cell::new("·").tint(Tint::Quiet),
-                Some(n) => Cell::new(n.to_string()),
-                None => Cell::new("?").tint(Tint::Doubtful),
-            });
-        }
-        row.push(
-            Cell::new(if joint.closes_loop {
-                "closes a loop"
-            } else {
-                ""
-            })
-            .tint(Tint::Quiet),
-        );
-        table.row_about(Subject::Joint(joint.name.clone()), row);
-    }
-    page.table(table, "joints");
-    if wrenches {
-        page.paragraph(
-            "undetermined: directions of a joint's reaction that equilibrium alone does not fix, because constraints \
-             repeat one another",
-            Tint::Quiet,
-            "  ",
-            "  ",
-        );
-    }
-}
-
-fn role(joint: &JointRow, branches: &[Branch], moves: &str) -> Cell {
-    let rests: Vec<&str> = branches
-        .iter()
-        .filter(|branch| branch.locked.contains(&joint.name))
-        .map(|branch| branch.name.as_str())
-        .collect();
-    match (joint.freedom, joint.locked) {
-        (0, _) => Cell::new("rigid").tint(Tint::Quiet),
-        (_, None) => Cell::new("?").tint(Tint::Doubtful),
-        (_, Some(true)) => Cell::new("locked").tint(Tint::Notable),
-        (_, Some(false)) if !rests.is_empty() => {
-            Cell::new(format!("locked on {}", rests.join(", "))).tint(Tint::Notable)
-        }
-        (_, Some(false)) if joint.locked_parts.is_empty() => Cell::new(moves),
-        (_, Some(false)) => {
-            let parts: Vec<&str> = joint
-                .locked_parts
-                .iter()
-                .map(|part| {
-                    part.strip_prefix(joint.name.as_str())
-                        .and_then(|rest| rest.strip_prefix('.'))
-                        .unwrap_or(part)
-                })
-                .collect();
-            Cell::new(format!("{moves}; {} locked", parts.join(", "))).tint(Tint::Notable)
-        }
+/// Says that a list goes on.
+pub(super) fn more(left: usize, page: &mut Page) {
+    if left > 0 {
+        let text = format!("… and {left} more: `--verbose` or `--format json` shows all");
+        page.paragraph(&text, Tint::Quiet, "    ", "    ");
     }
 }
 
@@ -189,10 +32,16 @@ pub(in crate::report) fn couplings(report: &Report, page: &mut Page) {
     let mut table = Table::new()
         .column("coupling", Column::Shrinking)
         .column("equation (rad, m)", Column::Shrinking);
-    for coupling in &report.couplings {
+    let all = report.couplings.len();
+    let shown = match page.layout().verbose || all <= COUPLINGS {
+        true => all,
+        false => COUPLINGS,
+    };
+    for coupling in &report.couplings[..shown] {
         table.row(vec![Cell::new(&coupling.name), Cell::new(&coupling.text)]);
     }
     page.table(table, "couplings");
+    more(all - shown, page);
 }
 
 /// One row per basic cycle.
@@ -202,6 +51,10 @@ pub(in crate::report) fn cycles(report: &Report, page: &mut Page) {
     }
     page.heading("Loops (basic cycles)");
     let most = limit(page);
+    let folded = match page.layout().verbose {
+        true => BTreeSet::new(),
+        false => Folded::of(report).joints,
+    };
     let mut table = Table::new()
         .column("loop", Column::Shrinking)
         .column("through", Column::Shrinking)
@@ -210,13 +63,18 @@ pub(in crate::report) fn cycles(report: &Report, page: &mut Page) {
         .column("redundant", Column::Numbers)
         .column("freedom alone", Column::Numbers)
         .column("locks alone", Column::Shrinking);
-    for cycle in &report.cycles {
+    let all = report.cycles.len();
+    let shown = match page.layout().verbose {
+        true => all,
+        false => rows_of(all),
+    };
+    for cycle in &report.cycles[..shown] {
         let subject = Subject::Cycle(cycle.name.clone());
         table.row_about(
             subject,
             vec![
                 Cell::new(&cycle.name).tint(Tint::Strong),
-                Cell::new(joints_of(cycle, most)),
+                Cell::new(joints_of(cycle, &folded, most)),
                 Cell::new(space(cycle)),
                 Cell::new(unsure(cycle.rank)),
                 Cell::new(unsure(cycle.redundant)),
@@ -230,16 +88,31 @@ pub(in crate::report) fn cycles(report: &Report, page: &mut Page) {
         );
     }
     page.table(table, "loops");
+    more(all - shown, page);
 }
 
-fn joints_of(cycle: &Cycle, most: usize) -> String {
-    if cycle.joints.len() <= most {
-        cycle.joints.join(" ")
+/// Rows of a first screen where one or two more would not be worth the line that says so.
+pub(super) fn rows_of(all: usize) -> usize {
+    match all {
+        0..=10 => all,
+        _ => 8,
+    }
+}
+
+fn joints_of(cycle: &Cycle, folded: &BTreeSet<&str>, most: usize) -> String {
+    let joints: Vec<&str> = cycle
+        .joints
+        .iter()
+        .map(String::as_str)
+        .filter(|joint| !folded.contains(joint))
+        .collect();
+    if joints.len() <= most {
+        joints.join(" ")
     } else {
         format!(
             "{} … ({})",
-            cycle.joints[..most].join(" "),
-            counted(cycle.joints.len(), "joint")
+            joints[..most].join(" "),
+            counted(joints.len(), "joint")
         )
     }
 }
@@ -263,26 +136,31 @@ pub(in crate::report) fn advice(report: &Report, page: &mut Page) {
         return;
     }
     page.heading("Advice");
-    let shown = if page.layout().verbose {
-        report.advice.len()
-    } else {
-        report.advice.len().min(ADVICE)
-    };
-    for advice in &report.advice[..shown] {
-        let text = format!(
-            "{} (redundant: {} → {})",
-            advice.text.trim_end_matches('.'),
-            advice.redundant_before,
-            advice.redundant_after
-        );
-        page.item(&text, Tint::Plain);
+    if page.layout().verbose || report.advice.len() <= ADVICE {
+        for advice in &report.advice {
+            page.item(&told(&advice.text, advice), Tint::Plain);
+        }
+        return;
     }
-    let left = report.advice.len() - shown;
-    if left > 0 {
-        let text = format!("… and {left} more: `--verbose` or `--format json` shows all");
-        page.paragraph(&text, Tint::Quiet, "    ", "    ");
+    let mut left = report.advice.len();
+    for change in Alternatives::of(&report.advice).iter().take(CHANGES) {
+        page.item(&told(&change.text(), change.first), Tint::Plain);
+        left -= change.pieces();
     }
+    more(left, page);
 }
+
+fn told(text: &str, advice: &Advice) -> String {
+    format!(
+        "{} (redundant: {} → {})",
+        text.trim_end_matches('.'),
+        advice.redundant_before,
+        advice.redundant_after
+    )
+}
+
+/// Changes shown on a first screen where there are more than [`ADVICE`] pieces of advice.
+const CHANGES: usize = 4;
 
 /// Pieces of advice and warnings shown on a first screen.
 const ADVICE: usize = 8;
@@ -293,23 +171,73 @@ pub(in crate::report) fn warnings(report: &Report, page: &mut Page) {
         return;
     }
     page.heading("Warnings");
-    let shown = if page.layout().verbose {
-        report.warnings.len()
-    } else {
-        report.warnings.len().min(ADVICE)
+    let warnings = match page.layout().verbose {
+        true => report.warnings.clone(),
+        false => repeated_once(&report.warnings),
     };
-    for warning in &report.warnings[..shown] {
+    let shown = match page.layout().verbose {
+        true => warnings.len(),
+        false => warnings.len().min(ADVICE),
+    };
+    for warning in &warnings[..shown] {
         page.item(warning, Tint::Doubtful);
     }
-    let left = report.warnings.len() - shown;
-    if left > 0 {
-        let text = format!("… and {left} more: `--verbose` or `--format json` shows all");
-        page.paragraph(&text, Tint::Quiet, "    ", "    ");
+    more(warnings.len() - shown, page);
+}
+
+/// Warnings that differ only in the place they speak of, once, with the number of places: `14 × …, first in line 35`.
+fn repeated_once(warnings: &[String]) -> Vec<String> {
+    let mut counted: Vec<(&str, &str, usize)> = Vec::new();
+    for warning in warnings {
+        // As `line 35, column 5: …`.
+        let (place, text) = match warning.split_once(": ") {
+            Some((place, text)) if place.starts_with("line ") => (place, text),
+            _ => ("", warning.as_str()),
+        };
+        match counted.iter_mut().find(|(_, known, _)| *known == text) {
+            Some((_, _, count)) => *count += 1,
+            None => counted.push((place, text, 1)),
+        }
     }
+    counted
+        .into_iter()
+        .map(|(place, text, count)| match (count, place) {
+            (1, "") => text.to_owned(),
+            (1, place) => format!("{place}: {text}"),
+            (many, "") => format!("{many} × {text}"),
+            (many, place) => format!("{many} × {text} (first in {place})"),
+        })
+        .collect()
+}
+
+/// What of the file was not read, in one line; a verbose page lists it with places.
+fn unread(report: &Report, page: &mut Page) {
+    const KINDS: usize = 12;
+    if report.skipped.is_empty() {
+        return;
+    }
+    let short = |line: &String| {
+        let (_, what) = line
+            .split_once(": ")
+            .filter(|(place, _)| place.starts_with("line "))
+            .unwrap_or(("", line));
+        let what = what.split(" (first at ").next().unwrap_or(what);
+        what.to_owned()
+    };
+    let mut kinds: Vec<String> = report.skipped.iter().take(KINDS).map(short).collect();
+    let left = report.skipped.len().saturating_sub(KINDS);
+    if left > 0 {
+        kinds.push(format!("and {left} more kinds"));
+    }
+    let text = format!("Not read: {} (`--verbose` says where).", kinds.join(", "));
+    page.paragraph(&text, Tint::Quiet, "  ", "  ");
 }
 
 /// What only a verbose page shows, and times where they were asked for.
 pub(in crate::report) fn details(report: &Report, page: &mut Page) {
+    if !page.layout().verbose {
+        unread(report, page);
+    }
     if page.layout().verbose {
         blocks(report, page);
         rank_details(report, page);

@@ -2,12 +2,13 @@
 //!
 //! Words with a definition carry its number, so that nobody has to guess what *shaky* or *paradoxical* stands for.
 
+use super::assembly;
 use super::cite;
 use super::page::Page;
 use super::style::Tint;
 use super::words::{capitalised, counted, figure, names};
 use crate::mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
-use crate::report::schema::{Assembly, Branch, Report};
+use crate::report::schema::{Branch, Report};
 
 /// Writes the verdict, its reasons and the line that says what was read.
 pub(in crate::report) fn write(report: &Report, page: &mut Page) {
@@ -20,6 +21,9 @@ pub(in crate::report) fn write(report: &Report, page: &mut Page) {
     page.paragraph(&sentence(report), tint, "", "");
     if let Some(text) = nominal(report) {
         page.paragraph(&text, Tint::Doubtful, "", "");
+    }
+    for text in [nearly_idle(report), base(report)].into_iter().flatten() {
+        page.paragraph(&text, Tint::Plain, "", "");
     }
     for reason in [not_more(report), not_less(report)].into_iter().flatten() {
         page.item(&reason, Tint::Plain);
@@ -40,7 +44,7 @@ pub(in crate::report) fn write(report: &Report, page: &mut Page) {
 /// The answer in one sentence.
 pub(in crate::report) fn sentence(report: &Report) -> String {
     match report.mobility.verdict {
-        Verdict::Unassembled => unassembled(&report.assembly),
+        Verdict::Unassembled => assembly::unassembled(&report.assembly),
         Verdict::Rigid => rigid(report),
         Verdict::Mobile => mobile(report),
         Verdict::Undecided => undecided(report),
@@ -48,7 +52,7 @@ pub(in crate::report) fn sentence(report: &Report) -> String {
 }
 
 fn mobile(report: &Report) -> String {
-    let mut text = format!("Mobile: {}", freedoms(report));
+    let mut text = format!("Mobile: {}{}", freedoms(report), shares(report));
     let instantaneous = report.home.instantaneous;
     if instantaneous.is_some() && instantaneous != report.mobility.finite {
         text.push_str(&format!("; {} at this pose", optional(instantaneous)));
@@ -73,10 +77,87 @@ fn mobile(report: &Report) -> String {
             MobilityClass::Exceptional => "explained by the displacement subgroups of its chains",
             MobilityClass::Paradoxical => "owed to its special dimensions",
         };
-        text.push_str(&format!(", {why} ({})", cite::class(class)));
+        text.push_str(&format!(
+            ", {why}{} ({})",
+            blocks_of(report, class),
+            cite::class(class)
+        ));
     }
     text.push('.');
     text
+}
+
+/// ` = 6 + 6 idle (rods that spin, D10) + 6 of the floating base`, where some freedoms are idle or nothing is held.
+fn shares(report: &Report) -> String {
+    let Some(found) = &report.freedoms else {
+        return String::new();
+    };
+    if found.idle + found.floating == 0 {
+        return String::new();
+    }
+    let mut text = format!(" = {}", found.useful);
+    if found.idle > 0 {
+        let rods = match (found.rods, found.idle) {
+            (true, 1) => "a rod that spins, ",
+            (true, _) => "rods that spin, ",
+            (false, _) => "",
+        };
+        text.push_str(&format!(" + {} idle ({rods}{})", found.idle, cite::IDLE));
+    }
+    if found.floating > 0 {
+        text.push_str(&format!(" + {} of what floats", found.floating));
+    }
+    text
+}
+
+/// Freedoms that are idle but for a hair.
+fn nearly_idle(report: &Report) -> Option<String> {
+    let branch = report.branches.as_ref()?.first()?;
+    let links: Vec<String> = branch
+        .nearly_idle
+        .iter()
+        .filter_map(|idle| Some(format!("`{}`", idle.links.first()?)))
+        .collect();
+    let freedom: usize = branch.nearly_idle.iter().map(|idle| idle.freedom).sum();
+    (freedom > 0).then(|| {
+        format!(
+            "{freedom} of the useful {} nearly idle ({}): {} a thousand times as much as anything else.",
+            if freedom == 1 { "is" } else { "are" },
+            cite::IDLE,
+            match links.as_slice() {
+                [one] => format!("{one} moves"),
+                several => format!("{} move", names(several, 4)),
+            }
+        )
+    })
+}
+
+/// What is held, where that is a convention of the file only.
+fn base(report: &Report) -> Option<String> {
+    let base = report.freedoms.as_ref()?.base.as_ref()?;
+    Some(format!("With `{base}` held; 6 more if it floats."))
+}
+
+/// The blocks that a class is owed to, where others that move have another.
+fn blocks_of(report: &Report, class: MobilityClass) -> String {
+    let moving = || {
+        report
+            .home
+            .blocks
+            .iter()
+            .filter_map(|b| Some((b, b.class?)))
+    };
+    if moving().all(|(_, other)| other == class) {
+        return String::new();
+    }
+    let labels: Vec<String> = moving()
+        .filter(|(_, other)| *other == class)
+        .map(|(block, _)| block.label.clone())
+        .collect();
+    match labels.is_empty() {
+        true => String::new(),
+        false => format!(" in {}", names(&labels, 3)),
+    }
 }
 
 /// What happens at a singular pose of a mechanism that moves.
@@ -299,27 +380,6 @@ fn optional(count: Option<usize>) -> String {
     count.map_or_else(|| "?".to_owned(), |n| n.to_string())
 }
 
-fn unassembled(assembly: &Assembly) -> String {
-    let worst = assembly
-        .gaps
-        .iter()
-        .max_by(|a, b| a.left_position.total_cmp(&b.left_position));
-    match worst {
-        Some(gap) => format!(
-            "Does not assemble ({}): loop `{}` stays open by {} m and {}° however the joints are turned, so there is no \
-             pose to analyse.",
-            cite::ASSEMBLED,
-            gap.cycle,
-            figure(gap.left_position),
-            figure(gap.left_angle.to_degrees())
-        ),
-        None => format!(
-            "Does not assemble ({}): the loops cannot be closed, so there is no pose to analyse.",
-            cite::ASSEMBLED
-        ),
-    }
-}
-
 fn identity(report: &Report) -> String {
     let size = &report.size;
     let mut parts = vec![
@@ -330,19 +390,28 @@ fn identity(report: &Report) -> String {
     if size.couplings > 0 {
         parts.push(counted(size.couplings, "coupling"));
     }
-    let numbers = match (report.source.exact, report.source.digits) {
+    let source = &report.source;
+    let numbers = match (source.exact, source.digits) {
         (true, _) => "numbers taken as exact".to_owned(),
+        (false, _) if source.precision.is_some() => format!(
+            "numbers known to {:e} m or rad, as said by hand",
+            source.precision.unwrap_or_default()
+        ),
         (false, Some(digits)) => format!(
             "numbers stated to {}",
             counted(usize::try_from(digits).unwrap_or(0), "decimal")
         ),
         (false, None) => "numbers rounded".to_owned(),
     };
+    let constants = report.source.constants.as_ref();
     format!(
-        "{} ({}): {}; {numbers}.",
+        "{} ({}): {}; {numbers}.{}",
         report.mechanism,
         report.source.file,
-        names(&parts, parts.len())
+        names(&parts, parts.len()),
+        constants
+            .map(super::constants::sentence)
+            .unwrap_or_default()
     )
 }
 

@@ -269,7 +269,7 @@ fn what_does_not_assemble_has_no_reasons() {
     let report = unassembled();
     assert!(
         super::sentence(&report)
-            .starts_with("Does not assemble (D17): loop `J3` stays open by 0.3 m")
+            .starts_with("Does not assemble (D17): no closing found after 264 starts (nearest: 300 mm and 11.5° at loop `J3`)")
     );
     assert_eq!((not_more(&report), not_less(&report)), (None, None));
 }

@@ -1,5 +1,56 @@
 //! Numbers, counted things and lists of names, as a person writes them.
 
+/// A long list of names in natural order: runs that count up are written by their ends, `arm_1 … arm_7`.
+#[must_use]
+pub fn runs(list: &[String], most: usize) -> String {
+    let mut told: Vec<String> = Vec::new();
+    let mut left = list;
+    let mut counted = 0;
+    while !left.is_empty() && told.len() < most {
+        let steps = left.windows(2).take_while(|w| counts_up(&w[0], &w[1]));
+        let length = match steps.count() + 1 {
+            // Two names are as short as a run of them.
+            2 => 1,
+            length => length,
+        };
+        told.push(match length {
+            1 => left[0].clone(),
+            _ => format!("{} … {}", left[0], left[length - 1]),
+        });
+        counted += length;
+        left = &left[length..];
+    }
+    if counted < list.len() {
+        told.push(format!("{} more", list.len() - counted));
+    }
+    let all = told.len();
+    names(&told, all)
+}
+
+/// Whether two names differ in one number only, which is greater by one in the second.
+fn counts_up(one: &str, next: &str) -> bool {
+    let digits = |c: &char| c.is_ascii_digit();
+    let common = one
+        .char_indices()
+        .zip(next.chars())
+        .find(|((_, a), b)| a != b)
+        .map_or(one.len().min(next.len()), |((at, _), _)| at);
+    // Back to where the number begins in which they differ.
+    let begin = one.get(..common).map_or(0, |same| {
+        same.len() - same.chars().rev().take_while(digits).count()
+    });
+    let number = |name: &str| {
+        let tail = name.get(begin..)?;
+        let length = tail.chars().take_while(digits).count();
+        let value: u64 = tail.get(..length)?.parse().ok()?;
+        Some((value, tail.get(length..)?.to_owned()))
+    };
+    match (number(one), number(next)) {
+        (Some((a, rest)), Some((b, other))) => a.checked_add(1) == Some(b) && rest == other,
+        _ => false,
+    }
+}
+
 /// `1 joint`, `2 joints`; the plural is formed with `s`.
 #[must_use]
 pub fn counted(count: usize, thing: &str) -> String {
@@ -39,6 +90,20 @@ pub fn figure(value: f64) -> String {
         trimmed(&format!("{value:.decimals$}"))
     } else {
         format!("{}e{exponent}", trimmed(mantissa))
+    }
+}
+
+/// A length in the unit that fits, from nanometres to metres: `9.6 µm`, `1.2 mm`.
+#[must_use]
+pub fn metres(value: f64) -> String {
+    let units = [(1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm")];
+    // Rounded to three digits, 0.9996 mm is 1 mm.
+    let unit = units
+        .into_iter()
+        .find(|(size, _)| value.abs() >= 0.9995 * size);
+    match unit {
+        Some((size, name)) => format!("{} {name}", figure(value / size)),
+        None => format!("{} m", figure(value)),
     }
 }
 
@@ -93,6 +158,18 @@ mod tests {
     use super::*;
 
     #[test]
+    fn names_that_count_up_are_written_by_their_ends() {
+        let list = |names: &[&str]| names.iter().map(|n| (*n).to_owned()).collect::<Vec<_>>();
+        let arm = list(&["arm_1_joint", "arm_2_joint", "arm_3_joint", "head"]);
+        assert_eq!(runs(&arm, 9), "arm_1_joint … arm_3_joint and head");
+        let two = list(&["j9", "j10", "k", "l"]);
+        assert_eq!(runs(&two, 3), "j9, j10, k and 1 more");
+        assert_eq!(runs(&list(&["j8", "j9", "j10"]), 9), "j8 … j10");
+        assert_eq!(runs(&list(&["ä1", "ä2", "ä3"]), 9), "ä1 … ä3");
+        assert!(!counts_up("a1b1", "a2b2") && !counts_up("a", "a1") && !counts_up("", ""));
+    }
+
+    #[test]
     fn figures_have_three_digits() {
         for (value, text) in [
             (0.3, "0.3"),
@@ -106,6 +183,21 @@ mod tests {
             (9999.0, "1e4"),
         ] {
             assert_eq!(figure(value), text);
+        }
+    }
+
+    #[test]
+    fn lengths_come_in_the_unit_that_fits() {
+        for (value, text) in [
+            (0.0, "0 m"),
+            (1.25, "1.25 m"),
+            (-0.012, "-12 mm"),
+            (9.6e-6, "9.6 µm"),
+            (0.000_999_6, "1 mm"),
+            (2e-9, "2 nm"),
+            (3.5e-14, "3.5e-14 m"),
+        ] {
+            assert_eq!(metres(value), text);
         }
     }
 

@@ -6,6 +6,7 @@
 
 use super::VerificationError;
 use super::driven_way::{DrivenWay, RATE, value, ways_along};
+use super::excitation::MOST_SPREAD;
 use super::observer::{Moment, Observer, Passage};
 use super::prediction::Prediction;
 use super::verify::{VerificationOptions, largest_gap};
@@ -13,12 +14,16 @@ use crate::closure::{Geometry, JointState, variable_unit};
 use crate::mechanism::Mechanism;
 use crate::mobility::{Analysis, Branch, Structure};
 use crate::motion::Variable;
-use crate::simulate::{Drive, World, WorldOptions};
+use crate::simulate::{Drive, Masses, World, WorldOptions};
 use std::time::{Duration, Instant};
 
 /// Largest torque of a drive, in moments of inertia of the whole mechanism (mass × length²) per s². A mechanism of its own
 /// size and mass comes to speed in a thirtieth of a second.
 const EFFORT: f64 = 30.0;
+
+/// Loads up to this, in masses of a typical link times the square of the characteristic length, are moved by that; for
+/// more the torque grows in proportion, to a third of what would bring the load to its pace in a tenth of a second.
+const LOAD: f64 = 10.0;
 
 /// What holds an input gets ten times as much: it has to stand what the drive does.
 const HOLDING_EFFORT: f64 = 300.0;
@@ -55,6 +60,7 @@ pub struct DrivenMotion<'a> {
     length: f64,
     /// So many moments of a passage are measured and shown.
     moments: usize,
+    masses: Masses,
 }
 
 /// What one simulation of a driven motion showed.
@@ -93,6 +99,23 @@ impl<'a> DrivenMotion<'a> {
         branch: &Branch,
         options: &VerificationOptions,
     ) -> Result<Vec<Self>, String> {
+        Self::along_those_wanted(mechanism, geometry, analysis, branch, options, &mut |_| {
+            true
+        })
+    }
+
+    /// As [`Self::along`], but each is asked for before it is traced, by the name of what drives it where that is known.
+    ///
+    /// # Errors
+    /// As [`Self::along`].
+    pub(super) fn along_those_wanted(
+        mechanism: &'a Mechanism,
+        geometry: &'a Geometry<f64>,
+        analysis: &'a Analysis,
+        branch: &Branch,
+        options: &VerificationOptions,
+        wanted: &mut dyn FnMut(Option<&str>) -> bool,
+    ) -> Result<Vec<Self>, String> {
         let states = &analysis.assembly.states;
         let home = World::new(mechanism, geometry, states, &WorldOptions::default())
             .map_err(|error| error.to_string())?;
@@ -103,10 +126,14 @@ impl<'a> DrivenMotion<'a> {
             (length, options.longest),
             analysis,
             branch,
-            options.configuration.as_deref(),
-            options.drive.as_deref(),
+            (options.configuration.as_deref(), options.drive.as_deref()),
+            wanted,
         )?;
         let freedom = loop_freedom(mechanism, &analysis.structure, branch);
+        let masses = match home.inertia_spread() > MOST_SPREAD {
+            true => Masses::Alike,
+            false => Masses::Stated,
+        };
         Ok(ways
             .into_iter()
             .map(|way| Self {
@@ -118,6 +145,7 @@ impl<'a> DrivenMotion<'a> {
                 freedom,
                 length,
                 moments: MOMENTS,
+                masses,
             })
             .collect())
     }
@@ -180,6 +208,33 @@ impl<'a> DrivenMotion<'a> {
         }
     }
 
+    /// So many moments of a passage are looked at.
+    #[must_use]
+    pub fn moments(&self) -> usize {
+        self.moments
+    }
+
+    /// The masses it is simulated with.
+    #[must_use]
+    pub fn masses(&self) -> Masses {
+        self.masses
+    }
+
+    /// With masses of one's choice.
+    #[must_use]
+    pub fn with_masses(self, masses: Masses) -> Self {
+        Self { masses, ..self }
+    }
+
+    /// By how much a drive has to be stronger than one that moves a mechanism of its own size and mass: a tree of forty
+    /// links is more than that. One for all smaller ones.
+    fn load(&self, world: &World) -> f64 {
+        let joint = &self.mechanism.joints()[self.way.driven.joint];
+        let frame = world.link_poses()[joint.predecessor.link.0]
+            .compose(&self.geometry.sides[self.way.driven.joint][0]);
+        (world.load_about(&frame.translation) / LOAD).max(1.0)
+    }
+
     /// Goes the way once.
     ///
     /// # Errors
@@ -192,8 +247,15 @@ impl<'a> DrivenMotion<'a> {
     ) -> Result<DrivenRun, VerificationError> {
         let begun = Instant::now();
         let way = &self.way;
-        let mut world = World::new(self.mechanism, self.geometry, &way.start, options)?;
+        let mut world = World::with_masses(
+            self.mechanism,
+            self.geometry,
+            &way.start,
+            options,
+            self.masses,
+        )?;
         let (_, effort) = world.scale();
+        let effort = effort * self.load(&world);
         let unit = |input: &Variable| {
             let kind = self.mechanism.joints()[input.joint].kind;
             variable_unit(kind.freedoms()[input.freedom], self.length)

@@ -95,8 +95,9 @@ pub(super) fn value(
     }
 }
 
-/// The ways along a branch of a mechanism of some characteristic length (m), cut short where they would take longer (s), one for each part of the mechanism that has loops and moves; one in all for mechanisms without
-/// loops.
+/// The ways along a branch of a mechanism of some characteristic length (m), cut short where they would take longer (s),
+/// one for each part of the mechanism that has loops and moves; one in all for mechanisms without loops. Before one is
+/// traced it is asked for, by the name of what drives it where that is known; what is refused is left out.
 ///
 /// # Errors
 /// Why there is none, in words.
@@ -106,9 +107,12 @@ pub(super) fn ways_along(
     (length, longest): (f64, f64),
     analysis: &Analysis,
     branch: &Branch,
-    configuration: Option<&str>,
-    drive: Option<&str>,
+    (configuration, drive): (Option<&str>, Option<&str>),
+    wanted: &mut dyn FnMut(Option<&str>) -> bool,
 ) -> Result<Vec<DrivenWay>, String> {
+    if !wanted(drive) {
+        return Ok(Vec::new());
+    }
     let first = motion_of(mechanism, analysis, branch, configuration, drive)?;
     let mut ways = vec![way_of(mechanism, geometry, (length, longest), first)?];
     if drive.is_some() {
@@ -137,6 +141,9 @@ pub(super) fn ways_along(
             }
         }
         let Some((_, variable)) = best else { continue };
+        if !wanted(Some(&variable.name)) {
+            continue;
+        }
         let motion = motion_of(
             mechanism,
             analysis,

@@ -8,12 +8,13 @@
 //! A blow is spread over one very short step. In the steps after it, as short, nothing moves noticeably while the solver,
 //! sweep by sweep, comes to the velocities that fit all joints; what still violates them is measured, joint by joint.
 
+use super::budget::Size;
 use super::scale::LinkInertia;
 use super::{Finding, Outcome, VerificationError};
 use crate::closure::{Geometry, JointState, Rigid, cross_product, spanning_poses};
 use crate::matrix::SplitMix64;
 use crate::mechanism::Mechanism;
-use crate::simulate::{Solver, World, WorldOptions};
+use crate::simulate::{Masses, Solver, World, WorldOptions};
 use faer::Mat;
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -32,10 +33,19 @@ const SUBSTEPS: usize = 32;
 /// Steps after which velocities that do not settle are given up.
 const SETTLING_STEPS: usize = 1000;
 
+/// In large mechanisms fewer, so that settling takes no more than this work in all (s), but not fewer than that many.
+const SETTLING_COST: f64 = 5.0;
+/// See [`SETTLING_COST`].
+const FEWEST_SETTLING_STEPS: usize = 8;
+
 /// Velocities have settled when no joint's are off by more than this share of the largest velocity. Directions that the
 /// joints hold back by a small singular value σ only settle to share/σ: where the first count is not the one expected, it
 /// is repeated with the second.
 const SETTLED: [f64; 2] = [1e-4, 1e-6];
+
+/// Where the inertias of links lie farther apart than this, all links get the same: the sweeps of the solver pass an impulse
+/// on through a light link in as many small corrections as its neighbours are heavier.
+pub(super) const MOST_SPREAD: f64 = 100.0;
 
 /// Responses in free directions have to stand out of those in locked ones by this factor. The singular values of random
 /// projections spread by about the number of blows over the spare ones, (n + 4)/4.
@@ -77,12 +87,54 @@ pub fn count_freedoms(
     seed: u64,
 ) -> Result<FreedomCount, VerificationError> {
     let predicted = (finite.min(expected), expected);
+    let masses = match World::new(mechanism, geometry, states, &WorldOptions::default())?
+        .inertia_spread()
+        > MOST_SPREAD
+    {
+        true => Masses::Alike,
+        false => Masses::Stated,
+    };
+    let first = count_with(mechanism, geometry, states, predicted, masses, seed)?;
+    // What masses make of it is no matter of freedom.
+    if first.finding.outcome == Outcome::Confirmed || masses == Masses::Alike {
+        return Ok(first);
+    }
+    let second = count_with(mechanism, geometry, states, predicted, Masses::Alike, seed)?;
+    Ok(match second.finding.outcome {
+        Outcome::Confirmed => second,
+        Outcome::Contradicted | Outcome::Inconclusive => first,
+    })
+}
+
+fn count_with(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    states: &[JointState<f64>],
+    predicted: (usize, usize),
+    masses: Masses,
+    seed: u64,
+) -> Result<FreedomCount, VerificationError> {
+    let expected = predicted.1;
     let [roughly, well] = SETTLED;
-    let first = count_settled(mechanism, geometry, states, predicted, roughly, seed)?;
+    let first = count_settled(
+        mechanism,
+        geometry,
+        states,
+        predicted,
+        (roughly, masses, false),
+        seed,
+    )?;
     if first.finding.outcome == Outcome::Confirmed {
         return Ok(first);
     }
-    let mut second = count_settled(mechanism, geometry, states, predicted, well, seed)?;
+    let mut second = count_settled(
+        mechanism,
+        geometry,
+        states,
+        predicted,
+        (well, masses, true),
+        seed,
+    )?;
     let steady = steady(&first.singular_values, &second.singular_values);
     if steady < second.found {
         second.finding = if (predicted.0..=expected).contains(&steady) {
@@ -127,7 +179,7 @@ fn count_settled(
     geometry: &Geometry<f64>,
     states: &[JointState<f64>],
     predicted: (usize, usize),
-    settled: f64,
+    (settled, masses, couplings): (f64, Masses, bool),
     seed: u64,
 ) -> Result<FreedomCount, VerificationError> {
     let options = WorldOptions {
@@ -137,12 +189,17 @@ fn count_settled(
         ..WorldOptions::default()
     };
     let blows = predicted.1 + SPARE_BLOWS;
-    let joints = JointTwists::at(mechanism, geometry, states);
+    let mut joints = JointTwists::at(mechanism, geometry, states);
+    if !couplings {
+        joints.couplings.clear();
+    }
+    let step = Size::of(mechanism, 0).steps(blows as f64, SUBSTEPS);
+    let most = ((SETTLING_COST / step) as usize).clamp(FEWEST_SETTLING_STEPS, SETTLING_STEPS);
     let mut random = SplitMix64::new(seed);
     let mut responses = Vec::with_capacity(blows);
     let mut unsettled: f64 = 0.0;
     for _ in 0..blows {
-        let mut world = World::new(mechanism, geometry, states, &options)?;
+        let mut world = World::with_masses(mechanism, geometry, states, &options, masses)?;
         let poses = world.link_poses();
         let (length, energy) = world.scale();
         let bodies = world.link_inertias();
@@ -152,7 +209,7 @@ fn count_settled(
             }
         }
         let mut left = f64::INFINITY;
-        for _ in 0..SETTLING_STEPS {
+        for _ in 0..most {
             world.step()?;
             let (off, largest) = joints.violation(&world.link_twists(), length);
             left = if largest > 0.0 { off / largest } else { 0.0 };
@@ -171,7 +228,11 @@ fn count_settled(
 
 /// What twists the joints allow at a pose: for each joint the two links and an orthonormal basis, angular parts in rad/s and
 /// linear ones, about the predecessor's joint frame, in characteristic lengths per second.
-struct JointTwists(Vec<AllowedTwists>);
+struct JointTwists {
+    joints: Vec<AllowedTwists>,
+    /// Of every coupling its terms: the joint, and its factor.
+    couplings: Vec<Vec<(usize, f64)>>,
+}
 
 struct AllowedTwists {
     links: [usize; 2],
@@ -182,8 +243,9 @@ struct AllowedTwists {
 impl JointTwists {
     fn at(mechanism: &Mechanism, geometry: &Geometry<f64>, states: &[JointState<f64>]) -> Self {
         let (poses, _) = spanning_poses(mechanism, geometry, states);
-        Self(
-            mechanism
+        Self {
+            couplings: geometry.couplings.iter().map(|c| c.0.clone()).collect(),
+            joints: mechanism
                 .joints()
                 .iter()
                 .enumerate()
@@ -206,13 +268,14 @@ impl JointTwists {
                     }
                 })
                 .collect(),
-        )
+        }
     }
 
-    /// The largest part of a relative velocity that a joint does not allow, and the largest velocity of all.
+    /// The largest part of a relative velocity that a joint or a coupling does not allow, and the largest velocity of all.
     fn violation(&self, twists: &[[f64; 6]], length: f64) -> (f64, f64) {
         let (mut off, mut largest) = (0.0f64, 0.0f64);
-        for joint in &self.0 {
+        let mut rates = Vec::with_capacity(self.joints.len());
+        for joint in &self.joints {
             let [predecessor, successor] = joint.links.map(|link| {
                 let [a, b, c, x, y, z] = twists[link];
                 let turned = cross_product(&[a, b, c], &joint.about);
@@ -227,6 +290,7 @@ impl JointTwists {
             });
             largest = largest.max(size(&predecessor)).max(size(&successor));
             let mut relative: [f64; 6] = std::array::from_fn(|i| successor[i] - predecessor[i]);
+            rates.push(joint.rate(&relative, length));
             let mut basis: Vec<[f64; 6]> = Vec::new();
             for screw in &joint.screws {
                 let mut screw = *screw;
@@ -240,7 +304,35 @@ impl JointTwists {
             basis.iter().for_each(|b| remove(&mut relative, b));
             off = off.max(size(&relative));
         }
+        for terms in &self.couplings {
+            let (mut sum, mut all) = (0.0f64, 0.0f64);
+            for &(joint, factor) in terms {
+                let (rate, unit) = rates[joint];
+                sum += factor * unit * rate;
+                all += (factor * unit).abs();
+            }
+            if all > 0.0 {
+                off = off.max((sum / all).abs());
+            }
+        }
         (off, largest)
+    }
+}
+
+impl AllowedTwists {
+    /// Rate of the joint's first variable (rad/s, characteristic lengths per second) in a relative velocity whose linear part
+    /// is in characteristic lengths, and what one such unit is in the variable's own. Couplings speak of joints of one
+    /// turn or one slide.
+    fn rate(&self, relative: &[f64; 6], length: f64) -> (f64, f64) {
+        let Some(screw) = self.screws.first() else {
+            return (0.0, 0.0);
+        };
+        let turns = screw[..3].iter().any(|x| *x != 0.0);
+        let unit = if turns { 1.0 } else { length };
+        let scaled: [f64; 6] =
+            std::array::from_fn(|i| screw[i] * unit / if i < 3 { 1.0 } else { length });
+        let along: f64 = scaled.iter().zip(relative).map(|(s, v)| s * v).sum();
+        (along / scaled.iter().map(|s| s * s).sum::<f64>(), unit)
     }
 }
 

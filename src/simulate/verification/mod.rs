@@ -21,8 +21,10 @@
 //! - [`judge_motion`]: what a ladder of errors says.
 //! - [`judge_pushing`]: what pushes of a rigid mechanism say.
 //! - [`count_freedoms`]: the rank of the response to blows at random.
+//! - `budget`: what may be simulated, counted in work.
 //! - [`Observer`]: logs and progress bars look on.
 
+mod budget;
 mod driven_motion;
 mod driven_way;
 mod error;

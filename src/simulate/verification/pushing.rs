@@ -6,12 +6,13 @@
 //! as much as the gap over the lever it acts on, and at a shaky pose by the square root of it.
 
 use super::VerificationError;
+use super::budget::{Budget, Size};
 use super::ladder::{Finding, LEVEL_ORDER, Outcome, order_between};
 use super::observer::{Moment, Observer, Passage};
 use crate::closure::{Geometry, JointState, variable_unit};
 use crate::mechanism::Mechanism;
 use crate::motion::Variable;
-use crate::simulate::{Drive, Solver, World, WorldOptions};
+use crate::simulate::{Drive, Masses, Solver, World, WorldOptions};
 use serde::Serialize;
 
 /// Seconds that a push lasts.
@@ -77,6 +78,7 @@ pub(super) struct Pushed<'a> {
     pub ladder: &'a [usize],
     /// Characteristic length (m).
     pub length: f64,
+    pub masses: Masses,
 }
 
 /// How one push went.
@@ -91,7 +93,11 @@ impl Pushed<'_> {
     ///
     /// # Errors
     /// Where no world can be made, or it diverges.
-    pub fn push_all(&self, observer: &mut dyn Observer) -> Result<Pushing, VerificationError> {
+    pub fn push_all(
+        &self,
+        (size, budget): (&Size, &mut Budget),
+        observer: &mut dyn Observer,
+    ) -> Result<Pushing, VerificationError> {
         let mut rungs: Vec<PushRung> = Vec::new();
         let mut left: Vec<(usize, usize, f64)> = Vec::new();
         for (joint, definition) in self.mechanism.joints().iter().enumerate() {
@@ -100,6 +106,19 @@ impl Pushed<'_> {
             }
         }
         for &substeps in self.ladder {
+            let steps = left.len() as f64 * (DURATION / self.time_step).ceil();
+            if !budget.affords(size.steps(steps, substeps)) {
+                let finding = match rungs.is_empty() {
+                    true => "no joint was pushed: that does not fit into",
+                    false => "something moved when pushed, and finer substeps do not fit into",
+                };
+                let finding = format!("{finding} {}", budget.words());
+                return Ok(Pushing {
+                    rungs,
+                    finding: Finding::new(Outcome::Inconclusive, finding),
+                    stopped: false,
+                });
+            }
             // What has stayed would stay at finer substeps all the more.
             let mut moved = Vec::new();
             let begun = std::time::Instant::now();
@@ -173,7 +192,13 @@ impl Pushed<'_> {
             substeps,
             ..WorldOptions::default()
         };
-        let mut world = World::new(self.mechanism, self.geometry, self.states, &options)?;
+        let mut world = World::with_masses(
+            self.mechanism,
+            self.geometry,
+            self.states,
+            &options,
+            self.masses,
+        )?;
         let (_, effort) = world.scale();
         // A force on a slider does the work of a torque on a lever of the characteristic length.
         let parts = self.mechanism.joints()[joint].kind.freedoms();

@@ -9,7 +9,9 @@
 //! None of it is a proof: it is evidence from physics that knows nothing of the analysis, and it is stated with the size
 //! of the defect that it could have missed.
 
+use super::budget::{Budget, Size, cost_of_count, cost_of_run};
 use super::driven_motion::DrivenMotion;
+use super::excitation::MOST_SPREAD;
 use super::ladder::{Finding, Outcome, Rung, judge_motion, order_between, undecided};
 use super::observer::Observer;
 use super::pushing::{Pushed, Pushing};
@@ -17,7 +19,7 @@ use super::{FreedomCount, VerificationError, count_freedoms};
 use crate::closure::Geometry;
 use crate::mechanism::Mechanism;
 use crate::mobility::{Analysis, Branch, Verdict};
-use crate::simulate::{JointGap, Solver, World, WorldOptions};
+use crate::simulate::{JointGap, Masses, Solver, World, WorldOptions};
 use serde::Serialize;
 
 /// How to verify.
@@ -41,6 +43,9 @@ pub struct VerificationOptions {
     pub whole_ladder: bool,
     /// Longest way that a drive goes along a branch, in seconds at a pace of a radian per second for the fastest joint.
     pub longest: f64,
+    /// Work to spend, in seconds on a usual machine, counted in steps and sizes and not by the clock, so that the answer is
+    /// the same everywhere; as much as it takes if `None`.
+    pub budget: Option<f64>,
 }
 
 impl Default for VerificationOptions {
@@ -56,6 +61,7 @@ impl Default for VerificationOptions {
             seed: 1,
             whole_ladder: false,
             longest: 10.0,
+            budget: None,
         }
     }
 }
@@ -94,6 +100,9 @@ pub struct BranchVerification {
     pub ladders: Vec<Ladder>,
     /// The freedoms counted at a generic pose; `None` where none was at hand.
     pub freedoms: Option<FreedomCount>,
+    /// What the budget did not allow, for people.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub untested: Vec<String>,
     /// What follows of all that.
     pub finding: Finding,
 }
@@ -164,12 +173,7 @@ pub fn verify(
             ..WorldOptions::default()
         },
     )?;
-    let (length, _) = home.scale();
-    verification.notes = home
-        .notes()
-        .iter()
-        .map(|note| format!("{}: {}", note.about, note.text))
-        .collect();
+    verification.notes = notes(mechanism, &home);
     if !home.not_simulated().is_empty() {
         verification.finding.why = format!(
             "the engine cannot hold {}: what it would simulate is another mechanism",
@@ -178,14 +182,24 @@ pub fn verify(
         return Ok(verification);
     }
     if analysis.mobility.verdict == Verdict::Rigid {
-        verify_rigid(mechanism, geometry, analysis, options, length, observer)
+        verify_rigid(mechanism, geometry, analysis, options, &home, observer)
             .map(|pushing| verification.with_pushing(pushing))
     } else {
-        let test = Test {
+        let looped = analysis
+            .structure
+            .parts
+            .iter()
+            .flat_map(|part| &part.joints);
+        let looped = looped
+            .map(|&joint| mechanism.joints()[joint].freedom())
+            .sum();
+        let mut test = Test {
             mechanism,
             geometry,
             analysis,
             options,
+            size: Size::of(mechanism, looped),
+            budget: Budget::new(options.budget),
         };
         for branch in chosen {
             let (found, stopped) = test.branch(branch, observer)?;
@@ -200,16 +214,50 @@ pub fn verify(
     }
 }
 
+/// The masses to verify with.
+fn masses_of(home: &World) -> Masses {
+    match home.inertia_spread() > MOST_SPREAD {
+        true => Masses::Alike,
+        false => Masses::Stated,
+    }
+}
+
+/// How the worlds are made: of masses only that they are not the file's, where they are not.
+fn notes(mechanism: &Mechanism, home: &World) -> Vec<String> {
+    let all = home.notes().iter();
+    let alike = masses_of(home) == Masses::Alike;
+    let is_link = |name: &str| mechanism.link_named(name).is_some();
+    let mut notes: Vec<String> = all
+        .filter(|note| !(alike && is_link(&note.about)))
+        .map(|note| format!("{}: {}", note.about, note.text))
+        .collect();
+    if alike {
+        notes.insert(
+            0,
+            format!(
+                "{}: every link has the same mass and moments of inertia here, since those stated or derived lie a factor of \
+                 {:.0e} apart, which the engine's solver does not bear; how a mechanism can move does not depend on them",
+                mechanism.name(),
+                home.inertia_spread()
+            ),
+        );
+    }
+    notes
+}
+
 /// Pushes with one solver after the other until one shows that nothing moves; `None` where there is none to push with.
 fn verify_rigid(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
     analysis: &Analysis,
     options: &VerificationOptions,
-    length: f64,
+    home: &World,
     observer: &mut dyn Observer,
 ) -> Result<Option<Pushing>, VerificationError> {
     let mut first = None;
+    let (size, mut budget) = (Size::of(mechanism, 0), Budget::new(options.budget));
+    let masses = masses_of(home);
+    let length = home.scale().0;
     for &solver in &options.solvers {
         let pushed = Pushed {
             mechanism,
@@ -219,8 +267,9 @@ fn verify_rigid(
             time_step: options.time_step,
             ladder: &options.ladder,
             length,
+            masses,
         };
-        let pushing = pushed.push_all(observer)?;
+        let pushing = pushed.push_all((&size, &mut budget), observer)?;
         if pushing.stopped || pushing.finding.outcome == Outcome::Confirmed {
             return Ok(Some(pushing));
         }
@@ -290,6 +339,21 @@ fn together(branches: &[BranchVerification], stopped: bool) -> Finding {
     }
 }
 
+fn driven_by(name: &str) -> String {
+    format!("driven by `{name}`")
+}
+
+/// Things left out that are named; of more the rest is counted.
+const NAMED: usize = 3;
+
+fn listed(things: &[String]) -> String {
+    let named = things[..things.len().min(NAMED)].join(", ");
+    match things.len().saturating_sub(NAMED) {
+        0 => named,
+        more => format!("{named} and {more} more"),
+    }
+}
+
 /// The outcome of one way, from the solvers tried: one that confirms is enough, since a solver can fail to move what moves
 /// but not close what does not fit; a contradiction has to come from all of them.
 fn of_one_way(ladders: &[Ladder]) -> Finding {
@@ -305,12 +369,14 @@ struct Test<'a> {
     geometry: &'a Geometry<f64>,
     analysis: &'a Analysis,
     options: &'a VerificationOptions,
+    size: Size,
+    budget: Budget,
 }
 
 impl Test<'_> {
     /// Tests one branch; also whether an observer broke it off.
     fn branch(
-        &self,
+        &mut self,
         branch: &Branch,
         observer: &mut dyn Observer,
     ) -> Result<(BranchVerification, bool), VerificationError> {
@@ -319,14 +385,32 @@ impl Test<'_> {
             dimension: branch.dimension,
             ladders: Vec::new(),
             freedoms: None,
+            untested: Vec::new(),
             finding: Finding::new(Outcome::Inconclusive, String::new()),
         };
-        let motions = match DrivenMotion::along(
+        let options = VerificationOptions {
+            longest: self.longest(),
+            ..self.options.clone()
+        };
+        let (budget, untested) = (&mut self.budget, &mut found.untested);
+        let cost = self.size.trace();
+        let mut wanted = |drive: Option<&str>| {
+            let fits = budget.affords(cost);
+            if !fits {
+                untested.push(match drive {
+                    Some(name) => driven_by(name),
+                    None => "any drive".to_owned(),
+                });
+            }
+            fits
+        };
+        let motions = match DrivenMotion::along_those_wanted(
             self.mechanism,
             self.geometry,
             self.analysis,
             branch,
-            self.options,
+            &options,
+            &mut wanted,
         ) {
             Ok(motions) => motions,
             Err(why) => {
@@ -335,45 +419,145 @@ impl Test<'_> {
             }
         };
         let mut findings = Vec::new();
-        for motion in &motions {
+        // The count first: it speaks of all freedoms at once.
+        let count = self.count(branch, &mut found)?;
+        for motion in motions {
+            let moments = self.size.moments(motion.moments());
+            let motion = motion.looked_at(moments);
             let begun = found.ladders.len();
-            for &solver in &self.options.solvers {
-                let (ladder, stopped) = self.ladder(motion, solver, observer)?;
-                let confirmed = ladder.finding.outcome == Outcome::Confirmed;
-                found.ladders.push(ladder);
-                if stopped {
+            if self.tries(&motion, &mut found, observer)? {
+                found.finding.why = "broken off".to_owned();
+                return Ok((found, true));
+            }
+            let mut finding = of_one_way(&found.ladders[begun..]);
+            if finding.outcome == Outcome::Contradicted && motion.masses() == Masses::Stated {
+                // What is heavy may stall a drive: masses are no matter of how it can move.
+                let motion = motion.with_masses(Masses::Alike);
+                let again = found.ladders.len();
+                if self.tries(&motion, &mut found, observer)? {
                     found.finding.why = "broken off".to_owned();
                     return Ok((found, true));
                 }
-                if confirmed && !self.options.whole_ladder {
-                    break;
+                if found.ladders.len() == again {
+                    self.doubt(&mut finding);
+                } else {
+                    finding = of_one_way(&found.ladders[again..]);
                 }
             }
-            findings.push(of_one_way(&found.ladders[begun..]));
+            if found.ladders.len() > begun {
+                findings.push(finding);
+            }
         }
-        if let (Some(pose), Some(expected)) = (branch.poses.first(), branch.instantaneous) {
-            let count = count_freedoms(
-                self.mechanism,
-                self.geometry,
-                &pose.states,
-                (branch.dimension, expected),
-                self.options.seed,
-            )?;
-            findings.push(count.finding.clone());
-            found.freedoms = Some(count);
-        }
-        let of = |outcome| findings.iter().find(|f| f.outcome == outcome);
-        if let Some(finding) = of(Outcome::Contradicted)
-            .or_else(|| of(Outcome::Inconclusive))
-            .or_else(|| findings.first())
-        {
-            found.finding = finding.clone();
-        }
+        findings.extend(count);
+        found.finding = self.whole(&findings, &found.untested);
         Ok((found, false))
     }
 
+    /// How long a way may last (s) for one along every part to be tested.
+    fn longest(&self) -> f64 {
+        let ways = match &self.options.drive {
+            Some(_) => 1,
+            None => self.analysis.structure.parts.len().max(1),
+        };
+        let ladder = (self.options.time_step, self.options.ladder.as_slice());
+        self.budget
+            .longest(&self.size, ways, ladder, self.options.longest)
+    }
+
+    /// Counts the freedoms at a generic pose of the branch, if there is one and the budget allows it.
+    fn count(
+        &mut self,
+        branch: &Branch,
+        found: &mut BranchVerification,
+    ) -> Result<Option<Finding>, VerificationError> {
+        let (Some(pose), Some(expected)) = (branch.poses.first(), branch.instantaneous) else {
+            return Ok(None);
+        };
+        if !self.budget.affords(cost_of_count(&self.size, expected)) {
+            found.untested.push("the count of freedoms".to_owned());
+            return Ok(None);
+        }
+        let count = count_freedoms(
+            self.mechanism,
+            self.geometry,
+            &pose.states,
+            (branch.dimension, expected),
+            self.options.seed,
+        )?;
+        let finding = count.finding.clone();
+        found.freedoms = Some(count);
+        Ok(Some(finding))
+    }
+
+    /// One way with one solver after the other until one confirms; whether an observer broke it off.
+    fn tries(
+        &mut self,
+        motion: &DrivenMotion<'_>,
+        found: &mut BranchVerification,
+        observer: &mut dyn Observer,
+    ) -> Result<bool, VerificationError> {
+        let solvers = self.options.solvers.clone();
+        for (index, &solver) in solvers.iter().enumerate() {
+            let (ladder, stopped) = self.ladder(motion, solver, observer)?;
+            let confirmed = ladder.finding.outcome == Outcome::Confirmed;
+            if ladder.rungs.is_empty() && !stopped {
+                // Nothing of it fits into the budget.
+                match found.ladders.last_mut().filter(|_| index > 0) {
+                    None => found.untested.push(driven_by(&ladder.driven)),
+                    Some(before) => self.doubt(&mut before.finding),
+                }
+                return Ok(false);
+            }
+            found.ladders.push(ladder);
+            if stopped {
+                return Ok(true);
+            }
+            if confirmed && !self.options.whole_ladder {
+                break;
+            }
+        }
+        Ok(false)
+    }
+
+    /// A contradiction has to come from every solver and with any masses: one that could not be tried anew is none.
+    fn doubt(&self, finding: &mut Finding) {
+        if finding.outcome == Outcome::Contradicted {
+            finding.outcome = Outcome::Inconclusive;
+            let text = format!(
+                "; to try it another way does not fit into {}",
+                self.budget.words()
+            );
+            finding.why.push_str(&text);
+        }
+    }
+
+    /// What all findings about a branch come to, with what was left out.
+    fn whole(&self, findings: &[Finding], untested: &[String]) -> Finding {
+        let of = |outcome| findings.iter().find(|f| f.outcome == outcome);
+        if let Some(finding) = of(Outcome::Contradicted).or_else(|| of(Outcome::Inconclusive)) {
+            return finding.clone();
+        }
+        match (findings, untested) {
+            ([], []) => Finding::new(Outcome::Inconclusive, String::new()),
+            ([first, ..], []) => first.clone(),
+            (tested, _) => Finding::new(
+                Outcome::Inconclusive,
+                format!(
+                    "within {} {} confirmed; not tested: {}",
+                    self.budget.words(),
+                    match tested.len() {
+                        0 => "nothing was".to_owned(),
+                        1 => "one test is".to_owned(),
+                        many => format!("all {many} tests made are"),
+                    },
+                    listed(untested)
+                ),
+            ),
+        }
+    }
+
     fn ladder(
-        &self,
+        &mut self,
         motion: &DrivenMotion<'_>,
         solver: Solver,
         observer: &mut dyn Observer,
@@ -390,7 +574,14 @@ impl Test<'_> {
             finding: Finding::new(Outcome::Inconclusive, String::new()),
         };
         let mut decided = None;
-        for &substeps in &self.options.ladder {
+        let mut spent = false;
+        let rungs = self.options.ladder.clone();
+        for &substeps in &rungs {
+            let cost = cost_of_run(&self.size, motion, self.options.time_step, substeps);
+            if !self.budget.affords(cost) {
+                spent = true;
+                break;
+            }
             let options = WorldOptions {
                 solver,
                 time_step: self.options.time_step,
@@ -423,6 +614,10 @@ impl Test<'_> {
             }
         }
         ladder.finding = decided.unwrap_or_else(|| undecided(&ladder.rungs));
+        if spent && ladder.finding.outcome == Outcome::Inconclusive && !ladder.rungs.is_empty() {
+            let spent = format!("; finer ones do not fit into {}", self.budget.words());
+            ladder.finding.why.push_str(&spent);
+        }
         Ok((ladder, false))
     }
 }

@@ -1,0 +1,123 @@
+//! Where a ROS package is.
+//!
+//! Looked for in turn: what the caller says; the folders that ROS itself would look in (`ROS_PACKAGE_PATH`,
+//! `AMENT_PREFIX_PATH`); and around the file, since published robots lie beside the packages that they need: every folder
+//! above the file, and the packages below it, nearest first.
+
+use super::files::folder_of;
+use super::{Run, files};
+use std::collections::VecDeque;
+use std::path::{Path, PathBuf};
+
+/// Folders above a file that are looked at.
+const HIGHEST: usize = 8;
+/// Levels of folders below each of them.
+const DEEPEST: usize = 3;
+/// Folders that are looked at altogether.
+const MOST_FOLDERS: usize = 20_000;
+
+impl Run<'_> {
+    /// The value of `$(find package)`; where it is not found, its address: a mesh there is of no importance here.
+    pub(super) fn package(&mut self, name: &str) -> String {
+        match self.find_package(name) {
+            Some(folder) => folder.to_string_lossy().into_owned(),
+            None => format!("package://{name}"),
+        }
+    }
+
+    pub(super) fn find_package(&mut self, name: &str) -> Option<PathBuf> {
+        if name.is_empty() || name.contains(['/', '\\']) || name.starts_with('.') {
+            return None;
+        }
+        if let Some(known) = self.files.packages.get(name) {
+            return known.clone();
+        }
+        let found = self.search(name);
+        self.files.packages.insert(name.to_owned(), found.clone());
+        found
+    }
+
+    fn search(&self, name: &str) -> Option<PathBuf> {
+        let given = self
+            .options
+            .packages
+            .iter()
+            .rev()
+            .find(|(own, _)| own == name);
+        if let Some((_, path)) = given {
+            return Some(path.clone());
+        }
+        let mut left = MOST_FOLDERS;
+        for folder in folders_of("ROS_PACKAGE_PATH") {
+            if let Some(found) = below(&folder, name, DEEPEST, &mut left) {
+                return Some(found);
+            }
+        }
+        for prefix in folders_of("AMENT_PREFIX_PATH") {
+            let share = prefix.join("share").join(name);
+            if share.is_dir() {
+                return Some(share);
+            }
+        }
+        let main = self.files.get(0).and_then(files::File::path)?;
+        let start = std::path::absolute(folder_of(main)).ok()?;
+        start.ancestors().take(HIGHEST).find_map(|folder| {
+            // The whole disk, or all users' folders, are not searched.
+            let levels = DEEPEST.min(folder.ancestors().count() - 1);
+            below(folder, name, levels, &mut left).filter(|_| levels > 0)
+        })
+    }
+}
+
+fn folders_of(variable: &str) -> Vec<PathBuf> {
+    let value = std::env::var_os(variable).unwrap_or_default();
+    std::env::split_paths(&value)
+        .filter(|path| !path.as_os_str().is_empty())
+        .collect()
+}
+
+/// The package in a folder or below it, the highest first.
+fn below(folder: &Path, name: &str, levels: usize, left: &mut usize) -> Option<PathBuf> {
+    let mut waiting = VecDeque::from([(folder.to_path_buf(), 0)]);
+    // A folder of the name that does not say it is a package is taken where none does.
+    let mut named = None;
+    while let Some((folder, depth)) = waiting.pop_front() {
+        *left = left.checked_sub(1)?;
+        match declared_name(&folder) {
+            Some(own) if own == name => return Some(folder),
+            None if named.is_none() && folder.file_name().is_some_and(|own| own == name) => {
+                named = Some(folder.clone());
+            }
+            _ => {}
+        }
+        if depth >= levels {
+            continue;
+        }
+        let Ok(entries) = std::fs::read_dir(&folder) else {
+            continue;
+        };
+        let mut inner: Vec<PathBuf> = entries
+            .flatten()
+            .filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_dir()))
+            .filter(|entry| !entry.file_name().to_string_lossy().starts_with('.'))
+            .map(|entry| entry.path())
+            .collect();
+        inner.sort_unstable();
+        waiting.extend(inner.into_iter().map(|path| (path, depth + 1)));
+    }
+    named
+}
+
+/// The name that `package.xml` of a folder states.
+fn declared_name(folder: &Path) -> Option<String> {
+    const LARGEST: u64 = 1 << 20;
+    let path = folder.join("package.xml");
+    let known = std::fs::metadata(&path).ok()?;
+    if !known.is_file() || known.len() > LARGEST {
+        return None;
+    }
+    let text = files::read_text(&path).ok()?;
+    let start = text.find("<name>")? + "<name>".len();
+    let end = text[start..].find("</name>")? + start;
+    Some(text[start..end].trim().to_owned())
+}

@@ -1,0 +1,57 @@
+//! The sentence on literals that were read as constants.
+
+use super::super::schema::Constants;
+use super::words::counted;
+
+/// Readings that are shown.
+const SHOWN: usize = 3;
+
+/// `31 literals read as what they are within their digits: `1.5707963267948966` = π/2, …`
+pub(super) fn sentence(constants: &Constants) -> String {
+    let shown: Vec<String> = constants
+        .readings
+        .iter()
+        .take(SHOWN)
+        .map(|reading| format!("`{}` = {}", reading.literal, reading.read_as))
+        .collect();
+    let more = match constants.readings.len() > SHOWN {
+        true => ", …",
+        false => "",
+    };
+    format!(
+        " {} read as what they are within their digits: {}{more} (`--literal` takes them as written).",
+        counted(constants.count, "literal"),
+        shown.join(", ")
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::schema::LiteralReading;
+    use super::*;
+
+    #[test]
+    fn the_first_readings_are_shown() {
+        let reading = |literal: &str, read_as: &str| LiteralReading {
+            literal: literal.to_owned(),
+            read_as: read_as.to_owned(),
+        };
+        let mut constants = Constants {
+            count: 31,
+            readings: vec![
+                reading("1.5707963267948966", "π/2"),
+                reading("6.123e-17", "0"),
+            ],
+        };
+        assert_eq!(
+            sentence(&constants),
+            " 31 literals read as what they are within their digits: `1.5707963267948966` = π/2, `6.123e-17` = 0 (`--literal` \
+             takes them as written)."
+        );
+        constants.readings.extend([
+            reading("0.7853981633974483", "π/4"),
+            reading("3.14159265", "π"),
+        ]);
+        assert!(sentence(&constants).contains("π/4, … ("));
+    }
+}

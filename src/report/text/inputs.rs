@@ -1,0 +1,190 @@
+//! What moves the mechanism: its inputs, whether they are enough, and how its freedoms are shared among its limbs.
+
+use super::cite;
+use super::page::Page;
+use super::sections::limit;
+use super::style::Tint;
+use super::words::{counted, names};
+use crate::report::schema::{DependentInput, InputSource, Inputs, Report};
+
+/// Limbs named on a first screen.
+const LIMBS: usize = 8;
+
+/// Dependent inputs told one by one.
+const DEPENDENT: usize = 4;
+
+/// The section; left out where it would say nothing that is not plain.
+pub(in crate::report) fn inputs(report: &Report, page: &mut Page) {
+    let Some(inputs) = &report.inputs else { return };
+    let sentences = sentences(report, inputs, limit(page));
+    if sentences.is_empty() {
+        return;
+    }
+    page.heading(&format!("Inputs ({})", cite::INPUT));
+    for (text, tint) in sentences {
+        page.paragraph(&text, tint, "  ", "  ");
+    }
+}
+
+fn sentences(report: &Report, inputs: &Inputs, most: usize) -> Vec<(String, Tint)> {
+    let tied = report.size.loops > 0 || report.size.couplings > 0;
+    let mut all = Vec::new();
+    match inputs.source {
+        None => {
+            // Of a tree every joint is an input, and one crank is quickly found.
+            let useful = report
+                .freedoms
+                .as_ref()
+                .map_or(0, |freedoms| freedoms.useful);
+            if !tied || useful < 2 || inputs.proposed.is_empty() {
+                return all;
+            }
+            let text = if inputs.complete {
+                format!(
+                    "None is stated; enough would be {}.",
+                    quoted(&inputs.proposed, most)
+                )
+            } else {
+                format!(
+                    "None is stated; to begin with: {}.",
+                    quoted(&inputs.proposed, most)
+                )
+            };
+            all.push((text, Tint::Plain));
+        }
+        Some(source) => {
+            let incomplete = inputs.left != Some(0) || !inputs.dependent.is_empty();
+            if !tied && source != InputSource::Asked && !incomplete {
+                return all;
+            }
+            all.push(verdict(report, inputs, source, most));
+            if tied && !inputs.dependent.is_empty() {
+                all.push((dependent(inputs, most), Tint::Notable));
+            }
+            if let (Some(here), Some(independent)) = (inputs.independent_here, inputs.independent)
+                && here < independent
+            {
+                let text = format!(
+                    "At this pose only {here} act independently: it is a dead centre of the inputs."
+                );
+                all.push((text, Tint::Notable));
+            }
+            if let Some(text) = missing(inputs, most) {
+                all.push((text, Tint::Notable));
+            }
+        }
+    }
+    if tied && let Some(text) = limbs(inputs) {
+        all.push((text, Tint::Plain));
+    }
+    all
+}
+
+fn verdict(report: &Report, inputs: &Inputs, source: InputSource, most: usize) -> (String, Tint) {
+    let whose = match source {
+        InputSource::Asked => "asked for",
+        InputSource::File => "actuated in the file",
+        InputSource::Independent => "marked as independent in the file",
+    };
+    let given = inputs.given.len();
+    let list = format!(
+        "{} {whose}: {}",
+        counted(given, "input"),
+        quoted(&inputs.given, most)
+    );
+    match (inputs.independent, inputs.left) {
+        (Some(independent), Some(left)) => {
+            let how = if independent == given {
+                match given {
+                    1 => String::new(),
+                    _ => "independent, ".to_owned(),
+                }
+            } else {
+                format!("{independent} of them independent, ")
+            };
+            let shares = report.freedoms.as_ref();
+            let does = match (left, shares.map(|shares| (shares.useful, shares.idle))) {
+                (0, Some((1, 0))) => "enough for the only degree of freedom".to_owned(),
+                (0, Some((useful, 0))) => format!("enough for all {useful} degrees of freedom"),
+                (0, Some((useful, idle))) => {
+                    format!(
+                        "enough for the useful degrees of freedom ({useful}), with {idle} idle left"
+                    )
+                }
+                (0, None) => "enough".to_owned(),
+                (1, _) => "1 degree of freedom is left".to_owned(),
+                (left, _) => format!("{left} degrees of freedom are left"),
+            };
+            let good = left == 0 && independent == given;
+            let tint = if good { Tint::Good } else { Tint::Notable };
+            (format!("{list}; {how}{does}."), tint)
+        }
+        _ => (
+            format!(
+                "{list}; whether they are independent and enough is not decided: a margin is too thin."
+            ),
+            Tint::Doubtful,
+        ),
+    }
+}
+
+/// Which inputs others determine.
+fn dependent(inputs: &Inputs, most: usize) -> String {
+    let tell = |dependent: &DependentInput| match dependent.on.as_deref() {
+        Some([]) => format!("`{}` cannot move", dependent.input),
+        Some(on) => format!("`{}` follows from {}", dependent.input, quoted(on, most)),
+        None => format!("`{}` follows from others", dependent.input),
+    };
+    let shown = inputs.dependent.len().min(DEPENDENT);
+    let mut parts: Vec<String> = inputs.dependent[..shown].iter().map(tell).collect();
+    if shown < inputs.dependent.len() {
+        parts.push(format!("and {} more", inputs.dependent.len() - shown));
+    }
+    format!("Dependent: {}.", parts.join("; "))
+}
+
+/// What would have to be driven too.
+fn missing(inputs: &Inputs, most: usize) -> Option<String> {
+    if inputs.left == Some(0) || inputs.proposed.is_empty() {
+        return None;
+    }
+    let list = quoted(&inputs.proposed, most);
+    Some(if inputs.complete {
+        format!("Missing, for example: {list}.")
+    } else {
+        format!("Missing, among others: {list}.")
+    })
+}
+
+fn limbs(inputs: &Inputs) -> Option<String> {
+    let base = inputs.base.as_ref()?;
+    let mut parts: Vec<String> = inputs
+        .limbs
+        .iter()
+        .take(LIMBS)
+        .map(|limb| match limb.idle {
+            0 => format!("`{}` {}", limb.end, limb.freedom),
+            idle => format!(
+                "`{}` {} + {idle} idle",
+                limb.end,
+                limb.freedom.saturating_sub(idle)
+            ),
+        })
+        .collect();
+    if inputs.limbs.len() > LIMBS {
+        parts.push(format!("and {} more limbs", inputs.limbs.len() - LIMBS));
+    }
+    let trunk = match inputs.trunk {
+        Some(freedom) if freedom > 0 => format!("; the trunk up to `{base}` {freedom}"),
+        _ => String::new(),
+    };
+    Some(format!(
+        "Freedoms by limb, seen from `{base}`: {}{trunk}.",
+        parts.join(", ")
+    ))
+}
+
+fn quoted(list: &[String], most: usize) -> String {
+    let quoted: Vec<String> = list.iter().map(|name| format!("`{name}`")).collect();
+    names(&quoted, most)
+}

@@ -1,0 +1,398 @@
+//! Loops in the words of other tools: what they mean, and that they are written back as loops.
+//!
+//! ```text
+//!   b ------- c          a stands; b, c and d are joined by revolute joints
+//!   |         |          about z; the loop is closed between b and c or
+//!   a ------- d          between c and d
+//! ```
+
+#![allow(clippy::unwrap_used)]
+
+mod format_support;
+
+use format_support::difference;
+use kutzbach::format::{Reading, read, write};
+use kutzbach::mechanism::{Joint, JointKind};
+use kutzbach::number::Number;
+
+fn reading(text: &str) -> Reading {
+    let reading =
+        read(text, "file", &[]).unwrap_or_else(|error| panic!("{error} {:?}\n{text}", error.help));
+    let written = write(&reading.mechanism);
+    let again = read(&written, "written", &[]).unwrap_or_else(|error| panic!("{error}\n{written}"));
+    assert_eq!(
+        difference(&reading.mechanism, &again.mechanism),
+        None,
+        "{written}"
+    );
+    reading
+}
+
+/// Three bars in a row on a, with something more; the second bar is turned by `rpy`.
+fn bars(rpy: &str, more: &str) -> String {
+    let joint = |name: &str, parent: &str, child: &str, origin: &str| {
+        format!(
+            "<joint name='{name}' type='continuous'><parent link='{parent}'/><child link='{child}'/>\
+             <origin {origin}/><axis xyz='0 0 1'/></joint>"
+        )
+    };
+    format!(
+        "<robot name='r' xmlns:drake='urn:drake' xmlns:joint='urn:joint'><link name='a'/><link name='b'/><link name='c'/><link name='d'/>\n{}{}{}\n{more}</robot>",
+        joint("ab", "a", "b", "xyz='0 1 0'"),
+        joint("bc", "b", "c", &format!("xyz='2 0 0' rpy='{rpy}'")),
+        joint("ad", "a", "d", "xyz='2 0 0'"),
+    )
+}
+
+fn values(numbers: &[Number]) -> Vec<f64> {
+    numbers.iter().map(Number::value).collect()
+}
+
+fn position(joint: &Joint) -> [Vec<f64>; 2] {
+    [&joint.predecessor, &joint.successor].map(|side| values(&side.frame.position))
+}
+
+fn last(reading: &Reading) -> &Joint {
+    reading.mechanism.joints().last().unwrap()
+}
+
+#[test]
+fn a_joint_inside_gazebo_closes_a_loop() {
+    let more = "<gazebo><joint name='dc' type='revolute'><parent>d</parent><child>r::c</child>\
+                <pose>0 -0.5 0 0 0 0</pose><axis><xyz>0 0 1</xyz><limit><lower>-1</lower><upper>1e16</upper></limit></axis>\
+                </joint></gazebo>";
+    let reading = reading(&bars("0 0 0", more));
+    let joint = last(&reading);
+    assert_eq!(
+        (joint.name.as_str(), joint.kind),
+        ("dc", JointKind::Revolute)
+    );
+    assert!(joint.closes_loop);
+    // c is at (2, 1) and d at (2, 0): the joint is half a metre above d.
+    assert_eq!(position(joint), [vec![0.0, 0.5, 0.0], vec![0.0, -0.5, 0.0]]);
+    assert_eq!(values(&joint.axis.0), [0.0, 0.0, 1.0]);
+    let limit = joint.limit.as_ref().unwrap();
+    assert_eq!(limit.lower.as_ref().map(Number::value), Some(-1.0));
+    assert!(limit.upper.is_none(), "1e16 is no limit");
+    assert_eq!(reading.format, "urdf+");
+    assert!(
+        reading.warnings[0]
+            .message
+            .contains("a tree with 3 degrees of freedom"),
+        "{:?}",
+        reading.warnings
+    );
+    assert!(reading.mechanism.precision().is_exact());
+}
+
+#[test]
+fn both_sides_of_a_joint_inside_gazebo_follow_from_the_home_pose() {
+    // c is turned by a quarter about x, then, in a second file, by angles without closed form.
+    for (rpy, is_exact) in [
+        ("${pi/2} 0 0", true),
+        ("0 ${pi/2} ${pi/4}", true),
+        ("0.3 0.2 0.1", false),
+    ] {
+        let more = "<gazebo><joint name='dc' type='ball'><parent>d</parent><child>c</child><pose>0 1 2 0 0 0</pose></joint></gazebo>";
+        let reading = reading(&bars(rpy, more));
+        let joint = last(&reading);
+        let frame = &reading.mechanism.joints()[1].predecessor.frame;
+        let [roll, pitch, yaw] = [0, 1, 2].map(|k| frame.roll_pitch_yaw[k].value());
+        let turned = turn(roll, pitch, yaw, [0.0, 1.0, 2.0]);
+        // The point in c, seen from d: c's origin is one above d's.
+        let [seen, own] = position(joint);
+        assert_eq!(own, [0.0, 1.0, 2.0]);
+        for (found, expected) in seen.iter().zip([turned[0], 1.0 + turned[1], turned[2]]) {
+            assert!(
+                (found - expected).abs() < 1e-15,
+                "{rpy}: {seen:?} {turned:?}"
+            );
+        }
+        // And a direction.
+        let [roll, pitch, yaw] =
+            [0, 1, 2].map(|k| joint.predecessor.frame.roll_pitch_yaw[k].value());
+        let (found, expected) = (turn(roll, pitch, yaw, [3.0, 1.0, 2.0]), {
+            let [roll, pitch, yaw] = [0, 1, 2].map(|k| frame.roll_pitch_yaw[k].value());
+            turn(roll, pitch, yaw, [3.0, 1.0, 2.0])
+        });
+        for (a, b) in found.iter().zip(expected) {
+            assert!((a - b).abs() < 1e-14, "{rpy}");
+        }
+        let exact = |n: &Number| n.stated().is_none() && n.rational().is_none_or(|r| r.is_int());
+        assert_eq!(
+            joint.predecessor.frame.position.iter().all(exact),
+            is_exact,
+            "{rpy}"
+        );
+    }
+}
+
+/// `Rz(yaw) Ry(pitch) Rx(roll)` of a vector.
+fn turn(roll: f64, pitch: f64, yaw: f64, v: [f64; 3]) -> [f64; 3] {
+    let [x, y, z] = v;
+    let (y, z) = (
+        y * roll.cos() - z * roll.sin(),
+        y * roll.sin() + z * roll.cos(),
+    );
+    let (x, z) = (
+        x * pitch.cos() + z * pitch.sin(),
+        z * pitch.cos() - x * pitch.sin(),
+    );
+    [
+        x * yaw.cos() - y * yaw.sin(),
+        x * yaw.sin() + y * yaw.cos(),
+        z,
+    ]
+}
+
+#[test]
+fn the_axis_is_in_the_joint_frame_or_in_the_models() {
+    let more = |flag: &str, frame: &str| {
+        format!(
+            "<gazebo><joint name='dc' type='prismatic'><parent>d</parent><child>c</child>\
+             <axis><xyz{frame}>0 0 1</xyz>{flag}</axis></joint></gazebo>"
+        )
+    };
+    // c is turned by a quarter about x: its z is −y of the model.
+    let seen_from_d = |more: &str| {
+        let reading = reading(&bars("${pi/2} 0 0", more));
+        let joint = last(&reading).clone();
+        let [roll, pitch, yaw] =
+            [0, 1, 2].map(|k| joint.predecessor.frame.roll_pitch_yaw[k].value());
+        let axis = values(&joint.axis.0);
+        turn(roll, pitch, yaw, [axis[0], axis[1], axis[2]]).map(f64::round)
+    };
+    assert_eq!(seen_from_d(&more("", "")), [0.0, -1.0, 0.0]);
+    let flag = "<use_parent_model_frame>1</use_parent_model_frame>";
+    assert_eq!(seen_from_d(&more(flag, "")), [0.0, 0.0, 1.0]);
+    assert_eq!(
+        seen_from_d(&more("", " expressed_in='__model__'")),
+        [0.0, 0.0, 1.0]
+    );
+}
+
+#[test]
+fn threads_are_right_handed_in_metres_per_turn() {
+    let lead = |pitch: &str| {
+        let more = format!(
+            "<gazebo><joint name='dc' type='screw'><parent>d</parent><child>c</child>\
+             <axis><xyz>0 0 1</xyz></axis>{pitch}</joint></gazebo>"
+        );
+        last(&reading(&bars("0 0 0", &more)))
+            .lead
+            .as_ref()
+            .unwrap()
+            .value()
+    };
+    assert_eq!(lead("<screw_thread_pitch>0.01</screw_thread_pitch>"), 0.01);
+    let old = lead("<thread_pitch>-100</thread_pitch>");
+    assert!((old - std::f64::consts::TAU / 100.0).abs() < 1e-15, "{old}");
+    assert_eq!(
+        lead("<thread_pitch>5</thread_pitch><screw_thread_pitch>0.01</screw_thread_pitch>"),
+        0.01
+    );
+}
+
+#[test]
+fn joints_of_old_gazebo_and_the_names_that_they_share() {
+    // As the PR2's gripper: the slider has the name of a fixed joint, and its motor drives the slider.
+    let more = "<link name='tip'/><joint name='grip' type='fixed'><parent link='c'/><child link='tip'/></joint>\n\
+                <gazebo><joint:slider name='grip'><body1>d</body1><body2>c</body2><anchor>c</anchor><axis>0 1 0</axis>\
+                <anchorOffset>0 -1 0</anchorOffset></joint:slider></gazebo>\n\
+                <transmission name='t'><gap_joint name='grip'/><passive_joint name='ab'/></transmission>";
+    let reading = reading(&bars("0 0 0", more));
+    let joint = last(&reading);
+    assert_eq!(
+        (joint.name.as_str(), joint.kind),
+        ("grip_in_gazebo", JointKind::Prismatic)
+    );
+    assert_eq!(position(joint), [vec![0.0, 0.0, 0.0], vec![0.0, -1.0, 0.0]]);
+    let actuated = reading.mechanism.actuated();
+    assert_eq!(actuated.len(), 1);
+    assert_eq!(reading.mechanism.joint(actuated[0]).name, "grip_in_gazebo");
+}
+
+#[test]
+fn what_the_tree_has_already_is_read_once() {
+    let joint = |name: &str, parent: &str, child: &str| {
+        format!(
+            "<gazebo><joint name='{name}' type='fixed'><parent>{parent}</parent><child>{child}</child></joint></gazebo>"
+        )
+    };
+    let told = |more: &str| {
+        let reading = reading(&bars("0 0 0", more));
+        (
+            reading.mechanism.joints().len(),
+            reading.warnings[0].message.clone(),
+        )
+    };
+    let (joints, warning) = told(&joint("ab", "a", "b"));
+    assert!(joints == 3 && warning.contains("read once"), "{warning}");
+    let (joints, warning) = told(&joint("other", "a", "b"));
+    assert!(
+        joints == 4 && warning.contains("the same two links as joint `ab`"),
+        "{warning}"
+    );
+    let (joints, warning) = told(&joint("stand", "world", "a"));
+    assert!(
+        joints == 3 && warning.contains("holds the root link"),
+        "{warning}"
+    );
+}
+
+#[test]
+fn a_joint_to_the_world_leaves_the_root_free() {
+    let more = "<gazebo><joint name='foot' type='revolute'><parent>world</parent><child>d</child><axis><xyz>0 0 1</xyz></axis></joint></gazebo>";
+    let mechanism = reading(&bars("0 0 0", more)).mechanism;
+    assert_eq!(mechanism.link(mechanism.ground()).name, "world");
+    let foot = mechanism.joints().last().unwrap();
+    assert_eq!(mechanism.link(foot.predecessor.link).name, "world");
+    assert_eq!(position(foot)[0], [2.0, 0.0, 0.0]);
+}
+
+#[test]
+fn constraints_of_drake() {
+    let point = |what: &str, more: &str| {
+        format!(
+            "<drake:{what}><drake:{what}_body_A name='d'/><drake:{what}_body_B name='c'/>\
+             <drake:{what}_p_AP value='0 1 0'/><drake:{what}_p_BQ value='0 0 0.5'/>{more}</drake:{what}>"
+        )
+    };
+    let ball = reading(&bars("0 0 0", &point("ball_constraint", "")));
+    assert_eq!(last(&ball).kind, JointKind::Spherical);
+    assert_eq!(
+        position(last(&ball)),
+        [vec![0.0, 1.0, 0.0], vec![0.0, 0.0, 0.5]]
+    );
+    let rod = "<drake:distance_constraint_distance value='0.5'/>";
+    let rod = reading(&bars("0 0 0", &point("distance_constraint", rod)));
+    assert_eq!(last(&rod).kind, JointKind::Distance);
+    let spring = "<drake:distance_constraint_distance value='0.5'/><drake:distance_constraint_stiffness value='10'/>";
+    let spring = reading(&bars("0 0 0", &point("distance_constraint", spring)));
+    assert_eq!(spring.mechanism.joints().len(), 3);
+    assert!(spring.skipped[0].what.contains("a spring"));
+    let bushing = reading(&bars(
+        "0 0 0",
+        "<drake:linear_bushing_rpy><drake:bushing_frameA name='c'/></drake:linear_bushing_rpy>",
+    ));
+    assert!(bushing.skipped[0].what.contains("leaves the motion free"));
+
+    let typed = |joint: &str| {
+        let more =
+            format!("<link name='e'/>{joint}<parent link='a'/><child link='e'/></drake:joint>");
+        last(&reading(&bars("0 0 0", &more))).clone()
+    };
+    let screw = typed(
+        "<drake:joint name='s' type='screw'><axis xyz='0 0 1'/><drake:screw_thread_pitch value='0.02'/>",
+    );
+    assert_eq!(screw.lead.unwrap().value(), 0.02);
+    let universal = typed("<drake:joint name='u' type='universal'>");
+    assert_eq!(values(&universal.axis.0), [1.0, 0.0, 0.0]);
+    assert_eq!(values(&universal.axis2.0), [0.0, 1.0, 0.0]);
+    assert_eq!(
+        typed("<drake:joint name='b' type='ball'>").kind,
+        JointKind::Spherical
+    );
+    // Whether the prefix is declared does not matter.
+    let undeclared =
+        bars("0 0 0", &point("ball_constraint", "")).replace("xmlns:drake='urn:drake'", "");
+    assert_eq!(last(&reading(&undeclared)).kind, JointKind::Spherical);
+    let mimic = bars("0 0 0", "").replace("<axis", "<drake:mimic joint='ad' multiplier='2'/><axis");
+    let mimic = mimic
+        .replacen("<drake:mimic joint='ad' multiplier='2'/>", "", 2)
+        .replace("joint='ad'", "joint='ab'");
+    assert_eq!(reading(&mimic).mechanism.couplings().len(), 1);
+}
+
+#[test]
+fn loops_of_isaac_sim_and_of_the_proposed_constraint() {
+    for second in ["link2", "link1"] {
+        let more = format!(
+            "<loop_joint name='l' type='spherical'><link1 link='d' xyz='0 1 0' rpy='0 0 0'/><{second} link='c' xyz='0 0 0'/></loop_joint>"
+        );
+        let reading = reading(&bars("0 0 0", &more));
+        assert_eq!(last(&reading).kind, JointKind::Spherical);
+        assert_eq!(position(last(&reading))[0], [0.0, 1.0, 0.0]);
+    }
+    let more = "<constraint name='l' type='universal'><parent link='d'/><parent_origin xyz='0 1 0'/><parent_axis xyz='0 0 1'/>\
+                <child link='c'/><child_origin xyz='0 0 3'/><child_axis xyz='1 0 0'/></constraint>";
+    let reading = reading(&bars("0 0 0", more));
+    let joint = last(&reading);
+    assert_eq!(joint.kind, JointKind::Universal);
+    assert_eq!(position(joint), [vec![0.0, 1.0, 0.0], vec![0.0, 0.0, 3.0]]);
+    assert_eq!(
+        (values(&joint.axis.0), values(&joint.axis2.0)),
+        (vec![0.0, 0.0, 1.0], vec![1.0, 0.0, 0.0])
+    );
+}
+
+#[test]
+fn frames_that_are_named_like_a_closure_are_told() {
+    let more = "<link name='closing_x_1'/><link name='closing_x_2'/>\
+                <joint name='f1' type='fixed'><parent link='c'/><child link='closing_x_1'/></joint>\
+                <joint name='f2' type='fixed'><parent link='d'/><child link='closing_x_2'/></joint>";
+    let told = reading(&bars("0 0 0", more)).warnings;
+    assert!(
+        told.len() == 1
+            && told[0]
+                .message
+                .contains("look like the two sides of a loop")
+    );
+    let more = format!(
+        "{more}<loop name='l' type='fixed'><predecessor link='closing_x_1'/><successor link='closing_x_2'/></loop>"
+    );
+    assert!(reading(&bars("0 0 0", &more)).warnings.is_empty());
+}
+
+#[test]
+fn rolling_is_what_a_coupling_means() {
+    let more = |word: &str| {
+        format!(
+            "<coupling name='g'{word}><predecessor link='b'/><successor link='d'/><ratio value='6.0'/></coupling>"
+        )
+    };
+    let plain = reading(&bars("0 0 0", &more(""))).mechanism;
+    let rolling = reading(&bars("0 0 0", &more(" type='rolling'"))).mechanism;
+    assert_eq!(difference(&plain, &rolling), None);
+    let error = read(&bars("0 0 0", &more(" type='sliding'")), "f", &[]).unwrap_err();
+    assert!(
+        error.message.contains("needed rolling, found `sliding`"),
+        "{error}"
+    );
+}
+
+#[test]
+fn links_that_only_gazebo_knows() {
+    // e stands at (2, 0.5) of the model and is held by two joints: a bar between c and d.
+    let more = "<gazebo><link name='e'><inertial><mass>1</mass></inertial><pose>2 0.5 0 0 0 0</pose></link></gazebo>\
+                <gazebo><joint name='ce' type='revolute'><parent>c</parent><child>e</child><pose>0 0.5 0 0 0 0</pose><axis><xyz>0 0 1</xyz></axis></joint>\
+                <joint name='de' type='revolute'><parent>d</parent><child>e</child><pose relative_to='d'/><axis><xyz>0 0 1</xyz></axis></joint></gazebo>";
+    let reading = reading(&bars("0 0 0", more));
+    let mechanism = &reading.mechanism;
+    assert_eq!((mechanism.links().len(), mechanism.joints().len()), (5, 5));
+    assert_eq!(mechanism.link(mechanism.ground()).name, "a");
+    let [ce, de] = [3, 4].map(|index| position(&mechanism.joints()[index]));
+    assert_eq!(ce, [vec![0.0, 0.0, 0.0], vec![0.0, 0.5, 0.0]]);
+    assert_eq!(de, [vec![0.0, 0.0, 0.0], vec![0.0, -0.5, 0.0]]);
+}
+
+#[test]
+fn one_name_is_one_value() {
+    // The tree measures with `gap` how far a frame is from d, and Gazebo how far c is.
+    let more = "<link name='frame'/><joint name='gap' type='prismatic'><parent link='d'/><child link='frame'/></joint>\
+                <gazebo><joint name='gap' type='prismatic'><parent>d</parent><child>c</child><axis><xyz>1 0 0</xyz></axis></joint></gazebo>";
+    let reading = reading(&bars("0 0 0", more));
+    assert_eq!(reading.mechanism.couplings().len(), 1);
+    assert!(
+        reading
+            .warnings
+            .iter()
+            .any(|w| w.message.contains("both have one value"))
+    );
+    assert!(
+        reading
+            .warnings
+            .iter()
+            .any(|w| w.message.contains("a tree with 4 degrees"))
+    );
+}
