@@ -3,12 +3,16 @@
 import contextlib
 import io
 import json
+import sys
 import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).parent / "robots"))
+
 import accuracy
 import compare
+import digits
 import instructions
 import stages
 
@@ -52,6 +56,28 @@ class Stages(unittest.TestCase):
 
     def test_other_text_is_no_record(self):
         self.assertEqual(stages.parsed(["error: no such bench", "", "│ │"]), {})
+
+
+class Digits(unittest.TestCase):
+    FILE = '<origin xyz="0.1234567 ${third/2} 0" rpy="1.5707963267948966 0 0"/><limit lower="0.1234567"/>'
+
+    def test_places_are_rewritten_and_nothing_else(self):
+        text = '<xacro:property name="third" value="1/3"/>' + self.FILE
+        self.assertIn('xyz="0.123457 0.166667 0" rpy="1.5708 0 0"', digits.rewritten(text, "6 digits"))
+        self.assertIn('<limit lower="0.1234567"/>', digits.rewritten(text, "6 digits"))
+        self.assertIn('rpy="1.5707963267948966 0 0"', digits.rewritten(text, "7 decimals, hidden"))
+
+    def test_confident_answers_that_differ_are_different(self):
+        def answered(verdict, finite, nominal=False, roles=()):
+            return (verdict, finite, finite, None, nominal, roles)
+
+        mobile, rigid = answered("mobile", 1, roles=(False, None)), answered("rigid", 0)
+        self.assertEqual(digits.compare(mobile, answered("mobile", 1, roles=(None, True))), "same")
+        self.assertEqual(digits.compare(mobile, answered("mobile", 1, roles=(True, None))), "different")
+        self.assertEqual(digits.compare(mobile, rigid), "different")
+        self.assertEqual(digits.compare(mobile, answered("rigid", 0, nominal=True)), "open")
+        self.assertEqual(digits.compare(mobile, answered("unassembled", None)), "unassembled")
+        self.assertEqual(digits.compare(mobile, ("refused", "why")), "refused")
 
 
 class Compare(unittest.TestCase):

@@ -214,11 +214,12 @@ fn joints_of_old_gazebo_and_the_names_that_they_share() {
 
 #[test]
 fn what_the_tree_has_already_is_read_once() {
-    let joint = |name: &str, parent: &str, child: &str| {
+    let of_kind = |kind: &str, name: &str, parent: &str, child: &str| {
         format!(
-            "<gazebo><joint name='{name}' type='fixed'><parent>{parent}</parent><child>{child}</child></joint></gazebo>"
+            "<gazebo><joint name='{name}' type='{kind}'><parent>{parent}</parent><child>{child}</child></joint></gazebo>"
         )
     };
+    let joint = |name: &str, parent: &str, child: &str| of_kind("fixed", name, parent, child);
     let told = |more: &str| {
         let reading = reading(&bars("0 0 0", more));
         (
@@ -226,7 +227,7 @@ fn what_the_tree_has_already_is_read_once() {
             reading.warnings[0].message.clone(),
         )
     };
-    let (joints, warning) = told(&joint("ab", "a", "b"));
+    let (joints, warning) = told(&of_kind("revolute", "ab", "a", "b"));
     assert!(joints == 3 && warning.contains("read once"), "{warning}");
     let (joints, warning) = told(&joint("other", "a", "b"));
     assert!(
@@ -238,6 +239,10 @@ fn what_the_tree_has_already_is_read_once() {
         joints == 3 && warning.contains("holds the root link"),
         "{warning}"
     );
+    let text = bars("0 0 0", &joint("ab", "a", "b"));
+    let refused = read(&text, "bars.urdf", &[]).unwrap_err().to_string();
+    let said = "joint `ab` is revolute in the tree and fixed inside <gazebo>";
+    assert!(refused.contains(said), "{refused}");
 }
 
 #[test]

@@ -3,18 +3,15 @@
     python3 benches/robots/run.py --program target/release/kutzbach FOLDER...
 
 Each folder is a repository with robots in it. Every robot that ROS's own parser accepts has to be read, and its freedoms are
-compared with `freedoms.py`. `--digits` rounds the coordinates of each robot and adds noise as converters do: the verdict has to stay, or to
-be open. `--commands N` runs every command on N of them. Exit code 1 where something is wrong; what is open is counted.
+compared with `freedoms.py`. `--commands N` runs every command on N of them. Exit code 1 where something is wrong; what is
+open is counted.
 """
 
 import argparse
 import collections
 import json
-import random
-import re
 import subprocess
 import sys
-import tempfile
 import time
 from pathlib import Path
 
@@ -22,7 +19,6 @@ from collection import robots
 from description import read
 from freedoms import freedoms
 
-NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 COMMANDS = [
     ["report"],
     ["graph"],
@@ -72,42 +68,6 @@ def compare(found, robot):
     return ("same", "") if finite is not None else ("open", "")
 
 
-def rewritten(text, change):
-    """Every number in `xyz` and `rpy` changed; expressions stay."""
-
-    def attribute(match):
-        if "$" in match[2]:
-            return match[0]
-        return match[1] + NUMBER.sub(lambda number: change(float(number[0]), number[0]), match[2]) + match[3]
-
-    return re.sub(r"(\b(?:xyz|rpy)\s*=\s*[\"'])([^\"']*)([\"'])", attribute, text)
-
-
-def roundings():
-    for decimals in (6, 7, 9, 12):
-        yield f"{decimals} decimals", lambda x, _, d=decimals: f"{x:.{d}f}"
-    yield "17 digits", lambda x, _: f"{x:.17g}"
-    for seed in (1, 2):
-        draw = random.Random(seed)
-        yield f"noise {seed}", lambda x, _, r=draw: repr(x * (1 + r.uniform(-2, 2) * 1.1e-16) + r.uniform(-1, 1) * 1e-16)
-
-
-def digits(program, robot, before, counts):
-    for name, change in roundings():
-        with tempfile.NamedTemporaryFile("w", suffix=".urdf") as file:
-            file.write(rewritten(robot.text, change))
-            file.flush()
-            found, why = report(program, file.name)
-        after = said(found) if found else ("refused", why, None)
-        if after[:2] == before[:2]:
-            counts[name]["same"] += 1
-        elif "undecided" in (after[0], before[0]):
-            counts[name]["open"] += 1
-        else:
-            counts[name]["different"] += 1
-            print(f"{robot.path}: {name}: {before} becomes {after}")
-
-
 def commands(program, paths):
     """Seconds and exit code of each command on each robot."""
     rows = []
@@ -130,12 +90,10 @@ def main():
     options.add_argument("folders", nargs="+")
     options.add_argument("--program", required=True)
     options.add_argument("--every", type=int, default=1, help="take every Nth robot only")
-    options.add_argument("--digits", action="store_true")
     options.add_argument("--commands", type=int, default=0, metavar="N")
     options.add_argument("--output")
     asked = options.parse_args()
     outcomes, refused, different, paths = collections.Counter(), {}, {}, []
-    counts = collections.defaultdict(collections.Counter)
     for number, robot in enumerate(robots(asked.folders)):
         if number % asked.every:
             continue
@@ -149,14 +107,11 @@ def main():
         paths.append(robot.path)
         if outcome in ("different", "not compared"):
             different[str(robot.path)] = reason
-        if asked.digits:
-            digits(asked.program, robot, said(found), counts)
     record = {
         "robots": sum(outcomes.values()),
         "outcomes": dict(outcomes),
         "refused": refused,
         "to look at": different,
-        "digits": {name: dict(count) for name, count in counts.items()},
     }
     if asked.commands:
         step = max(1, len(paths) // asked.commands)
@@ -165,8 +120,7 @@ def main():
     print(text)
     if asked.output:
         Path(asked.output).write_text(text + "\n")
-    wrong = outcomes["different"] or any(count["different"] for count in counts.values())
-    sys.exit(1 if wrong else 0)
+    sys.exit(1 if outcomes["different"] else 0)
 
 
 if __name__ == "__main__":

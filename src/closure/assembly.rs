@@ -96,14 +96,14 @@ pub struct Assembly {
     pub held: BTreeSet<usize>,
     /// Joints whose configured values, rounded as they are, were corrected to close the loops.
     pub corrected: BTreeSet<usize>,
-    /// Where the loops do not close with the held joints as they are, but do once these are released: where that takes
-    /// the held joints, by joint index.
+    /// Of parts that do not close with their held joints as they are, but do once these are released: where that takes the
+    /// held joints, by joint index. Other parts may stay open all the same.
     pub released: Option<Vec<JointPlace>>,
     /// Joints outside their limits at the pose, farthest first.
     pub outside: Vec<OutsideLimit>,
     /// A cycle that is proven to close at no pose; `None` where nothing is proven.
     pub proven_open: Option<ProvenOpen>,
-    /// A loop with which everything closes once one of its frames is turned over.
+    /// A loop whose part closes once one of its frames is turned over. Other parts may stay open all the same.
     pub reversal: Option<Reversal>,
     /// The equations at the final pose, one entry per part where the part was closed: whoever ranks them next takes them.
     pub(crate) jacobians: Vec<Option<CycleJacobian<f64>>>,

@@ -82,7 +82,7 @@ impl<'a> Reader<'a> {
             let found = [renamed.as_str(), motor.joint]
                 .into_iter()
                 .find_map(|name| Some((name, *self.in_gazebo.get(name)?)))
-                .or_else(|| Some((motor.joint, *self.freedoms.get(motor.joint)?)));
+                .or_else(|| Some((motor.joint, self.kinds.get(motor.joint)?.freedom())));
             match found {
                 Some((_, 0)) => self.skip_motor(&motor, "cannot move"),
                 Some((name, _)) => {

@@ -134,7 +134,7 @@ impl<'a> Reader<'a> {
         });
         self.other_closures = true;
         self.builder.joint(builder);
-        self.freedoms.insert(name, kind.freedom());
+        self.kinds.insert(name, kind);
     }
 
     /// Pairs of links that are named as the two sides of a loop by a convention (onshape-to-robot, placo), where the file

@@ -252,6 +252,16 @@ impl<'a> Reader<'a> {
         if let Some(known) = self.sides_of.get(name)
             && ordered(*known) == ordered(sides)
         {
+            if let Some(other) = self.kinds.get(name)
+                && *other != kind
+            {
+                return Err(joint.fault(format!(
+                    "joint {} is {} in the tree and {} inside <gazebo>",
+                    quoted(name),
+                    other.word(),
+                    kind.word()
+                )));
+            }
             let message = format!(
                 "joint {} stands in the tree and inside <gazebo>; it is read once",
                 quoted(name)
@@ -288,7 +298,7 @@ impl<'a> Reader<'a> {
         // A name stands for one coordinate. The PR2's `gripper_joint` measures the gap of the gripper to a frame without
         // mass in the tree, and to the finger itself inside `<gazebo>`.
         let one_value = kind.freedom() == 1
-            && self.freedoms.get(name) == Some(&1)
+            && self.kinds.get(name).is_some_and(|kind| kind.freedom() == 1)
             && self
                 .sides_of
                 .get(name)
@@ -334,7 +344,7 @@ impl<'a> Reader<'a> {
         let Some(at) = self.first_in_gazebo else {
             return;
         };
-        let joints: usize = self.freedoms.values().sum();
+        let joints: usize = self.kinds.values().map(|kind| kind.freedom()).sum();
         let count = self.in_gazebo.len();
         let message = match self.other_closures {
             false => format!(

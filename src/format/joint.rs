@@ -354,7 +354,7 @@ impl<'a> Reader<'a> {
                 .help("<screw lead=\"metres per turn\"/>"));
         }
         self.builder.joint(builder);
-        self.freedoms.insert(name, kind.freedom());
+        self.kinds.insert(name, kind);
         if let Some((leader, multiplier, offset)) = mimic {
             self.followers.insert(name);
             self.builder.mimic(name, leader, multiplier, offset);

@@ -8,7 +8,7 @@ use super::names::{Directory, Named};
 use super::unread::{Parts, Tally, Unread};
 use super::words::{alternatives, cut, did_you_mean};
 use super::{ReadOptions, Reading, Skipped, Warning, relax, xml};
-use crate::mechanism::{Entity, Frame, MechanismBuilder};
+use crate::mechanism::{Entity, Frame, JointKind, MechanismBuilder};
 use crate::number::Number;
 use std::cell::OnceCell;
 use std::collections::{HashMap, HashSet};
@@ -36,8 +36,8 @@ pub(super) struct Reader<'a> {
     pub(super) unread: Tally<'a>,
     /// The joint that places each link so far.
     pub(super) placed_by: HashMap<&'a str, &'a str>,
-    /// How many freedoms each joint has that was read so far; a `floating` joint is none.
-    pub(super) freedoms: HashMap<&'a str, usize>,
+    /// The kind of each joint that was read so far; a `floating` joint is none.
+    pub(super) kinds: HashMap<&'a str, JointKind>,
     /// What the file says of motors.
     pub(super) motors: Vec<Motor<'a>>,
     /// The links of each joint of the tree.
@@ -162,7 +162,7 @@ impl<'a> Reader<'a> {
             unread: Tally::default(),
             directory: Directory::default(),
             placed_by: HashMap::new(),
-            freedoms: HashMap::new(),
+            kinds: HashMap::new(),
             motors: Vec::new(),
             sides_of: HashMap::new(),
             joined: HashMap::new(),

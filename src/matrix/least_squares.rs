@@ -1,11 +1,9 @@
 //! Damped least squares: the step of an assembly iteration. No rank is decided here.
 
+use super::DENSE_COLUMNS;
 use super::error::MatrixError;
 use super::sparse::SparseMatrix;
 use faer::linalg::solvers::SolveLstsq;
-
-/// Up to this many columns the problem is solved densely by Householder QR.
-const DENSE_COLUMNS: usize = 300;
 
 /// Solves `min |A x − b|² + damping |x|²`.
 #[derive(Clone, Copy, Debug)]

@@ -51,6 +51,10 @@ pub mod sparse;
 mod svd;
 pub mod twofold;
 
+/// Largest number of columns and of rows for which a matrix of doubles is decomposed densely.
+pub(crate) const DENSE_COLUMNS: usize = 300;
+pub(crate) const DENSE_ROWS: usize = 1500;
+
 pub use big::Big;
 pub use coloops::{Coloops, coloops};
 pub use error::MatrixError;

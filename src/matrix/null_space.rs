@@ -16,10 +16,7 @@ use super::rank::RankDecision;
 use super::real::Real;
 use super::sparse::SparseMatrix;
 use super::svd;
-
-/// Columns up to which a null space of doubles is read off a dense decomposition.
-const DENSE_COLUMNS: usize = 300;
-const DENSE_ROWS: usize = 1500;
+use super::{DENSE_COLUMNS, DENSE_ROWS};
 
 /// Vectors of a null space, each of unit length with one component per column of the matrix.
 #[derive(Clone, Debug, PartialEq)]

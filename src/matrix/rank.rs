@@ -30,6 +30,7 @@ use super::multifrontal::{longest_passage, prepare};
 use super::real::Real;
 use super::sparse::SparseMatrix;
 use super::svd;
+use super::{DENSE_COLUMNS, DENSE_ROWS};
 
 /// Roundings allowed for per entry, in units of roundoff; see the module's text.
 pub const ROUNDINGS: f64 = 16.0;
@@ -39,10 +40,6 @@ const CLEARANCE: f64 = 10.0;
 
 /// Smallest ratio of the last kept to the first dropped value.
 const SMALLEST_GAP: f64 = 1e3;
-
-/// Doubles: largest number of columns and rows for a dense decomposition.
-const DENSE_COLUMNS: usize = 300;
-const DENSE_ROWS: usize = 1500;
 
 /// Many digits: the largest smaller side for which Jacobi rotations are affordable.
 const JACOBI_SIDE: usize = 12;

@@ -75,6 +75,20 @@ impl Joint {
         self.kind.freedom()
     }
 
+    /// The least and the largest value of the variable of a joint of one freedom (rad, m), infinite where the file states
+    /// none. `None` for a joint without limits or of other freedoms. The lower one is not above the upper one: building a
+    /// mechanism sees to that.
+    #[must_use]
+    pub fn bounds(&self) -> Option<(f64, f64)> {
+        let limit = self.limit.as_ref().filter(|_| self.freedom() == 1)?;
+        let lower = limit
+            .lower
+            .as_ref()
+            .map_or(f64::NEG_INFINITY, Number::value);
+        let upper = limit.upper.as_ref().map_or(f64::INFINITY, Number::value);
+        (lower.is_finite() || upper.is_finite()).then_some((lower, upper))
+    }
+
     /// The name of one freedom, such as `slider.rot`; numbered (`ball.rot2`) where several do the same.
     #[must_use]
     pub fn freedom_name(&self, index: usize) -> String {

@@ -7,11 +7,8 @@
 
 use super::pose_rank::{Doubt, PartRank};
 use crate::closure::Part;
-use crate::matrix::{MatrixError, relative_singular_values};
+use crate::matrix::{DENSE_COLUMNS, MatrixError, relative_singular_values};
 use crate::mechanism::{JointKind, Mechanism};
-
-/// Parts of more unknowns are not compared: their singular values are not computed.
-const DENSE_COLUMNS: usize = 300;
 
 /// Rounding at six decimals moves the singular values of an ordinary robot by no more (of the largest).
 const NOISE: f64 = 1e-5;

@@ -18,7 +18,7 @@
 use super::branch::{BranchPose, IdleLink};
 use super::link_twists::LinkTwists;
 use super::one_sided::{OneSided, dot};
-use super::point_chains::{Bodies, Connection, Connections};
+use super::point_chains::{Bodies, Connection, Connections, heaviest_first};
 use super::relative_motion::link_twists;
 use super::structure::Structure;
 use super::tangent_space::TangentSpace;
@@ -213,23 +213,9 @@ impl Cluster {
         bodies: &Bodies,
         freedom: usize,
     ) -> IdleLink {
-        let mass = |link: usize| {
-            let inertial = mechanism.links()[link].inertial.as_ref();
-            inertial.map_or(0.0, |inertial| inertial.mass.value())
-        };
-        let links = |of: &[usize]| -> Vec<usize> {
-            let mut links: Vec<usize> =
-                of.iter().flat_map(|&b| &bodies.links[b]).copied().collect();
-            links.sort_by(|&a, &b| {
-                let by_name = || {
-                    structure
-                        .graph
-                        .node_rank(a)
-                        .cmp(&structure.graph.node_rank(b))
-                };
-                mass(b).total_cmp(&mass(a)).then_with(by_name)
-            });
-            links
+        let links = |of: &[usize]| {
+            let links = of.iter().flat_map(|&body| &bodies.links[body]).copied();
+            heaviest_first(mechanism, structure, links.collect())
         };
         let mut all = links(&self.core);
         all.extend(links(&self.between));

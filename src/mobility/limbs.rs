@@ -8,7 +8,7 @@
 
 use super::branch::Branch;
 use super::one_sided::OneSided;
-use super::point_chains::{Bodies, Connections};
+use super::point_chains::{Bodies, Connections, heaviest_first};
 use super::structure::Structure;
 use super::tangent_space::TangentSpace;
 use crate::closure::Geometry;
@@ -243,19 +243,7 @@ fn end_of(
 }
 
 /// The heaviest link of a body, or the first by name.
-pub(super) fn main_link(mechanism: &Mechanism, structure: &Structure, links: &[usize]) -> usize {
-    let mass = |link: usize| {
-        let inertial = mechanism.links()[link].inertial.as_ref();
-        inertial.map_or(0.0, |inertial| inertial.mass.value())
-    };
-    let by_weight = |a: &&usize, b: &&usize| {
-        let by_name = || {
-            structure
-                .graph
-                .node_rank(**b)
-                .cmp(&structure.graph.node_rank(**a))
-        };
-        mass(**a).total_cmp(&mass(**b)).then_with(by_name)
-    };
-    links.iter().max_by(by_weight).copied().unwrap_or(0)
+fn main_link(mechanism: &Mechanism, structure: &Structure, links: &[usize]) -> usize {
+    let links = heaviest_first(mechanism, structure, links.to_vec());
+    links.first().copied().unwrap_or(0)
 }

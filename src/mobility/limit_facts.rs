@@ -91,16 +91,8 @@ struct Range {
 impl Range {
     /// `None` for joints without limits.
     fn of(mechanism: &Mechanism, joint: &Joint) -> Option<Self> {
-        let limit = joint.limit.as_ref().filter(|_| joint.freedom() == 1)?;
-        let lower = limit
-            .lower
-            .as_ref()
-            .map_or(f64::NEG_INFINITY, |x| x.value());
-        let upper = limit.upper.as_ref().map_or(f64::INFINITY, |x| x.value());
-        // Limits the wrong way round are no limits.
-        if !(lower <= upper) || (lower, upper) == (f64::NEG_INFINITY, f64::INFINITY) {
-            return None;
-        }
+        let (lower, upper) = joint.bounds()?;
+        let limit = joint.limit.as_ref()?;
         let numbers = || limit.lower.iter().chain(&limit.upper);
         let stated = numbers()
             .map(|x| mechanism.precision().uncertainty(x))

@@ -44,6 +44,25 @@ pub(super) struct Bodies {
     pub mass: Vec<f64>,
 }
 
+/// Links with the heaviest first; of equally heavy ones the first by name.
+pub(super) fn heaviest_first(
+    mechanism: &Mechanism,
+    structure: &Structure,
+    mut links: Vec<usize>,
+) -> Vec<usize> {
+    let mass = |link: usize| {
+        let inertial = mechanism.links()[link].inertial.as_ref();
+        inertial.map_or(0.0, |inertial| inertial.mass.value())
+    };
+    let rank = |link: usize| structure.graph.node_rank(link);
+    links.sort_by(|&a, &b| {
+        mass(b)
+            .total_cmp(&mass(a))
+            .then_with(|| rank(a).cmp(&rank(b)))
+    });
+    links
+}
+
 impl Bodies {
     pub fn of(mechanism: &Mechanism, geometry: &Geometry<f64>) -> Self {
         let joints = mechanism.joints();

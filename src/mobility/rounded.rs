@@ -1,18 +1,22 @@
 //! Sixteen digits that a program printed do not say that the numbers are known so well.
 //!
-//! A converter reads coordinates that were rounded somewhere (six decimals of a text, the 24 bits of a `float`, nine digits of a
-//! drawing), turns them into other frames, and prints doubles. Singular values that are zero in the mechanism meant come out
-//! at 1e-7 or 1e-11, far above the rounding of doubles: as written, they are real. What gives them away is that they stand
-//! alone: decades below all others, and no larger than a rounding of the coordinates would leave them. Then there is nothing
-//! in the file that tells which, and both ranks stay possible.
+//! A converter reads coordinates that were rounded somewhere (nine digits of a drawing, angles of twelve), turns them into
+//! other frames, and prints doubles. Singular values that are zero in the mechanism meant come out at 1e-9 or 1e-11, far above
+//! the rounding of doubles: as written, they are real. What gives them away is that they stand alone: decades below all
+//! others, and no larger than a rounding of the coordinates would leave them. Then there is nothing in the file that tells
+//! which, and both ranks stay possible.
 //!
-//! The coarsest rounding that is thought of is [`COARSEST`], of text with six decimals. What rounding by `u` leaves of a zero
-//! is bounded by the Jacobian's uncertainty if all literals are known to within `u` ([`stated_by`]): linear in `u`. The gap is that
-//! of every rank decision, a factor of a thousand. So a mechanism that is truly within [`LARGEST`] of a singular pose, drawn by a
-//! program to the last digit, is called undecided too, with both answers: `--precision 0` says that its digits are meant.
+//! What rounding by `u` leaves of a zero is bounded by the Jacobian's uncertainty if all literals are known to within `u`
+//! ([`stated_by`]): linear in `u`. Rounding coarser than [`COARSEST`] is not thought of, nor values above [`LARGEST`]: six hidden
+//! decimals (of text, or of a `float`) leave 1e-7 and are taken as they are written, since mechanisms that truly miss a special
+//! one by that much have to be told apart from it. The gap is that of every rank decision, a factor of a thousand. So a
+//! mechanism within [`LARGEST`] of a singular pose, drawn by a program to the last digit, is called undecided, with both answers:
+//! `--precision 0` says that its digits are meant.
 
 use crate::closure::{CycleJacobian, Uncertainty, stated_by};
-use crate::matrix::{MatrixError, RankDecision, SparseMatrix, decide, relative_singular_values};
+use crate::matrix::{
+    DENSE_COLUMNS, MatrixError, RankDecision, SparseMatrix, decide, relative_singular_values,
+};
 use crate::mechanism::Mechanism;
 
 /// Half a unit of the sixth decimal (m, rad).
@@ -25,9 +29,6 @@ const LARGEST: f64 = 1e-8;
 
 /// As for every rank: smallest ratio of the last value kept to the first one dropped.
 const SMALLEST_GAP: f64 = 1e3;
-
-/// Up to so many unknowns all singular values are computed.
-const DENSE_COLUMNS: usize = 300;
 
 /// The other reading of a rank: the one of coordinates that were rounded before they were printed.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -72,8 +72,14 @@ pub fn unassembled(assembly: &Assembly) -> Mobility {
         complex_dimension: None,
         level: CertificateLevel::Numeric,
         certificate: format!(
-            "no closed pose was found from {} starts: the best one still misses by {:.2e} (allowed {:.2e})",
-            assembly.starts, assembly.residual, assembly.tolerance
+            "{}: the best pose still misses by {:.2e} (allowed {:.2e})",
+            if assembly.proven_open.is_some() {
+                "a loop is proven to close at no pose"
+            } else {
+                "no closed pose was found"
+            },
+            assembly.residual,
+            assembly.tolerance
         ),
         nominal: None,
         why: vec!["a mechanism that does not close has no motions to count".to_owned()],

@@ -7,7 +7,7 @@ use super::options::WorldOptions;
 use super::solids::solid;
 use super::units::Units;
 use crate::closure::JointState;
-use crate::mechanism::{Joint, Mechanism};
+use crate::mechanism::Mechanism;
 use rapier3d_f64::prelude::{
     ActiveHooks, ColliderBuilder, JointAxis, PairFilterContext, PhysicsHooks, PhysicsWorld,
     SolverFlags,
@@ -25,21 +25,6 @@ impl PhysicsHooks for ApartHooks {
         let joined = self.0.contains(&(a.min(b), a.max(b)));
         (!joined).then_some(SolverFlags::COMPUTE_RIGID_IMPULSES)
     }
-}
-
-/// Lower and upper limit of a joint of one freedom (rad or m); a missing side is infinite.
-pub(super) fn limits_of(joint: &Joint) -> Option<[f64; 2]> {
-    let limit = joint.limit.as_ref()?;
-    if joint.freedom() != 1 || (limit.lower.is_none() && limit.upper.is_none()) {
-        return None;
-    }
-    let or = |number: &Option<crate::number::Number>, other: f64| {
-        number.as_ref().map_or(other, crate::number::Number::value)
-    };
-    Some([
-        or(&limit.lower, f64::NEG_INFINITY),
-        or(&limit.upper, f64::INFINITY),
-    ])
 }
 
 /// Adds what the options ask for.
@@ -83,7 +68,7 @@ fn limits(
     const FAR: f64 = 1e12;
     for (index, elementary) in apart.joints.iter().enumerate() {
         let joint = &mechanism.joints()[elementary.joint];
-        let Some(limits) = limits_of(joint) else {
+        let Some(limits) = joint.bounds().map(<[f64; 2]>::from) else {
             continue;
         };
         // The weld of a screw that closes a loop carries no limit: the screw itself does.

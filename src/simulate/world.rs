@@ -76,7 +76,10 @@ impl World {
             sides: geometry.sides.clone(),
             displacements: geometry.displacements.clone(),
             start: states.to_vec(),
-            limits: joints.iter().map(super::effects::limits_of).collect(),
+            limits: joints
+                .iter()
+                .map(|joint| joint.bounds().map(<[f64; 2]>::from))
+                .collect(),
             built,
             steps: 0,
             drives: BTreeMap::new(),

@@ -16,30 +16,16 @@ pub struct OutsideLimit {
     pub by: f64,
 }
 
-/// The limits of a joint of one freedom, infinite where it has none on one side; `None` where it has none at all, or the
-/// lower one exceeds the upper one.
-fn bounds(joint: &Joint) -> Option<(f64, f64)> {
-    let limit = joint.limit.as_ref().filter(|_| joint.freedom() == 1)?;
-    let lower = limit.lower.as_ref().map(|x| x.value());
-    let upper = limit.upper.as_ref().map(|x| x.value());
-    if lower.is_none() && upper.is_none() {
-        return None;
-    }
-    let bounds = (
-        lower.unwrap_or(f64::NEG_INFINITY),
-        upper.unwrap_or(f64::INFINITY),
-    );
-    (bounds.0 <= bounds.1).then_some(bounds)
-}
-
 /// The limits of a joint that has both.
 pub(super) fn range(joint: &Joint) -> Option<(f64, f64)> {
-    bounds(joint).filter(|(lower, upper)| lower.is_finite() && upper.is_finite())
+    joint
+        .bounds()
+        .filter(|(lower, upper)| lower.is_finite() && upper.is_finite())
 }
 
 /// By how much a value is outside a joint's limits; zero within them.
 pub(super) fn beyond(joint: &Joint, value: f64) -> f64 {
-    let Some((lower, upper)) = bounds(joint) else {
+    let Some((lower, upper)) = joint.bounds() else {
         return 0.0;
     };
     let by = if value > upper {

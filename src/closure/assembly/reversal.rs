@@ -20,7 +20,7 @@ const TURNED_OVER: f64 = 3.0;
 const LOOPS: usize = 4;
 const STARTS: usize = 16;
 
-/// A loop that closes once a frame is turned.
+/// A loop that closes, with all that moves together with it, once a frame is turned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reversal {
     /// The joint that closes the loop.

@@ -48,15 +48,17 @@ struct Merit {
     distance: f64,
 }
 
-/// The joints of a part that something drives: marked as independent coordinates, or driven in a scene.
+/// The joints of a part that something drives: motors of the file, joints marked as independent coordinates, or driven in a
+/// scene.
 pub(super) fn driven(mechanism: &Mechanism, part: &Part) -> BTreeSet<usize> {
-    let in_scene: BTreeSet<usize> = mechanism
+    let named: BTreeSet<usize> = mechanism
         .scene()
         .iter()
         .flat_map(|scene| scene.drives.iter().map(|drive| drive.joint.0))
+        .chain(mechanism.actuated().iter().map(|joint| joint.0))
         .collect();
     let is_driven = |joint: usize| {
-        mechanism.joints()[joint].independent == Some(true) || in_scene.contains(&joint)
+        mechanism.joints()[joint].independent == Some(true) || named.contains(&joint)
     };
     part.joints
         .iter()

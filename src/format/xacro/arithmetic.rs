@@ -5,7 +5,7 @@
 
 use super::syntax::{Binary, Comparison};
 use super::text::Joined;
-use super::value::{Kind, Num, Value, found};
+use super::value::{Kind, Num, Value, found, has};
 use crate::number::Number;
 use std::cmp::Ordering;
 
@@ -60,6 +60,10 @@ pub(super) fn binary(operator: Binary, a: &Value, b: &Value) -> Said<Value> {
                 return too_long();
             }
             Ok(Value::Tuple(x.iter().chain(y.iter()).cloned().collect()))
+        }
+        (Binary::Subtract, Value::Set(x), Value::Set(y)) => {
+            let left = x.iter().filter(|item| !has(y, item));
+            Ok(Value::Set(left.cloned().collect()))
         }
         (Binary::Multiply, Value::Text(_) | Value::List(_), _) => match times(b) {
             Some(count) => repeated(a, count).map_or_else(too_long, Ok),
@@ -291,9 +295,7 @@ pub(super) fn order(a: &Value, b: &Value) -> Option<Ordering> {
 
 fn contains(container: &Value, item: &Value) -> Said<bool> {
     match (container, item) {
-        (Value::List(items) | Value::Tuple(items), _) => {
-            Ok(items.iter().any(|own| own.equals(item)))
-        }
+        (Value::List(items) | Value::Tuple(items) | Value::Set(items), _) => Ok(has(items, item)),
         (Value::Dict(items), _) => Ok(found(items, item).is_some()),
         (Value::Text(text), Value::Text(part)) => Ok(text.as_str().contains(part.as_str())),
         _ => Err(format!(

@@ -4,7 +4,7 @@ use super::arithmetic::{LONGEST_LIST, Said, binary, floor_to_int, kept, order};
 use super::evaluate::text_of;
 use super::syntax::Binary;
 use super::text::Text;
-use super::value::{Kind, Num, Value, dictionary};
+use super::value::{Kind, Num, Value, dictionary, set};
 use super::{Outcome, Run, Trouble};
 use crate::format::words::quoted;
 use crate::number::Number;
@@ -42,7 +42,7 @@ const OF_DOUBLE: [OfDouble; 21] = [
 ];
 
 /// All others.
-const OTHERS: [&str; 54] = [
+const OTHERS: [&str; 55] = [
     "abs",
     "all",
     "any",
@@ -67,6 +67,7 @@ const OTHERS: [&str; 54] = [
     "tuple",
     "zip",
     "set",
+    "frozenset",
     "ord",
     "chr",
     "filter",
@@ -146,7 +147,7 @@ pub(super) fn builtin(name: &str) -> Option<Value> {
 /// The items that Python's `for` goes through.
 pub(super) fn iterated(value: &Value) -> Outcome<Vec<Value>> {
     match value {
-        Value::List(items) | Value::Tuple(items) => Ok(items.to_vec()),
+        Value::List(items) | Value::Tuple(items) | Value::Set(items) => Ok(items.to_vec()),
         Value::Dict(items) => Ok(items.iter().map(|(key, _)| key.clone()).collect()),
         Value::Text(text) => Ok(text
             .as_str()
@@ -203,13 +204,8 @@ impl Run<'_> {
             ("list", []) => list(Vec::new()),
             ("list", [value]) => list(iterated(value)?),
             ("tuple", [value]) => Ok(Value::Tuple(iterated(value)?.into())),
-            ("set", [value]) => {
-                let pairs = iterated(value)?.into_iter().map(|key| (key, Value::None));
-                match dictionary(pairs) {
-                    Value::Dict(items) => list(items.iter().map(|(key, _)| key.clone()).collect()),
-                    _ => wrong(),
-                }
-            }
+            ("set" | "frozenset", []) => Ok(set([])),
+            ("set" | "frozenset", [value]) => Ok(set(iterated(value)?)),
             ("dict", _) => made_dictionary(values, named),
             ("dotify", [value]) => Ok(value.clone()),
             ("sorted", [value]) => {
@@ -301,6 +297,7 @@ impl Run<'_> {
                 "list" => matches!(value, Value::List(_)),
                 "dict" => matches!(value, Value::Dict(_)),
                 "tuple" => matches!(value, Value::Tuple(_)),
+                "set" => matches!(value, Value::Set(_)),
                 _ => return wrong(),
             }),
             _ => match numeric(name, values)? {

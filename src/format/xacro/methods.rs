@@ -4,7 +4,7 @@ use super::arithmetic::{LONGEST_TEXT, Said};
 use super::functions::iterated;
 use super::python_text::braces;
 use super::text::{Joined, Text};
-use super::value::{Value, found};
+use super::value::{Value, found, has, set};
 use std::rc::Rc;
 
 const OF_TEXT: [&str; 26] = [
@@ -36,12 +36,21 @@ const OF_TEXT: [&str; 26] = [
     "zfill",
 ];
 const OF_LIST: [&str; 2] = ["count", "index"];
+const OF_SET: [&str; 6] = [
+    "difference",
+    "intersection",
+    "isdisjoint",
+    "issubset",
+    "issuperset",
+    "union",
+];
 const OF_DICT: [&str; 4] = ["get", "items", "keys", "values"];
 
 pub(super) fn has_method(value: &Value, name: &str) -> bool {
     match value {
         Value::Text(_) => OF_TEXT.contains(&name),
         Value::List(_) | Value::Tuple(_) => OF_LIST.contains(&name),
+        Value::Set(_) => OF_SET.contains(&name),
         Value::Dict(_) => OF_DICT.contains(&name),
         _ => false,
     }
@@ -66,6 +75,7 @@ pub(super) fn method(
             },
             _ => None,
         },
+        Value::Set(items) => of_set(items, name, values),
         Value::Dict(items) => {
             let list = |values: Vec<Value>| Some(Value::List(values.into()));
             match (name, values) {
@@ -89,6 +99,30 @@ pub(super) fn method(
         _ => None,
     };
     result.ok_or_else(|| format!("{}.{name}() does not take these values", object.sort()))
+}
+
+/// Methods of a set with one other collection.
+fn of_set(items: &[Value], name: &str, values: &[Value]) -> Option<Value> {
+    let [other] = values else {
+        return None;
+    };
+    let other = iterated(other).ok()?;
+    let common = items.iter().filter(|item| has(&other, item));
+    Some(match name {
+        "intersection" => Value::Set(common.cloned().collect()),
+        "difference" => Value::Set(
+            items
+                .iter()
+                .filter(|item| !has(&other, item))
+                .cloned()
+                .collect(),
+        ),
+        "union" => set(items.iter().cloned().chain(other)),
+        "isdisjoint" => Value::Bool(common.count() == 0),
+        "issubset" => Value::Bool(common.count() == items.len()),
+        "issuperset" => Value::Bool(other.iter().all(|item| has(items, item))),
+        _ => return None,
+    })
 }
 
 fn of_text(

@@ -16,6 +16,8 @@ pub(super) enum Value {
     Text(Text),
     List(Rc<[Value]>),
     Tuple(Rc<[Value]>),
+    /// Items that differ, in the order in which they were given: Python promises none.
+    Set(Rc<[Value]>),
     /// Keys in the order in which they were given.
     Dict(Rc<[(Value, Value)]>),
     /// A function by its name.
@@ -157,6 +159,7 @@ impl Value {
             Self::Text(_) => "a text",
             Self::List(_) => "a list",
             Self::Tuple(_) => "a tuple",
+            Self::Set(_) => "a set",
             Self::Dict(_) => "a dictionary",
             Self::Function(_) => "a function",
             Self::Module(_) => "a module",
@@ -172,7 +175,7 @@ impl Value {
             Self::Bool(value) => *value,
             Self::Number(number) => number.double() != 0.0,
             Self::Text(text) => !text.as_str().is_empty(),
-            Self::List(items) | Self::Tuple(items) => !items.is_empty(),
+            Self::List(items) | Self::Tuple(items) | Self::Set(items) => !items.is_empty(),
             Self::Dict(items) => !items.is_empty(),
             _ => true,
         }
@@ -234,6 +237,12 @@ impl Value {
                 listed(out, items)?;
                 out.push_str(if items.len() == 1 { ",)" } else { ")" });
             }
+            Self::Set(items) if items.is_empty() => out.push_str("set()"),
+            Self::Set(items) => {
+                out.push_str("{");
+                listed(out, items)?;
+                out.push_str("}");
+            }
             Self::Dict(items) => {
                 out.push_str("{");
                 for (index, (key, value)) in items.iter().enumerate() {
@@ -269,6 +278,7 @@ impl Value {
             (Self::List(a), Self::List(b)) | (Self::Tuple(a), Self::Tuple(b)) => {
                 a.len() == b.len() && a.iter().zip(b.iter()).all(|(a, b)| a.equals(b))
             }
+            (Self::Set(a), Self::Set(b)) => a.len() == b.len() && a.iter().all(|item| has(b, item)),
             (Self::Dict(a), Self::Dict(b)) => {
                 a.len() == b.len()
                     && a.iter()
@@ -277,6 +287,19 @@ impl Value {
             (Self::Function(a), Self::Function(b)) | (Self::Module(a), Self::Module(b)) => a == b,
             _ => false,
         }
+    }
+}
+
+/// Whether an item is among some.
+pub(super) fn has(items: &[Value], item: &Value) -> bool {
+    items.iter().any(|own| own.equals(item))
+}
+
+/// A set of those items that differ.
+pub(super) fn set(items: impl IntoIterator<Item = Value>) -> Value {
+    match dictionary(items.into_iter().map(|item| (item, Value::None))) {
+        Value::Dict(items) => Value::Set(items.iter().map(|(item, _)| item.clone()).collect()),
+        other => other,
     }
 }
 

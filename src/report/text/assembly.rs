@@ -259,7 +259,7 @@ fn released(assembly: &Assembly) -> Option<String> {
         .iter()
         .max_by(|a, b| a.correction.total_cmp(&b.correction))?;
     Some(format!(
-        "It closes if the held joints are released: `{}` then moves farthest, by {}.",
+        "Loops with held joints close once these are released: `{}` then moves farthest, by {}.",
         farthest.name,
         amount(farthest)
     ))
@@ -269,7 +269,7 @@ fn reversal(assembly: &Assembly) -> Option<String> {
     let reversal = assembly.reversal.as_ref()?;
     let about: Vec<String> = reversal.about.iter().map(|x| figure(*x)).collect();
     Some(format!(
-        "The two sides of `{}` point in opposite directions: it closes with one of its two frames turned by 180° \
+        "The two sides of `{}` point in opposite directions: this loop closes with one of its two frames turned by 180° \
          (the successor's, about its own direction {}), or with the axis reversed where each side states its own.",
         reversal.cycle,
         about.join(" ")
