@@ -164,7 +164,7 @@ fn drawn_poses_are_exact_solutions() {
                     let constant = |(e, _): &(Vec<u32>, u64)| e.iter().all(|e| *e == 0);
                     assert!(!modulo.equations.iter().flatten().any(constant), "{name}");
                 }
-                HomePose::Open { left, .. } if rounded => assert!(left.abs() < 1e-25, "{left}"),
+                HomePose::Open { left, .. } if rounded && left.abs() < 1e-25 => {}
                 other => wrong.push(format!("{name} {formulation:?}: {other:?}")),
             }
         }

@@ -227,8 +227,13 @@ impl<'a> DrivenMotion<'a> {
     }
 
     /// By how much a drive has to be stronger than one that moves a mechanism of its own size and mass: a tree of forty
-    /// links is more than that. One for all smaller ones.
+    /// links is more than that. One for all smaller ones, and for loops with their own masses: what is strong enough for
+    /// anything bends a loop open.
     fn load(&self, world: &World) -> f64 {
+        let loops = self.structure.parts.iter().any(|p| !p.cycles.is_empty());
+        if loops && self.masses == Masses::Stated {
+            return 1.0;
+        }
         let joint = &self.mechanism.joints()[self.way.driven.joint];
         let frame = world.link_poses()[joint.predecessor.link.0]
             .compose(&self.geometry.sides[self.way.driven.joint][0]);
