@@ -11,6 +11,10 @@ use crate::mobility::{
     Analysis, IdleLink, JointRole, PartFinding, PartRank, RelativeMotion, owners, with_owners,
 };
 
+/// The end of the warning of pieces that nothing holds; what they count for stands in [`Report::freedoms`] too.
+pub(super) const LOOSE: &str =
+    "of the links are connected to the ground by no joint at all; each such piece counts with six freedoms";
+
 /// Fills in everything that the analysis decided. Linear in the size of both.
 pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis) {
     report.generic = analysis.generic.map(|generic| GenericCount {
@@ -56,7 +60,7 @@ pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &An
     }
     if analysis.structure.loose_pieces > 0 {
         report.warnings.push(format!(
-            "{} of the links are connected to the ground by no joint at all; each such piece counts with six freedoms",
+            "{} {LOOSE}",
             analysis.structure.loose_pieces
         ));
     }

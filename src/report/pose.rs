@@ -9,6 +9,16 @@ use crate::mobility::{
     pose_of_branch,
 };
 
+/// How the sentences begin that are about the pose itself, not about the file.
+const OUTSIDE: &str = "this pose is outside joint limits: ";
+const DEAD: &str = "dead centre: ";
+const NEARLY: &str = "nearly singular: the smallest singular value kept";
+
+/// Whether a warning says what is wrong with the pose.
+pub(super) fn is_about_the_pose(warning: &str) -> bool {
+    warning.starts_with(OUTSIDE) || warning.starts_with(DEAD) || warning.contains(NEARLY)
+}
+
 /// Joints named in a sentence.
 const NAMED: usize = 4;
 
@@ -97,7 +107,7 @@ fn limits(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis) {
             texts.push(format!("and {} more", outside.len() - NAMED));
         }
         report.warnings.push(format!(
-            "this pose is outside joint limits: {}",
+            "{OUTSIDE}{}",
             texts.join("; ")
         ));
     }
@@ -134,7 +144,7 @@ fn dead(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis, geometr
     if !resting.is_empty() {
         let quoted: Vec<String> = resting.iter().map(|name| format!("`{name}`")).collect();
         report.warnings.push(format!(
-            "dead centre: {} {} at this pose, for an instant; as inputs they cannot start the motion from here",
+            "{DEAD}{} {} at this pose, for an instant; as inputs they cannot start the motion from here",
             names(&quoted, NAMED),
             if quoted.len() == 1 { "rests" } else { "rest" },
         ));
@@ -143,7 +153,7 @@ fn dead(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis, geometr
 
 fn near_text(mechanism: &Mechanism, found: &NearSingular, block: &str) -> String {
     let start = format!(
-        "{block}nearly singular: the smallest singular value kept is {} of the largest (below {} it would count as zero)",
+        "{block}{NEARLY} is {} of the largest (below {} it would count as zero)",
         figure(found.kept),
         figure(found.tolerance)
     );

@@ -10,10 +10,7 @@ use crate::mobility::Verdict;
 use crate::report::schema::{Assembly, Gap, JointPlace, Report};
 
 /// Joints in the table of those that moved, unless everything is asked for.
-const ROWS: usize = 12;
-
-/// Those that moved farthest, where more moved than fit into that table.
-const FARTHEST: usize = 6;
+const ROWS: usize = 4;
 
 /// Corrections below this (rad, m) are not shown: a hair's breadth seen from ten kilometres.
 const SHOWN: f64 = 1e-9;
@@ -159,20 +156,17 @@ fn corrections(joints: &[JointPlace], page: &mut Page) {
         return;
     }
     moved.sort_by(|a, b| b.correction.total_cmp(&a.correction));
-    let shown = if page.layout().verbose {
-        moved.len()
-    } else {
-        match moved.len() {
-            few @ 0..=ROWS => few,
-            _ => FARTHEST,
-        }
-    };
+    if !page.layout().verbose && moved.len() > ROWS {
+        let text = format!("{} moved; `--verbose` lists them.", counted(moved.len(), "joint"));
+        page.paragraph(&text, Tint::Plain, "  ", "  ");
+        return;
+    }
     let mut table = Table::new()
         .column("joint", Column::Shrinking)
         .column("drawn", Column::Numbers)
         .column("assembled", Column::Numbers)
         .column("moved by", Column::Numbers);
-    for place in &moved[..shown] {
+    for place in &moved {
         table.row_about(
             Subject::Joint(place.name.clone()),
             vec![
@@ -184,13 +178,6 @@ fn corrections(joints: &[JointPlace], page: &mut Page) {
         );
     }
     page.table(table, "joints");
-    if moved.len() > shown {
-        let text = format!(
-            "{} moved less; `--verbose` lists all.",
-            counted(moved.len() - shown, "more joint")
-        );
-        page.paragraph(&text, Tint::Plain, "  ", "  ");
-    }
 }
 
 /// Values of a joint of one freedom in ° or in a unit of length; of others as the configuration of a file has them.

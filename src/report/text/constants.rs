@@ -1,20 +1,26 @@
 //! The sentence on literals that were read as constants.
 
-use super::super::schema::Constants;
+use super::super::schema::{Constants, LiteralReading};
 use super::words::counted;
 
-/// Readings that are shown.
+/// Readings that a verbose page shows.
 const SHOWN: usize = 3;
 
-/// `31 literals read as what they are within their digits: `1.5707963267948966` = π/2, …`
-pub(super) fn sentence(constants: &Constants) -> String {
-    let shown: Vec<String> = constants
-        .readings
+/// `31 literals read as what they are within their digits: `1.5707963267948966` = π/2, …`; one reading unless everything is
+/// asked for, the shortest of those that are more than a rounded decimal.
+pub(super) fn sentence(constants: &Constants, verbose: bool) -> String {
+    let decimal = |text: &str| text.parse::<f64>().is_ok();
+    let mut readings: Vec<&LiteralReading> = constants.readings.iter().collect();
+    if !verbose {
+        readings.sort_by_key(|reading| (decimal(&reading.read_as), reading.literal.len()));
+        readings.truncate(1);
+    }
+    let shown: Vec<String> = readings
         .iter()
         .take(SHOWN)
         .map(|reading| format!("`{}` = {}", reading.literal, reading.read_as))
         .collect();
-    let more = match constants.readings.len() > SHOWN {
+    let more = match constants.readings.len() > shown.len() {
         true => ", …",
         false => "",
     };
@@ -27,7 +33,6 @@ pub(super) fn sentence(constants: &Constants) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::schema::LiteralReading;
     use super::*;
 
     #[test]
@@ -44,7 +49,7 @@ mod tests {
             ],
         };
         assert_eq!(
-            sentence(&constants),
+            sentence(&constants, true),
             " 31 literals read as what they are within their digits: `1.5707963267948966` = π/2, `6.123e-17` = 0 (`--literal` \
              takes them as written)."
         );
@@ -52,6 +57,7 @@ mod tests {
             reading("0.7853981633974483", "π/4"),
             reading("3.14159265", "π"),
         ]);
-        assert!(sentence(&constants).contains("π/4, … ("));
+        assert!(sentence(&constants, true).contains("π/4, … ("));
+        assert!(sentence(&constants, false).contains(": `3.14159265` = π, … ("));
     }
 }

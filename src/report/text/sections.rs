@@ -5,15 +5,21 @@ use super::folded::Folded;
 use super::page::Page;
 use super::style::Tint;
 use super::table::{Cell, Column, Subject, Table};
-use super::words::{counted, figure, names};
-use crate::report::schema::{Advice, Cycle, Report};
+use super::words::{capitalised, counted, figure, mirrored_runs, names, runs};
+use crate::report::findings::LOOSE;
+use crate::report::pose::is_about_the_pose;
+use crate::report::schema::{Advice, CouplingRow, Cycle, Report};
 use std::collections::BTreeSet;
 
 /// Lists of names in a table show this many.
 const NAMES_IN_CELL: usize = 12;
 
-/// Couplings shown on a first screen.
-const COUPLINGS: usize = 8;
+/// Couplings shown on a first screen, and how many of them where there are more.
+const COUPLINGS: usize = 6;
+const FIRST_COUPLINGS: usize = 3;
+
+/// Loops of which equal ones have a row each on a first screen.
+const LOOPS: usize = 3;
 
 /// Says that a list goes on.
 pub(super) fn more(left: usize, page: &mut Page) {
@@ -29,16 +35,27 @@ pub(in crate::report) fn couplings(report: &Report, page: &mut Page) {
         return;
     }
     page.heading("Couplings");
-    let mut table = Table::new()
-        .column("coupling", Column::Shrinking)
-        .column("equation (rad, m)", Column::Shrinking);
     let all = report.couplings.len();
-    let shown = match page.layout().verbose || all <= COUPLINGS {
+    let verbose = page.layout().verbose;
+    let shown = match verbose || all <= COUPLINGS {
         true => all,
-        false => COUPLINGS,
+        false => FIRST_COUPLINGS,
     };
+    // The name of a `mimic` is that of its joint, which its equation begins with.
+    let told = |row: &CouplingRow| {
+        let joint = row.name.strip_suffix(".mimic");
+        joint.is_some_and(|joint| row.text.starts_with(joint))
+    };
+    let named = verbose || !report.couplings.iter().all(told);
+    let mut table = Table::new();
+    if named {
+        table = table.column("coupling", Column::Shrinking);
+    }
+    table = table.column("equation (rad, m)", Column::Shrinking);
     for coupling in &report.couplings[..shown] {
-        table.row(vec![Cell::new(&coupling.name), Cell::new(&coupling.text)]);
+        let name = named.then(|| Cell::new(&coupling.name));
+        let equation = Cell::new(&coupling.text);
+        table.row(name.into_iter().chain([equation]).collect());
     }
     page.table(table, "couplings");
     more(all - shown, page);
@@ -63,32 +80,94 @@ pub(in crate::report) fn cycles(report: &Report, page: &mut Page) {
         .column("redundant", Column::Numbers)
         .column("freedom alone", Column::Numbers)
         .column("locks alone", Column::Shrinking);
-    let all = report.cycles.len();
-    let shown = match page.layout().verbose {
-        true => all,
-        false => rows_of(all),
+    let groups = match page.layout().verbose || report.cycles.len() <= LOOPS {
+        true => report.cycles.iter().map(|cycle| vec![cycle]).collect(),
+        false => equal_loops(&report.cycles),
     };
-    for cycle in &report.cycles[..shown] {
+    let shown = match page.layout().verbose {
+        true => groups.len(),
+        false => rows_of(groups.len()),
+    };
+    for group in &groups[..shown] {
+        let [cycle, others @ ..] = group.as_slice() else {
+            continue;
+        };
+        let locks: Vec<String> = group.iter().flat_map(|c| c.locks.clone()).collect();
         let subject = Subject::Cycle(cycle.name.clone());
+        let (name, through, space) = match others {
+            [] => (
+                cycle.name.clone(),
+                joints_of(cycle, &folded, most),
+                space(cycle),
+            ),
+            _ => (loop_names(group), lengths(group, &folded), kind_of(cycle)),
+        };
         table.row_about(
             subject,
             vec![
-                Cell::new(&cycle.name).tint(Tint::Strong),
-                Cell::new(joints_of(cycle, &folded, most)),
-                Cell::new(space(cycle)),
+                Cell::new(name).tint(Tint::Strong),
+                Cell::new(through),
+                Cell::new(space),
                 Cell::new(unsure(cycle.rank)),
                 Cell::new(unsure(cycle.redundant)),
                 Cell::new(unsure(cycle.mobility)),
-                Cell::new(if cycle.locks.is_empty() {
-                    "–".to_owned()
-                } else {
-                    names(&cycle.locks, most)
+                Cell::new(match (locks.is_empty(), others) {
+                    (true, _) => "–".to_owned(),
+                    (false, []) => names(&locks, most),
+                    (false, _) => mirrored_runs(&locks, most),
                 }),
             ],
         );
     }
     page.table(table, "loops");
-    more(all - shown, page);
+    more(groups[shown..].iter().map(Vec::len).sum(), page);
+}
+
+/// Loops of which the table says the same but for their joints, in the order of first mention.
+fn equal_loops(cycles: &[Cycle]) -> Vec<Vec<&Cycle>> {
+    let facts = |c: &Cycle| {
+        let counts = (c.rank, c.redundant, c.mobility, c.locks.len());
+        (c.space.clone(), c.dimension, counts)
+    };
+    let mut groups: Vec<Vec<&Cycle>> = Vec::new();
+    for cycle in cycles {
+        match groups.iter_mut().find(|g| facts(g[0]) == facts(cycle)) {
+            Some(group) => group.push(cycle),
+            None => groups.push(vec![cycle]),
+        }
+    }
+    groups
+}
+
+/// `C1 … C4 and C7`.
+fn loop_names(group: &[&Cycle]) -> String {
+    let all: Vec<String> = group.iter().map(|cycle| cycle.name.clone()).collect();
+    runs(&all, 3)
+}
+
+/// `4 loops of 5 to 7 joints`.
+fn lengths(group: &[&Cycle], folded: &BTreeSet<&str>) -> String {
+    let length = |cycle: &&Cycle| {
+        let joints = cycle.joints.iter();
+        joints.filter(|j| !folded.contains(j.as_str())).count()
+    };
+    let least = group.iter().map(length).min().unwrap_or(0);
+    let most = group.iter().map(length).max().unwrap_or(0);
+    let many = counted(group.len(), "loop");
+    match least == most {
+        true => format!("{many} of {}", counted(most, "joint")),
+        false => format!("{many} of {least} to {most} joints"),
+    }
+}
+
+/// The kind of its displacements, without the axis or plane, which differs from loop to loop.
+fn kind_of(cycle: &Cycle) -> String {
+    let text = space(cycle);
+    let end = [" normal to ", " along ", " about ", " through "]
+        .iter()
+        .filter_map(|word| text.find(word))
+        .min();
+    text[..end.unwrap_or(text.len())].to_owned()
 }
 
 /// Rows of a first screen where one or two more would not be worth the line that says so.
@@ -143,8 +222,20 @@ pub(in crate::report) fn advice(report: &Report, page: &mut Page) {
         return;
     }
     let mut left = report.advice.len();
+    page.paragraph(
+        "Joints that could be given more freedom without adding any to the mechanism at this pose:",
+        Tint::Plain,
+        "  ",
+        "  ",
+    );
     for change in Alternatives::of(&report.advice).iter().take(CHANGES) {
-        page.item(&told(&change.text(), change.first), Tint::Plain);
+        let text = change.text();
+        // What all of them do stands above them and in the numbers.
+        let short = match text.split_once("; removes ") {
+            Some((short, rest)) if rest.ends_with("and adds no freedom at this pose") => short,
+            _ => &text,
+        };
+        page.item(&told(short, change.first), Tint::Plain);
         left -= change.pieces();
     }
     more(left, page);
@@ -160,20 +251,94 @@ fn told(text: &str, advice: &Advice) -> String {
 }
 
 /// Changes shown on a first screen where there are more than [`ADVICE`] pieces of advice.
-const CHANGES: usize = 4;
+const CHANGES: usize = 2;
 
 /// Pieces of advice and warnings shown on a first screen.
 const ADVICE: usize = 8;
 
+/// What is wrong with the pose.
+pub(super) fn pose(report: &Report, page: &mut Page) {
+    for warning in report.warnings.iter().filter(|w| is_about_the_pose(w)) {
+        page.paragraph(&capitalised(warning), Tint::Doubtful, "", "");
+    }
+}
+
 /// What to beware of.
 pub(in crate::report) fn warnings(report: &Report, page: &mut Page) {
-    if report.warnings.is_empty() {
+    list(&report.warnings, page);
+}
+
+/// What to beware of besides the pose; on a first screen without what the answer says already, and without what in the file
+/// has no meaning, which counts as not read.
+pub(super) fn other_warnings(report: &Report, page: &mut Page) {
+    let verbose = page.layout().verbose;
+    let floats = report.freedoms.as_ref().is_some_and(|f| f.floating > 0);
+    let told = |warning: &str| {
+        let of_file = meaningless(warning).is_some() || old_name(warning).is_some();
+        !verbose && (floats && warning.ends_with(LOOSE) || of_file)
+    };
+    let others: Vec<String> = report
+        .warnings
+        .iter()
+        .filter(|warning| !is_about_the_pose(warning) && !told(warning))
+        .map(|warning| match verbose {
+            true => warning.clone(),
+            false => without_folders(warning),
+        })
+        .collect();
+    list(&others, page);
+}
+
+/// `15 × <axis> of a fixed joint`, of `<axis> means nothing for a fixed joint and is ignored (15 times, …)`.
+fn meaningless(warning: &str) -> Option<String> {
+    let (_, text) = without_place(warning);
+    let (element, rest) = text.split_once(" means nothing for ")?;
+    let (joint, rest) = rest.split_once(" and is ignored")?;
+    Some(format!("{}{element} of {joint}", times(rest)))
+}
+
+/// `6 × <joint_properties> for <dynamics>`, of `<joint_properties> is the old name of <dynamics> and read as such (6 times, …)`.
+fn old_name(warning: &str) -> Option<String> {
+    let (_, text) = without_place(warning);
+    let (old, rest) = text.split_once(" is the old name of ")?;
+    let (new, rest) = rest.split_once(" and read as such")?;
+    Some(format!("{}{old} for {new}", times(rest)))
+}
+
+/// `6 × `, of ` (6 times, first at line 90, column 5)`.
+fn times(rest: &str) -> String {
+    rest.split_once(" times, first at ")
+        .and_then(|(before, _)| before.rsplit('(').next())
+        .map_or_else(String::new, |times| format!("{times} × "))
+}
+
+/// A warning as `line 35, column 5` and what it says of that place; an empty place where it names none.
+fn without_place(warning: &str) -> (&str, &str) {
+    match warning.split_once(": ") {
+        Some((place, text)) if place.starts_with("line ") => (place, text),
+        _ => ("", warning),
+    }
+}
+
+/// A warning whose ` (at /a/long/way/to/file.xacro:3:1)` names the file alone.
+fn without_folders(warning: &str) -> String {
+    const AT: &str = " (at ";
+    let Some((before, rest)) = warning.split_once(AT) else {
+        return warning.to_owned();
+    };
+    let end = rest.find(')').unwrap_or(rest.len());
+    let file = rest[..end].rsplit(['/', '\\']).next().unwrap_or("");
+    format!("{before}{AT}{file}{}", &rest[end..])
+}
+
+fn list(warnings: &[String], page: &mut Page) {
+    if warnings.is_empty() {
         return;
     }
     page.heading("Warnings");
     let warnings = match page.layout().verbose {
-        true => report.warnings.clone(),
-        false => repeated_once(&report.warnings),
+        true => warnings.to_vec(),
+        false => repeated_once(warnings),
     };
     let shown = match page.layout().verbose {
         true => warnings.len(),
@@ -189,11 +354,7 @@ pub(in crate::report) fn warnings(report: &Report, page: &mut Page) {
 fn repeated_once(warnings: &[String]) -> Vec<String> {
     let mut counted: Vec<(&str, &str, usize)> = Vec::new();
     for warning in warnings {
-        // As `line 35, column 5: …`.
-        let (place, text) = match warning.split_once(": ") {
-            Some((place, text)) if place.starts_with("line ") => (place, text),
-            _ => ("", warning.as_str()),
-        };
+        let (place, text) = without_place(warning);
         match counted.iter_mut().find(|(_, known, _)| *known == text) {
             Some((_, _, count)) => *count += 1,
             None => counted.push((place, text, 1)),
@@ -212,22 +373,27 @@ fn repeated_once(warnings: &[String]) -> Vec<String> {
 
 /// What of the file was not read, in one line; a verbose page lists it with places.
 fn unread(report: &Report, page: &mut Page) {
-    const KINDS: usize = 12;
-    if report.skipped.is_empty() {
-        return;
-    }
+    const KINDS: usize = 6;
     let short = |line: &String| {
-        let (_, what) = line
-            .split_once(": ")
-            .filter(|(place, _)| place.starts_with("line "))
-            .unwrap_or(("", line));
+        let (_, what) = without_place(line);
         let what = what.split(" (first at ").next().unwrap_or(what);
+        let what = what.split(" (at ").next().unwrap_or(what);
         what.to_owned()
     };
-    let mut kinds: Vec<String> = report.skipped.iter().take(KINDS).map(short).collect();
-    let left = report.skipped.len().saturating_sub(KINDS);
+    let ignored = report.warnings.iter().filter_map(|w| meaningless(w));
+    let mut kinds: Vec<String> = report.skipped.iter().map(short).chain(ignored).collect();
+    let old: Vec<String> = report.warnings.iter().filter_map(|w| old_name(w)).collect();
+    if !old.is_empty() {
+        let text = format!("Old names read: {}.", old.join(", "));
+        page.paragraph(&text, Tint::Quiet, "  ", "  ");
+    }
+    if kinds.is_empty() {
+        return;
+    }
+    let left = kinds.len().saturating_sub(KINDS);
     if left > 0 {
-        kinds.push(format!("and {left} more kinds"));
+        kinds.truncate(KINDS);
+        kinds.push(format!("and {}", counted(left, "more kind")));
     }
     let text = format!("Not read: {} (`--verbose` says where).", kinds.join(", "));
     page.paragraph(&text, Tint::Quiet, "  ", "  ");
