@@ -1,5 +1,6 @@
 //! What a careful owner should know of the pose: limits, dead centres, singular poses nearby. Sentences for the warnings.
 
+use super::findings::LOCKED_TOGETHER;
 use super::schema::Report;
 use super::text::words::{counted, figure, names};
 use crate::closure::{Arithmetic, Geometry};
@@ -14,9 +15,12 @@ const OUTSIDE: &str = "this pose is outside joint limits: ";
 const DEAD: &str = "dead centre: ";
 const NEARLY: &str = "nearly singular: the smallest singular value kept";
 
-/// Whether a warning says what is wrong with the pose.
+/// Whether a warning says what is wrong with the pose, or with what holds there.
 pub(super) fn is_about_the_pose(warning: &str) -> bool {
-    warning.starts_with(OUTSIDE) || warning.starts_with(DEAD) || warning.contains(NEARLY)
+    warning.starts_with(OUTSIDE)
+        || warning.starts_with(DEAD)
+        || warning.contains(NEARLY)
+        || warning.contains(LOCKED_TOGETHER)
 }
 
 /// Joints named in a sentence.
@@ -106,10 +110,9 @@ fn limits(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis) {
         if outside.len() > NAMED {
             texts.push(format!("and {} more", outside.len() - NAMED));
         }
-        report.warnings.push(format!(
-            "{OUTSIDE}{}",
-            texts.join("; ")
-        ));
+        report
+            .warnings
+            .push(format!("{OUTSIDE}{}", texts.join("; ")));
     }
     if !no_range.is_empty() {
         no_range.sort_by(|a, b| super::natural_order(a, b));

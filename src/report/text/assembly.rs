@@ -34,7 +34,12 @@ pub(in crate::report) fn section(report: &Report, page: &mut Page) {
     }
     page.heading("Assembly");
     if let Some(moved) = moved {
-        page.paragraph(&how_far(assembly, moved), Tint::Plain, "  ", "  ");
+        let mut text = how_far(assembly, moved);
+        let all = farthest_first(&assembly.joints).len();
+        if !page.layout().verbose && all > ROWS {
+            text.push_str(&format!(" All {all} that moved: `--verbose`."));
+        }
+        page.paragraph(&text, Tint::Plain, "  ", "  ");
     }
     if let Some(text) = held(assembly) {
         page.paragraph(&text, Tint::Plain, "  ", "  ");
@@ -147,18 +152,19 @@ fn outside(assembly: &Assembly) -> Option<String> {
 }
 
 /// The joints that moved, farthest first.
-fn corrections(joints: &[JointPlace], page: &mut Page) {
+fn farthest_first(joints: &[JointPlace]) -> Vec<&JointPlace> {
     let mut moved: Vec<&JointPlace> = joints
         .iter()
         .filter(|place| place.correction > SHOWN)
         .collect();
-    if moved.is_empty() {
-        return;
-    }
     moved.sort_by(|a, b| b.correction.total_cmp(&a.correction));
-    if !page.layout().verbose && moved.len() > ROWS {
-        let text = format!("{} moved; `--verbose` lists them.", counted(moved.len(), "joint"));
-        page.paragraph(&text, Tint::Plain, "  ", "  ");
+    moved
+}
+
+/// Their table, which a first screen has where it is short.
+fn corrections(joints: &[JointPlace], page: &mut Page) {
+    let moved = farthest_first(joints);
+    if moved.is_empty() || !page.layout().verbose && moved.len() > ROWS {
         return;
     }
     let mut table = Table::new()

@@ -122,14 +122,15 @@ pub(in crate::report) fn motions(report: &Report, on_page: bool, page: &mut Page
         by_kind(&shown, page);
         return;
     }
+    if shown.is_empty() {
+        return;
+    }
     page.heading(&format!("Motions ({})", cite::MOTION));
     let told = shown.len();
     if !verbose && told > MOTIONS {
         shown = foremost(report, shown);
     }
-    if !shown.is_empty() {
-        motion_table(&shown, several, page);
-    }
+    motion_table(&shown, several, page);
     if shown.len() < told {
         let text = format!(
             "… and {} more: `--verbose` or `--format json` shows all {all}, `--between A B` any pair",
@@ -143,7 +144,7 @@ pub(in crate::report) fn motions(report: &Report, on_page: bool, page: &mut Page
 const KINDS: usize = 8;
 
 /// Links, or runs of them, named in a line.
-const NAMED: usize = 4;
+const NAMED: usize = 3;
 
 /// The motions of many links: of each kind, in a line, which links move so.
 fn by_kind(motions: &[&Motion], page: &mut Page) {
@@ -167,7 +168,11 @@ fn by_kind(motions: &[&Motion], page: &mut Page) {
             true => String::new(),
             false => format!(", seen from {root}"),
         };
-        let line = format!("{}{from}: {}", how(*freedom, class, links.len()), listed(links));
+        let line = format!(
+            "{}{from}: {}",
+            how(*freedom, class, links.len()),
+            listed(links)
+        );
         page.paragraph(&line, Tint::Plain, "  ", "    ");
     }
     more(kinds.values().skip(KINDS).map(Vec::len).sum(), page);
@@ -182,7 +187,7 @@ fn how(freedom: usize, class: &str, links: usize) -> String {
     let many = counted(links, "link");
     match freedom {
         0 => format!("{many} {does} not move"),
-        6 => format!("{many} {move_} without restriction (6 freedoms)"),
+        6 => format!("{many} {move_} without restriction"),
         1 => format!("{many} {move_} in 1 way ({class})"),
         n => format!("{many} {move_} in {n} ways ({class})"),
     }

@@ -6,21 +6,18 @@ use super::words::counted;
 /// Readings that a verbose page shows.
 const SHOWN: usize = 3;
 
-/// `31 literals read as what they are within their digits: `1.5707963267948966` = π/2, …`; one reading unless everything is
-/// asked for, the shortest of those that are more than a rounded decimal.
+/// `31 literals read as what they are within their digits: `1.5707963267948966` = π/2, …`
 pub(super) fn sentence(constants: &Constants, verbose: bool) -> String {
-    let decimal = |text: &str| text.parse::<f64>().is_ok();
-    let mut readings: Vec<&LiteralReading> = constants.readings.iter().collect();
     if !verbose {
-        readings.sort_by_key(|reading| (decimal(&reading.read_as), reading.literal.len()));
-        readings.truncate(1);
+        return briefly(constants);
     }
-    let shown: Vec<String> = readings
+    let shown: Vec<String> = constants
+        .readings
         .iter()
         .take(SHOWN)
         .map(|reading| format!("`{}` = {}", reading.literal, reading.read_as))
         .collect();
-    let more = match constants.readings.len() > shown.len() {
+    let more = match constants.readings.len() > SHOWN {
         true => ", …",
         false => "",
     };
@@ -28,6 +25,20 @@ pub(super) fn sentence(constants: &Constants, verbose: bool) -> String {
         " {} read as what they are within their digits: {}{more} (`--literal` takes them as written).",
         counted(constants.count, "literal"),
         shown.join(", ")
+    )
+}
+
+/// The same with one reading, the shortest of those that are more than a rounded decimal.
+fn briefly(constants: &Constants) -> String {
+    let decimal = |text: &str| text.parse::<f64>().is_ok();
+    let rank = |reading: &&LiteralReading| (decimal(&reading.read_as), reading.literal.len());
+    let such_as = constants.readings.iter().min_by_key(rank);
+    let such_as = such_as.map_or_else(String::new, |reading| {
+        format!(", such as `{}` = {}", reading.literal, reading.read_as)
+    });
+    format!(
+        " {} read as the constants they round{such_as} (`--literal` takes them as written).",
+        counted(constants.count, "literal")
     )
 }
 
@@ -58,6 +69,6 @@ mod tests {
             reading("3.14159265", "π"),
         ]);
         assert!(sentence(&constants, true).contains("π/4, … ("));
-        assert!(sentence(&constants, false).contains(": `3.14159265` = π, … ("));
+        assert!(sentence(&constants, false).contains(", such as `3.14159265` = π ("));
     }
 }

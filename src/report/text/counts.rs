@@ -87,10 +87,10 @@ pub(in crate::report) fn write(report: &Report, page: &mut Page) {
     );
     page.table(table, "counts");
     // A first screen leaves out what only repeats the table.
-    let repeats = home.redundant == Some(0);
+    let decided = home.instantaneous.is_some() && home.redundant.is_some();
     let adds = |generic: &GenericCount| Some(generic.mobility) != home.instantaneous;
     let sentences = [
-        (verbose || !repeats).then(|| difference(report)),
+        (verbose || !decided).then(|| difference(report)),
         geometry(report).filter(|_| verbose || report.generic.as_ref().is_some_and(adds)),
         pose(home),
         match verbose {
@@ -234,8 +234,12 @@ fn short_margin(report: &Report) -> Option<String> {
     if home.rank.is_none() || home.as_written.is_some() || !clear || kept < CLEAR * tolerance {
         return margin(report);
     }
+    let dropped = match home.dropped {
+        Some(_) => format!("dropped ≤ {ROUNDING:e}"),
+        None => "none dropped".to_owned(),
+    };
     Some(format!(
-        "Margin of the rank: singular values kept ≥ {} of the largest, dropped 0 up to rounding; threshold {}.",
+        "Rank margin: singular values kept ≥ {} of the largest, {dropped}, threshold {}.",
         figure(kept),
         figure(tolerance)
     ))

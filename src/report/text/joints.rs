@@ -96,21 +96,19 @@ fn summed_up(report: &Report, rows: &mut Vec<&JointRow>) -> Vec<String> {
         _ => "give way",
     };
     let mut lines = Vec::new();
-    let mut take = |rows: &mut Vec<&JointRow>,
-                    wanted: &dyn Fn(&JointRow) -> bool,
-                    why: &str,
-                    least: usize| {
-        let taken: Vec<String> = rows
-            .iter()
-            .filter(|joint| wanted(joint))
-            .map(|joint| joint.name.clone())
-            .collect();
-        if taken.len() > least {
-            rows.retain(|joint| !wanted(joint));
-            let many = counted(taken.len(), "joint");
-            lines.push(format!("{many} {why}: {}", mirrored_runs(&taken, NAMED)));
-        }
-    };
+    let mut take =
+        |rows: &mut Vec<&JointRow>, wanted: &dyn Fn(&JointRow) -> bool, why: &str, least: usize| {
+            let taken: Vec<String> = rows
+                .iter()
+                .filter(|joint| wanted(joint))
+                .map(|joint| joint.name.clone())
+                .collect();
+            if taken.len() > least {
+                rows.retain(|joint| !wanted(joint));
+                let many = counted(taken.len(), "joint");
+                lines.push(format!("{many} {why}: {}", mirrored_runs(&taken, NAMED)));
+            }
+        };
     let many = |rows: usize| if rows > ROWS { ALIKE } else { ROWS };
     let least = many(rows.len());
     let in_loop = |joint: &JointRow| in_loops.contains(joint.name.as_str());
@@ -160,7 +158,7 @@ fn summed_up(report: &Report, rows: &mut Vec<&JointRow>) -> Vec<String> {
                 take(
                     rows,
                     &|joint| joint.freedom > 0 && joint.locked.is_none() && same(joint),
-                    &format!("may move or not: a margin is too thin{undetermined}"),
+                    &format!("may move or not, which is not decided{undetermined}"),
                     least,
                 );
             }

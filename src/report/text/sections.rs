@@ -5,8 +5,9 @@ use super::folded::Folded;
 use super::page::Page;
 use super::style::Tint;
 use super::table::{Cell, Column, Subject, Table};
-use super::words::{capitalised, counted, figure, mirrored_runs, names, runs};
-use crate::report::findings::LOOSE;
+use super::words::{capitalised, counted, figure, mirrored_runs, names, one_side, runs};
+use crate::mobility::CertificateLevel;
+use crate::report::findings::{LOCKED_TOGETHER, LOOSE};
 use crate::report::pose::is_about_the_pose;
 use crate::report::schema::{Advice, CouplingRow, Cycle, Report};
 use std::collections::BTreeSet;
@@ -66,6 +67,9 @@ pub(in crate::report) fn cycles(report: &Report, page: &mut Page) {
     if report.cycles.is_empty() {
         return;
     }
+    if !page.layout().verbose && says_nothing_more(report) {
+        return;
+    }
     page.heading("Loops (basic cycles)");
     let most = limit(page);
     let folded = match page.layout().verbose {
@@ -123,6 +127,16 @@ pub(in crate::report) fn cycles(report: &Report, page: &mut Page) {
     more(groups[shown..].iter().map(Vec::len).sum(), page);
 }
 
+/// Whether the only loop is all of the mechanism, and what its motions have in common is said among the reasons, or nothing.
+fn says_nothing_more(report: &Report) -> bool {
+    let certificate = report.mobility.certificate.as_ref();
+    let said = certificate.is_some_and(|c| c.level == CertificateLevel::Subgroup);
+    matches!(report.cycles.as_slice(), [only]
+        if only.mobility.is_some() && only.mobility == report.home.instantaneous
+            && only.redundant == report.home.redundant
+            && (said || only.dimension == Some(6)))
+}
+
 /// Loops of which the table says the same but for their joints, in the order of first mention.
 fn equal_loops(cycles: &[Cycle]) -> Vec<Vec<&Cycle>> {
     let facts = |c: &Cycle| {
@@ -145,7 +159,7 @@ fn loop_names(group: &[&Cycle]) -> String {
     runs(&all, 3)
 }
 
-/// `4 loops of 5 to 7 joints`.
+/// `5 to 7 joints each`.
 fn lengths(group: &[&Cycle], folded: &BTreeSet<&str>) -> String {
     let length = |cycle: &&Cycle| {
         let joints = cycle.joints.iter();
@@ -153,10 +167,9 @@ fn lengths(group: &[&Cycle], folded: &BTreeSet<&str>) -> String {
     };
     let least = group.iter().map(length).min().unwrap_or(0);
     let most = group.iter().map(length).max().unwrap_or(0);
-    let many = counted(group.len(), "loop");
     match least == most {
-        true => format!("{many} of {}", counted(most, "joint")),
-        false => format!("{many} of {least} to {most} joints"),
+        true => format!("{} each", counted(most, "joint")),
+        false => format!("{least} to {most} joints each"),
     }
 }
 
@@ -258,8 +271,22 @@ const ADVICE: usize = 8;
 
 /// What is wrong with the pose.
 pub(super) fn pose(report: &Report, page: &mut Page) {
-    for warning in report.warnings.iter().filter(|w| is_about_the_pose(w)) {
-        page.paragraph(&capitalised(warning), Tint::Doubtful, "", "");
+    let all = report.warnings.iter();
+    let told: Vec<String> = all.filter(|w| is_about_the_pose(w)).cloned().collect();
+    let told = match page.layout().verbose {
+        true => told,
+        false => repeated_once(&told),
+    };
+    for warning in told {
+        page.paragraph(&sentence(&warning), Tint::Doubtful, "", "");
+    }
+}
+
+/// A warning with a full stop, and a capital unless it begins with the name of a block.
+fn sentence(warning: &str) -> String {
+    match warning.contains(LOCKED_TOGETHER) {
+        true => format!("{warning}."),
+        false => capitalised(warning),
     }
 }
 
@@ -350,13 +377,23 @@ fn list(warnings: &[String], page: &mut Page) {
     more(warnings.len() - shown, page);
 }
 
-/// Warnings that differ only in the place they speak of, once, with the number of places: `14 × …, first in line 35`.
+/// Warnings that differ only in the place they speak of, or in the side of the machine, once, with the number of places: `14 × …, first in line 35`.
 fn repeated_once(warnings: &[String]) -> Vec<String> {
     let mut counted: Vec<(&str, &str, usize)> = Vec::new();
+    let mut mirrored: BTreeSet<String> = BTreeSet::new();
     for warning in warnings {
         let (place, text) = without_place(warning);
-        match counted.iter_mut().find(|(_, known, _)| *known == text) {
-            Some((_, _, count)) => *count += 1,
+        let sides = one_side(text);
+        match counted
+            .iter_mut()
+            .find(|(_, known, _)| one_side(known) == sides)
+        {
+            Some((_, known, count)) => {
+                if *known != text {
+                    mirrored.insert((*known).to_owned());
+                }
+                *count += 1;
+            }
             None => counted.push((place, text, 1)),
         }
     }
@@ -365,8 +402,15 @@ fn repeated_once(warnings: &[String]) -> Vec<String> {
         .map(|(place, text, count)| match (count, place) {
             (1, "") => text.to_owned(),
             (1, place) => format!("{place}: {text}"),
-            (many, "") => format!("{many} × {text}"),
-            (many, place) => format!("{many} × {text} (first in {place})"),
+            (many, place) => {
+                let images = mirrored.contains(text).then_some("left and right alike");
+                let first = (!place.is_empty()).then(|| format!("first in {place}"));
+                let notes: Vec<&str> = images.into_iter().chain(first.as_deref()).collect();
+                match notes.as_slice() {
+                    [] => format!("{many} × {text}"),
+                    notes => format!("{many} × {text} ({})", notes.join(", ")),
+                }
+            }
         })
         .collect()
 }
@@ -383,11 +427,7 @@ fn unread(report: &Report, page: &mut Page) {
     let ignored = report.warnings.iter().filter_map(|w| meaningless(w));
     let mut kinds: Vec<String> = report.skipped.iter().map(short).chain(ignored).collect();
     let old: Vec<String> = report.warnings.iter().filter_map(|w| old_name(w)).collect();
-    if !old.is_empty() {
-        let text = format!("Old names read: {}.", old.join(", "));
-        page.paragraph(&text, Tint::Quiet, "  ", "  ");
-    }
-    if kinds.is_empty() {
+    if kinds.is_empty() && old.is_empty() {
         return;
     }
     let left = kinds.len().saturating_sub(KINDS);
@@ -395,8 +435,15 @@ fn unread(report: &Report, page: &mut Page) {
         kinds.truncate(KINDS);
         kinds.push(format!("and {}", counted(left, "more kind")));
     }
-    let text = format!("Not read: {} (`--verbose` says where).", kinds.join(", "));
-    page.paragraph(&text, Tint::Quiet, "  ", "  ");
+    let told = [("Not read: ", kinds), ("Old names read: ", old)];
+    let told: Vec<String> = told
+        .into_iter()
+        .filter(|(_, list)| !list.is_empty())
+        .map(|(title, list)| format!("{title}{}", list.join(", ")))
+        .collect();
+    let text = format!("{} (`--verbose` says where).", told.join(". "));
+    page.gap();
+    page.paragraph(&text, Tint::Quiet, "", "");
 }
 
 /// What only a verbose page shows, and times where they were asked for.

@@ -76,6 +76,20 @@ fn images(name: &str) -> impl Iterator<Item = (String, String)> {
     found.into_iter()
 }
 
+/// A text with every word that tells a side from the other as if it were the left one: equal for mirror images.
+#[must_use]
+pub fn one_side(text: &str) -> String {
+    let parts = text.split_inclusive(|c: char| !c.is_alphanumeric());
+    let left = |part: &str| {
+        let bare = part.trim_end_matches(|c: char| !c.is_alphanumeric());
+        let side = SIDES.iter().find(|[_, right]| *right == bare);
+        side.map(|[left, _]| format!("{left}{}", &part[bare.len()..]))
+    };
+    parts
+        .map(|part| left(part).unwrap_or_else(|| part.to_owned()))
+        .collect()
+}
+
 fn runs_of(list: &[Sides], most: usize) -> String {
     let mut told: Vec<String> = Vec::new();
     let mut left = list;
@@ -252,8 +266,17 @@ mod tests {
         assert_eq!(told(&legs, 9), "left/right_hip and left/right_knee");
         assert_eq!(told(&legs, 1), "left/right_hip and 2 more");
         assert_eq!(
-            told(&["arm-l-1", "arm-l-2", "arm-l-3", "arm-r-1", "arm-r-2", "arm-r-3"], 9),
+            told(
+                &[
+                    "arm-l-1", "arm-l-2", "arm-l-3", "arm-r-1", "arm-r-2", "arm-r-3"
+                ],
+                9
+            ),
             "arm-l/r-1 … arm-l/r-3"
+        );
+        assert_eq!(
+            one_side("`r_grip`: right, r."),
+            one_side("`l_grip`: left, l.")
         );
         // Neither part of a word nor a name without its image.
         let others = ["cleft", "cright", "left", "left_ä"];
