@@ -234,12 +234,8 @@ fn short_margin(report: &Report) -> Option<String> {
     if home.rank.is_none() || home.as_written.is_some() || !clear || kept < CLEAR * tolerance {
         return margin(report);
     }
-    let dropped = match home.dropped {
-        Some(_) => format!("dropped ≤ {ROUNDING:e}"),
-        None => "none dropped".to_owned(),
-    };
     Some(format!(
-        "Rank margin: singular values kept ≥ {} of the largest, {dropped}, threshold {}.",
+        "Rank margin: singular values kept ≥ {} of the largest; below {} counts as zero.",
         figure(kept),
         figure(tolerance)
     ))

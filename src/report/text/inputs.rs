@@ -42,13 +42,13 @@ fn sentences(report: &Report, inputs: &Inputs, most: usize) -> Vec<(String, Tint
             }
             let text = if inputs.complete {
                 format!(
-                    "None is stated; enough would be {}.",
-                    quoted(&inputs.proposed, most)
+                    "none is stated; enough would be {}.",
+                    listed(&inputs.proposed, most)
                 )
             } else {
                 format!(
-                    "None is stated; to begin with: {}.",
-                    quoted(&inputs.proposed, most)
+                    "none is stated; to begin with: {}.",
+                    listed(&inputs.proposed, most)
                 )
             };
             all.push((text, Tint::Plain));
@@ -88,14 +88,7 @@ fn verdict(report: &Report, inputs: &Inputs, source: InputSource, most: usize) -
         InputSource::Independent => "marked as independent in the file",
     };
     let given = inputs.given.len();
-    let brief = given > NAMED && most < usize::MAX;
-    let list = format!(
-        "{given} {whose}: {}",
-        match brief {
-            true => briefly(&inputs.given),
-            false => quoted(&inputs.given, most),
-        }
-    );
+    let list = format!("{given} {whose}: {}", listed(&inputs.given, most));
     match (inputs.independent, inputs.left) {
         (Some(independent), Some(left)) => {
             let how = if independent == given {
@@ -152,7 +145,7 @@ fn missing(inputs: &Inputs, most: usize) -> Option<String> {
     if inputs.left == Some(0) || inputs.proposed.is_empty() {
         return None;
     }
-    let list = quoted(&inputs.proposed, most);
+    let list = listed(&inputs.proposed, most);
     Some(if inputs.complete {
         format!("Missing, for example: {list}.")
     } else {
@@ -195,8 +188,11 @@ fn limbs(inputs: &Inputs) -> Option<String> {
     ))
 }
 
-/// The first of a long list, in natural order, mirror images together.
-fn briefly(list: &[String]) -> String {
+/// A list; where it is long and not all is asked for, its first in natural order, mirror images together.
+fn listed(list: &[String], most: usize) -> String {
+    if list.len() <= NAMED || most == usize::MAX {
+        return quoted(list, most);
+    }
     let mut sorted = list.to_vec();
     sorted.sort_by(|a, b| natural_order(a, b));
     mirrored_runs(&sorted, NAMED)
