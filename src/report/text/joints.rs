@@ -109,6 +109,11 @@ fn summed_up(report: &Report, rows: &mut Vec<&JointRow>) -> Vec<String> {
                 lines.push(format!("{many} {why}: {}", mirrored_runs(&taken, NAMED)));
             }
         };
+    // At a pose without known branches that holds for an instant only.
+    let rest = match branches.is_empty() {
+        true => "are locked here",
+        false => "are locked",
+    };
     let many = |rows: usize| if rows > ROWS { ALIKE } else { ROWS };
     let least = many(rows.len());
     let in_loop = |joint: &JointRow| in_loops.contains(joint.name.as_str());
@@ -150,7 +155,7 @@ fn summed_up(report: &Report, rows: &mut Vec<&JointRow>) -> Vec<String> {
             take(
                 rows,
                 &|joint| joint.freedom > 0 && joint.locked == Some(true) && same(joint),
-                &format!("cannot move{undetermined}"),
+                &format!("{rest}{undetermined}"),
                 least,
             );
             // Where nothing is known of any joint, the table says so.
