@@ -554,3 +554,72 @@ pub(super) fn limit(page: &Page) -> usize {
         NAMES_IN_CELL
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn notes_on_the_file_are_told_in_short() {
+        let axis = "<axis> means nothing for a fixed joint and is ignored";
+        let many = format!("{axis} (15 times, first at line 156, column 1)");
+        assert_eq!(meaningless(&many).unwrap(), "15 × <axis> of a fixed joint");
+        let once = format!("line 169, column 5: {axis}");
+        assert_eq!(meaningless(&once).unwrap(), "<axis> of a fixed joint");
+        let old = "<joint_properties> is the old name of <dynamics> and read as such (6 times, first at line 9, column 5)";
+        assert_eq!(
+            old_name(old).unwrap(),
+            "6 × <joint_properties> for <dynamics>"
+        );
+        assert_eq!((meaningless(old), old_name(&many)), (None, None));
+        let at = "line 4, column 3: 15 joints (at /a/b/torso.xacro:23:7) (3 times)";
+        assert_eq!(
+            without_folders(at),
+            "line 4, column 3: 15 joints (at torso.xacro:23:7) (3 times)"
+        );
+    }
+
+    #[test]
+    fn warnings_of_both_sides_are_told_once() {
+        let warnings = [
+            "line 1, column 2: joint `r_grip` twice",
+            "line 5, column 2: joint `l_grip` twice",
+            "other",
+        ];
+        assert_eq!(
+            repeated_once(&warnings.map(str::to_owned)),
+            [
+                "2 × joint `r_grip` twice (left and right alike, first in line 1, column 2)",
+                "other"
+            ]
+        );
+    }
+
+    #[test]
+    fn equal_loops_share_a_row() {
+        let cycle = |name: &str, joints: usize, locks: &[&str]| Cycle {
+            name: name.to_owned(),
+            joints: (0..joints).map(|j| format!("{name}_{j}")).collect(),
+            space: Some("G".to_owned()),
+            space_text: format!("planar motion normal to {name}"),
+            dimension: Some(3),
+            rank: Some(3),
+            redundant: Some(3),
+            mobility: Some(1),
+            locks: locks.iter().map(|l| (*l).to_owned()).collect(),
+        };
+        let cycles = [
+            cycle("C1", 4, &[]),
+            cycle("C2", 5, &[]),
+            cycle("C3", 4, &["a"]),
+            cycle("C4", 4, &[]),
+        ];
+        let groups = equal_loops(&cycles);
+        assert_eq!(groups.len(), 2);
+        assert_eq!(loop_names(&groups[0]), "C1, C2 and C4");
+        assert_eq!(lengths(&groups[0], &BTreeSet::new()), "4 to 5 joints each");
+        assert_eq!(lengths(&groups[1], &BTreeSet::new()), "4 joints each");
+        assert_eq!(kind_of(groups[0][0]), "G: planar motion");
+    }
+}
