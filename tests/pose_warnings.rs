@@ -53,6 +53,30 @@ fn slider_crank(angle: &str) -> String {
 }
 
 #[test]
+fn couplings_that_lock_what_the_loops_leave_free_are_told() {
+    let told = |ratio: &str| {
+        // On the parallelogram the rocker turns on the coupler as the crank does on the base.
+        let mimic = format!("<mimic joint=\"a\" multiplier=\"{ratio}\"/></joint>\n        <loop");
+        let text = parallelogram("1/2").replace("</joint>\n        <loop", &mimic);
+        let reading = read(&text, "file.urdf", &[]).unwrap();
+        let report = report(&reading, "file.urdf", &Options::default()).unwrap();
+        let lock = |warning: &&String| warning.contains("lock it together");
+        (
+            report.mobility.verdict,
+            report.warnings.iter().find(lock).cloned(),
+        )
+    };
+    assert_eq!(told("1"), (Verdict::Mobile, None));
+    let (verdict, warning) = told("2");
+    assert_eq!(verdict, Verdict::Rigid);
+    let warning = warning.unwrap();
+    assert!(
+        warning.ends_with("by the loops alone it would have 1 instantaneous freedom at this pose"),
+        "{warning}"
+    );
+}
+
+#[test]
 fn dead_centres_are_told() {
     let stretched = warnings(&slider_crank("0"));
     assert!(

@@ -26,6 +26,7 @@ mod branch_roles;
 #[allow(clippy::unwrap_used)]
 mod branch_samples;
 mod chart;
+mod coupling_locks;
 mod cycles;
 mod depth;
 mod exact;
@@ -70,6 +71,7 @@ pub use branch::{Branch, BranchPose, IdleLink, RelativeMotion};
 pub use branch_facts::{BranchFacts, branch_facts};
 pub use branch_roles::branch_roles;
 pub use chart::{ChartOutcome, ChartTest, Kernel, chart_test};
+pub use coupling_locks::freedom_locked_by_couplings;
 pub use cycles::{CycleFacts, cycle_facts};
 pub use depth::Depth;
 pub use exact::ExactBudget;

@@ -5,11 +5,20 @@ use super::schema::{
     Advice, Block, Branch, Certificate, Cycle, GenericCount, Home, Idle, JointRow, Mobility,
     Motion, Nominal, Report, Tree, TreeLink,
 };
+use super::text::words::counted;
 use crate::matrix::Method;
 use crate::mechanism::{JointKind, Mechanism};
 use crate::mobility::{
-    Analysis, IdleLink, JointRole, PartFinding, PartRank, RelativeMotion, owners, with_owners,
+    Analysis, IdleLink, JointRole, PartFinding, PartRank, RelativeMotion,
+    freedom_locked_by_couplings, owners, with_owners,
 };
+
+/// The end of the warning of pieces that nothing holds; what they count for stands in [`Report::freedoms`] too.
+pub(super) const LOOSE: &str = "of the links are connected to the ground by no joint at all; each such piece counts with six freedoms";
+
+/// What follows the name of a block in the warning that it would move without its couplings.
+pub(super) const LOCKED_TOGETHER: &str =
+    ": its couplings and its loops lock it together; by the loops alone it would have";
 
 /// Fills in everything that the analysis decided. Linear in the size of both.
 pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis) {
@@ -54,10 +63,25 @@ pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &An
                 )
             });
     }
+    locked_by_couplings(report, analysis);
     if analysis.structure.loose_pieces > 0 {
+        report
+            .warnings
+            .push(format!("{} {LOOSE}", analysis.structure.loose_pieces));
+    }
+}
+
+/// Names the blocks that would move without their couplings.
+fn locked_by_couplings(report: &mut Report, analysis: &Analysis) {
+    let structure = &analysis.structure;
+    for (index, (part, rank)) in structure.parts.iter().zip(&analysis.parts).enumerate() {
+        let Some(freedom) = freedom_locked_by_couplings(part, rank) else {
+            continue;
+        };
         report.warnings.push(format!(
-            "{} of the links are connected to the ground by no joint at all; each such piece counts with six freedoms",
-            analysis.structure.loose_pieces
+            "{}{LOCKED_TOGETHER} {} at this pose",
+            owners(&structure.part_names, &[index]),
+            counted(freedom, "instantaneous freedom"),
         ));
     }
 }

@@ -1,5 +1,6 @@
 //! What a careful owner should know of the pose: limits, dead centres, singular poses nearby. Sentences for the warnings.
 
+use super::findings::LOCKED_TOGETHER;
 use super::schema::Report;
 use super::text::words::{counted, figure, names};
 use crate::closure::{Arithmetic, Geometry};
@@ -8,6 +9,19 @@ use crate::mobility::{
     Analysis, LimitFact, NearSingular, PoseKind, dead_centres, limit_facts, near_singular,
     pose_of_branch,
 };
+
+/// How the sentences begin that are about the pose itself, not about the file.
+const OUTSIDE: &str = "this pose is outside joint limits: ";
+const DEAD: &str = "dead centre: ";
+const NEARLY: &str = "nearly singular: the smallest singular value kept";
+
+/// Whether a warning says what is wrong with the pose, or with what holds there.
+pub(super) fn is_about_the_pose(warning: &str) -> bool {
+    warning.starts_with(OUTSIDE)
+        || warning.starts_with(DEAD)
+        || warning.contains(NEARLY)
+        || warning.contains(LOCKED_TOGETHER)
+}
 
 /// Joints named in a sentence.
 const NAMED: usize = 4;
@@ -96,10 +110,9 @@ fn limits(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis) {
         if outside.len() > NAMED {
             texts.push(format!("and {} more", outside.len() - NAMED));
         }
-        report.warnings.push(format!(
-            "this pose is outside joint limits: {}",
-            texts.join("; ")
-        ));
+        report
+            .warnings
+            .push(format!("{OUTSIDE}{}", texts.join("; ")));
     }
     if !no_range.is_empty() {
         no_range.sort_by(|a, b| super::natural_order(a, b));
@@ -134,7 +147,7 @@ fn dead(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis, geometr
     if !resting.is_empty() {
         let quoted: Vec<String> = resting.iter().map(|name| format!("`{name}`")).collect();
         report.warnings.push(format!(
-            "dead centre: {} {} at this pose, for an instant; as inputs they cannot start the motion from here",
+            "{DEAD}{} {} at this pose, for an instant; as inputs they cannot start the motion from here",
             names(&quoted, NAMED),
             if quoted.len() == 1 { "rests" } else { "rest" },
         ));
@@ -143,7 +156,7 @@ fn dead(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis, geometr
 
 fn near_text(mechanism: &Mechanism, found: &NearSingular, block: &str) -> String {
     let start = format!(
-        "{block}nearly singular: the smallest singular value kept is {} of the largest (below {} it would count as zero)",
+        "{block}{NEARLY} is {} of the largest (below {} it would count as zero)",
         figure(found.kept),
         figure(found.tolerance)
     );

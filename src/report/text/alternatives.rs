@@ -1,10 +1,10 @@
 //! Pieces of advice that say the same of several joints, told once on a first screen.
 
-use super::words::runs;
+use super::words::mirrored_runs;
 use crate::report::schema::Advice;
 
 /// Joints, or runs of them, that a line names.
-const NAMED: usize = 6;
+const NAMED: usize = 4;
 
 /// The same change of several joints, any one of which will do.
 #[derive(Debug)]
@@ -47,7 +47,7 @@ impl<'a> Alternatives<'a> {
             1 => self.first.text.clone(),
             many => format!(
                 "{} (any one of these {many}): {}",
-                runs(&self.joints, NAMED),
+                mirrored_runs(&self.joints, NAMED),
                 change(self.first)
             ),
         }

@@ -10,10 +10,7 @@ use crate::mobility::Verdict;
 use crate::report::schema::{Assembly, Gap, JointPlace, Report};
 
 /// Joints in the table of those that moved, unless everything is asked for.
-const ROWS: usize = 12;
-
-/// Those that moved farthest, where more moved than fit into that table.
-const FARTHEST: usize = 6;
+const ROWS: usize = 4;
 
 /// Corrections below this (rad, m) are not shown: a hair's breadth seen from ten kilometres.
 const SHOWN: f64 = 1e-9;
@@ -37,7 +34,12 @@ pub(in crate::report) fn section(report: &Report, page: &mut Page) {
     }
     page.heading("Assembly");
     if let Some(moved) = moved {
-        page.paragraph(&how_far(assembly, moved), Tint::Plain, "  ", "  ");
+        let mut text = how_far(assembly, moved);
+        let all = farthest_first(&assembly.joints).len();
+        if !page.layout().verbose && all > ROWS {
+            text.push_str(&format!(" All {all} that moved: `--verbose`."));
+        }
+        page.paragraph(&text, Tint::Plain, "  ", "  ");
     }
     if let Some(text) = held(assembly) {
         page.paragraph(&text, Tint::Plain, "  ", "  ");
@@ -150,29 +152,27 @@ fn outside(assembly: &Assembly) -> Option<String> {
 }
 
 /// The joints that moved, farthest first.
-fn corrections(joints: &[JointPlace], page: &mut Page) {
+fn farthest_first(joints: &[JointPlace]) -> Vec<&JointPlace> {
     let mut moved: Vec<&JointPlace> = joints
         .iter()
         .filter(|place| place.correction > SHOWN)
         .collect();
-    if moved.is_empty() {
+    moved.sort_by(|a, b| b.correction.total_cmp(&a.correction));
+    moved
+}
+
+/// Their table, which a first screen has where it is short.
+fn corrections(joints: &[JointPlace], page: &mut Page) {
+    let moved = farthest_first(joints);
+    if moved.is_empty() || !page.layout().verbose && moved.len() > ROWS {
         return;
     }
-    moved.sort_by(|a, b| b.correction.total_cmp(&a.correction));
-    let shown = if page.layout().verbose {
-        moved.len()
-    } else {
-        match moved.len() {
-            few @ 0..=ROWS => few,
-            _ => FARTHEST,
-        }
-    };
     let mut table = Table::new()
         .column("joint", Column::Shrinking)
         .column("drawn", Column::Numbers)
         .column("assembled", Column::Numbers)
         .column("moved by", Column::Numbers);
-    for place in &moved[..shown] {
+    for place in &moved {
         table.row_about(
             Subject::Joint(place.name.clone()),
             vec![
@@ -184,13 +184,6 @@ fn corrections(joints: &[JointPlace], page: &mut Page) {
         );
     }
     page.table(table, "joints");
-    if moved.len() > shown {
-        let text = format!(
-            "{} moved less; `--verbose` lists all.",
-            counted(moved.len() - shown, "more joint")
-        );
-        page.paragraph(&text, Tint::Plain, "  ", "  ");
-    }
 }
 
 /// Values of a joint of one freedom in ° or in a unit of length; of others as the configuration of a file has them.

@@ -3,13 +3,13 @@
 use super::cite;
 use super::folded::Folded;
 use super::page::Page;
-use super::sections::{limit, unsure};
+use super::sections::{limit, more, unsure};
 use super::style::Tint;
 use super::table::{Cell, Column, Subject, Table};
-use super::words::{counted, names, runs};
+use super::words::{counted, mirrored_runs, names};
 use crate::mobility::PoseKind;
 use crate::report::natural::natural_order;
-use crate::report::schema::{Branch, Evidence, Motion, Report};
+use crate::report::schema::{Branch, Evidence, Idle, Motion, Report};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
@@ -39,15 +39,7 @@ pub(in crate::report) fn branches(report: &Report, page: &mut Page) {
         .column("locked joints", Column::Shrinking)
         .column("idle links", Column::Shrinking);
     for branch in branches {
-        let idle: Vec<String> = branch
-            .idle
-            .iter()
-            .map(|idle| {
-                // What moves along with a rod stands for nothing of its own.
-                let name = idle.links.first().map_or("", String::as_str);
-                format!("{name} ({})", idle.freedom)
-            })
-            .collect();
+        let idle: Vec<String> = branch.idle.iter().map(idle_link).collect();
         let mut cells = vec![
             Cell::new(&branch.name).tint(Tint::Strong),
             Cell::new(branch.dimension.to_string()),
@@ -69,17 +61,39 @@ pub(in crate::report) fn branches(report: &Report, page: &mut Page) {
     page.table(table, "branches");
 }
 
-/// Whether the only branch repeats what stands above it, in a mechanism of which a first screen has more to say.
-fn says_nothing_more(report: &Report, branches: &[Branch]) -> bool {
-    report.joints.len() > LARGE
-        && matches!(branches, [only] if only.locked.is_empty()
-            && only.idle.is_empty()
-            && only.instantaneous == Some(only.dimension)
-            && report.home.pose == Some(PoseKind::Regular))
+/// What the table of branches would say besides, where it is left out: what rests, and what is idle.
+pub(super) fn idle_and_locked(report: &Report, page: &mut Page) {
+    let branches = report.branches.as_deref().unwrap_or_default();
+    let [only] = branches else { return };
+    if page.layout().verbose || !says_nothing_more(report, branches) {
+        return;
+    }
+    if !only.idle.is_empty() {
+        let idle: Vec<String> = only.idle.iter().map(idle_link).collect();
+        let text = format!("Idle ({}): {}.", cite::IDLE, names(&idle, NAMED));
+        page.paragraph(&text, Tint::Plain, "", "");
+    }
+    if !only.locked.is_empty() {
+        let text = format!("Locked all along the motion: {}.", listed(&only.locked));
+        page.paragraph(&text, Tint::Notable, "", "");
+    }
 }
 
-/// Mechanisms of more joints are large.
-const LARGE: usize = 24;
+/// `rod (1)`: what moves along with a rod stands for nothing of its own.
+fn idle_link(idle: &Idle) -> String {
+    let name = idle.links.first().map_or("", String::as_str);
+    format!("{name} ({})", idle.freedom)
+}
+
+/// Whether the only branch repeats what stands above it.
+fn says_nothing_more(report: &Report, branches: &[Branch]) -> bool {
+    // A curve leaves a regular pose both ways.
+    report.home.pose == Some(PoseKind::Regular)
+        && matches!(branches, [only] if matches!(only.half_branches, None | Some(2))
+            && Some(only.dimension) == report.mobility.finite
+            && only.instantaneous == report.home.instantaneous
+            && only.redundant == report.home.redundant)
+}
 
 /// How links move relative to one another: the pairs that were asked for, then the rest, which a first screen shows the
 /// most interesting rows of.
@@ -94,9 +108,9 @@ pub(in crate::report) fn motions(report: &Report, on_page: bool, page: &mut Page
     if others.is_empty() {
         return;
     }
-    page.heading(&format!("Motions ({})", cite::MOTION));
     let verbose = page.layout().verbose;
     if verbose && !on_page {
+        page.heading(&format!("Motions ({})", cite::MOTION));
         motion_table(&others, several, page);
         return;
     }
@@ -104,20 +118,19 @@ pub(in crate::report) fn motions(report: &Report, on_page: bool, page: &mut Page
     let all = others.len();
     let mut shown = others;
     shown.retain(|motion| !folded.links.contains(motion.link.as_str()));
-    let mut lines: Vec<String> = Vec::new();
     if !verbose && shown.len() > MOTIONS && !several {
-        (shown, lines) = alike(shown);
+        by_kind(&shown, page);
+        return;
     }
+    if shown.is_empty() {
+        return;
+    }
+    page.heading(&format!("Motions ({})", cite::MOTION));
     let told = shown.len();
     if !verbose && told > MOTIONS {
         shown = foremost(report, shown);
     }
-    if !shown.is_empty() {
-        motion_table(&shown, several, page);
-    }
-    for line in &lines {
-        page.paragraph(line, Tint::Plain, "  ", "    ");
-    }
+    motion_table(&shown, several, page);
     if shown.len() < told {
         let text = format!(
             "… and {} more: `--verbose` or `--format json` shows all {all}, `--between A B` any pair",
@@ -127,42 +140,64 @@ pub(in crate::report) fn motions(report: &Report, on_page: bool, page: &mut Page
     }
 }
 
-/// Motions of one kind that so many links have are told in a line.
-const ALIKE: usize = 3;
+/// Kinds of motions told on a first screen.
+const KINDS: usize = 8;
 
-/// Takes out the rows of links that move alike where they are many, and says of each kind which links they are.
-fn alike(motions: Vec<&Motion>) -> (Vec<&Motion>, Vec<String>) {
-    let mut kinds: BTreeMap<(Reverse<usize>, &str, &str), Vec<&Motion>> = BTreeMap::new();
+/// Links, or runs of them, named in a line.
+const NAMED: usize = 3;
+
+/// The motions of many links: of each kind, in a line, which links move so.
+fn by_kind(motions: &[&Motion], page: &mut Page) {
+    let mut kinds: BTreeMap<(Reverse<usize>, &str, &str), Vec<String>> = BTreeMap::new();
     for motion in motions {
         let kind = (
             Reverse(motion.freedom),
             motion.class.as_str(),
             motion.relative_to.as_str(),
         );
-        kinds.entry(kind).or_default().push(motion);
+        kinds.entry(kind).or_default().push(motion.link.clone());
     }
-    let (mut rows, mut lines) = (Vec::new(), Vec::new());
-    for ((Reverse(freedom), class, relative_to), motions) in kinds {
-        if motions.len() < ALIKE {
-            rows.extend(motions);
-            continue;
-        }
-        let mut links: Vec<String> = motions.iter().map(|motion| motion.link.clone()).collect();
-        links.sort_by(|a, b| natural_order(a, b));
-        let how = match freedom {
-            0 => format!("do not move, seen from {relative_to}"),
-            6 => format!("move without restriction (6 freedoms), seen from {relative_to}"),
-            1 => format!("move in 1 way ({class}), seen from {relative_to}"),
-            n => format!("move in {n} ways ({class}), seen from {relative_to}"),
+    let roots: BTreeSet<&str> = kinds.keys().map(|(_, _, root)| *root).collect();
+    let one = roots.len() == 1;
+    page.heading(&match (one, roots.first()) {
+        (true, Some(root)) => format!("Motions ({}), seen from {root}", cite::MOTION),
+        _ => format!("Motions ({})", cite::MOTION),
+    });
+    for ((Reverse(freedom), class, root), links) in kinds.iter().take(KINDS) {
+        let from = match one {
+            true => String::new(),
+            false => format!(", seen from {root}"),
         };
-        let many = counted(links.len(), "link");
-        lines.push(format!("{many} {how}: {}", runs(&links, ALIKE_NAMED)));
+        let line = format!(
+            "{}{from}: {}",
+            how(*freedom, class, links.len()),
+            listed(links)
+        );
+        page.paragraph(&line, Tint::Plain, "  ", "    ");
     }
-    (rows, lines)
+    more(kinds.values().skip(KINDS).map(Vec::len).sum(), page);
 }
 
-/// Links, or runs of them, named in such a line.
-const ALIKE_NAMED: usize = 5;
+/// `4 links move in 2 ways (2R)`.
+fn how(freedom: usize, class: &str, links: usize) -> String {
+    let (move_, does) = match links {
+        1 => ("moves", "does"),
+        _ => ("move", "do"),
+    };
+    let many = counted(links, "link");
+    match freedom {
+        0 => format!("{many} {does} not move"),
+        6 => format!("{many} {move_} without restriction"),
+        1 => format!("{many} {move_} in 1 way ({class})"),
+        n => format!("{many} {move_} in {n} ways ({class})"),
+    }
+}
+
+fn listed(links: &[String]) -> String {
+    let mut sorted = links.to_vec();
+    sorted.sort_by(|a, b| natural_order(a, b));
+    mirrored_runs(&sorted, NAMED)
+}
 
 fn motion_table(motions: &[&Motion], several: bool, page: &mut Page) {
     let mut table = Table::new();

@@ -1,13 +1,16 @@
 //! The sentence on literals that were read as constants.
 
-use super::super::schema::Constants;
+use super::super::schema::{Constants, LiteralReading};
 use super::words::counted;
 
-/// Readings that are shown.
+/// Readings that a verbose page shows.
 const SHOWN: usize = 3;
 
 /// `31 literals read as what they are within their digits: `1.5707963267948966` = π/2, …`
-pub(super) fn sentence(constants: &Constants) -> String {
+pub(super) fn sentence(constants: &Constants, verbose: bool) -> String {
+    if !verbose {
+        return briefly(constants);
+    }
     let shown: Vec<String> = constants
         .readings
         .iter()
@@ -25,9 +28,22 @@ pub(super) fn sentence(constants: &Constants) -> String {
     )
 }
 
+/// The same with one reading, the shortest of those that are more than a rounded decimal.
+fn briefly(constants: &Constants) -> String {
+    let decimal = |text: &str| text.parse::<f64>().is_ok();
+    let rank = |reading: &&LiteralReading| (decimal(&reading.read_as), reading.literal.len());
+    let such_as = constants.readings.iter().min_by_key(rank);
+    let such_as = such_as.map_or_else(String::new, |reading| {
+        format!(", such as `{}` = {}", reading.literal, reading.read_as)
+    });
+    format!(
+        " {} read as the constants they round{such_as} (`--literal` takes them as written).",
+        counted(constants.count, "literal")
+    )
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::super::schema::LiteralReading;
     use super::*;
 
     #[test]
@@ -44,7 +60,7 @@ mod tests {
             ],
         };
         assert_eq!(
-            sentence(&constants),
+            sentence(&constants, true),
             " 31 literals read as what they are within their digits: `1.5707963267948966` = π/2, `6.123e-17` = 0 (`--literal` \
              takes them as written)."
         );
@@ -52,6 +68,7 @@ mod tests {
             reading("0.7853981633974483", "π/4"),
             reading("3.14159265", "π"),
         ]);
-        assert!(sentence(&constants).contains("π/4, … ("));
+        assert!(sentence(&constants, true).contains("π/4, … ("));
+        assert!(sentence(&constants, false).contains(", such as `3.14159265` = π ("));
     }
 }

@@ -4,12 +4,18 @@ use super::cite;
 use super::page::Page;
 use super::style::Tint;
 use super::table::{Cell, Column, Table};
+use super::verdict;
 use super::words::{capitalised, counted, figure};
 use crate::mobility::{PoseKind, SingularKind, Verdict};
-use crate::report::schema::{Home, Report};
+use crate::report::schema::{GenericCount, Home, Report};
 
 /// Writes the counts.
 pub(in crate::report) fn write(report: &Report, page: &mut Page) {
+    let verbose = page.layout().verbose;
+    // Of a tree the answer says it all.
+    if !verbose && verdict::without_loops(report) && report.home.note.is_none() {
+        return;
+    }
     page.heading("Freedoms");
     let mut table = Table::new()
         .column("", Column::Words)
@@ -80,15 +86,19 @@ pub(in crate::report) fn write(report: &Report, page: &mut Page) {
         "constraint equations that repeat others at this pose".to_owned(),
     );
     page.table(table, "counts");
-    for sentence in [
-        Some(difference(report)),
-        geometry(report),
+    // A first screen leaves out what only repeats the table.
+    let decided = home.instantaneous.is_some() && home.redundant.is_some();
+    let adds = |generic: &GenericCount| Some(generic.mobility) != home.instantaneous;
+    let sentences = [
+        (verbose || !decided).then(|| difference(report)),
+        geometry(report).filter(|_| verbose || report.generic.as_ref().is_some_and(adds)),
         pose(home),
-        margin(report),
-    ]
-    .into_iter()
-    .flatten()
-    {
+        match verbose {
+            true => margin(report),
+            false => short_margin(report),
+        },
+    ];
+    for sentence in sentences.into_iter().flatten() {
         page.paragraph(&sentence, Tint::Plain, "  ", "  ");
     }
     if let Some(note) = &home.note {
@@ -212,6 +222,24 @@ fn pose(home: &Home) -> Option<String> {
 
 /// Dropped singular values up to this, relative to the largest, are rounding in double precision.
 const ROUNDING: f64 = 1e-14;
+
+/// Where the smallest singular value kept is so many times the threshold, it does not matter in which block that is.
+const CLEAR: f64 = 1e3;
+
+/// How safe the rank is, in one line where that is beyond doubt.
+fn short_margin(report: &Report) -> Option<String> {
+    let home = &report.home;
+    let (kept, tolerance) = (home.kept?, home.tolerance?);
+    let clear = home.dropped.is_none_or(|dropped| dropped <= ROUNDING);
+    if home.rank.is_none() || home.as_written.is_some() || !clear || kept < CLEAR * tolerance {
+        return margin(report);
+    }
+    Some(format!(
+        "Rank margin: singular values kept ≥ {} of the largest; below {} counts as zero.",
+        figure(kept),
+        figure(tolerance)
+    ))
+}
 
 /// How safe the rank is.
 fn margin(report: &Report) -> Option<String> {

@@ -4,25 +4,26 @@ use super::cite;
 use super::page::Page;
 use super::sections::limit;
 use super::style::Tint;
-use super::words::{counted, names};
-use crate::report::schema::{DependentInput, InputSource, Inputs, Report};
+use super::words::{mirrored_runs, names};
+use crate::report::natural::natural_order;
+use crate::report::schema::{DependentInput, InputSource, Inputs, Limb, Report};
 
 /// Limbs named on a first screen.
 const LIMBS: usize = 8;
 
+/// Inputs named on a first screen where there are more.
+const NAMED: usize = 6;
+
 /// Dependent inputs told one by one.
 const DEPENDENT: usize = 4;
 
-/// The section; left out where it would say nothing that is not plain.
+/// The paragraphs; left out where it would say nothing that is not plain.
 pub(in crate::report) fn inputs(report: &Report, page: &mut Page) {
     let Some(inputs) = &report.inputs else { return };
-    let sentences = sentences(report, inputs, limit(page));
-    if sentences.is_empty() {
-        return;
-    }
-    page.heading(&format!("Inputs ({})", cite::INPUT));
-    for (text, tint) in sentences {
-        page.paragraph(&text, tint, "  ", "  ");
+    let title = format!("Inputs ({}): ", cite::INPUT);
+    for (index, (text, tint)) in sentences(report, inputs, limit(page)).iter().enumerate() {
+        let lead = if index == 0 { title.as_str() } else { "" };
+        page.paragraph(&format!("{lead}{text}"), *tint, "", "");
     }
 }
 
@@ -41,13 +42,13 @@ fn sentences(report: &Report, inputs: &Inputs, most: usize) -> Vec<(String, Tint
             }
             let text = if inputs.complete {
                 format!(
-                    "None is stated; enough would be {}.",
-                    quoted(&inputs.proposed, most)
+                    "none is stated; enough would be {}.",
+                    listed(&inputs.proposed, most)
                 )
             } else {
                 format!(
-                    "None is stated; to begin with: {}.",
-                    quoted(&inputs.proposed, most)
+                    "none is stated; to begin with: {}.",
+                    listed(&inputs.proposed, most)
                 )
             };
             all.push((text, Tint::Plain));
@@ -87,11 +88,7 @@ fn verdict(report: &Report, inputs: &Inputs, source: InputSource, most: usize) -
         InputSource::Independent => "marked as independent in the file",
     };
     let given = inputs.given.len();
-    let list = format!(
-        "{} {whose}: {}",
-        counted(given, "input"),
-        quoted(&inputs.given, most)
-    );
+    let list = format!("{given} {whose}: {}", listed(&inputs.given, most));
     match (inputs.independent, inputs.left) {
         (Some(independent), Some(left)) => {
             let how = if independent == given {
@@ -148,7 +145,7 @@ fn missing(inputs: &Inputs, most: usize) -> Option<String> {
     if inputs.left == Some(0) || inputs.proposed.is_empty() {
         return None;
     }
-    let list = quoted(&inputs.proposed, most);
+    let list = listed(&inputs.proposed, most);
     Some(if inputs.complete {
         format!("Missing, for example: {list}.")
     } else {
@@ -158,19 +155,26 @@ fn missing(inputs: &Inputs, most: usize) -> Option<String> {
 
 fn limbs(inputs: &Inputs) -> Option<String> {
     let base = inputs.base.as_ref()?;
-    let mut parts: Vec<String> = inputs
-        .limbs
-        .iter()
-        .take(LIMBS)
-        .map(|limb| match limb.idle {
-            0 => format!("`{}` {}", limb.end, limb.freedom),
-            idle => format!(
-                "`{}` {} + {idle} idle",
-                limb.end,
-                limb.freedom.saturating_sub(idle)
-            ),
-        })
-        .collect();
+    // Limbs of as many freedoms together, in the order of first mention.
+    let mut alike: Vec<(&Limb, Vec<String>)> = Vec::new();
+    for limb in inputs.limbs.iter().take(LIMBS) {
+        let shares = |known: &&Limb| (known.freedom, known.idle) == (limb.freedom, limb.idle);
+        let end = format!("`{}`", limb.end);
+        match alike.iter_mut().find(|(known, _)| shares(known)) {
+            Some((_, ends)) => ends.push(end),
+            None => alike.push((limb, vec![end])),
+        }
+    }
+    let tell = |(limb, ends): &(&Limb, Vec<String>)| {
+        let useful = limb.freedom.saturating_sub(limb.idle);
+        let idle = match limb.idle {
+            0 => String::new(),
+            idle => format!(" + {idle} idle"),
+        };
+        let each = if ends.len() > 1 { " each" } else { "" };
+        format!("{} {useful}{idle}{each}", names(ends, LIMBS))
+    };
+    let mut parts: Vec<String> = alike.iter().map(tell).collect();
     if inputs.limbs.len() > LIMBS {
         parts.push(format!("and {} more limbs", inputs.limbs.len() - LIMBS));
     }
@@ -180,8 +184,18 @@ fn limbs(inputs: &Inputs) -> Option<String> {
     };
     Some(format!(
         "Freedoms by limb, seen from `{base}`: {}{trunk}.",
-        parts.join(", ")
+        parts.join("; ")
     ))
+}
+
+/// A list; where it is long and not all is asked for, its first in natural order, mirror images together.
+fn listed(list: &[String], most: usize) -> String {
+    if list.len() <= NAMED || most == usize::MAX {
+        return quoted(list, most);
+    }
+    let mut sorted = list.to_vec();
+    sorted.sort_by(|a, b| natural_order(a, b));
+    mirrored_runs(&sorted, NAMED)
 }
 
 fn quoted(list: &[String], most: usize) -> String {

@@ -1,29 +1,30 @@
 //! The joints: on a first screen those that need a word, and in one line those that simply move.
 
+use super::escape::columns;
 use super::folded::Folded;
 use super::page::Page;
 use super::sections::more;
 use super::style::Tint;
 use super::table::{Cell, Column, Subject, Table};
-use super::words::{counted, runs};
+use super::words::{counted, mirrored_runs};
 use crate::mobility::Verdict;
 use crate::report::schema::{Branch, JointRow, Report};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Up to so many joints that simply move are shown as rows.
+/// Up to so many joints are shown as rows, whatever they do.
 const ROWS: usize = 12;
 
+/// With more, so many of a kind are told in a line.
+const ALIKE: usize = 2;
+
 /// Rows of a first screen.
-const MOST_ROWS: usize = 24;
+const MOST_ROWS: usize = 16;
 
 /// And where nothing is known of any joint.
 const UNKNOWN_ROWS: usize = 8;
 
-/// With more rows than this, joints in loops that simply move, and those that close loops, are told in a line.
-const LOOP_ROWS: usize = 16;
-
 /// Joints, or runs of them, named in a line.
-const NAMED: usize = 24;
+const NAMED: usize = 6;
 
 /// One row per joint, with its range where ranges are known. A first screen leaves out what is only fixed, and says of joints
 /// that move without anything more to say how many they are; a page leaves out what is only fixed.
@@ -74,8 +75,9 @@ pub(in crate::report) fn joints(
     }
 }
 
-/// Takes out the rows of joints that move and of which nothing more is to be said, where they are many: those outside loops
-/// and couplings, those that couplings alone tie, and, if that does not make the table short, those in loops.
+/// Takes out the rows of joints of which nothing more is to be said, where they are many: those that move outside loops and
+/// couplings, those that couplings alone tie, and, if that does not make the table short, those in loops, and those that
+/// rest.
 fn summed_up(report: &Report, rows: &mut Vec<&JointRow>) -> Vec<String> {
     let in_loops: BTreeSet<&str> = report
         .cycles
@@ -94,31 +96,41 @@ fn summed_up(report: &Report, rows: &mut Vec<&JointRow>) -> Vec<String> {
         _ => "give way",
     };
     let mut lines = Vec::new();
-    let mut take = |wanted: &dyn Fn(&JointRow) -> bool, why: &str, least: usize| {
-        let taken: Vec<String> = rows
-            .iter()
-            .filter(|joint| wanted(joint))
-            .map(|joint| joint.name.clone())
-            .collect();
-        if taken.len() > least {
-            rows.retain(|joint| !wanted(joint));
-            let many = counted(taken.len(), "joint");
-            lines.push(format!("{many} {why}: {}", runs(&taken, NAMED)));
-        }
-        rows.len()
+    let mut take =
+        |rows: &mut Vec<&JointRow>, wanted: &dyn Fn(&JointRow) -> bool, why: &str, least: usize| {
+            let taken: Vec<String> = rows
+                .iter()
+                .filter(|joint| wanted(joint))
+                .map(|joint| joint.name.clone())
+                .collect();
+            if taken.len() > least {
+                rows.retain(|joint| !wanted(joint));
+                let many = counted(taken.len(), "joint");
+                lines.push(format!("{many} {why}: {}", mirrored_runs(&taken, NAMED)));
+            }
+        };
+    // At a pose without known branches that holds for an instant only.
+    let rest = match branches.is_empty() {
+        true => "are locked here",
+        false => "are locked",
     };
+    let many = |rows: usize| if rows > ROWS { ALIKE } else { ROWS };
+    let least = many(rows.len());
     let in_loop = |joint: &JointRow| in_loops.contains(joint.name.as_str());
     take(
+        rows,
         &|joint| plain(joint) && joint.block.is_none(),
         "move freely, in no loop and no coupling",
-        ROWS,
+        least,
     );
-    let left = take(
+    take(
+        rows,
         &|joint| plain(joint) && joint.block.is_some() && !in_loop(joint),
         &format!("{moves}, tied by couplings alone"),
-        ROWS,
+        least,
     );
-    if left > LOOP_ROWS {
+    let least = many(rows.len());
+    if least == ALIKE {
         // Those whose reactions are as undetermined as each other go together.
         let loads: BTreeSet<_> = report.joints.iter().map(loaded).collect();
         for load in loads {
@@ -129,15 +141,32 @@ fn summed_up(report: &Report, rows: &mut Vec<&JointRow>) -> Vec<String> {
                 n => format!(" (reactions undetermined in {n} directions each)"),
             };
             take(
+                rows,
                 &|joint| moving(joint) && in_loop(joint) && same(joint) && !joint.closes_loop,
                 &format!("in loops {moves}{undetermined}"),
                 1,
             );
             take(
+                rows,
                 &|joint| (moving(joint) || joint.freedom == 0) && joint.closes_loop && same(joint),
                 &format!("close loops{undetermined}"),
                 1,
             );
+            take(
+                rows,
+                &|joint| joint.freedom > 0 && joint.locked == Some(true) && same(joint),
+                &format!("{rest}{undetermined}"),
+                least,
+            );
+            // Where nothing is known of any joint, the table says so.
+            if report.joints.iter().any(|joint| joint.locked.is_some()) {
+                take(
+                    rows,
+                    &|joint| joint.freedom > 0 && joint.locked.is_none() && same(joint),
+                    &format!("may move or not, which is not decided{undetermined}"),
+                    least,
+                );
+            }
         }
     }
     lines
@@ -183,11 +212,15 @@ fn joint_table(
     let wrenches = rows
         .iter()
         .any(|joint| joint.redundant_wrenches.is_some_and(|n| n > 0));
+    // Two names cut short tell less than one that is whole.
+    let between = page.layout().verbose || fits(rows, page.layout().width);
     let mut table = Table::new()
         .column("joint", Column::Shrinking)
-        .column("type", Column::Words)
-        .column("between", Column::Shrinking)
-        .column("freedom", Column::Numbers);
+        .column("type", Column::Words);
+    if between {
+        table = table.column("between", Column::Shrinking);
+    }
+    table = table.column("freedom", Column::Numbers);
     // Roles are those on the branches where there are any, and those at the pose otherwise.
     let branches = report.branches.as_deref().unwrap_or_default();
     if roles {
@@ -214,9 +247,14 @@ fn joint_table(
         let mut row = vec![
             Cell::new(&joint.name).tint(Tint::Strong),
             Cell::new(format!("{} {}", joint.class, joint.kind.replace('_', " "))),
-            Cell::new(format!("{} – {}", joint.links[0], joint.links[1])),
-            Cell::new(joint.freedom.to_string()),
         ];
+        if between {
+            row.push(Cell::new(format!(
+                "{} – {}",
+                joint.links[0], joint.links[1]
+            )));
+        }
+        row.push(Cell::new(joint.freedom.to_string()));
         if roles {
             row.push(role(joint, branches, moves));
         }
@@ -245,13 +283,34 @@ fn joint_table(
     page.table(table, "joints");
     if wrenches {
         page.paragraph(
-            "undetermined: directions of a joint's reaction that equilibrium alone does not fix, because constraints \
-             repeat one another",
+            match page.layout().verbose {
+                true => {
+                    "undetermined: directions of a joint's reaction that equilibrium alone does not fix, because \
+                     constraints repeat one another"
+                }
+                false => {
+                    "undetermined: directions of a joint's reaction that equilibrium alone does not fix"
+                }
+            },
             Tint::Quiet,
             "  ",
             "  ",
         );
     }
+}
+
+/// Columns that the other cells of a row need beside the names of its joint and its links.
+const BESIDES_NAMES: usize = 56;
+
+/// Whether a page has room for the names of the joints and of the links between which they are.
+fn fits(rows: &[&JointRow], page: usize) -> bool {
+    let names = |row: &&JointRow| {
+        let links: usize = row.links.iter().map(|link| columns(link)).sum();
+        columns(&row.name).max(links)
+    };
+    let widest = rows.iter().map(names).max().unwrap_or(0);
+    // Names are cut a little before links are left out.
+    widest + BESIDES_NAMES <= page
 }
 
 /// Joints outside the spanning tree, which close the loops; what the file says where the tree is not known.

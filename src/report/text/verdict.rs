@@ -12,6 +12,12 @@ use crate::report::schema::{Branch, Report};
 
 /// Writes the verdict, its reasons and the line that says what was read.
 pub(in crate::report) fn write(report: &Report, page: &mut Page) {
+    answer(report, page);
+    reasons(report, page);
+}
+
+/// The verdict, and what is held.
+pub(super) fn answer(report: &Report, page: &mut Page) {
     let tint = match report.mobility.verdict {
         Verdict::Mobile => Tint::Good,
         Verdict::Rigid => Tint::Notable,
@@ -25,6 +31,10 @@ pub(in crate::report) fn write(report: &Report, page: &mut Page) {
     for text in [nearly_idle(report), base(report)].into_iter().flatten() {
         page.paragraph(&text, Tint::Plain, "", "");
     }
+}
+
+/// Why it is not more and not less, and what was read.
+pub(super) fn reasons(report: &Report, page: &mut Page) {
     for reason in [not_more(report), not_less(report)].into_iter().flatten() {
         page.item(&reason, Tint::Plain);
     }
@@ -38,7 +48,8 @@ pub(in crate::report) fn write(report: &Report, page: &mut Page) {
         page.item(&reason, Tint::Plain);
     }
     page.gap();
-    page.paragraph(&identity(report), Tint::Plain, "", "");
+    let verbose = page.layout().verbose;
+    page.paragraph(&identity(report, verbose), Tint::Plain, "", "");
 }
 
 /// The answer in one sentence.
@@ -355,7 +366,7 @@ fn proof(report: &Report) -> Option<String> {
     ))
 }
 
-fn without_loops(report: &Report) -> bool {
+pub(super) fn without_loops(report: &Report) -> bool {
     report.size.loops == 0 && report.size.couplings == 0
 }
 
@@ -380,7 +391,7 @@ fn optional(count: Option<usize>) -> String {
     count.map_or_else(|| "?".to_owned(), |n| n.to_string())
 }
 
-fn identity(report: &Report) -> String {
+fn identity(report: &Report, verbose: bool) -> String {
     let size = &report.size;
     let mut parts = vec![
         counted(size.links, "link"),
@@ -410,7 +421,7 @@ fn identity(report: &Report) -> String {
         report.source.file,
         names(&parts, parts.len()),
         constants
-            .map(super::constants::sentence)
+            .map(|constants| super::constants::sentence(constants, verbose))
             .unwrap_or_default()
     )
 }

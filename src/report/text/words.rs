@@ -1,27 +1,114 @@
 //! Numbers, counted things and lists of names, as a person writes them.
 
+use std::collections::BTreeSet;
+
 /// A long list of names in natural order: runs that count up are written by their ends, `arm_1 … arm_7`.
 #[must_use]
 pub fn runs(list: &[String], most: usize) -> String {
+    let each: Vec<Sides> = list.iter().cloned().map(|name| (name, 1)).collect();
+    runs_of(&each, most)
+}
+
+/// The same with mirror images told together: `left/right_knee`.
+#[must_use]
+pub fn mirrored_runs(list: &[String], most: usize) -> String {
+    runs_of(&mirrored(list), most)
+}
+
+/// A name, and of how many things it is the name: two for `left/right_knee`.
+type Sides = (String, usize);
+
+/// How files tell a left side from a right one.
+const SIDES: [[&str; 2]; 5] = [
+    ["left", "right"],
+    ["Left", "Right"],
+    ["LEFT", "RIGHT"],
+    ["l", "r"],
+    ["L", "R"],
+];
+
+/// The names, those that differ only in their side as one, at the place of the first.
+fn mirrored(list: &[String]) -> Vec<Sides> {
+    let known: BTreeSet<&str> = list.iter().map(String::as_str).collect();
+    let mut told: BTreeSet<String> = BTreeSet::new();
+    let mut all = Vec::new();
+    for name in list {
+        if told.contains(name) {
+            continue;
+        }
+        let image = images(name).find(|(other, _)| {
+            known.contains(other.as_str()) && other != name && !told.contains(other)
+        });
+        match image {
+            Some((other, both)) => {
+                told.insert(other);
+                all.push((both, 2));
+            }
+            None => all.push((name.clone(), 1)),
+        }
+        told.insert(name.clone());
+    }
+    all
+}
+
+/// The names on the other side that a name may have, each with the name of both: one word of it is changed at a time.
+fn images(name: &str) -> impl Iterator<Item = (String, String)> {
+    let words: Vec<&str> = name
+        .split_inclusive(|c: char| !c.is_alphanumeric())
+        .collect();
+    let mut found = Vec::new();
+    for (index, word) in words.iter().enumerate() {
+        let bare = word.trim_end_matches(|c: char| !c.is_alphanumeric());
+        let end = &word[bare.len()..];
+        for [left, right] in SIDES {
+            let other = match bare {
+                it if it == left => right,
+                it if it == right => left,
+                _ => continue,
+            };
+            let with = |text: &str| {
+                let (before, after) = (words[..index].concat(), words[index + 1..].concat());
+                format!("{before}{text}{end}{after}")
+            };
+            found.push((with(other), with(&format!("{left}/{right}"))));
+        }
+    }
+    found.into_iter()
+}
+
+/// A text with every word that tells a side from the other as if it were the left one: equal for mirror images.
+#[must_use]
+pub fn one_side(text: &str) -> String {
+    let parts = text.split_inclusive(|c: char| !c.is_alphanumeric());
+    let left = |part: &str| {
+        let bare = part.trim_end_matches(|c: char| !c.is_alphanumeric());
+        let side = SIDES.iter().find(|[_, right]| *right == bare);
+        side.map(|[left, _]| format!("{left}{}", &part[bare.len()..]))
+    };
+    parts
+        .map(|part| left(part).unwrap_or_else(|| part.to_owned()))
+        .collect()
+}
+
+fn runs_of(list: &[Sides], most: usize) -> String {
     let mut told: Vec<String> = Vec::new();
     let mut left = list;
-    let mut counted = 0;
     while !left.is_empty() && told.len() < most {
-        let steps = left.windows(2).take_while(|w| counts_up(&w[0], &w[1]));
+        let steps = left.windows(2).take_while(|w| counts_up(&w[0].0, &w[1].0));
         let length = match steps.count() + 1 {
             // Two names are as short as a run of them.
             2 => 1,
             length => length,
         };
         told.push(match length {
-            1 => left[0].clone(),
-            _ => format!("{} … {}", left[0], left[length - 1]),
+            1 => left[0].0.clone(),
+            _ => format!("{} … {}", left[0].0, left[length - 1].0),
         });
-        counted += length;
         left = &left[length..];
     }
-    if counted < list.len() {
-        told.push(format!("{} more", list.len() - counted));
+    if !left.is_empty() {
+        let more: usize = left.iter().map(|(_, things)| things).sum();
+        told.push(format!("{more} more"));
     }
     let all = told.len();
     names(&told, all)
@@ -167,6 +254,34 @@ mod tests {
         assert_eq!(runs(&list(&["j8", "j9", "j10"]), 9), "j8 … j10");
         assert_eq!(runs(&list(&["ä1", "ä2", "ä3"]), 9), "ä1 … ä3");
         assert!(!counts_up("a1b1", "a2b2") && !counts_up("a", "a1") && !counts_up("", ""));
+    }
+
+    #[test]
+    fn mirror_images_are_told_together() {
+        let told = |names: &[&str], most| {
+            let list: Vec<String> = names.iter().map(|n| (*n).to_owned()).collect();
+            mirrored_runs(&list, most)
+        };
+        let legs = ["left_hip", "left_knee", "right_hip", "right_knee"];
+        assert_eq!(told(&legs, 9), "left/right_hip and left/right_knee");
+        assert_eq!(told(&legs, 1), "left/right_hip and 2 more");
+        assert_eq!(
+            told(
+                &[
+                    "arm-l-1", "arm-l-2", "arm-l-3", "arm-r-1", "arm-r-2", "arm-r-3"
+                ],
+                9
+            ),
+            "arm-l/r-1 … arm-l/r-3"
+        );
+        assert_eq!(
+            one_side("`r_grip`: right, r."),
+            one_side("`l_grip`: left, l.")
+        );
+        // Neither part of a word nor a name without its image.
+        let others = ["cleft", "cright", "left", "left_ä"];
+        assert_eq!(told(&others, 9), "cleft, cright, left and left_ä");
+        assert_eq!(told(&["left_right", "right_right"], 9), "left/right_right");
     }
 
     #[test]
