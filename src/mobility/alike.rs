@@ -6,6 +6,7 @@
 //! means that: so both are open then.
 
 use super::pose_rank::{Doubt, PartRank};
+use super::rounded::LARGEST;
 use crate::closure::Part;
 use crate::matrix::{DENSE_COLUMNS, MatrixError, relative_singular_values};
 use crate::mechanism::{JointKind, Mechanism};
@@ -28,7 +29,8 @@ fn shape(mechanism: &Mechanism, part: &Part, rank: &PartRank) -> Shape {
     (kinds, cycles, part.couplings.len(), rank.unknowns())
 }
 
-/// Opens the ranks of parts of one shape and, within noise, the same singular values, where they were decided differently.
+/// Opens the ranks of parts of one shape and, within noise, the same singular values, where they were decided differently
+/// and what decides may be rounding in both.
 ///
 /// # Errors
 /// [`MatrixError`] where numbers overflow.
@@ -65,14 +67,20 @@ fn answer(rank: &PartRank) -> (Option<usize>, (usize, usize)) {
 }
 
 fn same_values(one: &PartRank, other: &PartRank) -> Result<bool, MatrixError> {
-    let noise = NOISE.max(one.stated).max(other.stated);
+    let stated = one.stated.max(other.stated);
+    let (noise, zero) = (NOISE.max(stated), LARGEST.max(stated));
+    // Values from here on count as zero in one of the two, or may.
+    let most = one.candidates.1.max(other.candidates.1);
+    let deciding = one.unknowns().saturating_sub(most);
     let (Some(one), Some(other)) = (
         relative_singular_values(&one.matrix)?,
         relative_singular_values(&other.matrix)?,
     ) else {
         return Ok(false);
     };
-    Ok(one.len() == other.len() && one.iter().zip(&other).all(|(a, b)| (a - b).abs() <= noise))
+    let alike = one.iter().zip(&other).all(|(a, b)| (a - b).abs() <= noise);
+    let may_be_zero = |values: &[f64]| values.iter().skip(deciding).all(|x| *x <= zero);
+    Ok(one.len() == other.len() && alike && may_be_zero(&one) && may_be_zero(&other))
 }
 
 fn open(rank: &mut PartRank, candidates: (usize, usize)) {

@@ -23,10 +23,9 @@ use crate::mechanism::Mechanism;
 const COARSEST: f64 = 5e-7;
 
 /// Values above this share of the largest are believed: what hid rounding has left in published files is far below (4e-12,
-/// 2e-11), and mechanisms that miss a special one by 1e-7, drawn to the last digit, have to be told apart from it, though
-/// they be a small part of a large machine. Chosen between the two: coarser rounding that a program has hidden is not
-/// noticed.
-const LARGEST: f64 = 1e-9;
+/// 2e-11), and mechanisms that miss a special one by 1e-7, drawn to the last digit, have to be told apart from it. Chosen
+/// between the two, with a decade to spare on that side: coarser rounding that a program has hidden is not noticed.
+pub(super) const LARGEST: f64 = 1e-8;
 
 /// As for every rank: smallest ratio of the last value kept to the first one dropped.
 const SMALLEST_GAP: f64 = 1e3;
