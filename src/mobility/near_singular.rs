@@ -5,8 +5,8 @@
 //! is magnified: by 1/σ. It is small in two ways: because the pose is close to one of less rank, or because the mechanism is
 //! long, whatever its pose. Only the first is worth a word, and it is told from the second by moving: a singular value
 //! that vanishes at some pose grows with the distance from it. So a pose is called nearly singular where σ is below
-//! [`SMALL`] or within two decades of the rank's tolerance, and ten times as large, or more, at a pose of the same branch not
-//! far away. Where it stays small, only a σ close to its tolerance is mentioned, as one that no pose nearby makes clearer.
+//! [`SMALL`], or below [`NEVER_SMALL`] and within two decades of the rank's tolerance, and ten times as large, or more, at a
+//! pose of the same branch not far away. Where it stays small, only a σ close to its tolerance is mentioned, as one that no pose nearby makes clearer.
 //!
 //! Cost: nothing for clear poses; else up to ten closings and ranks of the part.
 
@@ -24,6 +24,10 @@ const SMALL: f64 = 1e-3;
 
 /// Two decades.
 const NEAR_TOLERANCE: f64 = 100.0;
+
+/// More than this share of the largest is nothing to warn of, however coarse the numbers are: where it is near the tolerance,
+/// the margin of the rank says so.
+const NEVER_SMALL: f64 = 0.1;
 
 /// A regular pose is clearer by a decade.
 const CLEARER: f64 = 10.0;
@@ -72,7 +76,7 @@ pub fn near_singular(
     let mut trial = states.to_vec();
     for (index, (part, rank)) in structure.parts.iter().zip(ranks).enumerate() {
         let (kept, tolerance) = (rank.decision.kept, rank.decision.tolerance);
-        let close = kept < NEAR_TOLERANCE * tolerance;
+        let close = kept < NEVER_SMALL && kept < NEAR_TOLERANCE * tolerance;
         if rank.instantaneous.is_none() || !(kept > 0.0) || !(kept < SMALL || close) {
             continue;
         }

@@ -147,6 +147,13 @@ fn expressions_print_as_in_python() {
         ("round(2.5) + len('abc')", "5"),
         ("math.pi", "3.141592653589793"),
         ("'x' 'y' + str(1.0)", "xy1.0"),
+        ("python.set('a b a'.split()) - python.set(['b'])", "{'a'}"),
+        ("python.set([1, 2]) == python.set([2, 1, 1])", "True"),
+        ("list(python.set('ab').union(['c']))[-1]", "c"),
+        (
+            "python.set(['a']).issubset('ab') and not python.set()",
+            "True",
+        ),
     ] {
         let body = format!("<e filename=\"${{{expression}}}\"/><xacro:if value='0'/>");
         assert_eq!(
