@@ -5,6 +5,7 @@
 //! what is left of the budget is not begun, and the answer says what was not tested.
 
 use super::driven_motion::DrivenMotion;
+use super::excitation::SUBSTEPS;
 use crate::mechanism::Mechanism;
 
 /// Seconds for a substep: of every world, for each body, and for each body and pair of coordinates, since the engine sums
@@ -106,6 +107,11 @@ impl Budget {
         fits
     }
 
+    /// Spends on work that is already done.
+    pub fn charge(&mut self, cost: f64) {
+        self.spent += cost;
+    }
+
     /// How long so many ways may last each (s), no longer than wanted, for the coarse rungs of all of them to fit into the
     /// budget: a short way along every part says more than a long one along a few.
     pub fn longest(
@@ -147,7 +153,7 @@ pub(super) fn cost_of_run(
 /// mostly within two steps, and where the count is not the one expected, three times over.
 pub(super) fn cost_of_count(size: &Size, freedom: usize) -> f64 {
     let blows = freedom as f64 + 4.0;
-    blows * size.steps(4.0, 32)
+    blows * size.steps(4.0, SUBSTEPS)
 }
 
 #[cfg(test)]

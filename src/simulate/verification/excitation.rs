@@ -28,7 +28,7 @@ const SPARE_BLOWS: usize = 4;
 const SHORT: f64 = 1e-8;
 
 /// Solver iterations of a step.
-const SUBSTEPS: usize = 32;
+pub(super) const SUBSTEPS: usize = 32;
 
 /// Steps after which velocities that do not settle are given up.
 const SETTLING_STEPS: usize = 1000;
@@ -69,6 +69,9 @@ pub struct FreedomCount {
     pub gap: f64,
     /// Seed of the blows.
     pub seed: u64,
+    /// Steps of the engine that all blows took until they settled.
+    #[serde(skip)]
+    pub steps: usize,
     /// What follows.
     pub finding: Finding,
 }
@@ -100,10 +103,12 @@ pub fn count_freedoms(
         return Ok(first);
     }
     let second = count_with(mechanism, geometry, states, predicted, Masses::Alike, seed)?;
-    Ok(match second.finding.outcome {
+    let steps = first.steps + second.steps;
+    let count = match second.finding.outcome {
         Outcome::Confirmed => second,
         Outcome::Contradicted | Outcome::Inconclusive => first,
-    })
+    };
+    Ok(FreedomCount { steps, ..count })
 }
 
 fn count_with(
@@ -135,6 +140,7 @@ fn count_with(
         (well, masses, true),
         seed,
     )?;
+    second.steps += first.steps;
     let steady = steady(&first.singular_values, &second.singular_values);
     if steady < second.found {
         second.finding = if (predicted.0..=expected).contains(&steady) {
@@ -198,6 +204,7 @@ fn count_settled(
     let mut random = SplitMix64::new(seed);
     let mut responses = Vec::with_capacity(blows);
     let mut unsettled: f64 = 0.0;
+    let mut steps = 0;
     for _ in 0..blows {
         let mut world = World::with_masses(mechanism, geometry, states, &options, masses)?;
         let poses = world.link_poses();
@@ -211,6 +218,7 @@ fn count_settled(
         let mut left = f64::INFINITY;
         for _ in 0..most {
             world.step()?;
+            steps += 1;
             let (off, largest) = joints.violation(&world.link_twists(), length);
             left = if largest > 0.0 { off / largest } else { 0.0 };
             if left <= settled {
@@ -223,7 +231,8 @@ fn count_settled(
     let rows = responses.first().map_or(0, Vec::len);
     let matrix = Mat::from_fn(rows, blows, |row, column| responses[column][row]);
     let values = matrix.singular_values().unwrap_or_default();
-    Ok(counted(&values, predicted, (unsettled, settled), seed))
+    let count = counted(&values, predicted, (unsettled, settled), seed);
+    Ok(FreedomCount { steps, ..count })
 }
 
 /// What twists the joints allow at a pose: for each joint the two links and an orthonormal basis, angular parts in rad/s and
@@ -442,6 +451,7 @@ fn counted(
         singular_values,
         gap,
         seed,
+        steps: 0,
         finding,
     }
 }

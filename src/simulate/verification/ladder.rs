@@ -119,6 +119,9 @@ pub const ARRIVED: f64 = 0.9;
 /// A drive that has not come this far has not turned anything.
 const STALLED: f64 = 0.5;
 
+/// Distances that differ by less than this share are the same: an error of any order falls by more from one rung to the next.
+const SAME: f64 = 0.05;
+
 /// Errors that grow past this (rad, characteristic lengths) are a simulation that came apart, and say nothing.
 const APART: f64 = 0.3;
 
@@ -192,6 +195,15 @@ pub fn judge_motion(rungs: &[Rung]) -> Option<Finding> {
         };
         return Some(Finding::new(Outcome::Confirmed, why));
     }
+    if let Some(distance) = stays_off(rungs) {
+        return Some(Finding::new(
+            Outcome::Inconclusive,
+            format!(
+                "the joints hold together to rounding, yet the simulated mechanism is {distance:.1e} off the predicted motion \
+                 at every number of substeps: finer ones change nothing"
+            ),
+        ));
+    }
     let levels = orders.len() == 3 && orders.iter().all(|o| *o < LEVEL_ORDER);
     if levels && last.closure_error > FINE_ENOUGH {
         let left = defect(
@@ -232,6 +244,20 @@ fn keeps_near(rungs: &[Rung]) -> bool {
     .is_none_or(|order| order >= 0.5 * LEAST_ORDER);
     last.distance <= FINE_ENOUGH.max(10.0 * last.closure_error)
         || falls && last.distance <= 2.0 * last.closure_error.sqrt()
+}
+
+/// The distance of three rungs that joints hold together to rounding, where it is the same at all of them: then it does not
+/// come from the substeps.
+fn stays_off(rungs: &[Rung]) -> Option<f64> {
+    let [.., first, second, last] = rungs else {
+        return None;
+    };
+    let rounded = |rung: &Rung| rung.closure_error <= ROUNDING && rung.distance > FINE_ENOUGH;
+    let same = |rung: &Rung| (rung.distance - last.distance).abs() <= SAME * last.distance;
+    let all = [first, second, last];
+    all.iter()
+        .all(|rung| rounded(rung) && same(rung))
+        .then_some(last.distance)
 }
 
 fn falls_off(rung: &Rung) -> bool {
@@ -291,6 +317,24 @@ mod tests {
             });
         }
         rungs
+    }
+
+    #[test]
+    fn a_distance_that_finer_substeps_leave_ends_the_ladder() {
+        let off = |distances: &[f64]| {
+            let mut all = rungs(&vec![1e-14; distances.len()]);
+            for (rung, distance) in all.iter_mut().zip(distances) {
+                rung.distance = *distance;
+            }
+            judge_motion(&all).map(|finding| finding.outcome)
+        };
+        assert_eq!(off(&[2.3e-2, 2.31e-2]), None);
+        assert_eq!(
+            off(&[2.3e-2, 2.31e-2, 2.29e-2]),
+            Some(Outcome::Inconclusive)
+        );
+        assert_eq!(off(&[2.3e-2, 1.2e-2, 6e-3]), None);
+        assert_eq!(off(&[1e-6, 1e-6, 1e-6]), Some(Outcome::Confirmed));
     }
 
     fn outcome(errors: &[f64]) -> Option<Outcome> {

@@ -11,7 +11,7 @@
 
 use super::budget::{Budget, Size, cost_of_count, cost_of_run};
 use super::driven_motion::DrivenMotion;
-use super::excitation::MOST_SPREAD;
+use super::excitation::{self, MOST_SPREAD};
 use super::ladder::{Finding, Outcome, Rung, judge_motion, order_between, undecided};
 use super::observer::Observer;
 use super::pushing::{Pushed, Pushing};
@@ -484,6 +484,10 @@ impl Test<'_> {
             (branch.dimension, expected),
             self.options.seed,
         )?;
+        // Some blows take much longer to settle than most.
+        let done = self.size.steps(count.steps as f64, excitation::SUBSTEPS);
+        self.budget
+            .charge((done - cost_of_count(&self.size, expected)).max(0.0));
         let finding = count.finding.clone();
         found.freedoms = Some(count);
         Ok(Some(finding))
