@@ -46,11 +46,11 @@ def compare(found, robot):
     """What the two disagree about, or `None` where they do not; `open` where one of them has no answer."""
     try:
         description = read(robot.text)
+        if sum(len(joint.freedoms) for joint in description.tree) > MOST_VARIABLES:
+            return "not compared", "large"
+        own = freedoms(description)
     except (ValueError, KeyError, AttributeError) as error:
         return "not compared", f"own reader: {error!r}"
-    if sum(len(joint.freedoms) for joint in description.tree) > MOST_VARIABLES:
-        return "not compared", "large"
-    own = freedoms(description)
     if not own["closed"] or own["here"] is None:
         return "not compared", f"own computation: {own}"
     _, finite, here = said(found)
