@@ -49,7 +49,7 @@ def compare(found, robot):
         if sum(len(joint.freedoms) for joint in description.tree) > MOST_VARIABLES:
             return "not compared", "large"
         own = freedoms(description)
-    except (ValueError, KeyError, AttributeError) as error:
+    except (ValueError, KeyError, AttributeError, SyntaxError) as error:
         return "not compared", f"own reader: {error!r}"
     if not own["closed"] or own["here"] is None:
         return "not compared", f"own computation: {own}"
