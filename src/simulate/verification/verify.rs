@@ -12,7 +12,7 @@
 use super::budget::{Budget, Size, cost_of_count, cost_of_run};
 use super::driven_motion::DrivenMotion;
 use super::excitation::{self, MOST_SPREAD};
-use super::ladder::{Finding, Outcome, Rung, judge_motion, order_between, undecided};
+use super::ladder::{Finding, Outcome, ROUNDING, Rung, judge_motion, order_between, undecided};
 use super::observer::Observer;
 use super::pushing::{Pushed, Pushing};
 use super::{FreedomCount, VerificationError, count_freedoms};
@@ -503,7 +503,13 @@ impl Test<'_> {
         let solvers = self.options.solvers.clone();
         for (index, &solver) in solvers.iter().enumerate() {
             let (ladder, stopped) = self.ladder(motion, solver, observer)?;
-            let confirmed = ladder.finding.outcome == Outcome::Confirmed;
+            // Where forces hold nothing together, all solvers do the same. A contradiction is to come from all of them.
+            let exact = ladder.rungs.iter().all(|r| r.closure_error <= ROUNDING);
+            let enough = match ladder.finding.outcome {
+                Outcome::Confirmed => true,
+                Outcome::Inconclusive => exact && !ladder.rungs.is_empty(),
+                Outcome::Contradicted => false,
+            };
             if ladder.rungs.is_empty() && !stopped {
                 // Nothing of it fits into the budget.
                 match found.ladders.last_mut().filter(|_| index > 0) {
@@ -516,7 +522,7 @@ impl Test<'_> {
             if stopped {
                 return Ok(true);
             }
-            if confirmed && !self.options.whole_ladder {
+            if enough && !self.options.whole_ladder {
                 break;
             }
         }
