@@ -192,7 +192,7 @@ fn held_joints_are_named_and_stay() {
     assert_eq!(report.mobility.verdict, Verdict::Unassembled);
     assert!(text.contains("with 2 joints held"), "{text}");
     assert!(
-        text.contains("It closes if the held joints are released"),
+        text.contains("Loops with held joints close once these are released"),
         "{text}"
     );
     assert!(report.assembly.released.is_some());

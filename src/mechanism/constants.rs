@@ -136,8 +136,11 @@ impl<'a> Reach<'a> {
     }
 
     fn is_zero(&self) -> bool {
-        // A number of few decimals was chosen, whatever is beside it.
-        self.value.abs() <= self.vanishing && self.decimals >= DIGITS_OF_DOUBLES as i32
+        // A number of few decimals was chosen, whatever is beside it; one of more digits than a double has is not a double's
+        // rounding.
+        self.value.abs() <= self.vanishing
+            && self.decimals >= DIGITS_OF_DOUBLES as i32
+            && has_no_more_than_a_double(self.number)
     }
 
     /// The shortest decimal from which rounding may have made the number.
