@@ -112,6 +112,11 @@ impl Budget {
         self.spent += cost;
     }
 
+    /// So much of all there was; `None` without limit.
+    pub fn share(&self, share: f64) -> Option<f64> {
+        self.all.map(|all| share * all)
+    }
+
     /// How long so many ways may last each (s), no longer than wanted, for the coarse rungs of all of them to fit into the
     /// budget: a short way along every part says more than a long one along a few.
     pub fn longest(

@@ -33,9 +33,7 @@ pub(super) const SUBSTEPS: usize = 32;
 /// Steps after which velocities that do not settle are given up.
 const SETTLING_STEPS: usize = 1000;
 
-/// In large mechanisms fewer, so that settling takes no more than this work in all (s), but not fewer than that many.
-const SETTLING_COST: f64 = 5.0;
-/// See [`SETTLING_COST`].
+/// Fewer where work is limited, but not fewer than that many.
 const FEWEST_SETTLING_STEPS: usize = 8;
 
 /// Velocities have settled when no joint's are off by more than this share of the largest velocity. Directions that the
@@ -78,7 +76,8 @@ pub struct FreedomCount {
 
 /// Strikes the mechanism at a closed pose and counts the directions in which it gives way: as many as there are finite
 /// freedoms at least, and instantaneous ones at most. Directions in which a pose gives way to first order only are
-/// blocked, stiffly, as soon as it has moved at all, or not, as the solver has it.
+/// blocked, stiffly, as soon as it has moved at all, or not, as the solver has it. Large mechanisms are given less time to
+/// settle where settling all blows must not take more than a given work (s, as a budget counts it).
 ///
 /// # Errors
 /// Where no world can be made there, or it diverges.
@@ -88,6 +87,7 @@ pub fn count_freedoms(
     states: &[JointState<f64>],
     (finite, expected): (usize, usize),
     seed: u64,
+    settling: Option<f64>,
 ) -> Result<FreedomCount, VerificationError> {
     let predicted = (finite.min(expected), expected);
     let masses = match World::new(mechanism, geometry, states, &WorldOptions::default())?
@@ -97,12 +97,21 @@ pub fn count_freedoms(
         true => Masses::Alike,
         false => Masses::Stated,
     };
-    let first = count_with(mechanism, geometry, states, predicted, masses, seed)?;
+    let blows = (expected + SPARE_BLOWS) as f64;
+    let step = Size::of(mechanism, 0).steps(blows, SUBSTEPS);
+    let most = settling.map_or(SETTLING_STEPS, |work| {
+        ((work / step) as usize).clamp(FEWEST_SETTLING_STEPS, SETTLING_STEPS)
+    });
+    let count = |masses| {
+        let how = Shaking { masses, most, seed };
+        count_with(mechanism, geometry, states, predicted, &how)
+    };
+    let first = count(masses)?;
     // What masses make of it is no matter of freedom.
     if first.finding.outcome == Outcome::Confirmed || masses == Masses::Alike {
         return Ok(first);
     }
-    let second = count_with(mechanism, geometry, states, predicted, Masses::Alike, seed)?;
+    let second = count(Masses::Alike)?;
     let steps = first.steps + second.steps;
     let count = match second.finding.outcome {
         Outcome::Confirmed => second,
@@ -111,13 +120,21 @@ pub fn count_freedoms(
     Ok(FreedomCount { steps, ..count })
 }
 
+/// How a mechanism is struck.
+struct Shaking {
+    masses: Masses,
+    /// Steps after which velocities that do not settle are given up.
+    most: usize,
+    /// Seed of the blows.
+    seed: u64,
+}
+
 fn count_with(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
     states: &[JointState<f64>],
     predicted: (usize, usize),
-    masses: Masses,
-    seed: u64,
+    how: &Shaking,
 ) -> Result<FreedomCount, VerificationError> {
     let expected = predicted.1;
     let [roughly, well] = SETTLED;
@@ -126,20 +143,13 @@ fn count_with(
         geometry,
         states,
         predicted,
-        (roughly, masses, false),
-        seed,
+        (roughly, false),
+        how,
     )?;
     if first.finding.outcome == Outcome::Confirmed {
         return Ok(first);
     }
-    let mut second = count_settled(
-        mechanism,
-        geometry,
-        states,
-        predicted,
-        (well, masses, true),
-        seed,
-    )?;
+    let mut second = count_settled(mechanism, geometry, states, predicted, (well, true), how)?;
     second.steps += first.steps;
     let steady = steady(&first.singular_values, &second.singular_values);
     if steady < second.found {
@@ -185,8 +195,8 @@ fn count_settled(
     geometry: &Geometry<f64>,
     states: &[JointState<f64>],
     predicted: (usize, usize),
-    (settled, masses, couplings): (f64, Masses, bool),
-    seed: u64,
+    (settled, couplings): (f64, bool),
+    how: &Shaking,
 ) -> Result<FreedomCount, VerificationError> {
     let options = WorldOptions {
         solver: Solver::Multibody,
@@ -199,14 +209,12 @@ fn count_settled(
     if !couplings {
         joints.couplings.clear();
     }
-    let step = Size::of(mechanism, 0).steps(blows as f64, SUBSTEPS);
-    let most = ((SETTLING_COST / step) as usize).clamp(FEWEST_SETTLING_STEPS, SETTLING_STEPS);
-    let mut random = SplitMix64::new(seed);
+    let mut random = SplitMix64::new(how.seed);
     let mut responses = Vec::with_capacity(blows);
     let mut unsettled: f64 = 0.0;
     let mut steps = 0;
     for _ in 0..blows {
-        let mut world = World::with_masses(mechanism, geometry, states, &options, masses)?;
+        let mut world = World::with_masses(mechanism, geometry, states, &options, how.masses)?;
         let poses = world.link_poses();
         let (length, energy) = world.scale();
         let bodies = world.link_inertias();
@@ -216,7 +224,7 @@ fn count_settled(
             }
         }
         let mut left = f64::INFINITY;
-        for _ in 0..most {
+        for _ in 0..how.most {
             world.step()?;
             steps += 1;
             let (off, largest) = joints.violation(&world.link_twists(), length);
@@ -231,7 +239,7 @@ fn count_settled(
     let rows = responses.first().map_or(0, Vec::len);
     let matrix = Mat::from_fn(rows, blows, |row, column| responses[column][row]);
     let values = matrix.singular_values().unwrap_or_default();
-    let count = counted(&values, predicted, (unsettled, settled), seed);
+    let count = counted(&values, predicted, (unsettled, settled), how.seed);
     Ok(FreedomCount { steps, ..count })
 }
 

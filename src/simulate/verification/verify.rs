@@ -343,6 +343,9 @@ fn driven_by(name: &str) -> String {
     format!("driven by `{name}`")
 }
 
+/// The share of a budget that may go into waiting for velocities to settle after blows.
+const SETTLING_SHARE: f64 = 1.0 / 6.0;
+
 /// Things left out that are named; of more the rest is counted.
 const NAMED: usize = 3;
 
@@ -483,6 +486,7 @@ impl Test<'_> {
             &pose.states,
             (branch.dimension, expected),
             self.options.seed,
+            self.budget.share(SETTLING_SHARE),
         )?;
         // Some blows take much longer to settle than most.
         let done = self.size.steps(count.steps as f64, excitation::SUBSTEPS);
