@@ -1,6 +1,6 @@
 """A robot's description as joints, loops and linear equations: a reader of its own, for checking the program's.
 
-Read are URDF and URDF+ (`loop`, `coupling`), `mimic`, and joints of SDFormat inside `gazebo` elements. It is made to be
+Read are URDF and URDF+ (`loop`, `coupling`), `loop_joint`, `mimic`, and links and joints inside `gazebo` elements. It is made to be
 short and independent, not to be complete: what it does not know is an error, and such a file is not compared.
 """
 
@@ -59,7 +59,7 @@ def origin(element):
 
 
 def freedoms(kind, axis, lead=0.0):
-    axis = np.asarray(axis, float)
+    axis = np.asarray([1, 0, 0] if axis is None else axis, float)
     across = np.cross(axis, [1, 0, 0] if abs(axis[0]) < 0.9 * np.linalg.norm(axis) else [0, 1, 0])
     unit = np.eye(3)
     return {
@@ -84,7 +84,7 @@ def axis_of(element):
 def read(text):
     root = xml.fromstring(text)
     robot = Description(links=[link.get("name") for link in root if link.tag == "link"])
-    mimics, couplings, inside_gazebo = [], [], []
+    mimics, couplings, inside_gazebo, links_of_gazebo = [], [], [], []
     placed = set()
     for element in root:
         if element.tag == "joint":
@@ -108,10 +108,21 @@ def read(text):
                     freedoms(element.get("type"), axis_of(element)),
                 )
             )
+        elif element.tag == "loop_joint":
+            sides = [element.find(side) for side in ("link1", "link2")]
+            robot.loops.append(
+                Joint(
+                    element.get("name"),
+                    *[side.get("link") for side in sides],
+                    *[origin(side) for side in sides],
+                    freedoms(element.get("type"), axis_of(element)),
+                )
+            )
         elif element.tag == "coupling":
             couplings.append(element)
         elif element.tag == "gazebo":
-            inside_gazebo += element.findall("joint")
+            inside_gazebo += [inner for inner in element if kind_of(inner) in OLD_KINDS or inner.tag == "joint"]
+            links_of_gazebo += element.findall("link")
     of_link = {joint.b: joint for joint in robot.tree}
 
     def path(link):
@@ -134,23 +145,60 @@ def read(text):
         factors = {joint.name: -ratio for joint in before}
         factors.update({joint.name: 1.0 for joint in after})
         robot.equations.append((factors, 0.0))
-    robot.loops += [gazebo_joint(robot, path, element) for element in inside_gazebo]
+    if links_of_gazebo:
+        base = next(link for link in robot.links if link not in placed)
+    for link in links_of_gazebo:
+        name, at = link.get("name"), frame(*np.split(np.array(numbers(link.find("pose").text, 6)), 2))
+        of_link[name] = Joint(f"place of {name}", base, name, at, np.eye(4), freedoms("floating", None))
+        robot.tree.append(of_link[name])
+        robot.links.append(name)
+    for element in inside_gazebo:
+        joint = (gazebo_joint if element.tag == "joint" else old_gazebo_joint)(drawn(path), element)
+        if joint.name in {other.name for other in robot.tree}:
+            # Two joints of one name are one to a controller.
+            joint.name, name = f"{joint.name} in gazebo", joint.name
+            robot.equations.append(({joint.name: 1.0, name: -1.0}, 0.0))
+        robot.loops.append(joint)
     return robot
 
 
-def gazebo_joint(robot, path, element):
-    """SDFormat: the pose of a joint is given in its child; the side on the parent follows from how the links are drawn."""
-    names = [element.find(side).text.strip() for side in ("parent", "child")]
-    pose = element.find("pose")
-    on_child = frame(*np.split(np.array(numbers(pose.text, 6)), 2)) if pose is not None else np.eye(4)
+def drawn(path):
+    """Where a link is drawn, in the frame of the base."""
 
-    def drawn(link):
+    def pose(link):
         found = np.eye(4)
         for joint in path(link):
             found = found @ joint.frame_a
         return found
 
-    on_parent = np.linalg.inv(drawn(names[0])) @ drawn(names[1]) @ on_child
+    return pose
+
+
+OLD_KINDS = {"hinge": "revolute", "slider": "prismatic", "ball": "ball"}
+
+
+def kind_of(element):
+    """`hinge` of `joint:hinge`."""
+    return element.tag.split("}")[-1]
+
+
+def old_gazebo_joint(pose, element):
+    """Gazebo before SDFormat: the joint is at an offset from its anchor body, along the axes of the world."""
+    names = [element.find(side).text.strip() for side in ("body1", "body2")]
+    at = pose(element.find("anchor").text.strip()).copy()
+    offset = element.find("anchorOffset")
+    at = at @ frame(numbers(offset.text, 3), [0, 0, 0]) if offset is not None else at
+    sides = [np.linalg.inv(pose(name)) @ at for name in names]
+    return Joint(element.get("name"), *names, *sides, freedoms(OLD_KINDS[kind_of(element)], numbers(element.find("axis").text, 3)))
+
+
+def gazebo_joint(pose_of, element):
+    """SDFormat: the pose of a joint is given in its child; the side on the parent follows from how the links are drawn."""
+    names = [element.find(side).text.strip() for side in ("parent", "child")]
+    pose = element.find("pose")
+    on_child = frame(*np.split(np.array(numbers(pose.text, 6)), 2)) if pose is not None else np.eye(4)
+
+    on_parent = np.linalg.inv(pose_of(names[0])) @ pose_of(names[1]) @ on_child
     axis = element.find("axis")
     along = numbers(axis.find("xyz").text) if axis is not None and axis.find("xyz") is not None else [0, 0, 1]
     lead = 0.0
