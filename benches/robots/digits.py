@@ -71,7 +71,13 @@ def evaluator(text):
     return evaluate
 
 
+# Lengths that are not attributes of origins, and would stay as they are where those are rescaled.
+ELSEWHERE = re.compile(r"<(?:pose|anchorOffset|thread_pitch|screw|distance)\b")
+
+
 def rewritten(text, name):
+    if name in HIDDEN and ELSEWHERE.search(text):
+        return text
     way = WAYS[name]
     noise = random.Random(1)
     evaluate = evaluator(text)

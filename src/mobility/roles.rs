@@ -80,7 +80,7 @@ impl Resting {
     /// `None` where the null vectors are too uncertain to tell anything.
     ///
     /// Components of a unit vector of length n are of the order of a share, 1/√n. Where the error of the vectors is as
-    /// large they tell nothing. And however coarse the numbers, a component of a hundredth of a share or more is not
+    /// large they tell nothing. And however coarse the numbers, a component of a ten-thousandth of a share or more is not
     /// called zero: it is small within their precision, which is not the same as resting.
     pub fn columns(null: &NullVectors<f64>, decision: &RankDecision) -> Option<Self> {
         let share = 1.0 / (null.length.max(1) as f64).sqrt();
@@ -88,23 +88,24 @@ impl Resting {
         if decision.kept > 0.0 && error > share * decision.kept {
             return None;
         }
-        let careful = RankDecision {
-            // Ten times the error over the smallest kept value is what is taken for zero.
-            accuracy: decision.accuracy.min(1e-3 * share * decision.kept),
-            ..decision.clone()
+        // Ten times the error over the smallest kept value is what is taken for zero, a thousand times is doubtful.
+        let found = |least: f64| {
+            let careful = RankDecision {
+                accuracy: decision.accuracy.min(least * share * decision.kept),
+                ..decision.clone()
+            };
+            coloops(null, &careful)
         };
-        let found = coloops(null, &careful);
-        let mark = |columns: Vec<usize>| {
-            let mut marked = vec![false; null.length];
-            for column in columns {
-                marked[column] = true;
-            }
-            marked
-        };
-        Some(Self {
-            zero: mark(found.zero),
-            doubtful: mark(found.undecided),
-        })
+        let (certain, possible) = (found(1e-5), found(1e-3));
+        let mut zero = vec![false; null.length];
+        let mut doubtful = zero.clone();
+        for column in certain.zero {
+            zero[column] = true;
+        }
+        for column in possible.zero.into_iter().chain(possible.undecided) {
+            doubtful[column] = !zero[column];
+        }
+        Some(Self { zero, doubtful })
     }
 }
 

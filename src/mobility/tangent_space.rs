@@ -26,8 +26,8 @@ use crate::mechanism::{FreedomPart, Mechanism};
 ///
 /// Up to ten times the error a magnitude is zero, from a thousand times the error on it is not, and between it is
 /// doubtful: the rule of [`crate::matrix::coloops`]. Components of a unit vector of length n are of the order of a share,
-/// 1/√n. However coarse the numbers, a thousandth of a share is not called zero, and whatever exceeds both a hundredth of
-/// a share and three errors is called motion. An error beyond a third of a share leaves only exact zeros.
+/// 1/√n. However coarse the numbers, three ten-thousandths of a share are not called zero: lead screws and gears move joints by
+/// a thousandth of others. Whatever exceeds both a hundredth of a share and three errors is called motion. An error beyond a third of a share leaves only exact zeros.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
     /// Bound on the error of a unit vector.
@@ -49,7 +49,7 @@ impl Limits {
         }
         Self {
             error,
-            rest: (10.0 * error).min(1e-3 * share),
+            rest: (10.0 * error).min(3e-4 * share),
             moves: (1e3 * error).min((1e-2 * share).max(3.0 * error)),
         }
     }
