@@ -36,9 +36,9 @@ const SHORTEST_TIME: f64 = 1.0;
 /// How large a mechanism is, for the cost of its simulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Size {
-    /// Links, and bodies between the halves of joints.
+    /// Links, and wheels that couplings are made of.
     pub bodies: f64,
-    /// Joint variables.
+    /// Variables of joints and wheels.
     pub variables: f64,
     /// Those of joints in loops and couplings.
     pub looped: f64,
@@ -46,9 +46,10 @@ pub(super) struct Size {
 
 impl Size {
     pub fn of(mechanism: &Mechanism, looped: usize) -> Self {
+        let wheels = wheels(mechanism);
         Self {
-            bodies: mechanism.links().len() as f64,
-            variables: mechanism.freedom() as f64,
+            bodies: (mechanism.links().len() + wheels) as f64,
+            variables: (mechanism.freedom() + wheels) as f64,
             looped: looped as f64,
         }
     }
@@ -143,6 +144,12 @@ impl Budget {
     }
 }
 
+/// How many wheels couplings of three joints and more are made of: one for each term.
+pub(super) fn wheels(mechanism: &Mechanism) -> usize {
+    let terms = mechanism.couplings().iter().map(|c| c.terms.len());
+    terms.filter(|count| *count > 2).sum()
+}
+
 /// Seconds that a run of a motion with so many substeps takes.
 pub(super) fn cost_of_run(
     size: &Size,
@@ -162,6 +169,7 @@ pub(super) fn cost_of_count(size: &Size, freedom: usize) -> f64 {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 
@@ -173,6 +181,26 @@ mod tests {
         assert!(budget.affords(4.0));
         assert!(!budget.affords(0.1));
         assert!(Budget::new(None).affords(1e9));
+    }
+
+    #[test]
+    fn wheels_of_couplings_count_as_bodies() {
+        let text = |second: &str| {
+            format!(
+                r#"<robot name="arm"><link name="a"/><link name="b"/><link name="c"/><link name="d"/>
+                <joint name="x" type="continuous"><parent link="a"/><child link="b"/></joint>
+                <joint name="y" type="continuous"><parent link="b"/><child link="c"/></joint>
+                <joint name="z" type="continuous"><parent link="a"/><child link="d"/></joint>
+                <coupling name="gears"><predecessor link="d"/><successor link="{second}"/><ratio value="6"/></coupling></robot>"#
+            )
+        };
+        let size = |second: &str| {
+            let read = crate::format::read_bytes(text(second).as_bytes(), "arm.urdf", &[]).unwrap();
+            Size::of(&read.mechanism, 0)
+        };
+        // One joint on the way, and two: the third term makes a row of wheels.
+        assert_eq!((size("b").bodies, size("b").variables), (4.0, 3.0));
+        assert_eq!((size("c").bodies, size("c").variables), (7.0, 6.0));
     }
 
     #[test]

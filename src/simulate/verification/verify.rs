@@ -9,7 +9,7 @@
 //! None of it is a proof: it is evidence from physics that knows nothing of the analysis, and it is stated with the size
 //! of the defect that it could have missed.
 
-use super::budget::{Budget, Size, cost_of_count, cost_of_run};
+use super::budget::{Budget, Size, cost_of_count, cost_of_run, wheels};
 use super::driven_motion::DrivenMotion;
 use super::excitation::{self, MOST_SPREAD};
 use super::ladder::{Finding, Outcome, ROUNDING, Rung, judge_motion, order_between, undecided};
@@ -628,6 +628,14 @@ impl Test<'_> {
             }
         }
         ladder.finding = decided.unwrap_or_else(|| undecided(&ladder.rungs));
+        let off = |rung: &Rung| rung.closure_error <= ROUNDING && rung.distance > ROUNDING;
+        if ladder.finding.outcome == Outcome::Inconclusive
+            && ladder.rungs.last().is_some_and(off)
+            && wheels(self.mechanism) > 0
+        {
+            let why = "; couplings of three joints and more, which the engine holds by light wheels, may give";
+            ladder.finding.why.push_str(why);
+        }
         if spent && ladder.finding.outcome == Outcome::Inconclusive && !ladder.rungs.is_empty() {
             let spent = format!("; finer ones do not fit into {}", self.budget.words());
             ladder.finding.why.push_str(&spent);
