@@ -22,7 +22,7 @@ def steps(date, machine, quick):
     cargo = ["cargo", "run", "--locked", "--release", "--example", "accuracy_page", "--"]
     found = [
         ("eight mechanisms", [*cargo, "--update", date, machine], {}),
-        ("break points", ["cargo", "test", "--locked", "--test", "stability"], {"KUTZBACH_UPDATE": "1"}),
+        ("break points", ["cargo", "test", "--locked", "--test", "it", "stability::"], {"KUTZBACH_UPDATE": "1"}),
     ]
     if not quick:
         found.append(("mutations", [sys.executable, "tests/stability/mutations.py", "--update", date], {}))

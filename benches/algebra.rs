@@ -1,7 +1,7 @@
 //! Groebner bases: the usual test systems cyclic-6 and katsura-7, and loops from `tests/thesis/systems.json`.
 //!
 //! ```text
-//! cargo bench --bench algebra
+//! cargo bench -p kutzbach-benches --bench algebra
 //! ```
 
 #![allow(clippy::unwrap_used)]

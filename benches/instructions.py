@@ -28,7 +28,7 @@ SMALL, MANY = 200_000, 100
 
 def build():
     """The program that runs one case, from what cargo says of its artifacts."""
-    command = ["cargo", "bench", "--locked", "--no-run", "--bench", "instructions", "--message-format=json"]
+    command = ["cargo", "bench", "--package", "kutzbach-benches", "--locked", "--no-run", "--bench", "instructions", "--message-format=json"]
     lines = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True).stdout.splitlines()
     return executable(lines)
 

@@ -1,6 +1,6 @@
-"""The record benches/record/stages.json, from what `cargo bench --bench stages` prints.
+"""The record benches/record/stages.json, from what `cargo bench -p kutzbach-benches --bench stages` prints.
 
-    cargo bench --bench stages | python3 benches/stages.py --date 2026-01-31 --machine "2 cores of an ordinary machine"
+    cargo bench -p kutzbach-benches --bench stages | python3 benches/stages.py --date 2026-01-31 --machine "2 cores of an ordinary machine"
 
 `--output FILE` writes another file. Seconds: the fastest sample and the median, by stage, function and case.
 """

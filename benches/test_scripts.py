@@ -40,7 +40,8 @@ class Accuracy(unittest.TestCase):
             if "--example" in command:
                 there = accuracy.ROOT / "examples" / command[command.index("--example") + 1] / "main.rs"
             elif "--test" in command:
-                there = accuracy.ROOT / "tests" / command[command.index("--test") + 1] / "main.rs"
+                suite = command[command.index("it") + 1].removesuffix("::")
+                there = accuracy.ROOT / "tests" / suite / "main.rs"
             else:
                 there = accuracy.ROOT / command[1]
             self.assertTrue(there.is_file(), there)

@@ -9,7 +9,7 @@ mod page;
 mod record;
 #[path = "../examples/accuracy_page/subjects.rs"]
 mod subjects;
-mod support;
+use crate::support;
 
 use kutzbach::accuracy::{Accuracy, AccuracyOptions, Claim, Grid, State};
 use kutzbach::closure::{Arithmetic, Geometry};

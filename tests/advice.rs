@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod support;
+use crate::support;
 
 use kutzbach::mechanism::{Direction, JointKind, Mechanism};
 use kutzbach::mobility::{Advice, Analysis, AnalysisOptions, analyse};

@@ -6,7 +6,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod support;
+use crate::support;
 
 use kutzbach::closure::{Arithmetic, Geometry, assemble};
 use kutzbach::matrix::SplitMix64;

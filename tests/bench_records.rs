@@ -9,7 +9,7 @@ mod cases;
 mod jobs;
 #[path = "../benches/instructions/list.rs"]
 mod list;
-mod support;
+use crate::support;
 
 use serde_json::Value;
 use std::fs;

@@ -1,7 +1,7 @@
 //! What the book says exists: names of the library, fields of reports, files, pages, and what the program prints.
 #![allow(clippy::unwrap_used)]
 
-mod support;
+use crate::support;
 
 use serde_json::Value;
 use std::collections::BTreeSet;

@@ -4,7 +4,7 @@
 
 #[path = "support/generic_poses.rs"]
 mod generic_poses;
-mod support;
+use crate::support;
 
 use generic_poses::Posed;
 use kutzbach::families::scissor_lift;

@@ -10,7 +10,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod support;
+use crate::support;
 
 use kutzbach::closure::{Arithmetic, Geometry, JointState, Part, jacobian};
 use kutzbach::families::{flat_change_point, flattening_parallelogram, negative_power_of_ten};

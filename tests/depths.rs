@@ -1,7 +1,7 @@
 //! An analysis that is asked for less says the same as far as it goes, on every reference mechanism.
 #![allow(clippy::unwrap_used)]
 
-mod support;
+use crate::support;
 
 use kutzbach::mechanism::Mechanism;
 use kutzbach::mobility::{Analysis, AnalysisOptions, Depth, analyse};

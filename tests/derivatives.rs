@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod support;
+use crate::support;
 
 use kutzbach::closure::{
     Arithmetic, CycleJacobian, Geometry, JointState, Part, Rigid, WalkedCycle, assemble, jacobian,

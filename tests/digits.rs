@@ -9,7 +9,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod support;
+use crate::support;
 
 use kutzbach::mechanism::Mechanism;
 use kutzbach::mobility::Analysis;

@@ -13,7 +13,7 @@ mod published;
 mod record;
 #[path = "../examples/exact_tables/scenes.rs"]
 mod scenes;
-mod support;
+use crate::support;
 
 use record::{Figures, Record, Table};
 use std::fs;

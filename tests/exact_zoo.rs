@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod support;
+use crate::support;
 
 use kutzbach::algebra::{Budget, ExactOptions, Formulation, Limits, SystemOptions, exact_answer};
 use kutzbach::graph::ConstraintGraph;

@@ -9,7 +9,7 @@
 #[allow(dead_code)]
 #[path = "../examples/families_figure/figure.rs"]
 mod figure;
-mod support;
+use crate::support;
 
 use figure::{MOST_LOOPS, Member, Place, cases, families_of, look, render};
 use kutzbach::families::{Outcome, continuous_families};

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod format_support;
+use crate::format_support;
 
 use format_support::{chain, fault, robot};
 use kutzbach::format::read;

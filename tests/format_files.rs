@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod format_support;
+use crate::format_support;
 
 use format_support::{difference, files_below, own_files, shared};
 use kutzbach::format::{ReadOptions, read, read_file, read_file_with, write};

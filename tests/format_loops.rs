@@ -8,7 +8,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod format_support;
+use crate::format_support;
 
 use format_support::difference;
 use kutzbach::format::{Reading, read, write};

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod format_support;
+use crate::format_support;
 
 use format_support::{chain, robot};
 use kutzbach::format::{ReadOptions, Reading, read, read_with};

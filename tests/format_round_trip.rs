@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod format_support;
+use crate::format_support;
 
 use format_support::difference;
 use kutzbach::format::{ReadOptions, read_with, write};

@@ -6,7 +6,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod support;
+use crate::support;
 
 use kutzbach::closure::{
     Arithmetic, Geometry, Part, entry_accuracy, jacobian, positional_jacobian, refine,

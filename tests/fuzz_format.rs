@@ -6,7 +6,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod format_support;
+use crate::format_support;
 
 use format_support::{check_place, difference};
 use kutzbach::format::{read_bytes, write};

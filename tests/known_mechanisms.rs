@@ -4,7 +4,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod support;
+use crate::support;
 
 use kutzbach::mechanism::{Expectation, Mechanism};
 use kutzbach::mobility::{Analysis, PoseKind, Verdict};

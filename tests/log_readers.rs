@@ -7,7 +7,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod support;
+use crate::support;
 
 use kutzbach::closure::{Arithmetic, Geometry, Rigid};
 use kutzbach::record::{

@@ -1,7 +1,7 @@
 //! The table of `mechanisms/README.md` lists every file with the answer that the file itself states.
 #![allow(clippy::unwrap_used)]
 
-mod support;
+use crate::support;
 
 use kutzbach::mechanism::Expectation;
 use std::collections::BTreeMap;

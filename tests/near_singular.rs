@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod support;
+use crate::support;
 
 use kutzbach::format::read_file;
 use kutzbach::mobility::{Analysis, AnalysisOptions, PoseKind, SingularKind, Verdict, analyse};

@@ -5,7 +5,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod support;
+use crate::support;
 
 use kutzbach::algebra::{
     Formulation, HomePose, Meaning, Origin, PolynomialSystem, Relaxation, SystemError,

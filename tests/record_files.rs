@@ -2,8 +2,8 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod record_support;
-mod support;
+use crate::record_support;
+use crate::support;
 
 use foxglove::messages::Log;
 use kutzbach::record::{LogFile, Motion, RecordError, Recorder};

@@ -1,7 +1,7 @@
 //! Predicted motion: the reference mechanisms followed along their branches, and motions that formulas give.
 #![allow(clippy::unwrap_used)]
 
-mod support;
+use crate::support;
 
 use kutzbach::closure::{Arithmetic, Geometry, Rigid};
 use kutzbach::format::read;

@@ -1,7 +1,7 @@
 //! `kutzbach trace` as a user meets it.
 #![allow(clippy::unwrap_used)]
 
-mod support;
+use crate::support;
 
 use serde_json::Value;
 use std::fs;

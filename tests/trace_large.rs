@@ -1,7 +1,7 @@
 //! Motions of parts of many loops.
 #![allow(clippy::unwrap_used)]
 
-mod support;
+use crate::support;
 
 use kutzbach::families::{miura_sheet, scissor_lift};
 use kutzbach::mechanism::Mechanism;

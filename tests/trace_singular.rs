@@ -1,7 +1,7 @@
 //! Singular poses and cusps on the way: where formulas say that they are.
 #![allow(clippy::unwrap_used)]
 
-mod support;
+use crate::support;
 
 use kutzbach::mechanism::Mechanism;
 use kutzbach::motion::{Event, EventKind, Motion, TraceOptions, trace};

@@ -10,7 +10,7 @@
 mod combine;
 #[path = "support/drawn.rs"]
 mod drawn;
-mod support;
+use crate::support;
 
 use drawn::{Drawn, Known};
 use kutzbach::mechanism::{JointKind, Mechanism};

@@ -5,7 +5,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod support;
+use crate::support;
 
 use kutzbach::closure::{Arithmetic, Geometry};
 use kutzbach::mechanism::Mechanism;

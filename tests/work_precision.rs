@@ -11,7 +11,7 @@ mod measure;
 mod page;
 #[path = "../examples/work_precision/record.rs"]
 mod record;
-mod support;
+use crate::support;
 
 use kutzbach::simulate::verification::{largest_gap, order_between};
 use kutzbach::simulate::{Drive, Solver};

@@ -12,7 +12,7 @@ mod joints;
 mod loops;
 #[path = "world/scenes.rs"]
 mod scenes;
-mod support;
+use crate::support;
 
 use kutzbach::closure::{Arithmetic, Geometry, JointState};
 use kutzbach::mechanism::{JointKind, Mechanism};

@@ -1,8 +1,8 @@
 //! Stages as programs of their own, for counting instructions.
 //!
 //! ```text
-//! cargo bench --bench instructions                      # lists the cases
-//! cargo bench --bench instructions -- rank/bennett 5    # runs one five times
+//! cargo bench -p kutzbach-benches --bench instructions                      # lists the cases
+//! cargo bench -p kutzbach-benches --bench instructions -- rank/bennett 5    # runs one five times
 //! python3 benches/instructions.py --date DATE --machine MACHINE
 //! ```
 //!
@@ -20,7 +20,7 @@ mod list;
 use std::error::Error;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    // `cargo bench` adds `--bench`, `cargo test --benches` nothing.
+    // `cargo bench` adds `--bench`, `cargo test -p kutzbach-benches --benches` nothing.
     let arguments: Vec<String> = std::env::args()
         .skip(1)
         .filter(|argument| !argument.starts_with("--"))

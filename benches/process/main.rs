@@ -1,7 +1,7 @@
 //! The program as a whole: `kutzbach report FILE` as a process, with its memory.
 //!
 //! ```text
-//! cargo bench --bench process                # prints Markdown tables and the growth exponents
+//! cargo bench -p kutzbach-benches --bench process                # prints Markdown tables and the growth exponents
 //! ```
 //!
 //! Writes the families as files into a temporary folder. Peak memory is what GNU time reads from the system; without
@@ -10,6 +10,7 @@
 use kutzbach::families::{miura_sheet, scissor_lift};
 use kutzbach::mechanism::{Mechanism, MechanismError};
 use std::error::Error;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Instant;
@@ -29,10 +30,11 @@ const FILES: [&str; 5] = ["bennett", "sarrus", "stewart", "delta", "peaucellier"
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    // `cargo bench` says so; anything else, such as `cargo test --benches`, wants to know only that this runs.
+    // `cargo bench` says so; anything else, such as `cargo test -p kutzbach-benches --benches`, wants to know only that this runs.
     let in_earnest = arguments.iter().any(|argument| argument == "--bench");
     let folder = std::env::temp_dir().join(format!("kutzbach-families-{}", std::process::id()));
     std::fs::create_dir_all(&folder)?;
+    build()?;
     let outcome = if in_earnest {
         measure(&folder)
     } else {
@@ -47,7 +49,7 @@ fn measure(folder: &Path) -> Result<(), Box<dyn Error>> {
     println!("| file | joints | text | JSON | peak memory |");
     println!("|---|---|---|---|---|");
     for name in FILES {
-        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("mechanisms/{name}.urdf"));
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../mechanisms/{name}.urdf"));
         let joints = kutzbach::format::read_file(&file, &[])?
             .mechanism
             .joints()
@@ -130,23 +132,39 @@ fn median(sorted: &[f64]) -> f64 {
     sorted.get(sorted.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
-fn report(file: &Path, format: &str) -> (PathBuf, Vec<std::ffi::OsString>) {
-    (
-        PathBuf::from(env!("CARGO_BIN_EXE_kutzbach")),
-        vec![
-            "report".into(),
-            "--format".into(),
-            format.into(),
-            file.into(),
-        ],
-    )
+/// The folder of programs that this one was built into: `target/release`, or `target/debug` when only tried.
+fn programs() -> Result<PathBuf, Box<dyn Error>> {
+    let own = std::env::current_exe()?;
+    let folder = own.ancestors().nth(2);
+    Ok(folder.ok_or("a bench lies in `deps`")?.to_path_buf())
+}
+
+/// Builds the program beside this one: cargo builds no program of another package for a bench.
+fn build() -> Result<(), Box<dyn Error>> {
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.args(["build", "--locked", "--package", "kutzbach"]);
+    if programs()?.ends_with("release") {
+        cargo.arg("--release");
+    }
+    let done = cargo.current_dir(env!("CARGO_MANIFEST_DIR")).status()?;
+    done.success()
+        .then_some(())
+        .ok_or_else(|| "the program does not build".into())
+}
+
+/// The program with what it is to do.
+fn report(file: &Path, format: &str) -> Result<(PathBuf, Vec<OsString>), Box<dyn Error>> {
+    let program = programs()?.join(format!("kutzbach{}", std::env::consts::EXE_SUFFIX));
+    let arguments = ["report".into(), "--format".into(), format.into()];
+    let all = arguments.into_iter().chain([file.as_os_str().to_owned()]);
+    Ok((program, all.collect()))
 }
 
 /// Wall times of several runs in seconds, sorted.
 fn times(file: &Path, format: &str, runs: usize) -> Result<Vec<f64>, Box<dyn Error>> {
     let mut times = Vec::with_capacity(runs);
     for run in 0..=runs {
-        let (program, arguments) = report(file, format);
+        let (program, arguments) = report(file, format)?;
         let started = Instant::now();
         let output = Command::new(program).args(arguments).output()?;
         let seconds = started.elapsed().as_secs_f64();
@@ -163,7 +181,7 @@ fn times(file: &Path, format: &str, runs: usize) -> Result<Vec<f64>, Box<dyn Err
 
 /// Peak resident memory in bytes; `None` without GNU time.
 fn peak_memory(file: &Path) -> Result<Option<u64>, Box<dyn Error>> {
-    let (program, arguments) = report(file, "text");
+    let (program, arguments) = report(file, "text")?;
     let output = Command::new("/usr/bin/time")
         .args(["--format", "%M", "--"])
         .arg(program)

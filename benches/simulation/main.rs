@@ -2,8 +2,8 @@
 //! verification.
 //!
 //! ```text
-//! cargo bench --bench simulation             # everything, about a minute
-//! cargo bench --bench simulation -- turn     # names that contain `turn`
+//! cargo bench -p kutzbach-benches --bench simulation             # everything, about a minute
+//! cargo bench -p kutzbach-benches --bench simulation -- turn     # names that contain `turn`
 //! ```
 //!
 //! How far the loops come open meanwhile is measured by `cargo run --release --example work_precision`, which shares the

@@ -1,8 +1,8 @@
 //! The stages of an analysis, timed one by one on fixed cases.
 //!
 //! ```text
-//! cargo bench --bench stages                 # everything
-//! cargo bench --bench stages -- rank         # names that contain `rank`
+//! cargo bench -p kutzbach-benches --bench stages                 # everything
+//! cargo bench -p kutzbach-benches --bench stages -- rank         # names that contain `rank`
 //! ```
 //!
 //! One file per stage, in the order in which data flows; [`cases`] says what is measured. The process as a whole, with its

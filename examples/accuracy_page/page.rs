@@ -1,8 +1,8 @@
 //! The parts of the page that are written by the program: a table of all mechanisms, and for each its figure and two short
 //! tables.
 
-use crate::record::{Record, Row};
-use crate::subjects::Result;
+use super::record::{Record, Row};
+use super::subjects::Result;
 use kutzbach::accuracy::{Accuracy, Choice, Claim, Setting, choose};
 use kutzbach::report::accuracy::figure;
 use kutzbach::report::text::words::duration;

@@ -1,6 +1,6 @@
 //! What was measured, as it is kept.
 
-use crate::subjects::{Result, Subject};
+use super::subjects::{Result, Subject};
 use kutzbach::accuracy::{Accuracy, AccuracyOptions, measure};
 use kutzbach::mobility::{AnalysisOptions, analyse};
 use serde::{Deserialize, Serialize};

@@ -1,8 +1,8 @@
 //! Runs the computations of the tables and of the families.
 
-use crate::published::{ALL, Computation, TABLES, TOGETHER, Way};
-use crate::record::{Cost, Figures, Loop, Row, Scene, Size, Table};
-use crate::scenes::{FAMILIES, Family};
+use super::published::{ALL, Computation, TABLES, TOGETHER, Way};
+use super::record::{Cost, Figures, Loop, Row, Scene, Size, Table};
+use super::scenes::{FAMILIES, Family};
 use kutzbach::algebra::{
     Budget, Component, Formulation, Group, Hints, Limits, MonomialOrder, PolynomialSystem, Problem,
     Step, SystemOptions, brute_force, components, divide_and_conquer, incremental_instancing,

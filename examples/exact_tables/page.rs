@@ -1,7 +1,7 @@
 //! The part of the page that is written by the program.
 
-use crate::measure::Result;
-use crate::record::{Cost, Figures, Record, Scene, Table};
+use super::measure::Result;
+use super::record::{Cost, Figures, Record, Scene, Table};
 use std::fmt::Write;
 
 /// Between these lines the page is replaced.

@@ -21,8 +21,8 @@
 //! *Drives.* A drive that is told a rate adds rounding to rounding: a million times 1e-12 at most, [`ROUNDING`] (rad). One
 //! held by impulses gives way with each step; what that comes to is measured, not bounded.
 
-use crate::record::{Run, drift, drift_share, growth};
-use crate::runs::Subject;
+use super::record::{Run, drift, drift_share, growth};
+use super::runs::Subject;
 
 /// The share by which windows of the same motion may differ.
 pub const EVEN: f64 = 0.01;

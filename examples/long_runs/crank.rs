@@ -4,8 +4,8 @@
 //! the traced motion at the crank's angle and rate. What the drive has done by then, and whatever it put in or took out
 //! to keep its rate, is no part of that: the comparison says whether the links move as one freedom makes them move.
 
-use crate::traced::Traced;
-use crate::watch::{Compared, Play, Result};
+use super::traced::Traced;
+use super::watch::{Compared, Play, Result};
 use kutzbach::closure::JointState;
 use kutzbach::families::spoiled_bennett;
 use kutzbach::mechanism::Mechanism;

@@ -1,7 +1,7 @@
 //! The figures: closure errors of the long runs, and the energy of the swing.
 
-use crate::record::Record;
-use crate::runs::{SOLVERS, Subject};
+use super::record::Record;
+use super::runs::{SOLVERS, Subject};
 use kutzbach::report::picture::plot::{Axis, Plot, Scale, Series};
 use kutzbach::simulate::Solver;
 

@@ -1,9 +1,9 @@
 //! The part of the page that is written by the program.
 
-use crate::claims::claims;
-use crate::record::{Record, Run, drift_share, growth, largest, order};
-use crate::runs::{SOLVERS, Subject};
-use crate::watch::Result;
+use super::claims::claims;
+use super::record::{Record, Run, drift_share, growth, largest, order};
+use super::runs::{SOLVERS, Subject};
+use super::watch::Result;
 use std::fmt::Write;
 
 /// Between these lines the page is replaced.

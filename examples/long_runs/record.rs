@@ -1,8 +1,8 @@
 //! What was measured, as it is kept.
 
-use crate::claims::SWING;
-use crate::runs::{Setting, Subject};
-use crate::watch::Seen;
+use super::claims::SWING;
+use super::runs::{Setting, Subject};
+use super::watch::Seen;
 use kutzbach::simulate::Solver;
 use kutzbach::simulate::verification::order_between;
 use serde::{Deserialize, Serialize};

@@ -1,10 +1,10 @@
 //! Which runs there are.
 
-use crate::crank::{Crank, STEPS_OF_A_TURN};
-use crate::record::{Record, Run};
-use crate::scissor::{STEP_RATE, Scissor};
-use crate::stewart::{STEPS_OF_A_PERIOD, Stewart};
-use crate::watch::{Result, Seen, watch};
+use super::crank::{Crank, STEPS_OF_A_TURN};
+use super::record::{Record, Run};
+use super::scissor::{STEP_RATE, Scissor};
+use super::stewart::{STEPS_OF_A_PERIOD, Stewart};
+use super::watch::{Result, Seen, watch};
 use kutzbach::simulate::Solver;
 use serde::{Deserialize, Serialize};
 

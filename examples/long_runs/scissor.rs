@@ -16,8 +16,8 @@
 //! The energy is that of the whole motion, less what it was at the start, as a share of the height of the swing: of the energy
 //! that goes from potential to kinetic and back.
 
-use crate::traced::Traced;
-use crate::watch::{Compared, Play, Result};
+use super::traced::Traced;
+use super::watch::{Compared, Play, Result};
 use kutzbach::closure::JointState;
 use kutzbach::families::scissor_lift;
 use kutzbach::simulate::verification::Prediction;

@@ -8,8 +8,8 @@
 //! The traced motion is the pose at which the loops close with the legs as long as they should be. The energy is the kinetic
 //! one, less that of the traced motion with the legs at the same rates, as a share of the largest in the period.
 
-use crate::traced::Traced;
-use crate::watch::{Compared, Play, Result};
+use super::traced::Traced;
+use super::watch::{Compared, Play, Result};
 use kutzbach::closure::{JointState, assemble};
 use kutzbach::simulate::verification::Prediction;
 use kutzbach::simulate::{Drive, Effects, Solver, World, WorldOptions};

@@ -1,6 +1,6 @@
 //! What all runs need of a mechanism: its analysis, and the energy and the rates of its traced motion.
 
-use crate::watch::Result;
+use super::watch::Result;
 use kutzbach::closure::{Arithmetic, Geometry, JointState};
 use kutzbach::mechanism::{LinkId, Mechanism};
 use kutzbach::mobility::{Analysis, AnalysisOptions, analyse};

@@ -1,7 +1,7 @@
 //! The figure: wall time over closure error, both axes logarithmic.
 
-use crate::measure::{SOLVERS, SUBJECTS};
-use crate::record::Record;
+use super::measure::{SOLVERS, SUBJECTS};
+use super::record::Record;
 use std::fmt::Write;
 
 // All measures in pixels.

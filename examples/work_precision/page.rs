@@ -1,7 +1,7 @@
 //! The part of the page that is written by the program: tables, and the sentences that have numbers in them.
 
-use crate::measure::{POSES, Result, SOLVERS, STEPS, SUBJECTS, SUBSTEPS};
-use crate::record::{Record, Simulation};
+use super::measure::{POSES, Result, SOLVERS, STEPS, SUBJECTS, SUBSTEPS};
+use super::record::{Record, Simulation};
 use std::fmt::Write;
 
 /// Between these lines the page is replaced.

@@ -1,6 +1,6 @@
 //! What was measured, as it is kept: one row per setting.
 
-use crate::measure::SOLVERS;
+use super::measure::SOLVERS;
 use kutzbach::simulate::verification::order_between;
 use serde::{Deserialize, Serialize};
 
@@ -28,11 +28,11 @@ pub struct Simulation {
     pub solver: String,
     /// Substeps of a step.
     pub substeps: usize,
-    /// See [`crate::measure::Shown::closure_error`].
+    /// See [`super::measure::Shown::closure_error`].
     pub closure_error: f64,
-    /// See [`crate::measure::Shown::distance`].
+    /// See [`super::measure::Shown::distance`].
     pub distance: f64,
-    /// See [`crate::measure::Shown::turned`].
+    /// See [`super::measure::Shown::turned`].
     pub turned: f64,
     /// Seconds for the steps of the turn.
     pub wall_time: f64,
@@ -45,9 +45,9 @@ pub struct Trace {
     pub mechanism: String,
     /// Poses of the turn.
     pub poses: usize,
-    /// See [`crate::measure::Traced::closure_error`].
+    /// See [`super::measure::Traced::closure_error`].
     pub closure_error: f64,
-    /// See [`crate::measure::Traced::equations`].
+    /// See [`super::measure::Traced::equations`].
     pub equations: f64,
     /// Seconds from the mechanism as read to the last pose.
     pub wall_time: f64,

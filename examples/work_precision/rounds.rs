@@ -1,7 +1,7 @@
 //! Measuring every setting, errors and times.
 
-use crate::measure::{POSES, Ready, Result, SOLVERS, SUBJECTS, SUBSTEPS};
-use crate::record::{Record, Simulation, Trace};
+use super::measure::{POSES, Ready, Result, SOLVERS, SUBJECTS, SUBSTEPS};
+use super::record::{Record, Simulation, Trace};
 use std::time::Instant;
 
 /// Wall times are the best of so many rounds over all settings: what else the machine does only adds to them.

@@ -7,7 +7,7 @@
 
 use crate::graph::ConstraintGraph;
 use crate::mechanism::{Coupling, Mechanism};
-use dashu::rational::RBig;
+use dashu_ratio::RBig;
 use std::collections::BTreeMap;
 
 /// The solutions of a mechanism without loops.

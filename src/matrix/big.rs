@@ -4,9 +4,9 @@ use std::cmp::Ordering;
 use std::fmt;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use dashu::float::round::mode::HalfEven;
-use dashu::float::{Context, FBig, Repr};
-use dashu::integer::IBig;
+use dashu_float::round::mode::HalfEven;
+use dashu_float::{Context, FBig, Repr};
+use dashu_int::IBig;
 
 use super::real::{Real, Ring};
 
@@ -96,7 +96,7 @@ impl Big {
     }
 
     fn keep<E>(
-        result: Option<dashu::base::Approximation<FBig<HalfEven, 2>, E>>,
+        result: Option<dashu_base::Approximation<FBig<HalfEven, 2>, E>>,
         bits: usize,
     ) -> Self {
         match result {
@@ -113,7 +113,7 @@ impl Big {
             &Context<HalfEven>,
             &Repr<2>,
             &Repr<2>,
-        ) -> Option<dashu::base::Approximation<FBig<HalfEven, 2>, E>>,
+        ) -> Option<dashu_base::Approximation<FBig<HalfEven, 2>, E>>,
     ) -> Self {
         let bits = self.bits.max(other.bits);
         match (&self.value, &other.value) {

@@ -225,7 +225,7 @@ impl Real for Extended {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use dashu::integer::IBig;
+    use dashu_int::IBig;
 
     fn of(value: f64, bits: u32) -> Extended {
         Extended::new(value, bits)

@@ -9,7 +9,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use dashu::integer::IBig;
+use dashu_int::IBig;
 
 use super::multifrontal::{Dense, Kernel, Triangle, eliminate, prepare};
 use super::random::SplitMix64;

@@ -4,9 +4,9 @@ use super::ball::{Ball, Bits, Clear};
 use super::evaluate::{fraction, near_integer};
 use super::surd::fits;
 use super::{Exact, Number, circle};
-use dashu::base::{BitTest, Gcd};
-use dashu::integer::{IBig, UBig};
-use dashu::rational::RBig;
+use dashu_base::{BitTest, Gcd};
+use dashu_int::{IBig, UBig};
+use dashu_ratio::RBig;
 use std::sync::Arc;
 
 /// Most inverse circular functions in one angle.

@@ -8,11 +8,11 @@
 
 use super::Float;
 use super::magnitude::Magnitude;
-use dashu::base::Sign;
-use dashu::float::round::mode::HalfEven;
-use dashu::float::{ConstCache, Context, FpError, FpResult};
-use dashu::integer::UBig;
-use dashu::rational::RBig;
+use dashu_base::Sign;
+use dashu_float::round::mode::HalfEven;
+use dashu_float::{ConstCache, Context, FpError, FpResult};
+use dashu_int::UBig;
+use dashu_ratio::RBig;
 use std::cell::RefCell;
 use std::cmp::Ordering;
 

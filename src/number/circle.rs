@@ -4,8 +4,8 @@ use super::evaluate::fraction;
 use super::surd::Surd;
 use super::tree::Operation;
 use super::{Angle, Number};
-use dashu::integer::{IBig, UBig};
-use dashu::rational::RBig;
+use dashu_int::{IBig, UBig};
+use dashu_ratio::RBig;
 
 /// cos and sin of the sum of two angles given by their cos and sin.
 pub(super) fn rotate(a: &(Number, Number), b: &(Number, Number)) -> (Number, Number) {

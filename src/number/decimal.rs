@@ -1,8 +1,8 @@
 //! Decimal literals: exact value, stated precision, nearest double.
 
 use super::error::{NumberError, Reason};
-use dashu::integer::{IBig, UBig};
-use dashu::rational::RBig;
+use dashu_int::{IBig, UBig};
+use dashu_ratio::RBig;
 
 /// The digits a literal was written with: what its author says is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,10 +5,10 @@ use super::magnitude::Magnitude;
 use super::separation;
 use super::tree::{Operation, STORED_BITS, Tree};
 use super::{Exact, Float, Form, Inner, Number};
-use dashu::base::Sign;
-use dashu::float::Context;
-use dashu::integer::IBig;
-use dashu::rational::RBig;
+use dashu_base::Sign;
+use dashu_float::Context;
+use dashu_int::IBig;
+use dashu_ratio::RBig;
 use std::cmp::Ordering;
 use std::collections::HashMap;
 
@@ -71,7 +71,7 @@ impl Number {
                         exactly.add(ball.middle.repr(), width.repr()),
                     ];
                     if let [Ok(low), Ok(high)] = ends.map(|x: Result<_, _>| {
-                        x.map(|x: dashu::base::Approximation<Float, _>| x.value().to_f64().value())
+                        x.map(|x: dashu_base::Approximation<Float, _>| x.value().to_f64().value())
                     }) && (low == high || bits >= TIE_BITS)
                     {
                         return if low == high {

@@ -5,7 +5,7 @@ use super::decimal;
 use super::error::{NumberError, Reason};
 use super::token::{Token, Tokens};
 use super::tree::{MAX_NODES, Operation};
-use dashu::base::BitTest;
+use dashu_base::BitTest;
 
 /// Most parentheses and operators open at once.
 const MAX_OPEN: usize = 20_000;

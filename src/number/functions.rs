@@ -6,7 +6,7 @@ use super::evaluate::fraction;
 use super::surd::Surd;
 use super::tree::Operation;
 use super::{Exact, Number};
-use dashu::rational::RBig;
+use dashu_ratio::RBig;
 
 /// Largest expression whose inverse circular function is kept as an angle.
 const MAX_POINT_NODES: u32 = 200;

@@ -1,8 +1,8 @@
 //! How long a number is, in bits: the smallest offset that it can have been written to hold.
 
 use super::{Exact, Form, Number};
-use dashu::base::{BitTest, PowerOfTwo};
-use dashu::rational::RBig;
+use dashu_base::{BitTest, PowerOfTwo};
+use dashu_ratio::RBig;
 
 impl Number {
     /// Bits of the longest integer the number is written with: how small an offset can be meant by it. `1/3` has 2, the

@@ -5,8 +5,8 @@
 //! and then enlarged by [`UP`]: the result is never below the true one.
 
 use super::Float;
-use dashu::base::BitTest;
-use dashu::integer::UBig;
+use dashu_base::BitTest;
+use dashu_int::UBig;
 use std::cmp::Ordering;
 
 /// 1 + 2^-50: more than covers the at most four roundings (2^-53 each) in one operation below.

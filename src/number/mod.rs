@@ -58,9 +58,9 @@ pub use tree::Tree;
 pub(crate) use view::View;
 
 use ball::{Ball, Clear};
-use dashu::float::FBig;
-use dashu::float::round::mode::HalfEven;
-use dashu::rational::RBig;
+use dashu_float::FBig;
+use dashu_float::round::mode::HalfEven;
+use dashu_ratio::RBig;
 use evaluate::Decision;
 use std::fmt;
 use std::sync::{Arc, LazyLock, OnceLock};

@@ -4,8 +4,8 @@
 //! (Besicovitch 1940). That is weaker than being squarefree, which matters here: a radicand read from a file with sixty
 //! decimals cannot be factored, but whether a product of two is a square is a matter of one gcd.
 
-use dashu::base::{BitTest, Gcd, SquareRoot};
-use dashu::integer::UBig;
+use dashu_base::{BitTest, Gcd, SquareRoot};
+use dashu_int::UBig;
 
 /// Primes below this are divided out.
 const SMALL: u32 = 1024;

@@ -11,8 +11,8 @@ use super::roots::coprime_base;
 use super::surd::Surd;
 use super::tree::Operation;
 use super::{Exact, Form, Inner, Number};
-use dashu::base::{BitTest, Gcd};
-use dashu::integer::UBig;
+use dashu_base::{BitTest, Gcd};
+use dashu_int::UBig;
 use std::collections::{BTreeSet, HashMap};
 
 /// Bounds beyond this many bits are not used: checking them would take too long.

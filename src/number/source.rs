@@ -2,9 +2,9 @@
 
 use super::tree::{Operation, Tree};
 use super::{Angle, Direction, Exact, Float, Form, Number, Surd, decimal};
-use dashu::base::Sign;
-use dashu::integer::{IBig, UBig};
-use dashu::rational::RBig;
+use dashu_base::Sign;
+use dashu_int::{IBig, UBig};
+use dashu_ratio::RBig;
 
 /// How tightly a text binds; an operand that binds less than its place needs is put in parentheses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

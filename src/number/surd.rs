@@ -9,9 +9,9 @@ use super::ball::{Ball, Bits, Clear};
 use super::roots::{
     coprime_base, divides_oddly, exact_root, is_moderate, root_product, root_ratio, split_square,
 };
-use dashu::base::{BitTest, Sign};
-use dashu::integer::{IBig, UBig};
-use dashu::rational::RBig;
+use dashu_base::{BitTest, Sign};
+use dashu_int::{IBig, UBig};
+use dashu_ratio::RBig;
 
 /// Largest number of terms of a sum.
 pub(super) const MAX_TERMS: usize = 64;

@@ -2,7 +2,7 @@
 
 use super::tree::Operation;
 use super::{Angle, Exact, Form, Number, Surd};
-use dashu::rational::RBig;
+use dashu_ratio::RBig;
 
 /// The outermost operation of a number, with its operands.
 #[derive(Clone, Copy, Debug)]

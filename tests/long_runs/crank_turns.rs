@@ -1,11 +1,11 @@
 //! Bennett's linkage, driven.
 
-use crate::claims::EVEN;
-use crate::crank::{Crank, STEPS_OF_A_TURN};
-use crate::record::{Run, growth, order};
-use crate::runs::{SOLVERS, Setting, Subject};
-use crate::watch::watch;
-use crate::{broken, kept, page, setting, the_record_begins_like_that};
+use super::claims::EVEN;
+use super::crank::{Crank, STEPS_OF_A_TURN};
+use super::record::{Run, growth, order};
+use super::runs::{SOLVERS, Setting, Subject};
+use super::watch::watch;
+use super::{broken, kept, page, setting, the_record_begins_like_that};
 use kutzbach::families::negative_power_of_ten;
 use kutzbach::number::Number;
 use kutzbach::simulate::Solver;

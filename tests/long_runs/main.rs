@@ -28,8 +28,7 @@ mod runs;
 mod scissor;
 #[path = "../../examples/long_runs/stewart.rs"]
 mod stewart;
-#[path = "../support/mod.rs"]
-mod support;
+use crate::support;
 #[path = "../../examples/long_runs/traced.rs"]
 mod traced;
 #[path = "../../examples/long_runs/watch.rs"]

@@ -1,8 +1,8 @@
 //! Record, page and figures agree.
 
-use crate::record::{drift, drift_share, growth};
+use super::record::{drift, drift_share, growth};
+use super::{figure, kept, page, runs};
 use crate::support::folder;
-use crate::{figure, kept, page, runs};
 use std::fs;
 
 #[test]

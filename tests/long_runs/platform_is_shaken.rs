@@ -1,8 +1,8 @@
 //! A Stewart platform, shaken.
 
-use crate::record::{Run, order};
-use crate::runs::{SOLVERS, Subject};
-use crate::{broken, kept, page, the_record_begins_like_that};
+use super::record::{Run, order};
+use super::runs::{SOLVERS, Subject};
+use super::{broken, kept, page, the_record_begins_like_that};
 
 #[test]
 fn both_solvers_begin_as_the_record_does() {

@@ -1,10 +1,10 @@
 //! A scissor under gravity.
 
-use crate::claims::SWING;
-use crate::record::{Run, order};
-use crate::runs::{SOLVERS, Subject};
-use crate::scissor::{GRAVITY, SLOPE, Scissor};
-use crate::{broken, kept, page, the_record_begins_like_that};
+use super::claims::SWING;
+use super::record::{Run, order};
+use super::runs::{SOLVERS, Subject};
+use super::scissor::{GRAVITY, SLOPE, Scissor};
+use super::{broken, kept, page, the_record_begins_like_that};
 use kutzbach::simulate::Solver;
 
 #[test]

@@ -7,7 +7,7 @@
 //! program: the table of it is written by this suite into `docs/src/accuracy.md` and compared with what is found:
 //!
 //! ```text
-//! KUTZBACH_UPDATE=1 cargo test --test stability
+//! KUTZBACH_UPDATE=1 cargo test --test it stability::
 //! ```
 //!
 //! Cost is counted, never timed: bits of the arithmetic and steps of the assembly.
@@ -24,8 +24,7 @@ mod offsets;
 mod screws;
 mod sizes;
 mod slides;
-#[path = "../support/mod.rs"]
-mod support;
+use crate::support;
 mod table;
 mod turns;
 mod twists;
@@ -269,7 +268,7 @@ fn the_table_in_the_documentation_shows_what_is_found_now() {
     let told = table::differences(between.trim(), &now);
     assert!(
         told.is_empty() && between.trim() == now,
-        "{}\nto write it anew: KUTZBACH_UPDATE=1 cargo test --test stability",
+        "{}\nto write it anew: KUTZBACH_UPDATE=1 cargo test --test it stability::",
         told.join("\n")
     );
 }

@@ -124,14 +124,14 @@ def brought(fresh, tree):
 
 def built(tree, target):
     """The test executable."""
-    command = ["cargo", "test", "--locked", "--test", "stability", "--no-run", "--message-format=json"]
+    command = ["cargo", "test", "--locked", "--test", "it", "--no-run", "--message-format=json"]
     environment = {**os.environ, "CARGO_TARGET_DIR": str(target)}
     done = subprocess.run(command, cwd=tree, env=environment, stdout=subprocess.PIPE, text=True)
     if done.returncode != 0:
         sys.exit("the mutated tree does not build")
     for line in done.stdout.splitlines():
         message = json.loads(line)
-        if message.get("executable") and message["target"]["name"] == "stability":
+        if message.get("executable") and message["target"]["name"] == "it":
             return message["executable"]
     sys.exit("there is no test executable")
 
@@ -144,11 +144,11 @@ def run(executable, tree, name=None, limit=None):
     if name is not None:
         environment[SWITCH] = name
     try:
-        done = subprocess.run([executable], cwd=tree, env=environment, stdout=subprocess.PIPE,
+        done = subprocess.run([executable, "stability::"], cwd=tree, env=environment, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, timeout=limit)
     except subprocess.TimeoutExpired:
         return False, ["does not end"], []
-    tests = sorted(set(re.findall(r"^test (\w+) \.\.\. FAILED", done.stdout, re.M)))
+    tests = sorted(set(re.findall(r"^test stability::([\w:]+) \.\.\. FAILED", done.stdout, re.M)))
     places = re.findall(r"^([a-z_]+) at ", done.stdout, re.M)
     rows = re.findall(r"^([A-Za-z][A-Za-z ]*): \|", done.stdout, re.M)
     families = {title(place) for place in places} | set(rows)

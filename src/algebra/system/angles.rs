@@ -2,7 +2,7 @@
 
 use super::fraction::{Fraction, inverse, lcm};
 use crate::number::{Number, View};
-use dashu::integer::UBig;
+use dashu_int::UBig;
 use std::collections::BTreeMap;
 
 /// A parameter as an angle: its name, and whether it counts in half turns (times pi, as degrees do) and not in radians.

@@ -4,7 +4,7 @@ use super::element::{Element, trim};
 use super::field::{Field, FieldLimit};
 use super::fraction::{Fraction, fraction, power_modulo, residue, to_f64};
 use crate::number::Number;
-use dashu::integer::IBig;
+use dashu_int::IBig;
 
 /// Largest M.
 const MAX_DENOMINATOR: u32 = 4_000;

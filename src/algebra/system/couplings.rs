@@ -13,8 +13,8 @@ use super::poly::Poly;
 use super::space::{Polynomials, Scalars};
 use crate::mechanism::{Coupling, FreedomPart, Mechanism};
 use crate::number::Number;
-use dashu::base::Gcd;
-use dashu::integer::UBig;
+use dashu_base::Gcd;
+use dashu_int::UBig;
 
 /// Largest sum of the sizes of the multiples.
 const MAX_MULTIPLE: i64 = 24;

@@ -1,8 +1,8 @@
 //! Elements of a number field as polynomials in its generators.
 
 use super::fraction::{Fraction, lcm, size, to_f64};
-use dashu::base::Gcd;
-use dashu::integer::UBig;
+use dashu_base::Gcd;
+use dashu_int::UBig;
 use std::collections::BTreeMap;
 
 /// Exponents of the generators, without zeros at the end, so that a field may grow under its elements.

@@ -9,8 +9,8 @@ use super::poly::Poly;
 use super::variables::{Meaning, Variable};
 use super::{Equation, Origin, PolynomialSystem};
 use crate::algebra::{Polynomial, Rational};
-use dashu::base::Gcd;
-use dashu::integer::UBig;
+use dashu_base::Gcd;
+use dashu_int::UBig;
 use num_traits::Signed;
 use std::collections::BTreeSet;
 

@@ -2,9 +2,9 @@
 //! common divisors are fast: sixty decimals grow to thousands of bits in a cycle.
 
 use crate::algebra::Rational;
-use dashu::base::{Gcd, Sign, SquareRoot};
-use dashu::integer::{IBig, UBig};
-use dashu::rational::RBig;
+use dashu_base::{Gcd, Sign, SquareRoot};
+use dashu_int::{IBig, UBig};
+use dashu_ratio::RBig;
 use num_bigint::BigInt;
 
 /// A fraction in lowest terms.

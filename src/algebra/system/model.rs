@@ -9,8 +9,8 @@ use super::numbers::{Obstacle, Place, common_turn};
 use super::space::{Matrix, Pose, Vector, cross, dot, multiply, scale, transpose};
 use crate::mechanism::{Configuration, Direction, Frame, Joint, JointKind, Mechanism, Placement};
 use crate::number::Number;
-use dashu::base::{Abs, Gcd};
-use dashu::integer::{IBig, UBig};
+use dashu_base::{Abs, Gcd};
+use dashu_int::{IBig, UBig};
 
 /// A direction of any length, so that no root is needed to write it.
 #[derive(Clone, Debug)]

@@ -180,7 +180,7 @@ fn turn_of(angle: &Angle, sine: bool) -> Option<(u32, u32)> {
     if sine {
         turn = fraction(1, 4) - turn;
     }
-    turn = &turn - dashu::rational::RBig::from(turn.floor());
+    turn = &turn - dashu_ratio::RBig::from(turn.floor());
     let numerator = u32::try_from(turn.numerator().clone()).ok()?;
     Some((numerator, u32::try_from(turn.denominator().clone()).ok()?))
 }
@@ -204,7 +204,7 @@ impl Field {
             View::Surd(surd) => {
                 let mut sum = Element::zero();
                 for (radicand, coefficient) in surd.terms() {
-                    let radicand = dashu::rational::RBig::from(radicand.clone());
+                    let radicand = dashu_ratio::RBig::from(radicand.clone());
                     let root = self.root(&Element::rational(radicand))?;
                     sum = sum.plus(&root.scaled(coefficient));
                 }

@@ -4,8 +4,8 @@ use super::circle;
 use super::element::Element;
 use super::field::{Field, FieldLimit, Relation};
 use super::fraction::{self, Fraction, fraction, inverse};
-use dashu::base::SquareRoot;
-use dashu::integer::UBig;
+use dashu_base::SquareRoot;
+use dashu_int::UBig;
 
 /// Most square roots in one field: its degree doubles with each.
 const MAX_ROOTS: usize = 10;

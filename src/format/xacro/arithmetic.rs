@@ -190,9 +190,9 @@ fn kind_of(operator: Binary, a: &Num, b: &Num) -> Said<Kind> {
 
 fn is_unit(number: &Number) -> Option<bool> {
     let fraction = number.rational()?;
-    if *fraction == dashu::rational::RBig::ONE {
+    if *fraction == dashu_ratio::RBig::ONE {
         Some(true)
-    } else if *fraction == -dashu::rational::RBig::ONE {
+    } else if *fraction == -dashu_ratio::RBig::ONE {
         Some(false)
     } else {
         None

@@ -1,0 +1,73 @@
+//! All integration tests as one program: each of sixty would be linked against the whole library.
+//!
+//! A file of this folder is a module here, its data beside it; `cargo test --test it zoo::` runs the tests of one.
+
+mod accuracy_cli;
+mod accuracy_page;
+mod advice;
+mod assembly_starts;
+mod assembly_told;
+mod bench_records;
+mod book;
+mod branch_facts;
+mod browser;
+mod brute_force;
+mod cli;
+mod cli_docs;
+mod components;
+mod depths;
+mod derivatives;
+mod digits;
+mod exact_cli;
+mod exact_conditions;
+mod exact_rings;
+mod exact_tables;
+mod exact_verdict;
+mod exact_words;
+mod exact_zoo;
+mod families;
+mod format_errors;
+mod format_files;
+mod format_hostile;
+mod format_loops;
+mod format_reading;
+mod format_round_trip;
+mod format_support;
+mod formulations;
+mod fuzz_format;
+mod gallery;
+mod house;
+mod html_page;
+mod inputs;
+mod invariance;
+mod known_mechanisms;
+mod log_readers;
+#[path = "long_runs/main.rs"]
+mod long_runs;
+mod mechanism_table;
+mod models;
+mod near_singular;
+mod polynomial_systems;
+mod pose_warnings;
+mod readme;
+mod record;
+mod record_files;
+mod record_support;
+mod rounding;
+mod same_bytes;
+mod simulate_cli;
+#[path = "stability/main.rs"]
+mod stability;
+mod subgroups;
+mod support;
+mod thesis_rows;
+mod thesis_systems;
+mod trace;
+mod trace_cli;
+mod trace_large;
+mod trace_singular;
+mod variations;
+mod verification;
+mod work_precision;
+mod world;
+mod zoo;
