@@ -18,21 +18,26 @@
 //! 14. [`families`]: mechanisms of any size for examples, benches and tests.
 //! 15. [`report`]: what a person or a program reads.
 
-pub mod accuracy;
-pub mod algebra;
-pub mod closure;
-pub mod families;
-pub mod format;
-pub mod graph;
-pub mod group;
-pub mod matrix;
-pub mod mechanism;
-pub mod mobility;
-pub mod motion;
-pub mod number;
-pub mod record;
-pub mod report;
-pub mod simulate;
+#[doc(inline)]
+pub use kutzbach_algebra as algebra;
+#[doc(inline)]
+pub use kutzbach_closure as closure;
+#[doc(inline)]
+pub use kutzbach_format as format;
+#[doc(inline)]
+pub use kutzbach_math::{group, matrix, number};
+#[doc(inline)]
+pub use kutzbach_mobility::{self as mobility, families};
+#[doc(inline)]
+pub use kutzbach_model::{graph, mechanism};
+#[doc(inline)]
+pub use kutzbach_motion as motion;
+#[doc(inline)]
+pub use kutzbach_report as report;
+#[doc(inline)]
+pub use kutzbach_scene as record;
+#[doc(inline)]
+pub use kutzbach_simulate::{self as simulate, accuracy};
 
 /// The README's example is compiled and run with the documentation tests.
 #[cfg(doctest)]

@@ -4,7 +4,7 @@
 use crate::support;
 
 use serde_json::Value;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -71,20 +71,51 @@ fn declares(source: &str, item: &str) -> bool {
     })
 }
 
+/// The modules of the library, each with the folder of its sources, from what the facade exports.
+fn modules() -> BTreeMap<String, PathBuf> {
+    let mut found = BTreeMap::new();
+    for statement in include_str!("../src/lib.rs")
+        .split("pub use kutzbach_")
+        .skip(1)
+    {
+        let statement = statement.split(';').next().unwrap();
+        let name = words(statement).next().unwrap();
+        let sources = folder("crates").join(name).join("src");
+        let list = statement[name.len()..].trim_start_matches("::");
+        for entry in list.trim_matches(['{', '}']).split(',') {
+            match entry.rsplit_once("as ") {
+                Some((_, module)) => found.insert(module.trim().to_owned(), sources.clone()),
+                None => found.insert(entry.trim().to_owned(), sources.join(entry.trim())),
+            };
+        }
+    }
+    found
+}
+
+/// The file that says what a folder of sources exports.
+fn root(module: &Path) -> String {
+    [module.join("lib.rs"), module.join("mod.rs")]
+        .into_iter()
+        .chain([module.with_extension("rs")])
+        .find_map(|path| fs::read_to_string(path).ok())
+        .unwrap()
+}
+
 /// Why there is no such item in the library; `None` where it exists and can be reached by this path.
 fn missing(path: &str) -> Option<String> {
     let mut segments = path.strip_prefix("kutzbach::").unwrap_or(path).split("::");
-    let mut module = folder("src");
-    let mut root = fs::read_to_string(module.join("lib.rs")).unwrap();
+    let first = segments.next()?;
+    let Some(mut module) = modules().remove(first) else {
+        return Some(format!("`{path}`: the library has no `{first}`"));
+    };
+    let mut root = self::root(&module);
     let item = loop {
         let segment = segments.next()?;
         if !root.contains(&format!("pub mod {segment};")) {
             break segment;
         }
         module = module.join(segment);
-        root = fs::read_to_string(module.join("mod.rs"))
-            .or_else(|_| fs::read_to_string(module.with_extension("rs")))
-            .unwrap();
+        root = self::root(&module);
     };
     let exported = declares(&root, item)
         || root
@@ -112,10 +143,8 @@ fn missing(path: &str) -> Option<String> {
 
 #[test]
 fn every_path_into_the_library_leads_somewhere() {
-    let modules: Vec<&str> = include_str!("../src/lib.rs")
-        .lines()
-        .filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';'))
-        .collect();
+    let modules = modules();
+    assert_eq!(modules.len(), 15);
     let mut seen = 0;
     for (page, text) in pages() {
         for path in code(&text) {
@@ -123,7 +152,7 @@ fn every_path_into_the_library_leads_somewhere() {
             let Some((module, _)) = own.split_once("::") else {
                 continue;
             };
-            let into_library = path.starts_with("kutzbach::") || modules.contains(&module);
+            let into_library = path.starts_with("kutzbach::") || modules.contains_key(module);
             if !into_library || path.contains(|c: char| !(c.is_alphanumeric() || "_:".contains(c)))
             {
                 continue;
@@ -255,7 +284,10 @@ fn links_and_sources_that_a_page_names_exist() {
                 assert!(base.join(path).exists(), "{page}: {link}");
             }
         }
-        for path in code(&text).into_iter().filter(|c| c.starts_with("src/")) {
+        for path in code(&text)
+            .into_iter()
+            .filter(|c| c.starts_with("src/") || c.starts_with("crates/"))
+        {
             assert!(folder(path).exists(), "{page}: {path}");
         }
     }

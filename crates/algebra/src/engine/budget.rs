@@ -1,0 +1,269 @@
+//! How long a computation may go on.
+
+use std::cell::Cell;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+use thiserror::Error;
+
+/// Limits of a computation; `None` is no limit.
+#[derive(Clone, Debug, Default)]
+pub struct Limits {
+    /// Wall time. Whether a computation ends within it depends on the machine.
+    pub time: Option<Duration>,
+    /// Work, in entries of the matrices that are eliminated; the same on every machine.
+    pub work: Option<u64>,
+    /// Entries of the largest matrix: what bounds the memory.
+    pub entries: Option<u64>,
+    /// Set from outside (another thread, a signal) to stop.
+    pub cancelled: Option<Arc<AtomicBool>>,
+    /// Where the computation says how far it is.
+    pub progress: Option<Arc<Progress>>,
+}
+
+/// Entries of the largest matrix where only a time is given: about a gigabyte.
+const MOST_ENTRIES: u64 = 100_000_000;
+
+impl Limits {
+    /// So many seconds and a sensible bound of the memory. A time that is negative or no number is no time at all; one
+    /// too large for a clock is no limit.
+    #[must_use]
+    pub fn seconds(seconds: f64) -> Self {
+        let time = if seconds > 0.0 {
+            Duration::try_from_secs_f64(seconds).ok()
+        } else {
+            Some(Duration::ZERO)
+        };
+        Self {
+            time,
+            entries: Some(MOST_ENTRIES),
+            ..Self::default()
+        }
+    }
+}
+
+/// How far a computation is, to be read from another thread.
+#[derive(Debug, Default)]
+pub struct Progress {
+    work: AtomicU64,
+    phase: Mutex<String>,
+}
+
+impl Progress {
+    /// Work done so far, in matrix entries.
+    #[must_use]
+    pub fn work(&self) -> u64 {
+        self.work.load(Ordering::Relaxed)
+    }
+
+    /// What is being done, in a few words.
+    #[must_use]
+    pub fn phase(&self) -> String {
+        self.phase
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .clone()
+    }
+}
+
+/// Why a computation has no answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum Stop {
+    /// The time was over.
+    #[error("the time limit was reached")]
+    Time,
+    /// The work was used up.
+    #[error("the work limit was reached")]
+    Work,
+    /// A matrix would have been too large, or an exponent above 65535.
+    #[error("the memory limit was reached")]
+    Memory,
+    /// Somebody asked to stop.
+    #[error("the computation was interrupted")]
+    Cancelled,
+    /// The rational numbers of the answer could not be found from their remainders.
+    #[error("the coefficients of the answer are too large")]
+    Coefficients,
+    /// The number to compute modulo is no prime.
+    #[error("the modulus is no prime number")]
+    Modulus,
+}
+
+/// Limits and what has been used of them. One budget serves all steps of a question.
+#[derive(Clone, Debug)]
+pub struct Budget {
+    limits: Limits,
+    started: Instant,
+    work: Cell<u64>,
+}
+
+impl Budget {
+    /// Starts the clock.
+    #[must_use]
+    pub fn new(limits: Limits) -> Self {
+        Self {
+            limits,
+            started: Instant::now(),
+            work: Cell::new(0),
+        }
+    }
+
+    /// No limit at all.
+    #[must_use]
+    pub fn unlimited() -> Self {
+        Self::new(Limits::default())
+    }
+
+    /// Work done so far, in matrix entries.
+    #[must_use]
+    pub fn work(&self) -> u64 {
+        self.work.get()
+    }
+
+    /// Whether to go on.
+    ///
+    /// # Errors
+    /// [`Stop`] with the first limit that was reached.
+    pub fn check(&self) -> Result<(), Stop> {
+        self.spend(0)
+    }
+
+    /// Adds work, then tells whether to go on.
+    ///
+    /// # Errors
+    /// [`Stop`] with the first limit that was reached.
+    pub fn spend(&self, work: u64) -> Result<(), Stop> {
+        self.work.set(self.work.get().saturating_add(work));
+        let limits = &self.limits;
+        if let Some(progress) = &limits.progress {
+            progress.work.store(self.work.get(), Ordering::Relaxed);
+        }
+        if limits
+            .cancelled
+            .as_ref()
+            .is_some_and(|flag| flag.load(Ordering::Relaxed))
+        {
+            return Err(Stop::Cancelled);
+        }
+        if limits.work.is_some_and(|most| self.work.get() > most) {
+            return Err(Stop::Work);
+        }
+        if limits
+            .time
+            .is_some_and(|most| self.started.elapsed() > most)
+        {
+            return Err(Stop::Time);
+        }
+        Ok(())
+    }
+
+    /// A copy with at most so much further work.
+    pub(crate) fn with_work(&self, work: u64) -> Self {
+        let mut copy = self.clone();
+        let most = self.work.get().saturating_add(work);
+        copy.limits.work = Some(copy.limits.work.map_or(most, |limit| limit.min(most)));
+        copy
+    }
+
+    /// A copy with at most a share of the time that is left.
+    pub(crate) fn with_share_of_time(&self, share: f64) -> Self {
+        let mut copy = self.clone();
+        let used = self.started.elapsed();
+        let shared = |time: Duration| used + time.saturating_sub(used).mul_f64(share);
+        copy.limits.time = copy.limits.time.map(shared);
+        copy
+    }
+
+    /// Takes over the work done on a copy of this budget.
+    pub(crate) fn take_over(&self, copy: &Self) {
+        self.work.set(copy.work.get());
+    }
+
+    /// Says what is being done, where somebody listens.
+    pub fn phase(&self, text: impl FnOnce() -> String) {
+        if let Some(progress) = &self.limits.progress {
+            *progress
+                .phase
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner) = text();
+        }
+    }
+
+    /// Whether a matrix may have this many entries, without counting them yet.
+    pub(super) fn check_entries(&self, entries: u64) -> Result<(), Stop> {
+        match self.limits.entries {
+            Some(most) if entries > most => return Err(Stop::Memory),
+            _ => {}
+        }
+        match self.limits.work {
+            Some(most) if self.work.get().saturating_add(entries) > most => Err(Stop::Work),
+            _ => Ok(()),
+        }
+    }
+
+    /// Adds the work of eliminating a matrix with this many entries, then tells whether to do it.
+    ///
+    /// # Errors
+    /// [`Stop`] with the first limit that was reached.
+    pub fn spend_matrix(&self, entries: u64) -> Result<(), Stop> {
+        self.check_entries(entries)?;
+        self.spend(entries)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_limit_has_its_own_outcome() {
+        let work = Budget::new(Limits {
+            work: Some(10),
+            ..Limits::default()
+        });
+        assert_eq!(work.spend(10), Ok(()));
+        assert_eq!(work.spend(1), Err(Stop::Work));
+        let entries = Budget::new(Limits {
+            entries: Some(10),
+            ..Limits::default()
+        });
+        assert_eq!(entries.spend_matrix(11), Err(Stop::Memory));
+        let time = Budget::new(Limits {
+            time: Some(Duration::ZERO),
+            ..Limits::default()
+        });
+        std::thread::sleep(Duration::from_millis(1));
+        assert_eq!(time.check(), Err(Stop::Time));
+        let flag = Arc::new(AtomicBool::new(false));
+        let stopped = Budget::new(Limits {
+            cancelled: Some(Arc::clone(&flag)),
+            ..Limits::default()
+        });
+        assert_eq!(stopped.check(), Ok(()));
+        flag.store(true, Ordering::Relaxed);
+        assert_eq!(stopped.check(), Err(Stop::Cancelled));
+    }
+
+    #[test]
+    fn seconds_that_are_none_leave_no_time() {
+        assert_eq!(Limits::seconds(f64::NAN).time, Some(Duration::ZERO));
+        assert_eq!(Limits::seconds(-1.0).time, Some(Duration::ZERO));
+        assert_eq!(Limits::seconds(1.5).time, Some(Duration::from_millis(1500)));
+        assert_eq!(Limits::seconds(f64::INFINITY).time, None);
+    }
+
+    #[test]
+    fn progress_is_seen_from_outside() {
+        let progress = Arc::new(Progress::default());
+        let budget = Budget::new(Limits {
+            progress: Some(Arc::clone(&progress)),
+            ..Limits::default()
+        });
+        assert_eq!(budget.spend(7), Ok(()));
+        budget.phase(|| "thinking".to_owned());
+        assert_eq!(
+            (progress.work(), progress.phase()),
+            (7, "thinking".to_owned())
+        );
+    }
+}

@@ -1,0 +1,312 @@
+//! From one start down to where nothing improves.
+
+use super::super::displacement::JointState;
+use super::super::geometry::Geometry;
+use super::super::jacobian::{CycleJacobian, Part, entry_accuracy, jacobian};
+use kutzbach_math::matrix::{LeastSquares, MatrixError, Real, SplitMix64};
+use kutzbach_model::mechanism::Mechanism;
+use std::collections::BTreeSet;
+
+/// However coarsely the numbers are stated or rounded, a cycle that misses by more than this (rad, or cycle lengths) is not closed.
+const COARSEST_CLOSING: f64 = 0.02;
+
+/// A part to close.
+#[derive(Clone, Copy)]
+pub(super) struct Task<'a> {
+    pub(super) mechanism: &'a Mechanism,
+    pub(super) geometry: &'a Geometry<f64>,
+    pub(super) part: &'a Part,
+    /// Joints that keep their values.
+    pub(super) held: &'a BTreeSet<usize>,
+    /// What counts as closed (m), instead of what the file's digits say.
+    pub(super) tolerance: Option<f64>,
+}
+
+/// How long a descent may go on.
+#[derive(Clone, Copy)]
+pub(super) struct Effort {
+    /// Steps after which it is given up.
+    pub(super) steps: usize,
+    /// Steps in which the sum of squares has to halve; `None` lets it creep.
+    pub(super) patience: Option<usize>,
+}
+
+impl Effort {
+    /// From the pose that the file draws, or beside it.
+    pub(super) const LONG: Self = Self {
+        steps: 200,
+        patience: None,
+    };
+    /// From one start among many.
+    pub(super) const SHORT: Self = Self {
+        steps: 80,
+        patience: Some(12),
+    };
+}
+
+/// Where a descent ended.
+pub(super) struct PartOutcome {
+    pub(super) residual: f64,
+    pub(super) tolerance: f64,
+    pub(super) steps: usize,
+    /// Floating-point operations, roughly: see [`step_work`].
+    pub(super) work: f64,
+    /// At the pose reached.
+    pub(super) jacobian: Option<CycleJacobian<f64>>,
+}
+
+impl PartOutcome {
+    /// Before anything was tried.
+    pub(super) fn none() -> Self {
+        Self {
+            residual: f64::INFINITY,
+            tolerance: 0.0,
+            steps: 0,
+            work: 0.0,
+            jacobian: None,
+        }
+    }
+
+    pub(super) fn closed(&self) -> bool {
+        self.residual <= self.tolerance
+    }
+}
+
+/// The largest magnitude; NaN if there is one, which must not pass for small.
+pub(super) fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |m: f64, x| {
+        if m.is_nan() || x.abs() <= m {
+            m
+        } else {
+            x.abs()
+        }
+    })
+}
+
+/// Where the joints of one part stand, kept so that they can be put back: a mechanism of many parts is not copied as a
+/// whole for each.
+pub(super) struct Kept<R>(Vec<(usize, JointState<R>)>);
+
+impl<R: Real> Kept<R> {
+    pub(super) fn of(part: &Part, states: &[JointState<R>]) -> Self {
+        Self(
+            part.joints
+                .iter()
+                .map(|&j| (j, states[j].clone()))
+                .collect(),
+        )
+    }
+
+    pub(super) fn put_back(&self, states: &mut [JointState<R>]) {
+        for (joint, state) in &self.0 {
+            states[*joint] = state.clone();
+        }
+    }
+}
+
+/// Moves the joints of a part by up to `size` (rad, or part lengths), by numbers that depend on joint names only.
+pub(super) fn nudge(
+    task: &Task<'_>,
+    size: f64,
+    states: &mut [JointState<f64>],
+) -> Result<(), MatrixError> {
+    let here = jacobian(task.mechanism, task.geometry, states, task.part)?;
+    let movable = movable_columns(&here, task.held);
+    let increments: Vec<f64> = here
+        .variables
+        .iter()
+        .map(|(joint, variable)| {
+            let mut random = SplitMix64::named(&task.mechanism.joints()[*joint].name);
+            (0..=*variable)
+                .map(|_| random.symmetric())
+                .last()
+                .unwrap_or(0.0)
+                * size
+        })
+        .collect();
+    advance(
+        task.mechanism,
+        task.geometry,
+        &here,
+        &movable,
+        &increments,
+        states,
+    );
+    Ok(())
+}
+
+/// Damped Gauss–Newton from one start until the cycles close to rounding, or nothing improves.
+pub(super) fn descend(
+    task: &Task<'_>,
+    states: &mut [JointState<f64>],
+    effort: Effort,
+) -> Result<PartOutcome, MatrixError> {
+    let Task {
+        mechanism,
+        geometry,
+        part,
+        held,
+        ..
+    } = *task;
+    let mut here = jacobian(mechanism, geometry, states, part)?;
+    let work = step_work(&here);
+    let (mut stated, rounding) = entry_accuracy(mechanism, &here);
+    if let Some(given) = task.tolerance {
+        stated = here.walks.iter().fold(given / here.length, |least, walk| {
+            least.min(given / walk.length)
+        });
+    }
+    let mut residual = largest(&here.residual);
+    let mut steps = 0;
+    let mut caution = 1.0;
+    let sum = |r: &[f64]| r.iter().map(|x| x * x).sum::<f64>();
+    let mut milestone = sum(&here.residual);
+    // A pose that closes to the last digit is left exactly as it was drawn.
+    while residual > rounding && steps < effort.steps {
+        let square = sum(&here.residual);
+        if let Some(patience) = effort.patience
+            && steps % patience == patience - 1
+        {
+            if square > 0.5 * milestone {
+                break;
+            }
+            milestone = square;
+        }
+        let columns = movable_columns(&here, held);
+        let Some(increments) = step(&here, &columns, caution * square.min(1.0))? else {
+            break;
+        };
+        // What closes within the stated precision is polished only as far as that precision goes: rounded numbers leave
+        // a gap that no motion removes, and chasing it would drag the mechanism along its own freedom.
+        let within = residual <= stated.min(COARSEST_CLOSING);
+        if within && largest(&increments) > stated {
+            break;
+        }
+        let before = Kept::of(part, states);
+        advance(mechanism, geometry, &here, &columns, &increments, states);
+        let there = jacobian(mechanism, geometry, states, part)?;
+        let reached = sum(&there.residual);
+        steps += 1;
+        if within && !(reached <= 0.25 * square) {
+            before.put_back(states);
+            break;
+        }
+        if reached.is_finite() && reached < square {
+            let stalled = reached > square * (1.0 - 1e-6);
+            here = there;
+            residual = largest(&here.residual);
+            caution = (caution * 0.25).max(1e-6);
+            if stalled {
+                break;
+            }
+        } else {
+            before.put_back(states);
+            caution *= 8.0;
+            if caution > 1e12 {
+                break;
+            }
+        }
+    }
+    let (residual, tolerance) = match task.tolerance {
+        // What still counts as closed is the uncertainty of a walk around the cycle, which is that of a Jacobian entry.
+        None => (residual, (stated + rounding).min(COARSEST_CLOSING)),
+        Some(given) => against(given, &here, rounding),
+    };
+    Ok(PartOutcome {
+        residual,
+        tolerance,
+        steps,
+        work: work * (steps + 1) as f64,
+        jacobian: Some(here),
+    })
+}
+
+/// The equation that exceeds a tolerance in metres by most, or comes closest to that: its residual, and what it may be.
+/// Angles, and displacements in cycle lengths, count by the length of their cycle; couplings by that of the part.
+fn against(given: f64, here: &CycleJacobian<f64>, rounding: f64) -> (f64, f64) {
+    let of_cycles = 6 * here.walks.len();
+    let mut worst = (0.0, (given / here.length + rounding).min(COARSEST_CLOSING));
+    let mut heed = |rows: &[f64], length: f64| {
+        let found = largest(rows);
+        let allowed = (given / length + rounding).min(COARSEST_CLOSING);
+        if !(found * worst.1 <= worst.0 * allowed) {
+            worst = (found, allowed);
+        }
+    };
+    for (walk, rows) in here.walks.iter().zip(here.residual.chunks(6)) {
+        heed(rows, walk.length);
+    }
+    heed(here.residual.get(of_cycles..).unwrap_or(&[]), here.length);
+    worst
+}
+
+/// What one step costs in floating-point operations, roughly: walking the cycles, and solving for the step as
+/// [`LeastSquares::damped`] does, densely or by as many iterations as it may take.
+fn step_work(here: &CycleJacobian<f64>) -> f64 {
+    const OF_A_JOINT: f64 = 4000.0;
+    let walked: usize = here.walks.iter().map(|walk| walk.joints.len()).sum();
+    let (rows, columns) = (here.matrix.rows() as f64, here.matrix.columns() as f64);
+    let solving = if columns <= 300.0 {
+        2.0 * (rows + columns) * columns * columns
+    } else {
+        4.0 * here.matrix.entry_count() as f64 * (2.0 * columns).min(5000.0)
+    };
+    OF_A_JOINT * walked as f64 + solving
+}
+
+pub(super) fn movable_columns<R>(jacobian: &CycleJacobian<R>, held: &BTreeSet<usize>) -> Vec<bool> {
+    jacobian
+        .variables
+        .iter()
+        .map(|(joint, _)| !held.contains(joint))
+        .collect()
+}
+
+/// The damped step `min |J x + r|² + damping |x|²`, held columns left out; `None` where nothing may move.
+pub(super) fn step(
+    jacobian: &CycleJacobian<f64>,
+    movable: &[bool],
+    damping: f64,
+) -> Result<Option<Vec<f64>>, MatrixError> {
+    if !movable.iter().any(|m| *m) {
+        return Ok(None);
+    }
+    let right: Vec<f64> = jacobian.residual.iter().map(|r| -r).collect();
+    let mut increments = LeastSquares::damped(&jacobian.matrix, &right, damping, Some(movable))?;
+    // A step beyond a radian or the part's own size leaves the range of the linearisation.
+    let size = largest(&increments);
+    if !size.is_finite() {
+        return Ok(None);
+    }
+    if size > 1.0 {
+        increments.iter_mut().for_each(|x| *x /= size);
+    }
+    Ok(Some(increments))
+}
+
+/// Applies increments in the Jacobian's own units.
+pub(super) fn advance<R: Real>(
+    mechanism: &Mechanism,
+    geometry: &Geometry<R>,
+    jacobian: &CycleJacobian<R>,
+    movable: &[bool],
+    increments: &[R],
+    states: &mut [JointState<R>],
+) {
+    let mut column = 0;
+    while column < jacobian.variables.len() {
+        let (joint, _) = jacobian.variables[column];
+        let freedom = geometry.displacements[joint].freedom();
+        let values: Vec<R> = (column..column + freedom)
+            .map(|c| {
+                if movable[c] {
+                    increments[c].clone() * geometry.one.constant(jacobian.unit(mechanism, c))
+                } else {
+                    geometry.one.zero_like()
+                }
+            })
+            .collect();
+        geometry.displacements[joint].advance(&mut states[joint], &values);
+        column += freedom;
+    }
+}

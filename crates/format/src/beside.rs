@@ -1,0 +1,199 @@
+//! What a file says beside links and joints: couplings, the ground, poses, the scene and the expectation.
+
+use super::element::{Attribute, Element};
+use super::error::Outcome;
+use super::names::Named;
+use super::reader::{Dialect, Reader};
+use super::words::{alternatives, did_you_mean, quoted};
+use kutzbach_model::mechanism::{Expectation, Scene};
+use std::str::FromStr;
+
+/// Kinds of singular poses that an expectation can name.
+const SINGULARITIES: [&str; 6] = [
+    "bifurcation",
+    "tangential",
+    "cusp",
+    "kinematotropic",
+    "shaky",
+    "permanently_shaky",
+];
+
+impl<'a> Reader<'a> {
+    /// `<coupling name>` with `<predecessor link/>`, `<successor link/>` and `<ratio value/>`.
+    pub(super) fn read_coupling(&mut self, coupling: Element<'a>) -> Outcome<()> {
+        self.uses(Dialect::UrdfPlus);
+        self.other_closures = true;
+        self.note_foreign_attributes(coupling, &["name", "type"])?;
+        // URDF+'s parsers (ROAM-Lab-ND/generalized_rbda, ClusterTreeParsing.cpp) read every coupling as one of rolling; the
+        // word is optional.
+        one_of(coupling, "type", &["rolling"])?;
+        let name = self.directory.add(Named::Coupling, coupling)?;
+        let parts = self.parts(coupling, &["predecessor", "successor", "ratio"], &[], &[])?;
+        let (mut predecessor, mut successor, mut ratio) = (None, None, None);
+        for part in parts {
+            if part.name() == "ratio" {
+                self.leaf(part, &["value"])?;
+                ratio = Some(self.number(part.required("value")?)?);
+                continue;
+            }
+            self.leaf(part, &["link"])?;
+            let link = self.directory.refer(Named::Link, part, "link")?;
+            match part.name() {
+                "predecessor" => predecessor = Some(link),
+                _ => successor = Some(link),
+            }
+        }
+        let needs =
+            |what: &str| coupling.fault(format!("coupling {} needs <{what}>", quoted(name)));
+        let predecessor =
+            predecessor.ok_or_else(|| needs("predecessor").help("<predecessor link=\"...\"/>"))?;
+        let successor =
+            successor.ok_or_else(|| needs("successor").help("<successor link=\"...\"/>"))?;
+        let ratio = ratio.ok_or_else(|| {
+            needs("ratio").help("<ratio value=\"successor's rate per predecessor's rate\"/>")
+        })?;
+        self.builder.coupling(name, predecessor, successor, ratio);
+        Ok(())
+    }
+
+    /// `<ground link/>`.
+    pub(super) fn read_ground(&mut self, ground: Element<'a>) -> Outcome<()> {
+        self.uses(Dialect::Own);
+        self.leaf(ground, &["link"])?;
+        let link = self.directory.refer(Named::Link, ground, "link")?;
+        self.builder.ground(link);
+        Ok(())
+    }
+
+    /// `<configuration name>` with `<position joint value/>`.
+    pub(super) fn read_configuration(&mut self, configuration: Element<'a>) -> Outcome<()> {
+        self.uses(Dialect::Own);
+        self.note_foreign_attributes(configuration, &["name"])?;
+        let name = self.directory.add(Named::Configuration, configuration)?;
+        let mut positions = Vec::new();
+        for part in self.parts(configuration, &[], &["position"], &[])? {
+            self.leaf(part, &["joint", "value"])?;
+            let joint = self.directory.refer(Named::Joint, part, "joint")?;
+            let values = self.number_list(part.required("value")?)?;
+            positions.push((joint.to_owned(), values));
+        }
+        self.builder.configuration(name, positions);
+        Ok(())
+    }
+
+    /// `<scene>`: the effects of a simulation.
+    pub(super) fn read_scene(&mut self, scene: Element<'a>) -> Outcome<()> {
+        self.uses(Dialect::Own);
+        self.note_foreign_attributes(scene, &[])?;
+        let effects = ["gravity", "contact", "limits", "friction", "damping"];
+        let mut read = Scene::default();
+        for part in self.parts(scene, &effects, &["drive"], &[])? {
+            match part.name() {
+                "gravity" => {
+                    self.leaf(part, &["xyz"])?;
+                    read.gravity = Some(self.numbers(part.required("xyz")?)?);
+                }
+                "drive" => {
+                    self.leaf(part, &["joint", "velocity", "torque"])?;
+                    let joint = self.directory.refer(Named::Joint, part, "joint")?;
+                    let velocity = self.number(part.required("velocity")?)?;
+                    let torque = self.optional_number(part, "torque")?;
+                    self.builder.drive(joint, velocity, torque);
+                }
+                effect => {
+                    self.leaf(part, &[])?;
+                    match effect {
+                        "contact" => read.contact = true,
+                        "limits" => read.limits = true,
+                        "friction" => read.friction = true,
+                        _ => read.damping = true,
+                    }
+                }
+            }
+        }
+        self.builder.scene(read);
+        Ok(())
+    }
+
+    /// `<expect .../>`: what is known of the answer.
+    pub(super) fn read_expectation(&mut self, expect: Element<'a>) -> Outcome<()> {
+        self.uses(Dialect::Own);
+        self.leaf(
+            expect,
+            &[
+                "finite",
+                "instantaneous",
+                "redundant",
+                "kutzbach",
+                "pose",
+                "kind",
+                "locked",
+                "idle",
+                "branches",
+                "branch_dimensions",
+            ],
+        )?;
+        let words = |name: &str| {
+            expect
+                .attribute(name)
+                .map(|list| list.value.split_whitespace().map(str::to_owned).collect())
+        };
+        let dimensions = expect.attribute("branch_dimensions").map(|list| {
+            let mut dimensions = list
+                .value
+                .split_whitespace()
+                .map(|word| whole(list, word))
+                .collect::<Outcome<Vec<usize>>>()?;
+            dimensions.sort_unstable();
+            Ok(dimensions)
+        });
+        let read = Expectation {
+            finite: integer(expect, "finite")?,
+            instantaneous: integer(expect, "instantaneous")?,
+            redundant: integer(expect, "redundant")?,
+            kutzbach: integer(expect, "kutzbach")?,
+            pose: one_of(expect, "pose", &["regular", "singular"])?,
+            kind: one_of(expect, "kind", &SINGULARITIES)?,
+            locked: words("locked"),
+            idle: words("idle"),
+            branches: integer(expect, "branches")?,
+            branch_dimensions: dimensions.transpose()?,
+        };
+        self.builder.expect(read);
+        Ok(())
+    }
+}
+
+/// An attribute with a whole number.
+fn integer<T: FromStr>(element: Element<'_>, name: &str) -> Outcome<Option<T>> {
+    element
+        .attribute(name)
+        .map(|attribute| whole(attribute, attribute.value.trim()))
+        .transpose()
+}
+
+fn whole<T: FromStr>(attribute: Attribute<'_>, word: &str) -> Outcome<T> {
+    word.parse()
+        .map_err(|_| attribute.fault(format!("needed a whole number, found {}", quoted(word))))
+}
+
+/// An attribute with one of these words.
+fn one_of(element: Element<'_>, name: &str, words: &[&str]) -> Outcome<Option<String>> {
+    let Some(attribute) = element.attribute(name) else {
+        return Ok(None);
+    };
+    if words.contains(&attribute.value) {
+        return Ok(Some(attribute.value.to_owned()));
+    }
+    Err(attribute
+        .fault(format!(
+            "needed {}, found {}",
+            alternatives(words),
+            quoted(attribute.value)
+        ))
+        .maybe_help(did_you_mean(
+            attribute.value,
+            words.iter().copied(),
+            ("`", "`"),
+        )))
+}

@@ -1,0 +1,539 @@
+//! Joints inside `<gazebo>`: what URDF's tree has no room for, written in SDFormat.
+//!
+//! Gazebo turns URDF into SDFormat and copies what stands inside `<gazebo>` into it, so that a `<joint>` there becomes a
+//! joint of the model like any other. It is the usual way to close a loop in plain URDF (gazebo_tutorials,
+//! `kinematic_loop`). SDFormat's specification (sdformat.org/spec, `<joint>`) says of it:
+//!
+//! - `<pose>` is the joint's frame in the child link, unless `relative_to` names another frame; the parent's side follows
+//!   from where the links are in the file. So the joint is closed at home by construction.
+//! - `<axis><xyz>` is given in the joint's frame, unless `expressed_in` names another one, or `use_parent_model_frame`
+//!   (how versions up to 1.4 always meant it) says that it is the model's. The model's frame is the root link's at home.
+//! - `<screw_thread_pitch>` is in metres per revolution, right-handed; the older `<thread_pitch>` in radians per metre,
+//!   left-handed. Where both stand the first counts.
+//! - `revolute2` turns about `<axis>` in the parent and then about `<axis2>` in the child, through one point: a universal
+//!   joint whose axes need not be at right angles.
+//! - A `<link>` stands where its `<pose>` in the model's frame says.
+//! - `world` as parent or child is the ground.
+//!
+//! Gazebo before SDFormat wrote `<joint:hinge>` and its kin with `<body1>`, `<body2>`, an `<anchor>` body, an
+//! `<anchorOffset>` in it, and an `<axis>` in the model's frame. The PR2's gripper is published like that.
+
+use super::element::{Attribute, Element};
+use super::error::Outcome;
+use super::names::Named;
+use super::reader::{Dialect, Reader};
+use super::unread::truth;
+use super::words::{cut, quoted};
+use kutzbach_math::number::Number;
+use kutzbach_model::mechanism::{Direction, Dynamics, Frame, JointBuilder, JointKind, Limit};
+
+/// SDFormat's word for no link: what the model stands on.
+const WORLD: &str = "world";
+
+/// SDFormat's word for the frame of the model, which is that of the root link.
+const MODEL: &str = "__model__";
+
+/// Added to a name that a joint of the tree has already.
+pub(super) const IN_GAZEBO: &str = "_in_gazebo";
+
+/// Where a joint is, as SDFormat gives it.
+struct Place<'a> {
+    link: &'a str,
+    frame: Frame,
+    parallel_to_root: bool,
+}
+
+impl<'a> Reader<'a> {
+    /// Keeps the joints of a `<gazebo>` until all links are known; the rest of it is not read.
+    pub(super) fn read_gazebo(&mut self, gazebo: Element<'a>) -> Outcome<()> {
+        let mut only_joints = true;
+        for part in gazebo.elements() {
+            let old_joint = part.written_name().starts_with("joint:");
+            let sdf_joint = part.written_name() == "joint" && part.elements().next().is_some();
+            if old_joint || sdf_joint {
+                self.late.push(part);
+                continue;
+            }
+            if part.written_name() == "link" && part.attribute("name").is_some() {
+                self.read_sdf_link(part)?;
+                continue;
+            }
+            only_joints = false;
+            if part.name() == "plugin" {
+                self.note_plugin(part);
+            }
+            self.check_for_joints(part)?;
+        }
+        if !only_joints || gazebo.elements().next().is_none() {
+            self.skip(gazebo);
+        }
+        Ok(())
+    }
+
+    /// A link that only Gazebo knows, as those that close the PR2's grippers. It stands in the model's frame until joints
+    /// inside `<gazebo>` hold it.
+    fn read_sdf_link(&mut self, link: Element<'a>) -> Outcome<()> {
+        let name = self.directory.add(Named::Link, link)?;
+        let pose = link.elements().find(|part| part.name() == "pose");
+        let place = self.sdf_place(pose, MODEL)?;
+        self.builder.link(name);
+        self.sdf_links.insert(name);
+        self.late_links.push((name, place.link, place.frame));
+        for part in link.elements().filter(|part| part.name() != "pose") {
+            let what = format!("<{}> of a <link> inside <gazebo>", cut(part.name()));
+            self.skip_because(part, what);
+        }
+        Ok(())
+    }
+
+    /// The link that nothing in the file's tree places.
+    fn root_link(&self) -> Option<&'a str> {
+        let mut links = self.directory.link_names().map(|(link, _)| link);
+        links.find(|link| self.is_root(link))
+    }
+
+    fn is_root(&self, link: &str) -> bool {
+        let placed = self.placed_by.contains_key(link);
+        !placed && !self.floating.contains(link) && !self.sdf_links.contains(link)
+    }
+
+    /// Places the links that only Gazebo knows.
+    fn place_sdf_links(&mut self) {
+        let root = self.tree_root.unwrap_or_default();
+        for (link, reference, frame) in std::mem::take(&mut self.late_links) {
+            let reference = if reference == MODEL { root } else { reference };
+            let name = format!("{link}{IN_GAZEBO}");
+            self.builder.floating(&name, reference, link, frame);
+        }
+    }
+
+    /// A plugin that makes one joint follow another acts in the simulator alone, which is worth knowing.
+    fn note_plugin(&mut self, plugin: Element<'a>) {
+        if plugin.elements().any(|part| part.name() == "mimicJoint") {
+            let message = "a Gazebo plugin makes joints follow others; that holds in Gazebo alone and is not read, unless <mimic> says it too";
+            self.warn(plugin.start(), message);
+        }
+    }
+
+    /// Reads the joints that had to wait.
+    pub(super) fn read_late_joints(&mut self) -> Vec<super::error::Fault> {
+        let mut faults = Vec::new();
+        self.tree_root = self.root_link();
+        self.place_sdf_links();
+        for joint in std::mem::take(&mut self.late) {
+            let read = match joint.written_name() {
+                "joint" => self.read_sdf_joint(joint),
+                _ => self.read_old_joint(joint),
+            };
+            faults.extend(read.err());
+        }
+        faults
+    }
+
+    fn read_sdf_joint(&mut self, joint: Element<'a>) -> Outcome<()> {
+        let word = joint.required("type")?;
+        let kind = match word.value {
+            "revolute" | "continuous" => JointKind::Revolute,
+            "prismatic" => JointKind::Prismatic,
+            "screw" => JointKind::Screw,
+            "ball" => JointKind::Spherical,
+            "universal" | "revolute2" => JointKind::Universal,
+            "fixed" => JointKind::Fixed,
+            other => {
+                return Err(word
+                    .fault(format!("a joint of the type {} inside <gazebo> is not read", quoted(other)))
+                    .help("revolute, continuous, prismatic, screw, ball, universal, revolute2 and fixed are; a <loop> or <coupling> may say the same"));
+            }
+        };
+        let mut place = None;
+        let (mut parent, mut child) = (None, None);
+        let (mut axis, mut axis2) = (None, None);
+        let (mut lead, mut old_lead) = (None, None);
+        for part in joint.elements() {
+            match part.name() {
+                "parent" => parent = Some(self.sdf_link(part)?),
+                "child" => child = Some(self.sdf_link(part)?),
+                "pose" => place = Some(part),
+                "axis" => axis = Some(part),
+                "axis2" => axis2 = Some(part),
+                "screw_thread_pitch" => lead = Some(self.number(needed(part)?)?),
+                "thread_pitch" => old_lead = Some(self.lead_of_thread(part)?),
+                "physics" | "sensor" | "gearbox_ratio" | "gearbox_reference_body" => {
+                    self.skip(part);
+                }
+                _ => self.skip_unless_joining(part)?,
+            }
+        }
+        let needs = |what: &str| joint.fault(format!("a joint inside <gazebo> needs <{what}>"));
+        let parent = parent.ok_or_else(|| needs("parent"))?;
+        let child = child.ok_or_else(|| needs("child"))?;
+        let Some(name) = self.name_of_late(joint, kind, [parent, child])? else {
+            return Ok(());
+        };
+        let mut place = self.sdf_place(place, child)?;
+        let mut builder = JointBuilder::closing(&name, kind, parent, child);
+        if kind.uses_axis() {
+            let (direction, in_model) = self.sdf_axis(axis.ok_or_else(|| needs("axis"))?)?;
+            builder = builder.axis(direction);
+            place.parallel_to_root = in_model;
+            let (limit, dynamics) = self.sdf_limits(axis)?;
+            if kind.freedom() == 1 && limit != Limit::default() {
+                builder = builder.limit(limit);
+            }
+            if dynamics != Dynamics::default() {
+                builder = builder.dynamics(dynamics);
+            }
+        }
+        if kind.uses_second_axis() {
+            let part = axis2.ok_or_else(|| needs("axis2"))?;
+            let (direction, in_model) = self.sdf_axis(part)?;
+            if in_model != place.parallel_to_root {
+                return Err(part.fault("both axes of a joint must be given in the same frame"));
+            }
+            builder = builder.axis2(direction);
+        }
+        if kind.uses_lead() {
+            let lead = lead.or(old_lead);
+            builder = builder.lead(lead.ok_or_else(|| needs("screw_thread_pitch"))?);
+        }
+        self.add_late(&name, joint, kind, builder, &place);
+        Ok(())
+    }
+
+    /// `<joint:hinge name>` and its kin.
+    fn read_old_joint(&mut self, joint: Element<'a>) -> Outcome<()> {
+        let kind = match joint.name() {
+            "hinge" => JointKind::Revolute,
+            "slider" => JointKind::Prismatic,
+            "ball" => JointKind::Spherical,
+            _ => {
+                let name = cut(joint.written_name());
+                return Err(joint
+                    .fault(format!("<{name}> is not read, and it joins two links"))
+                    .help("<joint:hinge>, <joint:slider> and <joint:ball> are; a <loop> may say the same"));
+            }
+        };
+        let part = |name: &str| {
+            let found = joint.elements().find(|part| part.name() == name);
+            found.ok_or_else(|| joint.fault(format!("<{}> needs <{name}>", joint.written_name())))
+        };
+        let parent = self.sdf_link(part("body1")?)?;
+        let child = self.sdf_link(part("body2")?)?;
+        let Some(name) = self.name_of_late(joint, kind, [parent, child])? else {
+            return Ok(());
+        };
+        let mut frame = Frame::identity();
+        if let Ok(offset) = part("anchorOffset") {
+            frame.position = self.numbers(needed(offset)?)?;
+        }
+        let place = Place {
+            link: self.sdf_link(part("anchor")?)?,
+            frame,
+            parallel_to_root: true,
+        };
+        let mut builder = JointBuilder::closing(&name, kind, parent, child);
+        if kind.uses_axis() {
+            builder = builder.axis(self.sdf_direction(part("axis")?)?);
+        }
+        self.add_late(&name, joint, kind, builder, &place);
+        Ok(())
+    }
+
+    /// The name of a joint that had to wait; `None` where the file's tree has that joint already, or where it only holds the
+    /// robot's root, which is held anyway.
+    fn name_of_late(
+        &mut self,
+        joint: Element<'a>,
+        kind: JointKind,
+        sides: [&'a str; 2],
+    ) -> Outcome<Option<String>> {
+        let name = joint.required("name")?.value;
+        let [parent, child] = sides;
+        if let Some(known) = self.sides_of.get(name)
+            && ordered(*known) == ordered(sides)
+        {
+            if let Some(other) = self.kinds.get(name)
+                && *other != kind
+            {
+                return Err(joint.fault(format!(
+                    "joint {} is {} in the tree and {} inside <gazebo>",
+                    quoted(name),
+                    other.word(),
+                    kind.word()
+                )));
+            }
+            let message = format!(
+                "joint {} stands in the tree and inside <gazebo>; it is read once",
+                quoted(name)
+            );
+            self.warn(joint.start(), message);
+            return Ok(None);
+        }
+        if kind == JointKind::Fixed && self.is_world(parent) && self.tree_root == Some(child) {
+            self.root_is_held = true;
+            let message = format!(
+                "joint {} holds the root link in the world, as is done here anyway",
+                quoted(name)
+            );
+            self.warn(joint.start(), message);
+            return Ok(None);
+        }
+        if let Some(other) = self.joined.get(&ordered(sides)).copied() {
+            let message = format!(
+                "joint {} inside <gazebo> joins the same two links as joint {}",
+                quoted(name),
+                quoted(other)
+            );
+            self.warn(joint.start(), message);
+        }
+        self.joined.entry(ordered(sides)).or_insert(name);
+        self.joins_world |= self.is_world(parent) || self.is_world(child);
+        if !self.directory.has_joint_or_coupling(name) {
+            return Ok(Some(self.directory.add(Named::Joint, joint)?.to_owned()));
+        }
+        let other = format!("{name}{IN_GAZEBO}");
+        if self.directory.has_joint_or_coupling(&other) || self.in_gazebo.contains_key(&other) {
+            return self.directory.add(Named::Joint, joint).map(|_| None);
+        }
+        // A name stands for one coordinate. The PR2's `gripper_joint` measures the gap of the gripper to a frame without
+        // mass in the tree, and to the finger itself inside `<gazebo>`.
+        let one_value = kind.freedom() == 1
+            && self.kinds.get(name).is_some_and(|kind| kind.freedom() == 1)
+            && self
+                .sides_of
+                .get(name)
+                .is_some_and(|[tree, _]| *tree == parent)
+            && !self.followers.contains(name);
+        let same = if one_value {
+            self.builder
+                .mimic(name, &other, Number::one(), Number::zero());
+            ", and both have one value"
+        } else {
+            ""
+        };
+        let message = format!(
+            "joint {} inside <gazebo> has the name of another joint; it is called {} here{same}",
+            quoted(name),
+            quoted(&other)
+        );
+        self.warn(joint.start(), message);
+        Ok(Some(other))
+    }
+
+    fn add_late(
+        &mut self,
+        name: &str,
+        joint: Element<'a>,
+        kind: JointKind,
+        builder: JointBuilder,
+        place: &Place<'a>,
+    ) {
+        self.uses(Dialect::UrdfPlus);
+        self.first_in_gazebo.get_or_insert(joint.start());
+        self.in_gazebo.insert(name.to_owned(), kind.freedom());
+        let link = match place.link {
+            MODEL => self.tree_root.unwrap_or_default(),
+            link => link,
+        };
+        let builder = builder.at_home(link, place.frame.clone(), place.parallel_to_root);
+        self.builder.joint(builder);
+    }
+
+    /// Says what a reader that knows the tree alone would find.
+    pub(super) fn note_tree(&mut self) {
+        let Some(at) = self.first_in_gazebo else {
+            return;
+        };
+        let joints: usize = self.kinds.values().map(|kind| kind.freedom()).sum();
+        let count = self.in_gazebo.len();
+        let message = match self.other_closures {
+            false => format!(
+                "{} inside <gazebo> and read; without what stands there the file is a tree with {}",
+                counted_joints(count),
+                freedoms(joints.saturating_sub(self.followers.len()))
+            ),
+            true => format!("{} inside <gazebo> and read", counted_joints(count)),
+        };
+        self.warn(at, message);
+    }
+
+    /// A link by name, the last part of a scoped one. The world becomes a link of its own, in which the root is placed.
+    fn sdf_link(&mut self, element: Element<'a>) -> Outcome<&'a str> {
+        let given = match element.value() {
+            Some(value) => value,
+            None => element.required("link")?,
+        };
+        let mut value = given;
+        value.value = given.value.trim();
+        if !self.directory.has(Named::Link, value.value)
+            && let Some((_, last)) = value.value.rsplit_once("::")
+        {
+            value.value = last;
+        }
+        if self.is_world(value.value) {
+            return Ok(WORLD);
+        }
+        self.directory.refer_by(Named::Link, value)
+    }
+
+    /// Whether this is SDFormat's `world`, and no link of the file is called that.
+    fn is_world(&self, link: &str) -> bool {
+        link == WORLD && !self.directory.has(Named::Link, WORLD)
+    }
+
+    fn sdf_place(&mut self, pose: Option<Element<'a>>, child: &'a str) -> Outcome<Place<'a>> {
+        let mut place = Place {
+            link: child,
+            frame: Frame::identity(),
+            parallel_to_root: false,
+        };
+        let Some(pose) = pose else {
+            return Ok(place);
+        };
+        if let Some(format) = pose.attribute("rotation_format")
+            && format.value != "euler_rpy"
+        {
+            return Err(format.fault("rotations are read as roll, pitch and yaw only"));
+        }
+        let in_degrees = pose.attribute("degrees").map(truth).transpose()?;
+        let reference = pose
+            .attribute("relative_to")
+            .or_else(|| pose.attribute("frame"));
+        match reference {
+            Some(reference) if reference.value == MODEL => place.link = MODEL,
+            Some(reference) if !reference.value.is_empty() => {
+                place.link = self.directory.refer_by(Named::Link, reference)?;
+            }
+            _ => {}
+        }
+        if pose.stray_text().is_some() {
+            let value = needed(pose)?;
+            let [x, y, z, mut roll, mut pitch, mut yaw] = self.numbers::<6>(value)?;
+            if in_degrees == Some(true) {
+                (roll, pitch, yaw) = (roll.radians(), pitch.radians(), yaw.radians());
+            }
+            place.frame.position = [x, y, z];
+            place.frame.roll_pitch_yaw = [roll, pitch, yaw];
+        }
+        Ok(place)
+    }
+
+    /// An axis, and whether it is given in the model's frame.
+    fn sdf_axis(&mut self, axis: Element<'a>) -> Outcome<(Direction, bool)> {
+        let find = |name: &str| axis.elements().find(|part| part.name() == name);
+        let flag = find("use_parent_model_frame").and_then(|flag| flag.value());
+        let mut in_model = flag.map(truth).transpose()?.unwrap_or(false);
+        let Some(xyz) = find("xyz") else {
+            // The specification's default.
+            let z = [Number::zero(), Number::zero(), Number::one()];
+            return Ok((Direction(z), in_model));
+        };
+        match xyz.attribute("expressed_in") {
+            Some(frame) if frame.value == MODEL => in_model = true,
+            Some(frame) if !frame.value.is_empty() => {
+                return Err(frame
+                    .fault(format!(
+                        "an axis expressed in {} is not read",
+                        quoted(frame.value)
+                    ))
+                    .help("in the joint's own frame and in `__model__` it is"));
+            }
+            _ => {}
+        }
+        Ok((self.sdf_direction(xyz)?, in_model))
+    }
+
+    fn sdf_direction(&mut self, element: Element<'a>) -> Outcome<Direction> {
+        let value = needed(element)?;
+        let direction = Direction(self.numbers(value)?);
+        if direction.is_zero() {
+            return Err(value.fault("the zero vector names no direction"));
+        }
+        Ok(direction)
+    }
+
+    /// The range and the friction of an `<axis>`. Gazebo writes 1e16 where there is no limit.
+    fn sdf_limits(&mut self, axis: Option<Element<'a>>) -> Outcome<(Limit, Dynamics)> {
+        let (mut limit, mut dynamics) = (Limit::default(), Dynamics::default());
+        for part in axis.into_iter().flat_map(|axis| axis.elements()) {
+            for value in part.elements() {
+                let read = match (part.name(), value.name()) {
+                    ("limit", "lower") => &mut limit.lower,
+                    ("limit", "upper") => &mut limit.upper,
+                    ("limit", "effort") => &mut limit.effort,
+                    ("limit", "velocity") => &mut limit.velocity,
+                    ("dynamics", "damping") => &mut dynamics.damping,
+                    ("dynamics", "friction") => &mut dynamics.friction,
+                    _ => continue,
+                };
+                // SDFormat: an effort or a rate of -1 is no limit either.
+                let is_rate = matches!(value.name(), "effort" | "velocity");
+                *read = value
+                    .value()
+                    .and_then(|value| self.number(value).ok())
+                    .filter(|number| {
+                        number.value().abs() < 1e15 && !(is_rate && number.value() < 0.0)
+                    });
+            }
+        }
+        let crossed =
+            matches!((&limit.lower, &limit.upper), (Some(l), Some(u)) if l.value() > u.value());
+        if crossed {
+            (limit.lower, limit.upper) = (None, None);
+        }
+        Ok((limit, dynamics))
+    }
+
+    /// Metres per turn, right-handed, from radians per metre, left-handed.
+    fn lead_of_thread(&mut self, element: Element<'a>) -> Outcome<Number> {
+        let value = needed(element)?;
+        let pitch = self.number(value)?;
+        let turn = &Number::integer(-2) * &Number::pi();
+        turn.checked_div(&pitch)
+            .map_err(|_| value.fault("a thread needs a pitch that is not zero"))
+    }
+
+    /// Adds the world as a link, placed so that nothing holds the robot in it but the joints that were read.
+    pub(super) fn add_world(&mut self) {
+        let Some(root) = self.tree_root.filter(|_| self.joins_world) else {
+            return;
+        };
+        self.builder.link(WORLD);
+        let name = format!("{root}{IN_GAZEBO}");
+        if self.root_is_held {
+            let held = JointBuilder::tree(&name, JointKind::Fixed, WORLD, root);
+            self.builder.joint(held);
+        } else {
+            self.builder.floating(&name, WORLD, root, Frame::identity());
+        }
+    }
+}
+
+fn counted_joints(count: usize) -> String {
+    match count {
+        1 => "1 joint stands".to_owned(),
+        _ => format!("{count} joints stand"),
+    }
+}
+
+fn freedoms(count: usize) -> String {
+    match count {
+        1 => "1 degree of freedom".to_owned(),
+        _ => format!("{count} degrees of freedom"),
+    }
+}
+
+/// The two links of a joint, whichever is which.
+pub(super) fn ordered([a, b]: [&str; 2]) -> [&str; 2] {
+    if a <= b { [a, b] } else { [b, a] }
+}
+
+fn needed(element: Element<'_>) -> Outcome<Attribute<'_>> {
+    element.value().ok_or_else(|| {
+        let message = format!(
+            "<{}> needs a value and nothing else inside",
+            element.written_name()
+        );
+        element.fault(message)
+    })
+}

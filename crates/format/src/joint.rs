@@ -1,0 +1,429 @@
+//! `<joint>` and `<loop>`: the same kinds of joint, placed by their child or closing a loop.
+
+use super::element::Element;
+use super::error::Outcome;
+use super::gazebo::ordered;
+use super::names::Named;
+use super::reader::{Dialect, Reader};
+use super::unread::{OF_JOINTS, Parts, truth};
+use super::words::{did_you_mean, quoted};
+use kutzbach_math::number::Number;
+use kutzbach_model::mechanism::{Dynamics, Frame, JointBuilder, JointKind, Limit};
+
+/// What may stand inside `<joint>`.
+const JOINT: [&str; 13] = [
+    "parent",
+    "child",
+    "origin",
+    "axis",
+    "axis2",
+    "screw",
+    "distance",
+    "limit",
+    "dynamics",
+    "joint_properties",
+    "mimic",
+    // Drake's.
+    "drake:mimic",
+    "drake:screw_thread_pitch",
+];
+
+/// What may stand inside `<loop>`.
+const LOOP: [&str; 10] = [
+    "predecessor",
+    "successor",
+    "axis",
+    "axis2",
+    "screw",
+    "distance",
+    "limit",
+    "dynamics",
+    "joint_properties",
+    "mimic",
+];
+
+/// Elements that say nothing about how a loop moves.
+const SKIPPED_HERE: [&str; 5] = [
+    "gazebo",
+    "transmission",
+    "sensor",
+    "safety_controller",
+    "calibration",
+];
+
+/// A joint type as the file names it.
+#[derive(Clone, Copy)]
+struct Type<'a> {
+    word: &'a str,
+    /// `None` for `floating`, which constrains nothing.
+    kind: Option<JointKind>,
+}
+
+impl<'a> Reader<'a> {
+    /// `<joint name type>` of the file's tree.
+    pub(super) fn read_joint(&mut self, joint: Element<'a>) -> Outcome<()> {
+        self.attributes_of(joint, &["name", "type", "independent"], true)?;
+        let name = self.directory.add(Named::Joint, joint)?;
+        let joint_type = self.joint_type(joint)?;
+        let kinds = Parts {
+            known: &JOINT,
+            often: &[],
+            bearing: &OF_JOINTS,
+        };
+        let parts = self.parts_of(joint, &kinds)?;
+        let (mut parent, mut child, mut origin) = (None, None, Frame::identity());
+        let mut body = Vec::with_capacity(parts.len());
+        for part in parts {
+            match part.name() {
+                "parent" => parent = Some(self.link_of(part)?),
+                "child" => child = Some((part, self.side(part)?)),
+                "origin" => origin = self.origin(part)?,
+                _ => body.push(part),
+            }
+        }
+        let needs = |what: &str| {
+            joint.fault(format!(
+                "joint {} needs <{what} link=\"...\"/>",
+                quoted(name)
+            ))
+        };
+        let parent = parent.ok_or_else(|| needs("parent"))?;
+        let (child_element, (child, child_frame)) = child.ok_or_else(|| needs("child"))?;
+        self.join(name, [parent, child]);
+        let own_frame = !child_frame.is_identity();
+        if own_frame {
+            self.uses(Dialect::Own);
+        }
+        let Some(kind) = joint_type.kind else {
+            if own_frame {
+                return Err(child_element.fault(
+                    "a floating joint is placed by its <origin> alone; its child has no frame for it",
+                ));
+            }
+            return self.read_floating(joint, name, parent, child, origin, &body);
+        };
+        match self.placed_by.get(child) {
+            Some(first) => {
+                let message = format!(
+                    "joint {} closes a loop: link {} is the child of joint {} already",
+                    quoted(name),
+                    quoted(child),
+                    quoted(first)
+                );
+                self.warn(joint.start(), message);
+                self.other_closures = true;
+            }
+            None => {
+                self.placed_by.insert(child, name);
+            }
+        }
+        let builder = JointBuilder::tree(name, kind, parent, child)
+            .origin(origin)
+            .successor_origin(child_frame);
+        self.read_body(joint, name, joint_type, kind, builder, &body)
+    }
+
+    /// `<loop name type>` with a frame on each side.
+    pub(super) fn read_loop(&mut self, element: Element<'a>) -> Outcome<()> {
+        self.uses(Dialect::UrdfPlus);
+        self.other_closures = true;
+        self.note_foreign_attributes(element, &["name", "type", "independent"])?;
+        let name = self.directory.add(Named::Joint, element)?;
+        let joint_type = self.joint_type(element)?;
+        let Some(kind) = joint_type.kind else {
+            return Err(element
+                .required("type")?
+                .fault("a floating joint constrains nothing, so it closes no loop")
+                .help("remove the loop"));
+        };
+        let parts = self.parts(element, &LOOP, &[], &SKIPPED_HERE)?;
+        let (mut predecessor, mut successor) = (None, None);
+        let mut body = Vec::with_capacity(parts.len());
+        for part in parts {
+            match part.name() {
+                "predecessor" => predecessor = Some(self.side(part)?),
+                "successor" => successor = Some(self.side(part)?),
+                _ => body.push(part),
+            }
+        }
+        let needs = |what: &str| {
+            element
+                .fault(format!("loop {} needs <{what} link=\"...\">", quoted(name)))
+                .help(format!(
+                    "<{what} link=\"...\"><origin xyz=\"...\" rpy=\"...\"/></{what}>"
+                ))
+        };
+        let (predecessor, predecessor_frame) = predecessor.ok_or_else(|| needs("predecessor"))?;
+        let (successor, successor_frame) = successor.ok_or_else(|| needs("successor"))?;
+        self.join(name, [predecessor, successor]);
+        let builder = JointBuilder::closing(name, kind, predecessor, successor)
+            .origin(predecessor_frame)
+            .successor_origin(successor_frame);
+        self.read_body(element, name, joint_type, kind, builder, &body)
+    }
+
+    /// Remembers which links a joint joins.
+    pub(super) fn join(&mut self, name: &'a str, sides: [&'a str; 2]) {
+        self.sides_of.insert(name, sides);
+        self.joined.entry(ordered(sides)).or_insert(name);
+    }
+
+    fn joint_type(&mut self, joint: Element<'a>) -> Outcome<Type<'a>> {
+        const URDF: [&str; 6] = [
+            "revolute",
+            "continuous",
+            "prismatic",
+            "fixed",
+            "floating",
+            "planar",
+        ];
+        const SYNONYMS: [&str; 5] = [
+            "continuous",
+            "line_on_line",
+            "plane_on_plane",
+            "point_on_point",
+            "floating",
+        ];
+        let attribute = joint.required("type")?;
+        let word = attribute.value;
+        if !URDF.contains(&word) {
+            self.uses(Dialect::Own);
+        }
+        let kind = match joint.written_name() {
+            "drake:joint" => Self::drake_kind(word),
+            _ => JointKind::from_word(word),
+        };
+        if kind.is_none() && word != "floating" {
+            let known = JointKind::ALL.map(JointKind::word);
+            return Err(attribute
+                .fault(format!("there is no joint type {}", quoted(word)))
+                .help(format!(
+                    "the types are {} and {}",
+                    known.join(", "),
+                    SYNONYMS.join(", ")
+                ))
+                .maybe_help(did_you_mean(
+                    word,
+                    known.into_iter().chain(SYNONYMS),
+                    ("`", "`"),
+                )));
+        }
+        Ok(Type { word, kind })
+    }
+
+    /// `<parent link/>`.
+    fn link_of(&mut self, element: Element<'a>) -> Outcome<&'a str> {
+        self.leaf_of(element, &["link"], true)?;
+        self.directory.refer(Named::Link, element, "link")
+    }
+
+    /// `<predecessor link>`, `<successor link>` or `<child link>` with an optional `<origin>` inside: the joint's frame there.
+    fn side(&mut self, element: Element<'a>) -> Outcome<(&'a str, Frame)> {
+        self.attributes_of(element, &["link"], true)?;
+        let link = self.directory.refer(Named::Link, element, "link")?;
+        let kinds = Parts {
+            known: &["origin"],
+            often: &[],
+            bearing: &OF_JOINTS,
+        };
+        let frame = match self.parts_of(element, &kinds)?.first() {
+            Some(origin) => self.origin(*origin)?,
+            None => Frame::identity(),
+        };
+        Ok((link, frame))
+    }
+
+    fn read_floating(
+        &mut self,
+        joint: Element<'a>,
+        name: &str,
+        parent: &str,
+        child: &'a str,
+        origin: Frame,
+        body: &[Element<'a>],
+    ) -> Outcome<()> {
+        for part in body {
+            match part.name() {
+                // Exporters write these for every joint.
+                "axis" | "limit" | "dynamics" | "joint_properties" | "mimic" => {
+                    self.ignore(*part, "floating");
+                }
+                other => {
+                    return Err(part.fault(format!(
+                        "a floating joint only places its child, so it has no <{other}>"
+                    )));
+                }
+            }
+        }
+        if joint.attribute("independent").is_some() {
+            self.warn(
+                joint.start(),
+                "`independent` means nothing for a floating joint and is ignored",
+            );
+        }
+        self.floating.insert(child);
+        self.builder.floating(name, parent, child, origin);
+        Ok(())
+    }
+
+    /// Everything that `<joint>` and `<loop>` share.
+    fn read_body(
+        &mut self,
+        joint: Element<'a>,
+        name: &'a str,
+        joint_type: Type<'a>,
+        kind: JointKind,
+        mut builder: JointBuilder,
+        body: &[Element<'a>],
+    ) -> Outcome<()> {
+        if let Some(attribute) = joint.attribute("independent") {
+            self.uses(Dialect::UrdfPlus);
+            builder = builder.independent(truth(attribute)?);
+        }
+        let word = joint_type.word;
+        if joint.written_name() == "drake:joint" && kind == JointKind::Universal {
+            builder = builder.axis2(Self::drake_second_axis());
+        }
+        let mut mimic = None;
+        let (mut has_lead, mut has_dynamics) = (false, false);
+        for &part in body {
+            match part.name() {
+                "axis" if joint.written_name() == "drake:joint" && kind == JointKind::Universal => {
+                    self.ignore(part, word);
+                }
+                "axis" if kind.uses_axis() => builder = builder.axis(self.direction(part)?),
+                // Exporters of plain URDF write an axis for every joint.
+                "axis" if matches!(kind, JointKind::Fixed | JointKind::Spherical) => {
+                    self.ignore(part, word);
+                }
+                "axis" => {
+                    return Err(useless(part, word).maybe_help(kind.uses_second_axis().then(
+                        || format!("a {word} joint has its direction in <axis2 xyz=\"...\"/>"),
+                    )));
+                }
+                "axis2" if kind.uses_second_axis() => {
+                    builder = builder.axis2(self.direction(part)?)
+                }
+                "screw" if kind.uses_lead() => {
+                    self.leaf(part, &["lead"])?;
+                    builder = builder.lead(self.number(part.required("lead")?)?);
+                    has_lead = true;
+                }
+                "screw_thread_pitch" if kind.uses_lead() => {
+                    builder = builder.lead(self.number(part.required("value")?)?);
+                    has_lead = true;
+                }
+                "distance" if kind == JointKind::Distance => {
+                    self.leaf(part, &["value"])?;
+                    builder = builder.distance(self.number(part.required("value")?)?);
+                }
+                "axis2" | "screw" | "distance" | "screw_thread_pitch" => {
+                    return Err(useless(part, word));
+                }
+                "limit" if kind.freedom() == 1 => {
+                    builder = builder.limit(self.read_limit(part, word)?);
+                }
+                "limit" => self.ignore(part, word),
+                "dynamics" | "joint_properties" => {
+                    if has_dynamics {
+                        self.skip_because(part, "friction and damping given twice".to_owned());
+                        continue;
+                    }
+                    has_dynamics = true;
+                    if part.name() == "joint_properties" {
+                        self.warn(
+                            part.start(),
+                            "<joint_properties> is the old name of <dynamics> and read as such",
+                        );
+                    }
+                    match self.read_dynamics(part) {
+                        Ok(dynamics) => builder = builder.dynamics(dynamics),
+                        Err(fault) => self.skip_faulty(part, &fault),
+                    }
+                }
+                "mimic" if kind.freedom() == 0 => self.ignore(part, word),
+                _ => mimic = Some(self.read_mimic(part)?),
+            }
+        }
+        if kind.uses_lead() && !has_lead {
+            return Err(joint
+                .fault(format!(
+                    "joint {} is a {word} joint and needs its lead",
+                    quoted(name)
+                ))
+                .help("<screw lead=\"metres per turn\"/>"));
+        }
+        self.builder.joint(builder);
+        self.kinds.insert(name, kind);
+        if let Some((leader, multiplier, offset)) = mimic {
+            self.followers.insert(name);
+            self.builder.mimic(name, leader, multiplier, offset);
+        }
+        Ok(())
+    }
+
+    /// `<limit lower upper effort velocity/>`, each optional.
+    fn read_limit(&mut self, limit: Element<'a>, word: &str) -> Outcome<Limit> {
+        self.leaf_of(limit, &["lower", "upper", "effort", "velocity"], true)?;
+        let mut read = Limit {
+            lower: self.optional_number(limit, "lower")?,
+            upper: self.optional_number(limit, "upper")?,
+            effort: self.number_if_readable(limit, "effort"),
+            velocity: self.number_if_readable(limit, "velocity"),
+        };
+        if word == "continuous" && (read.lower.is_some() || read.upper.is_some()) {
+            self.warn(
+                limit.start(),
+                "a continuous joint turns without end: `lower` and `upper` are ignored",
+            );
+            (read.lower, read.upper) = (None, None);
+        }
+        if let (Some(lower), Some(upper)) = (&read.lower, &read.upper)
+            && lower.value() > upper.value()
+        {
+            // Bullet's convention for a joint without limits, and no other range can be meant.
+            self.warn(
+                limit.start(),
+                "a lower limit above the upper one means no limit",
+            );
+            (read.lower, read.upper) = (None, None);
+        }
+        Ok(read)
+    }
+
+    fn read_dynamics(&mut self, dynamics: Element<'a>) -> Outcome<Dynamics> {
+        self.leaf_of(dynamics, &["damping", "friction"], false)?;
+        Ok(Dynamics {
+            damping: self.optional_number(dynamics, "damping")?,
+            friction: self.optional_number(dynamics, "friction")?,
+        })
+    }
+
+    fn read_mimic(&mut self, mimic: Element<'a>) -> Outcome<(&'a str, Number, Number)> {
+        self.leaf_of(mimic, &["joint", "multiplier", "offset"], true)?;
+        let leader = self.directory.refer(Named::Joint, mimic, "joint")?;
+        let multiplier = self.optional_number(mimic, "multiplier")?;
+        let offset = self.optional_number(mimic, "offset")?;
+        Ok((
+            leader,
+            multiplier.unwrap_or_else(Number::one),
+            offset.unwrap_or_else(Number::zero),
+        ))
+    }
+
+    /// Passes over a part that says nothing for this type of joint, with a warning.
+    fn ignore(&mut self, part: Element<'a>, word: &str) {
+        self.warn(
+            part.start(),
+            format!(
+                "<{}> means nothing for a {word} joint and is ignored",
+                part.name()
+            ),
+        );
+    }
+}
+
+fn useless(part: Element<'_>, word: &str) -> super::error::Fault {
+    part.fault(format!("a {word} joint has no <{}>", part.name()))
+        .help("remove it, or change the joint's type")
+}

@@ -1,0 +1,285 @@
+//! Mechanism files: URDF with loops, read and written back.
+//!
+//! A file is one XML element `<robot>` of links and joints, as in URDF; the loops and couplings of URDF+ (Chignoli,
+//! Slotine, Wensing and Kim 2024, arXiv 2411.19753); and what neither has but a mechanism needs: every kind of joint of
+//! [`JointKind`](kutzbach_model::mechanism::JointKind), exact numbers as expressions over named ones, poses, a scene, an expectation.
+//!
+//! What a reading must satisfy:
+//!
+//! - *Nothing is lost in silence.* What bears on motion and is not known, or is nearly a known word, is an error, and so is
+//!   whatever looks like a joint and is not read. What cannot change the motion (pictures, controllers, other tools'
+//!   elements) is skipped and counted in [`Reading::skipped`].
+//! - *Every error has a place*: file, line, column and byte range, what was needed and what was found, and how to mend it.
+//!   Faults in different elements are told together.
+//! - *No text harms the reader*: size, nesting, attributes and nodes are bounded before they are parsed, document type
+//!   definitions are refused, numbers bound themselves. Any bytes give a mechanism or an error.
+//! - *Numbers stay as they are written.* Decimals keep their digits and expressions their exact value, so [`write()`] and
+//!   [`read`] are inverse in meaning. A decimal that is π/2 or 0 within its own digits is read as that
+//!   ([`Recognised`](kutzbach_model::mechanism::Recognised)), and written as it was.
+//!
+//! Reading is linear in the text, apart from look-ups of names. Errors cost one more walk over the text for lines and columns.
+//!
+//! ```
+//! # mod kutzbach { pub use kutzbach_format as format; }
+//! let text = r#"
+//! <robot name="slider">
+//!   <link name="rail"/> <link name="block"/>
+//!   <joint name="slide" type="prismatic">
+//!     <parent link="rail"/> <child link="block"/> <axis xyz="0 0 1"/>
+//!   </joint>
+//! </robot>"#;
+//! let reading = kutzbach::format::read(text, "slider.urdf", &[])?;
+//! assert_eq!(reading.mechanism.freedom(), 1);
+//! assert_eq!(reading.format, "urdf");
+//!
+//! let error = kutzbach::format::read(&text.replace("prismatic", "prismtic"), "slider.urdf", &[]).unwrap_err();
+//! assert_eq!(error.to_string(), "slider.urdf:4:29: there is no joint type `prismtic`");
+//! assert_eq!(error.help.as_deref(), Some("did you mean `prismatic`?"));
+//! # Ok::<(), kutzbach::format::FormatError>(())
+//! ```
+
+mod actuation;
+mod beside;
+mod closures;
+mod definitions;
+mod drake;
+mod element;
+mod error;
+mod gazebo;
+mod guard;
+mod joint;
+mod link;
+mod names;
+mod number_text;
+mod quaternion;
+mod reader;
+mod relax;
+mod unread;
+mod values;
+mod words;
+mod writer;
+mod xacro;
+mod xml;
+
+pub use error::FormatError;
+pub use writer::write;
+
+use error::{Fault, located};
+use kutzbach_model::mechanism::Mechanism;
+use std::fs::File;
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+
+/// A mechanism and what its file says beyond it.
+#[derive(Clone, Debug)]
+pub struct Reading {
+    /// The mechanism.
+    pub mechanism: Mechanism,
+    /// What is read differently from how it may have been meant, in file order.
+    pub warnings: Vec<Warning>,
+    /// What is not read because it says nothing about motion, in file order.
+    pub skipped: Vec<Skipped>,
+    /// The smallest dialect that the file belongs to: `urdf`, `urdf+` or `kutzbach-urdf`; `xacro` for one that was expanded.
+    pub format: &'static str,
+}
+
+/// Something that is read differently from how it may have been meant.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warning {
+    /// Line, counted from 1.
+    pub line: usize,
+    /// Column in characters, counted from 1.
+    pub column: usize,
+    /// What is done, and why.
+    pub message: String,
+    /// How often the file gives cause for it; the place is that of the first time.
+    pub count: usize,
+}
+
+/// A kind of element or attribute that is not read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Skipped {
+    /// Line, counted from 1.
+    pub line: usize,
+    /// Column in characters, counted from 1.
+    pub column: usize,
+    /// The element, such as `<gazebo>`, with a reason where it is not the usual one.
+    pub what: String,
+    /// How many there are; the place is that of the first one.
+    pub count: usize,
+    /// Whether any URDF may have it, as a `<material>`. What is not is an error where a reading is to be strict.
+    pub standard: bool,
+}
+
+/// Reads a text.
+///
+/// `file` names the text in errors. Each of `settings` is a name and a number or expression (`pi/4`) that replaces the
+/// value of `<xacro:property>` and the default of `<xacro:arg>` of that name; of two settings with one name the later holds.
+///
+/// # Errors
+/// Up to twenty faults of the text, the first one foremost; a setting whose name the text does not define.
+pub fn read(text: &str, file: &str, settings: &[(String, String)]) -> Result<Reading, FormatError> {
+    let options = ReadOptions {
+        settings: settings.to_vec(),
+        ..ReadOptions::default()
+    };
+    read_with(text, file, &options)
+}
+
+/// How to read a text beyond what it says.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ReadOptions {
+    /// Names and numbers or expressions that replace their values, as for [`read`].
+    pub settings: Vec<(String, String)>,
+    /// Names of properties and arguments that stay symbolic: numbers computed from them remember how
+    /// ([`Number::parameter`](kutzbach_math::number::Number::parameter)).
+    pub symbolic: Vec<String>,
+    /// Whether what would be skipped is an error, unless any URDF may have it ([`Skipped::standard`]).
+    pub strict: bool,
+    /// Take decimals as they are written; otherwise `1.5707963267948966` is read as π/2, and so on
+    /// ([`Mechanism::with_constants`]).
+    pub literal: bool,
+    /// How well the decimals of the geometry are known (m, rad), whatever their digits say; 0 means exactly.
+    pub precision: Option<f64>,
+    /// Names of ROS packages and the folders that they are in, for `$(find name)` and `package://name` in the files that
+    /// xacro includes. Packages that are not named here are looked for in the environment and around the file.
+    pub packages: Vec<(String, PathBuf)>,
+}
+
+/// Reads a text, with some of its properties left symbolic, or strictly.
+///
+/// # Errors
+/// As [`read`]; also a symbolic name that the text does not define, with the names that it does; where the reading is to be
+/// strict, what would be skipped.
+pub fn read_with(text: &str, file: &str, options: &ReadOptions) -> Result<Reading, FormatError> {
+    read_text(text, file, None, options)
+}
+
+/// Reads a text, which was read from the file `base` if that is known, after expanding what it says in xacro.
+fn read_text(
+    text: &str,
+    file: &str,
+    base: Option<&Path>,
+    options: &ReadOptions,
+) -> Result<Reading, FormatError> {
+    let mut reading = match xacro::expand(text, file, base, options)? {
+        None => reader::read(text, options, None).map_err(|faults| located(file, text, faults))?,
+        Some(expanded) => {
+            // The expansion has used the settings up.
+            let left = ReadOptions {
+                settings: Vec::new(),
+                symbolic: Vec::new(),
+                ..options.clone()
+            };
+            reader::read(&expanded.text, &left, Some(&expanded.numbers))
+                .map(|reading| expanded.placed(reading))
+                .map_err(|faults| expanded.map.located(faults))?
+        }
+    };
+    if !options.literal {
+        reading.mechanism = reading.mechanism.with_constants();
+    }
+    if let Some(uncertainty) = options.precision {
+        reading.mechanism = reading.mechanism.with_precision(uncertainty);
+    }
+    Ok(reading)
+}
+
+/// The plain URDF that a xacro file stands for, as ROS would expand it, with numbers as doubles. The text of a file
+/// that needs no expansion is returned as it is.
+///
+/// # Errors
+/// What cannot be expanded, and where; a file that cannot be read.
+pub fn expanded_file(path: impl AsRef<Path>, options: &ReadOptions) -> Result<String, FormatError> {
+    let path = path.as_ref();
+    let file = path.display().to_string();
+    let bytes = bytes_of(path).map_err(|fault| located(&file, "", vec![fault]))?;
+    bytes_with(&bytes, &file, |text| {
+        let expanded = xacro::expand(text, &file, Some(path), options)?;
+        Ok(expanded.map_or_else(|| text.to_owned(), |expanded| expanded.plain))
+    })
+}
+
+/// Reads bytes, which must be UTF-8; a byte order mark is allowed. Otherwise as [`read`].
+///
+/// # Errors
+/// As [`read`]; also the place of the first byte that is not UTF-8.
+pub fn read_bytes(
+    bytes: &[u8],
+    file: &str,
+    settings: &[(String, String)],
+) -> Result<Reading, FormatError> {
+    bytes_with(bytes, file, |text| read(text, file, settings))
+}
+
+fn bytes_with<T>(
+    bytes: &[u8],
+    file: &str,
+    read: impl FnOnce(&str) -> Result<T, FormatError>,
+) -> Result<T, FormatError> {
+    if let Some(fault) = guard::size_fault(bytes.len() as u64) {
+        return Err(located(file, "", vec![fault]));
+    }
+    match guard::text_of(bytes) {
+        Ok(text) => read(text),
+        Err((valid, fault)) => {
+            let span = fault.range.clone();
+            let error = located(file, valid, vec![fault]);
+            // The faulty byte lies behind the text that is valid.
+            Err(FormatError { span, ..error })
+        }
+    }
+}
+
+/// Reads a file. Otherwise as [`read`].
+///
+/// # Errors
+/// As [`read_bytes`]; a file that cannot be read, or has more than 64 MiB, is an error at its start.
+pub fn read_file(
+    path: impl AsRef<Path>,
+    settings: &[(String, String)],
+) -> Result<Reading, FormatError> {
+    let options = ReadOptions {
+        settings: settings.to_vec(),
+        ..ReadOptions::default()
+    };
+    read_file_with(path, &options)
+}
+
+/// Reads a file, with some of its properties left symbolic, or strictly.
+///
+/// # Errors
+/// As [`read_file`] and [`read_with`].
+pub fn read_file_with(
+    path: impl AsRef<Path>,
+    options: &ReadOptions,
+) -> Result<Reading, FormatError> {
+    let path = path.as_ref();
+    let file = path.display().to_string();
+    let bytes = bytes_of(path).map_err(|fault| located(&file, "", vec![fault]))?;
+    bytes_with(&bytes, &file, |text| {
+        read_text(text, &file, Some(path), options)
+    })
+}
+
+/// The bytes of a file; of one that is too large, or endless like a device, no more than the limit.
+fn bytes_of(path: &Path) -> Result<Vec<u8>, Fault> {
+    let failed = |error: std::io::Error| Fault::new(0..0, format!("cannot be read: {error}"));
+    let opened = File::open(path).map_err(failed)?;
+    let metadata = opened.metadata().map_err(failed)?;
+    if metadata.is_dir() {
+        return Err(Fault::new(0..0, "is a directory, not a file"));
+    }
+    if let Some(fault) = guard::size_fault(metadata.len()) {
+        return Err(fault);
+    }
+    let mut bytes = Vec::new();
+    opened
+        .take(guard::MOST_BYTES as u64 + 1)
+        .read_to_end(&mut bytes)
+        .map_err(failed)?;
+    match guard::size_fault(bytes.len() as u64) {
+        Some(fault) => Err(fault),
+        None => Ok(bytes),
+    }
+}

@@ -1,0 +1,175 @@
+//! Attribute values that are numbers, frames and directions.
+
+use super::element::{Attribute, Element};
+use super::error::{Fault, Outcome};
+use super::number_text;
+use super::quaternion::roll_pitch_yaw;
+use super::reader::{Dialect, Reader};
+use super::words::counted;
+use kutzbach_math::number::Number;
+use kutzbach_model::mechanism::{Direction, Frame};
+use std::ops::Range;
+
+/// Exact numbers have no largest one, but floating-point geometry does: products of a few of them must stay finite.
+const LARGEST: f64 = 1e100;
+
+/// Numbers and expressions of up to so many bytes are shared; longer ones seldom repeat.
+const LONGEST_SHARED: usize = 24;
+/// Bounds the memory for sharing.
+const MOST_SHARED: usize = 4096;
+
+impl<'a> Reader<'a> {
+    /// One number.
+    pub(super) fn number(&mut self, attribute: Attribute<'a>) -> Outcome<Number> {
+        let [number] = self.numbers(attribute)?;
+        Ok(number)
+    }
+
+    /// A number that may be left out.
+    pub(super) fn optional_number(
+        &mut self,
+        element: Element<'a>,
+        name: &str,
+    ) -> Outcome<Option<Number>> {
+        element
+            .attribute(name)
+            .map(|attribute| self.number(attribute))
+            .transpose()
+    }
+
+    /// A number that says nothing about motion: where it cannot be read, that is noted.
+    pub(super) fn number_if_readable(
+        &mut self,
+        element: Element<'a>,
+        name: &str,
+    ) -> Option<Number> {
+        let attribute = element.attribute(name)?;
+        match self.number(attribute) {
+            Ok(number) => Some(number),
+            Err(_) => {
+                let what = format!("`{name}` of <{}>, which is no number", element.name());
+                self.skip_because(element, what);
+                None
+            }
+        }
+    }
+
+    /// Exactly so many numbers.
+    pub(super) fn numbers<const N: usize>(
+        &mut self,
+        attribute: Attribute<'a>,
+    ) -> Outcome<[Number; N]> {
+        let parts = self.split(attribute)?;
+        if parts.len() != N {
+            return Err(attribute
+                .fault(format!(
+                    "expected {}, found {}",
+                    counted(N, "number"),
+                    parts.len()
+                ))
+                .help("numbers are separated by spaces"));
+        }
+        let numbers = self.evaluate(attribute, parts)?;
+        // The lengths are equal, so the conversion succeeds.
+        numbers
+            .try_into()
+            .map_err(|_| attribute.fault(format!("expected {}", counted(N, "number"))))
+    }
+
+    /// Any number of numbers, at least one.
+    pub(super) fn number_list(&mut self, attribute: Attribute<'a>) -> Outcome<Vec<Number>> {
+        const MOST: usize = 5;
+        let parts = self.split(attribute)?;
+        if parts.is_empty() || parts.len() > MOST {
+            return Err(attribute.fault(format!(
+                "expected 1 to {MOST} numbers, found {}",
+                parts.len()
+            )));
+        }
+        self.evaluate(attribute, parts)
+    }
+
+    fn split(&self, attribute: Attribute<'a>) -> Outcome<Vec<Range<usize>>> {
+        number_text::split(attribute.value).map_err(|mut fault| {
+            fault.range = attribute.part(fault.range);
+            fault
+        })
+    }
+
+    fn evaluate(
+        &mut self,
+        attribute: Attribute<'a>,
+        parts: Vec<Range<usize>>,
+    ) -> Outcome<Vec<Number>> {
+        if attribute.value.contains('$') {
+            self.uses(Dialect::Own);
+        }
+        parts
+            .into_iter()
+            .map(|part| self.evaluate_part(attribute, part))
+            .collect()
+    }
+
+    fn evaluate_part(&mut self, attribute: Attribute<'a>, part: Range<usize>) -> Outcome<Number> {
+        let token = &attribute.value[part.clone()];
+        // Most numbers of most files are 0 and 1: read once, then shared. So are expressions: by the time elements are read
+        // every definition has its value, so that the same text means the same number throughout.
+        let is_short = token.len() <= LONGEST_SHARED;
+        if let Some(number) = self.literals.get(token).filter(|_| is_short) {
+            return Ok(number.clone());
+        }
+        let place =
+            |range: Range<usize>| attribute.part(part.start + range.start..part.start + range.end);
+        let number = number_text::number(token, &mut self.definitions)
+            .map_err(|trouble| trouble.placed(place))?;
+        if number.value().abs() > LARGEST {
+            let message = "the number is too large; the largest accepted is 1e100";
+            return Err(Fault::new(place(0..token.len()), message));
+        }
+        if is_short && self.literals.len() < MOST_SHARED {
+            self.literals.insert(token, number.clone());
+        }
+        Ok(number)
+    }
+
+    /// `<origin xyz rpy/>`, both optional; `quat_xyzw` may stand for `rpy`.
+    pub(super) fn origin(&mut self, element: Element<'a>) -> Outcome<Frame> {
+        self.leaf_of(element, &["xyz", "rpy", "quat_xyzw"], true)?;
+        self.frame_of(element)
+    }
+
+    /// The attributes `xyz` and `rpy` or `quat_xyzw` of whatever element has them.
+    pub(super) fn frame_of(&mut self, element: Element<'a>) -> Outcome<Frame> {
+        let mut frame = Frame::identity();
+        if let Some(xyz) = element.attribute("xyz") {
+            frame.position = self.numbers(xyz)?;
+        }
+        if let Some(rpy) = element.attribute("rpy") {
+            frame.roll_pitch_yaw = self.numbers(rpy)?;
+        }
+        if let Some(turned) = element.attribute("quat_xyzw") {
+            if element.attribute("rpy").is_some() {
+                return Err(turned
+                    .fault("the frame is turned twice, by `rpy` and by `quat_xyzw`")
+                    .help("remove one of the two"));
+            }
+            let quaternion = self.numbers(turned)?;
+            frame.roll_pitch_yaw = roll_pitch_yaw(&quaternion)
+                .ok_or_else(|| turned.fault("the zero quaternion is no rotation"))?;
+        }
+        Ok(frame)
+    }
+
+    /// `<axis xyz/>` or `<axis2 xyz/>`, any length but zero.
+    pub(super) fn direction(&mut self, element: Element<'a>) -> Outcome<Direction> {
+        self.leaf_of(element, &["xyz"], true)?;
+        let xyz = element.required("xyz")?;
+        let direction = Direction(self.numbers(xyz)?);
+        if direction.is_zero() {
+            return Err(xyz
+                .fault("the zero vector names no direction")
+                .help("give three numbers of which one is not zero, such as 0 0 1"));
+        }
+        Ok(direction)
+    }
+}

@@ -1,0 +1,418 @@
+//! From a mechanism to text.
+//!
+//! The text reads back as the same mechanism: same names and order, same numbers with the same stated precision. What the
+//! dialect cannot say is what the reader never makes: control characters in names (written as U+FFFD), limits on joints
+//! of more than one freedom, and a tree joint whose frame differs from its child's.
+
+use kutzbach_math::number::Number;
+use kutzbach_model::mechanism::{
+    Coupling, CouplingOrigin, Direction, Frame, Geometry, Joint, JointKind, Link, Mechanism,
+    Placement, Scene, Shape,
+};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::fmt::Display;
+
+/// A mechanism as a file that [`read`](super::read) reads back.
+///
+/// Names defined in the original file are gone; their values stand where they were used. A mechanism that plain URDF can
+/// say is written as plain URDF, as long as its numbers are decimals.
+#[must_use]
+pub fn write(mechanism: &Mechanism) -> String {
+    let mut writer = Writer::default();
+    writer.line(0, "<?xml version=\"1.0\"?>");
+    writer.line(0, &format!("<robot{}>", pair("name", mechanism.name())));
+    let root = mechanism.placement_order().first();
+    if root.is_some_and(|root| *root != mechanism.ground()) {
+        let name = &mechanism.link(mechanism.ground()).name;
+        writer.line(1, &format!("<ground{}/>", pair("link", name)));
+    }
+    for link in mechanism.links() {
+        writer.link(link);
+    }
+    let mimics: BTreeMap<usize, &Coupling> = mechanism
+        .couplings()
+        .iter()
+        .filter_map(|coupling| match coupling.origin {
+            CouplingOrigin::Mimic { follower, .. } => Some((follower.0, coupling)),
+            CouplingOrigin::Ratio { .. } => None,
+        })
+        .collect();
+    for (index, joint) in mechanism.joints().iter().enumerate() {
+        writer.joint(mechanism, joint, mimics.get(&index).copied());
+    }
+    writer.floating(mechanism);
+    writer.couplings(mechanism);
+    writer.actuation(mechanism);
+    writer.configurations(mechanism);
+    if let Some(scene) = mechanism.scene() {
+        writer.scene(mechanism, scene);
+    }
+    writer.expectation(mechanism);
+    writer.line(0, "</robot>");
+    writer.text
+}
+
+#[derive(Default)]
+struct Writer {
+    text: String,
+}
+
+impl Writer {
+    fn line(&mut self, depth: usize, line: &str) {
+        for _ in 0..depth {
+            self.text.push_str("  ");
+        }
+        self.text.push_str(line);
+        self.text.push('\n');
+    }
+
+    fn link(&mut self, link: &Link) {
+        let name = pair("name", &link.name);
+        if link.inertial.is_none() && link.collisions.is_empty() && link.visuals.is_empty() {
+            return self.line(1, &format!("<link{name}/>"));
+        }
+        self.line(1, &format!("<link{name}>"));
+        if let Some(inertial) = &link.inertial {
+            self.line(2, "<inertial>");
+            self.origin(3, &inertial.origin);
+            self.line(
+                3,
+                &format!("<mass{}/>", pair("value", &number(&inertial.mass))),
+            );
+            let names = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
+            let components: String = names
+                .iter()
+                .zip(&inertial.inertia)
+                .map(|(name, component)| pair(name, &number(component)))
+                .collect();
+            self.line(3, &format!("<inertia{components}/>"));
+            self.line(2, "</inertial>");
+        }
+        for shape in &link.visuals {
+            self.shape("visual", shape);
+        }
+        for shape in &link.collisions {
+            self.shape("collision", shape);
+        }
+        self.line(1, "</link>");
+    }
+
+    fn shape(&mut self, element: &str, shape: &Shape) {
+        let name = shape.name.as_ref().map(|name| pair("name", name));
+        self.line(2, &format!("<{element}{}>", name.unwrap_or_default()));
+        self.origin(3, &shape.origin);
+        let solid = match &shape.geometry {
+            Geometry::Box(size) => format!("<box{}/>", pair("size", &numbers(size))),
+            Geometry::Cylinder { radius, length } => round("cylinder", radius, length),
+            Geometry::Capsule { radius, length } => round("capsule", radius, length),
+            Geometry::Sphere(radius) => format!("<sphere{}/>", pair("radius", &number(radius))),
+            Geometry::Mesh { filename, scale } => {
+                let scale = scale.as_ref().map(|scale| pair("scale", &numbers(scale)));
+                let filename = pair("filename", filename);
+                format!("<mesh{filename}{}/>", scale.unwrap_or_default())
+            }
+        };
+        self.line(3, &format!("<geometry>{solid}</geometry>"));
+        self.line(2, &format!("</{element}>"));
+    }
+
+    fn joint(&mut self, mechanism: &Mechanism, joint: &Joint, mimic: Option<&Coupling>) {
+        let element = if joint.closes_loop { "loop" } else { "joint" };
+        let independent = joint
+            .independent
+            .map(|independent| pair("independent", &independent.to_string()));
+        self.line(
+            1,
+            &format!(
+                "<{element}{}{}{}>",
+                pair("name", &joint.name),
+                pair("type", type_word(joint)),
+                independent.unwrap_or_default()
+            ),
+        );
+        let predecessor = &mechanism.link(joint.predecessor.link).name;
+        let successor = &mechanism.link(joint.successor.link).name;
+        if joint.closes_loop {
+            self.side("predecessor", predecessor, &joint.predecessor.frame);
+            self.side("successor", successor, &joint.successor.frame);
+        } else {
+            self.line(2, &format!("<parent{}/>", pair("link", predecessor)));
+            self.side("child", successor, &joint.successor.frame);
+            self.origin(2, &joint.predecessor.frame);
+        }
+        if joint.kind.uses_axis() {
+            self.direction("axis", &joint.axis);
+        }
+        if joint.kind.uses_second_axis() {
+            self.direction("axis2", &joint.axis2);
+        }
+        if let Some(lead) = &joint.lead {
+            self.line(2, &format!("<screw{}/>", pair("lead", &number(lead))));
+        }
+        if let Some(distance) = &joint.distance {
+            self.line(
+                2,
+                &format!("<distance{}/>", pair("value", &number(distance))),
+            );
+        }
+        if let Some(limit) = joint.limit.as_ref().filter(|_| joint.freedom() == 1) {
+            let attributes = optional("lower", limit.lower.as_ref())
+                + &optional("upper", limit.upper.as_ref())
+                + &optional("effort", limit.effort.as_ref())
+                + &optional("velocity", limit.velocity.as_ref());
+            self.line(2, &format!("<limit{attributes}/>"));
+        }
+        if let Some(dynamics) = &joint.dynamics {
+            let attributes = optional("damping", dynamics.damping.as_ref())
+                + &optional("friction", dynamics.friction.as_ref());
+            self.line(2, &format!("<dynamics{attributes}/>"));
+        }
+        if let Some(CouplingOrigin::Mimic {
+            leader,
+            multiplier,
+            offset,
+            ..
+        }) = mimic.map(|coupling| &coupling.origin)
+        {
+            let leader = pair("joint", &mechanism.joint(*leader).name);
+            let multiplier = pair("multiplier", &number(multiplier));
+            let offset = pair("offset", &number(offset));
+            self.line(2, &format!("<mimic{leader}{multiplier}{offset}/>"));
+        }
+        self.line(1, &format!("</{element}>"));
+    }
+
+    fn side(&mut self, element: &str, link: &str, frame: &Frame) {
+        let link = pair("link", link);
+        match frame_attributes(frame) {
+            None => self.line(2, &format!("<{element}{link}/>")),
+            Some(frame) => self.line(2, &format!("<{element}{link}><origin{frame}/></{element}>")),
+        }
+    }
+
+    fn floating(&mut self, mechanism: &Mechanism) {
+        for link in mechanism.links() {
+            if let Placement::Floating {
+                name,
+                parent,
+                origin,
+            } = &link.placement
+            {
+                self.line(
+                    1,
+                    &format!("<joint{} type=\"floating\">", pair("name", name)),
+                );
+                self.line(
+                    2,
+                    &format!("<parent{}/>", pair("link", &mechanism.link(*parent).name)),
+                );
+                self.line(2, &format!("<child{}/>", pair("link", &link.name)));
+                self.origin(2, origin);
+                self.line(1, "</joint>");
+            }
+        }
+    }
+
+    fn couplings(&mut self, mechanism: &Mechanism) {
+        for coupling in mechanism.couplings() {
+            if let CouplingOrigin::Ratio {
+                predecessor,
+                successor,
+                ratio,
+            } = &coupling.origin
+            {
+                self.line(1, &format!("<coupling{}>", pair("name", &coupling.name)));
+                for (element, link) in [("predecessor", predecessor), ("successor", successor)] {
+                    self.line(
+                        2,
+                        &format!("<{element}{}/>", pair("link", &mechanism.link(*link).name)),
+                    );
+                }
+                self.line(2, &format!("<ratio{}/>", pair("value", &number(ratio))));
+                self.line(1, "</coupling>");
+            }
+        }
+    }
+
+    fn actuation(&mut self, mechanism: &Mechanism) {
+        for joint in mechanism.actuated() {
+            let joint = &mechanism.joint(*joint).name;
+            let name = pair("name", &format!("{joint}_transmission"));
+            let joint = pair("name", joint);
+            self.line(
+                1,
+                &format!("<transmission{name}><joint{joint}/></transmission>"),
+            );
+        }
+    }
+
+    fn configurations(&mut self, mechanism: &Mechanism) {
+        for configuration in mechanism.configurations() {
+            self.line(
+                1,
+                &format!("<configuration{}>", pair("name", &configuration.name)),
+            );
+            for (joint, values) in &configuration.positions {
+                // A joint without freedoms has no position to write.
+                if !values.is_empty() {
+                    let joint = pair("joint", &mechanism.joint(*joint).name);
+                    self.line(
+                        2,
+                        &format!("<position{joint}{}/>", pair("value", &numbers(values))),
+                    );
+                }
+            }
+            self.line(1, "</configuration>");
+        }
+    }
+
+    fn scene(&mut self, mechanism: &Mechanism, scene: &Scene) {
+        self.line(1, "<scene>");
+        if let Some(gravity) = &scene.gravity {
+            self.line(2, &format!("<gravity{}/>", pair("xyz", &numbers(gravity))));
+        }
+        for (effect, wanted) in [
+            ("<contact/>", scene.contact),
+            ("<limits/>", scene.limits),
+            ("<friction/>", scene.friction),
+            ("<damping/>", scene.damping),
+        ] {
+            if wanted {
+                self.line(2, effect);
+            }
+        }
+        for drive in &scene.drives {
+            let joint = pair("joint", &mechanism.joint(drive.joint).name);
+            let velocity = pair("velocity", &number(&drive.velocity));
+            let torque = optional("torque", drive.torque.as_ref());
+            self.line(2, &format!("<drive{joint}{velocity}{torque}/>"));
+        }
+        self.line(1, "</scene>");
+    }
+
+    fn expectation(&mut self, mechanism: &Mechanism) {
+        fn told<T: Display>(name: &str, value: Option<T>) -> String {
+            value
+                .map(|value| pair(name, &value.to_string()))
+                .unwrap_or_default()
+        }
+        let Some(expected) = mechanism.expectation() else {
+            return;
+        };
+        let dimensions = expected.branch_dimensions.as_ref().map(|dimensions| {
+            let words: Vec<String> = dimensions.iter().map(ToString::to_string).collect();
+            words.join(" ")
+        });
+        let attributes = told("finite", expected.finite)
+            + &told("instantaneous", expected.instantaneous)
+            + &told("redundant", expected.redundant)
+            + &told("kutzbach", expected.kutzbach)
+            + &told("pose", expected.pose.as_ref())
+            + &told("kind", expected.kind.as_ref())
+            + &told(
+                "locked",
+                expected.locked.as_ref().map(|words| words.join(" ")),
+            )
+            + &told("idle", expected.idle.as_ref().map(|words| words.join(" ")))
+            + &told("branches", expected.branches)
+            + &told("branch_dimensions", dimensions);
+        self.line(1, &format!("<expect{attributes}/>"));
+    }
+
+    fn origin(&mut self, depth: usize, frame: &Frame) {
+        if let Some(attributes) = frame_attributes(frame) {
+            self.line(depth, &format!("<origin{attributes}/>"));
+        }
+    }
+
+    fn direction(&mut self, element: &str, direction: &Direction) {
+        let left_out =
+            *direction == Direction::x() && direction.0.iter().all(|n| n.stated().is_none());
+        if !left_out {
+            self.line(
+                2,
+                &format!("<{element}{}/>", pair("xyz", &numbers(&direction.0))),
+            );
+        }
+    }
+}
+
+/// `revolute` without a range is `continuous`, which plain URDF readers need to leave it free.
+fn type_word(joint: &Joint) -> &'static str {
+    let has_range = joint
+        .limit
+        .as_ref()
+        .is_some_and(|limit| limit.lower.is_some() || limit.upper.is_some());
+    match joint.kind {
+        JointKind::Revolute if !has_range => "continuous",
+        kind => kind.word(),
+    }
+}
+
+fn round(element: &str, radius: &Number, length: &Number) -> String {
+    let radius = pair("radius", &number(radius));
+    format!("<{element}{radius}{}/>", pair("length", &number(length)))
+}
+
+fn optional(name: &str, value: Option<&Number>) -> String {
+    value
+        .map(|value| pair(name, &number(value)))
+        .unwrap_or_default()
+}
+
+/// `xyz` and `rpy`, each left out where it is zero by default; `None` where both are.
+fn frame_attributes(frame: &Frame) -> Option<String> {
+    let written = |name: &str, values: &[Number; 3]| {
+        let left_out = values.iter().all(|n| n.is_zero() && n.stated().is_none());
+        (!left_out).then(|| pair(name, &numbers(values)))
+    };
+    let xyz = written("xyz", &frame.position);
+    let rpy = written("rpy", &frame.roll_pitch_yaw);
+    if xyz.is_none() && rpy.is_none() {
+        return None;
+    }
+    Some(xyz.unwrap_or_default() + &rpy.unwrap_or_default())
+}
+
+fn numbers(values: &[Number]) -> String {
+    let words: Vec<String> = values.iter().map(number).collect();
+    words.join(" ")
+}
+
+/// A number so that it reads back with the same value and the same stated precision: literals as they were read, exact
+/// ones as `${...}`.
+fn number(number: &Number) -> String {
+    number.source()
+}
+
+/// ` name="value"`.
+fn pair(name: &str, value: &str) -> String {
+    format!(" {name}=\"{}\"", escaped(value))
+}
+
+/// A value as an attribute can hold it. White space other than the space would be read back as a space if not escaped.
+fn escaped(value: &str) -> Cow<'_, str> {
+    let plain = |c: char| !matches!(c, '&' | '<' | '>' | '"') && is_xml(c) && !c.is_control();
+    if value.chars().all(plain) {
+        return Cow::Borrowed(value);
+    }
+    let mut text = String::with_capacity(value.len() + 16);
+    for character in value.chars() {
+        match character {
+            '&' => text.push_str("&amp;"),
+            '<' => text.push_str("&lt;"),
+            '>' => text.push_str("&gt;"),
+            '"' => text.push_str("&quot;"),
+            '\t' | '\n' | '\r' => text.push_str(&format!("&#{};", u32::from(character))),
+            c if is_xml(c) => text.push(c),
+            _ => text.push('\u{fffd}'),
+        }
+    }
+    Cow::Owned(text)
+}
+
+/// Characters that XML 1.0 allows (section 2.2).
+fn is_xml(c: char) -> bool {
+    matches!(c, '\t' | '\n' | '\r' | '\u{20}'..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'..)
+}

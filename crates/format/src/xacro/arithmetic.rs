@@ -1,0 +1,362 @@
+//! The operators of Python on values, each number calculated twice: as Python does, and exactly.
+//!
+//! Which branch a condition takes and how a number is printed in a name follow Python's doubles; geometry gets the exact
+//! value. Multiplying by 1 or −1 and adding 0 keep the very number, and so the precision that its digits state.
+
+use super::syntax::{Binary, Comparison};
+use super::text::Joined;
+use super::value::{Kind, Num, Value, found, has};
+use kutzbach_math::number::Number;
+use std::cmp::Ordering;
+
+/// Texts and lists made by an expression are no longer than this.
+pub(super) const LONGEST_TEXT: usize = 1 << 20;
+pub(super) const LONGEST_LIST: usize = 100_000;
+
+/// Exact numbers of more nodes are given up for their doubles: hostile chains of operations must not take minutes.
+const MOST_NODES: u32 = 200;
+/// Likewise integers of more bits.
+const MOST_BITS: usize = 4000;
+
+/// What an operation says where it fails.
+pub(super) type Said<T> = Result<T, String>;
+
+const OVERFLOW: &str = "the integer is too large";
+
+/// An exact number, where it is small enough to be worth keeping.
+pub(super) fn kept(number: Number) -> Option<Number> {
+    (number.size() <= MOST_NODES && number.height() <= MOST_BITS).then_some(number)
+}
+
+/// The integer of a double without fraction.
+pub(super) fn floor_to_int(value: f64) -> Option<Num> {
+    // Doubles up to 2^120 are exact integers of 128 bits.
+    (value.is_finite() && value.abs() < 1e36).then(|| Num::int(value as i128))
+}
+
+pub(super) fn binary(operator: Binary, a: &Value, b: &Value) -> Said<Value> {
+    if let (Some(x), Some(y)) = (a.number(), b.number()) {
+        return numbers(operator, &x, &y).map(Value::Number);
+    }
+    let too_long = || Err(format!("the result of `{}` is too long", operator.sign()));
+    match (operator, a, b) {
+        (Binary::Add, Value::Text(x), Value::Text(y)) => {
+            if x.as_str().len() + y.as_str().len() > LONGEST_TEXT {
+                return too_long();
+            }
+            let mut joined = Joined::default();
+            joined.push(x);
+            joined.push(y);
+            Ok(Value::Text(joined.finish()))
+        }
+        (Binary::Add, Value::List(x), Value::List(y)) => {
+            if x.len() + y.len() > LONGEST_LIST {
+                return too_long();
+            }
+            Ok(Value::List(x.iter().chain(y.iter()).cloned().collect()))
+        }
+        (Binary::Add, Value::Tuple(x), Value::Tuple(y)) => {
+            if x.len() + y.len() > LONGEST_LIST {
+                return too_long();
+            }
+            Ok(Value::Tuple(x.iter().chain(y.iter()).cloned().collect()))
+        }
+        (Binary::Subtract, Value::Set(x), Value::Set(y)) => {
+            let left = x.iter().filter(|item| !has(y, item));
+            Ok(Value::Set(left.cloned().collect()))
+        }
+        (Binary::Multiply, Value::Text(_) | Value::List(_), _) => match times(b) {
+            Some(count) => repeated(a, count).map_or_else(too_long, Ok),
+            None => Err(mismatch(operator, a, b)),
+        },
+        (Binary::Multiply, _, Value::Text(_) | Value::List(_)) => match times(a) {
+            Some(count) => repeated(b, count).map_or_else(too_long, Ok),
+            None => Err(mismatch(operator, a, b)),
+        },
+        (Binary::Remainder, Value::Text(template), _) => {
+            super::python_text::percent(template.as_str(), b)
+                .map(|text| Value::text(&text))
+                .ok_or_else(|| "the values after `%` do not fit the format before it".to_owned())
+        }
+        _ => Err(mismatch(operator, a, b)),
+    }
+}
+
+fn mismatch(operator: Binary, a: &Value, b: &Value) -> String {
+    let mut message = format!(
+        "`{}` does not join {} and {}",
+        operator.sign(),
+        a.sort(),
+        b.sort()
+    );
+    let expression = |value: &Value| match value {
+        Value::Text(text) => Number::expression(text.as_str(), &mut |_| Ok(None))
+            .ok()
+            .map(|_| text.as_str().to_owned()),
+        _ => None,
+    };
+    if let Some(text) = expression(a).or_else(|| expression(b)) {
+        message = format!("{message}: `{text}` is a text to xacro; write ${{{text}}} for a number");
+    }
+    message
+}
+
+fn times(count: &Value) -> Option<usize> {
+    match count.number()?.kind {
+        Kind::Int(count) => Some(usize::try_from(count.max(0)).unwrap_or(usize::MAX)),
+        Kind::Float(_) => None,
+    }
+}
+
+fn repeated(value: &Value, count: usize) -> Option<Value> {
+    match value {
+        Value::Text(text) => {
+            let length = text.as_str().len().checked_mul(count)?;
+            (length <= LONGEST_TEXT).then(|| Value::text(&text.as_str().repeat(count)))
+        }
+        Value::List(items) => {
+            let length = items.len().checked_mul(count)?;
+            let items = items.iter().cycle().take(length).cloned();
+            (length <= LONGEST_LIST).then(|| Value::List(items.collect()))
+        }
+        _ => None,
+    }
+}
+
+fn numbers(operator: Binary, a: &Num, b: &Num) -> Said<Num> {
+    let kind = kind_of(operator, a, b)?;
+    // An integer that fits needs no more than itself, unless it is a number with a name or with stated digits.
+    let exact = exact_of(operator, a, b).and_then(kept);
+    Ok(match (kind, exact) {
+        (Kind::Int(value), None) => Num::int(value),
+        (kind, exact) => Num { kind, exact },
+    })
+}
+
+fn kind_of(operator: Binary, a: &Num, b: &Num) -> Said<Kind> {
+    let zero = || Err("division by zero".to_owned());
+    if let (Kind::Int(x), Kind::Int(y)) = (a.kind, b.kind) {
+        let result = match operator {
+            Binary::Add => x.checked_add(y),
+            Binary::Subtract => x.checked_sub(y),
+            Binary::Multiply => x.checked_mul(y),
+            Binary::Divide if y == 0 => return zero(),
+            Binary::Divide => return Ok(Kind::Float(x as f64 / y as f64)),
+            Binary::FloorDivide | Binary::Remainder if y == 0 => return zero(),
+            // Python rounds towards minus infinity.
+            Binary::FloorDivide => x
+                .checked_div(y)
+                .map(|q| q - i128::from(x % y != 0 && (x < 0) != (y < 0))),
+            Binary::Remainder => x.checked_rem(y).map(|r| {
+                if r != 0 && (r < 0) != (y < 0) {
+                    r + y
+                } else {
+                    r
+                }
+            }),
+            Binary::Power => match u32::try_from(y) {
+                Ok(exponent) => x.checked_pow(exponent),
+                Err(_) if x == 0 => return zero(),
+                Err(_) if y < 0 => return Ok(Kind::Float((x as f64).powf(y as f64))),
+                Err(_) => None,
+            },
+        };
+        return result.map(Kind::Int).ok_or_else(|| OVERFLOW.to_owned());
+    }
+    let (x, y) = (a.double(), b.double());
+    let floor_mod = || {
+        let r = x % y;
+        if r != 0.0 && (r < 0.0) != (y < 0.0) {
+            r + y
+        } else {
+            r
+        }
+    };
+    Ok(Kind::Float(match operator {
+        Binary::Add => x + y,
+        Binary::Subtract => x - y,
+        Binary::Multiply => x * y,
+        Binary::Divide | Binary::FloorDivide | Binary::Remainder if y == 0.0 => return zero(),
+        Binary::Divide => x / y,
+        Binary::FloorDivide => ((x - floor_mod()) / y).round(),
+        Binary::Remainder => floor_mod(),
+        Binary::Power if x == 0.0 && y < 0.0 => return zero(),
+        Binary::Power if x < 0.0 && y.fract() != 0.0 => {
+            return Err("the power is not a real number".to_owned());
+        }
+        Binary::Power => x.powf(y),
+    }))
+}
+
+fn is_unit(number: &Number) -> Option<bool> {
+    let fraction = number.rational()?;
+    if *fraction == dashu_ratio::RBig::ONE {
+        Some(true)
+    } else if *fraction == -dashu_ratio::RBig::ONE {
+        Some(false)
+    } else {
+        None
+    }
+}
+
+fn exact_of(operator: Binary, a: &Num, b: &Num) -> Option<Number> {
+    let (x, y) = (a.exact.as_ref()?, b.exact.as_ref()?);
+    let signed = |number: &Number, positive| {
+        if positive { number.clone() } else { -number }
+    };
+    match operator {
+        Binary::Add if y.rational().is_some_and(|y| y.is_zero()) => Some(x.clone()),
+        Binary::Add if x.rational().is_some_and(|x| x.is_zero()) => Some(y.clone()),
+        Binary::Add => Some(x + y),
+        Binary::Subtract if y.rational().is_some_and(|y| y.is_zero()) => Some(x.clone()),
+        Binary::Subtract => Some(x - y),
+        Binary::Multiply => Some(match (is_unit(x), is_unit(y)) {
+            (_, Some(positive)) => signed(x, positive),
+            (Some(positive), _) => signed(y, positive),
+            _ => x * y,
+        }),
+        Binary::Divide => match is_unit(y) {
+            Some(positive) => Some(signed(x, positive)),
+            None => x.checked_div(y).ok(),
+        },
+        // Whole quotients are exact in doubles far beyond any use; remainders of fractions are not known exactly.
+        Binary::FloorDivide | Binary::Remainder => None,
+        Binary::Power => match b.kind {
+            Kind::Int(exponent) => x.power(i32::try_from(exponent).ok()?).ok(),
+            Kind::Float(_) => x.half_power(y).ok(),
+        },
+    }
+}
+
+pub(super) fn negated(value: &Value) -> Said<Value> {
+    let number = value
+        .number()
+        .ok_or_else(|| format!("`-` needs a number, found {}", value.sort()))?;
+    let kind = match number.kind {
+        Kind::Int(value) => Kind::Int(value.checked_neg().ok_or(OVERFLOW)?),
+        Kind::Float(value) => Kind::Float(-value),
+    };
+    Ok(Value::Number(Num {
+        kind,
+        exact: number.exact.map(|exact| -exact),
+    }))
+}
+
+pub(super) fn compare(operator: Comparison, a: &Value, b: &Value) -> Said<bool> {
+    let ordering =
+        || order(a, b).ok_or_else(|| format!("{} and {} have no order", a.sort(), b.sort()));
+    let nan = |value: &Value| value.number().is_some_and(|n| n.double().is_nan());
+    let ordered = |wanted: fn(Ordering) -> bool| {
+        if nan(a) || nan(b) {
+            return Ok(false);
+        }
+        ordering().map(wanted)
+    };
+    match operator {
+        Comparison::Equal => Ok(a.equals(b)),
+        Comparison::Unequal => Ok(!a.equals(b)),
+        Comparison::Less => ordered(Ordering::is_lt),
+        Comparison::LessOrEqual => ordered(Ordering::is_le),
+        Comparison::Greater => ordered(Ordering::is_gt),
+        Comparison::GreaterOrEqual => ordered(Ordering::is_ge),
+        Comparison::In => contains(b, a),
+        Comparison::NotIn => contains(b, a).map(|inside| !inside),
+        Comparison::Is => Ok(same(a, b)),
+        Comparison::IsNot => Ok(!same(a, b)),
+    }
+}
+
+/// `is`, which is meant for None and truth values.
+fn same(a: &Value, b: &Value) -> bool {
+    std::mem::discriminant(a) == std::mem::discriminant(b) && a.equals(b)
+}
+
+/// The order of numbers, of texts, and of lists of such.
+pub(super) fn order(a: &Value, b: &Value) -> Option<Ordering> {
+    if let (Some(x), Some(y)) = (a.number(), b.number()) {
+        return match (x.kind, y.kind) {
+            (Kind::Int(x), Kind::Int(y)) => Some(x.cmp(&y)),
+            _ => x.double().partial_cmp(&y.double()),
+        };
+    }
+    match (a, b) {
+        (Value::Text(a), Value::Text(b)) => Some(a.as_str().cmp(b.as_str())),
+        (Value::List(a), Value::List(b)) | (Value::Tuple(a), Value::Tuple(b)) => {
+            for (a, b) in a.iter().zip(b.iter()) {
+                if !a.equals(b) {
+                    return order(a, b);
+                }
+            }
+            Some(a.len().cmp(&b.len()))
+        }
+        _ => None,
+    }
+}
+
+fn contains(container: &Value, item: &Value) -> Said<bool> {
+    match (container, item) {
+        (Value::List(items) | Value::Tuple(items) | Value::Set(items), _) => Ok(has(items, item)),
+        (Value::Dict(items), _) => Ok(found(items, item).is_some()),
+        (Value::Text(text), Value::Text(part)) => Ok(text.as_str().contains(part.as_str())),
+        _ => Err(format!(
+            "`in` does not look for {} in {}",
+            item.sort(),
+            container.sort()
+        )),
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Value {
+        Value::literal(&text.into())
+    }
+
+    fn shown(operator: Binary, a: &str, b: &str) -> String {
+        let value = binary(operator, &read(a), &read(b)).unwrap();
+        value.to_text(100).unwrap().as_str().to_owned()
+    }
+
+    #[test]
+    fn integers_and_doubles_calculate_as_in_python() {
+        for (operator, a, b, result) in [
+            (Binary::Add, "1", "2", "3"),
+            (Binary::Add, "0.1", "0.2", "0.30000000000000004"),
+            (Binary::Divide, "4", "2", "2.0"),
+            (Binary::FloorDivide, "-7", "2", "-4"),
+            (Binary::Remainder, "-7", "2", "1"),
+            (Binary::Remainder, "7", "-2", "-1"),
+            (Binary::FloorDivide, "-7.5", "2", "-4.0"),
+            (Binary::Remainder, "-7.5", "2", "0.5"),
+            (Binary::Power, "2", "-1", "0.5"),
+            (Binary::Power, "2", "10", "1024"),
+            (Binary::Multiply, "true", "3", "3"),
+            (Binary::Multiply, "ab", "2", "abab"),
+        ] {
+            assert_eq!(shown(operator, a, b), result, "{a} {} {b}", operator.sign());
+        }
+        for (operator, a, b) in [
+            (Binary::Divide, "1", "0"),
+            (Binary::Power, "2", "200"),
+            (Binary::Power, "-1.0", "0.5"),
+            (Binary::Multiply, "a", "1000000000000"),
+            (Binary::Add, "a", "1"),
+        ] {
+            assert!(binary(operator, &read(a), &read(b)).is_err());
+        }
+    }
+
+    #[test]
+    fn a_sign_keeps_the_stated_digits() {
+        let Ok(Value::Number(product)) = binary(Binary::Multiply, &read("-1"), &read("0.10"))
+        else {
+            panic!("a number");
+        };
+        let exact = product.exact.unwrap();
+        assert_eq!(exact.source(), "-0.10");
+        assert_eq!(exact.stated().unwrap().decimals, 2);
+    }
+}

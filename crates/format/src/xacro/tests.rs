@@ -1,0 +1,476 @@
+use crate::{ReadOptions, Reading, expanded_file, read_file_with, read_with};
+use kutzbach_math::number::Number;
+use kutzbach_model::mechanism::Mechanism;
+use proptest::prelude::*;
+use std::path::PathBuf;
+
+fn robot(body: &str) -> String {
+    format!("<robot name=\"r\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">\n{body}\n</robot>")
+}
+
+fn options(settings: &[(&str, &str)]) -> ReadOptions {
+    ReadOptions {
+        settings: settings
+            .iter()
+            .map(|(name, value)| ((*name).into(), (*value).into()))
+            .collect(),
+        ..ReadOptions::default()
+    }
+}
+
+/// What a body expands to, one element or text a line, without the robot around it.
+fn expanded(body: &str) -> String {
+    let none = ReadOptions::default();
+    let text = robot(body);
+    let expanded = super::expand(&text, "robot.xacro", None, &none)
+        .unwrap_or_else(|error| panic!("{error} {:?}", error.help))
+        .unwrap_or_else(|| panic!("not expanded"));
+    let lines: Vec<&str> = expanded.plain.lines().map(str::trim).collect();
+    lines[1..lines.len() - 1].join("")
+}
+
+fn message(body: &str) -> String {
+    let none = ReadOptions::default();
+    match read_with(&robot(body), "robot.xacro", &none) {
+        Ok(_) => panic!("read"),
+        Err(error) => format!("{error} | {}", error.help.as_deref().unwrap_or_default()),
+    }
+}
+
+fn reading(body: &str, settings: &[(&str, &str)]) -> Reading {
+    read_with(&robot(body), "robot.xacro", &options(settings))
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn names(mechanism: &Mechanism) -> Vec<&str> {
+    mechanism
+        .links()
+        .iter()
+        .map(|link| link.name.as_str())
+        .collect()
+}
+
+const CHAIN: &str = "<link name='a'/><link name='b'/><joint name='j' type='revolute'><parent link='a'/><child link='b'/>";
+
+fn position(body: &str, settings: &[(&str, &str)]) -> [Number; 3] {
+    let reading = reading(body, settings);
+    reading.mechanism.joints()[0]
+        .predecessor
+        .frame
+        .position
+        .clone()
+}
+
+#[test]
+fn macros_take_values_defaults_and_blocks() {
+    assert_eq!(
+        expanded(
+            "<xacro:macro name='m' params=\"a b:=2 c:='x y' d:=^|9 *e **f\"><y v='${a} ${b} ${c} ${d}'/>\
+             <xacro:insert_block name='e'/><xacro:insert_block name='f'/></xacro:macro>\
+             <xacro:property name='d' value='7'/><xacro:m a='1.0'><p q='${d}'/><s><t/><u/></s></xacro:m>"
+        ),
+        "<y v=\"1.0 2 x y 7\"/><p q=\"7\"/><t/><u/>"
+    );
+    assert_eq!(
+        expanded(
+            "<xacro:macro name='n' params='i'><xacro:if value='${i > 0}'><e v='${i}'/><xacro:n i='${i - 1}'/>\
+             </xacro:if></xacro:macro><xacro:n i='3'/><xacro:call macro='${\"n\"}' i='1'/>"
+        ),
+        "<e v=\"3\"/><e v=\"2\"/><e v=\"1\"/><e v=\"1\"/>"
+    );
+    // Without its prefix a macro is called directly in the robot only.
+    assert_eq!(
+        expanded(
+            "<xacro:macro name='n' params='i'><e v='${i}'/></xacro:macro><n i='1'/><o><n i='2'/></o>"
+        ),
+        "<e v=\"1\"/><o><n i=\"2\"/></o>"
+    );
+}
+
+#[test]
+fn properties_are_lazy_scoped_and_redefined_in_order() {
+    assert_eq!(
+        expanded(
+            "<xacro:property name='a' value='${b}x'/><xacro:property name='b' value='1'/><e v='${a}'/>\
+             <xacro:property name='b' value='2'/><e v='${a} ${b}'/>\
+             <xacro:property name='l' value='${b}' lazy_eval='false'/><xacro:property name='b' value='3'/><e v='${l}'/>\
+             <xacro:property name='b' default='4'/><e v='${b}'/>"
+        ),
+        "<e v=\"1x\"/><e v=\"1x 2\"/><e v=\"2\"/><e v=\"3\"/>"
+    );
+    assert_eq!(
+        expanded(
+            "<xacro:macro name='s' params='v'><xacro:property name='g' value='${v}' scope='global'/>\
+             <xacro:property name='p' value='${v}p' scope='parent'/><xacro:property name='own' value='1'/></xacro:macro>\
+             <xacro:s v='5'/><e v='${g} ${p}'/><xacro:property name='k'><f v='${g}'/></xacro:property>\
+             <xacro:insert_block name='k'/>"
+        ),
+        "<e v=\"5 5p\"/><f v=\"5\"/>"
+    );
+    assert!(
+        message("<xacro:if value='${own}'/><xacro:macro name='m' params=''/>")
+            .contains("no property named `own`")
+    );
+    let circle = "<xacro:property name='a' value='${b}_'/><xacro:property name='b' value='${a}_'/><e v='${a}'/><link name='${a}'/>";
+    assert!(message(circle).contains("`a` is defined by itself: a -> b -> a"));
+}
+
+#[test]
+fn conditions_elements_and_escapes() {
+    assert_eq!(
+        expanded(
+            "<xacro:arg name='z' default='false'/><xacro:if value='$(arg z)'><a/></xacro:if>\
+             <xacro:unless value='${1 == 2}'><b/></xacro:unless>\
+             <xacro:element xacro:name='${\"c\"}d'><xacro:attribute name='x${1}' value='${2.0}'/></xacro:element>\
+             <e v='$${x} $(optenv NO_SUCH_VARIABLE_HERE d e) $(eval 1 + 1)'>t${1}</e>"
+        ),
+        "<b/><cd x1=\"2.0\"/><e v=\"${x} d e 2\">t1</e>"
+    );
+    assert!(message("<xacro:if value='maybe'><a/></xacro:if>").contains("needed true or false"));
+    assert!(message("<xacro:element xacro:name='a b=\"'/>").contains("is not a name"));
+}
+
+#[test]
+fn expressions_print_as_in_python() {
+    for (expression, value) in [
+        ("1/2 + 1", "1.5"),
+        ("7 // 2", "3"),
+        ("-7 % 3", "2"),
+        ("2 ** -1", "0.5"),
+        ("1 &lt; 2 &lt; 2", "False"),
+        ("[1, 2.0, 'a', None][1:]", "[2.0, 'a', None]"),
+        ("'a_b'.split('_')[-1].upper()", "B"),
+        ("'%02d-%.1f' % (3, 0.25)", "03-0.2"),
+        ("max([x * x for x in range(4) if x % 2 == 0])", "4"),
+        ("dict(a=1)['a'] if 'a' in ['a'] else 2", "1"),
+        ("not (True and 0)", "True"),
+        ("round(2.5) + len('abc')", "5"),
+        ("math.pi", "3.141592653589793"),
+        ("'x' 'y' + str(1.0)", "xy1.0"),
+        ("python.set('a b a'.split()) - python.set(['b'])", "{'a'}"),
+        ("python.set([1, 2]) == python.set([2, 1, 1])", "True"),
+        ("list(python.set('ab').union(['c']))[-1]", "c"),
+        (
+            "python.set(['a']).issubset('ab') and not python.set()",
+            "True",
+        ),
+    ] {
+        let body = format!("<e filename=\"${{{expression}}}\"/><xacro:if value='0'/>");
+        assert_eq!(
+            expanded(&body),
+            format!("<e filename=\"{value}\"/>"),
+            "{expression}"
+        );
+    }
+}
+
+#[test]
+fn numbers_of_geometry_are_exact() {
+    let head = "<xacro:property name='L' value='0.10'/><xacro:property name='at' value='0 ${pi/2} ${sqrt(2)/2}'/>\
+                <xacro:macro name='m' params='sign at'>";
+    let tail = "</joint></xacro:macro>";
+    let call = "<xacro:m sign='-1' at='${at}'/>";
+    let [x, y, z] = position(
+        &format!(
+            "{head}{CHAIN}<origin xyz='${{sign * L}} ${{2 * radians(30)}} ${{1/3}}' rpy='${{at}}'/>{tail}{call}"
+        ),
+        &[],
+    );
+    assert_eq!(x.source(), "-0.10");
+    assert_eq!(y, Number::pi().checked_div(&Number::integer(3)).unwrap());
+    assert_eq!(z, Number::ratio(1, 3).unwrap());
+    let text = format!("{head}{CHAIN}<origin xyz='${{at}}'/>{tail}{call}");
+    let [x, y, z] = position(&text, &[]);
+    assert_eq!(x.source(), "0");
+    assert_eq!(y, Number::pi().checked_div(&Number::integer(2)).unwrap());
+    assert_eq!(&z * &z, Number::ratio(1, 2).unwrap());
+}
+
+#[test]
+fn settings_and_symbols_reach_what_is_expanded() {
+    let body = format!(
+        "<xacro:arg name='side' default='left'/><xacro:arg name='w' default='1'/><xacro:property name='h' value='1'/>\
+         {CHAIN}<origin xyz='$(arg w) ${{h}} 0'/></joint><link name='$(arg side)_c'/>\
+         <joint name='k' type='fixed'><parent link='b'/><child link='$(arg side)_c'/></joint>"
+    );
+    let set = [("side", "right"), ("w", "pi/4"), ("h", "1/3")];
+    assert_eq!(
+        names(&reading(&body, &set).mechanism),
+        ["a", "b", "right_c"]
+    );
+    let [x, y, _] = position(&body, &set);
+    assert_eq!(x, Number::pi().checked_div(&Number::integer(4)).unwrap());
+    assert_eq!(y, Number::ratio(1, 3).unwrap());
+    let error = read_with(&robot(&body), "r", &options(&[("sid", "x")])).unwrap_err();
+    assert!(error.message.contains("cannot set `sid`"), "{error}");
+    assert_eq!(error.help.as_deref(), Some("did you mean `side`?"));
+    let open = ReadOptions {
+        symbolic: vec!["h".into()],
+        ..ReadOptions::default()
+    };
+    let mechanism = read_with(&robot(&body), "r", &open).unwrap().mechanism;
+    let number = &mechanism.joints()[0].predecessor.frame.position[1];
+    assert!(matches!(
+        number.view(),
+        kutzbach_math::number::View::Parameter("h", _)
+    ));
+}
+
+#[test]
+fn all_arguments_without_value_are_told_at_once() {
+    let told = message(
+        "<xacro:arg name='a'/><xacro:arg name='b' default='2'/><link name='$(arg c)'/><xacro:arg name='d'/>",
+    );
+    assert!(
+        told.contains("the arguments `a`, `c`, `d` have no value"),
+        "{told}"
+    );
+    assert!(
+        told.contains("--set a=… --set c=… --set d=…") && told.contains("b=2"),
+        "{told}"
+    );
+}
+
+#[test]
+fn faults_in_macros_have_their_place_and_their_call() {
+    let body = "<xacro:macro name='leg' params='n t'>\n <link name='${n}'/>\n <joint name='${n}j' type='${t}'>\
+                <parent link='a'/><child link='${n}'/></joint>\n</xacro:macro>\n<link name='a'/>\n<xacro:leg n='b' t='revolut'/>\
+                <xacro:leg n='c' t='revolut'/>";
+    let error = read_with(&robot(body), "robot.xacro", &ReadOptions::default()).unwrap_err();
+    assert_eq!((error.line, error.column), (4, 28), "{error}");
+    assert!(
+        error
+            .message
+            .contains("in macro `leg`, called at robot.xacro:7:1"),
+        "{error}"
+    );
+    assert!(error.message.contains("in 1 other call"), "{error}");
+    assert!(error.others.is_empty());
+    let told = message("<xacro:macro name='leg' params='n'/><xacro:leg m='1'/>");
+    assert!(
+        told.contains("has no parameter `m`") && told.starts_with("robot.xacro:2:"),
+        "{told}"
+    );
+    assert!(
+        message("<xacro:macro name='leg' params='n *o'/><xacro:leg/>").contains("needs `n`, `*o`")
+    );
+    assert!(
+        message("<xacro:macro name='arm' params='n'/><xacro:leg/>")
+            .contains("no macro named `leg`")
+    );
+    let only = message("<xacro:macro name='leg' params='n'/><xacro:macro name='arm' params='n'/>");
+    assert!(
+        only.contains("the macros `arm`, `leg` and calls none"),
+        "{only}"
+    );
+}
+
+#[test]
+fn files_of_named_numbers_are_read_as_before() {
+    let body = format!(
+        "<xacro:property name='a' value='2*b'/><xacro:property name='b' value='3/5'/>{CHAIN}<origin xyz='${{a}} 0 0'/></joint>"
+    );
+    assert_eq!(reading(&body, &[]).format, "kutzbach-urdf");
+    assert_eq!(
+        reading(
+            &format!("{body}<xacro:if value='0'/>").replace("2*b", "${2*0.6}"),
+            &[]
+        )
+        .format,
+        "xacro"
+    );
+    for value in [
+        "left",
+        "'1'",
+        "${[1]}",
+        "0 0 1",
+        "${a}_x",
+        "",
+        "true",
+        "$(find x)/y",
+        "${1 if 1 else 2}",
+    ] {
+        let text = robot(&format!("<xacro:property name='a' value=\"{value}\"/>"));
+        let document = crate::xml::parse(&text).unwrap();
+        assert!(super::detect::needs_expansion(&document), "{value}");
+    }
+    for value in [
+        "1",
+        "3/5",
+        "${a}",
+        "-${b}",
+        "2*${a+1}",
+        "$(arg a)",
+        "pi",
+        "sqrt(2)",
+        "a",
+        "${atan2(1, 2)}",
+        "acos(4/5)",
+    ] {
+        let text = robot(&format!(
+            "<xacro:property name='a' value=\"{value}\"/><xacro:property name='b' value='2'/>"
+        ));
+        let document = crate::xml::parse(&text).unwrap();
+        assert!(!super::detect::needs_expansion(&document), "{value}");
+    }
+}
+
+#[test]
+fn endless_files_end() {
+    for body in [
+        "<xacro:macro name='m' params=''><xacro:m/></xacro:macro><xacro:m/>",
+        "<xacro:macro name='m' params=''><a><xacro:m/></a></xacro:macro><xacro:m/>",
+        "<xacro:macro name='m' params=''><xacro:m/><xacro:m/></xacro:macro><xacro:m/>",
+        "<xacro:macro name='m' params='i'><xacro:if value='${i &lt; 40}'><xacro:m i='${i+1}'/><xacro:m i='${i+1}'/></xacro:if>\
+         </xacro:macro><xacro:m i='0'/>",
+        "<xacro:property name='a' value=\"${'x'*1000000}\"/><xacro:property name='b' value='${a+a}'/><link name='${b}'/>",
+        "<link name='${range(10**12)}'/>",
+        "<link name='${9**9**9}'/>",
+        "<link name=\"${[0]*10**9}\"/>",
+    ] {
+        let told = message(body);
+        assert!(
+            ["more than", "too long", "too large"]
+                .iter()
+                .any(|words| told.contains(words)),
+            "{told}"
+        );
+    }
+}
+
+/// A folder that is removed when dropped.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str, files: &[(&str, &str)]) -> Self {
+        let folder =
+            std::env::temp_dir().join(format!("kutzbach-xacro-{}-{name}", std::process::id()));
+        for (file, text) in files {
+            let path = folder.join(file);
+            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+            std::fs::write(path, text).unwrap();
+        }
+        Self(folder)
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+#[test]
+fn includes_are_found_beside_the_file_and_in_packages() {
+    let part = robot(
+        "<xacro:property name='v' value='${1+1}'/><xacro:macro name='m' params=''><e v='${v}'/></xacro:macro>",
+    );
+    let main = robot(
+        "<xacro:include filename='parts/one.xacro' ns='n'/><xacro:n.m/><f v='${n.v}'/>\
+         <xacro:include filename='$(find arm_description)/urdf/two.xacro'/>\
+         <xacro:include filename='package://arm_description/urdf/tw*.xacro'/>\
+         <xacro:include filename='nothing.xacro' optional='true'/>\
+         <g v=\"${xacro.load_yaml('sizes.yaml').leg[0]}\"/><mesh filename='$(find no_such_package)/m.stl'/>",
+    );
+    let folder = Folder::new(
+        "includes",
+        &[
+            ("robot/urdf/main.xacro", &main),
+            ("robot/urdf/parts/one.xacro", &part),
+            ("robot/urdf/sizes.yaml", "leg: [!degrees 90, 2]"),
+            (
+                "other/arm/package.xml",
+                "<package><name>arm_description</name></package>",
+            ),
+            ("other/arm/urdf/two.xacro", &robot("<two/>")),
+        ],
+    );
+    let path = folder.0.join("robot/urdf/main.xacro");
+    let text =
+        expanded_file(&path, &ReadOptions::default()).unwrap_or_else(|error| panic!("{error}"));
+    let lines: Vec<&str> = text.lines().map(str::trim).collect();
+    assert_eq!(
+        lines[1..lines.len() - 1].join(""),
+        "<e v=\"2\"/><f v=\"2\"/><two/><two/><g v=\"1.5707963267948966\"/><mesh filename=\"package://no_such_package/m.stl\"/>"
+    );
+    // Without a file there is no place to look in.
+    let error = read_with(&main, "text", &ReadOptions::default()).unwrap_err();
+    assert!(error.message.contains("read without a file"), "{error}");
+}
+
+#[test]
+fn what_is_wrong_in_an_included_file_is_told_there() {
+    let bad = robot("<link name='x'>\n <inertial><mass value='-1'/></inertial></link><joint/>");
+    let folder = Folder::new(
+        "faults",
+        &[
+            (
+                "main.xacro",
+                &robot("<link name='a'/>\n<xacro:include filename='bad.xacro'/>"),
+            ),
+            ("bad.xacro", &bad),
+            (
+                "round.xacro",
+                &robot("<xacro:include filename='round.xacro'/>"),
+            ),
+            (
+                "lost.xacro",
+                &robot("<xacro:include filename='$(find lost_package)/a.xacro'/>"),
+            ),
+            (
+                "broken.xacro",
+                &robot("<xacro:include filename='unclosed.xml'/>"),
+            ),
+            ("unclosed.xml", "<robot>\n<link>"),
+        ],
+    );
+    let read =
+        |name: &str| read_file_with(folder.0.join(name), &ReadOptions::default()).unwrap_err();
+    let error = read("main.xacro");
+    assert!(error.file.ends_with("bad.xacro"), "{error}");
+    assert!(error.line >= 2, "{error}");
+    let error = read("round.xacro");
+    assert!(error.message.contains("include each other"), "{error}");
+    let error = read("lost.xacro");
+    assert!(
+        error
+            .message
+            .contains("the package `lost_package` is not found"),
+        "{error}"
+    );
+    assert!(error.help.unwrap().contains("--package lost_package=PATH"));
+    let error = read("broken.xacro");
+    assert!(
+        error.file.ends_with("unclosed.xml") && error.line == 2,
+        "{error}"
+    );
+}
+
+/// Words of xacro files, to be put together at random.
+const PIECES: [&str; 40] = [
+    "${", "}", "$(", ")", "$$", "'", "\\\"", "1", "0.5", "pi", "a", "b", "[", "]", "(", ":", ",",
+    ".", "+", "-", "*", "**", "/", "//", "%", " ", "if", "else", "for", "in", "not", "split",
+    "range", "len", "dict", "arg a", "find b", "eval a", "&lt;", "==",
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn any_expression_has_a_value_or_an_error(parts in prop::collection::vec(0..PIECES.len(), 0..14)) {
+        let text: String = parts.iter().map(|at| PIECES[*at]).collect();
+        let text = text.replace("\\\"", "&quot;");
+        let body = format!(
+            "<xacro:property name='a' value='2'/><xacro:property name='b' value=\"${{[1, 'x', 0.5]}}\"/>\
+             <xacro:property name='c' value=\"{text}\"/><xacro:macro name='m' params=\"p:={text} q\"/>\
+             <link name=\"${{c}}\"/><xacro:m q=\"${{{text}}}\"/>"
+        );
+        let _ = read_with(&robot(&body), "any", &ReadOptions::default());
+    }
+
+    #[test]
+    fn any_text_of_xacro_is_read_or_refused(text in "[ a-z<>/='{}$():.x]{0,80}") {
+        let _ = read_with(&robot(&text), "any", &ReadOptions::default());
+        let _ = read_with(&robot(&format!("<xacro:if value='{text}'>{text}</xacro:if>")), "any", &ReadOptions::default());
+    }
+}

@@ -1,0 +1,11 @@
+//! Exact and floating numbers, rank decisions with margins, rigid motions: no word of mechanisms.
+//!
+//! - [`number`]: exact numbers beside their floating-point values, with the precision a file states;
+//! - [`matrix`]: rank decisions with margins: dense, sparse, in many digits, over a prime field;
+//! - [`group`]: SE(3), twists, power series; the displacement subgroups;
+//! - [`space`]: vectors and rigid displacements in any arithmetic.
+
+pub mod group;
+pub mod matrix;
+pub mod number;
+pub mod space;

@@ -1,0 +1,588 @@
+//! Everything the first engines say about a mechanism at one pose.
+
+use super::advice::{Advice, advice_for_part};
+use super::alike::treat_alike;
+use super::branch::Branch;
+use super::cycles::{CycleFacts, cycle_facts};
+use super::depth::Depth;
+use super::exact::{ExactAllowance, ExactBudget, ask_exact};
+use super::generic::{GenericCount, generic_count};
+use super::kutzbach::kutzbach_count;
+use super::more_digits::MoreDigits;
+use super::part_mobility::{PartFinding, part_mobility};
+use super::pose_rank::{PartRank, Pose, rank_part_with};
+use super::redundancy::SelfStresses;
+use super::roles::{JointRole, roles_of_part};
+use super::verdict::{Mobility, judge, not_asked, unassembled};
+use super::whole_branches::whole_branches;
+use kutzbach_closure::Structure;
+use kutzbach_closure::{
+    Arithmetic, Assembly, AssemblyOptions, Geometry, assemble_with, spanning_poses,
+};
+use kutzbach_math::matrix::MatrixError;
+use kutzbach_model::mechanism::{Configuration, Mechanism, Precision};
+use std::collections::{BTreeMap, BTreeSet};
+use thiserror::Error;
+
+/// What to analyse.
+#[derive(Clone, Debug, Default)]
+pub struct AnalysisOptions {
+    /// The configuration to start from; the home pose if `None`.
+    pub configuration: Option<String>,
+    /// How much work exact algebra may do.
+    pub exact: ExactBudget,
+    /// How much is to be found out.
+    pub depth: Depth,
+    /// The gap up to which a loop counts as closed (m; angles count by the length of the loop); what the file's digits say if
+    /// `None`. Ranks are then only as certain as such a pose.
+    pub closure_tolerance: Option<f64>,
+}
+
+/// Why an analysis could not be made. That a mechanism does not assemble or stays undecided is a result, not an error.
+#[derive(Clone, Debug, Error)]
+pub enum AnalysisError {
+    /// The configuration asked for does not exist.
+    #[error("there is no configuration named `{name}`; the file has {known}")]
+    UnknownConfiguration {
+        /// The name asked for.
+        name: String,
+        /// The names there are, for people.
+        known: String,
+    },
+    /// A distance joint whose two points coincide where its distance is to be read off.
+    #[error(
+        "joint `{joint}`: its two points coincide at home, and no <distance> is stated; two coinciding points are a `spherical` joint"
+    )]
+    NoDistance {
+        /// The joint's name.
+        joint: String,
+    },
+    /// Numbers out of range.
+    #[error("the geometry leaves the range of floating-point numbers: {0}")]
+    OutOfRange(#[from] MatrixError),
+}
+
+/// The instantaneous picture of the whole mechanism.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HomeFreedom {
+    /// Dimension of the kernel of the closure equations; `None` where some part is undecided.
+    pub instantaneous: Option<usize>,
+    /// Smallest and largest value that remain possible.
+    pub candidates: (usize, usize),
+    /// The value for the numbers taken literally, where some part's differs.
+    pub as_written: Option<usize>,
+    /// Dependent constraint equations: instantaneous − Kutzbach.
+    pub redundant: Option<i64>,
+}
+
+/// The analysis of a mechanism at a pose. What its [`Depth`] leaves out is empty or `None`, as said field by field.
+#[derive(Clone, Debug)]
+pub struct Analysis {
+    /// Topology.
+    pub structure: Structure,
+    /// Kutzbach's count.
+    pub kutzbach: i64,
+    /// The count at random geometry; `None` unless [`Depth::Everything`] is asked for.
+    pub generic: Option<GenericCount>,
+    /// How the mechanism closes.
+    pub assembly: Assembly,
+    /// The rank of every part, in the order of [`Structure::parts`]; empty if it does not assemble.
+    pub parts: Vec<PartRank>,
+    /// The instantaneous freedom; `None` if the mechanism does not assemble: an open pose is never ranked.
+    pub home: Option<HomeFreedom>,
+    /// Roles of all joints, by joint index; nothing known of any unless [`Depth::Everything`] is asked for.
+    pub roles: Vec<JointRole>,
+    /// Indeterminate reaction directions of all joints, by joint index; `None` where the rank is open.
+    pub redundant_wrenches: Vec<Option<usize>>,
+    /// Facts of the cycles shown; none unless [`Depth::Everything`] is asked for.
+    pub cycles: Vec<CycleFacts>,
+    /// Repair advice, best first; none unless [`Depth::Everything`] is asked for.
+    pub advice: Vec<Advice>,
+    /// What the engines found of every part, in the order of [`Structure::parts`]; none at [`Depth::Rank`].
+    pub findings: Vec<PartFinding>,
+    /// The branches through the pose; `None` while not decided, where there are too many to list, or below
+    /// [`Depth::Motions`].
+    pub branches: Option<Vec<Branch>>,
+    /// The verdict.
+    pub mobility: Mobility,
+}
+
+/// Analyses a mechanism: counts, assembles, ranks, names what is locked and redundant.
+///
+/// # Errors
+/// [`AnalysisError`]; see there.
+pub fn analyse(
+    mechanism: &Mechanism,
+    options: &AnalysisOptions,
+) -> Result<Analysis, AnalysisError> {
+    let configuration = match &options.configuration {
+        None => None,
+        Some(name) => Some(mechanism.configuration(name).ok_or_else(|| {
+            AnalysisError::UnknownConfiguration {
+                name: name.clone(),
+                known: known_configurations(mechanism),
+            }
+        })?),
+    };
+    let held: BTreeSet<usize> = configuration
+        .iter()
+        .flat_map(|c| c.positions.iter().map(|(joint, _)| joint.0))
+        .filter(|&joint| mechanism.joints()[joint].freedom() > 0)
+        .collect();
+    let structure = Structure::new(mechanism);
+    let kutzbach = kutzbach_count(mechanism);
+    let everything = options.depth == Depth::Everything;
+    let generic = everything
+        .then(|| generic_count(mechanism, &structure))
+        .transpose()?;
+    let geometry = Geometry::new(mechanism, configuration, &Arithmetic::double());
+    if let Some(joint) = geometry.degenerate_distance() {
+        return Err(AnalysisError::NoDistance {
+            joint: mechanism.joints()[joint].name.clone(),
+        });
+    }
+    let assembly = assemble_with(
+        mechanism,
+        &geometry,
+        &structure.parts,
+        &AssemblyOptions {
+            held,
+            rounded: configuration.map(rounded).unwrap_or_default(),
+            tolerance: options.closure_tolerance,
+        },
+    )?;
+    let mut analysis = Analysis {
+        mobility: unassembled(&assembly),
+        structure,
+        kutzbach,
+        generic,
+        assembly,
+        parts: Vec::new(),
+        home: None,
+        roles: vec![JointRole::default(); mechanism.joints().len()],
+        redundant_wrenches: vec![None; mechanism.joints().len()],
+        cycles: Vec::new(),
+        advice: Vec::new(),
+        findings: Vec::new(),
+        branches: None,
+    };
+    if analysis.assembly.closed {
+        analysis.rank(mechanism, configuration, &geometry, options)?;
+    }
+    Ok(analysis)
+}
+
+/// How far the values of a configuration may be from those meant (rad, m), by joint index: half a unit of its finest decimal, if
+/// its literals have more decimals than somebody would choose.
+fn rounded(configuration: &Configuration) -> BTreeMap<usize, f64> {
+    let decimals = |values: &[kutzbach_math::number::Number]| {
+        values
+            .iter()
+            .filter_map(|value| value.stated().map(|stated| stated.decimals))
+            .max()
+    };
+    let finest = configuration
+        .positions
+        .iter()
+        .filter_map(|(_, values)| decimals(values))
+        .max()
+        .filter(|finest| *finest > Precision::EXACT_DECIMALS);
+    let Some(finest) = finest else {
+        return BTreeMap::new();
+    };
+    configuration
+        .positions
+        .iter()
+        .filter(|(_, values)| decimals(values).is_some())
+        .map(|(joint, _)| (joint.0, 0.5 * 10f64.powi(-finest.min(300))))
+        .collect()
+}
+
+fn known_configurations(mechanism: &Mechanism) -> String {
+    let names: Vec<String> = mechanism
+        .configurations()
+        .iter()
+        .map(|c| format!("`{}`", c.name))
+        .collect();
+    if names.is_empty() {
+        "none".to_owned()
+    } else {
+        names.join(", ")
+    }
+}
+
+impl Analysis {
+    /// The part of the analysis that needs a closed pose.
+    fn rank(
+        &mut self,
+        mechanism: &Mechanism,
+        configuration: Option<&Configuration>,
+        geometry: &Geometry<f64>,
+        options: &AnalysisOptions,
+    ) -> Result<(), MatrixError> {
+        let known = std::mem::take(&mut self.assembly.jacobians);
+        let states = &self.assembly.states;
+        let pose = Pose {
+            mechanism,
+            configuration,
+            held: &self.assembly.held,
+            geometry,
+            states,
+            as_drawn: self.assembly.steps == 0 && options.closure_tolerance.is_none(),
+        };
+        let mut more = MoreDigits::new();
+        let mut parts = Vec::with_capacity(self.structure.parts.len());
+        for (part, known) in self.structure.parts.iter().zip(known) {
+            parts.push(rank_part_with(&pose, &mut more, part, known)?);
+        }
+        treat_alike(mechanism, &self.structure.parts, &mut parts)?;
+        let home = self.home_freedom(mechanism, &parts);
+        if options.depth == Depth::Rank {
+            // Numbers with too few digits may hold fast what is meant to move.
+            let as_meant = !parts.iter().any(|part| part.taken_literally);
+            self.mobility = not_asked(as_meant.then_some(home.candidates.1));
+        } else {
+            let mut allowance = ExactAllowance::new(options.exact);
+            for (part, rank) in self.structure.parts.iter().zip(&parts) {
+                let mut found =
+                    part_mobility(&pose, &mut more, &self.structure, part, rank, options.depth)?;
+                if found.open.is_some() || options.depth == Depth::Everything {
+                    ask_exact(&pose, part, rank, &mut found, &mut allowance);
+                }
+                self.findings.push(found);
+            }
+            self.mobility = judge(mechanism, &self.structure, &self.findings);
+        }
+        if options.depth >= Depth::Motions {
+            self.branches = whole_branches(
+                mechanism,
+                geometry,
+                &self.structure,
+                states,
+                self.kutzbach,
+                &self.findings,
+            );
+        }
+        if options.depth == Depth::Everything {
+            self.details(mechanism, geometry, &parts, &home)?;
+        }
+        self.home = Some(home);
+        self.parts = parts;
+        Ok(())
+    }
+
+    /// What moves and what is redundant at the pose, joint by joint and cycle by cycle, and what to do about it.
+    fn details(
+        &mut self,
+        mechanism: &Mechanism,
+        geometry: &Geometry<f64>,
+        parts: &[PartRank],
+        home: &HomeFreedom,
+    ) -> Result<(), MatrixError> {
+        let states = &self.assembly.states;
+        // What is tried part by part is tried on these and undone again, since copies for every part would add up.
+        let mut trial = geometry.clone();
+        let mut trial_states = states.clone();
+        for &joint in &self.structure.free_joints {
+            self.roles[joint].locked = (mechanism.joints()[joint].freedom() > 0).then_some(false);
+            self.redundant_wrenches[joint] = Some(0);
+        }
+        for (part, rank) in self.structure.parts.iter().zip(parts) {
+            for (joint, role) in part.joints.iter().zip(roles_of_part(
+                mechanism,
+                geometry,
+                &mut trial_states,
+                part,
+                rank,
+            )?) {
+                self.roles[*joint] = role;
+            }
+            let Some(stresses) = SelfStresses::new(part, rank)? else {
+                continue;
+            };
+            for &joint in &part.joints {
+                self.redundant_wrenches[joint] = Some(stresses.indeterminate_wrenches(rank, joint));
+            }
+            if let Some(redundant) = home.redundant.filter(|r| *r > 0) {
+                self.advice.extend(advice_for_part(
+                    mechanism,
+                    &mut trial,
+                    &mut trial_states,
+                    part,
+                    rank,
+                    &stresses,
+                    redundant,
+                )?);
+            }
+        }
+        let graph = &self.structure.graph;
+        self.advice
+            .sort_by_key(|a| (a.redundant_after, graph.edge_rank(a.joint), a.to));
+        let (poses, _) = spanning_poses(mechanism, geometry, states);
+        for cycle in &self.structure.cycles {
+            self.cycles
+                .push(cycle_facts(mechanism, geometry, states, &poses, cycle)?);
+        }
+        Ok(())
+    }
+
+    fn home_freedom(&self, mechanism: &Mechanism, parts: &[PartRank]) -> HomeFreedom {
+        let free: usize = self
+            .structure
+            .free_joints
+            .iter()
+            .map(|&joint| mechanism.joints()[joint].freedom())
+            .sum();
+        let base = free + 6 * self.structure.loose_pieces;
+        let sum = |value: &dyn Fn(&PartRank) -> Option<usize>| -> Option<usize> {
+            parts
+                .iter()
+                .map(value)
+                .sum::<Option<usize>>()
+                .map(|total| total + base)
+        };
+        let instantaneous = sum(&|part| part.instantaneous);
+        let as_written =
+            sum(&|part| part.as_written).filter(|literal| Some(*literal) != instantaneous);
+        HomeFreedom {
+            instantaneous,
+            candidates: (
+                base + parts.iter().map(|p| p.candidates.0).sum::<usize>(),
+                base + parts.iter().map(|p| p.candidates.1).sum::<usize>(),
+            ),
+            as_written,
+            redundant: instantaneous.map(|i| i as i64 - self.kutzbach),
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use kutzbach_closure::samples::{
+        CRANK_ROCKER, Written, add_ring, four_bar, general_four, planar,
+    };
+    use kutzbach_math::number::Number;
+    use kutzbach_model::mechanism::{Frame, JointBuilder, JointKind, MechanismBuilder};
+
+    #[test]
+    fn configurations_are_looked_up_by_name() {
+        let options = AnalysisOptions {
+            configuration: Some("open".to_owned()),
+            ..AnalysisOptions::default()
+        };
+        let error = analyse(&four_bar(), &options).unwrap_err();
+        assert!(error.to_string().contains("`open`") && error.to_string().contains("none"));
+    }
+
+    #[test]
+    fn held_joints_keep_their_value_and_their_freedom() {
+        let mut builder = MechanismBuilder::new("held");
+        builder.link("ground");
+        add_ring(
+            &mut builder,
+            "r",
+            "ground",
+            &planar(&CRANK_ROCKER),
+            [0.0; 3],
+            Written::Exactly,
+        );
+        let value = Number::from_f64(0.5).unwrap();
+        builder.configuration("turned", vec![("r_a".to_owned(), vec![value])]);
+        let mechanism = builder.build().unwrap();
+        let options = AnalysisOptions {
+            configuration: Some("turned".to_owned()),
+            ..AnalysisOptions::default()
+        };
+        let analysis = analyse(&mechanism, &options).unwrap();
+        assert_eq!(analysis.assembly.states[0].values, [0.5]);
+        // The pose is one where the crank has this value; that it is held there is no constraint.
+        assert_eq!(analysis.home.unwrap().instantaneous, Some(1));
+        assert_eq!(analysis.roles[0].locked, Some(false));
+    }
+
+    #[test]
+    fn every_depth_says_what_the_deeper_ones_say() {
+        for mechanism in [four_bar(), general_four()] {
+            let at = |depth| {
+                let options = AnalysisOptions {
+                    depth,
+                    ..AnalysisOptions::default()
+                };
+                analyse(&mechanism, &options).unwrap()
+            };
+            let [rank, verdict, motions, everything] = [
+                Depth::Rank,
+                Depth::Verdict,
+                Depth::Motions,
+                Depth::Everything,
+            ]
+            .map(at);
+            for analysis in [&rank, &verdict, &motions] {
+                assert_eq!(analysis.home, everything.home);
+                assert_eq!(analysis.kutzbach, everything.kutzbach);
+                assert!(analysis.generic.is_none() && analysis.advice.is_empty());
+            }
+            assert_eq!(rank.mobility.finite(), None);
+            assert_eq!(
+                rank.mobility.bounds.1,
+                everything.home.as_ref().unwrap().instantaneous
+            );
+            for analysis in [&verdict, &motions] {
+                let (one, other) = (&analysis.mobility, &everything.mobility);
+                assert_eq!(one.finite(), other.finite());
+                assert_eq!(
+                    (one.pose, one.kind, one.class),
+                    (other.pose, other.kind, other.class)
+                );
+            }
+            assert!(verdict.branches.is_none());
+            let shapes = |analysis: &Analysis| {
+                let branches = analysis.branches.as_ref().unwrap();
+                branches
+                    .iter()
+                    .map(|b| (b.dimension, b.roles.clone()))
+                    .collect::<Vec<_>>()
+            };
+            assert_eq!(shapes(&motions), shapes(&everything));
+        }
+    }
+
+    #[test]
+    fn two_points_that_coincide_have_no_distance() {
+        let mut builder = MechanismBuilder::new("rod");
+        builder.link("ground").link("arm");
+        builder.joint(JointBuilder::tree(
+            "pin",
+            JointKind::Revolute,
+            "ground",
+            "arm",
+        ));
+        builder.joint(JointBuilder::closing(
+            "rod",
+            JointKind::Distance,
+            "ground",
+            "arm",
+        ));
+        let error = analyse(&builder.build().unwrap(), &AnalysisOptions::default()).unwrap_err();
+        assert!(matches!(error, AnalysisError::NoDistance { joint } if joint == "rod"));
+    }
+
+    #[test]
+    fn freedoms_add_up_over_the_parts() {
+        let mut builder = MechanismBuilder::new("sum");
+        builder.link("ground").link("arm").link("stone");
+        add_ring(
+            &mut builder,
+            "r",
+            "ground",
+            &planar(&CRANK_ROCKER),
+            [0.0; 3],
+            Written::Exactly,
+        );
+        builder.joint(
+            JointBuilder::tree("arm_joint", JointKind::Universal, "r1", "arm").axis2(
+                kutzbach_model::mechanism::Direction([
+                    Number::zero(),
+                    Number::one(),
+                    Number::zero(),
+                ]),
+            ),
+        );
+        builder.floating("drop", "ground", "stone", Frame::identity());
+        let analysis = analyse(&builder.build().unwrap(), &AnalysisOptions::default()).unwrap();
+        let home = analysis.home.unwrap();
+        assert_eq!(home.instantaneous, Some(1 + 2 + 6));
+        assert_eq!(home.candidates, (9, 9));
+        assert_eq!(home.redundant, Some(9 - analysis.kutzbach));
+        assert_eq!(
+            analysis
+                .redundant_wrenches
+                .iter()
+                .filter(|w| **w == Some(0))
+                .count(),
+            1
+        );
+    }
+
+    #[test]
+    fn a_mechanism_of_one_link_stands() {
+        let block = MechanismBuilder::new("block")
+            .link("ground")
+            .clone()
+            .build()
+            .unwrap();
+        let analysis = analyse(&block, &AnalysisOptions::default()).unwrap();
+        assert!(analysis.assembly.closed);
+        assert_eq!(analysis.home.unwrap().instantaneous, Some(0));
+    }
+
+    #[test]
+    fn the_order_of_the_file_changes_no_result() {
+        let plain = analyse(&general_four(), &AnalysisOptions::default()).unwrap();
+        assert_eq!(plain.generic.unwrap().mobility, 0);
+        let rings = |first: &str, second: &str| {
+            let mut builder = MechanismBuilder::new("two");
+            builder.link("ground");
+            for name in [first, second] {
+                let gap = if name == "p" {
+                    [0.5, -0.25, 0.0]
+                } else {
+                    [0.0; 3]
+                };
+                add_ring(
+                    &mut builder,
+                    name,
+                    "ground",
+                    &planar(&CRANK_ROCKER),
+                    gap,
+                    Written::Exactly,
+                );
+            }
+            let mechanism = builder.build().unwrap();
+            let analysis = analyse(&mechanism, &AnalysisOptions::default()).unwrap();
+            let advice: Vec<String> = analysis
+                .advice
+                .iter()
+                .map(|a| {
+                    format!(
+                        "{} {} {}",
+                        mechanism.joints()[a.joint].name,
+                        a.to,
+                        a.redundant_after
+                    )
+                })
+                .collect();
+            (analysis.home, advice, analysis.assembly.residual.to_bits())
+        };
+        assert_eq!(rings("p", "q"), rings("q", "p"));
+    }
+
+    #[test]
+    fn many_loops_are_each_looked_at_once() {
+        // Each has to be assembled. Work that grew with the square of their number would take minutes.
+        let mut builder = MechanismBuilder::new("many");
+        builder.link("ground");
+        for i in 0..2000 {
+            let name = format!("ring_{i}_");
+            let gap = [0.25, 0.125, 0.0];
+            add_ring(
+                &mut builder,
+                &name,
+                "ground",
+                &planar(&CRANK_ROCKER),
+                gap,
+                Written::Exactly,
+            );
+        }
+        let mechanism = builder.build().unwrap();
+        let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
+        let parts = Structure::new(&mechanism).parts;
+        let assembly =
+            kutzbach_closure::assemble(&mechanism, &geometry, &parts, &BTreeSet::new()).unwrap();
+        assert!(assembly.closed);
+        assert_eq!(parts.len(), 2000);
+        assert_eq!(JointKind::Revolute.freedom() * 8000, mechanism.freedom());
+    }
+}

@@ -1,0 +1,75 @@
+//! Branches: the components of the configuration space that pass through a pose, and what moves along each.
+//!
+//! What a joint does, which links are idle and how links move relative to one another is never asked at the pose itself,
+//! which may be special, but at generic poses of the branch ([`BranchPose`]).
+
+use super::roles::JointRole;
+use kutzbach_closure::JointState;
+use kutzbach_math::group::DisplacementSubgroup;
+
+/// A generic pose of a branch.
+#[derive(Clone, Debug)]
+pub struct BranchPose {
+    /// The state of every joint of the mechanism, by joint index.
+    pub states: Vec<JointState<f64>>,
+    /// A basis of the branch's tangent space. Each vector has one rate per variable of the mechanism: joints by index, the
+    /// variables of each in their own order, in rad or m per unit.
+    pub tangents: Vec<Vec<f64>>,
+}
+
+/// A link that can move while all other links stand still, but for those that stand for no body of their own.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct IdleLink {
+    /// Index of the link; of several that move together, the heaviest, or the first by name.
+    pub link: usize,
+    /// The others that move with it: parts fixed to it, the other links of a leg between two balls, intermediate links of balls
+    /// and universal joints that are written as hinges.
+    pub with: Vec<usize>,
+    /// Their idle freedoms, those of other entries not counted again.
+    pub freedom: usize,
+    /// Whether they hang between balls: a rod or a leg that spins about its own line.
+    pub rod: bool,
+}
+
+/// How a link moves relative to another along a branch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RelativeMotion {
+    /// Index of the moving link.
+    pub link: usize,
+    /// Index of the link it is seen from.
+    pub relative_to: usize,
+    /// Dimension of the set of its relative displacements.
+    pub freedom: usize,
+    /// The displacement subgroup it moves in, where its motion is one: axes in the frame of `relative_to`, at the pose
+    /// that the displacements are counted from.
+    pub class: Option<DisplacementSubgroup>,
+    /// How many of its freedoms turn it, at a generic pose: the rank of its angular velocities.
+    pub rotations: usize,
+    /// The others, which move it without turning.
+    pub translations: usize,
+}
+
+/// One branch through the pose (D8).
+#[derive(Clone, Debug)]
+pub struct Branch {
+    /// `A`, `B`, …, in an order that does not depend on the file's.
+    pub name: String,
+    /// Its dimension: the finite freedoms along it.
+    pub dimension: usize,
+    /// Instantaneous freedom at a generic pose of the branch; `None` where the margin does not tell.
+    pub instantaneous: Option<usize>,
+    /// Dependent equations at a generic pose of the branch.
+    pub redundant: Option<i64>,
+    /// Ways of leaving the pose along a branch of dimension 1: two, opposite in direction, or the same at a cusp.
+    pub half_branches: Option<usize>,
+    /// What each joint does along the branch, by joint index.
+    pub roles: Vec<JointRole>,
+    /// Links that are idle along the branch.
+    pub idle: Vec<IdleLink>,
+    /// Links that move a thousand times as much as all others in some motion along the branch: nearly idle, but not so.
+    pub nearly_idle: Vec<IdleLink>,
+    /// How every link moves relative to the ground.
+    pub motions: Vec<RelativeMotion>,
+    /// Generic poses of the branch: never the pose itself.
+    pub poses: Vec<BranchPose>,
+}

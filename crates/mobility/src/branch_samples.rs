@@ -1,0 +1,89 @@
+//! Branches that can be written down, for the tests of what is read off their poses.
+
+use super::branch::BranchPose;
+use kutzbach_closure::Structure;
+use kutzbach_closure::samples::{Place, Written, planar, ring};
+use kutzbach_closure::{Arithmetic, Geometry};
+use kutzbach_model::mechanism::{JointKind, Mechanism};
+
+/// A mechanism and poses of it.
+pub struct Sample {
+    pub mechanism: Mechanism,
+    pub geometry: Geometry<f64>,
+    pub structure: Structure,
+    pub poses: Vec<BranchPose>,
+}
+
+/// Values of every joint, and tangents.
+type Drawn = (Vec<Vec<f64>>, Vec<Vec<f64>>);
+
+impl Sample {
+    pub fn new(mechanism: Mechanism, poses: Vec<Drawn>) -> Self {
+        let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
+        let poses = poses
+            .into_iter()
+            .map(|(values, tangents)| BranchPose {
+                states: geometry
+                    .displacements
+                    .iter()
+                    .zip(values)
+                    .map(|(displacement, values)| displacement.at(&values))
+                    .collect(),
+                tangents,
+            })
+            .collect();
+        Self {
+            structure: Structure::new(&mechanism),
+            mechanism,
+            geometry,
+            poses,
+        }
+    }
+
+    /// A parallelogram of hinges, two lengths wide and one high, its coupler moving on a circle.
+    pub fn parallelogram() -> Self {
+        let places = planar(&[[0.0, 0.0], [0.0, 1.0], [2.0, 1.0], [2.0, 0.0]]);
+        let poses = [0.4, 0.9, -0.5].map(|angle: f64| {
+            let turn = [angle, -angle, angle, -angle];
+            let tangent = vec![3.0, -3.0, 3.0, -3.0];
+            (turn.map(|x| vec![x]).to_vec(), vec![tangent])
+        });
+        Self::new(ring(&places, [0.0; 3], Written::Exactly), poses.into())
+    }
+
+    /// Two balls at the ends of a rod along x, held by a rigid frame: the rod spins.
+    pub fn rod() -> Self {
+        let places: Vec<Place> = vec![
+            (JointKind::Spherical, [0.0; 3], [0.0; 3]),
+            (JointKind::Spherical, [1.0, 0.0, 0.0], [0.0; 3]),
+            (JointKind::Fixed, [0.0, 1.0, 0.0], [0.0; 3]),
+        ];
+        let poses = [0.3, 0.8].map(|angle: f64| {
+            let values = vec![vec![angle, 0.0, 0.0], vec![-angle, 0.0, 0.0], vec![]];
+            (values, vec![vec![1.0, 0.0, 0.0, -1.0, 0.0, 0.0]])
+        });
+        Self::new(ring(&places, [0.0; 3], Written::Exactly), poses.into())
+    }
+
+    /// A link that slides and turns on a shaft whose ends are joined.
+    pub fn sleeve() -> Self {
+        let sleeve = |x| (JointKind::Cylindrical, [x, 0.5, 0.0], [1.0, 0.0, 0.0]);
+        let poses = [0.3, 0.8].map(|way: f64| {
+            let values = vec![vec![way, 2.0 * way], vec![-way, -2.0 * way], vec![]];
+            let tangents = vec![vec![1.0, 0.0, -1.0, 0.0], vec![1.0, 1.0, -1.0, -1.0]];
+            (values, tangents)
+        });
+        Self::new(
+            ring(
+                &[
+                    sleeve(0.0),
+                    sleeve(1.0),
+                    (JointKind::Fixed, [0.0, 1.0, 0.0], [0.0; 3]),
+                ],
+                [0.0; 3],
+                Written::Exactly,
+            ),
+            poses.into(),
+        )
+    }
+}

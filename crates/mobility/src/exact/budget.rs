@@ -1,0 +1,69 @@
+//! How much exact algebra may do, counted in work and not in time.
+
+/// Matrix entries that are eliminated in about a second (release build, one core of a machine of 2024).
+const WORK_PER_SECOND: f64 = 5e6;
+
+/// How long exact algebra may take for one part where nothing is said.
+const SECONDS: f64 = 0.2;
+
+/// A matrix larger than this is not made: some hundred megabytes.
+pub(super) const MOST_ENTRIES: u64 = 20_000_000;
+
+/// The parts of a mechanism share so many times the budget of one.
+const PARTS: u64 = 5;
+
+/// How much work exact algebra may do, for each part of a mechanism.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ExactBudget {
+    pub(super) work: u64,
+}
+
+impl Default for ExactBudget {
+    /// About 0.2 s.
+    fn default() -> Self {
+        Self::seconds(SECONDS)
+    }
+}
+
+impl ExactBudget {
+    /// Exact algebra is not asked.
+    #[must_use]
+    pub fn none() -> Self {
+        Self { work: 0 }
+    }
+
+    /// About as much work as takes so many seconds, the same on every machine. No time, or none that is a number, is
+    /// [`Self::none`].
+    #[must_use]
+    pub fn seconds(seconds: f64) -> Self {
+        // Saturating; not a number becomes zero.
+        Self {
+            work: (seconds * WORK_PER_SECOND) as u64,
+        }
+    }
+
+    /// Work, in matrix entries.
+    #[must_use]
+    pub fn work(self) -> u64 {
+        self.work
+    }
+}
+
+/// What the parts of one mechanism may still spend.
+#[derive(Debug)]
+pub struct ExactAllowance {
+    /// For one part.
+    pub(super) each: u64,
+    /// For all that are still to come.
+    pub(super) left: u64,
+}
+
+impl ExactAllowance {
+    /// All of it.
+    pub(crate) fn new(budget: ExactBudget) -> Self {
+        Self {
+            each: budget.work,
+            left: budget.work.saturating_mul(PARTS),
+        }
+    }
+}

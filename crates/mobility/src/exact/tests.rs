@@ -1,0 +1,230 @@
+use super::question::tangent_dimension;
+use super::*;
+use crate::depth::Depth;
+use crate::part_mobility::part_mobility;
+use crate::part_samples::{Posed, fresh};
+use crate::verdict::judge;
+use crate::vocabulary::{PoseKind, SingularKind, Verdict};
+use kutzbach_algebra::ModularSystem;
+use kutzbach_closure::Structure;
+use kutzbach_closure::samples::{CRANK_ROCKER, Written, add_ring, general_four, planar, ring};
+use kutzbach_model::mechanism::MechanismBuilder;
+
+fn numeric(posed: &Posed) -> PartFinding {
+    part_mobility(
+        &posed.pose(),
+        &mut fresh(),
+        &posed.structure,
+        posed.part(),
+        &posed.rank(),
+        Depth::Everything,
+    )
+    .unwrap()
+}
+
+fn asked(posed: &Posed, mut found: PartFinding) -> PartFinding {
+    let mut allowance = ExactAllowance::new(ExactBudget::default());
+    ask_exact(
+        &posed.pose(),
+        posed.part(),
+        &posed.rank(),
+        &mut found,
+        &mut allowance,
+    );
+    found
+}
+
+/// As if the numeric engines had given up.
+fn left_open(mut found: PartFinding, upper: usize) -> PartFinding {
+    found.open = Some("a thin margin".to_owned());
+    found.upper = upper;
+    found.pose = None;
+    found.kind = None;
+    found.branches = None;
+    found
+}
+
+fn last(found: &PartFinding) -> &Evidence {
+    found.evidence.last().unwrap()
+}
+
+#[test]
+fn what_is_proved_gets_the_exact_level() {
+    for (name, pose) in [
+        ("triangle_3r_rigid", PoseKind::Regular),
+        ("collinear_3r_shaky", PoseKind::Singular),
+    ] {
+        let posed = Posed::known(name);
+        let found = asked(&posed, numeric(&posed));
+        assert_eq!(
+            (found.level, found.lower, found.upper, found.pose),
+            (CertificateLevel::Exact, 0, 0, Some(pose)),
+            "{name}"
+        );
+        assert_eq!(
+            (last(&found).engine, last(&found).bounds),
+            ("exact", (0, Some(0)))
+        );
+    }
+}
+
+#[test]
+fn what_others_leave_open_is_decided() {
+    let posed = Posed::known("collinear_3r_shaky");
+    let found = asked(&posed, left_open(numeric(&posed), 1));
+    assert_eq!(
+        (found.lower, found.upper, found.open.as_ref()),
+        (0, 0, None)
+    );
+    assert_eq!(found.kind, Some(SingularKind::Shaky));
+    assert_eq!(found.branches.map(|b| b.len()), Some(0));
+    // A motion that is known, and a bound that excludes more: decided, and no more than numeric.
+    let posed = Posed::known("double_watt_cusp");
+    let mut open = left_open(numeric(&posed), 2);
+    open.lower = 1;
+    let found = asked(&posed, open);
+    assert_eq!(
+        (found.lower, found.upper, found.open.as_ref()),
+        (1, 1, None)
+    );
+    assert_eq!(found.level, CertificateLevel::Numeric);
+    // The bound alone.
+    let mut open = left_open(numeric(&posed), 2);
+    open.lower = 0;
+    let found = asked(&posed, open);
+    assert_eq!((found.lower, found.upper), (0, 1));
+    assert!(found.open.is_some());
+}
+
+#[test]
+fn a_contradiction_is_said_and_decides_nothing() {
+    let posed = Posed::known("planar_4r_stretched_isolated");
+    let mut wrong = numeric(&posed);
+    wrong.lower = 2;
+    wrong.upper = 2;
+    let found = asked(&posed, wrong);
+    assert!(found.contradiction.as_ref().unwrap().contains("at most 1"));
+    assert_eq!((found.lower, found.upper, found.pose), (0, 2, None));
+    let verdict = judge(&posed.mechanism, &posed.structure, &[found]);
+    assert_eq!(verdict.verdict, Verdict::Undecided);
+    assert_eq!(verdict.why.len(), 1);
+    assert!(verdict.why[0].contains("please report"));
+    // A rank that is too small, and a motion where there is none.
+    let posed = Posed::known("triangle_3r_rigid");
+    let mut rank = posed.rank();
+    rank.instantaneous = Some(1);
+    let mut found = numeric(&posed);
+    let exact = ExactFinding {
+        tangent: 0,
+        upper: 0,
+        proven: Some(0),
+        complex_dimension: Some(0),
+        certificate: "proof".to_owned(),
+        text: String::new(),
+    };
+    combine(&mut found, &rank, exact);
+    assert!(found.contradiction.unwrap().contains("numeric rank"));
+}
+
+#[test]
+fn complex_dimensions_are_compared() {
+    let posed = Posed::known("planar_4r_stretched_isolated");
+    let found = asked(&posed, numeric(&posed));
+    assert_eq!((found.complex_dimension, found.upper), (Some(1), 0));
+    assert!(found.contradiction.is_none());
+    let mut wrong = numeric(&posed);
+    wrong.complex_dimension = Some(0);
+    let found = asked(&posed, wrong);
+    assert!(found.contradiction.is_some() && found.complex_dimension.is_none());
+    // The real answer rests on neither.
+    assert_eq!((found.lower, found.upper, found.open), (0, 0, None));
+}
+
+#[test]
+fn only_exact_numbers_are_asked_about() {
+    let decimals = Posed::new(ring(
+        &planar(&CRANK_ROCKER[..3]),
+        [0.0; 3],
+        Written::Decimals(6),
+    ));
+    let found = asked(&decimals, numeric(&decimals));
+    assert_eq!(found.level, CertificateLevel::Numeric);
+    assert!(last(&found).text.contains("rounded") && last(&found).bounds == (0, None));
+    let posed = Posed::new(general_four());
+    let found = asked(&posed, numeric(&posed));
+    assert_eq!(found.level, CertificateLevel::Exact);
+    // No budget, no question.
+    let mut found = numeric(&posed);
+    let evidence = found.evidence.len();
+    let mut none = ExactAllowance::new(ExactBudget::none());
+    ask_exact(
+        &posed.pose(),
+        posed.part(),
+        &posed.rank(),
+        &mut found,
+        &mut none,
+    );
+    assert_eq!(found.evidence.len(), evidence);
+}
+
+#[test]
+fn a_part_is_asked_about_alone() {
+    let mut builder = MechanismBuilder::new("two");
+    builder.link("ground");
+    for (name, joints) in [("p", 4), ("t", 3)] {
+        add_ring(
+            &mut builder,
+            name,
+            "ground",
+            &planar(&CRANK_ROCKER[..joints]),
+            [0.0; 3],
+            Written::Exactly,
+        );
+    }
+    let mechanism = builder.build().unwrap();
+    let parts = Structure::new(&mechanism).parts;
+    let size = |joints: &[usize]| {
+        let options = SystemOptions {
+            formulation: Formulation::Tree,
+            joints: Some(joints.iter().map(|&j| JointId(j)).collect()),
+            ..SystemOptions::default()
+        };
+        let system = polynomial_system(&mechanism, &options).unwrap();
+        (system.variables.len(), system.equations.len())
+    };
+    let mut sizes: Vec<_> = parts.iter().map(|part| size(&part.joints)).collect();
+    sizes.sort_unstable();
+    assert_eq!(sizes, [(4, 4), (6, 5)]);
+}
+
+#[test]
+fn tangents_are_counted_modulo_the_prime() {
+    let system = |rows: &[[u64; 3]]| ModularSystem {
+        prime: 101,
+        variables: vec![0, 1, 2],
+        equations: rows
+            .iter()
+            .map(|row| {
+                let linear = row.iter().enumerate().filter(|(_, c)| **c != 0);
+                let mut terms: Vec<(Vec<u32>, u64)> = linear
+                    .map(|(i, &c)| ((0..3).map(|j| u32::from(i == j)).collect(), c))
+                    .collect();
+                terms.push((vec![1, 1, 0], 7));
+                terms
+            })
+            .collect(),
+    };
+    let dimension =
+        |rows: &[[u64; 3]]| tangent_dimension(&system(rows), &Budget::unlimited()).unwrap();
+    assert_eq!(dimension(&[]), 3);
+    assert_eq!(dimension(&[[0, 0, 0]]), 3);
+    assert_eq!(dimension(&[[1, 2, 3], [2, 4, 6]]), 2);
+    assert_eq!(dimension(&[[1, 2, 3], [2, 4, 7], [100, 99, 99]]), 1);
+    assert_eq!(dimension(&[[0, 2, 3], [1, 0, 0], [0, 0, 50]]), 0);
+}
+
+#[test]
+fn seconds_become_work() {
+    assert!(ExactBudget::seconds(10.0).work() > 40 * ExactBudget::default().work());
+    assert_eq!(ExactBudget::seconds(1e300).work(), u64::MAX);
+}

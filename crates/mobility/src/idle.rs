@@ -1,0 +1,467 @@
+//! Idle freedoms along a branch: a rod, or another body inside a loop, moves while all others stand still.
+//!
+//! The rod between two balls spins, a sleeve slides on the shaft of its two cylindrical joints, a disc between parallel
+//! grooves shifts, a telescopic leg between two balls spins as a whole. Such a freedom enlarges the mobility and says nothing
+//! about what the mechanism is for.
+//!
+//! What may move is a [`Cluster`]: a body (links that fixed joints hold together), or the bodies of a chain between two balls,
+//! with the intermediate links of the balls and universal joints that end at it ([`Connections`]).
+//!
+//! A tangent moves one cluster only if all joints without a side in it stand still. In an orthonormal basis of the
+//! tangent space the joints of the cluster alone then make up the whole length of the vector: singular values of their rows
+//! equal to one. The pieces into which the other links fall without the cluster are rigid along it, so that it remains to
+//! ask of the cluster's neighbours whether they stand still too. What hangs on a cluster by a joint moves with it: then
+//! somebody may want that motion, and it is not idle.
+//!
+//! Cost: linear in the mechanism for links of few joints, times the square of the freedoms of a link's joints.
+
+use super::branch::{BranchPose, IdleLink};
+use super::link_twists::LinkTwists;
+use super::one_sided::{OneSided, dot};
+use super::point_chains::{Bodies, Connection, Connections, heaviest_first};
+use super::relative_motion::link_twists;
+use super::tangent_space::TangentSpace;
+use kutzbach_closure::Geometry;
+use kutzbach_closure::Structure;
+use kutzbach_model::mechanism::Mechanism;
+use std::collections::BTreeSet;
+
+/// A vector is looked at more closely if at most a tenth of its length is outside the link's own joints.
+const NEARLY_ALL: f64 = 0.99;
+
+/// A unit tangent that moves everything else by less is nearly idle: a tenth of a millimetre on a decimetre.
+const NEARLY_AT_REST: f64 = 1e-3;
+
+/// Bodies of loops that can move alone at all of the poses, with the smallest freedom they have there, by link index.
+///
+/// A body counts as inside a loop if at least two of its joints are in cycles of one part, and these lead to at least two
+/// other links: between two links alone the motion of one is what the mechanism is for. Links that hang on bridges, and the
+/// ground, are never idle. Where margins are thin a link is not called idle. Freedoms of several entries are independent of
+/// one another.
+#[must_use]
+pub fn idle_links(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    structure: &Structure,
+    poses: &[BranchPose],
+) -> Vec<IdleLink> {
+    let seen = link_twists(mechanism, geometry, structure, poses);
+    idle_seen(mechanism, geometry, structure, &seen).idle
+}
+
+pub(super) fn idle_seen(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    structure: &Structure,
+    seen: &[LinkTwists],
+) -> IdleFreedoms {
+    if seen.is_empty() {
+        return IdleFreedoms::default();
+    }
+    let connections = Connections::of(mechanism, geometry, structure);
+    let clusters = clusters(mechanism, structure, &connections);
+    let (freedoms, _) = moving_alone(seen, &clusters, false);
+    let (nearly, _) = moving_alone(seen, &clusters, true);
+    let named = |clusters_with: Vec<(&Cluster, usize)>| -> Vec<IdleLink> {
+        let mut idle: Vec<IdleLink> = clusters_with
+            .into_iter()
+            .filter(|(_, freedom)| *freedom > 0)
+            .map(|(cluster, freedom)| {
+                cluster.named(mechanism, structure, &connections.bodies, freedom)
+            })
+            .collect();
+        idle.sort_by_key(|idle| idle.link);
+        idle
+    };
+    let more = nearly
+        .iter()
+        .zip(&freedoms)
+        .map(|(near, idle)| near.saturating_sub(*idle));
+    IdleFreedoms {
+        nearly: named(clusters.iter().zip(more).collect()),
+        idle: named(clusters.iter().zip(freedoms).collect()),
+    }
+}
+
+/// What is idle along a branch.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct IdleFreedoms {
+    /// As [`idle_links`] gives them.
+    pub idle: Vec<IdleLink>,
+    /// Further freedoms that move a cluster a thousand times as much as anything else: a ball that its rod's axis misses by
+    /// little.
+    pub nearly: Vec<IdleLink>,
+}
+
+/// The freedom of each cluster beyond that of its bodies one by one, and the tangents that move it alone, pose by pose.
+fn moving_alone(
+    seen: &[LinkTwists],
+    clusters: &[Cluster],
+    nearly: bool,
+) -> (Vec<usize>, Vec<Vec<Combinations>>) {
+    let mut freedoms = vec![usize::MAX; clusters.len()];
+    let mut all = Vec::with_capacity(seen.len());
+    for there in seen {
+        let mut moving: Vec<Combinations> = Vec::with_capacity(clusters.len());
+        for (freedom, cluster) in freedoms.iter_mut().zip(clusters) {
+            let alone = match freedom {
+                0 => Vec::new(),
+                _ => idle_tangents(there, cluster, nearly).unwrap_or_default(),
+            };
+            // A chain moves as a whole where its bodies move one by one.
+            let singly = cluster.singles.iter().flat_map(|&single| &moving[single]);
+            let mut together: Combinations = singly.cloned().collect();
+            let more = if together.is_empty() {
+                alone.len()
+            } else {
+                let singly = together.len();
+                together.extend(alone.iter().cloned());
+                let rank = OneSided::of(together).and_then(|all| there.limits.rank(&all.values));
+                rank.map_or(0, |rank| rank.saturating_sub(singly))
+            };
+            *freedom = more.min(*freedom);
+            moving.push(alone);
+        }
+        all.push(moving);
+    }
+    (freedoms, all)
+}
+
+/// Vectors of weights of a basis of tangents.
+type Combinations = Vec<Vec<f64>>;
+
+/// The tangent spaces at the usable ones of some poses of a branch, each with an orthonormal basis of the idle motions in it, as
+/// combinations of the tangents.
+pub(super) fn idle_spaces(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    structure: &Structure,
+    poses: &[BranchPose],
+) -> Vec<(TangentSpace, Combinations)> {
+    let seen = link_twists(mechanism, geometry, structure, poses);
+    let connections = Connections::of(mechanism, geometry, structure);
+    let clusters = clusters(mechanism, structure, &connections);
+    let (freedoms, moving) = moving_alone(&seen, &clusters, false);
+    let dimension = freedoms.iter().sum();
+    seen.into_iter()
+        .zip(moving)
+        .filter_map(|(there, moving)| {
+            let idle = moving.into_iter().zip(&freedoms);
+            let idle = idle
+                .filter(|(_, freedom)| **freedom > 0)
+                .flat_map(|(alone, _)| alone);
+            let found = OneSided::of(idle.collect())?;
+            // Poses that show more than others do are not generic.
+            if there.limits.rank(&found.values)? != dimension {
+                return None;
+            }
+            let vectors = found.vectors.into_iter().zip(found.values).take(dimension);
+            let unit = vectors.map(|(vector, value)| vector.iter().map(|x| x / value).collect());
+            Some((there.tangents, unit.collect()))
+        })
+        .collect()
+}
+
+/// Bodies that might move alone.
+struct Cluster {
+    /// The bodies that move as one.
+    core: Vec<usize>,
+    /// Intermediate bodies of the connections at its ends.
+    between: Vec<usize>,
+    /// Joints that move with it.
+    own: Vec<usize>,
+    /// A link of the core.
+    link: usize,
+    /// The links beyond the joints, each with its joint.
+    neighbours: Vec<(usize, usize)>,
+    /// Whether it hangs between balls only.
+    rod: bool,
+    /// Of a chain: the clusters of its bodies.
+    singles: Vec<usize>,
+}
+
+impl Cluster {
+    fn new(mechanism: &Mechanism, bodies: &Bodies, core: Vec<usize>, ends: &[&Connection]) -> Self {
+        let between: Vec<usize> = ends.iter().flat_map(|end| &end.between).copied().collect();
+        let own: Vec<usize> = ends.iter().flat_map(|end| &end.joints).copied().collect();
+        let mut neighbours = Vec::new();
+        for &index in &own {
+            let joint = &mechanism.joints()[index];
+            for link in [joint.predecessor.link.0, joint.successor.link.0] {
+                let body = bodies.of[link];
+                if !core.contains(&body) && !between.contains(&body) {
+                    neighbours.push((index, link));
+                }
+            }
+        }
+        Self {
+            link: bodies.links[core[0]][0],
+            core,
+            between,
+            own,
+            neighbours,
+            rod: ends.iter().all(|end| end.ball),
+            singles: Vec::new(),
+        }
+    }
+
+    /// The links that move: the one with most mass, or the first by name, before the others.
+    fn named(
+        &self,
+        mechanism: &Mechanism,
+        structure: &Structure,
+        bodies: &Bodies,
+        freedom: usize,
+    ) -> IdleLink {
+        let links = |of: &[usize]| {
+            let links = of.iter().flat_map(|&body| &bodies.links[body]).copied();
+            heaviest_first(mechanism, structure, links.collect())
+        };
+        let mut all = links(&self.core);
+        all.extend(links(&self.between));
+        IdleLink {
+            link: all.remove(0),
+            with: all,
+            freedom,
+            rod: self.rod,
+        }
+    }
+}
+
+/// The part whose cycles a joint is in, by joint.
+fn parts_of_joints(mechanism: &Mechanism, structure: &Structure) -> Vec<Option<usize>> {
+    let mut part_of = vec![None; mechanism.joints().len()];
+    for (index, part) in structure.parts.iter().enumerate() {
+        for (joint, _) in part.cycles.iter().flatten() {
+            part_of[*joint] = Some(index);
+        }
+    }
+    part_of
+}
+
+/// The bodies of loops one by one, and the chains between two balls after them.
+fn clusters(
+    mechanism: &Mechanism,
+    structure: &Structure,
+    connections: &Connections,
+) -> Vec<Cluster> {
+    let bodies = &connections.bodies;
+    let part_of = parts_of_joints(mechanism, structure);
+    let ground = bodies.of[mechanism.ground().0];
+    let mut single_of = vec![None; bodies.links.len()];
+    let mut found: Vec<Cluster> = Vec::new();
+    for body in (0..bodies.links.len()).filter(|body| *body != ground) {
+        let joints = &bodies.joints[body];
+        let mut parts: Vec<usize> = joints.iter().filter_map(|(j, _)| part_of[*j]).collect();
+        parts.sort_unstable();
+        if !parts.windows(2).any(|pair| pair[0] == pair[1]) {
+            continue;
+        }
+        // An intermediate link is asked for by itself: its joint by joint.
+        let apart: Vec<Connection> = match connections.intermediate[body] {
+            true => joints
+                .iter()
+                .map(|&(j, o)| Connection::one(mechanism, j, [body, o]))
+                .collect(),
+            false => Vec::new(),
+        };
+        let at = connections.at[body]
+            .iter()
+            .map(|&index| &connections.all[index]);
+        let ends: Vec<&Connection> = at.chain(&apart).collect();
+        let cluster = Cluster::new(mechanism, bodies, vec![body], &ends);
+        let in_loops = cluster
+            .neighbours
+            .iter()
+            .filter(|(joint, _)| part_of[*joint].is_some());
+        let others: BTreeSet<usize> = in_loops
+            .map(|&(_, link)| match cluster.between.is_empty() {
+                true => link,
+                false => bodies.of[link],
+            })
+            .collect();
+        if others.len() >= 2 {
+            single_of[body] = Some(found.len());
+            found.push(cluster);
+        }
+    }
+    for (core, ends) in chains(connections, ground) {
+        let [first, last] = ends.map(|index| &connections.all[index]);
+        if part_of[first.joints[0]].is_none() || part_of[first.joints[0]] != part_of[last.joints[0]]
+        {
+            continue;
+        }
+        let mut cluster = Cluster::new(mechanism, bodies, core, &[first, last]);
+        cluster.singles = cluster
+            .core
+            .iter()
+            .filter_map(|&body| single_of[body])
+            .collect();
+        found.push(cluster);
+    }
+    found
+}
+
+/// Chains of two bodies or more from one ball to another, without branches: their bodies and the two balls.
+fn chains(connections: &Connections, ground: usize) -> Vec<(Vec<usize>, [usize; 2])> {
+    let inner = |body: usize| body != ground && connections.at[body].len() == 2;
+    let mut found = Vec::new();
+    for start in (0..connections.at.len()).filter(|&body| inner(body)) {
+        for &ball in connections.at[start]
+            .iter()
+            .filter(|&&c| connections.all[c].ball)
+        {
+            let mut core = vec![start];
+            let (mut body, mut came_by) = (start, ball);
+            let last = loop {
+                let Some(&onward) = connections.at[body].iter().find(|&&c| c != came_by) else {
+                    break None;
+                };
+                let connection = &connections.all[onward];
+                if connection.ball {
+                    break Some(onward);
+                }
+                let next = connection.beyond(body);
+                if !inner(next) || core.contains(&next) {
+                    break None;
+                }
+                core.extend(&connection.between);
+                core.push(next);
+                (body, came_by) = (next, onward);
+            };
+            // Every chain is met from both of its ends.
+            let Some(last) = last.filter(|_| start < body) else {
+                continue;
+            };
+            if connections.all[ball].beyond(start) != connections.all[last].beyond(body) {
+                found.push((core, [ball, last]));
+            }
+        }
+    }
+    found
+}
+
+/// The tangents that move a cluster alone, as orthonormal combinations of the basis, one for each of its freedoms; `None`
+/// where a margin is thin. `nearly`: others may move a little.
+fn idle_tangents(there: &LinkTwists, cluster: &Cluster, nearly: bool) -> Option<Combinations> {
+    let basis = &there.tangents.basis;
+    let own: Vec<usize> = cluster
+        .own
+        .iter()
+        .flat_map(|joint| there.tangents.variables(*joint))
+        .collect();
+    let rows = own
+        .iter()
+        .map(|&variable| basis.iter().map(|vector| vector[variable]).collect());
+    let found = OneSided::of(rows.collect())?;
+    // Combinations of the tangents that hardly move any other joint.
+    let candidates: Vec<Vec<f64>> = found
+        .vectors
+        .iter()
+        .zip(&found.values)
+        .take_while(|(_, value)| **value > NEARLY_ALL)
+        .map(|(vector, value)| vector.iter().map(|x| x / value).collect())
+        .collect();
+    if candidates.is_empty() {
+        return Some(Vec::new());
+    }
+    let variables = basis.first().map_or(0, Vec::len);
+    let mut is_own = vec![false; variables];
+    own.iter().for_each(|&variable| is_own[variable] = true);
+    let others_move: Vec<Vec<f64>> = candidates
+        .iter()
+        .map(|candidate| {
+            let mut moves: Vec<f64> = (0..variables)
+                .filter(|variable| !is_own[*variable])
+                .map(|variable| {
+                    let row: Vec<f64> = basis.iter().map(|vector| vector[variable]).collect();
+                    dot(&row, candidate)
+                })
+                .collect();
+            for (_, neighbour) in &cluster.neighbours {
+                moves.extend(there.along(*neighbour, candidate));
+            }
+            moves
+        })
+        .collect();
+    let outside = OneSided::of(others_move)?;
+    let moving = match nearly {
+        true => outside
+            .values
+            .iter()
+            .filter(|value| **value > NEARLY_AT_REST)
+            .count(),
+        false => there.limits.rank(&outside.values)?,
+    };
+    // What is left moves nothing else; some of it may not even move the core, where a joint's own screws are dependent.
+    let alone: Vec<Vec<f64>> = outside.combinations[moving..]
+        .iter()
+        .map(|combination| combined(&candidates, combination))
+        .collect();
+    let own_motion = alone
+        .iter()
+        .map(|sum| there.along(cluster.link, sum).to_vec());
+    let own_motion = OneSided::of(own_motion.collect())?;
+    let freedom = there.limits.rank(&own_motion.values)?;
+    Some(
+        own_motion.combinations[..freedom]
+            .iter()
+            .map(|combination| combined(&alone, combination))
+            .collect(),
+    )
+}
+
+/// Σ weights[i] vectors[i]; nothing where there are no vectors.
+fn combined(vectors: &[Vec<f64>], weights: &[f64]) -> Vec<f64> {
+    let mut sum = vec![0.0; vectors.first().map_or(0, Vec::len)];
+    for (vector, weight) in vectors.iter().zip(weights) {
+        sum.iter_mut()
+            .zip(vector)
+            .for_each(|(s, x)| *s += weight * x);
+    }
+    sum
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::branch_samples::Sample;
+    use super::*;
+
+    fn idle(sample: &Sample) -> Vec<(&str, usize)> {
+        idle_links(
+            &sample.mechanism,
+            &sample.geometry,
+            &sample.structure,
+            &sample.poses,
+        )
+        .iter()
+        .map(|idle| {
+            let link = &sample.mechanism.links()[idle.link];
+            (link.name.as_str(), idle.freedom)
+        })
+        .collect()
+    }
+
+    #[test]
+    fn rods_spin_and_sleeves_slide() {
+        assert_eq!(idle(&Sample::rod()), [("r1", 1)]);
+        assert_eq!(idle(&Sample::sleeve()), [("r1", 2)]);
+    }
+
+    #[test]
+    fn links_that_move_others_are_not_idle() {
+        assert!(idle(&Sample::parallelogram()).is_empty());
+    }
+
+    #[test]
+    fn the_poorest_pose_counts() {
+        let mut sample = Sample::sleeve();
+        sample.poses[1].tangents.pop();
+        assert_eq!(idle(&sample), [("r1", 1)]);
+        sample.poses[0].tangents.clear();
+        assert!(idle(&sample).is_empty());
+        sample.poses.clear();
+        assert!(idle(&sample).is_empty());
+    }
+}

@@ -1,0 +1,101 @@
+//! How a mechanism can move: engines, and the one file that decides the verdict.
+//!
+//! The question is answered part by part ([`Structure`]): bridges are free, blocks that share no joint and no coupling
+//! cannot influence each other. Each part is counted ([`kutzbach_count`], [`generic_count`]), closed
+//! ([`kutzbach_closure::assemble`]) and ranked at its pose ([`rank_part`]); from the kernel come the joints' roles
+//! ([`roles_of_part`]), from the left kernel the redundant constraints ([`SelfStresses`]) and what to relax
+//! ([`advice_for_part`]).
+//!
+//! Then [`part_mobility`] asks what is left of that freedom in finite motion: displacement subgroups
+//! ([`subgroup_finding`]), the chart test ([`chart_test`]), and at singular poses the germ of the configuration space and
+//! its real zeros. Where the numbers are exact and doubt is left, exact algebra is asked last, within an
+//! [`ExactBudget`]. Every branch is walked to generic poses of its own, where [`branch_facts`] asks what moves along it.
+//! [`judge`] puts the parts together.
+//!
+//! Cost: near-linear in the mechanism where its loops are short and hang together like a chain; fronts of the sparse
+//! elimination grow with the width of a lattice. Singular poses cost power series in the variables of one part's kernel.
+
+mod actuation;
+mod advice;
+mod alike;
+mod analysis;
+mod branch;
+mod branch_facts;
+mod branch_roles;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod branch_samples;
+mod chart;
+mod coupling_locks;
+mod cycles;
+mod depth;
+mod exact;
+pub mod families;
+mod generic;
+mod germ;
+mod germ_zeros;
+mod idle;
+mod idle_directions;
+mod kutzbach;
+mod lifting;
+mod limbs;
+mod limit_facts;
+mod link_twists;
+mod more_digits;
+mod near_singular;
+mod one_engine;
+mod one_sided;
+mod part_mobility;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod part_samples;
+mod point_chains;
+mod pose_rank;
+mod redundancy;
+mod relative_motion;
+mod roles;
+mod rounded;
+mod singular;
+mod subgroup;
+mod tangent_space;
+mod tracing;
+mod verdict;
+mod vocabulary;
+mod whole_branches;
+
+pub use actuation::{Actuation, DependentInput, Follower, Freedom, actuation};
+pub use advice::{Advice, advice_for_part};
+pub use analysis::{Analysis, AnalysisError, AnalysisOptions, HomeFreedom, analyse};
+pub use branch::{Branch, BranchPose, IdleLink, RelativeMotion};
+pub use branch_facts::{BranchFacts, branch_facts};
+pub use branch_roles::branch_roles;
+pub use chart::{ChartOutcome, ChartTest, Kernel, chart_test};
+pub use coupling_locks::freedom_locked_by_couplings;
+pub use cycles::{CycleFacts, cycle_facts};
+pub use depth::Depth;
+pub use exact::ExactBudget;
+pub use generic::{GenericCount, generic_count};
+pub use germ::{
+    ComplexDimension, Germ, PrestressCertificate, complex_dimension, prestress_certificate,
+};
+pub use germ_zeros::{GermBranch, GermZeroOptions, GermZeros, HalfBranch, Isolation, germ_zeros};
+pub use idle::idle_links;
+pub use kutzbach::kutzbach_count;
+pub use kutzbach_closure::{Structure, constraint_graph};
+pub use limbs::{Limb, Limbs, limbs};
+pub use limit_facts::{LimitFact, limit_facts};
+pub use more_digits::MoreDigits;
+pub use near_singular::{ClearerPose, NearSingular, dead_centres, near_singular, pose_of_branch};
+pub use one_engine::{
+    OneEngine, chart_alone, exact_alone, germ_alone, kernel_of, rank_alone, subgroups_alone,
+};
+pub use part_mobility::{Evidence, PartBranch, PartFinding, part_mobility};
+pub use pose_rank::{Doubt, LADDER, PartRank, Pose, rank_part};
+pub use redundancy::SelfStresses;
+pub use relative_motion::{motions_to_ground, relative_motions};
+pub use roles::{JointRole, freedom_groups, roles_of_part};
+pub use subgroup::{SubgroupFinding, subgroup_finding};
+pub use tracing::tangents_at;
+pub use tracing::{PartPose, poses_of_regular_part};
+pub use verdict::{Mobility, Nominal, judge, unassembled};
+pub use vocabulary::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};

@@ -1,0 +1,249 @@
+//! Which part of a mechanism's freedom is in which limb.
+//!
+//! Seen from a body that is held, what hangs on it by separate joints moves independently: legs on a pelvis, arms on a torso.
+//! From the ground inwards the first body on which two such limbs hang is the base; the joints on the way to it are the trunk.
+//! The tangent space of a branch is the direct sum of those of trunk and limbs, so that their freedoms add up to the branch's.
+//!
+//! Cost: linear in the mechanism, and (variables of a limb)² × d for its rank.
+
+use super::branch::Branch;
+use super::one_sided::OneSided;
+use super::point_chains::{Bodies, Connections, heaviest_first};
+use super::tangent_space::TangentSpace;
+use kutzbach_closure::Geometry;
+use kutzbach_closure::Structure;
+use kutzbach_model::mechanism::{Mechanism, Placement};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+
+/// What hangs on the base by itself.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Limb {
+    /// The link at its end: that of the body that moves most freely; of several, of the heaviest, or the farthest from the base.
+    pub end: usize,
+    /// Its freedoms along the branch, idle ones included.
+    pub freedom: usize,
+    /// Its idle freedoms.
+    pub idle: usize,
+}
+
+/// A mechanism taken apart at its base.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Limbs {
+    /// The link that the limbs hang on.
+    pub base: usize,
+    /// Freedoms of the joints between the ground and the base.
+    pub trunk: usize,
+    /// At least two, by name of their ends.
+    pub limbs: Vec<Limb>,
+}
+
+/// A limb of more variables is not ranked by itself.
+const MOST_VARIABLES: usize = 1000;
+
+/// The limbs of a mechanism, with their freedoms along a branch; `None` where there are no two of them, or where a margin does
+/// not tell.
+#[must_use]
+pub fn limbs(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    structure: &Structure,
+    branch: &Branch,
+) -> Option<Limbs> {
+    let Connections {
+        bodies,
+        intermediate,
+        ..
+    } = Connections::of(mechanism, geometry, structure);
+    let (base, trunk, pieces) = taken_apart(mechanism, &bodies)?;
+    let pose = branch.poses.first()?;
+    let tangents = TangentSpace::at(mechanism, geometry, structure, pose)?;
+    let freedoms = |joints: &BTreeSet<usize>| -> Option<usize> {
+        let variables = joints.iter().flat_map(|&joint| tangents.variables(joint));
+        let rows: Vec<Vec<f64>> = variables
+            .map(|variable| {
+                tangents
+                    .basis
+                    .iter()
+                    .map(|vector| vector[variable])
+                    .collect()
+            })
+            .collect();
+        if rows.len() > MOST_VARIABLES {
+            return None;
+        }
+        tangents.limits.rank(&OneSided::of(rows)?.values)
+    };
+    let mut found = Vec::new();
+    for piece in &pieces {
+        let joints = piece
+            .iter()
+            .flat_map(|&body| &bodies.joints[body])
+            .map(|(joint, _)| *joint);
+        let idle = branch
+            .idle
+            .iter()
+            .filter(|idle| piece.contains(&bodies.of[idle.link]));
+        found.push(Limb {
+            end: end_of(
+                mechanism,
+                structure,
+                &bodies,
+                &intermediate,
+                branch,
+                base,
+                piece,
+            ),
+            freedom: freedoms(&joints.collect())?,
+            idle: idle.map(|idle| idle.freedom).sum(),
+        });
+    }
+    found.sort_by_key(|limb| structure.graph.node_rank(limb.end));
+    let trunk = freedoms(&trunk)?;
+    let all = trunk + found.iter().map(|limb| limb.freedom).sum::<usize>();
+    (all == tangents.basis.len()).then_some(Limbs {
+        base: main_link(mechanism, structure, &bodies.links[base]),
+        trunk,
+        limbs: found,
+    })
+}
+
+/// The base, the joints of the trunk, and the bodies of each limb.
+fn taken_apart(
+    mechanism: &Mechanism,
+    bodies: &Bodies,
+) -> Option<(usize, BTreeSet<usize>, Vec<BTreeSet<usize>>)> {
+    let mut base = bodies.of[mechanism.ground().0];
+    if bodies.joints[base].is_empty() {
+        // A robot that floats in a world.
+        let mut floating = mechanism
+            .links()
+            .iter()
+            .enumerate()
+            .filter_map(|(link, placed)| {
+                matches!(placed.placement, Placement::Floating { .. }).then_some(bodies.of[link])
+            });
+        base = floating.next()?;
+        if floating.next().is_some() {
+            return None;
+        }
+    }
+    let coupled: BTreeSet<usize> = mechanism
+        .couplings()
+        .iter()
+        .flat_map(|coupling| coupling.terms.iter().map(|term| term.joint.0))
+        .collect();
+    let mut passed = BTreeSet::from([base]);
+    let mut trunk = BTreeSet::new();
+    loop {
+        let pieces = pieces_beside(mechanism, bodies, &passed, base);
+        let [piece] = pieces.as_slice() else {
+            return (pieces.len() > 1).then_some((base, trunk, pieces));
+        };
+        let mut ways = bodies.joints[base]
+            .iter()
+            .filter(|(_, other)| piece.contains(other));
+        let &(joint, next) = ways.next()?;
+        if ways.next().is_some() || coupled.contains(&joint) {
+            return None;
+        }
+        trunk.insert(joint);
+        passed.insert(next);
+        base = next;
+    }
+}
+
+/// The sets of bodies that hang together, by joints or couplings, without those passed, and hang on the base.
+fn pieces_beside(
+    mechanism: &Mechanism,
+    bodies: &Bodies,
+    passed: &BTreeSet<usize>,
+    base: usize,
+) -> Vec<BTreeSet<usize>> {
+    let mut tied: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for coupling in mechanism.couplings() {
+        let ends: BTreeSet<usize> = coupling
+            .terms
+            .iter()
+            .flat_map(|term| {
+                let joint = mechanism.joint(term.joint);
+                [joint.predecessor.link.0, joint.successor.link.0].map(|link| bodies.of[link])
+            })
+            .filter(|body| !passed.contains(body))
+            .collect();
+        for &body in &ends {
+            tied.entry(body).or_default().extend(&ends);
+        }
+    }
+    let mut pieces: Vec<BTreeSet<usize>> = Vec::new();
+    for &(_, start) in &bodies.joints[base] {
+        if passed.contains(&start) || pieces.iter().any(|piece| piece.contains(&start)) {
+            continue;
+        }
+        let mut piece = BTreeSet::from([start]);
+        let mut open = vec![start];
+        while let Some(body) = open.pop() {
+            let joined = bodies.joints[body].iter().map(|(_, other)| *other);
+            for next in joined.chain(tied.get(&body).into_iter().flatten().copied()) {
+                if !passed.contains(&next) && piece.insert(next) {
+                    open.push(next);
+                }
+            }
+        }
+        pieces.push(piece);
+    }
+    pieces
+}
+
+/// The link that gives a limb its name.
+fn end_of(
+    mechanism: &Mechanism,
+    structure: &Structure,
+    bodies: &Bodies,
+    intermediate: &[bool],
+    branch: &Branch,
+    base: usize,
+    piece: &BTreeSet<usize>,
+) -> usize {
+    let idle: BTreeSet<usize> = branch
+        .idle
+        .iter()
+        .flat_map(|idle| idle.with.iter().chain([&idle.link]))
+        .map(|&link| bodies.of[link])
+        .collect();
+    let mut distance = BTreeMap::from([(base, 0usize)]);
+    let mut queue = VecDeque::from([base]);
+    while let Some(body) = queue.pop_front() {
+        let next = distance[&body] + 1;
+        for (_, other) in &bodies.joints[body] {
+            if piece.contains(other) && !distance.contains_key(other) {
+                distance.insert(*other, next);
+                queue.push_back(*other);
+            }
+        }
+    }
+    let freedom = |body: usize| -> usize {
+        let own = branch
+            .motions
+            .iter()
+            .filter(|motion| bodies.of[motion.link] == body);
+        own.map(|motion| motion.freedom).max().unwrap_or(0)
+    };
+    let link = |&body: &usize| main_link(mechanism, structure, &bodies.links[body]);
+    let rank = |body: &usize| structure.graph.node_rank(link(body));
+    let away = |body: &usize| distance.get(body).copied().unwrap_or(0);
+    let bodily = |body: &&usize| !idle.contains(body) && !intermediate[**body];
+    let farthest = piece.iter().filter(bodily).max_by(|a, b| {
+        freedom(**a)
+            .cmp(&freedom(**b))
+            .then_with(|| bodies.mass[**a].total_cmp(&bodies.mass[**b]))
+            .then_with(|| away(a).cmp(&away(b)))
+            .then_with(|| rank(b).cmp(&rank(a)))
+    });
+    farthest.or(piece.first()).map_or(0, link)
+}
+
+/// The heaviest link of a body, or the first by name.
+fn main_link(mechanism: &Mechanism, structure: &Structure, links: &[usize]) -> usize {
+    let links = heaviest_first(mechanism, structure, links.to_vec());
+    links.first().copied().unwrap_or(0)
+}

@@ -1,0 +1,407 @@
+//! Singular poses: which branches pass through them.
+//!
+//! The germ of the configuration space, a few power series in the δ coordinates of the kernel, is cut off at a small order
+//! and its real zeros near the origin are found ([`germ_zeros`]). That is a hint. Each branch found is then lifted to the
+//! mechanism, closed on *all* equations at a finite distance, ranked there and followed: only what survives this is a
+//! branch. What bounds the mobility from above is the search for zeros, which is numeric, and where it can be had the
+//! dimension over the complex numbers.
+//!
+//! What is idle at every pose is taken out first ([`idle_directions`]). One variable left needs no search: an analytic
+//! function of one variable that does not vanish identically has an isolated zero, so that only what is idle moves.
+
+mod resolution;
+
+use self::resolution::Resolution;
+use super::chart::{ChartTest, Kernel};
+use super::germ::{ComplexDimension, Germ, complex_dimension, prestress_certificate};
+use super::germ_zeros::{GermBranch, GermZeroOptions, GermZeros, germ_zeros};
+use super::idle_directions::idle_directions;
+use super::lifting::{Lifted, Start, idle_branch, lift_all};
+use super::part_mobility::{Evidence, PartFinding};
+use super::pose_rank::{PartRank, Pose, TALL, height_at};
+use super::vocabulary::{CertificateLevel, PoseKind, SingularKind};
+use kutzbach_closure::Part;
+use kutzbach_math::matrix::MatrixError;
+
+/// Degrees to which the series are computed: the first, and the last tried.
+const FIRST_DEGREE: usize = 4;
+const LAST_DEGREE: usize = 8;
+
+/// More starts than this are not made on a germ of many variables, and fewer where each is dear: all of them together may
+/// evaluate about as many terms of series, which takes a second or so.
+const STARTS: usize = 600;
+const TERMS: usize = 1_000_000;
+
+/// How many starts a search on a germ may make.
+pub(super) fn most_starts(germ: &Germ) -> usize {
+    let variables = germ.freedom();
+    let terms: usize = germ
+        .equations()
+        .iter()
+        .map(|equation| equation.coefficients().len())
+        .sum();
+    (TERMS / (variables * terms).max(1)).min(STARTS)
+}
+
+/// Branches whose directions differ by less than the first (rad) may share a tangent, from the second on they do not, as far
+/// as [`Resolution`] allows to tell. Directions are known to some 1e-5.
+const SAME_DIRECTION: [f64; 2] = [1e-4, 3e-3];
+
+/// What is known of a singular pose.
+pub(super) struct SingularFinding {
+    pub found: PartFinding,
+    pub more_evidence: Vec<Evidence>,
+}
+
+/// Looks for the branches through a pose that the chart test calls singular.
+///
+/// # Errors
+/// [`MatrixError`] where numbers overflow.
+pub(super) fn singular_finding(
+    pose: &Pose<'_>,
+    part: &Part,
+    rank: &PartRank,
+    kernel: &Kernel,
+    chart: &ChartTest,
+    lower: usize,
+) -> Result<SingularFinding, MatrixError> {
+    let freedom = kernel.basis.nullity;
+    let mut evidence = Vec::new();
+    let mut found = PartFinding {
+        lower,
+        upper: freedom - 1,
+        pose: Some(PoseKind::Singular),
+        kind: None,
+        class: None,
+        level: CertificateLevel::Numeric,
+        certificate: String::new(),
+        complex_dimension: None,
+        branches: None,
+        at_rest: freedom,
+        open: None,
+        evidence: Vec::new(),
+        nominal: None,
+        complex_upper: None,
+        contradiction: None,
+    };
+    // Numbers taken literally close the loops exactly. The coefficients of the series are not for that reason beyond doubt:
+    // rounding shifts them by its share of the curvature, of which hardly a tenth remains.
+    let doubtful = PartRank {
+        stated: if chart.literal {
+            0.1 * rank.stated
+        } else {
+            rank.stated
+        },
+        ..rank.clone()
+    };
+    let literal;
+    let rank = if chart.literal {
+        literal = PartRank {
+            stated: 0.0,
+            ..rank.clone()
+        };
+        &literal
+    } else {
+        rank
+    };
+    // What is idle at all poses is a factor of the configuration space.
+    let by_kind = height_at(pose, part) > TALL;
+    let idle = idle_directions(pose.mechanism, part, kernel, by_kind);
+    let taken_out = match idle.len() {
+        0 => String::new(),
+        1 => ", 1 idle freedom taken out".to_owned(),
+        many => format!(", {many} idle freedoms taken out"),
+    };
+    let start = Start {
+        pose,
+        part,
+        rank,
+        kernel,
+        idle: &idle,
+    };
+    if freedom == 1 + idle.len() {
+        "along the only direction that the equations allow to first order they fail at higher order, and an equation in one \
+         variable that does not vanish identically has an isolated solution"
+            .clone_into(&mut found.certificate);
+        isolated(&mut found, &start)?;
+        found.complex_dimension = Some(idle.len());
+        return Ok(SingularFinding {
+            found,
+            more_evidence: evidence,
+        });
+    }
+    let mut why = "its power series are too many to follow".to_owned();
+    // Dimensions of the branches that the last search found.
+    let mut before: Option<Vec<usize>> = None;
+    let mut next = FIRST_DEGREE;
+    while next <= LAST_DEGREE {
+        let degree = next;
+        next += 2;
+        let Some(germ) = Germ::of_part_across(pose.mechanism, &doubtful, degree, &idle)? else {
+            break;
+        };
+        let Some(order) = germ.order() else {
+            why = format!("what the equations leave over is of higher order than {degree}");
+            continue;
+        };
+        // Twice the order shows the next terms too, by which branches of a common tangent cone differ.
+        next = next.max(2 * order);
+        if let Some(stress) = prestress_certificate(&germ) {
+            evidence.push(Evidence {
+                engine: "second order",
+                scope: "a neighbourhood, real",
+                bounds: (0, Some(idle.len())),
+                text: format!(
+                    "a self-stress makes the second-order form definite: smallest eigenvalue {:.2e}, noise {:.2e}{taken_out}",
+                    stress.smallest_eigenvalue, stress.noise
+                ),
+            });
+            "a self-stress blocks every motion at second order (its quadratic form on the velocities is definite)"
+                .clone_into(&mut found.certificate);
+            isolated(&mut found, &start)?;
+            found.complex_dimension =
+                complex_dimension(germ.equations(), germ.freedom(), germ.noise_by_degree())
+                    .map(|c| c.dimension + idle.len());
+            break;
+        }
+        let complex = complex_dimension(germ.equations(), germ.freedom(), germ.noise_by_degree());
+        let zeros = germ_zeros(
+            germ.freedom(),
+            germ.equations(),
+            germ.noise(order),
+            &GermZeroOptions {
+                most_starts: most_starts(&germ),
+                ..GermZeroOptions::default()
+            },
+        );
+        evidence.push(Evidence {
+            engine: "germ",
+            scope: "a neighbourhood",
+            bounds: (
+                0,
+                zeros.thin.is_none().then(|| {
+                    zeros
+                        .branches
+                        .iter()
+                        .map(|b| b.dimension)
+                        .max()
+                        .unwrap_or(0)
+                }),
+            ),
+            text: format!(
+                "{}{taken_out}",
+                germ_text(&germ, order, degree, &zeros, complex.as_ref())
+            ),
+        });
+        let complex = complex.map(|c| c.dimension + idle.len());
+        found.complex_dimension = complex;
+        if let Some(thin) = &zeros.thin {
+            why = refused(&mut evidence, thin.clone());
+            continue;
+        }
+        if zeros.branches.is_empty() {
+            "near this pose the closure equations have no other real solution: what the power series leave over stays away from \
+             zero on small spheres"
+                .clone_into(&mut found.certificate);
+            isolated(&mut found, &start)?;
+            break;
+        }
+        match lift_all(&start, &germ, &zeros.branches)? {
+            Ok(lifted) => {
+                let dimensions: Vec<usize> = lifted.iter().map(|b| b.branch.dimension).collect();
+                let top = dimensions.iter().copied().max().unwrap_or(0);
+                if complex.is_some_and(|c| c < top) {
+                    let reason =
+                        "the dimension over the complex numbers contradicts the branches found";
+                    why = refused(&mut evidence, reason.to_owned());
+                    continue;
+                }
+                found.lower = top;
+                // Where the complex dimension is larger real branches may have been overlooked, or there are none: y² + z² = 0.
+                // Two searches in series of different lengths that find the same are taken for the answer.
+                // Rounded numbers may open, or hide, what touches: there too two searches have to agree.
+                let explained = complex == Some(top) && doubtful.stated <= rank.accuracy;
+                let again = before.as_ref() == Some(&dimensions);
+                before = Some(dimensions);
+                if !explained && !again {
+                    let reason = match complex {
+                        Some(complex) if complex == top => {
+                            "the numbers are rounded, and no second search has found the same yet"
+                                .to_owned()
+                        }
+                        Some(complex) => format!(
+                            "real branches of dimension {top} were found where the complex ones have {complex}"
+                        ),
+                        None => format!(
+                            "real branches of dimension {top} were found, and no dimension over the complex numbers confirms them"
+                        ),
+                    };
+                    why = refused(&mut evidence, reason);
+                    continue;
+                }
+                found.upper = top;
+                let resolution = Resolution::of(&germ, height_at(pose, part));
+                found.kind = kind_of(&lifted, &zeros.branches, &resolution);
+                found.certificate = format!(
+                    "the real zeros of the equations' power series give {} the loops close at finite distances from this pose",
+                    if lifted.len() == 1 {
+                        "one branch, and on it".to_owned()
+                    } else {
+                        format!("{} branches, and on each of them", lifted.len())
+                    }
+                );
+                found.branches = Some(lifted.into_iter().map(|l| l.branch).collect());
+                break;
+            }
+            Err(reason) => why = refused(&mut evidence, reason),
+        }
+    }
+    if found.branches.is_none() {
+        found.certificate =
+            "the pose is singular, so that the finite freedom is below the instantaneous one"
+                .to_owned();
+        found.open = Some(format!(
+            "which branches pass through this singular pose is not settled: {why}; a pose beside it would be easier"
+        ));
+        if let Some(complex) = found.complex_dimension {
+            found.upper = found.upper.min(complex).max(found.lower);
+        }
+    }
+    Ok(SingularFinding {
+        found,
+        more_evidence: evidence,
+    })
+}
+
+/// What a search on the germ came to.
+fn germ_text(
+    germ: &Germ,
+    order: usize,
+    degree: usize,
+    zeros: &GermZeros,
+    complex: Option<&ComplexDimension>,
+) -> String {
+    let equations = match germ.equations().len() {
+        1 => "1 equation".to_owned(),
+        many => format!("{many} equations"),
+    };
+    let branches = zeros
+        .branches
+        .iter()
+        .map(|b| format!("a branch of dimension {}", b.dimension))
+        .collect::<Vec<_>>();
+    let found = if branches.is_empty() {
+        "none but the pose itself".to_owned()
+    } else {
+        branches.join(", ")
+    };
+    let spheres = zeros
+        .radii
+        .iter()
+        .fold(None::<(f64, f64)>, |range, r| match range {
+            None => Some((*r, *r)),
+            Some((low, high)) => Some((low.min(*r), high.max(*r))),
+        })
+        .map_or(String::new(), |(low, high)| {
+            format!(
+                " on {} spheres of radius {high:.1e} to {low:.1e}",
+                zeros.radii.len()
+            )
+        });
+    let complex = complex.map_or(String::new(), |c| {
+        format!(
+            "; complex dimension {}, Hilbert function {:?}",
+            c.dimension, c.hilbert
+        )
+    });
+    format!(
+        "{equations} of order {order} in {} variables to degree {degree}, margin {:.1e}; real zeros{spheres}: {found}; {} starts, \
+         seed {}{complex}",
+        germ.freedom(),
+        germ.margin(),
+        zeros.starts,
+        zeros.seed,
+    )
+}
+
+/// Marks the last search as one that nothing rests on; gives the reason back.
+fn refused(evidence: &mut [Evidence], reason: String) -> String {
+    if let Some(last) = evidence.last_mut() {
+        last.bounds = (0, None);
+        last.text.push_str("; not taken: ");
+        last.text.push_str(&reason);
+    }
+    reason
+}
+
+/// Nothing moves but what is idle.
+fn isolated(found: &mut PartFinding, start: &Start<'_>) -> Result<(), MatrixError> {
+    let dimension = start.idle.len();
+    found.lower = dimension;
+    found.upper = dimension;
+    if dimension == 0 {
+        found.kind = Some(SingularKind::Shaky);
+        found.branches = Some(Vec::new());
+    } else {
+        found.kind = Some(SingularKind::PermanentlyShaky);
+        found.certificate.push_str("; only what is idle moves");
+        found.branches = Some(vec![idle_branch(start)?]);
+    }
+    Ok(())
+}
+
+/// D7, from the branches through the pose.
+fn kind_of(
+    lifted: &[Lifted],
+    zeros: &[GermBranch],
+    resolution: &Resolution,
+) -> Option<SingularKind> {
+    let first = lifted.first()?;
+    if lifted
+        .iter()
+        .any(|l| l.branch.dimension != first.branch.dimension)
+    {
+        return Some(SingularKind::Kinematotropic);
+    }
+    if lifted.len() == 1 {
+        if first.shaky {
+            return Some(SingularKind::PermanentlyShaky);
+        }
+        let halves = &zeros.first()?.half_branches;
+        return match halves.as_slice() {
+            [a, b] if angle(&a.tangent, &b.tangent) < 0.1 => Some(SingularKind::Cusp),
+            _ => None,
+        };
+    }
+    let line = |branch: &GermBranch| branch.half_branches.first().map(|h| h.tangent.clone());
+    let lines: Option<Vec<Vec<f64>>> = zeros.iter().map(line).collect();
+    let Some(lines) = lines else {
+        return Some(SingularKind::Bifurcation);
+    };
+    // Which way a branch is run through does not matter.
+    let widest = lines
+        .iter()
+        .map(|line| {
+            let angle = angle(line, &lines[0]);
+            angle.min(std::f64::consts::PI - angle)
+        })
+        .fold(0.0, f64::max);
+    let unresolved = resolution.unresolved(lines.len());
+    if widest < SAME_DIRECTION[0] && resolution.least > unresolved.max(SAME_DIRECTION[0]) {
+        Some(SingularKind::Tangential)
+    } else if widest > unresolved.max(SAME_DIRECTION[1]) {
+        Some(SingularKind::Bifurcation)
+    } else {
+        None
+    }
+}
+
+/// The angle between two unit vectors (rad), small ones without loss of digits.
+fn angle(a: &[f64], b: &[f64]) -> f64 {
+    let half: f64 = a.iter().zip(b).map(|(x, y)| (x - y).powi(2)).sum();
+    2.0 * (0.5 * half.sqrt()).min(1.0).asin()
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;

@@ -1,0 +1,44 @@
+//! What a mechanism is.
+//!
+//! A [`Mechanism`] is rigid links held together by joints of Hervé's classes, plus linear couplings between joint variables.
+//! It is made by [`MechanismBuilder::build`] only, which checks everything once; what exists is valid, and nothing
+//! downstream checks again:
+//!
+//! - names are unique, every reference resolves, no joint connects a link with itself;
+//! - every link has exactly one [`Placement`]: the root of the file's tree, or a home pose relative to another link,
+//!   without circles;
+//! - directions are not zero, numbers are small enough to compute with, limits are ordered, a screw has a lead, a distance
+//!   joint a distance (its own or that of the home pose), couplings and drives speak of joints of one freedom, mimics form
+//!   no circle;
+//! - configurations, scene and expectation speak of joints and links that exist.
+//!
+//! Geometry stays as the file wrote it: exact [`Number`](kutzbach_math::number::Number)s in frames relative to links. Floating-point
+//! poses, in as many digits as a question needs, are computed from it by `kutzbach::closure`.
+
+mod builder;
+mod configuration;
+mod constants;
+mod coupling;
+mod error;
+mod frame;
+mod joint;
+mod kind;
+mod link;
+mod model;
+mod precision;
+mod rational_rotations;
+mod scene;
+mod set_aside;
+
+pub use builder::{JointBuilder, MechanismBuilder};
+pub use configuration::Configuration;
+pub use constants::Recognised;
+pub use coupling::{Coupling, CouplingOrigin, CouplingTerm};
+pub use error::{Entity, MechanismError};
+pub use frame::{Direction, Frame};
+pub use joint::{Dynamics, Joint, Limit, Side};
+pub use kind::{FreedomPart, JointKind};
+pub use link::{Geometry, Inertial, Link, Placement, Shape};
+pub use model::{JointId, LinkId, Mechanism};
+pub use precision::Precision;
+pub use scene::{Drive, Expectation, Scene};

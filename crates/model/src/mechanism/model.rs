@@ -1,0 +1,172 @@
+//! The validated model.
+
+use super::configuration::Configuration;
+use super::constants::Recognised;
+use super::coupling::Coupling;
+use super::joint::Joint;
+use super::link::Link;
+use super::precision::Precision;
+use super::scene::{Expectation, Scene};
+use kutzbach_math::number::Number;
+use std::collections::BTreeMap;
+
+/// Index of a link in [`Mechanism::links`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct LinkId(pub usize);
+
+/// Index of a joint in [`Mechanism::joints`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct JointId(pub usize);
+
+/// A valid mechanism. See the [module](super) for what valid means.
+#[derive(Clone, Debug)]
+pub struct Mechanism {
+    pub(super) name: String,
+    pub(super) ground: LinkId,
+    pub(super) links: Vec<Link>,
+    pub(super) joints: Vec<Joint>,
+    pub(super) couplings: Vec<Coupling>,
+    pub(super) configurations: Vec<Configuration>,
+    pub(super) actuated: Vec<JointId>,
+    pub(super) scene: Option<Scene>,
+    pub(super) expectation: Option<Expectation>,
+    pub(super) placement_order: Vec<LinkId>,
+    pub(super) precision: Precision,
+    pub(super) recognised: Recognised,
+    pub(super) link_by_name: BTreeMap<String, LinkId>,
+    pub(super) joint_by_name: BTreeMap<String, JointId>,
+}
+
+impl Mechanism {
+    /// The mechanism's name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The link that is held fixed.
+    #[must_use]
+    pub fn ground(&self) -> LinkId {
+        self.ground
+    }
+
+    /// All links, in file order.
+    #[must_use]
+    pub fn links(&self) -> &[Link] {
+        &self.links
+    }
+
+    /// All joints, tree joints and loops, in file order. A `floating` joint is none of them.
+    #[must_use]
+    pub fn joints(&self) -> &[Joint] {
+        &self.joints
+    }
+
+    /// One link.
+    #[must_use]
+    pub fn link(&self, id: LinkId) -> &Link {
+        &self.links[id.0]
+    }
+
+    /// One joint.
+    #[must_use]
+    pub fn joint(&self, id: JointId) -> &Joint {
+        &self.joints[id.0]
+    }
+
+    /// All couplings, `mimic` included.
+    #[must_use]
+    pub fn couplings(&self) -> &[Coupling] {
+        &self.couplings
+    }
+
+    /// Named poses.
+    #[must_use]
+    pub fn configurations(&self) -> &[Configuration] {
+        &self.configurations
+    }
+
+    /// A named pose.
+    #[must_use]
+    pub fn configuration(&self, name: &str) -> Option<&Configuration> {
+        self.configurations.iter().find(|c| c.name == name)
+    }
+
+    /// The joints that the file says a motor drives, in file order, each once and none without freedom; empty where the
+    /// file says nothing of motors.
+    #[must_use]
+    pub fn actuated(&self) -> &[JointId] {
+        &self.actuated
+    }
+
+    /// The mechanism with one configuration more, or with that of the same name replaced. There have to be as many values
+    /// for each joint as it has freedoms.
+    #[must_use]
+    pub fn with_configuration(&self, name: &str, positions: Vec<(JointId, Vec<Number>)>) -> Self {
+        let mut other = self.clone();
+        let added = Configuration {
+            name: name.to_owned(),
+            positions,
+        };
+        match other.configurations.iter_mut().find(|c| c.name == name) {
+            Some(configuration) => *configuration = added,
+            None => other.configurations.push(added),
+        }
+        other
+    }
+
+    /// Physical effects for a simulation.
+    #[must_use]
+    pub fn scene(&self) -> Option<&Scene> {
+        self.scene.as_ref()
+    }
+
+    /// What is known of the answer.
+    #[must_use]
+    pub fn expectation(&self) -> Option<&Expectation> {
+        self.expectation.as_ref()
+    }
+
+    /// Links ordered so that each comes after the link its home pose refers to.
+    #[must_use]
+    pub fn placement_order(&self) -> &[LinkId] {
+        &self.placement_order
+    }
+
+    /// The link of that name.
+    #[must_use]
+    pub fn link_named(&self, name: &str) -> Option<LinkId> {
+        self.link_by_name.get(name).copied()
+    }
+
+    /// The joint of that name.
+    #[must_use]
+    pub fn joint_named(&self, name: &str) -> Option<JointId> {
+        self.joint_by_name.get(name).copied()
+    }
+
+    /// How precisely the geometry is stated.
+    #[must_use]
+    pub fn precision(&self) -> &Precision {
+        &self.precision
+    }
+
+    /// The sum of all joint freedoms.
+    #[must_use]
+    pub fn freedom(&self) -> usize {
+        self.joints.iter().map(Joint::freedom).sum()
+    }
+
+    /// Index of the first variable of every joint in the vector of all joint variables; one entry more than joints.
+    #[must_use]
+    pub fn variable_offsets(&self) -> Vec<usize> {
+        let mut offsets = Vec::with_capacity(self.joints.len() + 1);
+        let mut next = 0;
+        offsets.push(0);
+        for joint in &self.joints {
+            next += joint.freedom();
+            offsets.push(next);
+        }
+        offsets
+    }
+}

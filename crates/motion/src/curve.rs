@@ -1,0 +1,443 @@
+//! A curve of poses: a list of nodes, and between two of them a shape that predicts the poses in between.
+//!
+//! Between ordinary nodes the shape is the cubic through both with their tangents; a pose is predicted by it and corrected.
+//! Across a singular pose the shape is a polynomial through poses on either side, found away from it, and a pose close to
+//! the singular one is what it says, uncorrected.
+
+use super::bridge::Bridge;
+use super::cubic::Cubic;
+use super::node::Node;
+use super::solver::{Along, Solver};
+use super::system::SystemPose;
+use super::vectors::{dot, length};
+use kutzbach_closure::{Geometry, JointState, Rigid, spanning_poses};
+use kutzbach_model::mechanism::Mechanism;
+use std::sync::Arc;
+
+/// An interpolated pose that is closed better than this (rad, cycle lengths) is left as it is.
+const WELL_CLOSED: f64 = 1e-14;
+
+/// Steps of least length where Newton's method does not serve: on shaky branches the closure falls to a quarter each time.
+const POLISHINGS: usize = 24;
+
+/// What predicts the poses between two nodes.
+#[derive(Clone, Debug)]
+pub(super) enum Shape {
+    Cubic(Cubic),
+    Bridge(Box<Bridge>),
+}
+
+/// A pose of a curve.
+#[derive(Clone, Debug)]
+pub struct CurvePose {
+    /// Arclength from the start of the trace, in the metric: radians, and part lengths.
+    pub arclength: f64,
+    /// Where the joints of the moving part stand.
+    pub pose: SystemPose,
+    /// Largest loop equation left (rad, cycle lengths).
+    pub closure: f64,
+}
+
+/// A one-parameter motion of a mechanism: poses by arclength or by the value of the driven variable.
+///
+/// Poses are closed to rounding wherever they are asked for. Cost of one: some microseconds for one loop, linear in the
+/// number of loops for long chains.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    pub(super) solver: Solver,
+    pub(super) nodes: Vec<Node>,
+    /// One per pair of neighbours.
+    pub(super) shapes: Vec<Shape>,
+    pub(super) closed: bool,
+    /// The unknown that is driven.
+    pub(super) drive: usize,
+    /// (arclength, value) of the driven variable at nodes and at its dead centres, in order.
+    pub(super) milestones: Vec<(f64, f64)>,
+    pub(super) frame: Arc<WholeFrame>,
+}
+
+/// What is needed to tell a pose of the part as one of the whole mechanism.
+#[derive(Debug)]
+pub(super) struct WholeFrame {
+    pub mechanism: Mechanism,
+    pub geometry: Geometry<f64>,
+    pub states: Vec<JointState<f64>>,
+}
+
+impl Curve {
+    /// The least and the greatest arclength. A closed curve has all others too.
+    #[must_use]
+    pub fn arclengths(&self) -> (f64, f64) {
+        match (self.nodes.first(), self.nodes.last()) {
+            (Some(first), Some(last)) => (first.arc, last.arc),
+            _ => (0.0, 0.0),
+        }
+    }
+
+    /// Whether the curve comes back to where it started.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        self.closed
+    }
+
+    /// The part's length (m), in whose units slides count for the arclength.
+    #[must_use]
+    pub fn length_unit(&self) -> f64 {
+        self.solver.system.length()
+    }
+
+    /// The unknown of the part that is driven.
+    #[must_use]
+    pub fn driven_unknown(&self) -> usize {
+        self.drive
+    }
+
+    /// How well the loops of the poses asked for from here on have to close (rad, cycle lengths). Zero asks for rounding,
+    /// which a curve begins with. The curve itself stays as it was found: between two of its poses a cubic predicts to about
+    /// 1e-7, so that a pose closed less well than that costs no step of Newton's method, and one closed to rounding two.
+    pub fn set_tolerance(&mut self, tolerance: f64) {
+        self.solver.tolerance = tolerance.max(0.0);
+    }
+
+    /// The equations of the moving part.
+    #[must_use]
+    pub fn system(&self) -> &super::LoopSystem {
+        &self.solver.system
+    }
+
+    /// (arclength, margin) along the curve: the smallest singular value that the equations keep there, with what is held,
+    /// in the metric. Where it is small, a pose is known less well than its loops close.
+    pub fn margins(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.nodes.iter().map(|node| (node.arc, node.margin))
+    }
+
+    /// (arclength, unknowns of the part) at the poses that the curve is made of, in the order of the arclength.
+    pub fn poses(&self) -> impl Iterator<Item = (f64, &[f64])> {
+        let nodes = self.nodes.iter();
+        nodes.map(|node| (node.arc, node.pose.values.as_slice()))
+    }
+
+    /// The pose at an arclength; `None` beyond the ends of a curve that is not closed. On a closed curve angles go on
+    /// counting.
+    pub fn pose_at_arclength(&mut self, arclength: f64) -> Option<CurvePose> {
+        let (first, last) = self.arclengths();
+        let span = last - first;
+        let turns = if self.closed && span > 0.0 && !(first..=last).contains(&arclength) {
+            ((arclength - first) / span).floor()
+        } else {
+            0.0
+        };
+        let wanted = arclength - turns * span;
+        // Rounding of the reduction must not lead beyond an end.
+        let slack = 1e-12 * (1.0 + span);
+        if !(wanted >= first - slack && wanted <= last + slack) {
+            return None;
+        }
+        let segment = self.segment_at(wanted)?;
+        let gap = self.nodes[segment + 1].arc - self.nodes[segment].arc;
+        let u = if gap > 0.0 {
+            ((wanted - self.nodes[segment].arc) / gap).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        let mut found = self.pose_between(segment, u)?;
+        found.arclength = arclength;
+        if turns != 0.0 {
+            let around: Vec<f64> = self.winding();
+            for (value, way) in found.pose.values.iter_mut().zip(around) {
+                *value += turns * way;
+            }
+        }
+        Some(found)
+    }
+
+    /// By how much every unknown grows once around a closed curve (rad, m).
+    #[must_use]
+    pub fn winding(&self) -> Vec<f64> {
+        match (self.nodes.first(), self.nodes.last()) {
+            (Some(first), Some(last)) if self.closed => first
+                .pose
+                .values
+                .iter()
+                .zip(&last.pose.values)
+                .map(|(a, b)| b - a)
+                .collect(),
+            _ => vec![0.0; self.solver.system.unknowns()],
+        }
+    }
+
+    fn segment_at(&self, arclength: f64) -> Option<usize> {
+        if self.nodes.len() < 2 {
+            return None;
+        }
+        let after = self.nodes.partition_point(|n| n.arc <= arclength);
+        Some(after.saturating_sub(1).min(self.nodes.len() - 2))
+    }
+
+    /// The pose at a place between two nodes, `u` from 0 to 1.
+    pub(super) fn pose_between(&mut self, segment: usize, u: f64) -> Option<CurvePose> {
+        let arc =
+            self.nodes[segment].arc + u * (self.nodes[segment + 1].arc - self.nodes[segment].arc);
+        match &self.shapes[segment] {
+            Shape::Cubic(cubic) => {
+                let mut pose = self.nodes[segment].pose.clone();
+                self.solver.system.advance(&mut pose, &cubic.at(u));
+                let mut across = cubic.velocity(u);
+                let size = length(&across);
+                across.iter_mut().for_each(|x| *x /= size);
+                let guess = pose.clone();
+                if let Some(done) = self.solver.correct(&mut pose, Along::Across(&across)) {
+                    return Some(CurvePose {
+                        arclength: arc,
+                        pose,
+                        closure: done.closure,
+                    });
+                }
+                // Hardly any margin: closed by short steps as well as can be.
+                pose = guess;
+                let mut closure = f64::INFINITY;
+                for _ in 0..POLISHINGS {
+                    closure = self.solver.polish(&mut pose);
+                    if closure < WELL_CLOSED {
+                        break;
+                    }
+                }
+                (closure <= self.solver.allowed).then_some(CurvePose {
+                    arclength: arc,
+                    pose,
+                    closure,
+                })
+            }
+            Shape::Bridge(bridge) => {
+                let pose = bridge.pose(&self.solver, u);
+                let closure = self.solver.closure_of(&pose);
+                let mut best = CurvePose {
+                    arclength: arc,
+                    pose,
+                    closure,
+                };
+                if best.closure > WELL_CLOSED {
+                    let mut tried = best.pose.clone();
+                    let closure = self.solver.polish(&mut tried);
+                    if closure < best.closure {
+                        best.pose = tried;
+                        best.closure = closure;
+                    }
+                }
+                let mut tried = best.pose.clone();
+                if bridge.is_beside(u)
+                    && let Some(done) = self
+                        .solver
+                        .correct(&mut tried, Along::Across(&bridge.direction(u)))
+                    && done.closure < best.closure
+                    && done.way < 1e-8
+                {
+                    best.pose = tried;
+                    best.closure = done.closure;
+                }
+                Some(best)
+            }
+        }
+    }
+
+    /// The unit tangent at a pose of a segment, forward.
+    pub(super) fn tangent_between(&mut self, segment: usize, u: f64) -> Option<Vec<f64>> {
+        match &self.shapes[segment] {
+            Shape::Bridge(bridge) => Some(bridge.direction(u)),
+            Shape::Cubic(cubic) => {
+                let toward = cubic.velocity(u);
+                let found = self.pose_between(segment, u)?;
+                if !self.solver.linearise(&found.pose) {
+                    return None;
+                }
+                let mut tangent = self.solver.tangent().to_vec();
+                if dot(&tangent, &toward) < 0.0 {
+                    tangent.iter_mut().for_each(|t| *t = -*t);
+                }
+                Some(tangent)
+            }
+        }
+    }
+
+    /// The values of the driven variable that the curve reaches without turning back, from its start; infinite where it
+    /// goes round.
+    #[must_use]
+    pub fn drive_range(&self) -> (f64, f64) {
+        let (from, to) = self.stretch();
+        let goes_on = |value: f64, other: f64| {
+            if value > other {
+                f64::INFINITY
+            } else {
+                f64::NEG_INFINITY
+            }
+        };
+        let last = self.milestones.len().saturating_sub(1);
+        let (Some(a), Some(b)) = (self.milestones.get(from), self.milestones.get(to)) else {
+            return (f64::NAN, f64::NAN);
+        };
+        if self.closed && from == 0 && to == last {
+            let (low, high) = (goes_on(a.1, b.1), goes_on(b.1, a.1));
+            return (low.min(high), low.max(high));
+        }
+        (a.1.min(b.1), a.1.max(b.1))
+    }
+
+    /// The milestones between which the driven variable is monotonic, around the start of the curve.
+    pub(super) fn stretch(&self) -> (usize, usize) {
+        let m = &self.milestones;
+        if m.len() < 2 {
+            return (0, 0);
+        }
+        // The pair that has the start inside; where the start is a dead centre, the one ahead.
+        let first = m
+            .windows(2)
+            .position(|pair| pair[1].0 > 1e-12)
+            .unwrap_or(m.len() - 2);
+        let rising = m[first + 1].1 > m[first].1;
+        let same = |i: usize| (m[i + 1].1 > m[i].1) == rising && m[i + 1].1 != m[i].1;
+        let mut from = first;
+        while from > 0 && same(from - 1) {
+            from -= 1;
+        }
+        let mut to = first + 1;
+        while to + 1 < m.len() && same(to) {
+            to += 1;
+        }
+        (from, to)
+    }
+
+    /// The pose at which the driven variable has a value (rad, m), on the stretch around the start on which it does not
+    /// turn back; `None` where it is not reached there.
+    pub fn pose_at_drive(&mut self, value: f64) -> Option<CurvePose> {
+        let (low, high) = self.drive_range();
+        if !(value >= low - 1e-12 && value <= high + 1e-12) {
+            return None;
+        }
+        let (from, to) = self.stretch();
+        let (a, b) = (self.milestones[from], self.milestones[to]);
+        let mut wanted = value;
+        let mut turns = 0.0;
+        if self.closed && low.is_infinite() {
+            let around = b.1 - a.1;
+            turns = ((value - a.1) / around).floor();
+            wanted = value - turns * around;
+        }
+        let rising = b.1 > a.1;
+        let inside = &self.milestones[from..=to];
+        let place = inside
+            .partition_point(|m| if rising { m.1 <= wanted } else { m.1 >= wanted })
+            .clamp(1, inside.len() - 1);
+        let (start, end) = (inside[place - 1], inside[place]);
+        let mut found = self.solve_drive(start, end, wanted)?;
+        let (first, last) = self.arclengths();
+        found.arclength += turns * (last - first);
+        if turns != 0.0 {
+            let around = self.winding();
+            for (value, way) in found.pose.values.iter_mut().zip(around) {
+                *value += turns * way;
+            }
+        }
+        Some(found)
+    }
+
+    /// The pose between two milestones where the driven variable has a value.
+    fn solve_drive(&mut self, start: (f64, f64), end: (f64, f64), value: f64) -> Option<CurvePose> {
+        let middle = 0.5 * (start.0 + end.0);
+        let segment = self.segment_at(middle)?;
+        let gap = self.nodes[segment + 1].arc - self.nodes[segment].arc;
+        let base = self.nodes[segment].arc;
+        let unit = |arc: f64| ((arc - base) / gap).clamp(0.0, 1.0);
+        let (mut low, mut high) = (unit(start.0), unit(end.0));
+        if let Shape::Cubic(cubic) = &self.shapes[segment] {
+            let own = self.nodes[segment].pose.values[self.drive];
+            let wanted = (value - own) * self.solver.system.weights()[self.drive];
+            let rising = end.1 > start.1;
+            let mut u =
+                low + (high - low) * ((value - start.1) / (end.1 - start.1)).clamp(0.0, 1.0);
+            // Newton's steps on one cubic, kept inside by halving.
+            for _ in 0..12 {
+                let off = cubic.component(self.drive, u) - wanted;
+                if (off < 0.0) == rising {
+                    low = u;
+                } else {
+                    high = u;
+                }
+                let next = u - off / cubic.speed(self.drive, u);
+                let next = if next > low && next < high {
+                    next
+                } else {
+                    0.5 * (low + high)
+                };
+                if (next - u).abs() < 1e-9 {
+                    u = next;
+                    break;
+                }
+                u = next;
+            }
+            let mut pose = self.nodes[segment].pose.clone();
+            self.solver.system.advance(&mut pose, &cubic.at(u));
+            if cubic.speed(self.drive, u).abs() > 1e-3 * gap
+                && let Some(done) = self
+                    .solver
+                    .correct(&mut pose, Along::Value(self.drive, value))
+                && done.way < 0.1 * gap
+            {
+                // Where the plane across the cubic at u passes through the pose found.
+                let mut z = vec![0.0; self.solver.system.unknowns()];
+                self.solver
+                    .system
+                    .way(&self.nodes[segment].pose, &pose, &mut z);
+                for _ in 0..3 {
+                    let (at, along) = (cubic.at(u), cubic.velocity(u));
+                    let off: f64 = z
+                        .iter()
+                        .zip(&at)
+                        .zip(&along)
+                        .map(|((z, a), v)| (z - a) * v)
+                        .sum();
+                    u += off / dot(&along, &along);
+                }
+                return Some(CurvePose {
+                    arclength: base + u * gap,
+                    pose,
+                    closure: done.closure,
+                });
+            }
+            (low, high) = (unit(start.0), unit(end.0));
+        }
+        // Close to a dead centre or a singular pose: halve.
+        let rising = end.1 > start.1;
+        let mut best = None;
+        for _ in 0..60 {
+            let u = 0.5 * (low + high);
+            let found = self.pose_between(segment, u)?;
+            let off = found.pose.values[self.drive] - value;
+            if (off < 0.0) == rising {
+                low = u;
+            } else {
+                high = u;
+            }
+            let done = off.abs() < 1e-15 || high - low < 1e-15;
+            best = Some(found);
+            if done {
+                break;
+            }
+        }
+        best
+    }
+
+    /// The states of all joints of the mechanism at a pose of the curve.
+    #[must_use]
+    pub fn states(&self, pose: &SystemPose) -> Vec<JointState<f64>> {
+        let mut states = self.frame.states.clone();
+        self.solver.system.put(pose, &mut states);
+        states
+    }
+
+    /// `world_from_link` of every link at a pose of the curve, by link index.
+    #[must_use]
+    pub fn link_poses(&self, pose: &SystemPose) -> Vec<Rigid<f64>> {
+        let frame = &*self.frame;
+        spanning_poses(&frame.mechanism, &frame.geometry, &self.states(pose)).0
+    }
+}

@@ -1,0 +1,216 @@
+//! The equations and their derivatives at a pose.
+
+use super::rotations::inverse_right_jacobian;
+use super::{LoopSystem, SystemPose};
+use kutzbach_closure::{Rigid, cross_product};
+
+/// The equations of a part at a pose.
+#[derive(Clone, Debug, Default)]
+pub struct Evaluation {
+    /// One number per equation: rad, cycle lengths; couplings in the metric.
+    pub residual: Vec<f64>,
+    /// Six entries per factor variable passed, in the order of [`LoopSystem::pattern`].
+    entries: Vec<[f64; 6]>,
+}
+
+impl Evaluation {
+    /// The largest equation left.
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        self.residual.iter().fold(0.0f64, |m, x| {
+            if m.is_nan() || x.abs() <= m {
+                m
+            } else {
+                x.abs()
+            }
+        })
+    }
+}
+
+impl LoopSystem {
+    /// Residual and Jacobian at a pose. Allocates only the first time.
+    pub fn evaluate(&self, pose: &SystemPose, out: &mut Evaluation) {
+        out.residual.clear();
+        out.entries.clear();
+        for cycle in &self.cycles {
+            let mut here = Rigid::identity(&1.0);
+            let mut start = true;
+            for passage in &cycle.passages {
+                here = if start {
+                    passage.before.clone()
+                } else {
+                    here.compose(&passage.before)
+                };
+                start = false;
+                let factor = &self.factors[passage.factor];
+                let frame = &pose.frames[passage.factor];
+                if passage.forward {
+                    here = here.compose(frame);
+                }
+                let sign = if passage.forward { 1.0 } else { -1.0 };
+                let arm = [0, 1, 2].map(|i| here.translation[i] - cycle.centre[i]);
+                for (offset, (angular, linear)) in factor.generators.iter().enumerate() {
+                    let unit = sign / self.weights[factor.first + offset];
+                    let turn = here.rotate(angular);
+                    let slide = here.rotate(linear);
+                    let moment = cross_product(&arm, &turn);
+                    let inverse = unit * cycle.inverse_length;
+                    out.entries.push([
+                        unit * turn[0],
+                        unit * turn[1],
+                        unit * turn[2],
+                        inverse * (moment[0] + slide[0]),
+                        inverse * (moment[1] + slide[1]),
+                        inverse * (moment[2] + slide[2]),
+                    ]);
+                }
+                if !passage.forward {
+                    here = here.compose(&frame.inverse());
+                }
+            }
+            here = here.compose(&cycle.after);
+            let turn = here.rotation_vector();
+            let moved = here.apply(&cycle.centre);
+            out.residual.extend(turn);
+            out.residual
+                .extend((0..3).map(|i| (moved[i] - cycle.centre[i]) * cycle.inverse_length));
+        }
+        for coupling in &self.couplings {
+            let sum: f64 = coupling
+                .terms
+                .iter()
+                .map(|(unknown, factor)| factor * pose.values[*unknown])
+                .sum();
+            out.residual.push(sum - coupling.offset);
+        }
+    }
+
+    /// Writes the Jacobian row by row into a dense array of `equations × unknowns` numbers.
+    pub fn fill_dense(&self, evaluation: &Evaluation, rows: &mut [f64]) {
+        let columns = self.unknowns();
+        rows[..self.equations() * columns].fill(0.0);
+        for (&(cycle, unknown), entry) in self.pattern.iter().zip(&evaluation.entries) {
+            for (row, value) in entry.iter().enumerate() {
+                rows[(6 * cycle + row) * columns + unknown] = *value;
+            }
+        }
+        for (index, coupling) in self.couplings.iter().enumerate() {
+            let row = 6 * self.cycles.len() + index;
+            for (unknown, factor) in &coupling.terms {
+                rows[row * columns + unknown] = factor / self.weights[*unknown];
+            }
+        }
+    }
+
+    /// The entries of the Jacobian as (row, column, value).
+    pub fn triplets<'a>(
+        &'a self,
+        evaluation: &'a Evaluation,
+    ) -> impl Iterator<Item = (usize, usize, f64)> + 'a {
+        let cycles =
+            self.pattern
+                .iter()
+                .zip(&evaluation.entries)
+                .flat_map(|(&(cycle, unknown), entry)| {
+                    entry
+                        .iter()
+                        .enumerate()
+                        .map(move |(row, value)| (6 * cycle + row, unknown, *value))
+                });
+        let first = 6 * self.cycles.len();
+        let couplings = self.couplings.iter().enumerate().flat_map(move |(i, c)| {
+            c.terms.iter().map(move |(unknown, factor)| {
+                (first + i, *unknown, factor / self.weights[*unknown])
+            })
+        });
+        cycles.chain(couplings)
+    }
+
+    /// How the Jacobian changes: calls `visit(first row, column, unknown, change)` for every column of a cycle and every
+    /// unknown that moves it, `change` being the derivative of the six entries from that row on.
+    ///
+    /// A joint on the way around a cycle carries along the screws of all joints behind it, so that the derivative of a
+    /// screw is the Lie bracket of both (Herve 1978; Selig 2005, section 4.3); couplings are linear.
+    pub(crate) fn visit_changes(
+        &self,
+        evaluation: &Evaluation,
+        mut visit: impl FnMut(usize, usize, usize, [f64; 6]),
+    ) {
+        let mut first = 0;
+        for (cycle, compiled) in self.cycles.iter().enumerate() {
+            // Place of every factor's screws among the entries; a ball passed forward carries along its own.
+            let mut passed: Vec<usize> = Vec::new();
+            let mut next = first;
+            for passage in &compiled.passages {
+                let own = next..next + self.factors[passage.factor].generators.len();
+                next = own.end;
+                if passage.forward {
+                    passed.extend(own.clone());
+                }
+                for column in own.clone() {
+                    for &by in &passed {
+                        let change = bracket(&evaluation.entries[by], &evaluation.entries[column]);
+                        visit(
+                            6 * cycle,
+                            self.pattern[column].1,
+                            self.pattern[by].1,
+                            change,
+                        );
+                    }
+                }
+                if !passage.forward {
+                    passed.extend(own);
+                }
+            }
+            first = next;
+        }
+    }
+
+    /// The derivative of an unknown's *value* with respect to the metric unknowns, in the metric: a unit vector for hinges
+    /// and slides; for a ball the row of the rotation vector's derivative. Written to `row`.
+    pub fn value_row(&self, pose: &SystemPose, unknown: usize, row: &mut [f64]) {
+        row.fill(0.0);
+        let Some(factor) = self
+            .factors
+            .iter()
+            .find(|f| (f.first..f.first + f.generators.len()).contains(&unknown))
+        else {
+            return;
+        };
+        if factor.generators.len() == 1 {
+            row[unknown] = 1.0;
+            return;
+        }
+        let own = factor.first..factor.first + factor.generators.len();
+        let mut turn = [0.0; 3];
+        for (value, (angular, _)) in pose.values[own.clone()].iter().zip(&factor.generators) {
+            for (t, a) in turn.iter_mut().zip(angular) {
+                *t += a * value;
+            }
+        }
+        let wanted = factor.generators[unknown - factor.first].0;
+        for (slot, (angular, _)) in row[own].iter_mut().zip(&factor.generators) {
+            let image = inverse_right_jacobian(&turn, angular);
+            *slot = wanted.iter().zip(&image).map(|(w, i)| w * i).sum();
+        }
+    }
+}
+
+/// The Lie bracket of two twists (ω; v) about one point.
+fn bracket(a: &[f64; 6], b: &[f64; 6]) -> [f64; 6] {
+    let (turn_a, slide_a) = ([a[0], a[1], a[2]], [a[3], a[4], a[5]]);
+    let (turn_b, slide_b) = ([b[0], b[1], b[2]], [b[3], b[4], b[5]]);
+    let turn = cross_product(&turn_a, &turn_b);
+    let (one, two) = (
+        cross_product(&turn_a, &slide_b),
+        cross_product(&slide_a, &turn_b),
+    );
+    [
+        turn[0],
+        turn[1],
+        turn[2],
+        one[0] + two[0],
+        one[1] + two[1],
+        one[2] + two[2],
+    ]
+}

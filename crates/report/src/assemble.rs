@@ -1,0 +1,519 @@
+//! From a mechanism to a report.
+//!
+//! Counting and the tables of joints and couplings need the mechanism alone and are filled in here. What an analysis finds
+//! is laid over them; what it does not reach stays `null`.
+
+use super::natural::natural_order;
+use super::schema::{
+    Assembly, Constants, CouplingRow, Home, JointRow, LiteralReading, Mobility, Report, SCHEMA,
+    Size, Source, Timing,
+};
+use kutzbach_format::Reading;
+use kutzbach_math::number::Number;
+use kutzbach_mobility::Verdict;
+use kutzbach_mobility::{
+    Analysis, AnalysisError, AnalysisOptions, Depth, ExactBudget, analyse, kutzbach_count,
+};
+use kutzbach_model::mechanism::{Coupling, Mechanism};
+use std::time::Instant;
+use thiserror::Error;
+
+/// The name of the pose with all joint variables zero.
+const HOME: &str = "home";
+
+/// What is reported on.
+#[derive(Clone, Copy, Debug)]
+pub struct Input<'a> {
+    /// The mechanism.
+    pub mechanism: &'a Mechanism,
+    /// The file as the caller named it.
+    pub file: &'a str,
+    /// The file's format, such as `urdf`.
+    pub format: &'a str,
+    /// What its reader wants to be known.
+    pub warnings: &'a [String],
+    /// What of the file was not read.
+    pub skipped: &'a [String],
+}
+
+/// What to report.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Options {
+    /// The configuration to analyse; `None` is the home pose.
+    pub configuration: Option<String>,
+    /// How much work exact algebra may do for the verdict.
+    pub exact: ExactBudget,
+    /// Whether to say how long the stages took.
+    pub timing: bool,
+    /// Whether to tell what every engine found.
+    pub evidence: bool,
+    /// Pairs of links: how does the first move, seen from the second?
+    pub between: Vec<(String, String)>,
+    /// The gap up to which a loop counts as closed (m); what the file's digits say if `None`.
+    pub closure_tolerance: Option<f64>,
+    /// Names of joints, or of single freedoms such as `slider.trans`, that are to count as the inputs; where there are none, those
+    /// that the file names.
+    pub inputs: Vec<String>,
+}
+
+/// Why there is no report.
+#[derive(Clone, Debug, Error)]
+pub enum ReportError {
+    /// The analysis could not be made.
+    #[error(transparent)]
+    Analysis(#[from] AnalysisError),
+    /// The mechanism has no configuration of that name.
+    #[error("there is no configuration `{name}` in `{mechanism}`")]
+    UnknownConfiguration {
+        /// The name asked for.
+        name: String,
+        /// The mechanism.
+        mechanism: String,
+        /// Those it has.
+        known: Vec<String>,
+    },
+    /// The mechanism has no link of that name.
+    #[error("there is no link `{name}` in `{mechanism}`")]
+    UnknownLink {
+        /// The name asked for.
+        name: String,
+        /// The mechanism.
+        mechanism: String,
+        /// The name it has that is closest, if one is close.
+        nearest: Option<String>,
+    },
+    /// No freedom of the mechanism has that name.
+    #[error("`{name}` cannot be an input of `{mechanism}`: {}", if *.fixed { "the joint has no freedom" } else { "it has no joint of that name" })]
+    UnknownInput {
+        /// The name asked for.
+        name: String,
+        /// The mechanism.
+        mechanism: String,
+        /// Whether a joint without freedom has it.
+        fixed: bool,
+        /// The name of a joint that is closest, if one is close.
+        nearest: Option<String>,
+    },
+}
+
+impl ReportError {
+    /// How to mend it.
+    #[must_use]
+    pub fn help(&self) -> String {
+        match self {
+            Self::Analysis(_) => "see the format's description of this element".to_owned(),
+            Self::UnknownConfiguration { known, .. } if known.is_empty() => {
+                "the file names none; without `--at` the home pose is analysed".to_owned()
+            }
+            Self::UnknownConfiguration { known, .. } => {
+                format!("it has: home, {}", known.join(", "))
+            }
+            Self::UnknownLink {
+                nearest: Some(nearest),
+                ..
+            } => format!("did you mean `{nearest}`?"),
+            Self::UnknownLink { .. } => "`kutzbach graph FILE` lists all links".to_owned(),
+            Self::UnknownInput { fixed: true, .. } => "name a joint that can move".to_owned(),
+            Self::UnknownInput {
+                nearest: Some(nearest),
+                ..
+            } => format!("did you mean `{nearest}`?"),
+            Self::UnknownInput { .. } => {
+                "`kutzbach report FILE --verbose` lists all joints".to_owned()
+            }
+        }
+    }
+}
+
+/// The report on a mechanism read from a file.
+///
+/// # Errors
+/// [`ReportError`] where the options ask for what the mechanism does not have.
+pub fn report(reading: &Reading, file: &str, options: &Options) -> Result<Report, ReportError> {
+    analysed_report(reading, file, options).map(|(report, _)| report)
+}
+
+/// The report on a mechanism read from a file, and the analysis that it tells of.
+///
+/// # Errors
+/// [`ReportError`] where the options ask for what the mechanism does not have.
+pub fn analysed_report(
+    reading: &Reading,
+    file: &str,
+    options: &Options,
+) -> Result<(Report, Analysis), ReportError> {
+    let warnings: Vec<String> = reading
+        .warnings
+        .iter()
+        .map(|warning| {
+            let place = format!("line {}, column {}", warning.line, warning.column);
+            match warning.count {
+                1 => format!("{place}: {}", warning.message),
+                count => format!("{} ({count} times, first at {place})", warning.message),
+            }
+        })
+        .collect();
+    let skipped: Vec<String> = reading
+        .skipped
+        .iter()
+        .map(|skipped| {
+            let place = format!("line {}, column {}", skipped.line, skipped.column);
+            match skipped.count {
+                1 => format!("{place}: {}", skipped.what),
+                count => format!("{count} × {} (first at {place})", skipped.what),
+            }
+        })
+        .collect();
+    let input = Input {
+        mechanism: &reading.mechanism,
+        file,
+        format: reading.format,
+        warnings: &warnings,
+        skipped: &skipped,
+    };
+    analysed_report_on(&input, options)
+}
+
+/// The report on a mechanism from anywhere, such as one built in code.
+///
+/// # Errors
+/// [`ReportError`] where the options ask for what the mechanism does not have.
+pub fn report_on(input: &Input<'_>, options: &Options) -> Result<Report, ReportError> {
+    analysed_report_on(input, options).map(|(report, _)| report)
+}
+
+/// The report, and the analysis that it tells of.
+///
+/// # Errors
+/// [`ReportError`] where the options ask for what the mechanism does not have.
+pub fn analysed_report_on(
+    input: &Input<'_>,
+    options: &Options,
+) -> Result<(Report, Analysis), ReportError> {
+    let mechanism = input.mechanism;
+    let configuration = match options.configuration.as_deref() {
+        Some(name) if name != HOME && mechanism.configuration(name).is_none() => {
+            return Err(ReportError::UnknownConfiguration {
+                name: name.to_owned(),
+                mechanism: mechanism.name().to_owned(),
+                known: mechanism
+                    .configurations()
+                    .iter()
+                    .map(|c| c.name.clone())
+                    .collect(),
+            });
+        }
+        Some(name) => name,
+        None => HOME,
+    };
+    let pairs = super::extras::pairs(mechanism, &options.between)?;
+    let inputs = super::inputs::asked(mechanism, &options.inputs)?;
+    let started = Instant::now();
+    let analysis = analyse(
+        mechanism,
+        &AnalysisOptions {
+            configuration: (configuration != HOME || mechanism.configuration(HOME).is_some())
+                .then(|| configuration.to_owned()),
+            exact: options.exact,
+            depth: Depth::Everything,
+            closure_tolerance: options.closure_tolerance,
+        },
+    )?;
+    let mut report = counted(input, configuration);
+    super::findings::lay_over(&mut report, mechanism, &analysis);
+    super::inputs::lay_over(&mut report, mechanism, &analysis, configuration, inputs);
+    super::pose::warn(&mut report, mechanism, &analysis, configuration);
+    super::extras::ask_between(&mut report, mechanism, &analysis, configuration, &pairs);
+    if options.evidence {
+        report.evidence = Some(super::extras::evidence(&report, &analysis));
+    }
+    if options.timing {
+        let total_ms = started.elapsed().as_secs_f64() * 1e3;
+        report.timing = Some(Timing {
+            total_ms,
+            stages: Vec::new(),
+        });
+    }
+    Ok((report, analysis))
+}
+
+fn constants(mechanism: &Mechanism) -> Option<Constants> {
+    let found = mechanism.recognised();
+    let readings = found
+        .examples
+        .iter()
+        .map(|(literal, read_as)| LiteralReading {
+            literal: literal.clone(),
+            read_as: read_as.clone(),
+        });
+    (found.count > 0).then(|| Constants {
+        count: found.count,
+        readings: readings.collect(),
+    })
+}
+
+/// A report that holds what counting alone tells.
+fn counted(input: &Input<'_>, configuration: &str) -> Report {
+    let mechanism = input.mechanism;
+    let parts = connected_parts(mechanism);
+    let size = Size {
+        links: mechanism.links().len(),
+        joints: mechanism.joints().len(),
+        loops: mechanism.joints().len() + parts - mechanism.links().len(),
+        couplings: mechanism.couplings().len(),
+        freedoms: mechanism.freedom(),
+    };
+    let unknowns = size.freedoms + 6 * (parts - 1);
+    let precision = mechanism.precision();
+    Report {
+        schema: SCHEMA.to_owned(),
+        mechanism: mechanism.name().to_owned(),
+        source: Source {
+            file: input.file.to_owned(),
+            format: input.format.to_owned(),
+            digits: precision.decimals,
+            exact: precision.is_exact(),
+            precision: precision.by_hand(),
+            constants: constants(mechanism),
+        },
+        kutzbach: kutzbach_count(mechanism),
+        generic: None,
+        assembly: Assembly::default(),
+        home: Home {
+            configuration: configuration.to_owned(),
+            pose: None,
+            kind: None,
+            instantaneous: None,
+            // Equations take no more freedoms than they are many, and independent ones no fewer than none.
+            candidates: [
+                usize::try_from(kutzbach_count(mechanism)).unwrap_or(0),
+                unknowns,
+            ],
+            as_written: None,
+            redundant: None,
+            rank: None,
+            equations: 6 * size.loops + size.couplings,
+            unknowns,
+            gap: None,
+            kept: None,
+            dropped: None,
+            tolerance: None,
+            accuracy: None,
+            method: String::new(),
+            bits: None,
+            blocks: Vec::new(),
+            weakest: None,
+            note: None,
+        },
+        mobility: Mobility {
+            verdict: Verdict::Undecided,
+            finite: None,
+            bounds: [None, None],
+            complex_dimension: None,
+            class: None,
+            certificate: None,
+            nominal: None,
+            why: Vec::new(),
+        },
+        freedoms: None,
+        inputs: None,
+        branches: None,
+        joints: joint_rows(mechanism),
+        couplings: coupling_rows(mechanism),
+        cycles: Vec::new(),
+        tree: None,
+        motions: Vec::new(),
+        advice: Vec::new(),
+        warnings: input.warnings.to_vec(),
+        skipped: input.skipped.to_vec(),
+        evidence: None,
+        timing: None,
+        size,
+    }
+}
+
+fn joint_rows(mechanism: &Mechanism) -> Vec<JointRow> {
+    let mut rows: Vec<JointRow> = mechanism
+        .joints()
+        .iter()
+        .map(|joint| JointRow {
+            name: joint.name.clone(),
+            class: joint.kind.class().to_owned(),
+            kind: joint.kind.word().to_owned(),
+            links: [
+                mechanism.link(joint.predecessor.link).name.clone(),
+                mechanism.link(joint.successor.link).name.clone(),
+            ],
+            freedom: joint.freedom(),
+            locked: None,
+            locked_parts: Vec::new(),
+            redundant_wrenches: None,
+            closes_loop: joint.closes_loop,
+            block: None,
+        })
+        .collect();
+    rows.sort_by(|a, b| natural_order(&a.name, &b.name));
+    rows
+}
+
+fn coupling_rows(mechanism: &Mechanism) -> Vec<CouplingRow> {
+    let mut rows: Vec<CouplingRow> = mechanism
+        .couplings()
+        .iter()
+        .map(|coupling| CouplingRow {
+            name: coupling.name.clone(),
+            text: equation(mechanism, coupling),
+        })
+        .collect();
+    rows.sort_by(|a, b| natural_order(&a.name, &b.name));
+    rows
+}
+
+/// A coupling as an equation, `2 a − b = 0.5`; numbers as the file wrote them.
+fn equation(mechanism: &Mechanism, coupling: &Coupling) -> String {
+    let mut text = String::new();
+    for (index, term) in coupling.terms.iter().enumerate() {
+        let negative = term.factor.value() < 0.0;
+        let factor = plain(&if negative {
+            -&term.factor
+        } else {
+            term.factor.clone()
+        });
+        text.push_str(match (index, negative) {
+            (0, false) => "",
+            (0, true) => "−",
+            (_, false) => " + ",
+            (_, true) => " − ",
+        });
+        if factor != "1" {
+            text.push_str(&factor);
+            text.push(' ');
+        }
+        text.push_str(&mechanism.joint(term.joint).name);
+    }
+    text.push_str(" = ");
+    text.push_str(&plain(&coupling.offset));
+    text
+}
+
+/// A number as the file wrote it, without the braces of an expression.
+fn plain(number: &Number) -> String {
+    let source = number.source();
+    match source.strip_prefix("${").and_then(|s| s.strip_suffix('}')) {
+        Some(inner) => inner.to_owned(),
+        None => source,
+    }
+}
+
+/// The number of connected parts of the links under the joints.
+fn connected_parts(mechanism: &Mechanism) -> usize {
+    let mut parent: Vec<usize> = (0..mechanism.links().len()).collect();
+    let mut parts = parent.len();
+    for joint in mechanism.joints() {
+        let a = root(&mut parent, joint.predecessor.link.0);
+        let b = root(&mut parent, joint.successor.link.0);
+        if a != b {
+            parent[a] = b;
+            parts -= 1;
+        }
+    }
+    parts
+}
+
+/// The representative of a link's part; halves the path on the way, so that all look-ups together are near linear.
+fn root(parent: &mut [usize], mut node: usize) -> usize {
+    while parent[node] != node {
+        parent[node] = parent[parent[node]];
+        node = parent[node];
+    }
+    node
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use kutzbach_format::read;
+
+    /// ```text
+    ///   crank ──B── coupler
+    ///     │            │
+    ///     A            C      D: ground ── rocker
+    ///     │            │
+    ///   ground ──D── rocker        loose: no joint
+    /// ```
+    fn four_bar(joints: &[&str], extra: &str) -> Report {
+        let all = [
+            r#"<joint name="J10" type="revolute"><parent link="ground"/><child link="crank"/></joint>"#,
+            r#"<joint name="J2" type="revolute"><parent link="crank"/><child link="coupler"/></joint>"#,
+            r#"<joint name="J1" type="cylindrical"><parent link="ground"/><child link="rocker"/></joint>"#,
+        ];
+        let closing = r#"<loop name="C" type="revolute"><predecessor link="coupler"><origin xyz="0 0 0"/></predecessor>
+            <successor link="rocker"><origin xyz="0 0 0"/></successor></loop>"#;
+        let joints: String = joints
+            .iter()
+            .map(|name| {
+                all.iter()
+                    .find(|text| text.contains(&format!("\"{name}\"")))
+                    .unwrap()
+            })
+            .copied()
+            .collect();
+        let text = format!(
+            r#"<robot name="bar"><link name="ground"/><link name="crank"/><link name="coupler"/><link name="rocker"/>
+            {joints}{closing}{extra}</robot>"#
+        );
+        let reading = read(&text, "bar.urdf", &[]).unwrap();
+        report(&reading, "bar.urdf", &Options::default()).unwrap()
+    }
+
+    #[test]
+    fn counts_follow_the_formulas() {
+        let report = four_bar(&["J10", "J2", "J1"], "");
+        // 6 (4 − 1) − (5 + 5 + 4 + 5)
+        assert_eq!(report.kutzbach, -1);
+        assert_eq!(report.size.loops, 1);
+        assert_eq!(report.home.unknowns, 5);
+        assert_eq!(report.home.equations, 6);
+    }
+
+    #[test]
+    fn parts_without_a_joint_count_with_six_freedoms() {
+        let report = four_bar(
+            &["J10", "J2", "J1"],
+            r#"<link name="loose"/><joint name="f" type="floating"><parent link="ground"/><child link="loose"/></joint>"#,
+        );
+        assert_eq!(report.kutzbach, 5);
+        assert_eq!(report.size.loops, 1);
+        let (unknowns, equations) = (report.home.unknowns, report.home.equations);
+        assert_eq!(unknowns as i64 - equations as i64, report.kutzbach);
+    }
+
+    #[test]
+    fn rows_do_not_follow_the_file() {
+        let report = four_bar(&["J10", "J2", "J1"], "");
+        let names: Vec<&str> = report.joints.iter().map(|j| j.name.as_str()).collect();
+        assert_eq!(names, ["C", "J1", "J2", "J10"]);
+        let other = four_bar(&["J1", "J10", "J2"], "");
+        assert_eq!(other.joints, report.joints);
+    }
+
+    #[test]
+    fn unknown_configurations_are_refused_with_those_there_are() {
+        let text = r#"<robot name="one"><link name="a"/><link name="b"/>
+            <joint name="J" type="revolute"><parent link="a"/><child link="b"/></joint>
+            <configuration name="open"><position joint="J" value="0.3"/></configuration></robot>"#;
+        let reading = read(text, "one.urdf", &[]).unwrap();
+        let at = |name: &str| {
+            let options = Options {
+                configuration: Some(name.to_owned()),
+                ..Options::default()
+            };
+            report(&reading, "one.urdf", &options)
+        };
+        assert_eq!(at("open").unwrap().home.configuration, "open");
+        assert_eq!(at("home").unwrap().home.configuration, "home");
+        let error = at("opened").unwrap_err();
+        assert!(error.help().contains("open"));
+    }
+}

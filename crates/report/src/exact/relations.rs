@@ -1,0 +1,135 @@
+//! Relations added one by one, as data and as a page.
+
+use super::schema::{EXACT_SCHEMA, Outcome, Request, formulation_word, outcome};
+use super::text::stopped;
+use crate::text::words::counted;
+use crate::text::{Cell, Column, Layout, Page, Table, Tint};
+use kutzbach_algebra::{PolynomialSystem, RelationFinding, RelationVerdict, Stop};
+use kutzbach_model::mechanism::Mechanism;
+use serde::Serialize;
+
+/// One relation and what it adds.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RelationRow {
+    /// The joint, cycle or coupling.
+    pub name: String,
+    /// `accepted`, `redundant` or `inconsistent`.
+    pub verdict: &'static str,
+    /// Complex dimension of what the relations accepted so far leave possible.
+    pub dimension: usize,
+    /// Polynomials of the basis after it.
+    pub basis: usize,
+}
+
+/// Relations added one by one.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Relations {
+    /// [`EXACT_SCHEMA`].
+    pub schema: &'static str,
+    /// The mechanism.
+    pub mechanism: String,
+    /// The file.
+    pub file: String,
+    /// `canonical`, `tree` or `positional`.
+    pub formulation: &'static str,
+    /// Whether it came to its end.
+    pub outcome: Outcome,
+    /// In the order in which they were added.
+    pub relations: Vec<RelationRow>,
+    /// What the equations leave out of the mechanism.
+    pub relaxations: Vec<String>,
+}
+
+/// The management of constraints as data.
+#[must_use]
+pub fn relations_report(
+    mechanism: &Mechanism,
+    system: &PolynomialSystem,
+    findings: &[RelationFinding],
+    stopped: Option<Stop>,
+    request: &Request,
+) -> Relations {
+    Relations {
+        schema: EXACT_SCHEMA,
+        mechanism: mechanism.name().to_owned(),
+        file: request.file.clone(),
+        formulation: formulation_word(request.options.system.formulation),
+        outcome: outcome(stopped.map(|stop| ("the relations", stop))),
+        relations: findings
+            .iter()
+            .map(|finding| RelationRow {
+                name: finding.name.clone(),
+                verdict: match finding.verdict {
+                    RelationVerdict::Accepted => "accepted",
+                    RelationVerdict::Redundant => "redundant",
+                    RelationVerdict::Inconsistent => "inconsistent",
+                },
+                dimension: finding.dimension,
+                basis: finding.basis,
+            })
+            .collect(),
+        relaxations: system.relaxations.iter().map(ToString::to_string).collect(),
+    }
+}
+
+/// Relations added one by one, as a page of text.
+#[must_use]
+pub fn render_relations(report: &Relations, layout: Layout) -> String {
+    let mut page = Page::new(layout);
+    let count = |word: &str| {
+        report
+            .relations
+            .iter()
+            .filter(|relation| relation.verdict == word)
+            .count()
+    };
+    page.paragraph(
+        &format!(
+            "Of {}, {} accepted, {} redundant, {} inconsistent.",
+            counted(report.relations.len(), "relation"),
+            count("accepted"),
+            count("redundant"),
+            count("inconsistent")
+        ),
+        Tint::Strong,
+        "",
+        "",
+    );
+    if let Some(sentence) = stopped(&report.outcome) {
+        page.item(&sentence, Tint::Doubtful);
+    }
+    for relaxation in &report.relaxations {
+        page.item(relaxation, Tint::Notable);
+    }
+    page.gap();
+    page.paragraph(
+        &format!(
+            "{} ({}), in {} form; relations in the order of the file.",
+            report.mechanism, report.file, report.formulation
+        ),
+        Tint::Quiet,
+        "",
+        "",
+    );
+    page.gap();
+    let mut table = Table::new()
+        .column("relation", Column::Shrinking)
+        .column("", Column::Words)
+        .column("dimension after it", Column::Numbers)
+        .column("basis", Column::Numbers);
+    for relation in &report.relations {
+        let tint = match relation.verdict {
+            "accepted" => Tint::Good,
+            "redundant" => Tint::Notable,
+            _ => Tint::Bad,
+        };
+        table.row(vec![
+            Cell::new(&relation.name),
+            Cell::new(relation.verdict).tint(tint),
+            Cell::new(relation.dimension.to_string()),
+            Cell::new(relation.basis.to_string()),
+        ]);
+    }
+    page.table(table, "relations");
+    page.into_text()
+}

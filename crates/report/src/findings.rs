@@ -1,0 +1,484 @@
+//! Lays what an analysis found over a report that holds counts only.
+
+use super::natural::natural_order;
+use super::schema::{
+    Advice, Block, Branch, Certificate, Cycle, GenericCount, Home, Idle, JointRow, Mobility,
+    Motion, Nominal, Report, Tree, TreeLink,
+};
+use super::text::words::counted;
+use kutzbach_closure::{owners, with_owners};
+use kutzbach_math::matrix::Method;
+use kutzbach_mobility::{
+    Analysis, IdleLink, JointRole, PartFinding, PartRank, RelativeMotion,
+    freedom_locked_by_couplings,
+};
+use kutzbach_model::mechanism::{JointKind, Mechanism};
+
+/// The end of the warning of pieces that nothing holds; what they count for stands in [`Report::freedoms`] too.
+pub(super) const LOOSE: &str = "of the links are connected to the ground by no joint at all; each such piece counts with six freedoms";
+
+/// What follows the name of a block in the warning that it would move without its couplings.
+pub(super) const LOCKED_TOGETHER: &str =
+    ": its couplings and its loops lock it together; by the loops alone it would have";
+
+/// Fills in everything that the analysis decided. Linear in the size of both.
+pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis) {
+    report.generic = analysis.generic.map(|generic| GenericCount {
+        mobility: usize::try_from(generic.mobility).unwrap_or(0),
+        redundant: generic.redundant,
+    });
+    report.assembly = super::assembly::assembly(mechanism, &analysis.assembly);
+    fill_home(&mut report.home, analysis);
+    report.mobility = verdict(analysis);
+    report.freedoms = super::inputs::freedoms(mechanism, analysis);
+    report.joints = joint_rows(mechanism, analysis);
+    report.branches = branch_rows(mechanism, analysis);
+    report.motions = motion_rows(mechanism, analysis);
+    report.cycles = cycle_rows(mechanism, analysis);
+    report.tree = Some(tree(analysis));
+    report.advice = analysis
+        .advice
+        .iter()
+        .map(|a| advice(mechanism, a))
+        .collect();
+    if !analysis.structure.cycles_are_fundamental {
+        report.warnings.push(
+            "the fundamental cycles of the spanning tree are too long to list; the cycles shown are a shortest basis".to_owned(),
+        );
+    }
+    let literal: Vec<usize> = (0..analysis.parts.len())
+        .filter(|&index| analysis.parts[index].taken_literally)
+        .collect();
+    if !literal.is_empty() {
+        let text = "the numbers are stated so coarsely, for a mechanism of this size, that rounding would leave every rank \
+                    open; they were taken literally";
+        // Of all blocks or of the only one: then the whole mechanism is meant.
+        report
+            .warnings
+            .push(if literal.len() == analysis.parts.len() {
+                text.to_owned()
+            } else {
+                format!(
+                    "{}: {text}",
+                    owners(&analysis.structure.part_names, &literal)
+                )
+            });
+    }
+    locked_by_couplings(report, analysis);
+    if analysis.structure.loose_pieces > 0 {
+        report
+            .warnings
+            .push(format!("{} {LOOSE}", analysis.structure.loose_pieces));
+    }
+}
+
+/// Names the blocks that would move without their couplings.
+fn locked_by_couplings(report: &mut Report, analysis: &Analysis) {
+    let structure = &analysis.structure;
+    for (index, (part, rank)) in structure.parts.iter().zip(&analysis.parts).enumerate() {
+        let Some(freedom) = freedom_locked_by_couplings(part, rank) else {
+            continue;
+        };
+        report.warnings.push(format!(
+            "{}{LOCKED_TOGETHER} {} at this pose",
+            owners(&structure.part_names, &[index]),
+            counted(freedom, "instantaneous freedom"),
+        ));
+    }
+}
+
+fn fill_home(home: &mut Home, analysis: &Analysis) {
+    let Some(found) = &analysis.home else { return };
+    let parts = &analysis.parts;
+    home.pose = analysis.mobility.pose;
+    home.kind = analysis.mobility.kind;
+    home.instantaneous = found.instantaneous;
+    home.candidates = [found.candidates.0, found.candidates.1];
+    home.as_written = found.as_written;
+    home.redundant = found.redundant;
+    home.rank = found
+        .instantaneous
+        .map(|freedom| home.unknowns.saturating_sub(freedom));
+    // The weakest part speaks for the whole.
+    let weakest = parts
+        .iter()
+        .enumerate()
+        .filter(|(_, part)| part.unknowns() > 0 && part.equations() > 0)
+        .min_by(|a, b| margin(a.1).total_cmp(&margin(b.1)));
+    let labels = &analysis.structure.part_names;
+    if let Some((index, part)) = weakest {
+        home.weakest = labels.get(index).filter(|_| parts.len() > 1).cloned();
+        let decision = &part.decision;
+        home.gap = decision.gap.is_finite().then_some(decision.gap);
+        home.kept = Some(decision.kept);
+        home.dropped = Some(decision.dropped);
+        home.tolerance = Some(decision.tolerance);
+        home.accuracy = Some(decision.accuracy);
+        home.method = match decision.method {
+            Method::Svd => "singular values",
+            Method::Jacobi => "singular values by Jacobi rotations",
+            Method::SparseQr => "sparse QR with estimated singular values",
+        }
+        .to_owned();
+        home.bits = parts.iter().map(|part| part.bits).max();
+    }
+    let notes = parts.iter().enumerate();
+    let notes = notes.filter_map(|(index, part)| Some((index, part.note.as_deref()?)));
+    let notes = with_owners(labels, notes);
+    home.note = (!notes.is_empty()).then(|| notes.join("; "));
+    home.blocks = blocks(analysis);
+}
+
+fn blocks(analysis: &Analysis) -> Vec<Block> {
+    let structure = &analysis.structure;
+    let all = structure.parts.iter().zip(&structure.part_names);
+    all.zip(&analysis.parts)
+        .enumerate()
+        .map(|(index, ((part, label), rank))| {
+            let found = analysis.findings.get(index);
+            let decided = |found: &&PartFinding| found.open.is_none() && found.lower == found.upper;
+            Block {
+                name: part.joints.first().map_or_else(String::new, |joint| {
+                    structure.graph.edge_name(*joint).to_owned()
+                }),
+                label: label.clone(),
+                joints: part.joints.len(),
+                unknowns: rank.unknowns(),
+                rank: rank.instantaneous.map(|freedom| rank.unknowns() - freedom),
+                instantaneous: rank.instantaneous,
+                finite: found.filter(decided).map(|found| found.upper),
+                pose: found.and_then(|found| found.pose),
+                kind: found.and_then(|found| found.kind),
+                class: found.filter(|f| f.upper > 0).and_then(|f| f.class),
+            }
+        })
+        .collect()
+}
+
+/// How far the decision of a part is from being another: the smaller of its clearances from the tolerance on both sides.
+fn margin(part: &PartRank) -> f64 {
+    let decision = &part.decision;
+    let above = if decision.kept > 0.0 {
+        decision.kept / decision.tolerance
+    } else {
+        f64::INFINITY
+    };
+    let below = if decision.dropped > 0.0 {
+        decision.tolerance / decision.dropped
+    } else {
+        f64::INFINITY
+    };
+    above.min(below)
+}
+
+fn verdict(analysis: &Analysis) -> Mobility {
+    let found = &analysis.mobility;
+    Mobility {
+        verdict: found.verdict,
+        finite: found.finite(),
+        bounds: [found.bounds.0, found.bounds.1],
+        complex_dimension: found.complex_dimension,
+        class: found.class,
+        certificate: Some(Certificate {
+            level: found.level,
+            text: found.certificate.clone(),
+        }),
+        nominal: found.nominal.map(|nominal| Nominal {
+            finite: nominal.finite,
+            tolerance: nominal.tolerance,
+        }),
+        why: found.why.clone(),
+    }
+}
+
+/// Whether a joint rests on every branch; at the pose itself where there is none, or none is known.
+fn joint_role(analysis: &Analysis, joint: usize) -> JointRole {
+    let Some(branches) = analysis.branches.as_ref().filter(|b| !b.is_empty()) else {
+        return analysis.roles[joint].clone();
+    };
+    let roles: Vec<&JointRole> = branches
+        .iter()
+        .filter_map(|branch| branch.roles.get(joint))
+        .collect();
+    let locked = if roles.iter().any(|role| role.locked == Some(false)) {
+        Some(false)
+    } else if roles.iter().all(|role| role.locked == Some(true)) {
+        Some(true)
+    } else {
+        None
+    };
+    let Some((first, others)) = roles.split_first() else {
+        return analysis.roles[joint].clone();
+    };
+    JointRole {
+        locked,
+        locked_parts: first
+            .locked_parts
+            .iter()
+            .filter(|part| others.iter().all(|role| role.locked_parts.contains(part)))
+            .cloned()
+            .collect(),
+    }
+}
+
+fn branch_rows(mechanism: &Mechanism, analysis: &Analysis) -> Option<Vec<Branch>> {
+    let link = |index: usize| mechanism.links()[index].name.clone();
+    let branches = analysis.branches.as_ref()?;
+    let rows = branches.iter().map(|branch| {
+        let mut locked: Vec<String> = mechanism
+            .joints()
+            .iter()
+            .zip(&branch.roles)
+            .flat_map(|(joint, role)| {
+                if role.locked == Some(true) {
+                    vec![joint.name.clone()]
+                } else {
+                    role.locked_parts.clone()
+                }
+            })
+            .collect();
+        locked.sort_by(|a, b| natural_order(a, b));
+        let idle_rows = |found: &[IdleLink]| {
+            let mut idle: Vec<Idle> = found
+                .iter()
+                .map(|idle| Idle {
+                    links: [idle.link]
+                        .iter()
+                        .chain(&idle.with)
+                        .map(|&l| link(l))
+                        .collect(),
+                    freedom: idle.freedom,
+                    rod: idle.rod,
+                })
+                .collect();
+            idle.sort_by(|a, b| natural_order(&a.links[0], &b.links[0]));
+            idle
+        };
+        Branch {
+            name: branch.name.clone(),
+            dimension: branch.dimension,
+            instantaneous: branch.instantaneous,
+            redundant: branch.redundant,
+            half_branches: branch.half_branches,
+            locked,
+            idle: idle_rows(&branch.idle),
+            nearly_idle: idle_rows(&branch.nearly_idle),
+        }
+    });
+    Some(rows.collect())
+}
+
+/// `1R 2T`: freedoms that turn and freedoms that do not.
+fn split(motion: &RelativeMotion) -> String {
+    let count = |number: usize, letter: &str| (number > 0).then(|| format!("{number}{letter}"));
+    let counts = [
+        count(motion.rotations, "R"),
+        count(motion.translations, "T"),
+    ];
+    counts.into_iter().flatten().collect::<Vec<_>>().join(" ")
+}
+
+fn split_text(motion: &RelativeMotion) -> String {
+    match (motion.rotations, motion.translations) {
+        (0, _) => "translates along curved paths".to_owned(),
+        (1, 0) => "turns about an axis that moves".to_owned(),
+        (_, 0) => format!("turns in {} ways, about axes that move", motion.rotations),
+        (1, 1) => "turns in one way and translates in another".to_owned(),
+        (r, t) => format!("turns in {r} and translates in {t} independent ways"),
+    }
+}
+
+/// One motion on the branch of this name.
+pub(super) fn motion_row(mechanism: &Mechanism, branch: &str, motion: &RelativeMotion) -> Motion {
+    let link = |index: usize| mechanism.links()[index].name.clone();
+    Motion {
+        branch: branch.to_owned(),
+        link: link(motion.link),
+        relative_to: link(motion.relative_to),
+        freedom: motion.freedom,
+        class: motion
+            .class
+            .as_ref()
+            .map_or_else(|| split(motion), |class| class.short_name().to_owned()),
+        text: motion
+            .class
+            .as_ref()
+            .map_or_else(|| split_text(motion), ToString::to_string),
+        rotations: motion.rotations,
+        translations: motion.translations,
+        asked: false,
+    }
+}
+
+fn motion_rows(mechanism: &Mechanism, analysis: &Analysis) -> Vec<Motion> {
+    let mut rows: Vec<Motion> = analysis
+        .branches
+        .iter()
+        .flatten()
+        .flat_map(|branch| branch.motions.iter().map(move |motion| (branch, motion)))
+        .map(|(branch, motion)| motion_row(mechanism, &branch.name, motion))
+        .collect();
+    rows.sort_by(|a, b| {
+        a.branch
+            .len()
+            .cmp(&b.branch.len())
+            .then_with(|| a.branch.cmp(&b.branch))
+            .then_with(|| natural_order(&a.link, &b.link))
+    });
+    rows
+}
+
+fn joint_rows(mechanism: &Mechanism, analysis: &Analysis) -> Vec<JointRow> {
+    let mut block_of = vec![None; mechanism.joints().len()];
+    for (index, part) in analysis.structure.parts.iter().enumerate() {
+        for &joint in &part.joints {
+            block_of[joint] = Some(index);
+        }
+    }
+    let mut rows: Vec<JointRow> = mechanism
+        .joints()
+        .iter()
+        .enumerate()
+        .map(|(index, joint)| (joint, joint_role(analysis, index)))
+        .zip(&analysis.redundant_wrenches)
+        .enumerate()
+        .map(|(index, ((joint, role), wrenches))| JointRow {
+            name: joint.name.clone(),
+            class: joint.kind.class().to_owned(),
+            kind: joint.kind.word().to_owned(),
+            links: [&joint.predecessor, &joint.successor]
+                .map(|side| mechanism.link(side.link).name.clone()),
+            freedom: joint.freedom(),
+            locked: role.locked,
+            locked_parts: role.locked_parts,
+            redundant_wrenches: *wrenches,
+            closes_loop: joint.closes_loop,
+            block: block_of[index].map(|part| analysis.structure.part_names[part].clone()),
+        })
+        .collect();
+    rows.sort_by(|a, b| natural_order(&a.name, &b.name));
+    rows
+}
+
+fn cycle_rows(mechanism: &Mechanism, analysis: &Analysis) -> Vec<Cycle> {
+    let name = |joint: usize| mechanism.joints()[joint].name.clone();
+    if analysis.cycles.is_empty() {
+        // Not assembled: the cycles are there, but nothing can be said of their motions.
+        return analysis
+            .structure
+            .cycles
+            .iter()
+            .enumerate()
+            .map(|(index, cycle)| Cycle {
+                name: format!("C{}", index + 1),
+                joints: cycle.edges.iter().map(|(edge, _)| name(*edge)).collect(),
+                space: None,
+                space_text: String::new(),
+                dimension: None,
+                rank: None,
+                redundant: None,
+                mobility: None,
+                locks: Vec::new(),
+            })
+            .collect();
+    }
+    analysis
+        .cycles
+        .iter()
+        .enumerate()
+        .map(|(index, facts)| Cycle {
+            name: format!("C{}", index + 1),
+            joints: facts.joints.iter().map(|(joint, _)| name(*joint)).collect(),
+            space: facts
+                .space
+                .as_ref()
+                .map(|space| space.short_name().to_owned()),
+            space_text: facts
+                .space
+                .as_ref()
+                .map(ToString::to_string)
+                .unwrap_or_default(),
+            dimension: facts.space_dimension,
+            rank: facts.rank,
+            redundant: facts.redundant.and_then(|r| i64::try_from(r).ok()),
+            mobility: facts.mobility,
+            locks: facts.locks.clone(),
+        })
+        .collect()
+}
+
+fn tree(analysis: &Analysis) -> Tree {
+    let graph = &analysis.structure.graph;
+    let tree = &analysis.structure.tree;
+    let root = tree
+        .roots()
+        .first()
+        .copied()
+        .unwrap_or_else(|| graph.ground());
+    let links = tree
+        .order()
+        .iter()
+        .filter_map(|&node| {
+            let up = tree.parent(node)?;
+            Some(TreeLink {
+                link: graph.node_name(node).to_owned(),
+                parent: graph.node_name(up.node).to_owned(),
+                joint: graph.edge_name(up.edge).to_owned(),
+                depth: tree.depth(node),
+            })
+        })
+        .collect();
+    Tree {
+        root: graph.node_name(root).to_owned(),
+        depth: tree.height(),
+        links,
+    }
+}
+
+fn advice(mechanism: &Mechanism, advice: &kutzbach_mobility::Advice) -> Advice {
+    let joint = &mechanism.joints()[advice.joint];
+    let gained = advice.redundant_before - advice.redundant_after;
+    let how = match (joint.kind, advice.to) {
+        (JointKind::Revolute, JointKind::Cylindrical) => "let it slide along its axis".to_owned(),
+        (
+            JointKind::Prismatic | JointKind::PlanarTranslation,
+            JointKind::Cylindrical | JointKind::Planar,
+        ) => "let it turn about its axis".to_owned(),
+        (JointKind::Revolute, JointKind::Universal) => match advice.second_axis {
+            Some([x, y, z]) => format!(
+                "let it tilt about ({}, {}, {}) of its own frame",
+                round(x),
+                round(y),
+                round(z)
+            ),
+            None => "let it tilt about a second axis".to_owned(),
+        },
+        (_, JointKind::Spherical) => "make it a ball joint".to_owned(),
+        (_, JointKind::Translational) => "let it translate in every direction".to_owned(),
+        (_, JointKind::Schoenflies) => "let it move along its axis too".to_owned(),
+        (JointKind::Screw, _) => "let it turn and slide independently".to_owned(),
+        (_, to) => format!("make it {to}"),
+    };
+    let (from, to) = (joint.kind.class(), advice.to.class());
+    let removed = if gained == 1 {
+        "1 redundant constraint".to_owned()
+    } else {
+        format!("{gained} redundant constraints")
+    };
+    Advice {
+        text: format!(
+            "{}: {from} → {to}, {how}; removes {removed} and adds no freedom at this pose",
+            joint.name
+        ),
+        joint: joint.name.clone(),
+        from: from.to_owned(),
+        to: to.to_owned(),
+        redundant_before: advice.redundant_before,
+        redundant_after: advice.redundant_after,
+    }
+}
+
+/// Four decimals, without a sign on zero.
+fn round(x: f64) -> f64 {
+    (x * 1e4).round() / 1e4 + 0.0
+}

@@ -1,0 +1,136 @@
+//! A page that leads to many pages.
+
+use super::document::shell;
+use super::escape::escaped;
+use super::{Assets, Stage};
+use crate::Report;
+use crate::text::{verdict, words::counted};
+use kutzbach_mobility::Verdict;
+use kutzbach_model::mechanism::Mechanism;
+
+/// A thumbnail has room for this many pixels.
+const THUMBNAIL: [f64; 2] = [320.0, 200.0];
+
+/// One mechanism of a gallery, or a file that is none.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// The page it leads to, relative to the gallery; `None` for a file that could not be read.
+    page: Option<String>,
+    title: String,
+    sentence: String,
+    figures: String,
+    picture: String,
+    group: Group,
+}
+
+/// What mechanisms are sorted by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Group {
+    Mobile,
+    Rigid,
+    Undecided,
+    Unassembled,
+    Unreadable,
+}
+
+impl Group {
+    const ALL: [Self; 5] = [
+        Self::Mobile,
+        Self::Rigid,
+        Self::Undecided,
+        Self::Unassembled,
+        Self::Unreadable,
+    ];
+
+    fn title(self) -> &'static str {
+        match self {
+            Self::Mobile => "They move",
+            Self::Rigid => "They are rigid",
+            Self::Undecided => "Not decided",
+            Self::Unassembled => "They do not assemble",
+            Self::Unreadable => "Not read",
+        }
+    }
+}
+
+impl Entry {
+    pub(super) fn new(page: &str, mechanism: &Mechanism, report: &Report, stage: &Stage) -> Self {
+        let size = &report.size;
+        Self {
+            page: Some(page.to_owned()),
+            title: report.mechanism.clone(),
+            sentence: verdict::sentence(report),
+            figures: format!(
+                "{}, {}, {}; Kutzbach {}",
+                counted(size.links, "link"),
+                counted(size.joints, "joint"),
+                counted(size.loops, "loop"),
+                report.kutzbach
+            ),
+            picture: super::document::still(mechanism, stage, THUMBNAIL),
+            group: match report.mobility.verdict {
+                Verdict::Mobile => Group::Mobile,
+                Verdict::Rigid => Group::Rigid,
+                Verdict::Undecided => Group::Undecided,
+                Verdict::Unassembled => Group::Unassembled,
+            },
+        }
+    }
+
+    /// The entry of a file that could not be read, and why.
+    #[must_use]
+    pub fn unreadable(file: &str, why: &str) -> Self {
+        Self {
+            page: None,
+            title: file.to_owned(),
+            sentence: why.to_owned(),
+            figures: String::new(),
+            picture: String::new(),
+            group: Group::Unreadable,
+        }
+    }
+}
+
+/// The page with a thumbnail of every mechanism, those that move first, each group in the order given.
+#[must_use]
+pub fn index(title: &str, entries: &[Entry]) -> String {
+    let mut content = format!(
+        "<main class=\"gallery\">\n<header><h1>{}</h1>\n<p class=\"quiet\">{}. Every page shows how its mechanism moves, \
+         and why.</p></header>\n",
+        escaped(title),
+        counted(entries.len(), "mechanism")
+    );
+    for group in Group::ALL {
+        let members: Vec<&Entry> = entries.iter().filter(|e| e.group == group).collect();
+        if members.is_empty() {
+            continue;
+        }
+        content.push_str(&format!(
+            "<section><h2>{} <span class=\"quiet\">{}</span></h2>\n<ul class=\"cards\">\n",
+            group.title(),
+            members.len()
+        ));
+        for entry in members {
+            content.push_str("<li>");
+            if let Some(page) = &entry.page {
+                content.push_str(&format!("<a href=\"{}\">", escaped(page)));
+            }
+            content.push_str(&entry.picture);
+            content.push_str(&format!("<h3>{}</h3>", escaped(&entry.title)));
+            if entry.page.is_some() {
+                content.push_str("</a>");
+            }
+            content.push_str(&format!("<p>{}</p>", escaped(&entry.sentence)));
+            if !entry.figures.is_empty() {
+                content.push_str(&format!(
+                    "<p class=\"quiet\">{}</p>",
+                    escaped(&entry.figures)
+                ));
+            }
+            content.push_str("</li>\n");
+        }
+        content.push_str("</ul></section>\n");
+    }
+    content.push_str("</main>\n");
+    shell(title, &content, Assets::Beside)
+}

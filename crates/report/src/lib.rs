@@ -1,0 +1,70 @@
+//! What a person or a program reads.
+//!
+//! # The problem
+//! An analysis ends in numbers, names and proofs. Three readers want them: an engineer who looks at one screen and acts, a
+//! program that looks up one field, and a test that compares them with what is known. They must never be told different
+//! things, and none of them should have to know how the numbers were found.
+//!
+//! # What holds
+//! * [`Report`] is the only source. Text is rendered from a report and from nothing else, so a report read back from JSON
+//!   gives the same page, and no fact exists in one form only.
+//! * A field that has not been decided is absent (`null`), never zero. "Not decided yet" and "none" differ everywhere:
+//!   a mechanism without branches is an isolated assembly, one whose branches are `null` has not been looked at.
+//! * Lists are in natural order of names ([`natural_order`]), not in file order; numbers of a run (times) are left out
+//!   unless asked for. The same mechanism gives the same bytes.
+//! * Names come from files and may hold anything: text makes control characters visible instead of obeying them.
+//!
+//! # What it costs
+//! Everything here is linear in the size of the report, except sorting names.
+//!
+//! # Where to look
+//! | file | what it answers |
+//! |---|---|
+//! | `schema` | which fields there are; their words are those of `mobility` |
+//! | `assembly` | how the loops closed; the file that holds the pose found |
+//! | `assemble` | how a mechanism and its analysis become a report |
+//! | `extras` | what a report holds only where it was asked for: pairs of links, evidence |
+//! | `inputs` | useful and idle freedoms, inputs and limbs |
+//! | `pose` | limits, dead centres and singular poses nearby, for the warnings |
+//! | `text` | how a report becomes a page |
+//! | `expectation`, `expected_file` | whether a report agrees with what is known |
+//! | `html` | how a report becomes a page that moves |
+//! | `accuracy` | what every way to an answer costs, as a page and as a figure |
+//! | `exact` | what the polynomials say, as data and as a page |
+//! | `picture` | plots, the mechanism drawn, a sign for each answer: still, as SVG |
+//! | `definitions` | what a word means |
+
+pub mod accuracy;
+mod assemble;
+mod assembly;
+pub mod definitions;
+pub mod exact;
+mod expectation;
+mod expected_file;
+mod extras;
+mod findings;
+pub mod html;
+mod inputs;
+mod natural;
+pub mod picture;
+mod pose;
+#[cfg(test)]
+#[allow(clippy::wildcard_imports)]
+pub(crate) mod samples;
+mod schema;
+pub mod text;
+
+pub use assemble::{
+    Input, Options, ReportError, analysed_report, analysed_report_on, report, report_on,
+};
+pub use assembly::{ASSEMBLED, assembled_file};
+pub use expectation::{Comparison, Disagreement, compare};
+pub use expected_file::{ExpectedFile, ExpectedFileError};
+pub use kutzbach_mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
+pub use natural::natural_order;
+pub use schema::{
+    Advice, Assembly, Block, Branch, Certificate, Constants, CouplingRow, Cycle, DependentInput,
+    Evidence, Follower, Freedoms, Gap, GenericCount, Home, Idle, InputSource, Inputs, JointPlace,
+    JointRow, Limb, LiteralReading, Mobility, Motion, Nominal, OutsideLimit, Report, Reversal,
+    SCHEMA, Size, Source, Stage, Timing, Tree, TreeLink,
+};

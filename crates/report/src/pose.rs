@@ -1,0 +1,183 @@
+//! What a careful owner should know of the pose: limits, dead centres, singular poses nearby. Sentences for the warnings.
+
+use super::findings::LOCKED_TOGETHER;
+use super::schema::Report;
+use super::text::words::{counted, figure, names};
+use kutzbach_closure::{Arithmetic, Geometry};
+use kutzbach_mobility::{
+    Analysis, LimitFact, NearSingular, PoseKind, dead_centres, limit_facts, near_singular,
+    pose_of_branch,
+};
+use kutzbach_model::mechanism::{FreedomPart, Mechanism};
+
+/// How the sentences begin that are about the pose itself, not about the file.
+const OUTSIDE: &str = "this pose is outside joint limits: ";
+const DEAD: &str = "dead centre: ";
+const NEARLY: &str = "nearly singular: the smallest singular value kept";
+
+/// Whether a warning says what is wrong with the pose, or with what holds there.
+pub(super) fn is_about_the_pose(warning: &str) -> bool {
+    warning.starts_with(OUTSIDE)
+        || warning.starts_with(DEAD)
+        || warning.contains(NEARLY)
+        || warning.contains(LOCKED_TOGETHER)
+}
+
+/// Joints named in a sentence.
+const NAMED: usize = 4;
+
+/// Adds what the pose calls for to the warnings of a report. Nothing here changes the verdict.
+pub(super) fn warn(
+    report: &mut Report,
+    mechanism: &Mechanism,
+    analysis: &Analysis,
+    configuration: &str,
+) {
+    if !analysis.assembly.closed {
+        return;
+    }
+    limits(report, mechanism, analysis);
+    let geometry = Geometry::new(
+        mechanism,
+        mechanism.configuration(configuration),
+        &Arithmetic::double(),
+    );
+    dead(report, mechanism, analysis, &geometry);
+    let states = &analysis.assembly.states;
+    let structure = &analysis.structure;
+    // Where the equations cannot be evaluated nearby there is nothing to say.
+    let near = near_singular(mechanism, &geometry, structure, states, &analysis.parts);
+    for found in near.unwrap_or_default() {
+        let block = report
+            .home
+            .blocks
+            .get(found.part)
+            .filter(|_| report.home.blocks.len() > 1)
+            .map_or(String::new(), |block| {
+                format!("the block of `{}` is ", block.name)
+            });
+        report.warnings.push(near_text(mechanism, &found, &block));
+    }
+}
+
+fn limits(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis) {
+    let mut outside: Vec<(f64, String)> = Vec::new();
+    let (mut no_range, mut couplings) = (Vec::new(), Vec::new());
+    let joint = |index: usize| &mechanism.joints()[index];
+    for fact in limit_facts(mechanism, &analysis.assembly.states) {
+        match fact {
+            LimitFact::Outside {
+                joint: index,
+                value,
+                limit,
+            } => {
+                let part = joint(index).kind.freedoms()[0];
+                let text = format!(
+                    "`{}` is at {}, {} {} its limit of {}",
+                    joint(index).name,
+                    measure(part, value),
+                    measure(part, (value - limit).abs()),
+                    if value > limit { "above" } else { "below" },
+                    measure(part, limit)
+                );
+                outside.push(((value - limit).abs(), text));
+            }
+            LimitFact::NoRange { joint: index } => no_range.push(joint(index).name.clone()),
+            LimitFact::Empty { coupling } => couplings.push(format!(
+                "coupling `{}`: no values within the limits of its joints satisfy it",
+                mechanism.couplings()[coupling].name
+            )),
+            LimitFact::Pinned { coupling, joints } => {
+                let held: Vec<String> = joints
+                    .iter()
+                    .map(|&index| format!("`{}`", joint(index).name))
+                    .collect();
+                couplings.push(format!(
+                    "coupling `{}`: the limits leave {} one value each, so that they cannot move; they count as free here",
+                    mechanism.couplings()[coupling].name,
+                    names(&held, NAMED)
+                ));
+            }
+        }
+    }
+    // The worst first; of equals in natural order.
+    outside.sort_by(|a, b| {
+        b.0.total_cmp(&a.0)
+            .then_with(|| super::natural_order(&a.1, &b.1))
+    });
+    if !outside.is_empty() {
+        let mut texts: Vec<String> = outside.iter().take(NAMED).map(|(_, t)| t.clone()).collect();
+        if outside.len() > NAMED {
+            texts.push(format!("and {} more", outside.len() - NAMED));
+        }
+        report
+            .warnings
+            .push(format!("{OUTSIDE}{}", texts.join("; ")));
+    }
+    if !no_range.is_empty() {
+        no_range.sort_by(|a, b| super::natural_order(a, b));
+        let quoted: Vec<String> = no_range.iter().map(|name| format!("`{name}`")).collect();
+        report.warnings.push(format!(
+            "{} {} a range of zero between the limits ({}); by them it cannot move, here it counts as free",
+            counted(no_range.len(), "joint"),
+            if no_range.len() == 1 { "has" } else { "have" },
+            names(&quoted, NAMED)
+        ));
+    }
+    couplings.sort_by(|a, b| super::natural_order(a, b));
+    report.warnings.extend(couplings);
+}
+
+fn dead(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis, geometry: &Geometry<f64>) {
+    let Some([branch]) = analysis.branches.as_deref() else {
+        return;
+    };
+    if analysis.mobility.pose != Some(PoseKind::Regular) {
+        return;
+    }
+    let (structure, states) = (&analysis.structure, &analysis.assembly.states);
+    let Some(here) = pose_of_branch(mechanism, structure, states, &analysis.parts, branch) else {
+        return;
+    };
+    let mut resting: Vec<String> = dead_centres(mechanism, geometry, structure, branch, &here)
+        .into_iter()
+        .map(|joint| mechanism.joints()[joint].name.clone())
+        .collect();
+    resting.sort_by(|a, b| super::natural_order(a, b));
+    if !resting.is_empty() {
+        let quoted: Vec<String> = resting.iter().map(|name| format!("`{name}`")).collect();
+        report.warnings.push(format!(
+            "{DEAD}{} {} at this pose, for an instant; as inputs they cannot start the motion from here",
+            names(&quoted, NAMED),
+            if quoted.len() == 1 { "rests" } else { "rest" },
+        ));
+    }
+}
+
+fn near_text(mechanism: &Mechanism, found: &NearSingular, block: &str) -> String {
+    let start = format!(
+        "{block}{NEARLY} is {} of the largest (below {} it would count as zero)",
+        figure(found.kept),
+        figure(found.tolerance)
+    );
+    match &found.nearest {
+        Some(clearer) => {
+            let joint = &mechanism.joints()[clearer.joint];
+            format!(
+                "{start}; with `{}` moved by {} it is {}",
+                joint.freedom_name(clearer.variable),
+                measure(joint.kind.freedoms()[clearer.variable], clearer.way),
+                figure(clearer.kept)
+            )
+        }
+        None => format!("{start}; no clearer pose was found nearby"),
+    }
+}
+
+/// A value of a joint in degrees or millimetres.
+fn measure(part: FreedomPart, value: f64) -> String {
+    match part {
+        FreedomPart::Translation => format!("{} mm", figure(1e3 * value)),
+        FreedomPart::Rotation | FreedomPart::Screw => format!("{}°", figure(value.to_degrees())),
+    }
+}

@@ -1,0 +1,327 @@
+//! What the page says of how the loops close.
+
+use super::cite;
+use super::page::Page;
+use super::sections::{more, rows_of};
+use super::style::Tint;
+use super::table::{Cell, Column, Subject, Table};
+use super::words::{counted, figure, metres, names};
+use crate::schema::{Assembly, Gap, JointPlace, Report};
+use kutzbach_mobility::Verdict;
+
+/// Joints in the table of those that moved, unless everything is asked for.
+const ROWS: usize = 4;
+
+/// Corrections below this (rad, m) are not shown: a hair's breadth seen from ten kilometres.
+const SHOWN: f64 = 1e-9;
+
+/// Lists of names in a sentence show this many.
+const NAMES: usize = 6;
+
+/// The gap up to which a tolerance of one's own is suggested (m).
+const SMALL_GAP: f64 = 1e-3;
+
+/// How the loops close.
+pub(crate) fn section(report: &Report, page: &mut Page) {
+    let assembly = &report.assembly;
+    if report.mobility.verdict == Verdict::Unassembled || assembly.closed == Some(false) {
+        open(assembly, page);
+        return;
+    }
+    let moved = assembly.moved.filter(|moved| *moved > 0.0);
+    if moved.is_none() && assembly.held.is_empty() && assembly.corrected.is_empty() {
+        return;
+    }
+    page.heading("Assembly");
+    if let Some(moved) = moved {
+        let mut text = how_far(assembly, moved);
+        let all = farthest_first(&assembly.joints).len();
+        if !page.layout().verbose && all > ROWS {
+            text.push_str(&format!(" All {all} that moved: `--verbose`."));
+        }
+        page.paragraph(&text, Tint::Plain, "  ", "  ");
+    }
+    if let Some(text) = held(assembly) {
+        page.paragraph(&text, Tint::Plain, "  ", "  ");
+    }
+    if !assembly.corrected.is_empty() {
+        let text = format!(
+            "The loops do not close with the configuration's rounded values as they are: {} corrected.",
+            joints_are(&assembly.corrected)
+        );
+        page.paragraph(&text, Tint::Doubtful, "  ", "  ");
+    }
+    if moved.is_some() {
+        corrections(&assembly.joints, page);
+        if let Some(text) = outside(assembly) {
+            page.paragraph(&text, Tint::Doubtful, "  ", "  ");
+        }
+    }
+}
+
+/// A closed pose that was not drawn.
+fn how_far(assembly: &Assembly, moved: f64) -> String {
+    let worst = assembly
+        .gaps
+        .iter()
+        .max_by(|a, b| a.position.total_cmp(&b.position));
+    let mut text = match worst {
+        Some(gap) => format!(
+            "As the file draws it, loop `{}` is open by {} m and {}°.",
+            gap.cycle,
+            figure(gap.position),
+            figure(gap.angle.to_degrees())
+        ),
+        None => "The file's pose does not satisfy its couplings.".to_owned(),
+    };
+    text.push_str(&format!(
+        " It was assembled by moving joints by up to {} m",
+        figure(moved)
+    ));
+    if let Some(residual) = assembly.residual {
+        text.push_str(&format!("; {} of a loop's size is left", figure(residual)));
+    }
+    text.push_str(". Everything here holds at the assembled pose.");
+    if let Some(starts) = assembly.starts.filter(|starts| *starts > 1) {
+        text.push_str(&format!(
+            " From the drawn pose itself none was found, or none within the joint limits: this is the best closing of {}.",
+            counted(starts, "start")
+        ));
+    }
+    let farthest = |by: fn(&JointPlace) -> f64| {
+        assembly
+            .joints
+            .iter()
+            .max_by(|a, b| by(a).total_cmp(&by(b)))
+            .filter(|place| by(place) > SHOWN)
+    };
+    let turned = farthest(|place| place.turned).map(|place| {
+        format!(
+            "`{}` turned by {}° ({} rad)",
+            place.name,
+            figure(place.turned.to_degrees()),
+            figure(place.turned)
+        )
+    });
+    let shifted = farthest(|place| place.shifted)
+        .map(|place| format!("`{}` slid by {}", place.name, metres(place.shifted)));
+    let corrections: Vec<String> = turned.into_iter().chain(shifted).collect();
+    if !corrections.is_empty() {
+        text.push_str(&format!(" Farthest moved: {}.", corrections.join(", ")));
+    }
+    text
+}
+
+fn joints_are(list: &[String]) -> String {
+    let quoted: Vec<String> = list.iter().map(|name| format!("`{name}`")).collect();
+    let verb = if list.len() == 1 { "was" } else { "were" };
+    format!("{} {verb}", names(&quoted, NAMES))
+}
+
+fn held(assembly: &Assembly) -> Option<String> {
+    if assembly.held.is_empty() {
+        return None;
+    }
+    let quoted: Vec<String> = assembly
+        .held
+        .iter()
+        .map(|name| format!("`{name}`"))
+        .collect();
+    Some(format!(
+        "Held as the configuration says: {}.",
+        names(&quoted, NAMES)
+    ))
+}
+
+fn outside(assembly: &Assembly) -> Option<String> {
+    let worst = assembly.outside_limits.first()?;
+    let by = if worst.angle {
+        format!("{}°", figure(worst.by.abs().to_degrees()))
+    } else {
+        metres(worst.by.abs())
+    };
+    let side = if worst.by > 0.0 { "above" } else { "below" };
+    let more = match assembly.outside_limits.len() - 1 {
+        0 => String::new(),
+        more => format!(", and {} more", counted(more, "joint")),
+    };
+    Some(format!(
+        "No closing within the joint limits was found: `{}` is {by} {side} its limit{more}.",
+        worst.joint
+    ))
+}
+
+/// The joints that moved, farthest first.
+fn farthest_first(joints: &[JointPlace]) -> Vec<&JointPlace> {
+    let mut moved: Vec<&JointPlace> = joints
+        .iter()
+        .filter(|place| place.correction > SHOWN)
+        .collect();
+    moved.sort_by(|a, b| b.correction.total_cmp(&a.correction));
+    moved
+}
+
+/// Their table, which a first screen has where it is short.
+fn corrections(joints: &[JointPlace], page: &mut Page) {
+    let moved = farthest_first(joints);
+    if moved.is_empty() || !page.layout().verbose && moved.len() > ROWS {
+        return;
+    }
+    let mut table = Table::new()
+        .column("joint", Column::Shrinking)
+        .column("drawn", Column::Numbers)
+        .column("assembled", Column::Numbers)
+        .column("moved by", Column::Numbers);
+    for place in &moved {
+        table.row_about(
+            Subject::Joint(place.name.clone()),
+            vec![
+                Cell::new(&place.name).tint(Tint::Strong),
+                Cell::new(values(place, &place.drawn)),
+                Cell::new(values(place, &place.values)),
+                Cell::new(amount(place)),
+            ],
+        );
+    }
+    page.table(table, "joints");
+}
+
+/// Values of a joint of one freedom in ° or in a unit of length; of others as the configuration of a file has them.
+fn values(place: &JointPlace, values: &[f64]) -> String {
+    match (values, place.turned > 0.0, place.shifted > 0.0) {
+        ([angle], true, false) => format!("{:.4}°", angle.to_degrees() + 0.0),
+        ([length], false, true) => metres(*length),
+        _ => {
+            let list: Vec<String> = values.iter().map(|x| format!("{x:.4}")).collect();
+            list.join(" ")
+        }
+    }
+}
+
+fn amount(place: &JointPlace) -> String {
+    let turned = (place.turned > SHOWN).then(|| format!("{}°", figure(place.turned.to_degrees())));
+    let shifted = (place.shifted > SHOWN).then(|| metres(place.shifted));
+    let both: Vec<String> = turned.into_iter().chain(shifted).collect();
+    both.join(", ")
+}
+
+/// The loops that stay open, and what would help.
+fn open(assembly: &Assembly, page: &mut Page) {
+    if assembly.gaps.is_empty() {
+        return;
+    }
+    page.heading("Open loops");
+    if let Some(text) = held(assembly) {
+        page.paragraph(&text, Tint::Plain, "  ", "  ");
+    }
+    for text in [released(assembly), reversal(assembly), tolerance(assembly)]
+        .into_iter()
+        .flatten()
+    {
+        page.paragraph(&text, Tint::Doubtful, "  ", "  ");
+    }
+    let mut table = Table::new()
+        .column("loop", Column::Shrinking)
+        .column("gap (m)", Column::Numbers)
+        .column("angle (°)", Column::Numbers);
+    let mut gaps: Vec<_> = assembly.gaps.iter().collect();
+    let all = gaps.len();
+    if !page.layout().verbose && rows_of(all) < all {
+        gaps.sort_by(|a, b| b.left_position.total_cmp(&a.left_position));
+        gaps.truncate(rows_of(all));
+    }
+    let shown = gaps.len();
+    for gap in gaps {
+        let subject = Subject::Cycle(gap.cycle.clone());
+        table.row_about(
+            subject,
+            vec![
+                Cell::new(&gap.cycle),
+                Cell::new(figure(gap.left_position)).tint(Tint::Bad),
+                Cell::new(figure(gap.left_angle.to_degrees())),
+            ],
+        );
+    }
+    page.table(table, "loops");
+    more(all - shown, page);
+}
+
+fn released(assembly: &Assembly) -> Option<String> {
+    let places = assembly.released.as_ref()?;
+    let farthest = places
+        .iter()
+        .max_by(|a, b| a.correction.total_cmp(&b.correction))?;
+    Some(format!(
+        "Loops with held joints close once these are released: `{}` then moves farthest, by {}.",
+        farthest.name,
+        amount(farthest)
+    ))
+}
+
+fn reversal(assembly: &Assembly) -> Option<String> {
+    let reversal = assembly.reversal.as_ref()?;
+    let about: Vec<String> = reversal.about.iter().map(|x| figure(*x)).collect();
+    Some(format!(
+        "The two sides of `{}` point in opposite directions: this loop closes with one of its two frames turned by 180° \
+         (the successor's, about its own direction {}), or with the axis reversed where each side states its own.",
+        reversal.cycle,
+        about.join(" ")
+    ))
+}
+
+fn tolerance(assembly: &Assembly) -> Option<String> {
+    let worst = nearest(assembly)?;
+    let (gap, residual) = (worst.left_position, assembly.residual?);
+    if !(gap > 0.0 && gap < SMALL_GAP && residual < SMALL_GAP) {
+        return None;
+    }
+    // A power of ten above the gap, and above what the residual makes of a loop of some metres.
+    let enough = 10f64.powi((3.0 * gap.max(residual)).log10().ceil() as i32);
+    Some(format!(
+        "If the file is no more precise than that, `--closure-tolerance {enough:e}` (m) takes the gap as closed."
+    ))
+}
+
+/// The loop that stays open farthest, an angle of 1 rad counting as 1 m.
+fn nearest(assembly: &Assembly) -> Option<&Gap> {
+    let miss = |gap: &Gap| gap.left_position.max(gap.left_angle);
+    assembly
+        .gaps
+        .iter()
+        .max_by(|a, b| miss(a).total_cmp(&miss(b)))
+}
+
+/// The first sentence on a mechanism that does not assemble.
+pub(super) fn unassembled(assembly: &Assembly) -> String {
+    let nearest = nearest(assembly).map(|gap| {
+        format!(
+            " (nearest: {} and {}° at loop `{}`)",
+            metres(gap.left_position),
+            figure(gap.left_angle.to_degrees()),
+            gap.cycle
+        )
+    });
+    let nearest = nearest.unwrap_or_default();
+    let held = match assembly.held.len() {
+        0 => String::new(),
+        count => format!(" with {} held", counted(count, "joint")),
+    };
+    let why = match (&assembly.proof, assembly.starts) {
+        (Some(proof), _) => format!("no pose closes it{held}, since {proof}{nearest}"),
+        (None, Some(starts)) => {
+            let limited = match assembly.work_limited {
+                true => ", the work allowed for a mechanism of this size",
+                false => "",
+            };
+            format!(
+                "no closing found after {}{held}{limited}{nearest}",
+                counted(starts, "start")
+            )
+        }
+        (None, None) => format!("no closing found{held}{nearest}"),
+    };
+    format!(
+        "Does not assemble ({}): {why}, so there is no pose to analyse.",
+        cite::ASSEMBLED
+    )
+}

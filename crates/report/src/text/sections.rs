@@ -1,0 +1,625 @@
+//! The parts of the page below the counts. A part about which nothing is known is left out.
+
+use super::alternatives::Alternatives;
+use super::folded::Folded;
+use super::page::Page;
+use super::style::Tint;
+use super::table::{Cell, Column, Subject, Table};
+use super::words::{capitalised, counted, figure, mirrored_runs, names, one_side, runs};
+use crate::findings::{LOCKED_TOGETHER, LOOSE};
+use crate::pose::is_about_the_pose;
+use crate::schema::{Advice, CouplingRow, Cycle, Report};
+use kutzbach_mobility::CertificateLevel;
+use std::collections::BTreeSet;
+
+/// Lists of names in a table show this many.
+const NAMES_IN_CELL: usize = 12;
+
+/// Couplings shown on a first screen, and how many of them where there are more.
+const COUPLINGS: usize = 6;
+const FIRST_COUPLINGS: usize = 3;
+
+/// Loops of which equal ones have a row each on a first screen.
+const LOOPS: usize = 3;
+
+/// Says that a list goes on.
+pub(super) fn more(left: usize, page: &mut Page) {
+    if left > 0 {
+        let text = format!("… and {left} more: `--verbose` or `--format json` shows all");
+        page.paragraph(&text, Tint::Quiet, "    ", "    ");
+    }
+}
+
+/// The couplings' equations.
+pub(crate) fn couplings(report: &Report, page: &mut Page) {
+    if report.couplings.is_empty() {
+        return;
+    }
+    page.heading("Couplings");
+    let all = report.couplings.len();
+    let verbose = page.layout().verbose;
+    let shown = match verbose || all <= COUPLINGS {
+        true => all,
+        false => FIRST_COUPLINGS,
+    };
+    // The name of a `mimic` is that of its joint, which its equation begins with.
+    let told = |row: &CouplingRow| {
+        let joint = row.name.strip_suffix(".mimic");
+        joint.is_some_and(|joint| row.text.starts_with(joint))
+    };
+    let named = verbose || !report.couplings.iter().all(told);
+    let mut table = Table::new();
+    if named {
+        table = table.column("coupling", Column::Shrinking);
+    }
+    table = table.column("equation (rad, m)", Column::Shrinking);
+    for coupling in &report.couplings[..shown] {
+        let name = named.then(|| Cell::new(&coupling.name));
+        let equation = Cell::new(&coupling.text);
+        table.row(name.into_iter().chain([equation]).collect());
+    }
+    page.table(table, "couplings");
+    more(all - shown, page);
+}
+
+/// One row per basic cycle.
+pub(crate) fn cycles(report: &Report, page: &mut Page) {
+    if report.cycles.is_empty() {
+        return;
+    }
+    if !page.layout().verbose && says_nothing_more(report) {
+        return;
+    }
+    page.heading("Loops (basic cycles)");
+    let most = limit(page);
+    let folded = match page.layout().verbose {
+        true => BTreeSet::new(),
+        false => Folded::of(report).joints,
+    };
+    let mut table = Table::new()
+        .column("loop", Column::Shrinking)
+        .column("through", Column::Shrinking)
+        .column("displacements", Column::Shrinking)
+        .column("rank", Column::Numbers)
+        .column("redundant", Column::Numbers)
+        .column("freedom alone", Column::Numbers)
+        .column("locks alone", Column::Shrinking);
+    let groups = match page.layout().verbose || report.cycles.len() <= LOOPS {
+        true => report.cycles.iter().map(|cycle| vec![cycle]).collect(),
+        false => equal_loops(&report.cycles),
+    };
+    let shown = match page.layout().verbose {
+        true => groups.len(),
+        false => rows_of(groups.len()),
+    };
+    for group in &groups[..shown] {
+        let [cycle, others @ ..] = group.as_slice() else {
+            continue;
+        };
+        let locks: Vec<String> = group.iter().flat_map(|c| c.locks.clone()).collect();
+        let subject = Subject::Cycle(cycle.name.clone());
+        let (name, through, space) = match others {
+            [] => (
+                cycle.name.clone(),
+                joints_of(cycle, &folded, most),
+                space(cycle),
+            ),
+            _ => (loop_names(group), lengths(group, &folded), kind_of(cycle)),
+        };
+        table.row_about(
+            subject,
+            vec![
+                Cell::new(name).tint(Tint::Strong),
+                Cell::new(through),
+                Cell::new(space),
+                Cell::new(unsure(cycle.rank)),
+                Cell::new(unsure(cycle.redundant)),
+                Cell::new(unsure(cycle.mobility)),
+                Cell::new(match (locks.is_empty(), others) {
+                    (true, _) => "–".to_owned(),
+                    (false, []) => names(&locks, most),
+                    (false, _) => mirrored_runs(&locks, most),
+                }),
+            ],
+        );
+    }
+    page.table(table, "loops");
+    more(groups[shown..].iter().map(Vec::len).sum(), page);
+}
+
+/// Whether the only loop is all of the mechanism, and what its motions have in common is said among the reasons, or nothing.
+fn says_nothing_more(report: &Report) -> bool {
+    let certificate = report.mobility.certificate.as_ref();
+    let said = certificate.is_some_and(|c| c.level == CertificateLevel::Subgroup);
+    matches!(report.cycles.as_slice(), [only]
+        if only.mobility.is_some() && only.mobility == report.home.instantaneous
+            && only.redundant == report.home.redundant
+            && (said || only.dimension == Some(6)))
+}
+
+/// Loops of which the table says the same but for their joints, in the order of first mention.
+fn equal_loops(cycles: &[Cycle]) -> Vec<Vec<&Cycle>> {
+    let facts = |c: &Cycle| {
+        let counts = (c.rank, c.redundant, c.mobility, c.locks.len());
+        (c.space.clone(), c.dimension, counts)
+    };
+    let mut groups: Vec<Vec<&Cycle>> = Vec::new();
+    for cycle in cycles {
+        match groups.iter_mut().find(|g| facts(g[0]) == facts(cycle)) {
+            Some(group) => group.push(cycle),
+            None => groups.push(vec![cycle]),
+        }
+    }
+    groups
+}
+
+/// `C1 … C4 and C7`.
+fn loop_names(group: &[&Cycle]) -> String {
+    let all: Vec<String> = group.iter().map(|cycle| cycle.name.clone()).collect();
+    runs(&all, 3)
+}
+
+/// `5 to 7 joints each`.
+fn lengths(group: &[&Cycle], folded: &BTreeSet<&str>) -> String {
+    let length = |cycle: &&Cycle| {
+        let joints = cycle.joints.iter();
+        joints.filter(|j| !folded.contains(j.as_str())).count()
+    };
+    let least = group.iter().map(length).min().unwrap_or(0);
+    let most = group.iter().map(length).max().unwrap_or(0);
+    match least == most {
+        true => format!("{} each", counted(most, "joint")),
+        false => format!("{least} to {most} joints each"),
+    }
+}
+
+/// The kind of its displacements, without the axis or plane, which differs from loop to loop.
+fn kind_of(cycle: &Cycle) -> String {
+    let text = space(cycle);
+    let end = [" normal to ", " along ", " about ", " through "]
+        .iter()
+        .filter_map(|word| text.find(word))
+        .min();
+    text[..end.unwrap_or(text.len())].to_owned()
+}
+
+/// Rows of a first screen where one or two more would not be worth the line that says so.
+pub(super) fn rows_of(all: usize) -> usize {
+    match all {
+        0..=10 => all,
+        _ => 8,
+    }
+}
+
+fn joints_of(cycle: &Cycle, folded: &BTreeSet<&str>, most: usize) -> String {
+    let joints: Vec<&str> = cycle
+        .joints
+        .iter()
+        .map(String::as_str)
+        .filter(|joint| !folded.contains(joint))
+        .collect();
+    if joints.len() <= most {
+        joints.join(" ")
+    } else {
+        format!(
+            "{} … ({})",
+            joints[..most].join(" "),
+            counted(joints.len(), "joint")
+        )
+    }
+}
+
+fn space(cycle: &Cycle) -> String {
+    match (&cycle.space, cycle.space_text.as_str()) {
+        (Some(short), "") => short.clone(),
+        (Some(short), text) => format!("{short}: {text}"),
+        (None, "") => "?".to_owned(),
+        (None, text) => text.to_owned(),
+    }
+}
+
+pub(super) fn unsure(count: Option<impl ToString>) -> String {
+    count.map_or_else(|| "?".to_owned(), |n| n.to_string())
+}
+
+/// What to change.
+pub(crate) fn advice(report: &Report, page: &mut Page) {
+    if report.advice.is_empty() {
+        return;
+    }
+    page.heading("Advice");
+    if page.layout().verbose || report.advice.len() <= ADVICE {
+        for advice in &report.advice {
+            page.item(&told(&advice.text, advice), Tint::Plain);
+        }
+        return;
+    }
+    let mut left = report.advice.len();
+    page.paragraph(
+        "Joints that could be given more freedom without adding any to the mechanism at this pose:",
+        Tint::Plain,
+        "  ",
+        "  ",
+    );
+    for change in Alternatives::of(&report.advice).iter().take(CHANGES) {
+        let text = change.text();
+        // What all of them do stands above them and in the numbers.
+        let short = match text.split_once("; removes ") {
+            Some((short, rest)) if rest.ends_with("and adds no freedom at this pose") => short,
+            _ => &text,
+        };
+        page.item(&told(short, change.first), Tint::Plain);
+        left -= change.pieces();
+    }
+    more(left, page);
+}
+
+fn told(text: &str, advice: &Advice) -> String {
+    format!(
+        "{} (redundant: {} → {})",
+        text.trim_end_matches('.'),
+        advice.redundant_before,
+        advice.redundant_after
+    )
+}
+
+/// Changes shown on a first screen where there are more than [`ADVICE`] pieces of advice.
+const CHANGES: usize = 2;
+
+/// Pieces of advice and warnings shown on a first screen.
+const ADVICE: usize = 8;
+
+/// What is wrong with the pose.
+pub(super) fn pose(report: &Report, page: &mut Page) {
+    let all = report.warnings.iter();
+    let told: Vec<String> = all.filter(|w| is_about_the_pose(w)).cloned().collect();
+    let told = match page.layout().verbose {
+        true => told,
+        false => repeated_once(&told),
+    };
+    for warning in told {
+        page.paragraph(&sentence(&warning), Tint::Doubtful, "", "");
+    }
+}
+
+/// A warning with a full stop, and a capital unless it begins with the name of a block.
+fn sentence(warning: &str) -> String {
+    match warning.contains(LOCKED_TOGETHER) {
+        true => format!("{warning}."),
+        false => capitalised(warning),
+    }
+}
+
+/// What to beware of.
+pub(crate) fn warnings(report: &Report, page: &mut Page) {
+    list(&report.warnings, page);
+}
+
+/// What to beware of besides the pose; on a first screen without what the answer says already, and without what in the file
+/// has no meaning, which counts as not read.
+pub(super) fn other_warnings(report: &Report, page: &mut Page) {
+    let verbose = page.layout().verbose;
+    let floats = report.freedoms.as_ref().is_some_and(|f| f.floating > 0);
+    let told = |warning: &str| {
+        let of_file = meaningless(warning).is_some() || old_name(warning).is_some();
+        !verbose && (floats && warning.ends_with(LOOSE) || of_file)
+    };
+    let others: Vec<String> = report
+        .warnings
+        .iter()
+        .filter(|warning| !is_about_the_pose(warning) && !told(warning))
+        .map(|warning| match verbose {
+            true => warning.clone(),
+            false => without_folders(warning),
+        })
+        .collect();
+    list(&others, page);
+}
+
+/// `15 × <axis> of a fixed joint`, of `<axis> means nothing for a fixed joint and is ignored (15 times, …)`.
+fn meaningless(warning: &str) -> Option<String> {
+    let (_, text) = without_place(warning);
+    let (element, rest) = text.split_once(" means nothing for ")?;
+    let (joint, rest) = rest.split_once(" and is ignored")?;
+    Some(format!("{}{element} of {joint}", times(rest)))
+}
+
+/// `6 × <joint_properties> for <dynamics>`, of `<joint_properties> is the old name of <dynamics> and read as such (6 times, …)`.
+fn old_name(warning: &str) -> Option<String> {
+    let (_, text) = without_place(warning);
+    let (old, rest) = text.split_once(" is the old name of ")?;
+    let (new, rest) = rest.split_once(" and read as such")?;
+    Some(format!("{}{old} for {new}", times(rest)))
+}
+
+/// `6 × `, of ` (6 times, first at line 90, column 5)`.
+fn times(rest: &str) -> String {
+    rest.split_once(" times, first at ")
+        .and_then(|(before, _)| before.rsplit('(').next())
+        .map_or_else(String::new, |times| format!("{times} × "))
+}
+
+/// A warning as `line 35, column 5` and what it says of that place; an empty place where it names none.
+fn without_place(warning: &str) -> (&str, &str) {
+    match warning.split_once(": ") {
+        Some((place, text)) if place.starts_with("line ") => (place, text),
+        _ => ("", warning),
+    }
+}
+
+/// A warning whose ` (at /a/long/way/to/file.xacro:3:1)` names the file alone.
+fn without_folders(warning: &str) -> String {
+    const AT: &str = " (at ";
+    let Some((before, rest)) = warning.split_once(AT) else {
+        return warning.to_owned();
+    };
+    let end = rest.find(')').unwrap_or(rest.len());
+    let file = rest[..end].rsplit(['/', '\\']).next().unwrap_or("");
+    format!("{before}{AT}{file}{}", &rest[end..])
+}
+
+fn list(warnings: &[String], page: &mut Page) {
+    if warnings.is_empty() {
+        return;
+    }
+    page.heading("Warnings");
+    let warnings = match page.layout().verbose {
+        true => warnings.to_vec(),
+        false => repeated_once(warnings),
+    };
+    let shown = match page.layout().verbose {
+        true => warnings.len(),
+        false => warnings.len().min(ADVICE),
+    };
+    for warning in &warnings[..shown] {
+        page.item(warning, Tint::Doubtful);
+    }
+    more(warnings.len() - shown, page);
+}
+
+/// Warnings that differ only in the place they speak of, or in the side of the machine, once, with the number of places: `14 × …, first in line 35`.
+fn repeated_once(warnings: &[String]) -> Vec<String> {
+    let mut counted: Vec<(&str, &str, usize)> = Vec::new();
+    let mut mirrored: BTreeSet<String> = BTreeSet::new();
+    for warning in warnings {
+        let (place, text) = without_place(warning);
+        let sides = one_side(text);
+        match counted
+            .iter_mut()
+            .find(|(_, known, _)| one_side(known) == sides)
+        {
+            Some((_, known, count)) => {
+                if *known != text {
+                    mirrored.insert((*known).to_owned());
+                }
+                *count += 1;
+            }
+            None => counted.push((place, text, 1)),
+        }
+    }
+    counted
+        .into_iter()
+        .map(|(place, text, count)| match (count, place) {
+            (1, "") => text.to_owned(),
+            (1, place) => format!("{place}: {text}"),
+            (many, place) => {
+                let images = mirrored.contains(text).then_some("left and right alike");
+                let first = (!place.is_empty()).then(|| format!("first in {place}"));
+                let notes: Vec<&str> = images.into_iter().chain(first.as_deref()).collect();
+                match notes.as_slice() {
+                    [] => format!("{many} × {text}"),
+                    notes => format!("{many} × {text} ({})", notes.join(", ")),
+                }
+            }
+        })
+        .collect()
+}
+
+/// What of the file was not read, in one line; a verbose page lists it with places.
+fn unread(report: &Report, page: &mut Page) {
+    const KINDS: usize = 6;
+    let short = |line: &String| {
+        let (_, what) = without_place(line);
+        let what = what.split(" (first at ").next().unwrap_or(what);
+        let what = what.split(" (at ").next().unwrap_or(what);
+        what.to_owned()
+    };
+    let ignored = report.warnings.iter().filter_map(|w| meaningless(w));
+    let mut kinds: Vec<String> = report.skipped.iter().map(short).chain(ignored).collect();
+    let old: Vec<String> = report.warnings.iter().filter_map(|w| old_name(w)).collect();
+    if kinds.is_empty() && old.is_empty() {
+        return;
+    }
+    let left = kinds.len().saturating_sub(KINDS);
+    if left > 0 {
+        kinds.truncate(KINDS);
+        kinds.push(format!("and {}", counted(left, "more kind")));
+    }
+    let told = [("Not read: ", kinds), ("Old names read: ", old)];
+    let told: Vec<String> = told
+        .into_iter()
+        .filter(|(_, list)| !list.is_empty())
+        .map(|(title, list)| format!("{title}{}", list.join(", ")))
+        .collect();
+    let text = format!("{} (`--verbose` says where).", told.join(". "));
+    page.gap();
+    page.paragraph(&text, Tint::Quiet, "", "");
+}
+
+/// What only a verbose page shows, and times where they were asked for.
+pub(crate) fn details(report: &Report, page: &mut Page) {
+    if !page.layout().verbose {
+        unread(report, page);
+    }
+    if page.layout().verbose {
+        blocks(report, page);
+        rank_details(report, page);
+        if !report.skipped.is_empty() {
+            page.heading("Not read, because it says nothing about motion");
+            for skipped in &report.skipped {
+                page.item(skipped, Tint::Quiet);
+            }
+        }
+        if let Some(tree) = &report.tree {
+            page.heading("Spanning tree");
+            let text = format!(
+                "Rooted at `{}`, {} deep.",
+                tree.root,
+                counted(tree.depth, "joint")
+            );
+            page.paragraph(&text, Tint::Plain, "  ", "  ");
+            let mut table = Table::new()
+                .column("link", Column::Shrinking)
+                .column("hangs on", Column::Shrinking)
+                .column("by joint", Column::Shrinking)
+                .column("depth", Column::Numbers);
+            for link in &tree.links {
+                table.row(vec![
+                    Cell::new(&link.link),
+                    Cell::new(&link.parent),
+                    Cell::new(&link.joint),
+                    Cell::new(link.depth.to_string()),
+                ]);
+            }
+            page.table(table, "links");
+        }
+    }
+    if let Some(timing) = &report.timing {
+        page.heading("Time");
+        let mut table = Table::new()
+            .column("stage", Column::Words)
+            .column("ms", Column::Numbers);
+        for stage in &timing.stages {
+            table.row(vec![
+                Cell::new(&stage.name),
+                Cell::new(format!("{:.3}", stage.ms)),
+            ]);
+        }
+        table.row(vec![
+            Cell::new("all").tint(Tint::Strong),
+            Cell::new(format!("{:.3}", timing.total_ms)),
+        ]);
+        page.table(table, "stages");
+    }
+}
+
+fn blocks(report: &Report, page: &mut Page) {
+    if report.home.blocks.is_empty() {
+        return;
+    }
+    page.heading("Blocks analysed apart");
+    let mut table = Table::new()
+        .column("block", Column::Shrinking)
+        .column("joints", Column::Numbers)
+        .column("variables", Column::Numbers)
+        .column("rank", Column::Numbers)
+        .column("freedom", Column::Numbers);
+    for block in &report.home.blocks {
+        table.row(vec![
+            Cell::new(&block.name),
+            Cell::new(block.joints.to_string()),
+            Cell::new(block.unknowns.to_string()),
+            Cell::new(unsure(block.rank)),
+            Cell::new(unsure(block.instantaneous)),
+        ]);
+    }
+    page.table(table, "blocks");
+}
+
+fn rank_details(report: &Report, page: &mut Page) {
+    let home = &report.home;
+    if home.method.is_empty() {
+        return;
+    }
+    page.heading("Rank");
+    let mut text = format!("Found by {}", home.method);
+    if let Some(bits) = home.bits {
+        text.push_str(&format!(" with {bits} bits"));
+    }
+    if let Some(accuracy) = home.accuracy {
+        text.push_str(&format!("; equations known to {}", figure(accuracy)));
+    }
+    if let Some(gap) = home.gap {
+        text.push_str(&format!("; gap {}", figure(gap)));
+    }
+    text.push('.');
+    page.paragraph(&text, Tint::Plain, "  ", "  ");
+}
+
+/// How many names a cell shows.
+pub(super) fn limit(page: &Page) -> usize {
+    if page.layout().verbose {
+        usize::MAX
+    } else {
+        NAMES_IN_CELL
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn notes_on_the_file_are_told_in_short() {
+        let axis = "<axis> means nothing for a fixed joint and is ignored";
+        let many = format!("{axis} (15 times, first at line 156, column 1)");
+        assert_eq!(meaningless(&many).unwrap(), "15 × <axis> of a fixed joint");
+        let once = format!("line 169, column 5: {axis}");
+        assert_eq!(meaningless(&once).unwrap(), "<axis> of a fixed joint");
+        let old = "<joint_properties> is the old name of <dynamics> and read as such (6 times, first at line 9, column 5)";
+        assert_eq!(
+            old_name(old).unwrap(),
+            "6 × <joint_properties> for <dynamics>"
+        );
+        assert_eq!((meaningless(old), old_name(&many)), (None, None));
+        let at = "line 4, column 3: 15 joints (at /a/b/torso.xacro:23:7) (3 times)";
+        assert_eq!(
+            without_folders(at),
+            "line 4, column 3: 15 joints (at torso.xacro:23:7) (3 times)"
+        );
+    }
+
+    #[test]
+    fn warnings_of_both_sides_are_told_once() {
+        let warnings = [
+            "line 1, column 2: joint `r_grip` twice",
+            "line 5, column 2: joint `l_grip` twice",
+            "other",
+        ];
+        assert_eq!(
+            repeated_once(&warnings.map(str::to_owned)),
+            [
+                "2 × joint `r_grip` twice (left and right alike, first in line 1, column 2)",
+                "other"
+            ]
+        );
+    }
+
+    #[test]
+    fn equal_loops_share_a_row() {
+        let cycle = |name: &str, joints: usize, locks: &[&str]| Cycle {
+            name: name.to_owned(),
+            joints: (0..joints).map(|j| format!("{name}_{j}")).collect(),
+            space: Some("G".to_owned()),
+            space_text: format!("planar motion normal to {name}"),
+            dimension: Some(3),
+            rank: Some(3),
+            redundant: Some(3),
+            mobility: Some(1),
+            locks: locks.iter().map(|l| (*l).to_owned()).collect(),
+        };
+        let cycles = [
+            cycle("C1", 4, &[]),
+            cycle("C2", 5, &[]),
+            cycle("C3", 4, &["a"]),
+            cycle("C4", 4, &[]),
+        ];
+        let groups = equal_loops(&cycles);
+        assert_eq!(groups.len(), 2);
+        assert_eq!(loop_names(&groups[0]), "C1, C2 and C4");
+        assert_eq!(lengths(&groups[0], &BTreeSet::new()), "4 to 5 joints each");
+        assert_eq!(lengths(&groups[1], &BTreeSet::new()), "4 joints each");
+        assert_eq!(kind_of(groups[0][0]), "G: planar motion");
+    }
+}

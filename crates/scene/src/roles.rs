@@ -1,0 +1,44 @@
+//! From an analysis to what links and joints do in the motion shown.
+
+use super::appearance::{Role, Roles};
+use kutzbach_mobility::{Analysis, Branch};
+use kutzbach_model::mechanism::Mechanism;
+
+impl Roles {
+    /// What links and joints do along a branch, one joint driven. Without a branch nothing moves, or nothing is known to:
+    /// then joints that cannot give way at the pose count as locked.
+    #[must_use]
+    pub fn of(
+        mechanism: &Mechanism,
+        analysis: &Analysis,
+        branch: Option<&Branch>,
+        driven: Option<usize>,
+    ) -> Self {
+        let (links, idle, joints) = match branch {
+            Some(branch) => (&branch.motions[..], &branch.idle[..], &branch.roles),
+            None => (&[][..], &[][..], &analysis.roles),
+        };
+        let mut roles = Self {
+            links: vec![Role::Moving; mechanism.links().len()],
+            joints: joints
+                .iter()
+                .map(|role| match role.locked {
+                    Some(true) => Role::Locked,
+                    _ => Role::Moving,
+                })
+                .collect(),
+        };
+        for motion in links.iter().filter(|motion| motion.freedom == 0) {
+            roles.links[motion.link] = Role::Locked;
+        }
+        for idle in idle {
+            for &link in idle.with.iter().chain([&idle.link]) {
+                roles.links[link] = Role::Idle;
+            }
+        }
+        if let Some(joint) = driven {
+            roles.joints[joint] = Role::Driven;
+        }
+        roles
+    }
+}
