@@ -34,10 +34,19 @@ pub use kutzbach_model::{graph, mechanism};
 pub use kutzbach_motion as motion;
 #[doc(inline)]
 pub use kutzbach_report as report;
-#[doc(inline)]
-pub use kutzbach_scene as record;
+#[cfg(feature = "simulate")]
 #[doc(inline)]
 pub use kutzbach_simulate::{self as simulate, accuracy};
+
+/// What a mechanism looks like at a pose, and with the feature `logs` motions as logs for viewers.
+#[cfg(any(feature = "html", feature = "logs"))]
+pub mod record {
+    #[doc(inline)]
+    pub use kutzbach_scene::*;
+    #[cfg(all(feature = "logs", feature = "simulate"))]
+    #[doc(inline)]
+    pub use kutzbach_simulate::SimulationLog;
+}
 
 /// The README's example is compiled and run with the documentation tests.
 #[cfg(doctest)]

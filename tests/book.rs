@@ -82,6 +82,15 @@ fn modules() -> BTreeMap<String, PathBuf> {
         let name = words(statement).next().unwrap();
         let sources = folder("crates").join(name).join("src");
         let list = statement[name.len()..].trim_start_matches("::");
+        match list {
+            // What a module of the facade itself is made of.
+            "*" => {
+                found.insert("record".to_owned(), sources);
+                continue;
+            }
+            item if item.starts_with(char::is_uppercase) => continue,
+            _ => {}
+        }
         for entry in list.trim_matches(['{', '}']).split(',') {
             match entry.rsplit_once("as ") {
                 Some((_, module)) => found.insert(module.trim().to_owned(), sources.clone()),

@@ -34,6 +34,7 @@
 //! | `picture` | plots, the mechanism drawn, a sign for each answer: still, as SVG |
 //! | `definitions` | what a word means |
 
+#[cfg(feature = "simulate")]
 pub mod accuracy;
 mod assemble;
 mod assembly;
@@ -43,9 +44,11 @@ mod expectation;
 mod expected_file;
 mod extras;
 mod findings;
+#[cfg(feature = "html")]
 pub mod html;
 mod inputs;
 mod natural;
+#[cfg(feature = "simulate")]
 pub mod picture;
 mod pose;
 #[cfg(test)]

@@ -19,30 +19,45 @@
 //! however long the log.
 
 mod appearance;
+#[cfg(feature = "logs")]
 mod attachments;
+#[cfg(feature = "logs")]
 mod channels;
+#[cfg(feature = "logs")]
 mod error;
 mod joint_symbols;
 mod link_shapes;
+#[cfg(feature = "logs")]
 mod log_file;
+#[cfg(feature = "logs")]
 mod messages;
+#[cfg(feature = "logs")]
 mod names;
+#[cfg(feature = "logs")]
 mod predicted_motion;
+#[cfg(feature = "logs")]
 mod recorder;
+#[cfg(feature = "logs")]
 mod robot_description;
 mod roles;
+#[cfg(feature = "logs")]
 mod scene;
 mod shapes;
-mod simulation_log;
 mod vectors;
 
 pub use appearance::{AXIS, Colour, GAP, GROUND, LABEL, Role, Roles, joint_colour, link_colour};
+#[cfg(feature = "logs")]
 pub use error::RecordError;
+#[cfg(feature = "logs")]
 pub use log_file::LogFile;
+#[cfg(feature = "logs")]
 pub use messages::{Closure, ClosureError, Gap, JointClosure, Level, Motion, Prediction};
+#[cfg(feature = "logs")]
 pub use names::{Stream, frame_id, readable};
-pub use predicted_motion::record_motion;
+#[cfg(feature = "logs")]
+pub use predicted_motion::{record_motion, values_of};
+#[cfg(feature = "logs")]
 pub use recorder::{Header, Recorder, Summary, WORLD};
+#[cfg(feature = "logs")]
 pub use robot_description::robot_description;
 pub use shapes::{Drawing, Part, Primitive, Shape};
-pub use simulation_log::SimulationLog;

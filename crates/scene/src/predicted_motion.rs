@@ -3,8 +3,8 @@
 use super::error::RecordError;
 use super::messages::{Closure, ClosureError, Level, Motion, Prediction};
 use super::recorder::Recorder;
-use super::simulation_log::values_of;
-use kutzbach_motion::{self, EventKind};
+use kutzbach_closure::JointState;
+use kutzbach_motion::EventKind;
 use std::io::Write;
 
 /// A unit of arclength, a radian of a joint or so, takes a second.
@@ -18,6 +18,12 @@ fn event_name(kind: &EventKind) -> String {
         EventKind::Singular { .. } => "singular pose".to_owned(),
         EventKind::Cusp { .. } => "cusp".to_owned(),
     }
+}
+
+/// The values of every joint's variables.
+#[must_use]
+pub fn values_of(states: &[JointState<f64>]) -> Vec<Vec<f64>> {
+    states.iter().map(|state| state.values.clone()).collect()
 }
 
 /// Records the samples of a traced motion from a time on (s), in the order of arclength; what is met between two samples is

@@ -23,6 +23,7 @@ pub fn norm(a: Point) -> f64 {
 }
 
 /// Whether every number of a pose is finite.
+#[cfg(feature = "logs")]
 pub fn is_finite(pose: &Rigid<f64>) -> bool {
     let mut entries = pose.rotation.iter().flatten().chain(&pose.translation);
     entries.all(|x| x.is_finite())
@@ -54,6 +55,7 @@ pub fn pose_of(frame: &Frame) -> Rigid<f64> {
 }
 
 /// URDF's `rpy`: `R = Rz(yaw) Ry(pitch) Rx(roll)`. Where the pitch is a quarter turn, the yaw is zero.
+#[cfg(feature = "logs")]
 pub fn roll_pitch_yaw(rotation: &[[f64; 3]; 3]) -> [f64; 3] {
     let r = rotation;
     let level = r[0][0].hypot(r[1][0]);
@@ -67,7 +69,7 @@ pub fn roll_pitch_yaw(rotation: &[[f64; 3]; 3]) -> [f64; 3] {
     angles.map(|x| x + 0.0)
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "logs"))]
 mod tests {
     use super::*;
     use proptest::prelude::*;

@@ -50,6 +50,8 @@ mod measure;
 mod motor;
 mod options;
 mod scene_run;
+#[cfg(feature = "logs")]
+mod simulation_log;
 mod solids;
 mod units;
 mod velocities;
@@ -61,4 +63,6 @@ pub use error::WorldError;
 pub use measure::joint_gaps;
 pub use options::{Drive, Effects, Energy, JointGap, Masses, Note, Pieces, Solver, WorldOptions};
 pub use scene_run::{SceneOptions, SceneRun, effect_names, run_scene, scene_drives};
+#[cfg(feature = "logs")]
+pub use simulation_log::SimulationLog;
 pub use world::World;

@@ -31,8 +31,12 @@
 //! | `markup` | how text and numbers are written |
 
 pub(super) mod markup;
+#[cfg(feature = "html")]
 pub mod pictogram;
 pub mod plot;
+#[cfg(feature = "html")]
 pub mod sketch;
+#[cfg(feature = "html")]
 mod vector;
+#[cfg(feature = "html")]
 pub mod view;

@@ -291,6 +291,7 @@ fn sentence(warning: &str) -> String {
 }
 
 /// What to beware of.
+#[cfg(feature = "html")]
 pub(crate) fn warnings(report: &Report, page: &mut Page) {
     list(&report.warnings, page);
 }

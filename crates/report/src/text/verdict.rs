@@ -11,6 +11,7 @@ use crate::schema::{Branch, Report};
 use kutzbach_mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
 
 /// Writes the verdict, its reasons and the line that says what was read.
+#[cfg(feature = "html")]
 pub(crate) fn write(report: &Report, page: &mut Page) {
     answer(report, page);
     reasons(report, page);

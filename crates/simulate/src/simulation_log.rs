@@ -3,13 +3,13 @@
 //! Passages follow one another on one time line, each with a sentence on `/log` where it begins. The recorder's first error
 //! ends the simulation; it is kept for whoever asks.
 
-use super::appearance::Roles;
-use super::error::RecordError;
-use super::messages::{Closure, ClosureError, Gap, JointClosure, Level, Motion, Prediction};
-use super::recorder::Recorder;
-use kutzbach_closure::{Geometry, JointState, Rigid};
+use crate::verification::{Moment, Observer, Passage};
+use kutzbach_closure::{Geometry, Rigid};
 use kutzbach_model::mechanism::Mechanism;
-use kutzbach_simulate::verification::{Moment, Observer, Passage};
+use kutzbach_scene::{
+    Closure, ClosureError, Gap, JointClosure, Level, Motion, Prediction, RecordError, Recorder,
+    Roles, values_of,
+};
 use std::io::Write;
 use std::ops::ControlFlow;
 
@@ -96,9 +96,8 @@ impl<'r, 'a, W: Write> SimulationLog<'r, 'a, W> {
         self.recorder
             .moment(time, predicted.as_ref(), Some(&simulated))?;
         self.until = self.until.max(time);
-        let largest = |of: fn(&kutzbach_simulate::JointGap) -> f64| {
-            moment.gaps.iter().map(of).fold(0.0, f64::max)
-        };
+        let largest =
+            |of: fn(&crate::JointGap) -> f64| moment.gaps.iter().map(of).fold(0.0, f64::max);
         let (position, angle) = (largest(|g| g.position), largest(|g| g.angle));
         let joints = self
             .mechanism
@@ -165,11 +164,6 @@ impl<'r, 'a, W: Write> SimulationLog<'r, 'a, W> {
             })
             .collect()
     }
-}
-
-/// The values of every joint's variables.
-pub(super) fn values_of(states: &[JointState<f64>]) -> Vec<Vec<f64>> {
-    states.iter().map(|state| state.values.clone()).collect()
 }
 
 impl<W: Write> Observer for SimulationLog<'_, '_, W> {
