@@ -238,30 +238,6 @@ fn looked_at(mechanisms: &[(String, Mechanism)]) -> Vec<Looked> {
     found.into_iter().flatten().collect()
 }
 
-#[test]
-fn branches_of_small_singular_poses_are_those_of_a_blind_search() {
-    let mut all = zoo();
-    all.extend(own_mechanisms());
-    let looked = looked_at(&all);
-    let wrong: Vec<String> = looked.iter().flat_map(|l| l.wrong.clone()).collect();
-    assert_none(&wrong);
-    // All sorts are among them.
-    let count = |isolated: usize, continuum: bool| {
-        let like = Some(Seen {
-            isolated,
-            continuum,
-        });
-        looked.iter().filter(|l| l.told == like).count()
-    };
-    let [alone, one, two, mixed] =
-        [(0, false), (2, false), (4, false), (2, true)].map(|(i, c)| count(i, c));
-    assert!(
-        alone >= 12 && one >= 7 && two >= 17 && mixed >= 3,
-        "{alone} isolated, {one} with one branch, {two} with two, {mixed} with branches of other dimensions"
-    );
-    assert!(looked.iter().map(|l| l.starts).sum::<usize>() > 10_000);
-}
-
 /// The limits of the continuous families, and flat four-bars that are close to other flat four-bars.
 #[test]
 fn branches_of_flat_four_bars_are_those_of_a_blind_search() {
@@ -278,5 +254,35 @@ fn branches_of_flat_four_bars_are_those_of_a_blind_search() {
     for found in looked {
         assert_none(&found.wrong);
         assert_eq!(found.told.unwrap().isolated, 4);
+    }
+}
+
+/// Too long for every commit.
+mod corpus {
+    use super::*;
+
+    #[test]
+    #[ignore = "corpus: too long for every commit"]
+    fn branches_of_small_singular_poses_are_those_of_a_blind_search() {
+        let mut all = zoo();
+        all.extend(own_mechanisms());
+        let looked = looked_at(&all);
+        let wrong: Vec<String> = looked.iter().flat_map(|l| l.wrong.clone()).collect();
+        assert_none(&wrong);
+        // All sorts are among them.
+        let count = |isolated: usize, continuum: bool| {
+            let like = Some(Seen {
+                isolated,
+                continuum,
+            });
+            looked.iter().filter(|l| l.told == like).count()
+        };
+        let [alone, one, two, mixed] =
+            [(0, false), (2, false), (4, false), (2, true)].map(|(i, c)| count(i, c));
+        assert!(
+            alone >= 12 && one >= 7 && two >= 17 && mixed >= 3,
+            "{alone} isolated, {one} with one branch, {two} with two, {mixed} with branches of other dimensions"
+        );
+        assert!(looked.iter().map(|l| l.starts).sum::<usize>() > 10_000);
     }
 }

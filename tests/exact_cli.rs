@@ -38,26 +38,6 @@ fn the_same_question_has_the_same_bytes() {
 }
 
 #[test]
-fn methods_agree_on_the_basis() {
-    let ask = |method: &str| {
-        json(&[
-            "mechanisms/cartesian_table.urdf",
-            "--print",
-            "basis",
-            "--method",
-            method,
-        ])
-    };
-    let (brute, divided) = (ask("brute"), ask("divide"));
-    assert_eq!(brute["basis"], divided["basis"]);
-    assert_eq!(brute["dimension"], 3);
-    let incremental = ask("incremental");
-    assert_eq!(incremental["dimension"], 3);
-    // Each of the eight pieces is carried to the end.
-    assert_eq!(incremental["cases"][0].as_array().unwrap().len(), 8);
-}
-
-#[test]
 fn relations_are_judged_one_by_one() {
     let answer = json(&["mechanisms/thomas_torras_assembly.urdf", "--incremental"]);
     let verdicts: Vec<&str> = answer["relations"]
@@ -204,4 +184,30 @@ fn angles_with_digits_are_read_nearby_and_never_for_a_contradiction() {
     );
     assert_eq!(b["answer"], "undecided");
     assert!(b["dimension"].is_null());
+}
+
+/// Too long for every commit.
+mod corpus {
+    use super::*;
+
+    #[test]
+    #[ignore = "corpus: too long for every commit"]
+    fn methods_agree_on_the_basis() {
+        let ask = |method: &str| {
+            json(&[
+                "mechanisms/cartesian_table.urdf",
+                "--print",
+                "basis",
+                "--method",
+                method,
+            ])
+        };
+        let (brute, divided) = (ask("brute"), ask("divide"));
+        assert_eq!(brute["basis"], divided["basis"]);
+        assert_eq!(brute["dimension"], 3);
+        let incremental = ask("incremental");
+        assert_eq!(incremental["dimension"], 3);
+        // Each of the eight pieces is carried to the end.
+        assert_eq!(incremental["cases"][0].as_array().unwrap().len(), 8);
+    }
 }

@@ -123,23 +123,6 @@ fn six_hinges_have_sixteen_shapes() {
     }
 }
 
-/// The whole answer, solutions and cycles included, comes to its end.
-#[test]
-fn six_hinges_are_answered_in_full() {
-    let found = answer(
-        "tests/rings/six_hinges_no_offsets.urdf",
-        Formulation::Canonical,
-    );
-    let solutions = found.solutions.as_ref().unwrap();
-    assert_eq!((solutions.complex, solutions.real.len()), (16, 8));
-    assert!(found.decomposed);
-    assert_eq!(found.dimension_at_home(), Some(0));
-    // Six joints, every one with a cosine and a sine, of which the drawn pose has one value each.
-    assert_eq!(found.fixed.len(), 12);
-    assert!(found.fixed.iter().all(|f| !f.values.is_empty()));
-    assert_eq!(found.cycles[0].clusters[0].len(), 6);
-}
-
 /// Measures that are set, and shapes with and without their multiplicities.
 type ShapesRow<'a> = (&'a [(&'a str, &'a str)], [usize; 2]);
 
@@ -159,5 +142,28 @@ fn six_hinges_with_fewer_shapes() {
     for (settings, expected) in rows {
         let [all, distinct, _] = shapes(file, settings, Formulation::Tree);
         assert_eq!([all, distinct], expected, "{settings:?}");
+    }
+}
+
+/// Too long for every commit.
+mod corpus {
+    use super::*;
+
+    /// The whole answer, solutions and cycles included, comes to its end.
+    #[test]
+    #[ignore = "corpus: too long for every commit"]
+    fn six_hinges_are_answered_in_full() {
+        let found = answer(
+            "tests/rings/six_hinges_no_offsets.urdf",
+            Formulation::Canonical,
+        );
+        let solutions = found.solutions.as_ref().unwrap();
+        assert_eq!((solutions.complex, solutions.real.len()), (16, 8));
+        assert!(found.decomposed);
+        assert_eq!(found.dimension_at_home(), Some(0));
+        // Six joints, every one with a cosine and a sine, of which the drawn pose has one value each.
+        assert_eq!(found.fixed.len(), 12);
+        assert!(found.fixed.iter().all(|f| !f.values.is_empty()));
+        assert_eq!(found.cycles[0].clusters[0].len(), 6);
     }
 }

@@ -102,30 +102,37 @@ fn check(questions: &[(String, Mechanism, Formulation, Option<usize>)], least: u
     assert_none(&wrong);
 }
 
-#[test]
-fn the_zoo() {
-    let text = fs::read_to_string(folder("tests/zoo/expected.json")).unwrap();
-    let expected: Value = serde_json::from_str(&text).unwrap();
-    let questions: Vec<_> = zoo()
-        .into_iter()
-        .map(|(name, mechanism)| {
-            let finite = expected[&name]["finite"].as_u64().map(|f| f as usize);
-            (name, mechanism, Formulation::Tree, finite)
-        })
-        .collect();
-    check(&questions, 30);
-}
+/// Too long for every commit.
+mod corpus {
+    use super::*;
 
-/// The mobility is compared with what the numeric engines say.
-#[test]
-fn our_own_files() {
-    let questions: Vec<_> = own_mechanisms()
-        .into_iter()
-        .map(|(name, mechanism)| {
-            let analysis = analyse(&mechanism, &AnalysisOptions::default()).unwrap();
-            let finite = analysis.mobility.finite();
-            (name, mechanism, Formulation::Canonical, finite)
-        })
-        .collect();
-    check(&questions, 30);
+    /// The mobility is compared with what the numeric engines say.
+    #[test]
+    #[ignore = "corpus: too long for every commit"]
+    fn our_own_files() {
+        let questions: Vec<_> = own_mechanisms()
+            .into_iter()
+            .map(|(name, mechanism)| {
+                let analysis = analyse(&mechanism, &AnalysisOptions::default()).unwrap();
+                let finite = analysis.mobility.finite();
+                (name, mechanism, Formulation::Canonical, finite)
+            })
+            .collect();
+        check(&questions, 30);
+    }
+
+    #[test]
+    #[ignore = "corpus: too long for every commit"]
+    fn the_zoo() {
+        let text = fs::read_to_string(folder("tests/zoo/expected.json")).unwrap();
+        let expected: Value = serde_json::from_str(&text).unwrap();
+        let questions: Vec<_> = zoo()
+            .into_iter()
+            .map(|(name, mechanism)| {
+                let finite = expected[&name]["finite"].as_u64().map(|f| f as usize);
+                (name, mechanism, Formulation::Tree, finite)
+            })
+            .collect();
+        check(&questions, 30);
+    }
 }

@@ -5,7 +5,8 @@
 
 use crate::format_support;
 
-use format_support::{difference, files_below, own_files, shared};
+use crate::support::{folder, shared};
+use format_support::{difference, files_below, own_files};
 use kutzbach::format::{ReadOptions, read, read_file, read_file_with, write};
 use std::path::PathBuf;
 
@@ -32,27 +33,24 @@ fn own_mechanisms_round_trip() {
 
 #[test]
 fn zoo_round_trips() {
-    let Some(zoo) = shared("zoo") else { return };
-    let files = files_below(&zoo);
+    let files = files_below(&folder("tests/zoo"));
     assert!(files.len() >= 100, "found {} files", files.len());
     files.iter().for_each(assert_round_trip);
 }
 
 #[test]
+#[ignore = "needs the robots of others in ../shared/models, or KUTZBACH_SHARED"]
 fn robots_of_others_round_trip() {
-    let Some(models) = shared("models") else {
-        return;
-    };
+    let models = shared("models");
     let files = files_below(&models);
     assert!(files.len() >= 8, "found {} files", files.len());
     files.iter().for_each(assert_round_trip);
 }
 
 #[test]
+#[ignore = "needs the robots of others in ../shared/models, or KUTZBACH_SHARED"]
 fn robots_of_others_are_read_in_full() {
-    let Some(models) = shared("models") else {
-        return;
-    };
+    let models = shared("models");
     for (file, links, joints, couplings, format) in [
         ("grbda_four_bar/four_bar.urdf", 4, 4, 0, "urdf+"),
         (
@@ -185,10 +183,9 @@ fn plain_urdf_stays_plain_urdf() {
 }
 
 #[test]
+#[ignore = "needs the robots of others in ../shared/models, or KUTZBACH_SHARED"]
 fn robots_of_others_look_the_same_to_others() {
-    let Some(models) = shared("models") else {
-        return;
-    };
+    let models = shared("models");
     for path in files_below(&models) {
         let original = std::fs::read_to_string(&path).unwrap();
         // As written: what is read as 0 and π/2 is written back, but a frame that vanishes is left out.

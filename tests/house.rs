@@ -22,10 +22,11 @@ fn every_file_of_tests_is_part_of_the_program() {
 }
 
 /// The crates that a build compiles, with their features.
-fn features(edges: &str) -> BTreeMap<String, BTreeSet<String>> {
+fn crates(edges: &str, more: &[&str]) -> BTreeMap<String, BTreeSet<String>> {
     let run = Command::new(env!("CARGO"))
         .args(["tree", "--locked", "--offline", "--prefix", "none"])
         .args(["--format", "{p}\t{f}", "--edges", edges])
+        .args(more)
         .current_dir(folder(""))
         .output()
         .unwrap();
@@ -44,10 +45,22 @@ fn features(edges: &str) -> BTreeMap<String, BTreeSet<String>> {
 /// Where a dependency of the tests turned a feature on, `cargo run` and `cargo test` would each compile the whole library.
 #[test]
 fn the_program_and_its_tests_are_built_with_the_same_features() {
-    let program = features("normal,build");
-    let tests = features("normal,build,dev");
+    let program = crates("normal,build", &[]);
+    let tests = crates("normal,build,dev", &[]);
     assert!(program.len() > 50);
     for (name, own) in program {
         assert_eq!(own, tests[&name], "{name}");
+    }
+}
+
+/// Who wants answers and nothing else compiles no physics engine, no writer of logs and no command line.
+#[test]
+fn the_analysis_alone_needs_few_crates() {
+    let alone = ["--package", "kutzbach", "--no-default-features"];
+    let found = crates("normal,build", &alone);
+    assert!(found.len() <= 110, "{} crates", found.len());
+    let names: Vec<&str> = found.keys().filter_map(|k| k.split(' ').next()).collect();
+    for dear in ["rapier3d-f64", "mcap", "foxglove", "clap", "miette"] {
+        assert!(!names.contains(&dear), "{dear}");
     }
 }

@@ -343,38 +343,6 @@ fn d_order_and_names_do_not_matter() {
     });
 }
 
-#[test]
-fn e_which_joints_are_loops_does_not_matter() {
-    let kept_agrees = |mechanism: &Mechanism| has_one_loop(mechanism) && has_axes_only(mechanism);
-    compare(&as_drawn, &kept_agrees, &|draft| {
-        (1..=3)
-            .map(|seed| {
-                plain(
-                    &format!("tree {seed}"),
-                    draft.clone().with_another_tree(seed),
-                )
-            })
-            .collect()
-    });
-}
-
-#[test]
-fn f_digits_beyond_a_double_do_not_matter() {
-    let cut = |draft: &Draft, change: &dyn Fn(&Number) -> Number| draft.clone().each_number(change);
-    compare(&as_drawn, &|_| true, &|draft| {
-        vec![
-            plain(
-                "17 digits",
-                cut(draft, &|n| decimal::with_significant(n, 17)),
-            ),
-            plain("doubles", cut(draft, &decimal::as_a_double)),
-        ]
-        .into_iter()
-        .filter(|(_, draft, _)| !hangs_on_its_digits(draft))
-        .collect()
-    });
-}
-
 /// Whether a file with the digits of a program leaves its rank open for that reason. Then it has to be undecided: two
 /// confident answers that differ are never right.
 fn hangs_on_its_digits(draft: &Draft) -> bool {
@@ -478,4 +446,45 @@ fn the_turn_is_a_rotation() {
     let determinant = a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
         + a[2] * (b[0] * c[1] - b[1] * c[0]);
     assert_eq!(determinant, 15 * 15 * 15);
+}
+
+/// Too long for every commit.
+mod corpus {
+    use super::*;
+
+    #[test]
+    #[ignore = "corpus: too long for every commit"]
+    fn e_which_joints_are_loops_does_not_matter() {
+        let kept_agrees =
+            |mechanism: &Mechanism| has_one_loop(mechanism) && has_axes_only(mechanism);
+        compare(&as_drawn, &kept_agrees, &|draft| {
+            (1..=3)
+                .map(|seed| {
+                    plain(
+                        &format!("tree {seed}"),
+                        draft.clone().with_another_tree(seed),
+                    )
+                })
+                .collect()
+        });
+    }
+
+    #[test]
+    #[ignore = "corpus: too long for every commit"]
+    fn f_digits_beyond_a_double_do_not_matter() {
+        let cut =
+            |draft: &Draft, change: &dyn Fn(&Number) -> Number| draft.clone().each_number(change);
+        compare(&as_drawn, &|_| true, &|draft| {
+            vec![
+                plain(
+                    "17 digits",
+                    cut(draft, &|n| decimal::with_significant(n, 17)),
+                ),
+                plain("doubles", cut(draft, &decimal::as_a_double)),
+            ]
+            .into_iter()
+            .filter(|(_, draft, _)| !hangs_on_its_digits(draft))
+            .collect()
+        });
+    }
 }

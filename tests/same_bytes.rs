@@ -28,15 +28,21 @@ fn report(file: &Path, form: &str, threads: &str) -> Vec<u8> {
     run.stdout
 }
 
-#[test]
-fn reports_do_not_depend_on_the_run_or_the_threads() {
-    let mut all = files("tests/zoo");
-    all.extend(files("mechanisms"));
-    assert!(all.len() > 200, "found {}", all.len());
-    let differing = in_parallel(&all, |file| {
-        let differs = report(file, "json", "1") != report(file, "json", "4")
-            || report(file, "text", "4") != report(file, "text", "1");
-        differs.then(|| file.display().to_string())
-    });
-    assert_none(&differing.into_iter().flatten().collect::<Vec<_>>());
+/// Too long for every commit.
+mod corpus {
+    use super::*;
+
+    #[test]
+    #[ignore = "corpus: too long for every commit"]
+    fn reports_do_not_depend_on_the_run_or_the_threads() {
+        let mut all = files("tests/zoo");
+        all.extend(files("mechanisms"));
+        assert!(all.len() > 200, "found {}", all.len());
+        let differing = in_parallel(&all, |file| {
+            let differs = report(file, "json", "1") != report(file, "json", "4")
+                || report(file, "text", "4") != report(file, "text", "1");
+            differs.then(|| file.display().to_string())
+        });
+        assert_none(&differing.into_iter().flatten().collect::<Vec<_>>());
+    }
 }

@@ -139,24 +139,6 @@ pub fn own_files() -> Vec<PathBuf> {
     files_below(&Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms"))
 }
 
-/// A folder of reference files kept outside of the repository: below `KUTZBACH_SHARED`, or below `../shared`.
-/// Says on standard output when it is not there.
-pub fn shared(folder: &str) -> Option<PathBuf> {
-    let base = std::env::var_os("KUTZBACH_SHARED").map_or_else(
-        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared"),
-        PathBuf::from,
-    );
-    let path = base.join(folder);
-    if path.is_dir() {
-        return Some(path);
-    }
-    println!(
-        "skipped: there is no folder {}; set KUTZBACH_SHARED",
-        path.display()
-    );
-    None
-}
-
 /// All `.urdf` files below a folder, sorted.
 pub fn files_below(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();

@@ -17,21 +17,17 @@ pub fn folder(name: &str) -> PathBuf {
 }
 
 /// A folder of the material that lies beside the repository and is not part of it: under `KUTZBACH_SHARED`, or `../shared`.
-/// `None`, with a note on the test's output, where there is none.
-pub fn shared(name: &str) -> Option<PathBuf> {
-    let root = std::env::var_os("KUTZBACH_SHARED").map_or_else(
-        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared"),
-        PathBuf::from,
-    );
+/// Only tests that are ignored ask for it; where it is missing they fail.
+pub fn shared(name: &str) -> PathBuf {
+    let root =
+        std::env::var_os("KUTZBACH_SHARED").map_or_else(|| folder("../shared"), PathBuf::from);
     let path = root.join(name);
-    if path.is_dir() {
-        return Some(path);
-    }
-    println!(
-        "skipped: there is no folder {}; set KUTZBACH_SHARED to the folder that has {name}",
+    assert!(
+        path.is_dir(),
+        "there is no folder {}; set KUTZBACH_SHARED",
         path.display()
     );
-    None
+    path
 }
 
 /// The mechanism files of a folder with their stems, by name.
