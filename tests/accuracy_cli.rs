@@ -1,7 +1,5 @@
 //! `kutzbach accuracy` and the accuracy options of `simulate`, `report` and `trace`, as a user meets them. No seconds are
 //! asserted.
-#![allow(clippy::unwrap_used)]
-
 use serde_json::Value;
 use std::process::{Command, Output, Stdio};
 

@@ -1,7 +1,5 @@
 //! The page of eight mechanisms: its record, its figures and its text are one, and the errors are those of the program as it is
 //! now. No seconds are asserted.
-#![allow(clippy::unwrap_used)]
-
 #[path = "../examples/accuracy_page/page.rs"]
 mod page;
 #[path = "../examples/accuracy_page/record.rs"]

@@ -1,8 +1,6 @@
 //! Repair advice, followed: the joint it names is given the kind it names, the file is written and read again, and the new
 //! mechanism moves as before with as many redundant constraints as were promised.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::mechanism::{Direction, JointKind, Mechanism};

@@ -4,8 +4,6 @@
 //! `KUTZBACH_ASSEMBLY_STARTS=100` measures as the figures of the book were measured, and
 //! `KUTZBACH_ASSEMBLY_FILES=folder` does so with all files of a folder.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::closure::{Arithmetic, Geometry, assemble};

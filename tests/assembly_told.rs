@@ -1,8 +1,6 @@
 //! What a report says of how loops close: gaps of every size, how far and where joints had to move, what is held, what was
 //! corrected, and what is proven.
 
-#![allow(clippy::unwrap_used)]
-
 use kutzbach::format::{Reading, read};
 use kutzbach::mobility::{Analysis, Verdict};
 use kutzbach::report::text::{Layout, render};

@@ -1,6 +1,4 @@
 //! The scripts of `benches/`, and the record of counted instructions. No time and no count is asserted.
-#![allow(clippy::unwrap_used)]
-
 #[allow(dead_code)] // the benches use the rest
 #[path = "../benches/stages/cases.rs"]
 mod cases;

@@ -1,6 +1,4 @@
 //! What the book says exists: names of the library, fields of reports, files, pages, and what the program prints.
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use serde_json::Value;

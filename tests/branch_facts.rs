@@ -1,7 +1,5 @@
 //! What generic poses of a branch tell of the reference mechanisms: locked joints, idle links, classes of motion.
 
-#![allow(clippy::unwrap_used)]
-
 #[path = "support/generic_poses.rs"]
 mod generic_poses;
 use crate::support;

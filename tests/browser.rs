@@ -3,8 +3,6 @@
 //! `KUTZBACH_CHROMIUM` names a Chromium; `node` and the packages of `viewer/package-lock.json` (`npm ci` in `viewer`) are
 //! needed too. The test is ignored: nothing but Rust is asked of whoever runs `cargo test`.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::families::scissor_lift;

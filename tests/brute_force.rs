@@ -8,8 +8,6 @@
 //! higher dimension in a continuum, which many starts fill with many different points; an isolated pose in none. Radii half
 //! as large must give the same.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::closure::{Arithmetic, Geometry, JointState, Part, jacobian};

@@ -1,6 +1,4 @@
 //! The command line as a user meets it: what it prints, what it exits with, what it leaves behind.
-#![allow(clippy::unwrap_used)]
-
 use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};

@@ -1,6 +1,4 @@
 //! The book and the program say the same.
-#![allow(clippy::unwrap_used)]
-
 use kutzbach::format::read;
 use kutzbach::mechanism::JointKind;
 use kutzbach::report::{ExpectedFile, Options, compare, report};

@@ -3,8 +3,6 @@
 //! The systems and the published facts are those of Ruiz (1994), chapters 3 to 7, with the errata that came out since; the
 //! linkages after those are classical.
 
-#![allow(clippy::unwrap_used)]
-
 use kutzbach::algebra::{
     Budget, Component, Decomposition, FinitePoints, Hints, Irreducible, MonomialOrder, Polynomial,
     Rational, RealPoints, RealSolution, components, groebner_basis,

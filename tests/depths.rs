@@ -1,6 +1,4 @@
 //! An analysis that is asked for less says the same as far as it goes, on every reference mechanism.
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::mechanism::Mechanism;

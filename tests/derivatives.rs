@@ -1,8 +1,6 @@
 //! Derivatives and what rests on them: the Jacobian against finite differences of the residual, the order of convergence of
 //! assembly, and the digits that polishing reaches.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::closure::{

@@ -7,8 +7,6 @@
 //! Programs round in three manners, and all of them are tried: to a number of decimals with or without the zeros at the
 //! end, and to a number of significant digits.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::mechanism::Mechanism;

@@ -1,7 +1,5 @@
 //! `kutzbach exact` from outside: what it prints, and how it ends.
 
-#![allow(clippy::unwrap_used)]
-
 use std::process::{Command, Output};
 
 fn exact(arguments: &[&str]) -> Output {

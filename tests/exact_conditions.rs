@@ -1,7 +1,5 @@
 //! Conditions on measures that were left open: which values let a mechanism be put together, which let it move.
 
-#![allow(clippy::unwrap_used)]
-
 use kutzbach::algebra::{
     Budget, DesignConditions, Formulation, Limits, PolynomialSystem, SystemOptions,
     assembly_conditions, motion_conditions, polynomial_system,

@@ -1,7 +1,5 @@
 //! Rings of hinges as facts: how many dimensions, how many pieces, how many shapes.
 
-#![allow(clippy::unwrap_used)]
-
 use kutzbach::algebra::{
     Budget, ExactAnswer, ExactOptions, FinitePoints, Formulation, Limits, MonomialOrder,
     SystemOptions, exact_answer, groebner_basis, polynomial_system,

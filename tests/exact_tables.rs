@@ -1,7 +1,5 @@
 //! The tables in the book are those of the record, and the sizes in the record are those of the program as it is now. No
 //! seconds are asserted.
-#![allow(clippy::unwrap_used)]
-
 #[allow(dead_code)] // the example takes the times
 #[path = "../examples/exact_tables/measure.rs"]
 mod measure;

@@ -1,7 +1,5 @@
 //! What exact algebra adds to verdicts, and what it leaves alone.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::mechanism::Mechanism;

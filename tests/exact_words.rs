@@ -1,8 +1,6 @@
 //! What `kutzbach exact` says of cycles in the words of mechanisms: what is left of a joint, which links are one body, at
 //! which values joints are fixed.
 
-#![allow(clippy::unwrap_used)]
-
 use kutzbach::algebra::{
     Budget, CycleAnswer, ExactAnswer, ExactOptions, Formulation, Limits, ProvenMotion, Scope,
     Settled, Stop, SystemOptions, exact_answer,

@@ -1,8 +1,6 @@
 //! Every reference mechanism and every file of our own is asked exactly, within a second: it ends with an answer or with a
 //! reason, and no answer contradicts what is known.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::algebra::{Budget, ExactOptions, Formulation, Limits, SystemOptions, exact_answer};

@@ -4,8 +4,6 @@
 //! What is true of each member is stated and argued in `kutzbach::families`. The members are written with exact numbers, so
 //! that an offset of 1e-14 is meant: calling it a zero is a mistake and not a matter of precision.
 
-#![allow(clippy::unwrap_used)]
-
 #[allow(dead_code)]
 #[path = "../examples/families_figure/figure.rs"]
 mod figure;

@@ -1,7 +1,5 @@
 //! Bad input: every fault is told at its line and column, with what was needed and what was found.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::format_support;
 
 use format_support::{chain, fault, robot};

@@ -1,8 +1,6 @@
 //! Whole files: every mechanism of the repository and every reference file reads, writes and reads back the same; what
 //! other readers of URDF understand of our output is what they understand of the original.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::format_support;
 
 use crate::support::{folder, shared};

@@ -1,7 +1,5 @@
 //! Hostile input: texts and files built to exhaust a reader end in an error, soon.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::format_support;
 
 use format_support::{chain, fault, robot};

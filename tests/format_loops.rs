@@ -6,8 +6,6 @@
 //!   a ------- d          between c and d
 //! ```
 
-#![allow(clippy::unwrap_used)]
-
 use crate::format_support;
 
 use format_support::difference;

@@ -1,7 +1,5 @@
 //! What a file means: every element of the format, what is skipped, what is warned of, and which dialect it is.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::format_support;
 
 use format_support::{chain, robot};

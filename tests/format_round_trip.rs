@@ -1,7 +1,5 @@
 //! Generated mechanisms of every kind: what is written reads back the same.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::format_support;
 
 use format_support::difference;

@@ -4,8 +4,6 @@
 //! every closed pose, whatever the rank. (A joint whose own screws are dependent, a universal joint with parallel axes,
 //! would have more rates than the link has velocities; no mechanism here is drawn like that.)
 
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::closure::{

@@ -4,8 +4,6 @@
 //! The cases are the same in every run. `KUTZBACH_FUZZ_CASES` sets how many there are (20,000 without it) and
 //! `KUTZBACH_FUZZ_SEED` where they start; a failure prints the text that caused it.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::format_support;
 
 use format_support::{check_place, difference};

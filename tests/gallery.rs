@@ -4,8 +4,6 @@
 //! cargo run --release -- gallery mechanisms -o docs/gallery --title "The mechanisms of kutzbach"
 //! ```
 
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use std::collections::BTreeSet;

@@ -1,6 +1,4 @@
 //! How the project is built: what no compiler complains of.
-#![allow(clippy::unwrap_used)]
-
 use crate::support::folder;
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;

@@ -1,7 +1,5 @@
 //! Pages: complete in themselves, harmless whatever a file is called, and true to the trace.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use base64::Engine;

@@ -1,7 +1,5 @@
 //! Idle and useful freedoms of robots, and what inputs do: mechanisms whose answers can be counted by hand.
 
-#![allow(clippy::unwrap_used)]
-
 use kutzbach::format::read;
 use kutzbach::report::{InputSource, Inputs, Options, Report, report};
 

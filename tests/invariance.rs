@@ -21,8 +21,6 @@
 //! the equations are the same ones (a, c, f and b for joints that have axes), and in every digit where other cycles, or a
 //! ball's or a plane's other axes, make other equations with the same kernel.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::mechanism::Mechanism;

@@ -2,6 +2,8 @@
 //!
 //! A file of this folder is a module here, its data beside it; `cargo test --test it zoo::` runs the tests of one.
 
+#![allow(clippy::unwrap_used)] // a test may panic
+
 mod accuracy_cli;
 mod accuracy_page;
 mod advice;

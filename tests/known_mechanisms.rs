@@ -2,8 +2,6 @@
 //!
 //! What the analysis decides must agree; where it leaves the finite mobility open, its bounds must contain the answer.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::mechanism::{Expectation, Mechanism};

@@ -5,8 +5,6 @@
 //! missing package is a failure. Without it, `python3` is tried, and the tests say that they were skipped where it lacks
 //! them. The viewer is asked for a picture where `KUTZBACH_VIEWER` is set.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::closure::{Arithmetic, Geometry, Rigid};

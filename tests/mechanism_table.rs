@@ -1,6 +1,4 @@
 //! The table of `mechanisms/README.md` lists every file with the answer that the file itself states.
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::mechanism::Expectation;

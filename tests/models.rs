@@ -1,7 +1,5 @@
 //! Robots drawn by others, with loops or couplings. They are not part of the repository: these tests run for who has them.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::mechanism::Mechanism;

@@ -1,8 +1,6 @@
 //! Mechanisms next to special ones: an exact offset of 1e-9 or 1e-12, branches that touch to a high order, circles that
 //! rounding opens. Each may be left open; none may be taken for its neighbour.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::format::read_file;

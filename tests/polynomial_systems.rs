@@ -3,8 +3,6 @@
 //! The closure equations in floating point know nothing of the polynomials: other variables, other frames, other signs.
 //! Wherever they say that a mechanism is assembled, every polynomial has to vanish.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::algebra::{

@@ -1,7 +1,5 @@
 //! What a report warns of at a pose: joint limits, dead centres, singular poses nearby.
 
-#![allow(clippy::unwrap_used)]
-
 use kutzbach::format::read;
 use kutzbach::report::{Options, Verdict, report};
 

@@ -1,6 +1,4 @@
 //! The example on the README's first screen is what the program prints.
-#![allow(clippy::unwrap_used)]
-
 use std::process::Command;
 
 #[test]

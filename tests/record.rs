@@ -1,7 +1,5 @@
 //! Logs read back with the container's own reader: the numbers put in, shapes of every mechanism, the same bytes every time.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::record_support;
 use crate::support;
 

@@ -1,7 +1,5 @@
 //! What is left when writing a log ends early: nothing, or something readable.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::record_support;
 use crate::support;
 

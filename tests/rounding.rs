@@ -8,8 +8,6 @@
 //! Whether the numbers themselves move is asked independently of the analysis: the rounded mechanism is pushed a finite way
 //! along the freedoms of the mechanism that was meant, and closed again in 212 bits. What is left open then is no rounding.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::closure::{Arithmetic, Geometry, Metric, Section};

@@ -1,7 +1,5 @@
 //! The same file gives the same bytes: run after run, with one thread or four, alone or beside others.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use std::path::{Path, PathBuf};

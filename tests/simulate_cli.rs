@@ -1,7 +1,5 @@
 //! `kutzbach simulate` as a user meets it: outcomes and exit codes, scenes with an effect more or less, bad numbers,
 //! Ctrl-C, and disks that are full.
-#![allow(clippy::unwrap_used)]
-
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};

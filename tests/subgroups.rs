@@ -1,7 +1,5 @@
 //! Displacement subgroups on the reference mechanisms: what they decide is right, and what they have to decide they do.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::closure::{Arithmetic, Geometry};

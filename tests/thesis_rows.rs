@@ -5,8 +5,6 @@
 //! relations of lines are oriented, the positional ones of the source are not: a line may be laid on another either way
 //! round, so that numbers of pieces differ.
 
-#![allow(clippy::unwrap_used)]
-
 #[path = "thesis/row.rs"]
 mod row;
 

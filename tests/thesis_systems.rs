@@ -4,8 +4,6 @@
 //! `thesis/systems.json` holds for every system its variables in lexicographic order (first largest), its polynomials, its
 //! dimension (-1: contradictory), the sizes of its bases and, where one is known, its lexicographic basis.
 
-#![allow(clippy::unwrap_used)]
-
 use kutzbach::algebra::{Budget, GroebnerBasis, Limits, MonomialOrder, Polynomial, groebner_basis};
 use polycore::{Order, Ring};
 use serde_json::Value;

@@ -1,6 +1,4 @@
 //! Predicted motion: the reference mechanisms followed along their branches, and motions that formulas give.
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::closure::{Arithmetic, Geometry, Rigid};

@@ -1,6 +1,4 @@
 //! `kutzbach trace` as a user meets it.
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use serde_json::Value;

@@ -1,6 +1,4 @@
 //! Motions of parts of many loops.
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::families::{miura_sheet, scissor_lift};

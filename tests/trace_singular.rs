@@ -1,6 +1,4 @@
 //! Singular poses and cusps on the way: where formulas say that they are.
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::mechanism::Mechanism;

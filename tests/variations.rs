@@ -4,8 +4,6 @@
 //! An answer that contradicts what is known fails. An answer that stays open is counted, and the short list of those is
 //! part of the test, so that it can only change on purpose.
 
-#![allow(clippy::unwrap_used)]
-
 #[path = "support/combine.rs"]
 mod combine;
 #[path = "support/drawn.rs"]

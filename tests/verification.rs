@@ -3,8 +3,6 @@
 //! Ways are kept short and ladders end as soon as they decide: the coarsest settings that do. Nothing is ever contradicted
 //! that is true, everything regular is confirmed, and what is spoiled is not.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::closure::{Arithmetic, Geometry};

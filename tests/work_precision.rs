@@ -1,7 +1,5 @@
 //! One driven turn, simulated and traced: the closure error falls as the book says, and the book's figures are those of the
 //! program as it is now. No seconds are asserted.
-#![allow(clippy::unwrap_used)]
-
 #[path = "../examples/work_precision/figure.rs"]
 mod figure;
 #[allow(dead_code)] // the example takes the times

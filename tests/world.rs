@@ -1,7 +1,5 @@
 //! The simulated world against what is known of joints, energy, limits, contact and coupling.
 
-#![allow(clippy::unwrap_used)]
-
 #[path = "world/effects.rs"]
 mod effects;
 #[path = "world/guards.rs"]

@@ -4,8 +4,6 @@
 //! and the mechanism moves: at a singular pose what moves at the pose and what moves on a branch differ, and in a rigid
 //! mechanism to be locked says nothing.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::mechanism::Mechanism;

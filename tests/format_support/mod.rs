@@ -1,7 +1,5 @@
 //! What the tests of the file format share: comparing mechanisms and finding files.
 
-#![allow(dead_code)]
-
 use kutzbach::format::{FormatError, read};
 use kutzbach::mechanism::{
     Coupling, Direction, Frame, Geometry, Joint, Link, Mechanism, Placement, Shape,

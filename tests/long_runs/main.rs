@@ -4,8 +4,6 @@
 //! The record holds the runs at full length. Here the million steps are made again, and of every other long run the first
 //! windows, which have to be the record's; the claims are then made of the record. That a claim can fail is shown by mechanisms
 //! and drives for which it should.
-#![allow(clippy::unwrap_used)]
-
 mod crank_turns;
 mod page_shows_the_record;
 mod platform_is_shaken;

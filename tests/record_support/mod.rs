@@ -1,7 +1,5 @@
 //! What the tests of logs share: a mechanism with a motion to record, and reading back.
 
-#![allow(dead_code)] // every test file is a crate of its own and uses a part of this
-
 use foxglove::Decode;
 use foxglove::messages::FrameTransforms;
 use kutzbach::closure::{Arithmetic, Geometry, Rigid};

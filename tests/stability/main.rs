@@ -11,8 +11,6 @@
 //! ```
 //!
 //! Cost is counted, never timed: bits of the arithmetic and steps of the assembly.
-#![allow(clippy::unwrap_used)]
-
 mod bifurcations;
 mod couplings;
 mod digits;

@@ -1,7 +1,5 @@
 //! What the tests of whole mechanisms share: finding files, running over them on two cores, and listing what went wrong.
 
-#![allow(dead_code)] // every test file is a crate of its own and uses a part of this
-
 pub mod decimal;
 pub mod rewrite;
 
