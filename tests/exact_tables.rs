@@ -41,34 +41,41 @@ fn sizes(tables: &[Table]) -> Vec<(String, Option<Figures>)> {
     .collect()
 }
 
-#[test]
-fn the_tables_are_computed_again() {
-    let fresh = measure::tables(1, |_| ()).unwrap();
-    assert_eq!(sizes(&fresh), sizes(&kept().tables));
-}
+/// Too long for every commit.
+mod corpus {
+    use super::*;
 
-/// All ways find the same dimension (which the measurement refuses to go on without), and the sizes are those kept.
-#[test]
-fn small_families_are_computed_again() {
-    let kept = kept();
-    for (family, scene) in scenes::FAMILIES.iter().zip(&kept.scenes) {
-        assert_eq!(family.name, scene.name);
-        for size in scene.sizes.iter().take(2) {
-            let fresh = measure::size(family, size.n, 300.0).unwrap();
-            assert_eq!(
-                (
-                    fresh.variables,
-                    fresh.equations,
-                    fresh.dimension,
-                    fresh.cases
-                ),
-                (size.variables, size.equations, size.dimension, size.cases),
-                "{} {}",
-                family.name,
-                size.n
-            );
-            let work = |size: &record::Size| size.ways.map(|way| way.map(|cost| cost.work));
-            assert_eq!(work(&fresh), work(size), "{} {}", family.name, size.n);
+    #[test]
+    #[ignore = "corpus: too long for every commit"]
+    fn the_tables_are_computed_again() {
+        let fresh = measure::tables(1, |_| ()).unwrap();
+        assert_eq!(sizes(&fresh), sizes(&kept().tables));
+    }
+
+    /// All ways find the same dimension (which the measurement refuses to go on without), and the sizes are those kept.
+    #[test]
+    #[ignore = "corpus: too long for every commit"]
+    fn small_families_are_computed_again() {
+        let kept = kept();
+        for (family, scene) in scenes::FAMILIES.iter().zip(&kept.scenes) {
+            assert_eq!(family.name, scene.name);
+            for size in scene.sizes.iter().take(2) {
+                let fresh = measure::size(family, size.n, 300.0).unwrap();
+                assert_eq!(
+                    (
+                        fresh.variables,
+                        fresh.equations,
+                        fresh.dimension,
+                        fresh.cases
+                    ),
+                    (size.variables, size.equations, size.dimension, size.cases),
+                    "{} {}",
+                    family.name,
+                    size.n
+                );
+                let work = |size: &record::Size| size.ways.map(|way| way.map(|cost| cost.work));
+                assert_eq!(work(&fresh), work(size), "{} {}", family.name, size.n);
+            }
         }
     }
 }

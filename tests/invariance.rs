@@ -297,50 +297,6 @@ fn has_one_loop(mechanism: &Mechanism) -> bool {
     mechanism.joints().len() == mechanism.links().len()
 }
 
-#[test]
-fn a_the_unit_of_length_does_not_matter() {
-    compare(&as_drawn, &|_| true, &|draft| {
-        [-6, -3, 3, 6]
-            .map(|e| plain(&format!("lengths times 1e{e}"), draft.clone().scaled(e)))
-            .into()
-    });
-}
-
-#[test]
-fn b_how_the_mechanism_is_turned_does_not_matter() {
-    compare(&exact, &has_axes_only, &|draft| {
-        vec![
-            plain("turned", draft.clone().turned()),
-            plain("on a turned ground", draft.clone().ground_turned()),
-        ]
-    });
-}
-
-#[test]
-fn c_where_the_mechanism_stands_does_not_matter() {
-    // The mechanisms are some 1 to 10 m large: three thousand metres is a thousand lengths and more.
-    let by = [1500, -2600, 777].map(Number::integer);
-    compare(&as_drawn, &|_| true, &|draft| {
-        vec![
-            plain("far from the origin", draft.clone().ground_moved(&by)),
-            plain("with far link frames", draft.clone().frames_moved(&by)),
-        ]
-    });
-}
-
-#[test]
-fn d_order_and_names_do_not_matter() {
-    let kept_agrees = |mechanism: &Mechanism| has_one_loop(mechanism) && has_axes_only(mechanism);
-    compare(&as_drawn, &kept_agrees, &|draft| {
-        (1..=3)
-            .map(|seed| {
-                let (shuffled, names) = draft.clone().shuffled(seed);
-                (format!("shuffled {seed}"), shuffled, names)
-            })
-            .collect()
-    });
-}
-
 /// Whether a file with the digits of a program leaves its rank open for that reason. Then it has to be undecided: two
 /// confident answers that differ are never right.
 fn hangs_on_its_digits(draft: &Draft) -> bool {
@@ -483,6 +439,55 @@ mod corpus {
             .into_iter()
             .filter(|(_, draft, _)| !hangs_on_its_digits(draft))
             .collect()
+        });
+    }
+
+    #[test]
+    #[ignore = "corpus: too long for every commit"]
+    fn a_the_unit_of_length_does_not_matter() {
+        compare(&as_drawn, &|_| true, &|draft| {
+            [-6, -3, 3, 6]
+                .map(|e| plain(&format!("lengths times 1e{e}"), draft.clone().scaled(e)))
+                .into()
+        });
+    }
+
+    #[test]
+    #[ignore = "corpus: too long for every commit"]
+    fn b_how_the_mechanism_is_turned_does_not_matter() {
+        compare(&exact, &has_axes_only, &|draft| {
+            vec![
+                plain("turned", draft.clone().turned()),
+                plain("on a turned ground", draft.clone().ground_turned()),
+            ]
+        });
+    }
+
+    #[test]
+    #[ignore = "corpus: too long for every commit"]
+    fn c_where_the_mechanism_stands_does_not_matter() {
+        // The mechanisms are some 1 to 10 m large: three thousand metres is a thousand lengths and more.
+        let by = [1500, -2600, 777].map(Number::integer);
+        compare(&as_drawn, &|_| true, &|draft| {
+            vec![
+                plain("far from the origin", draft.clone().ground_moved(&by)),
+                plain("with far link frames", draft.clone().frames_moved(&by)),
+            ]
+        });
+    }
+
+    #[test]
+    #[ignore = "corpus: too long for every commit"]
+    fn d_order_and_names_do_not_matter() {
+        let kept_agrees =
+            |mechanism: &Mechanism| has_one_loop(mechanism) && has_axes_only(mechanism);
+        compare(&as_drawn, &kept_agrees, &|draft| {
+            (1..=3)
+                .map(|seed| {
+                    let (shuffled, names) = draft.clone().shuffled(seed);
+                    (format!("shuffled {seed}"), shuffled, names)
+                })
+                .collect()
         });
     }
 }
