@@ -7,13 +7,12 @@ use crate::support;
 use kutzbach::mechanism::{Expectation, Mechanism};
 use kutzbach::mobility::{Analysis, PoseKind, Verdict};
 use std::collections::BTreeSet;
-use support::{analysis, assert_none, in_parallel, is_locked, locked_names, own_mechanisms};
+use support::{KNOWN_OWN, Known, assert_none, is_locked, locked_names};
 
-fn disagreements(name: &str, mechanism: &Mechanism) -> Vec<String> {
+fn disagreements((name, mechanism, analysis): &Known) -> Vec<String> {
     let Some(expected) = mechanism.expectation() else {
         return vec![format!("{name}: states no expectation")];
     };
-    let analysis = analysis(mechanism);
     let Some(home) = &analysis.home else {
         return vec![format!("{name}: does not assemble")];
     };
@@ -98,19 +97,15 @@ fn locked_disagreement(
 
 #[test]
 fn every_file_agrees_with_its_own_expectation() {
-    let mechanisms = own_mechanisms();
-    assert!(mechanisms.len() >= 30, "found {}", mechanisms.len());
-    let wrong = in_parallel(&mechanisms, |(name, mechanism)| {
-        disagreements(name, mechanism)
-    });
+    assert!(KNOWN_OWN.len() >= 30, "found {}", KNOWN_OWN.len());
+    let wrong: Vec<_> = KNOWN_OWN.iter().map(disagreements).collect();
     assert_none(&wrong.concat());
 }
 
 /// Their numbers are exact and their loops close, so assembly has nothing to do and the answers need no reservation.
 #[test]
 fn every_file_is_drawn_closed_and_exact() {
-    let wrong = in_parallel(&own_mechanisms(), |(name, mechanism)| {
-        let analysis = analysis(mechanism);
+    let wrong = KNOWN_OWN.iter().map(|(name, _, analysis)| {
         let mut wrong = Vec::new();
         if analysis.assembly.steps > 0 {
             wrong.push(format!(
@@ -123,5 +118,5 @@ fn every_file_is_drawn_closed_and_exact() {
         }
         wrong
     });
-    assert_none(&wrong.concat());
+    assert_none(&wrong.collect::<Vec<_>>().concat());
 }

@@ -7,6 +7,7 @@ use kutzbach::mechanism::Mechanism;
 use kutzbach::mobility::{Analysis, AnalysisOptions, analyse};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A folder of the package.
@@ -76,6 +77,21 @@ pub fn analysis(mechanism: &Mechanism) -> Analysis {
     analyse(mechanism, &AnalysisOptions::default())
         .unwrap_or_else(|error| panic!("{}: {error}", mechanism.name()))
 }
+
+/// A mechanism of a folder with its name and its analysis at the home pose.
+pub type Known = (String, Mechanism, Analysis);
+
+fn analysed(mechanisms: Vec<(String, Mechanism)>) -> Vec<Known> {
+    let analyses = in_parallel(&mechanisms, |(_, mechanism)| analysis(mechanism));
+    let pairs = mechanisms.into_iter().zip(analyses);
+    pairs.map(|((n, m), analysis)| (n, m, analysis)).collect()
+}
+
+/// The reference mechanisms, analysed once for all tests that ask.
+pub static KNOWN_ZOO: LazyLock<Vec<Known>> = LazyLock::new(|| analysed(zoo()));
+
+/// The mechanisms of `mechanisms/`, analysed once for all tests that ask.
+pub static KNOWN_OWN: LazyLock<Vec<Known>> = LazyLock::new(|| analysed(own_mechanisms()));
 
 /// The names of joints, or parts of joints, that an analysis calls locked; a joint without freedoms is never named.
 pub fn locked_names(mechanism: &Mechanism, analysis: &Analysis) -> BTreeSet<String> {
