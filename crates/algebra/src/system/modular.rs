@@ -27,14 +27,21 @@ pub struct ModularSystem {
 const FIRST: u64 = 1 << 61;
 /// Most primes tried.
 const MOST_PRIMES: usize = 200_000;
+/// Most terms of a system at its pose: some hundreds of bytes each.
+const MOST_TERMS: usize = 1_000_000;
 
 impl PolynomialSystem {
     /// The system and its drawn pose modulo a prime, the pose moved to the origin. Different `attempt`s give different
     /// primes. `None` where the drawn pose is no exact solution, or no prime was found (hundreds of thousands are tried,
     /// of which at least one in the degree of the field does).
+    ///
+    /// Nothing is expanded where that would make too many terms: see [`has_many_terms_at_home`](Self::has_many_terms_at_home).
     #[must_use]
     pub fn home_modulo(&self, attempt: usize) -> Option<ModularSystem> {
         let point = self.construction.point.as_ref()?;
+        if self.has_many_terms_at_home() {
+            return None;
+        }
         let field = &self.construction.field;
         let step = u64::from(field.circle.unwrap_or(1)) * 2;
         let mut candidate = FIRST / step * step + 1;
@@ -59,6 +66,21 @@ impl PolynomialSystem {
             }
         }
         None
+    }
+
+    /// Whether the system moved to its drawn pose would have more than a million terms. A factor xᵉ of a monomial becomes (x + a)ᵉ,
+    /// of e + 1 terms where the value a at the pose is not zero: counted, with multiplicity, before anything is expanded.
+    #[must_use]
+    pub fn has_many_terms_at_home(&self) -> bool {
+        let Some(point) = &self.construction.point else {
+            return false;
+        };
+        let monomials = self.equations.iter().flat_map(|e| e.polynomial.terms());
+        let counts = monomials.map(|(exponents, _)| {
+            let factors = exponents.iter().zip(point).filter(|(_, x)| !x.is_zero());
+            factors.fold(1usize, |all, (&e, _)| all.saturating_mul(e as usize + 1))
+        });
+        counts.fold(0, usize::saturating_add) > MOST_TERMS
     }
 
     fn reduced(&self, point: &[Element], images: &[u64], p: u64) -> Option<ModularSystem> {
@@ -88,22 +110,19 @@ impl PolynomialSystem {
                 )];
                 for (index, &exponent) in exponents.iter().enumerate().filter(|(_, e)| **e > 0) {
                     let place = variables.iter().position(|v| *v == index);
-                    for _ in 0..exponent {
-                        partial = partial
-                            .into_iter()
-                            .flat_map(|(exponents, c)| {
-                                // (x + a) times a monomial.
-                                let constant = (exponents.clone(), multiply(c, at[index], p));
-                                let moved = place.map(|place| {
-                                    let mut exponents = exponents;
-                                    exponents[place] += 1;
-                                    (exponents, c)
-                                });
-                                std::iter::once(constant).chain(moved)
+                    let power = shifted_power(exponent, at[index], place.is_some(), p);
+                    partial = partial
+                        .iter()
+                        .flat_map(|(exponents, c)| {
+                            power.iter().map(move |&(degree, factor)| {
+                                let mut exponents = exponents.clone();
+                                if let Some(place) = place {
+                                    exponents[place] += degree;
+                                }
+                                (exponents, multiply(*c, factor, p))
                             })
-                            .filter(|(_, c)| *c != 0)
-                            .collect();
-                    }
+                        })
+                        .collect();
                 }
                 for (exponents, c) in partial {
                     let entry = terms.entry(exponents).or_insert(0);
@@ -126,6 +145,27 @@ impl PolynomialSystem {
             equations,
         })
     }
+}
+
+/// The terms of (x + a)ᵉ modulo a prime, as degrees and coefficients, none of which is zero; of aᵉ where x is no unknown.
+fn shifted_power(e: u32, a: u64, is_unknown: bool, p: u64) -> Vec<(u32, u64)> {
+    if !is_unknown {
+        return vec![(0, power(a, u64::from(e), p))];
+    }
+    // Row e of Pascal's triangle, from that of 0.
+    let mut binomials = vec![1u64];
+    for _ in 0..e {
+        let next = binomials.windows(2).map(|pair| (pair[0] + pair[1]) % p);
+        binomials = std::iter::once(1).chain(next).chain([1]).collect();
+    }
+    (0..=e)
+        .zip(binomials)
+        .map(|(degree, binomial)| {
+            let rest = power(a, u64::from(e - degree), p);
+            (degree, multiply(binomial, rest, p))
+        })
+        .filter(|(_, c)| *c != 0)
+        .collect()
 }
 
 /// Images of all generators, each a root of its polynomial at the images of those before; `None` where one has none.
@@ -229,6 +269,15 @@ fn is_prime(n: u64) -> bool {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn powers_of_a_shifted_unknown() {
+        let p = 10_007;
+        let cube = shifted_power(3, 2, true, p);
+        assert_eq!(cube, [(0, 8), (1, 12), (2, 6), (3, 1)]);
+        assert_eq!(shifted_power(3, 0, true, p), [(3, 1)]);
+        assert_eq!(shifted_power(3, 2, false, p), [(0, 8)]);
+    }
 
     #[test]
     fn primes_and_roots() {

@@ -179,6 +179,9 @@ fn exact_finding(
     };
     let system = polynomial_system(mechanism, &options)
         .map_err(|error| format!("no polynomial equations: {error}"))?;
+    if system.has_many_terms_at_home() {
+        return Err("not asked: around the pose its equations have too many terms".to_owned());
+    }
     let modular = system
         .home_modulo(0)
         .ok_or("the pose drawn is not known to be an exact solution")?;
