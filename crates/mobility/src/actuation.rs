@@ -359,6 +359,7 @@ fn complete(
     given: &[Freedom],
 ) -> (Vec<Freedom>, bool) {
     let mut proposed: Vec<(Freedom, Vec<f64>)> = Vec::new();
+    let wanted = rows.left(span);
     for (share, with_idle) in [(FAIR_SHARE, false), (0.0, false), (0.0, true)] {
         for (freedom, row) in candidates {
             let Some(left) = rows.left(span).filter(|left| *left > 0) else {
@@ -383,8 +384,10 @@ fn complete(
     }
     let enough = rows.left(span) == Some(0);
     let driven = span.rows.len() - proposed.len();
+    // A row takes one freedom away at most: where no more were taken than were left, none can be spared.
+    let least = wanted.filter(|_| enough).unwrap_or(usize::MAX);
     let mut index = 0;
-    while enough && index < proposed.len() {
+    while proposed.len() > least && index < proposed.len() {
         let mut less = Span::default();
         let others = proposed
             .iter()

@@ -8,7 +8,9 @@
 //! [`SMALL`], or below [`NEVER_SMALL`] and within two decades of the rank's tolerance, and ten times as large, or more, at a
 //! pose of the same branch not far away. Where it stays small, only a σ close to its tolerance is mentioned, as one that no pose nearby makes clearer.
 //!
-//! Cost: nothing for clear poses; else up to ten closings and ranks of the part.
+//! Cost: nothing for clear poses; else up to ten closings and ranks of the part. Closing is iterative, and takes as many rounds as
+//! a long part has unknowns: of parts with more than [`FOLLOWED_UNKNOWNS`], where length alone makes a singular value small,
+//! no other pose is looked at.
 
 use super::branch::{Branch, BranchPose};
 use super::pose_rank::PartRank;
@@ -34,6 +36,9 @@ const CLEARER: f64 = 10.0;
 
 /// How far to look, in radians or part lengths of the fastest joint: 0.1° to 10°.
 const WAYS: [f64; 5] = [0.00175, 0.0087, 0.035, 0.087, 0.175];
+
+/// Parts of more unknowns are not followed to other poses.
+const FOLLOWED_UNKNOWNS: usize = 600;
 
 /// A part whose pose is nearly singular.
 #[derive(Clone, Debug, PartialEq)]
@@ -101,7 +106,10 @@ fn clearer(
     part: &Part,
     rank: &PartRank,
 ) -> Result<Option<ClearerPose>, MatrixError> {
-    let Some(decision) = rank.settled().filter(|_| rank.instantaneous > Some(0)) else {
+    let Some(decision) = rank
+        .settled()
+        .filter(|_| rank.instantaneous > Some(0) && rank.unknowns() <= FOLLOWED_UNKNOWNS)
+    else {
         return Ok(None);
     };
     let Ok(null) = null_vectors(&rank.matrix, &decision, NULL_VECTORS, 1) else {
