@@ -53,7 +53,7 @@ impl Posed {
                     for variable in first..first + freedom {
                         let mut alone = vec![0.0; count];
                         alone[variable] = 2.0;
-                        pose.tangents.push(alone);
+                        pose.tangents.push(alone.into());
                     }
                     let values = vec![*way; freedom];
                     geometry.displacements[joint].advance(&mut pose.states[joint], &values);
@@ -143,6 +143,6 @@ fn follow_part(
                 column += 1;
             }
         }
-        pose.tangents.push(whole);
+        pose.tangents.push(whole.into());
     }
 }

@@ -15,16 +15,19 @@
 //! no intermediate links of balls, tree joints before those that close loops, near the ground before far from it, with limits
 //! before without, and by name.
 //!
-//! Cost: variables × d² for each pose.
+//! Everything is asked part by part, or for several parts together where idle motion reaches across them.
+//!
+//! Cost: variables × d² for each pose, summed over the parts; for joints in no loop that is one each.
 
 use super::branch::{Branch, BranchPose};
-use super::idle::idle_spaces;
+use super::idle::{IdleSpace, idle_spaces};
 use super::one_sided::{OneSided, dot, norm};
 use super::point_chains::Connections;
 use super::tangent_space::{Limits, TangentSpace};
 use kutzbach_closure::Geometry;
 use kutzbach_closure::Structure;
 use kutzbach_model::mechanism::Mechanism;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// One freedom of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -90,26 +93,22 @@ pub fn actuation(
     here: Option<&BranchPose>,
     given: &[Freedom],
 ) -> Option<Actuation> {
-    let work = mechanism.freedom() * branch.dimension * branch.dimension;
-    if work > MOST_WORK {
-        return None;
-    }
     let poses: Vec<Rows> = idle_spaces(mechanism, geometry, structure, &branch.poses)
         .into_iter()
-        .map(|(tangents, idle)| Rows { tangents, idle })
-        .collect();
+        .map(Rows::of)
+        .collect::<Option<_>>()?;
     // Ranks are largest at a generic pose; one that shows less, or nothing for certain, is not it.
     let (reference, chosen) = poses
         .iter()
         .filter_map(|rows| Some((rows, Chosen::of(rows, given)?)))
         .fold(None, |best: Option<(&Rows, Chosen)>, next| match best {
-            Some(best) if best.1.span.len() >= next.1.span.len() => Some(best),
+            Some(best) if best.1.independent.len() >= next.1.independent.len() => Some(best),
             _ => Some(next),
         })?;
-    let left = reference.left(&chosen.span)?;
-    let mut span = chosen.span;
-    let candidates = candidates(mechanism, geometry, structure, reference);
-    let (proposed, complete) = complete(reference, &candidates, &mut span, given);
+    let left = reference.left(&chosen.spans)?;
+    let taken: BTreeSet<Freedom> = given.iter().copied().collect();
+    let candidates = candidates(mechanism, geometry, structure, reference, &taken);
+    let (proposed, complete) = complete(reference, &candidates, chosen.spans);
     let set: Vec<Freedom> = chosen
         .independent
         .iter()
@@ -117,42 +116,42 @@ pub fn actuation(
         .copied()
         .collect();
     // On what something depends is seen at all poses: a coefficient may pass through zero at one.
-    let spans: Vec<(&Rows, Span)> = poses
+    let spans: Vec<(&Rows, Vec<Span>)> = poses
         .iter()
         .filter_map(|rows| {
             let chosen = Chosen::of(rows, &set)?;
-            (chosen.independent == set).then_some((rows, chosen.span))
+            (chosen.independent == set).then_some((rows, chosen.spans))
         })
         .collect();
+    let of = |freedom, count| {
+        let on: Option<Vec<usize>> = support(&spans, freedom, count);
+        on.map(|on| on.into_iter().map(|index| set[index]).collect())
+    };
     let dependent = chosen
         .dependent
         .into_iter()
         .map(|input| DependentInput {
             input,
-            on: support(&spans, input, chosen.independent.len())
-                .map(|on| on.into_iter().map(|index| set[index]).collect()),
+            on: of(input, chosen.independent.len()),
         })
         .collect();
+    let inputs: BTreeSet<Freedom> = set.iter().chain(given).copied().collect();
     let followers = (0..mechanism.joints().len())
         .flat_map(|joint| {
             let variables = 0..mechanism.joints()[joint].freedom();
             variables.map(move |variable| Freedom { joint, variable })
         })
-        .filter(|freedom| !set.contains(freedom) && !given.contains(freedom))
+        .filter(|freedom| !inputs.contains(freedom))
         .map(|freedom| Follower {
             freedom,
-            of: support(&spans, freedom, set.len())
-                .map(|on| on.into_iter().map(|index| set[index]).collect()),
+            of: of(freedom, set.len()),
         })
         .collect();
     Some(Actuation {
         independent_here: here
             .and_then(|here| TangentSpace::at(mechanism, geometry, structure, here))
             .and_then(|tangents| {
-                let rows = Rows {
-                    tangents,
-                    idle: Vec::new(),
-                };
+                let rows = Rows::of(IdleSpace::without_idle(tangents))?;
                 Some(Chosen::of(&rows, given)?.independent.len())
             }),
         independent: chosen.independent,
@@ -165,44 +164,94 @@ pub fn actuation(
 }
 
 /// The tangent space at one pose, seen by rows.
+///
+/// Its blocks have nothing to do with one another: a row is a row over one of them, and rows of different blocks are independent.
 struct Rows {
-    tangents: TangentSpace,
-    /// Orthonormal combinations of the tangents that are idle.
-    idle: Vec<Vec<f64>>,
+    space: IdleSpace,
+}
+
+/// What a freedom is over the vectors of its block.
+#[derive(Clone)]
+struct Row {
+    /// `None` if nothing moves the freedom.
+    block: Option<usize>,
+    values: Vec<f64>,
 }
 
 impl Rows {
-    fn row(&self, freedom: Freedom) -> Vec<f64> {
-        let variable = self.tangents.variables(freedom.joint).start + freedom.variable;
-        self.tangents
-            .basis
-            .iter()
-            .map(|vector| vector[variable])
-            .collect()
+    /// `None` where inputs would take too much work.
+    fn of(space: IdleSpace) -> Option<Self> {
+        let tangents = &space.tangents;
+        let mut work = 0usize;
+        for variable in 0..tangents.length() {
+            if let Some(&vector) = tangents.row(variable).vectors.first() {
+                let (block, _) = space.blocks.place[vector];
+                let size = space.blocks.vectors[block].len();
+                work = work.saturating_add(size.saturating_mul(size));
+            }
+        }
+        (work <= MOST_WORK).then_some(Self { space })
+    }
+
+    fn row(&self, freedom: Freedom) -> Row {
+        let variable = self.space.tangents.variables(freedom.joint).start + freedom.variable;
+        let row = self.space.tangents.row(variable);
+        let blocks = &self.space.blocks;
+        let block = row.vectors.first().map(|&vector| blocks.place[vector].0);
+        let mut values = vec![0.0; block.map_or(0, |block| blocks.vectors[block].len())];
+        for (&vector, value) in row.vectors.iter().zip(row.values()) {
+            values[blocks.place[vector].1] = value;
+        }
+        Row { block, values }
+    }
+
+    /// Bound on the error of a row.
+    fn error(&self) -> f64 {
+        self.space.tangents.limits.error
+    }
+
+    /// Limits for what is left of a row.
+    fn limits(&self, error: f64) -> Limits {
+        Limits::new(error, self.space.tangents.dimension())
     }
 
     /// Whether idle motion leaves a freedom at rest.
-    fn is_clean(&self, row: &[f64]) -> bool {
-        let along: Vec<f64> = self.idle.iter().map(|idle| dot(idle, row)).collect();
-        self.tangents.limits.moves(norm(&along)) == Some(false)
+    fn is_clean(&self, row: &Row) -> bool {
+        let idle = row
+            .block
+            .into_iter()
+            .flat_map(|block| &self.space.idle[block]);
+        let along: Vec<f64> = idle.map(|idle| dot(idle, &row.values)).collect();
+        self.space.tangents.limits.moves(norm(&along)) == Some(false)
     }
 
-    /// Freedoms left when the rows of a span are held, idle ones not counted: dim ker A − dim (ker A ∩ I).
-    fn left(&self, span: &Span) -> Option<usize> {
-        let on_idle: Vec<Vec<f64>> = self
-            .idle
+    /// Freedoms of a block left when the rows of a span are held, idle ones not counted: dim ker A − dim (ker A ∩ I).
+    fn left_in(&self, block: usize, span: &Span) -> Option<usize> {
+        let idle = &self.space.idle[block];
+        let on_idle: Vec<Vec<f64>> = idle
             .iter()
             .map(|idle| span.rows.iter().map(|row| dot(row, idle)).collect())
             .collect();
-        let driven = self.tangents.limits.rank(&OneSided::of(on_idle)?.values)?;
-        let kernel = self.tangents.basis.len().checked_sub(span.len())?;
-        kernel.checked_sub(self.idle.len() - driven)
+        let limits = &self.space.tangents.limits;
+        let driven = limits.rank(&OneSided::of(on_idle)?.values)?;
+        let kernel = self.space.blocks.vectors[block]
+            .len()
+            .checked_sub(span.rows.len())?;
+        kernel.checked_sub(idle.len() - driven)
+    }
+
+    /// Freedoms left in all blocks.
+    fn left(&self, spans: &[Span]) -> Option<usize> {
+        let blocks = spans.iter().enumerate();
+        blocks.map(|(block, span)| self.left_in(block, span)).sum()
     }
 }
 
-/// Independent rows, with an orthonormal basis of their span and what it is made of.
-#[derive(Default)]
+/// Independent rows of one block, with an orthonormal basis of their span and what it is made of.
+#[derive(Clone, Default)]
 struct Span {
+    /// What each row is in the set that it was taken from.
+    names: Vec<usize>,
     rows: Vec<Vec<f64>>,
     basis: Vec<Vec<f64>>,
     /// `basis[i] = Σ made_of[i][j] rows[j]`.
@@ -220,13 +269,9 @@ struct Remainder {
 }
 
 impl Span {
-    fn len(&self) -> usize {
-        self.rows.len()
-    }
-
     fn remainder(&self, row: &[f64], error: f64) -> Remainder {
         let mut rest = row.to_vec();
-        let mut coefficients = vec![0.0; self.len()];
+        let mut coefficients = vec![0.0; self.rows.len()];
         // Twice is enough (Giraud, Langou & Rozložník 2005).
         for _ in 0..2 {
             for (q, made_of) in self.basis.iter().zip(&self.made_of) {
@@ -245,7 +290,7 @@ impl Span {
         }
     }
 
-    fn push(&mut self, row: Vec<f64>, remainder: Remainder) {
+    fn push(&mut self, name: usize, row: Vec<f64>, remainder: Remainder) {
         let size = norm(&remainder.rest);
         let mut made_of: Vec<f64> = remainder.coefficients.iter().map(|c| -c / size).collect();
         made_of.push(1.0 / size);
@@ -254,11 +299,13 @@ impl Span {
             .push(remainder.rest.iter().map(|x| x / size).collect());
         self.made_of.push(made_of);
         self.rows.push(row);
+        self.names.push(name);
     }
 
     /// Takes the last row back.
     fn pop(&mut self) {
         self.rows.pop();
+        self.names.pop();
         self.basis.pop();
         self.made_of.pop();
         self.made_of
@@ -275,7 +322,8 @@ impl Span {
 
 /// The independent ones among some freedoms.
 struct Chosen {
-    span: Span,
+    /// One for every block; rows are named by their places in `independent`.
+    spans: Vec<Span>,
     independent: Vec<Freedom>,
     dependent: Vec<Freedom>,
 }
@@ -284,16 +332,19 @@ impl Chosen {
     /// `None` where a margin is thin.
     fn of(rows: &Rows, given: &[Freedom]) -> Option<Self> {
         let mut chosen = Self {
-            span: Span::default(),
+            spans: vec![Span::default(); rows.space.blocks.vectors.len()],
             independent: Vec::new(),
             dependent: Vec::new(),
         };
         for &freedom in given {
             let row = rows.row(freedom);
-            let remainder = chosen.span.remainder(&row, rows.tangents.limits.error);
-            let limits = Limits::new(remainder.error, rows.tangents.basis.len());
-            if limits.moves(norm(&remainder.rest))? {
-                chosen.span.push(row, remainder);
+            let Some(span) = row.block.map(|block| &mut chosen.spans[block]) else {
+                chosen.dependent.push(freedom);
+                continue;
+            };
+            let remainder = span.remainder(&row.values, rows.error());
+            if rows.limits(remainder.error).moves(norm(&remainder.rest))? {
+                span.push(chosen.independent.len(), row.values, remainder);
                 chosen.independent.push(freedom);
             } else {
                 chosen.dependent.push(freedom);
@@ -303,13 +354,14 @@ impl Chosen {
     }
 }
 
-/// The freedoms that could be inputs, best first.
+/// The freedoms that could be inputs, best first, but for those taken already.
 fn candidates(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
     structure: &Structure,
     rows: &Rows,
-) -> Vec<(Freedom, Vec<f64>)> {
+    taken: &BTreeSet<Freedom>,
+) -> Vec<(Freedom, Row)> {
     let connections = Connections::of(mechanism, geometry, structure);
     let steps = connections.bodies.steps_from_ground(mechanism);
     let mut found: Vec<_> = Vec::new();
@@ -326,6 +378,9 @@ fn candidates(
                 joint: index,
                 variable,
             };
+            if taken.contains(&freedom) {
+                continue;
+            }
             let row = rows.row(freedom);
             let key = (
                 !rows.is_clean(&row),
@@ -347,85 +402,111 @@ fn candidates(
         .collect()
 }
 
-/// Adds candidates to a span until nothing is left; those added, and whether nothing is left then.
+/// The candidates that have to be added until nothing is left, and whether nothing is left then.
+fn complete(rows: &Rows, candidates: &[(Freedom, Row)], spans: Vec<Span>) -> (Vec<Freedom>, bool) {
+    let mut of_blocks = vec![Vec::new(); spans.len()];
+    for (index, (_, row)) in candidates.iter().enumerate() {
+        if let Some(block) = row.block {
+            of_blocks[block].push((index, &row.values[..]));
+        }
+    }
+    let mut proposed = Vec::new();
+    let mut enough = true;
+    for (block, (mut span, own)) in spans.into_iter().zip(of_blocks).enumerate() {
+        let (found, complete) = complete_block(rows, block, &own, &mut span);
+        proposed.extend(found);
+        enough &= complete;
+    }
+    proposed.sort_unstable();
+    let freedoms = proposed.into_iter().map(|(_, index)| candidates[index].0);
+    (freedoms.collect(), enough)
+}
+
+/// Adds candidates of a block to its span until nothing is left; the indices of those added, each after the number of the round that
+/// it was found in, and whether nothing is left then.
 ///
 /// Candidates that idle motion leaves at rest come first, and each takes one freedom away. Where these are not enough, as in a leg
 /// that hangs on balls, others have to be driven together with the idle motion that moves them too: all independent
 /// ones are taken, and those given back that were not needed.
-fn complete(
+fn complete_block(
     rows: &Rows,
-    candidates: &[(Freedom, Vec<f64>)],
+    block: usize,
+    candidates: &[(usize, &[f64])],
     span: &mut Span,
-    given: &[Freedom],
-) -> (Vec<Freedom>, bool) {
-    let mut proposed: Vec<(Freedom, Vec<f64>)> = Vec::new();
-    let wanted = rows.left(span);
-    for (share, with_idle) in [(FAIR_SHARE, false), (0.0, false), (0.0, true)] {
-        for (freedom, row) in candidates {
-            let Some(left) = rows.left(span).filter(|left| *left > 0) else {
+) -> (Vec<(usize, usize)>, bool) {
+    let mut proposed: Vec<(usize, usize)> = Vec::new();
+    let mut taken = vec![false; candidates.len()];
+    let driven = span.rows.len();
+    let wanted = rows.left_in(block, span);
+    let rounds = [(FAIR_SHARE, false), (0.0, false), (0.0, true)];
+    for (round, (share, with_idle)) in rounds.into_iter().enumerate() {
+        for (&(index, row), taken) in candidates.iter().zip(&mut taken) {
+            let Some(left) = rows.left_in(block, span).filter(|left| *left > 0) else {
                 break;
             };
-            if given.contains(freedom) || proposed.iter().any(|(taken, _)| taken == freedom) {
+            if *taken {
                 continue;
             }
-            let remainder = span.remainder(row, rows.tangents.limits.error);
+            let remainder = span.remainder(row, rows.error());
             let size = norm(&remainder.rest);
-            let limits = Limits::new(remainder.error, rows.tangents.basis.len());
-            if limits.moves(size) != Some(true) || size < share * norm(row) {
+            if rows.limits(remainder.error).moves(size) != Some(true) || size < share * norm(row) {
                 continue;
             }
-            span.push(row.clone(), remainder);
-            if with_idle || rows.left(span) == left.checked_sub(1) {
-                proposed.push((*freedom, row.clone()));
+            span.push(index, row.to_vec(), remainder);
+            if with_idle || rows.left_in(block, span) == left.checked_sub(1) {
+                proposed.push((round, index));
+                *taken = true;
             } else {
                 span.pop();
             }
         }
     }
-    let enough = rows.left(span) == Some(0);
-    let driven = span.rows.len() - proposed.len();
+    let enough = rows.left_in(block, span) == Some(0);
     // A row takes one freedom away at most: where no more were taken than were left, none can be spared.
     let least = wanted.filter(|_| enough).unwrap_or(usize::MAX);
     let mut index = 0;
     while proposed.len() > least && index < proposed.len() {
         let mut less = Span::default();
-        let others = proposed
-            .iter()
-            .enumerate()
-            .filter(|(other, _)| *other != index);
-        let others = others.map(|(_, (_, row))| row);
-        for row in span.rows[..driven].iter().chain(others) {
-            let remainder = less.remainder(row, rows.tangents.limits.error);
-            less.push(row.clone(), remainder);
+        for (place, (name, row)) in span.names.iter().zip(&span.rows).enumerate() {
+            if place != driven + index {
+                let remainder = less.remainder(row, rows.error());
+                less.push(*name, row.clone(), remainder);
+            }
         }
-        if rows.left(&less) == Some(0) {
+        if rows.left_in(block, &less) == Some(0) {
             proposed.remove(index);
             *span = less;
         } else {
             index += 1;
         }
     }
-    (
-        proposed.into_iter().map(|(freedom, _)| freedom).collect(),
-        enough,
-    )
+    (proposed, enough)
 }
 
-/// Which of the first `count` rows of the spans a freedom's row is made of; `None` where it is not made of them, or a margin
+/// Which of the first `count` freedoms of a set a freedom's row is made of; `None` where it is not made of them, or a margin
 /// does not tell.
-fn support(spans: &[(&Rows, Span)], freedom: Freedom, count: usize) -> Option<Vec<usize>> {
-    let mut seen = vec![Some(false); count];
+fn support(spans: &[(&Rows, Vec<Span>)], freedom: Freedom, count: usize) -> Option<Vec<usize>> {
+    let mut seen: BTreeMap<usize, Option<bool>> = BTreeMap::new();
     if spans.is_empty() {
         return None;
     }
-    for (rows, span) in spans {
-        let remainder = span.remainder(&rows.row(freedom), rows.tangents.limits.error);
-        let limits = Limits::new(remainder.error, rows.tangents.basis.len());
-        if limits.moves(norm(&remainder.rest)) != Some(false) {
+    for (rows, spans) in spans {
+        let row = rows.row(freedom);
+        let Some(span) = row.block.map(|block| &spans[block]) else {
+            continue;
+        };
+        let remainder = span.remainder(&row.values, rows.error());
+        if rows.limits(remainder.error).moves(norm(&remainder.rest)) != Some(false) {
             return None;
         }
-        for (j, seen) in seen.iter_mut().enumerate() {
+        for (j, name) in span
+            .names
+            .iter()
+            .enumerate()
+            .filter(|(_, name)| **name < count)
+        {
             let error = span.coefficient_error(j, remainder.error);
+            let seen = seen.entry(*name).or_insert(Some(false));
             match Limits::new(error, 1).moves(remainder.coefficients[j].abs()) {
                 Some(true) => *seen = Some(true),
                 None if *seen == Some(false) => *seen = None,
@@ -433,12 +514,6 @@ fn support(spans: &[(&Rows, Span)], freedom: Freedom, count: usize) -> Option<Ve
             }
         }
     }
-    let all: Option<Vec<bool>> = seen.into_iter().collect();
-    Some(
-        (0..count)
-            .zip(all?)
-            .filter(|(_, on)| *on)
-            .map(|(index, _)| index)
-            .collect(),
-    )
+    let on = seen.into_iter().filter(|(_, on)| *on != Some(false));
+    on.map(|(index, on)| on.map(|_| index)).collect()
 }

@@ -7,14 +7,62 @@ use super::roles::JointRole;
 use kutzbach_closure::JointState;
 use kutzbach_math::group::DisplacementSubgroup;
 
+/// A tangent of a branch: one rate per variable of the mechanism, joints by index, the variables of each in their own order, in rad
+/// or m per unit. A tangent of one part of a large mechanism is nearly all zeros, which are not stored.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tangent {
+    variables: usize,
+    entries: Vec<(usize, f64)>,
+}
+
+impl Tangent {
+    /// The tangent of a mechanism of so many variables with the rates given, each variable at most once.
+    #[must_use]
+    pub fn new(variables: usize, rates: impl IntoIterator<Item = (usize, f64)>) -> Self {
+        let mut entries: Vec<(usize, f64)> =
+            rates.into_iter().filter(|(_, rate)| *rate != 0.0).collect();
+        entries.sort_by_key(|(variable, _)| *variable);
+        Self { variables, entries }
+    }
+
+    /// Number of variables of the mechanism.
+    #[must_use]
+    pub fn variables(&self) -> usize {
+        self.variables
+    }
+
+    /// The rates that are not zero, by variable.
+    #[must_use]
+    pub fn entries(&self) -> &[(usize, f64)] {
+        &self.entries
+    }
+}
+
+impl From<Vec<f64>> for Tangent {
+    fn from(rates: Vec<f64>) -> Self {
+        Self::new(rates.len(), rates.into_iter().enumerate())
+    }
+}
+
+impl std::ops::Index<usize> for Tangent {
+    type Output = f64;
+
+    /// The rate of a variable; zero for one that the tangent does not have.
+    fn index(&self, variable: usize) -> &f64 {
+        let found = self
+            .entries
+            .binary_search_by_key(&variable, |entry| entry.0);
+        found.map_or(&0.0, |index| &self.entries[index].1)
+    }
+}
+
 /// A generic pose of a branch.
 #[derive(Clone, Debug)]
 pub struct BranchPose {
     /// The state of every joint of the mechanism, by joint index.
     pub states: Vec<JointState<f64>>,
-    /// A basis of the branch's tangent space. Each vector has one rate per variable of the mechanism: joints by index, the
-    /// variables of each in their own order, in rad or m per unit.
-    pub tangents: Vec<Vec<f64>>,
+    /// A basis of the branch's tangent space. Freedoms of joints in no loop and no coupling may be left out.
+    pub tangents: Vec<Tangent>,
 }
 
 /// A link that can move while all other links stand still, but for those that stand for no body of their own.

@@ -3,7 +3,7 @@
 use super::branch::{BranchPose, IdleLink, RelativeMotion};
 use super::branch_roles::roles_seen;
 use super::idle::idle_seen;
-use super::relative_motion::{link_twists, motions_seen, to_ground};
+use super::relative_motion::{link_twists, motions_seen_from_ground};
 use super::roles::JointRole;
 use kutzbach_closure::Geometry;
 use kutzbach_closure::Structure;
@@ -36,6 +36,6 @@ pub fn branch_facts(
         roles: roles_seen(mechanism, &seen),
         idle: idle.idle,
         nearly_idle: idle.nearly,
-        motions: motions_seen(&seen, &to_ground(mechanism)),
+        motions: motions_seen_from_ground(mechanism, &seen),
     }
 }

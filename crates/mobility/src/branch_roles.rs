@@ -73,7 +73,7 @@ mod tests {
         let none: [&str; 0] = [];
         assert_eq!(roles(&sample)[0].locked_parts, none);
         // The sleeve turns at the second pose only; then at none.
-        sample.poses[0].tangents = vec![vec![1.0, 0.0, -1.0, 0.0]];
+        sample.poses[0].tangents = vec![vec![1.0, 0.0, -1.0, 0.0].into()];
         assert_eq!(roles(&sample)[0].locked_parts, none);
         sample.poses.truncate(1);
         for (role, name) in roles(&sample).iter().zip(["r_a.rot", "r_b.rot"]) {
@@ -99,7 +99,7 @@ mod tests {
         // A hundred errors are neither rounding for certain nor motion.
         let mut sample = Sample::sleeve();
         for pose in &mut sample.poses {
-            pose.tangents = vec![vec![1.0, 0.0, -1.0, 0.0]];
+            pose.tangents = vec![vec![1.0, 0.0, -1.0, 0.0].into()];
         }
         let seen = link_twists(
             &sample.mechanism,
@@ -110,12 +110,12 @@ mod tests {
         let little = 100.0 * seen[0].tangents.limits_of(0).error;
         assert!(little < 1e-3);
         for pose in &mut sample.poses {
-            pose.tangents = vec![vec![1.0, little, -1.0, -little]];
+            pose.tangents = vec![vec![1.0, little, -1.0, -little].into()];
         }
         assert_eq!(roles(&sample)[0].locked, Some(false));
         assert!(roles(&sample)[0].locked_parts.is_empty());
         for pose in &mut sample.poses {
-            pose.tangents = vec![vec![little, little, -little, -little]];
+            pose.tangents = vec![vec![little, little, -little, -little].into()];
         }
         assert_eq!(
             roles(&sample)[0].locked,
@@ -123,7 +123,7 @@ mod tests {
             "the size of a tangent means nothing"
         );
         for pose in &mut sample.poses {
-            pose.tangents = vec![vec![0.0, 1.0, 0.0, -1.0]];
+            pose.tangents = vec![vec![0.0, 1.0, 0.0, -1.0].into()];
         }
         assert_eq!(roles(&sample)[0].locked_parts, ["r_a.trans"]);
     }

@@ -1,6 +1,6 @@
 //! Branches that can be written down, for the tests of what is read off their poses.
 
-use super::branch::BranchPose;
+use super::branch::{BranchPose, Tangent};
 use kutzbach_closure::Structure;
 use kutzbach_closure::samples::{Place, Written, planar, ring};
 use kutzbach_closure::{Arithmetic, Geometry};
@@ -29,7 +29,7 @@ impl Sample {
                     .zip(values)
                     .map(|(displacement, values)| displacement.at(&values))
                     .collect(),
-                tangents,
+                tangents: tangents.into_iter().map(Tangent::from).collect(),
             })
             .collect();
         Self {

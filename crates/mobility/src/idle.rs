@@ -20,11 +20,11 @@ use super::link_twists::LinkTwists;
 use super::one_sided::{OneSided, dot};
 use super::point_chains::{Bodies, Connection, Connections, heaviest_first};
 use super::relative_motion::link_twists;
-use super::tangent_space::TangentSpace;
+use super::tangent_space::{Blocks, TangentSpace};
 use kutzbach_closure::Geometry;
 use kutzbach_closure::Structure;
 use kutzbach_model::mechanism::Mechanism;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A vector is looked at more closely if at most a tenth of its length is outside the link's own joints.
 const NEARLY_ALL: f64 = 0.99;
@@ -105,18 +105,23 @@ fn moving_alone(
         let mut moving: Vec<Combinations> = Vec::with_capacity(clusters.len());
         for (freedom, cluster) in freedoms.iter_mut().zip(clusters) {
             let alone = match freedom {
-                0 => Vec::new(),
+                0 => Combinations::default(),
                 _ => idle_tangents(there, cluster, nearly).unwrap_or_default(),
             };
             // A chain moves as a whole where its bodies move one by one.
-            let singly = cluster.singles.iter().flat_map(|&single| &moving[single]);
-            let mut together: Combinations = singly.cloned().collect();
-            let more = if together.is_empty() {
-                alone.len()
+            let singles: Vec<&Combinations> = cluster
+                .singles
+                .iter()
+                .map(|&single| &moving[single])
+                .filter(|single| !single.weights.is_empty())
+                .collect();
+            let more = if singles.is_empty() {
+                alone.weights.len()
             } else {
-                let singly = together.len();
-                together.extend(alone.iter().cloned());
-                let rank = OneSided::of(together).and_then(|all| there.limits.rank(&all.values));
+                let singly = singles.iter().map(|single| single.weights.len()).sum();
+                let all = singles.into_iter().chain([&alone]);
+                let rank = OneSided::of(Combinations::together(all))
+                    .and_then(|all| there.limits.rank(&all.values));
                 rank.map_or(0, |rank| rank.saturating_sub(singly))
             };
             *freedom = more.min(*freedom);
@@ -127,37 +132,109 @@ fn moving_alone(
     (freedoms, all)
 }
 
-/// Vectors of weights of a basis of tangents.
-type Combinations = Vec<Vec<f64>>;
+/// Sums of some vectors of a basis of tangents.
+#[derive(Clone, Debug, Default)]
+struct Combinations {
+    /// Indices of the vectors, increasing.
+    vectors: Vec<usize>,
+    /// One weight for each of the vectors, sum by sum.
+    weights: Vec<Vec<f64>>,
+}
 
-/// The tangent spaces at the usable ones of some poses of a branch, each with an orthonormal basis of the idle motions in it, as
-/// combinations of the tangents.
+impl Combinations {
+    /// All weights of some combinations, over the vectors that any of them has.
+    fn together<'a>(of: impl Iterator<Item = &'a Self> + Clone) -> Vec<Vec<f64>> {
+        let vectors: BTreeSet<usize> = of.clone().flat_map(|one| &one.vectors).copied().collect();
+        let place: BTreeMap<usize, usize> = vectors
+            .into_iter()
+            .enumerate()
+            .map(|(at, vector)| (vector, at))
+            .collect();
+        of.flat_map(|one| one.weights.iter().map(move |weights| (one, weights)))
+            .map(|(one, weights)| {
+                let mut all = vec![0.0; place.len()];
+                for (vector, weight) in one.vectors.iter().zip(weights) {
+                    all[place[vector]] = *weight;
+                }
+                all
+            })
+            .collect()
+    }
+}
+
+/// A tangent space taken apart into what moves independently of everything else, idle motions heeded.
+pub(super) struct IdleSpace {
+    pub tangents: TangentSpace,
+    pub blocks: Blocks,
+    /// For every block an orthonormal basis of the idle motions in it: weights of its vectors.
+    pub idle: Vec<Vec<Vec<f64>>>,
+}
+
+impl IdleSpace {
+    /// A tangent space of which no motion counts as idle.
+    pub fn without_idle(tangents: TangentSpace) -> Self {
+        let blocks = tangents.blocks([]);
+        Self {
+            idle: vec![Vec::new(); blocks.vectors.len()],
+            blocks,
+            tangents,
+        }
+    }
+}
+
+/// The tangent spaces at the usable ones of some poses of a branch, with the idle motions in them.
 pub(super) fn idle_spaces(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
     structure: &Structure,
     poses: &[BranchPose],
-) -> Vec<(TangentSpace, Combinations)> {
+) -> Vec<IdleSpace> {
     let seen = link_twists(mechanism, geometry, structure, poses);
     let connections = Connections::of(mechanism, geometry, structure);
     let clusters = clusters(mechanism, structure, &connections);
     let (freedoms, moving) = moving_alone(&seen, &clusters, false);
-    let dimension = freedoms.iter().sum();
+    if seen.is_empty() {
+        return Vec::new();
+    }
+    let dimension: usize = freedoms.iter().sum();
     seen.into_iter()
         .zip(moving)
         .filter_map(|(there, moving)| {
-            let idle = moving.into_iter().zip(&freedoms);
-            let idle = idle
-                .filter(|(_, freedom)| **freedom > 0)
-                .flat_map(|(alone, _)| alone);
-            let found = OneSided::of(idle.collect())?;
-            // Poses that show more than others do are not generic.
-            if there.limits.rank(&found.values)? != dimension {
-                return None;
+            let idle: Vec<Combinations> = moving
+                .into_iter()
+                .zip(&freedoms)
+                .filter(|(alone, freedom)| **freedom > 0 && !alone.weights.is_empty())
+                .map(|(alone, _)| alone)
+                .collect();
+            let blocks = there
+                .tangents
+                .blocks(idle.iter().map(|alone| &alone.vectors[..]));
+            let mut of_blocks: Vec<Vec<Vec<f64>>> = vec![Vec::new(); blocks.vectors.len()];
+            for alone in &idle {
+                for weights in &alone.weights {
+                    let (block, _) = blocks.place[alone.vectors[0]];
+                    let mut own = vec![0.0; blocks.vectors[block].len()];
+                    for (vector, weight) in alone.vectors.iter().zip(weights) {
+                        own[blocks.place[*vector].1] = *weight;
+                    }
+                    of_blocks[block].push(own);
+                }
             }
-            let vectors = found.vectors.into_iter().zip(found.values).take(dimension);
-            let unit = vectors.map(|(vector, value)| vector.iter().map(|x| x / value).collect());
-            Some((there.tangents, unit.collect()))
+            let mut units = Vec::with_capacity(of_blocks.len());
+            for idle in of_blocks {
+                let found = OneSided::of(idle)?;
+                let rank = there.limits.rank(&found.values)?;
+                let vectors = found.vectors.into_iter().zip(found.values).take(rank);
+                let unit =
+                    vectors.map(|(vector, value)| vector.iter().map(|x| x / value).collect());
+                units.push(unit.collect());
+            }
+            // Poses that show more than others do are not generic.
+            (units.iter().map(Vec::len).sum::<usize>() == dimension).then_some(IdleSpace {
+                tangents: there.tangents,
+                blocks,
+                idle: units,
+            })
         })
         .collect()
 }
@@ -344,15 +421,17 @@ fn chains(connections: &Connections, ground: usize) -> Vec<(Vec<usize>, [usize; 
 /// The tangents that move a cluster alone, as orthonormal combinations of the basis, one for each of its freedoms; `None`
 /// where a margin is thin. `nearly`: others may move a little.
 fn idle_tangents(there: &LinkTwists, cluster: &Cluster, nearly: bool) -> Option<Combinations> {
-    let basis = &there.tangents.basis;
+    let tangents = &there.tangents;
     let own: Vec<usize> = cluster
         .own
         .iter()
-        .flat_map(|joint| there.tangents.variables(*joint))
+        .flat_map(|joint| tangents.variables(*joint))
         .collect();
+    // All others leave the cluster at rest.
+    let vectors = tangents.vectors_of(own.iter().copied());
     let rows = own
         .iter()
-        .map(|&variable| basis.iter().map(|vector| vector[variable]).collect());
+        .map(|&variable| tangents.components(variable, &vectors));
     let found = OneSided::of(rows.collect())?;
     // Combinations of the tangents that hardly move any other joint.
     let candidates: Vec<Vec<f64>> = found
@@ -363,23 +442,21 @@ fn idle_tangents(there: &LinkTwists, cluster: &Cluster, nearly: bool) -> Option<
         .map(|(vector, value)| vector.iter().map(|x| x / value).collect())
         .collect();
     if candidates.is_empty() {
-        return Some(Vec::new());
+        return Some(Combinations::default());
     }
-    let variables = basis.first().map_or(0, Vec::len);
-    let mut is_own = vec![false; variables];
-    own.iter().for_each(|&variable| is_own[variable] = true);
+    let is_own: BTreeSet<usize> = own.into_iter().collect();
+    let others: Vec<Vec<f64>> = tangents
+        .moved_with(&vectors)
+        .into_iter()
+        .filter(|variable| !is_own.contains(variable))
+        .map(|variable| tangents.components(variable, &vectors))
+        .collect();
     let others_move: Vec<Vec<f64>> = candidates
         .iter()
         .map(|candidate| {
-            let mut moves: Vec<f64> = (0..variables)
-                .filter(|variable| !is_own[*variable])
-                .map(|variable| {
-                    let row: Vec<f64> = basis.iter().map(|vector| vector[variable]).collect();
-                    dot(&row, candidate)
-                })
-                .collect();
+            let mut moves: Vec<f64> = others.iter().map(|row| dot(row, candidate)).collect();
             for (_, neighbour) in &cluster.neighbours {
-                moves.extend(there.along(*neighbour, candidate));
+                moves.extend(there.along(*neighbour, &vectors, candidate));
             }
             moves
         })
@@ -400,15 +477,14 @@ fn idle_tangents(there: &LinkTwists, cluster: &Cluster, nearly: bool) -> Option<
         .collect();
     let own_motion = alone
         .iter()
-        .map(|sum| there.along(cluster.link, sum).to_vec());
+        .map(|sum| there.along(cluster.link, &vectors, sum).to_vec());
     let own_motion = OneSided::of(own_motion.collect())?;
     let freedom = there.limits.rank(&own_motion.values)?;
-    Some(
-        own_motion.combinations[..freedom]
-            .iter()
-            .map(|combination| combined(&alone, combination))
-            .collect(),
-    )
+    let weights = own_motion.combinations[..freedom]
+        .iter()
+        .map(|combination| combined(&alone, combination))
+        .collect();
+    Some(Combinations { vectors, weights })
 }
 
 /// Σ weights[i] vectors[i]; nothing where there are no vectors.

@@ -66,7 +66,7 @@ mod whole_branches;
 pub use actuation::{Actuation, DependentInput, Follower, Freedom, actuation};
 pub use advice::{Advice, advice_for_part};
 pub use analysis::{Analysis, AnalysisError, AnalysisOptions, HomeFreedom, analyse};
-pub use branch::{Branch, BranchPose, IdleLink, RelativeMotion};
+pub use branch::{Branch, BranchPose, IdleLink, RelativeMotion, Tangent};
 pub use branch_facts::{BranchFacts, branch_facts};
 pub use branch_roles::branch_roles;
 pub use chart::{ChartOutcome, ChartTest, Kernel, chart_test};

@@ -57,50 +57,44 @@ pub fn limbs(
     let (base, trunk, pieces) = taken_apart(mechanism, &bodies)?;
     let pose = branch.poses.first()?;
     let tangents = TangentSpace::at(mechanism, geometry, structure, pose)?;
+    // The rank of some rows is the sum of those of sets that have no vector in common.
     let freedoms = |joints: &BTreeSet<usize>| -> Option<usize> {
-        let variables = joints.iter().flat_map(|&joint| tangents.variables(joint));
-        let rows: Vec<Vec<f64>> = variables
-            .map(|variable| {
-                tangents
-                    .basis
-                    .iter()
-                    .map(|vector| vector[variable])
-                    .collect()
-            })
-            .collect();
-        if rows.len() > MOST_VARIABLES {
-            return None;
+        let mut sets: BTreeMap<usize, Vec<Vec<f64>>> = BTreeMap::new();
+        for variable in joints.iter().flat_map(|&joint| tangents.variables(joint)) {
+            let row = tangents.row(variable);
+            if let Some(&set) = row.vectors.first() {
+                sets.entry(set).or_default().push(row.values().collect());
+            }
         }
-        tangents.limits.rank(&OneSided::of(rows)?.values)
+        let ranks = sets.into_values().map(|rows| {
+            if rows.len() > MOST_VARIABLES {
+                return None;
+            }
+            tangents.limits.rank(&OneSided::of(rows)?.values)
+        });
+        ranks.sum()
     };
+    let ends = Ends::of(mechanism, structure, &bodies, &intermediate, branch);
+    let mut idle_of = vec![0; bodies.links.len()];
+    for idle in &branch.idle {
+        idle_of[bodies.of[idle.link]] += idle.freedom;
+    }
     let mut found = Vec::new();
     for piece in &pieces {
         let joints = piece
             .iter()
             .flat_map(|&body| &bodies.joints[body])
             .map(|(joint, _)| *joint);
-        let idle = branch
-            .idle
-            .iter()
-            .filter(|idle| piece.contains(&bodies.of[idle.link]));
         found.push(Limb {
-            end: end_of(
-                mechanism,
-                structure,
-                &bodies,
-                &intermediate,
-                branch,
-                base,
-                piece,
-            ),
+            end: ends.of_piece(base, piece),
             freedom: freedoms(&joints.collect())?,
-            idle: idle.map(|idle| idle.freedom).sum(),
+            idle: piece.iter().map(|&body| idle_of[body]).sum(),
         });
     }
     found.sort_by_key(|limb| structure.graph.node_rank(limb.end));
     let trunk = freedoms(&trunk)?;
     let all = trunk + found.iter().map(|limb| limb.freedom).sum::<usize>();
-    (all == tangents.basis.len()).then_some(Limbs {
+    (all == tangents.dimension()).then_some(Limbs {
         base: main_link(mechanism, structure, &bodies.links[base]),
         trunk,
         limbs: found,
@@ -135,14 +129,14 @@ fn taken_apart(
     let mut passed = BTreeSet::from([base]);
     let mut trunk = BTreeSet::new();
     loop {
-        let pieces = pieces_beside(mechanism, bodies, &passed, base);
-        let [piece] = pieces.as_slice() else {
-            return (pieces.len() > 1).then_some((base, trunk, pieces));
-        };
         let mut ways = bodies.joints[base]
             .iter()
-            .filter(|(_, other)| piece.contains(other));
+            .filter(|(_, other)| !passed.contains(other));
         let &(joint, next) = ways.next()?;
+        if ways.clone().any(|(_, other)| *other != next) {
+            let pieces = pieces_beside(mechanism, bodies, &passed, base);
+            return (pieces.len() > 1).then_some((base, trunk, pieces));
+        }
         if ways.next().is_some() || coupled.contains(&joint) {
             return None;
         }
@@ -175,8 +169,9 @@ fn pieces_beside(
         }
     }
     let mut pieces: Vec<BTreeSet<usize>> = Vec::new();
+    let mut seen = passed.clone();
     for &(_, start) in &bodies.joints[base] {
-        if passed.contains(&start) || pieces.iter().any(|piece| piece.contains(&start)) {
+        if seen.contains(&start) {
             continue;
         }
         let mut piece = BTreeSet::from([start]);
@@ -189,57 +184,89 @@ fn pieces_beside(
                 }
             }
         }
+        seen.extend(&piece);
         pieces.push(piece);
     }
     pieces
 }
 
-/// The link that gives a limb its name.
-fn end_of(
-    mechanism: &Mechanism,
-    structure: &Structure,
-    bodies: &Bodies,
-    intermediate: &[bool],
-    branch: &Branch,
-    base: usize,
-    piece: &BTreeSet<usize>,
-) -> usize {
-    let idle: BTreeSet<usize> = branch
-        .idle
-        .iter()
-        .flat_map(|idle| idle.with.iter().chain([&idle.link]))
-        .map(|&link| bodies.of[link])
-        .collect();
-    let mut distance = BTreeMap::from([(base, 0usize)]);
-    let mut queue = VecDeque::from([base]);
-    while let Some(body) = queue.pop_front() {
-        let next = distance[&body] + 1;
-        for (_, other) in &bodies.joints[body] {
-            if piece.contains(other) && !distance.contains_key(other) {
-                distance.insert(*other, next);
-                queue.push_back(*other);
-            }
+/// What tells the link that gives a limb its name.
+struct Ends<'a> {
+    bodies: &'a Bodies,
+    intermediate: &'a [bool],
+    /// Whether a body moves idly.
+    idle: Vec<bool>,
+    /// How freely a body moves.
+    freedom: Vec<usize>,
+    /// The link that stands for a body, and its rank by name.
+    link: Vec<(usize, usize)>,
+}
+
+impl<'a> Ends<'a> {
+    fn of(
+        mechanism: &Mechanism,
+        structure: &Structure,
+        bodies: &'a Bodies,
+        intermediate: &'a [bool],
+        branch: &Branch,
+    ) -> Self {
+        let mut idle = vec![false; bodies.links.len()];
+        for link in branch
+            .idle
+            .iter()
+            .flat_map(|idle| idle.with.iter().chain([&idle.link]))
+        {
+            idle[bodies.of[*link]] = true;
+        }
+        let mut freedom = vec![0; bodies.links.len()];
+        for motion in &branch.motions {
+            let most = &mut freedom[bodies.of[motion.link]];
+            *most = motion.freedom.max(*most);
+        }
+        let links = bodies.links.iter().map(|links| {
+            let link = main_link(mechanism, structure, links);
+            (link, structure.graph.node_rank(link))
+        });
+        Self {
+            bodies,
+            intermediate,
+            idle,
+            freedom,
+            link: links.collect(),
         }
     }
-    let freedom = |body: usize| -> usize {
-        let own = branch
-            .motions
-            .iter()
-            .filter(|motion| bodies.of[motion.link] == body);
-        own.map(|motion| motion.freedom).max().unwrap_or(0)
-    };
-    let link = |&body: &usize| main_link(mechanism, structure, &bodies.links[body]);
-    let rank = |body: &usize| structure.graph.node_rank(link(body));
-    let away = |body: &usize| distance.get(body).copied().unwrap_or(0);
-    let bodily = |body: &&usize| !idle.contains(body) && !intermediate[**body];
-    let farthest = piece.iter().filter(bodily).max_by(|a, b| {
-        freedom(**a)
-            .cmp(&freedom(**b))
-            .then_with(|| bodies.mass[**a].total_cmp(&bodies.mass[**b]))
-            .then_with(|| away(a).cmp(&away(b)))
-            .then_with(|| rank(b).cmp(&rank(a)))
-    });
-    farthest.or(piece.first()).map_or(0, link)
+
+    fn of_piece(&self, base: usize, piece: &BTreeSet<usize>) -> usize {
+        // From the base's neighbours, since of all the joints of the base few lead here.
+        let beside = |body: &usize| {
+            self.bodies.joints[*body]
+                .iter()
+                .any(|(_, other)| *other == base)
+        };
+        let mut queue: VecDeque<usize> = piece.iter().copied().filter(beside).collect();
+        let mut distance: BTreeMap<usize, usize> = queue.iter().map(|&body| (body, 1)).collect();
+        while let Some(body) = queue.pop_front() {
+            let next = distance[&body] + 1;
+            for (_, other) in &self.bodies.joints[body] {
+                if piece.contains(other) && !distance.contains_key(other) {
+                    distance.insert(*other, next);
+                    queue.push_back(*other);
+                }
+            }
+        }
+        let away = |body: &usize| distance.get(body).copied().unwrap_or(0);
+        let bodily = |body: &&usize| !self.idle[**body] && !self.intermediate[**body];
+        let farthest = piece.iter().filter(bodily).max_by(|a, b| {
+            self.freedom[**a]
+                .cmp(&self.freedom[**b])
+                .then_with(|| self.bodies.mass[**a].total_cmp(&self.bodies.mass[**b]))
+                .then_with(|| away(a).cmp(&away(b)))
+                .then_with(|| self.link[**b].1.cmp(&self.link[**a].1))
+        });
+        farthest
+            .or(piece.first())
+            .map_or(0, |&body| self.link[body].0)
+    }
 }
 
 /// The heaviest link of a body, or the first by name.

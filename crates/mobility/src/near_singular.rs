@@ -12,7 +12,7 @@
 //! a long part has unknowns: of parts with more than [`FOLLOWED_UNKNOWNS`], where length alone makes a singular value small,
 //! no other pose is looked at.
 
-use super::branch::{Branch, BranchPose};
+use super::branch::{Branch, BranchPose, Tangent};
 use super::pose_rank::PartRank;
 use super::roles::NULL_VECTORS;
 use super::tangent_space::TangentSpace;
@@ -191,23 +191,20 @@ pub fn pose_of_branch(
             return None;
         }
         for vector in &null.vectors {
-            let mut whole = vec![0.0; count];
-            for (column, (&(joint, variable), x)) in
-                rank.jacobian.variables.iter().zip(vector).enumerate()
-            {
+            let columns = rank.jacobian.variables.iter().zip(vector).enumerate();
+            let rates = columns.map(|(column, (&(joint, variable), x))| {
                 let scale = rank.column_scales[column];
                 // A column of zeros is a variable that moves nothing else: its own null vector is as long as one likes.
                 let scale = if scale > 0.0 { scale } else { 1.0 };
-                whole[first[joint] + variable] = x / scale * rank.jacobian.unit(mechanism, column);
-            }
-            tangents.push(whole);
+                let rate = x / scale * rank.jacobian.unit(mechanism, column);
+                (first[joint] + variable, rate)
+            });
+            tangents.push(Tangent::new(count, rates));
         }
     }
     for &joint in &structure.free_joints {
         for variable in first[joint]..first[joint + 1] {
-            let mut whole = vec![0.0; count];
-            whole[variable] = 1.0;
-            tangents.push(whole);
+            tangents.push(Tangent::new(count, [(variable, 1.0)]));
         }
     }
     let held = branch.dimension.checked_sub(6 * structure.loose_pieces)?;

@@ -9,7 +9,8 @@
 //!
 //! Poses stand for the branch: they must be generic and a finite way apart, as those of [`super::Branch`] are.
 //!
-//! Cost: linear in links × tangents, and a decomposition of six rows for every pair of links and pose.
+//! Cost: a decomposition of six rows for every pair of links and pose, as long as there are tangents that move the links. Seen from
+//! the ground those that move nothing else any more are merged on the way outwards, so that a chain costs no more than its length.
 
 use super::branch::{BranchPose, RelativeMotion};
 use super::link_twists::{LinkTwists, coordinates};
@@ -48,15 +49,10 @@ pub fn motions_to_ground(
     structure: &Structure,
     poses: &[BranchPose],
 ) -> Vec<RelativeMotion> {
-    relative_motions(mechanism, geometry, structure, poses, &to_ground(mechanism))
-}
-
-pub(super) fn to_ground(mechanism: &Mechanism) -> Vec<(usize, usize)> {
-    let ground = mechanism.ground().0;
-    (0..mechanism.links().len())
-        .filter(|link| *link != ground)
-        .map(|link| (link, ground))
-        .collect()
+    motions_seen_from_ground(
+        mechanism,
+        &link_twists(mechanism, geometry, structure, poses),
+    )
 }
 
 /// The twists of all links at every usable pose.
@@ -73,14 +69,48 @@ pub(super) fn link_twists(
 }
 
 pub(super) fn motions_seen(seen: &[LinkTwists], pairs: &[(usize, usize)]) -> Vec<RelativeMotion> {
-    pairs
-        .iter()
-        .filter_map(|&(link, relative_to)| motion(seen, link, relative_to))
+    let found = pairs.iter().filter_map(|&(link, relative_to)| {
+        let first = seen.first()?;
+        // One point of the other's frame for all poses, near the mechanism.
+        let point = first.centre_in(relative_to);
+        let spans = seen.iter().filter_map(|there| {
+            let twists = there.relative(link, relative_to, &point);
+            Span::of(&twists, first.length, &there.limits)
+        });
+        motion(first, link, relative_to, &spans.collect::<Vec<_>>())
+    });
+    found.collect()
+}
+
+/// Motions of all links but the ground relative to the ground, by link index.
+pub(super) fn motions_seen_from_ground(
+    mechanism: &Mechanism,
+    seen: &[LinkTwists],
+) -> Vec<RelativeMotion> {
+    let Some(first) = seen.first() else {
+        return Vec::new();
+    };
+    let ground = mechanism.ground().0;
+    let point = first.centre_in(ground);
+    let mut spans: Vec<Vec<Span>> = mechanism.links().iter().map(|_| Vec::new()).collect();
+    for there in seen {
+        there.each_link(|link, columns| {
+            let twists = there.seen_from(ground, &point, columns);
+            spans[link].extend(Span::of(&twists, first.length, &there.limits));
+        });
+    }
+    let links = (0..spans.len()).filter(|link| *link != ground);
+    links
+        .filter_map(|link| motion(first, link, ground, &spans[link]))
         .collect()
 }
 
-fn motion(seen: &[LinkTwists], link: usize, relative_to: usize) -> Option<RelativeMotion> {
-    let first = seen.first()?;
+fn motion(
+    first: &LinkTwists,
+    link: usize,
+    relative_to: usize,
+    spans: &[Span],
+) -> Option<RelativeMotion> {
     let found = |freedom, rotations, class| {
         Some(RelativeMotion {
             link,
@@ -94,15 +124,6 @@ fn motion(seen: &[LinkTwists], link: usize, relative_to: usize) -> Option<Relati
     if !first.connected(link, relative_to) {
         return found(6, 3, Some(DisplacementSubgroup::General));
     }
-    // One point of the other's frame for all poses, near the mechanism.
-    let point = first.centre_in(relative_to);
-    let spans: Vec<Span> = seen
-        .iter()
-        .filter_map(|there| {
-            let twists = there.relative(link, relative_to, &point);
-            Span::of(&twists, first.length, &there.limits)
-        })
-        .collect();
     let freedom = spans.iter().map(|span| span.basis.len()).max()?;
     let rotations = spans
         .iter()
@@ -112,7 +133,7 @@ fn motion(seen: &[LinkTwists], link: usize, relative_to: usize) -> Option<Relati
     let class = match freedom {
         0 => Some(DisplacementSubgroup::Identity),
         6 => Some(DisplacementSubgroup::General),
-        _ => subgroup(&spans, freedom, first.length, &point)
+        _ => subgroup(spans, freedom, first.length, &first.centre_in(relative_to))
             .ok()
             .flatten(),
     };
@@ -249,6 +270,7 @@ fn tidied(subgroup: DisplacementSubgroup, error: f64, length: f64) -> Displaceme
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
+    use super::super::branch::Tangent;
     use super::super::branch_samples::Sample;
     use super::*;
     use kutzbach_math::number::Number;
@@ -307,10 +329,10 @@ mod tests {
     #[test]
     fn poses_of_another_mechanism_are_not_used() {
         let mut sample = Sample::parallelogram();
-        sample.poses[0].tangents[0].pop();
+        sample.poses[0].tangents[0] = vec![3.0, -3.0, 3.0].into();
         sample.poses[1].states.pop();
         assert_eq!(sample.words("r1", "ground"), "10 -");
-        sample.poses[2].tangents[0][1] = f64::NAN;
+        sample.poses[2].tangents[0] = vec![3.0, f64::NAN, 3.0, -3.0].into();
         assert!(sample.motion("r1", "ground").is_none());
     }
 
@@ -319,8 +341,8 @@ mod tests {
         let mut sample = Sample::sleeve();
         assert_eq!(sample.words("r1", "ground"), "11 C");
         for tangents in sample.poses.iter_mut().map(|pose| &mut pose.tangents) {
-            let repeated = tangents[1].iter().map(|x| 1e-200 * x).collect();
-            tangents.push(repeated);
+            let rates = tangents[1].entries().iter().map(|(v, x)| (*v, 1e-200 * x));
+            tangents.push(Tangent::new(4, rates));
         }
         assert_eq!(sample.words("r1", "ground"), "11 C");
     }
@@ -365,7 +387,7 @@ mod tests {
         // One hinge moves by half as much again: the cycle does not close along that.
         let mut sample = Sample::parallelogram();
         for pose in &mut sample.poses {
-            pose.tangents[0][1] *= 1.5;
+            pose.tangents[0] = vec![3.0, -4.5, 3.0, -3.0].into();
         }
         assert!(sample.motion("r2", "ground").is_none());
     }

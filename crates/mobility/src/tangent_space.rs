@@ -12,15 +12,16 @@
 //! have a double zero: a residual of ε leaves the pose itself uncertain by √ε, its screws too, and a tangent by √ε/σ, where
 //! singular values up to √ε count as zero.
 //!
-//! Cost: one rank decision for every part and, for `d` tangents with `n` components each, `n d²` operations.
+//! Cost: one rank decision for every part and, for `d` tangents of a part with `n` components each, `n d²` operations.
 
-use super::branch::BranchPose;
+use super::branch::{BranchPose, Tangent};
 use super::one_sided::{dot, norm};
 use super::pose_rank::known_to;
 use kutzbach_closure::Structure;
 use kutzbach_closure::{Geometry, Part, jacobian};
 use kutzbach_math::matrix::{MatrixError, Real, SparseMatrix, decide};
 use kutzbach_model::mechanism::{FreedomPart, Mechanism};
+use petgraph::unionfind::UnionFind;
 
 /// What counts as rest and what as motion among numbers that come from unit tangents.
 ///
@@ -74,11 +75,20 @@ impl Limits {
     }
 }
 
+/// Tangent spaces whose bases take more operations than this are not worked out.
+const MOST_WORK: usize = 2_000_000_000;
+
 /// An orthonormal basis of the tangent space, rotations in radians and translations in lengths of their part.
+///
+/// Tangents that have no variable in common are orthogonal as they are: the basis is made of groups, one for every part that
+/// moves and every free joint at least, and nothing is stored or computed across groups.
 #[derive(Clone, Debug)]
 pub(super) struct TangentSpace {
-    /// The basis, one component per variable of the mechanism.
-    pub basis: Vec<Vec<f64>>,
+    groups: Vec<Group>,
+    /// Group and place therein of every variable that moves.
+    place: Vec<Option<(usize, usize)>>,
+    /// Group and place therein of every basis vector.
+    home: Vec<(usize, usize)>,
     /// Limits for what comes from all components together.
     pub limits: Limits,
     /// First variable of every joint, and the number of all.
@@ -88,8 +98,35 @@ pub(super) struct TangentSpace {
     joint_limits: Vec<Limits>,
 }
 
+/// Basis vectors that have variables in common.
+#[derive(Clone, Debug)]
+struct Group {
+    /// The variables that these vectors move, increasing.
+    variables: Vec<usize>,
+    /// Indices of the vectors, increasing.
+    vectors: Vec<usize>,
+    /// The vectors, one component for each of the variables.
+    basis: Vec<Vec<f64>>,
+}
+
+/// The components of one variable along the vectors of its group; all others are zero.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row<'a> {
+    /// Indices of the vectors, increasing.
+    pub vectors: &'a [usize],
+    group: Option<(&'a Group, usize)>,
+}
+
+impl Row<'_> {
+    /// One component for each of the vectors.
+    pub fn values(&self) -> impl Iterator<Item = f64> {
+        let columns = self.group.into_iter();
+        columns.flat_map(|(group, at)| group.basis.iter().map(move |vector| vector[at]))
+    }
+}
+
 impl TangentSpace {
-    /// `None` where numbers leave their range or the pose belongs to another mechanism.
+    /// `None` where numbers leave their range, the pose belongs to another mechanism, or the work would be too much.
     ///
     /// Joints in no loop and no coupling move on every branch: where the tangents leave such a freedom out it is added.
     pub fn at(
@@ -98,14 +135,9 @@ impl TangentSpace {
         structure: &Structure,
         pose: &BranchPose,
     ) -> Option<Self> {
-        let mut first = Vec::with_capacity(mechanism.joints().len() + 1);
-        let mut count = 0;
-        for joint in mechanism.joints() {
-            first.push(count);
-            count += joint.freedom();
-        }
-        first.push(count);
-        if pose.tangents.iter().any(|tangent| tangent.len() != count) {
+        let first = mechanism.variable_offsets();
+        let count = mechanism.freedom();
+        if pose.tangents.iter().any(|t| t.variables() != count) {
             return None;
         }
         let mut units = vec![1.0; count];
@@ -122,27 +154,23 @@ impl TangentSpace {
             1.0
         };
         set_units(mechanism, &structure.free_joints, size, &first, &mut units);
-        let mut vectors: Vec<Vec<f64>> = pose
-            .tangents
-            .iter()
-            .map(|tangent| {
-                tangent
-                    .iter()
-                    .zip(&units)
-                    .map(|(x, unit)| x / unit)
-                    .collect()
-            })
-            .collect();
+        let mut tangents = pose.tangents.clone();
+        let mut moved = vec![false; count];
+        for (variable, _) in tangents.iter().flat_map(Tangent::entries) {
+            moved[*variable] = true;
+        }
         for &joint in &structure.free_joints {
-            for variable in first[joint]..first[joint + 1] {
-                if vectors.iter().all(|vector| vector[variable] == 0.0) {
-                    let mut alone = vec![0.0; count];
-                    alone[variable] = 1.0;
-                    vectors.push(alone);
-                }
+            let left_out = (first[joint]..first[joint + 1]).filter(|&variable| !moved[variable]);
+            tangents.extend(left_out.map(|v| Tangent::new(count, [(v, units[v])])));
+        }
+        let (groups, place) = grouped(&tangents, &units)?;
+        let dimension = groups.iter().map(|group| group.vectors.len()).sum();
+        let mut home = vec![(0, 0); dimension];
+        for (index, group) in groups.iter().enumerate() {
+            for (at, &vector) in group.vectors.iter().enumerate() {
+                home[vector] = (index, at);
             }
         }
-        let basis = orthonormalised(vectors)?;
         let free: usize = structure
             .free_joints
             .iter()
@@ -155,26 +183,44 @@ impl TangentSpace {
                 .sum::<Option<usize>>()
                 .map(|sum| sum + free)
         };
-        let whole_kernel = freedom(|part| &part.simple) == Some(basis.len())
-            && freedom(|part| &part.multiple).is_none_or(|freedom| freedom == basis.len());
+        let whole_kernel = freedom(|part| &part.simple) == Some(dimension)
+            && freedom(|part| &part.multiple).is_none_or(|freedom| freedom == dimension);
         let own = |length| Limits::new(8.0 * f64::EPSILON, length);
-        let mut joint_limits = vec![own(1); mechanism.joints().len()];
-        let mut worst: f64 = 8.0 * f64::EPSILON;
-        for (part, equations) in structure.parts.iter().zip(&equations) {
-            let error = equations.tangent_error(&part.joints, &first, &basis, whole_kernel)?;
-            worst = worst.max(error);
-            let variables = part.joints.iter().map(|&j| first[j + 1] - first[j]).sum();
-            for &joint in &part.joints {
-                joint_limits[joint] = Limits::new(error, variables);
-            }
-        }
-        Some(Self {
-            basis,
-            limits: Limits::new(worst, count),
+        let mut found = Self {
+            groups,
+            place,
+            home,
+            limits: own(count),
+            joint_limits: vec![own(1); mechanism.joints().len()],
             first,
             units,
-            joint_limits,
-        })
+        };
+        for (part, equations) in structure.parts.iter().zip(&equations) {
+            let variables: Vec<usize> = part
+                .joints
+                .iter()
+                .flat_map(|&joint| found.variables(joint))
+                .collect();
+            let error = equations.tangent_error(&found, &variables, whole_kernel)?;
+            // Written so that an error that is not a number stays one.
+            if !(error <= found.limits.error) {
+                found.limits = Limits::new(error, count);
+            }
+            for &joint in &part.joints {
+                found.joint_limits[joint] = Limits::new(error, variables.len());
+            }
+        }
+        Some(found)
+    }
+
+    /// Number of basis vectors.
+    pub fn dimension(&self) -> usize {
+        self.home.len()
+    }
+
+    /// Number of variables of the mechanism.
+    pub fn length(&self) -> usize {
+        self.place.len()
     }
 
     /// The variables of a joint.
@@ -187,16 +233,117 @@ impl TangentSpace {
         self.joint_limits[joint]
     }
 
+    /// How a variable moves along the basis.
+    pub fn row(&self, variable: usize) -> Row<'_> {
+        match self.place[variable] {
+            None => Row {
+                vectors: &[],
+                group: None,
+            },
+            Some((group, at)) => {
+                let group = &self.groups[group];
+                Row {
+                    vectors: &group.vectors,
+                    group: Some((group, at)),
+                }
+            }
+        }
+    }
+
     /// Rate of a variable (rad or m) along a basis vector.
     pub fn rate(&self, vector: usize, variable: usize) -> f64 {
-        self.basis[vector][variable] * self.units[variable]
+        self.component(vector, variable) * self.units[variable]
+    }
+
+    /// The component of a basis vector along a variable.
+    fn component(&self, vector: usize, variable: usize) -> f64 {
+        let (group, index) = self.home[vector];
+        match self.place[variable] {
+            Some((own, at)) if own == group => self.groups[group].basis[index][at],
+            _ => 0.0,
+        }
     }
 
     /// How much a variable moves in all of the tangent space: the length of its row in the basis, whichever basis it is.
     pub fn magnitude(&self, variable: usize) -> f64 {
-        let row: Vec<f64> = self.basis.iter().map(|vector| vector[variable]).collect();
+        let row: Vec<f64> = self.row(variable).values().collect();
         norm(&row)
     }
+
+    /// The variables that move along any vector of the groups of some vectors.
+    pub fn moved_with(&self, vectors: &[usize]) -> Vec<usize> {
+        let mut groups: Vec<usize> = vectors.iter().map(|&vector| self.home[vector].0).collect();
+        groups.sort_unstable();
+        groups.dedup();
+        let variables = groups
+            .iter()
+            .flat_map(|&group| &self.groups[group].variables);
+        let mut variables: Vec<usize> = variables.copied().collect();
+        variables.sort_unstable();
+        variables
+    }
+
+    /// The basis vectors that move any of some variables, or share variables with one that does, increasing.
+    pub fn vectors_of(&self, variables: impl IntoIterator<Item = usize>) -> Vec<usize> {
+        let places = variables
+            .into_iter()
+            .filter_map(|variable| self.place[variable]);
+        let mut groups: Vec<usize> = places.map(|(group, _)| group).collect();
+        groups.sort_unstable();
+        groups.dedup();
+        let vectors = groups.iter().flat_map(|&group| &self.groups[group].vectors);
+        let mut vectors: Vec<usize> = vectors.copied().collect();
+        vectors.sort_unstable();
+        vectors
+    }
+
+    /// The components of a variable along some vectors, those of its group among them.
+    pub fn components(&self, variable: usize, vectors: &[usize]) -> Vec<f64> {
+        let mut components = vec![0.0; vectors.len()];
+        let row = self.row(variable);
+        for (vector, value) in row.vectors.iter().zip(row.values()) {
+            if let Ok(at) = vectors.binary_search(vector) {
+                components[at] = value;
+            }
+        }
+        components
+    }
+
+    /// The finest sets of vectors that no variable and none of the `ties` reaches across: each increasing, and the set of every vector
+    /// with its place therein.
+    pub fn blocks<'a>(&self, ties: impl IntoIterator<Item = &'a [usize]>) -> Blocks {
+        let mut joined = UnionFind::<usize>::new(self.groups.len());
+        for tie in ties {
+            for vector in tie {
+                joined.union(self.home[tie[0]].0, self.home[*vector].0);
+            }
+        }
+        let mut named = vec![usize::MAX; self.groups.len()];
+        let mut blocks = Blocks {
+            vectors: Vec::new(),
+            place: Vec::with_capacity(self.dimension()),
+        };
+        for (vector, (group, _)) in self.home.iter().enumerate() {
+            let name = &mut named[joined.find(*group)];
+            if *name == usize::MAX {
+                *name = blocks.vectors.len();
+                blocks.vectors.push(Vec::new());
+            }
+            let block = &mut blocks.vectors[*name];
+            blocks.place.push((*name, block.len()));
+            block.push(vector);
+        }
+        blocks
+    }
+}
+
+/// Basis vectors in sets that have nothing to do with one another.
+#[derive(Clone, Debug)]
+pub(super) struct Blocks {
+    /// The vectors of every set, increasing.
+    pub vectors: Vec<Vec<usize>>,
+    /// Set and place therein of every vector.
+    pub place: Vec<(usize, usize)>,
 }
 
 fn set_units(
@@ -270,20 +417,18 @@ impl PartEquations {
         })
     }
 
-    /// The error of unit tangents in the components of this part.
+    /// The error of unit tangents in the components of this part, whose variables are given in the order of its columns.
     fn tangent_error(
         &self,
-        joints: &[usize],
-        first: &[usize],
-        basis: &[Vec<f64>],
+        tangents: &TangentSpace,
+        variables: &[usize],
         whole_kernel: bool,
     ) -> Option<f64> {
         let mut left: f64 = 0.0;
-        for vector in basis {
-            let own: Vec<f64> = joints
+        for vector in tangents.vectors_of(variables.iter().copied()) {
+            let own: Vec<f64> = variables
                 .iter()
-                .flat_map(|&joint| &vector[first[joint]..first[joint + 1]])
-                .copied()
+                .map(|&variable| tangents.component(vector, variable))
                 .collect();
             left = left.max(norm(&self.matrix.multiply(&own).ok()?));
         }
@@ -296,11 +441,82 @@ impl PartEquations {
     }
 }
 
-/// Gram–Schmidt, each vector twice (Giraud, Langou & Rozložník 2005); what is left of a dependent vector is dropped.
-/// `None` where numbers are not finite.
-fn orthonormalised(vectors: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
-    let mut basis: Vec<Vec<f64>> = Vec::with_capacity(vectors.len());
-    for mut vector in vectors {
+/// An orthonormal basis of the span of some tangents, in units of every variable: its groups, and group and place therein of every
+/// variable. `None` where numbers are not finite, or the work would be too much.
+fn grouped(
+    tangents: &[Tangent],
+    units: &[f64],
+) -> Option<(Vec<Group>, Vec<Option<(usize, usize)>>)> {
+    let mut joined = UnionFind::<usize>::new(units.len());
+    for tangent in tangents {
+        for pair in tangent.entries().windows(2) {
+            joined.union(pair[0].0, pair[1].0);
+        }
+    }
+    // Groups in the order of their first tangents, with the indices of these.
+    let mut group_of = vec![usize::MAX; units.len()];
+    let mut members: Vec<Vec<usize>> = Vec::new();
+    for (index, tangent) in tangents.iter().enumerate() {
+        let Some((variable, _)) = tangent.entries().first() else {
+            continue;
+        };
+        let group = &mut group_of[joined.find(*variable)];
+        if *group == usize::MAX {
+            *group = members.len();
+            members.push(Vec::new());
+        }
+        members[*group].push(index);
+    }
+    let mut variables = vec![Vec::new(); members.len()];
+    let mut place = vec![None; units.len()];
+    for (variable, place) in place.iter_mut().enumerate() {
+        let group = group_of[joined.find(variable)];
+        if let Some(own) = variables.get_mut(group) {
+            *place = Some((group, own.len()));
+            own.push(variable);
+        }
+    }
+    let work = members
+        .iter()
+        .zip(&variables)
+        .map(|(members, own)| own.len().saturating_mul(members.len() * members.len()));
+    if work.fold(0, usize::saturating_add) > MOST_WORK {
+        return None;
+    }
+    // The vectors are counted in the order of the tangents that they come from.
+    let mut came_from = Vec::new();
+    let mut groups = Vec::with_capacity(members.len());
+    for (group, (members, variables)) in members.into_iter().zip(variables).enumerate() {
+        let vectors = members.iter().map(|&index| {
+            let mut vector = vec![0.0; variables.len()];
+            for &(variable, rate) in tangents[index].entries() {
+                if let Some((_, at)) = place[variable] {
+                    vector[at] = rate / units[variable];
+                }
+            }
+            vector
+        });
+        let (kept, basis): (Vec<usize>, _) =
+            orthonormalised(vectors.collect())?.into_iter().unzip();
+        came_from.extend(kept.iter().map(|&kept| (members[kept], group)));
+        groups.push(Group {
+            variables,
+            vectors: Vec::with_capacity(kept.len()),
+            basis,
+        });
+    }
+    came_from.sort_unstable();
+    for (vector, (_, group)) in came_from.into_iter().enumerate() {
+        groups[group].vectors.push(vector);
+    }
+    Some((groups, place))
+}
+
+/// Gram–Schmidt, each vector twice (Giraud, Langou & Rozložník 2005); what is left of a dependent vector is dropped. The vectors
+/// kept are given with their indices; `None` where numbers are not finite.
+fn orthonormalised(vectors: Vec<Vec<f64>>) -> Option<Vec<(usize, Vec<f64>)>> {
+    let mut basis: Vec<(usize, Vec<f64>)> = Vec::with_capacity(vectors.len());
+    for (index, mut vector) in vectors.into_iter().enumerate() {
         let largest = vector.iter().fold(0.0f64, |m, x| m.max(x.abs()));
         if !vector.iter().all(|x| x.is_finite()) {
             return None;
@@ -311,7 +527,7 @@ fn orthonormalised(vectors: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
         vector.iter_mut().for_each(|x| *x /= largest);
         let before = norm(&vector);
         for _ in 0..2 {
-            for done in &basis {
+            for (_, done) in &basis {
                 let along = dot(done, &vector);
                 if along != 0.0 {
                     vector
@@ -325,7 +541,7 @@ fn orthonormalised(vectors: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
         // Half of the digits have to survive for the rest to be a direction.
         if left > 1e-8 * before {
             vector.iter_mut().for_each(|x| *x /= left);
-            basis.push(vector);
+            basis.push((index, vector));
         }
     }
     Some(basis)
@@ -368,8 +584,9 @@ mod tests {
         ])
         .unwrap();
         assert_eq!(basis.len(), 2);
-        assert!(dot(&basis[0], &basis[1]).abs() < 1e-15);
-        assert!((norm(&basis[1]) - 1.0).abs() < 1e-15);
+        assert_eq!((basis[0].0, basis[1].0), (0, 3));
+        assert!(dot(&basis[0].1, &basis[1].1).abs() < 1e-15);
+        assert!((norm(&basis[1].1) - 1.0).abs() < 1e-15);
         assert!(orthonormalised(vec![vec![f64::INFINITY, 1.0]]).is_none());
     }
 }

@@ -1,6 +1,6 @@
 //! The branches of the whole mechanism: one branch of every part, and everything else free.
 
-use super::branch::{Branch, BranchPose};
+use super::branch::{Branch, BranchPose, Tangent};
 use super::branch_facts::branch_facts;
 use super::part_mobility::{PartBranch, PartFinding};
 use kutzbach_closure::Structure;
@@ -11,7 +11,7 @@ use kutzbach_model::mechanism::Mechanism;
 /// More combinations than this are not listed one by one.
 const MOST_BRANCHES: usize = 256;
 
-/// Tangents are kept as full vectors as long as they need no more than this many numbers.
+/// Tangents are kept as long as they need no more than this many numbers.
 const MOST_NUMBERS: usize = 20_000_000;
 
 /// Free joints are turned by up to this much (rad or m) from the pose, each time anew, so that no pose of theirs is special.
@@ -78,7 +78,7 @@ pub(super) fn whole_branches(
                 })
                 .sum::<Option<usize>>()
                 .map(|i| i + base);
-            let poses = whole_poses(mechanism, geometry, structure, states, chosen, base);
+            let poses = whole_poses(mechanism, geometry, structure, states, chosen);
             let facts = branch_facts(mechanism, geometry, structure, &poses);
             Some(Branch {
                 name: String::new(),
@@ -128,22 +128,12 @@ fn whole_poses(
     structure: &Structure,
     states: &[JointState<f64>],
     chosen: &[Option<&PartBranch>],
-    base: usize,
 ) -> Vec<BranchPose> {
-    let mut first_variable = Vec::with_capacity(mechanism.joints().len());
-    let mut variables = 0;
-    for joint in mechanism.joints() {
-        first_variable.push(variables);
-        variables += joint.freedom();
-    }
-    let tangents: usize = base
-        + chosen
-            .iter()
-            .flatten()
-            .filter_map(|b| b.poses.first())
-            .map(|p| p.tangents.len())
-            .sum::<usize>();
-    if tangents.saturating_mul(variables) > MOST_NUMBERS {
+    let first_variable = mechanism.variable_offsets();
+    let variables = mechanism.freedom();
+    let numbers = chosen.iter().flatten().filter_map(|b| b.poses.first());
+    let numbers = numbers.flat_map(|pose| &pose.tangents).map(Vec::len);
+    if numbers.fold(0, usize::saturating_add) > MOST_NUMBERS {
         return Vec::new();
     }
     // As many as the part has that was followed farthest; the others repeat theirs. Free joints alone are drawn three times.
@@ -170,15 +160,12 @@ fn whole_poses(
                     pose.states[joint] = state.clone();
                 }
                 for tangent in &own.tangents {
-                    let mut whole = vec![0.0; variables];
-                    let mut next = tangent.iter();
-                    for &joint in &part.joints {
-                        let first = first_variable[joint];
-                        for slot in &mut whole[first..first + mechanism.joints()[joint].freedom()] {
-                            *slot = next.next().copied().unwrap_or(0.0);
-                        }
-                    }
-                    pose.tangents.push(whole);
+                    let own = part
+                        .joints
+                        .iter()
+                        .flat_map(|&joint| first_variable[joint]..first_variable[joint + 1]);
+                    let rates = own.zip(tangent.iter().copied());
+                    pose.tangents.push(Tangent::new(variables, rates));
                 }
             }
             for &joint in &structure.free_joints {
@@ -190,9 +177,8 @@ fn whole_poses(
                 let displacement = &geometry.displacements[joint];
                 displacement.advance(&mut pose.states[joint], &way[freedom * index..]);
                 for variable in 0..freedom {
-                    let mut whole = vec![0.0; variables];
-                    whole[first_variable[joint] + variable] = 1.0;
-                    pose.tangents.push(whole);
+                    let alone = [(first_variable[joint] + variable, 1.0)];
+                    pose.tangents.push(Tangent::new(variables, alone));
                 }
             }
             pose
@@ -270,13 +256,12 @@ mod tests {
                 assert_eq!(pose.tangents.len(), 2);
                 // Each tangent moves one ring only.
                 for tangent in &pose.tangents {
-                    assert_eq!(tangent.len(), 8);
-                    let moving: Vec<bool> = mechanism
-                        .joints()
+                    assert_eq!(tangent.variables(), 8);
+                    // Every joint has one variable.
+                    let moving: Vec<bool> = tangent
+                        .entries()
                         .iter()
-                        .zip(tangent)
-                        .filter(|(_, rate)| **rate != 0.0)
-                        .map(|(joint, _)| joint.name.starts_with("ring_0"))
+                        .map(|(joint, _)| mechanism.joints()[*joint].name.starts_with("ring_0"))
                         .collect();
                     assert!(!moving.is_empty() && moving.iter().all(|m| *m == moving[0]));
                 }

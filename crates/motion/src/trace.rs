@@ -14,7 +14,7 @@ use super::singular::Singular;
 use super::system::SystemPose;
 use super::wishes::{Wishes, read_wishes};
 use kutzbach_closure::{Arithmetic, Geometry, Part};
-use kutzbach_mobility::{Analysis, Branch, Verdict};
+use kutzbach_mobility::{Analysis, Branch, Tangent, Verdict};
 use kutzbach_model::mechanism::Mechanism;
 
 /// Poses of a mechanism written exactly are closed to this (rad, cycle lengths).
@@ -132,12 +132,9 @@ impl<'a> Tracer<'a> {
             .and_then(|name| mechanism.configuration(name));
         let geometry = Geometry::new(mechanism, configuration, &Arithmetic::double());
         let offsets = mechanism.variable_offsets();
-        let moves = |part: &Part, tangent: &[f64]| {
-            part.joints.iter().any(|&j| {
-                tangent[offsets[j]..offsets[j + 1]]
-                    .iter()
-                    .any(|x| *x != 0.0)
-            })
+        let moves = |part: &Part, tangent: &Tangent| {
+            let mut variables = part.joints.iter().flat_map(|&j| offsets[j]..offsets[j + 1]);
+            variables.any(|variable| tangent[variable] != 0.0)
         };
         let mut stages: Vec<Stage> = Vec::new();
         for (index, part) in analysis.structure.parts.iter().enumerate() {

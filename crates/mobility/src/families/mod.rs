@@ -12,6 +12,7 @@ mod double_planar;
 mod drawn;
 mod four_bars;
 mod miura;
+mod plain;
 mod scissor;
 mod truth;
 
@@ -22,6 +23,9 @@ pub use four_bars::{
     flat_change_point, flattening_parallelogram, near_dead_centre, spoiled_parallelogram,
 };
 pub use miura::miura_sheet;
+pub use plain::{
+    comb, gear_train, hinge_ring, parallel_hinges, parallelograms, serial_chain, star,
+};
 pub use scissor::scissor_lift;
 pub use truth::{Outcome, Truth};
 
