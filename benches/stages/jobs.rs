@@ -7,7 +7,7 @@ use kutzbach::algebra::{Budget, ExactOptions, SystemOptions, exact_answer, polyn
 use kutzbach::mechanism::Mechanism;
 use kutzbach::mobility::{
     AnalysisOptions, ChartTest, Germ, GermZeroOptions, Kernel, MoreDigits, PartRank, Pose,
-    Structure, analyse, chart_test, germ_zeros, rank_part,
+    Structure, Trial, analyse, chart_test, germ_zeros, rank_part,
 };
 use kutzbach::motion::{TraceOptions, trace};
 use kutzbach::report::text::{Layout, render};
@@ -82,6 +82,7 @@ fn pose(standing: &Standing) -> Pose<'_> {
         geometry: &standing.geometry,
         states: &standing.assembly.states,
         as_drawn: standing.assembly.steps == 0,
+        trial: Trial::default(),
     }
 }
 

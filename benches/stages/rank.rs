@@ -4,7 +4,7 @@ use super::cases::{ALL, ONE_LOOP, Standing};
 use divan::{Bencher, black_box};
 use kutzbach::closure::{Arithmetic, Geometry, positional_jacobian};
 use kutzbach::matrix::decide;
-use kutzbach::mobility::{Pose, generic_count, rank_part};
+use kutzbach::mobility::{Pose, Trial, generic_count, rank_part};
 
 /// The freedom at the pose by `geometry`.
 fn freedom(standing: &Standing, geometry: &Geometry<f64>) -> Option<usize> {
@@ -15,6 +15,7 @@ fn freedom(standing: &Standing, geometry: &Geometry<f64>) -> Option<usize> {
         geometry,
         states: &standing.assembly.states,
         as_drawn: standing.assembly.steps == 0,
+        trial: Trial::default(),
     };
     standing
         .structure

@@ -10,7 +10,7 @@ use super::generic::{GenericCount, generic_count};
 use super::kutzbach::kutzbach_count;
 use super::more_digits::MoreDigits;
 use super::part_mobility::{PartFinding, part_mobility};
-use super::pose_rank::{PartRank, Pose, rank_part_with};
+use super::pose_rank::{PartRank, Pose, Trial, rank_part_with};
 use super::redundancy::SelfStresses;
 use super::roles::{JointRole, roles_of_part};
 use super::verdict::{Mobility, judge, not_asked, unassembled};
@@ -229,6 +229,7 @@ impl Analysis {
             geometry,
             states,
             as_drawn: self.assembly.steps == 0 && options.closure_tolerance.is_none(),
+            trial: Trial::default(),
         };
         let mut more = MoreDigits::new();
         let mut parts = Vec::with_capacity(self.structure.parts.len());

@@ -312,12 +312,14 @@ impl<'a> Probes<'a> {
         let Self {
             pose, part, guide, ..
         } = self;
-        let mut near = pose.states.to_vec();
         if bits <= 53 {
-            return probe(&self.ways, reach, 53, &mut |way, radius| {
-                guide.closed(&mut near, way, radius)
+            return pose.try_on(part, |near| {
+                probe(&self.ways, reach, 53, &mut |way, radius| {
+                    guide.closed(near, way, radius)
+                })
             });
         }
+        let mut near = pose.states.to_vec();
         let (geometry, base) = more.polished(pose, part, !pose.as_drawn, bits)?;
         let section = Section {
             mechanism: pose.mechanism,

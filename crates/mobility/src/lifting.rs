@@ -152,7 +152,7 @@ fn lift(
     let poses = if instantaneous == dimension {
         walk(
             &section,
-            &states,
+            &mut states.clone(),
             there.basis,
             Some(direction),
             rank.stated,

@@ -249,7 +249,7 @@ impl LinkTwists {
                 }
                 let more = *screw * (step.sign * rate);
                 match columns.binary_search_by_key(&vector, |column| column.0) {
-                    Ok(at) => columns[at].1 = columns[at].1 + more,
+                    Ok(at) => columns[at].1 += more,
                     Err(at) => columns.insert(at, (vector, more)),
                 }
             }
@@ -322,7 +322,7 @@ impl LinkTwists {
         let (merged, mut others): (Columns, Columns) = columns
             .iter()
             .partition(|(vector, _)| *vector == MERGED || done(*vector));
-        let mut rows = vec![Vec::with_capacity(merged.len()); 6];
+        let mut rows = vec![Vec::new(); 6];
         for (_, twist) in &merged {
             let numbers = coordinates(twist, self.length);
             rows.iter_mut()

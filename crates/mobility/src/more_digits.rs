@@ -78,6 +78,7 @@ mod tests {
     use super::super::part_samples::Posed;
     use super::*;
     use crate::Structure;
+    use crate::pose_rank::Trial;
     use kutzbach_closure::samples::{
         CRANK_ROCKER, Written, add_ring, flat_parallelogram, four_bar, planar, ring,
     };
@@ -184,6 +185,7 @@ mod tests {
             geometry: &geometry,
             states: &assembly.states,
             as_drawn: false,
+            trial: Trial::default(),
         };
         let mut more = MoreDigits::new();
         let (_, states) = more

@@ -376,22 +376,26 @@ fn confirm_on_the_way(
     };
     let tangents = kernel.basis.vectors.clone();
     let freedom = tangents.len();
-    let poses = walk(
-        &section,
-        pose.states,
-        tangents,
-        None,
-        rank.stated,
-        FOLLOWED,
-        f64::INFINITY,
-    )?;
+    let poses = pose.try_on(part, |states| {
+        let stated = rank.stated;
+        walk(
+            &section,
+            states,
+            tangents,
+            None,
+            stated,
+            FOLLOWED,
+            f64::INFINITY,
+        )
+    })?;
     let mut farthest: f64 = 0.0;
     for there in &poses {
-        let mut states = pose.states.to_vec();
-        for (&joint, state) in part.joints.iter().zip(&there.states) {
-            states[joint] = state.clone();
-        }
-        let way = section.way_between(pose.states, &states);
+        let way = pose.try_on(part, |states| {
+            for (&joint, state) in part.joints.iter().zip(&there.states) {
+                states[joint] = state.clone();
+            }
+            section.way_between(pose.states, states)
+        });
         farthest = farthest.max(0.0.norm(&way));
     }
     let followed =

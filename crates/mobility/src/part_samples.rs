@@ -2,7 +2,7 @@
 
 use super::chart::Kernel;
 use super::more_digits::MoreDigits;
-use super::pose_rank::{PartRank, Pose, rank_part};
+use super::pose_rank::{PartRank, Pose, Trial, rank_part};
 use super::tracing::KERNEL_LIMIT;
 use kutzbach_closure::Structure;
 use kutzbach_closure::samples::{Place, Written, planar, ring};
@@ -53,6 +53,7 @@ impl Posed {
             geometry: &self.geometry,
             states: &self.assembly.states,
             as_drawn: self.assembly.steps == 0,
+            trial: Trial::default(),
         }
     }
 

@@ -26,6 +26,7 @@ use super::rounded::{OtherRank, if_rounded};
 use kutzbach_closure::{CycleJacobian, Geometry, JointState, Part, entry_accuracy, jacobian};
 use kutzbach_math::matrix::{MatrixError, Method, RankDecision, Real, SparseMatrix, decide};
 use kutzbach_model::mechanism::{Configuration, Mechanism};
+use std::cell::Cell;
 use std::collections::BTreeSet;
 
 /// The bits tried in turn after double precision.
@@ -182,6 +183,32 @@ pub struct Pose<'a> {
     pub states: &'a [JointState<f64>],
     /// Whether assembly left the file pose untouched.
     pub as_drawn: bool,
+    /// For what is tried on the states.
+    pub trial: Trial,
+}
+
+/// A copy of the states of a pose on which parts are moved, made once for all of them.
+#[derive(Default)]
+pub struct Trial(Cell<Vec<JointState<f64>>>);
+
+impl Pose<'_> {
+    /// Calls `moved` with a copy of the states in which the joints of one part may be moved. They are put back after.
+    pub(super) fn try_on<T>(
+        &self,
+        part: &Part,
+        moved: impl FnOnce(&mut [JointState<f64>]) -> T,
+    ) -> T {
+        let mut states = self.trial.0.take();
+        if states.is_empty() {
+            states = self.states.to_vec();
+        }
+        let found = moved(&mut states);
+        for &joint in &part.joints {
+            states[joint] = self.states[joint].clone();
+        }
+        self.trial.0.set(states);
+        found
+    }
 }
 
 /// How a part's pose came about.

@@ -86,7 +86,7 @@ const MOST_WORK: usize = 2_000_000_000;
 pub(super) struct TangentSpace {
     groups: Vec<Group>,
     /// Group and place therein of every variable that moves.
-    place: Vec<Option<(usize, usize)>>,
+    place: Vec<Place>,
     /// Group and place therein of every basis vector.
     home: Vec<(usize, usize)>,
     /// Limits for what comes from all components together.
@@ -97,6 +97,9 @@ pub(super) struct TangentSpace {
     units: Vec<f64>,
     joint_limits: Vec<Limits>,
 }
+
+/// Group of a variable and its place therein; `None` for one that nothing moves.
+type Place = Option<(usize, usize)>;
 
 /// Basis vectors that have variables in common.
 #[derive(Clone, Debug)]
@@ -443,10 +446,7 @@ impl PartEquations {
 
 /// An orthonormal basis of the span of some tangents, in units of every variable: its groups, and group and place therein of every
 /// variable. `None` where numbers are not finite, or the work would be too much.
-fn grouped(
-    tangents: &[Tangent],
-    units: &[f64],
-) -> Option<(Vec<Group>, Vec<Option<(usize, usize)>>)> {
+fn grouped(tangents: &[Tangent], units: &[f64]) -> Option<(Vec<Group>, Vec<Place>)> {
     let mut joined = UnionFind::<usize>::new(units.len());
     for tangent in tangents {
         for pair in tangent.entries().windows(2) {

@@ -151,7 +151,7 @@ fn onward(random: &mut SplitMix64, basis: &[Vec<f64>], before: Option<&[f64]>) -
     (length != 0.0).then(|| direction.iter().map(|x| x / length).collect())
 }
 
-/// Walks along a branch from a pose where its tangent space is known, to as many generic poses as are `wanted`. Fewer, or
+/// Walks along a branch from a pose where its tangent space is known, moving the states, to as many generic poses as are `wanted`. Fewer, or
 /// none, where the cycles do not close on the way. The first step leans on `toward`, a unit vector in the metric.
 ///
 /// `away` is how far a pose is where other branches pass, in the metric. Branches that touch there part by a power of the
@@ -161,7 +161,7 @@ fn onward(random: &mut SplitMix64, basis: &[Vec<f64>], before: Option<&[f64]>) -
 /// [`MatrixError`] where numbers overflow.
 pub(super) fn walk(
     section: &Section<'_, f64>,
-    start: &[JointState<f64>],
+    states: &mut [JointState<f64>],
     tangents: Vec<Vec<f64>>,
     toward: Option<Vec<f64>>,
     stated: f64,
@@ -170,7 +170,6 @@ pub(super) fn walk(
 ) -> Result<Vec<PartPose>, MatrixError> {
     let dimension = tangents.len();
     let mut random = SplitMix64::new(SEED + 1);
-    let mut states = start.to_vec();
     let mut basis = tangents;
     let mut before = toward;
     let mut poses = Vec::new();
@@ -189,13 +188,13 @@ pub(super) fn walk(
         let Some(direction) = onward(&mut random, &basis, before.as_deref()) else {
             break;
         };
-        let from = keep(&states);
+        let from = keep(states);
         let mut size = STEP.min(0.5 * away);
         let mut reached = false;
         for _ in 0..HALVINGS {
             let z: Vec<f64> = direction.iter().map(|x| x * size).collect();
-            section.advance_by(&mut states, &z);
-            let closing = section.close(&mut states, &basis, 30)?;
+            section.advance_by(states, &z);
+            let closing = section.close(states, &basis, 30)?;
             if closing.residual <= 4.0 * closing.rounding + stated && closing.way <= 0.7 * size {
                 reached = true;
                 break;
@@ -208,7 +207,7 @@ pub(super) fn walk(
         if !reached {
             break;
         }
-        let Some((there, here)) = tangents_at(section, &states, stated, dimension)? else {
+        let Some((there, here)) = tangents_at(section, states, stated, dimension)? else {
             break;
         };
         before = Some(direction);
@@ -222,7 +221,7 @@ pub(super) fn walk(
             continue;
         }
         poses.push(PartPose {
-            states: keep(&states),
+            states: keep(states),
             tangents: basis.iter().map(|b| natural(section.metric, b)).collect(),
             instantaneous: there.instantaneous,
             surplus: here.matrix.columns() as i64 - here.matrix.rows() as i64,
@@ -250,15 +249,18 @@ pub fn poses_of_regular_part(
     let mut poses = Vec::new();
     if rank.unknowns() <= WALKED_UNKNOWNS && kernel.basis.complete {
         let tangents = kernel.basis.vectors.clone();
-        poses = walk(
-            &section,
-            pose.states,
-            tangents,
-            None,
-            rank.stated,
-            POSES,
-            f64::INFINITY,
-        )?;
+        poses = pose.try_on(part, |states| {
+            let stated = rank.stated;
+            walk(
+                &section,
+                states,
+                tangents,
+                None,
+                stated,
+                POSES,
+                f64::INFINITY,
+            )
+        })?;
     }
     if poses.is_empty() {
         poses.push(PartPose {

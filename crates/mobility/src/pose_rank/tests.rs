@@ -25,6 +25,7 @@ fn ranked(mechanism: &Mechanism) -> PartRank {
         geometry: &geometry,
         states: &assembly.states,
         as_drawn: assembly.steps == 0,
+        trial: Trial::default(),
     };
     rank_part(&pose, &structure.parts[0]).unwrap()
 }
@@ -195,6 +196,7 @@ fn a_singular_pose_found_by_iteration_is_no_regular_one() {
         geometry: &geometry,
         states: &assembly.states,
         as_drawn: false,
+        trial: Trial::default(),
     };
     let rank = rank_part(&pose, &structure.parts[0]).unwrap();
     assert_eq!(rank.candidates.1, 2, "{:?} {:?}", rank.decision, rank.note);
@@ -459,6 +461,7 @@ fn values_of_a_configuration_count() {
             geometry: &geometry,
             states: &geometry.states,
             as_drawn: true,
+            trial: Trial::default(),
         };
         height_at(&pose, &part)
     };

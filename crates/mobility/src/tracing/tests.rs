@@ -11,7 +11,7 @@ fn walked(posed: &Posed, toward: Option<f64>, wanted: usize, away: f64) -> Vec<P
     let toward = toward.map(|sign| basis[0].iter().map(|x| sign * x).collect());
     walk(
         &posed.section(&kernel),
-        &posed.assembly.states,
+        &mut posed.assembly.states.clone(),
         basis,
         toward,
         rank.stated,

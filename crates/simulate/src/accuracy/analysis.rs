@@ -6,8 +6,9 @@ use super::result::{Claim, Way, WayTiming};
 use kutzbach_closure::{Arithmetic, Geometry, Part};
 use kutzbach_math::matrix::MatrixError;
 use kutzbach_mobility::{
-    Analysis, AnalysisOptions, MoreDigits, OneEngine, PartRank, Pose, Structure, chart_alone,
-    exact_alone, generic_count, germ_alone, kernel_of, kutzbach_count, rank_alone, subgroups_alone,
+    Analysis, AnalysisOptions, MoreDigits, OneEngine, PartRank, Pose, Structure, Trial,
+    chart_alone, exact_alone, generic_count, germ_alone, kernel_of, kutzbach_count, rank_alone,
+    subgroups_alone,
 };
 use kutzbach_model::mechanism::{Configuration, Mechanism};
 use std::collections::BTreeSet;
@@ -59,6 +60,7 @@ impl Subject<'_> {
             geometry: self.geometry,
             states: &self.analysis.assembly.states,
             as_drawn: self.analysis.assembly.steps == 0,
+            trial: Trial::default(),
         };
         self.counts(&mut ways)?;
         let closed = self.analysis.assembly.closed;
