@@ -38,6 +38,7 @@ mod format_support;
 mod formulations;
 mod fuzz_format;
 mod gallery;
+mod growth;
 mod house;
 mod html_page;
 mod inputs;

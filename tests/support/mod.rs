@@ -155,3 +155,28 @@ pub fn assert_none(wrong: &[String]) {
         wrong.join("\n")
     );
 }
+
+/// The file of a mechanism that is made for a test, in a folder for such files.
+pub fn written(mechanism: &Mechanism) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let file = folder.join(format!("{}.urdf", mechanism.name()));
+    std::fs::write(&file, kutzbach::format::write(mechanism)).unwrap();
+    file
+}
+
+/// Instructions that the program executes for a report on a mechanism, as valgrind counts them.
+pub fn instructions(mechanism: &Mechanism) -> u64 {
+    let output = std::process::Command::new("valgrind")
+        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
+        .args([env!("CARGO_BIN_EXE_kutzbach"), "report"])
+        .arg(written(mechanism))
+        .output()
+        .expect("valgrind has to be installed");
+    let told = String::from_utf8_lossy(&output.stderr);
+    // ==123== Collected : 4567
+    let count = told
+        .lines()
+        .find_map(|line| line.split_once("Collected : "))
+        .and_then(|(_, count)| count.trim().parse().ok());
+    count.unwrap_or_else(|| panic!("no count for {}: {told}", mechanism.name()))
+}

@@ -15,6 +15,10 @@ use std::collections::BTreeMap;
 /// six, and this many random combinations reach it with probability one, to spare.
 const SELF_STRESSES: usize = 24;
 
+/// A joint that is in so many equations couples them all with one another: the factor of the transposed equations holds half the
+/// square of this number at least, 256 megabytes, and is not made.
+const MOST_COUPLED: usize = 8000;
+
 /// The self-stresses of a part.
 pub struct SelfStresses {
     vectors: NullVectors<f64>,
@@ -25,7 +29,7 @@ pub struct SelfStresses {
 }
 
 impl SelfStresses {
-    /// Computes the self-stresses of a part whose rank is settled; `None` where it is not.
+    /// Computes the self-stresses of a part whose rank is settled; `None` where it is not, or where a joint is in too many cycles.
     ///
     /// # Errors
     /// [`MatrixError`] where the null vectors cannot be computed.
@@ -33,12 +37,11 @@ impl SelfStresses {
         let Some(decision) = rank.settled() else {
             return Ok(None);
         };
-        let vectors = null_vectors(
-            &rank.matrix.transpose(),
-            &decision.transposed(),
-            SELF_STRESSES,
-            2,
-        )?;
+        let transposed = rank.matrix.transpose();
+        if (0..transposed.rows()).any(|row| transposed.row(row).len() > MOST_COUPLED) {
+            return Ok(None);
+        }
+        let vectors = null_vectors(&transposed, &decision.transposed(), SELF_STRESSES, 2)?;
         let kept = decision.kept.max(f64::MIN_POSITIVE);
         // A null vector of unit length is off by up to the accuracy of the matrix over the smallest kept singular value,
         // and a joint's share of it is of the order of 1/√rows. In a large part the smallest singular value belongs to a
