@@ -2,12 +2,11 @@
 //!
 //! Work is counted, not timed: instructions, as callgrind counts them, are the same on every run and every load of the machine.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use kutzbach::families::{
-    bennett_row, comb, gear_train, hinge_ring, parallelograms, scissor_lift, serial_chain, star,
+    bennett_row, comb, gear_train, hinge_ring, miura_sheet, parallelograms, scissor_lift,
+    serial_chain, star,
 };
 use kutzbach::mechanism::Mechanism;
 use std::process::Command;
@@ -20,7 +19,7 @@ const STEEPEST: f64 = 1.3;
 /// larger ones, since more is asked of them (exact algebra, poses nearby): the larger pair tells how it goes on.
 type Shape = (&'static str, fn(usize) -> Mechanism, usize);
 
-const SHAPES: [Shape; 8] = [
+const SHAPES: [Shape; 9] = [
     ("serial chain", |n| serial_chain(n).unwrap(), 75),
     ("star", |n| star(n).unwrap(), 100),
     ("comb", |n| comb(n).unwrap(), 75),
@@ -28,6 +27,7 @@ const SHAPES: [Shape; 8] = [
     ("parallelograms", |n| parallelograms(n).unwrap(), 20),
     ("Bennett row", |n| bennett_row(n).unwrap(), 60),
     ("scissor lift", |n| scissor_lift(n).unwrap(), 100),
+    ("Miura strip", |n| miura_sheet(6, n).unwrap(), 10),
     ("ring of hinges", |n| hinge_ring(n).unwrap(), 200),
 ];
 

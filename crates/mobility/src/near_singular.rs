@@ -49,6 +49,8 @@ pub struct NearSingular {
     pub kept: f64,
     /// What counts as zero.
     pub tolerance: f64,
+    /// Whether other poses were looked at: those of very large parts are not.
+    pub followed: bool,
     /// A clearer pose, if one was found.
     pub nearest: Option<ClearerPose>,
 }
@@ -85,12 +87,18 @@ pub fn near_singular(
         if rank.instantaneous.is_none() || !(kept > 0.0) || !(kept < SMALL || close) {
             continue;
         }
-        let nearest = clearer(mechanism, geometry, &mut trial, part, rank)?;
+        let followed = rank.unknowns() <= FOLLOWED_UNKNOWNS;
+        let nearest = if followed {
+            clearer(mechanism, geometry, &mut trial, part, rank)?
+        } else {
+            None
+        };
         if nearest.is_some() || close {
             found.push(NearSingular {
                 part: index,
                 kept,
                 tolerance,
+                followed,
                 nearest,
             });
         }
@@ -106,10 +114,7 @@ fn clearer(
     part: &Part,
     rank: &PartRank,
 ) -> Result<Option<ClearerPose>, MatrixError> {
-    let Some(decision) = rank
-        .settled()
-        .filter(|_| rank.instantaneous > Some(0) && rank.unknowns() <= FOLLOWED_UNKNOWNS)
-    else {
+    let Some(decision) = rank.settled().filter(|_| rank.instantaneous > Some(0)) else {
         return Ok(None);
     };
     let Ok(null) = null_vectors(&rank.matrix, &decision, NULL_VECTORS, 1) else {

@@ -170,7 +170,8 @@ fn near_text(mechanism: &Mechanism, found: &NearSingular, block: &str) -> String
                 figure(clearer.kept)
             )
         }
-        None => format!("{start}; no clearer pose was found nearby"),
+        None if found.followed => format!("{start}; no clearer pose was found nearby"),
+        None => format!("{start}; in so large a part no clearer pose was looked for"),
     }
 }
 
