@@ -39,12 +39,12 @@ fn disagreements((name, mechanism, analysis): &Known) -> Vec<String> {
         wrong.push(format!("{name}: its own numbers do not add up"));
     }
     wrong.extend(
-        finite_disagreement(expected, &analysis)
+        finite_disagreement(expected, analysis)
             .iter()
             .map(|w| format!("{name}: {w}")),
     );
     wrong.extend(
-        locked_disagreement(mechanism, expected, &analysis)
+        locked_disagreement(mechanism, expected, analysis)
             .iter()
             .map(|w| format!("{name}: {w}")),
     );

@@ -59,7 +59,7 @@ fn disagreements((name, mechanism, analysis): &Known, expected: &Value) -> Vec<S
         && expected["pose"] == "regular"
         && let Some(names) = expected["locked"].as_array()
     {
-        wrong.extend(locked_disagreements(name, mechanism, &analysis, names));
+        wrong.extend(locked_disagreements(name, mechanism, analysis, names));
     }
     wrong
 }
