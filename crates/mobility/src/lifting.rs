@@ -173,6 +173,9 @@ fn lift(
         let Some((tangents, _)) = tangents_at(&section, &there, stated, instantaneous)? else {
             return Ok(None);
         };
+        if !multiple_farther(&section, pose.states, &there, rank.stated, instantaneous)? {
+            return Ok(None);
+        }
         if tangents.instantaneous != Some(instantaneous)
             || !stays_multiple(start, &section, &there, instantaneous, far)?
         {
@@ -249,6 +252,42 @@ fn extended(
         blur = closing.residual.max(closing.rounding).sqrt();
     }
     Ok(None)
+}
+
+/// How far a branch that seems multiple is followed at most (metric).
+const FARTHEST: f64 = 4.0;
+
+/// Whether the kernel keeps its dimension as far as the branch can be carried on along the chord. Branches that touch to a high order
+/// have hardly parted where gears make small steps of large ones.
+fn multiple_farther(
+    section: &Section<'_, f64>,
+    home: &[JointState<f64>],
+    from: &[JointState<f64>],
+    stated: f64,
+    freedom: usize,
+) -> Result<bool, MatrixError> {
+    let mut way = section.way_between(home, from);
+    while 0.0.norm(&way) < FARTHEST {
+        let away = 0.0.norm(&way);
+        let longer: Vec<f64> = way.iter().map(|x| 1.5 * x).collect();
+        let mut there = home.to_vec();
+        section.advance_by(&mut there, &longer);
+        let closing = section.close(&mut there, &[], 80)?;
+        if closing.residual > 4.0 * closing.rounding + stated || closing.way > POLISHING * away {
+            return Ok(true);
+        }
+        let blur = closing.residual.max(closing.rounding).sqrt();
+        let seen = tangents_at(section, &there, stated + 10.0 * blur, freedom)?;
+        if seen.is_some_and(|(tangents, _)| tangents.instantaneous.is_some_and(|i| i < freedom)) {
+            return Ok(false);
+        }
+        let next = section.way_between(home, &there);
+        if !(0.0.norm(&next) > away) {
+            return Ok(true);
+        }
+        way = next;
+    }
+    Ok(true)
 }
 
 /// Whether the kernel at a pose has the dimension found also in many digits. What double precision takes for a double zero may

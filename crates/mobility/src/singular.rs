@@ -13,7 +13,10 @@ mod resolution;
 
 use self::resolution::Resolution;
 use super::chart::{ChartTest, Kernel};
-use super::germ::{ComplexDimension, Germ, complex_dimension, prestress_certificate};
+use super::germ::{
+    ComplexDimension, Germ, complex_dimension, isolated_by_leading_terms, prestress_certificate,
+    signature,
+};
 use super::germ_zeros::{GermBranch, GermZeroOptions, GermZeros, germ_zeros};
 use super::idle_directions::idle_directions;
 use super::lifting::{Lifted, Start, idle_branch, lift_all};
@@ -23,9 +26,16 @@ use super::vocabulary::{CertificateLevel, PoseKind, SingularKind};
 use kutzbach_closure::Part;
 use kutzbach_math::matrix::MatrixError;
 
-/// Degrees to which the series are computed: the first, and the last tried.
+/// Degrees to which the series are computed: the first, and the last tried. A germ in the plane is cheap enough for more.
 const FIRST_DEGREE: usize = 4;
 const LAST_DEGREE: usize = 8;
+const LAST_DEGREE_IN_THE_PLANE: usize = 12;
+
+/// After so many searches that found less than there may be, longer series are not tried.
+const UNPROVED: usize = 2;
+
+/// How often a search in the plane is made again on smaller spheres, where what shows inside differs.
+const SMALLER: usize = 3;
 
 /// More starts than this are not made on a germ of many variables, and fewer where each is dear: all of them together may
 /// evaluate about as many terms of series, which takes a second or so.
@@ -131,10 +141,16 @@ pub(super) fn singular_finding(
         });
     }
     let mut why = "its power series are too many to follow".to_owned();
-    // Dimensions of the branches that the last search found.
-    let mut before: Option<Vec<usize>> = None;
+    // What the last search found.
+    let mut before: Option<Vec<Shape>> = None;
+    let mut outermost = f64::INFINITY;
+    let mut unproved = 0;
     let mut next = FIRST_DEGREE;
-    while next <= LAST_DEGREE {
+    let mut last = match freedom - idle.len() {
+        2 => LAST_DEGREE_IN_THE_PLANE,
+        _ => LAST_DEGREE,
+    };
+    while next <= last {
         let degree = next;
         next += 2;
         let Some(germ) = Germ::of_part_across(pose.mechanism, &doubtful, degree, &idle)? else {
@@ -144,8 +160,16 @@ pub(super) fn singular_finding(
             why = format!("what the equations leave over is of higher order than {degree}");
             continue;
         };
-        // Twice the order shows the next terms too, by which branches of a common tangent cone differ.
-        next = next.max(2 * order);
+        // Twice the order shows the next terms too, by which branches of a common tangent cone differ; a step more confirms what
+        // is multiple.
+        last = last.max((2 * order + 2).min(LAST_DEGREE_IN_THE_PLANE));
+        if degree < 2 * order {
+            next = 2 * order;
+            why = format!(
+                "what the equations leave over begins at order {order}, and to tell it apart takes degree {next}"
+            );
+            continue;
+        }
         if let Some(stress) = prestress_certificate(&germ) {
             evidence.push(Evidence {
                 engine: "second order",
@@ -165,15 +189,22 @@ pub(super) fn singular_finding(
             break;
         }
         let complex = complex_dimension(germ.equations(), germ.freedom(), germ.noise_by_degree());
-        let zeros = germ_zeros(
-            germ.freedom(),
-            germ.equations(),
-            germ.noise(order),
-            &GermZeroOptions {
-                most_starts: most_starts(&germ),
-                ..GermZeroOptions::default()
-            },
-        );
+        if isolated_by_leading_terms(germ.equations(), germ.noise_by_degree()) {
+            evidence.push(Evidence {
+                engine: "germ",
+                scope: "a neighbourhood, real",
+                bounds: (0, Some(idle.len())),
+                text: format!(
+                    "the lowest terms of the equations, of order {order}, have no common zero in series to degree {degree}{taken_out}"
+                ),
+            });
+            "near this pose the closure equations have no other real solution: the lowest terms of what they leave over have none"
+                .clone_into(&mut found.certificate);
+            isolated(&mut found, &start)?;
+            found.complex_dimension = complex.map(|c| c.dimension + idle.len());
+            break;
+        }
+        let zeros = zeros_within(&germ, order, &mut outermost);
         evidence.push(Evidence {
             engine: "germ",
             scope: "a neighbourhood",
@@ -199,17 +230,30 @@ pub(super) fn singular_finding(
             why = refused(&mut evidence, thin.clone());
             continue;
         }
+        if !agrees_with(&germ, &zeros) {
+            let reason = "a quadratic form of full rank has other zeros than those found";
+            why = refused(&mut evidence, reason.to_owned());
+            continue;
+        }
         if zeros.branches.is_empty() {
-            "near this pose the closure equations have no other real solution: what the power series leave over stays away from \
-             zero on small spheres"
+            // A search may miss what is thin or multiple: only a proof leaves nothing.
+            if complex != Some(idle.len()) {
+                why = refused(&mut evidence, NOT_PROVED.to_owned());
+                unproved += 1;
+                if unproved == UNPROVED {
+                    break;
+                }
+                continue;
+            }
+            "near this pose the closure equations have no other solution, even over the complex numbers"
                 .clone_into(&mut found.certificate);
             isolated(&mut found, &start)?;
             break;
         }
         match lift_all(&start, &germ, &zeros.branches)? {
             Ok(lifted) => {
-                let dimensions: Vec<usize> = lifted.iter().map(|b| b.branch.dimension).collect();
-                let top = dimensions.iter().copied().max().unwrap_or(0);
+                let dimensions = lifted.iter().map(|l| l.branch.dimension);
+                let top = dimensions.max().unwrap_or(0);
                 if complex.is_some_and(|c| c < top) {
                     let reason =
                         "the dimension over the complex numbers contradicts the branches found";
@@ -218,25 +262,26 @@ pub(super) fn singular_finding(
                 }
                 found.lower = top;
                 // Where the complex dimension is larger real branches may have been overlooked, or there are none: y² + z² = 0.
-                // Two searches in series of different lengths that find the same are taken for the answer.
-                // Rounded numbers may open, or hide, what touches: there too two searches have to agree.
-                let explained = complex == Some(top) && doubtful.stated <= rank.accuracy;
-                let again = before.as_ref() == Some(&dimensions);
-                before = Some(dimensions);
-                if !explained && !again {
-                    let reason = match complex {
-                        Some(complex) if complex == top => {
-                            "the numbers are rounded, and no second search has found the same yet"
-                                .to_owned()
-                        }
-                        Some(complex) => format!(
-                            "real branches of dimension {top} were found where the complex ones have {complex}"
-                        ),
-                        None => format!(
-                            "real branches of dimension {top} were found, and no dimension over the complex numbers confirms them"
-                        ),
-                    };
+                if let Some(complex) = complex.filter(|complex| *complex > top) {
+                    let reason = format!(
+                        "real branches of dimension {top} were found where the complex ones have {complex}"
+                    );
                     why = refused(&mut evidence, reason);
+                    unproved += 1;
+                    if unproved == UNPROVED {
+                        break;
+                    }
+                    continue;
+                }
+                let shapes: Vec<Shape> = lifted.iter().map(Shape::of).collect();
+                let again = before.as_ref() == Some(&shapes);
+                let multiple = lifted.iter().any(|l| l.shaky);
+                before = Some(shapes);
+                if !again
+                    && let Some(reason) =
+                        not_yet(complex.is_some(), multiple, doubtful.stated > rank.accuracy)
+                {
+                    why = refused(&mut evidence, reason.to_owned());
                     continue;
                 }
                 found.upper = top;
@@ -271,6 +316,116 @@ pub(super) fn singular_finding(
         found,
         more_evidence: evidence,
     })
+}
+
+/// What two searches in series of different lengths have to agree on.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Shape {
+    dimension: usize,
+    shaky: bool,
+}
+
+impl Shape {
+    fn of(lifted: &Lifted) -> Self {
+        Self {
+            dimension: lifted.branch.dimension,
+            shaky: lifted.shaky,
+        }
+    }
+}
+
+/// Why one search does not suffice, if it does not.
+fn not_yet(bounded: bool, multiple: bool, rounded: bool) -> Option<&'static str> {
+    if !bounded {
+        return Some("no dimension over the complex numbers confirms the branches found");
+    }
+    // Terms of higher degree may split what is multiple up to one degree.
+    if multiple {
+        return Some("a branch is multiple, and no longer series has confirmed it yet");
+    }
+    // Rounded numbers may open, or hide, what touches.
+    rounded.then_some("the numbers are rounded, and no second search has found the same yet")
+}
+
+const NOT_PROVED: &str =
+    "no other real solution was found near the pose, and nothing proves that there is none";
+
+/// The zeros of a germ on spheres no larger than `outermost`, and on smaller ones where what shows inside differs from what shows
+/// outside: what shows inside is the germ. No later search is made on larger spheres than an earlier one.
+fn zeros_within(germ: &Germ, order: usize, outermost: &mut f64) -> GermZeros {
+    let search = |outermost: f64| {
+        let mut zeros = germ_zeros(
+            germ.freedom(),
+            germ.equations(),
+            germ.noise(order),
+            &GermZeroOptions {
+                most_starts: most_starts(germ),
+                outermost,
+                ..GermZeroOptions::default()
+            },
+        );
+        join_quadric(germ, &mut zeros);
+        zeros
+    };
+    let mut zeros = search(*outermost);
+    let mut again = if germ.freedom() == 2 { SMALLER } else { 0 };
+    while zeros.varies || (zeros.thin.is_none() && !agrees_with(germ, &zeros)) {
+        *outermost = zeros.radii.last().copied().unwrap_or(*outermost);
+        if again == 0 {
+            return zeros;
+        }
+        again -= 1;
+        zeros = search(*outermost);
+    }
+    *outermost = zeros.radii.first().copied().unwrap_or(*outermost);
+    zeros
+}
+
+/// Whether what was found are the zeros of a quadratic form of full rank, where the germ is one up to a change of coordinates
+/// (Morse's lemma); true of any other germ. Indefinite in two variables it is a pair of lines, in more a cone that is irreducible,
+/// since only forms of rank two at most are products.
+fn agrees_with(germ: &Germ, zeros: &GermZeros) -> bool {
+    let Some((plus, minus)) = quadric(germ) else {
+        return true;
+    };
+    let count = match (plus, minus) {
+        (0, _) | (_, 0) => 0,
+        (1, 1) => 2,
+        _ => 1,
+    };
+    zeros.branches.len() == count
+        && zeros
+            .branches
+            .iter()
+            .all(|branch| branch.dimension + 1 == germ.freedom())
+}
+
+/// The pieces of an irreducible cone as one branch: they are joined through small parts of it that walking may miss.
+fn join_quadric(germ: &Germ, zeros: &mut GermZeros) {
+    let whole = zeros
+        .branches
+        .iter()
+        .all(|branch| branch.dimension + 1 == germ.freedom());
+    if !whole || germ.freedom() < 3 || zeros.branches.len() < 2 || quadric(germ).is_none() {
+        return;
+    }
+    let mut pieces = std::mem::take(&mut zeros.branches).into_iter();
+    let Some(mut one) = pieces.next() else { return };
+    for piece in pieces {
+        one.points.extend(piece.points);
+        one.tangents.extend(piece.tangents);
+        one.half_branches.extend(piece.half_branches);
+        one.hits += piece.hits;
+    }
+    zeros.branches.push(one);
+}
+
+/// The signature of the quadratic form of a germ of one equation, where it has full rank.
+fn quadric(germ: &Germ) -> Option<(usize, usize)> {
+    match germ.equations() {
+        [equation] => signature(equation, germ.noise(2)),
+        _ => None,
+    }
 }
 
 /// What a search on the germ came to.

@@ -19,12 +19,13 @@
 //! # The way through
 //! [`loop_equations`]: the closure equations as power series. [`splitting`]: kernel, left kernel and pseudo-inverse.
 //! [`reduction`]: the germ. [`effective`], [`ideal`]: independent equations, by order. [`noise`]: what is known of each coefficient.
-//! [`second_order`], [`min_norm_point`]: definite combinations of the quadratic forms. [`dual_space`], [`slices`]: complex dimension.
+//! [`second_order`], [`min_norm_point`]: definite combinations of the quadratic forms. [`definite`]: definite germs of higher order. [`dual_space`], [`slices`]: complex dimension.
 //!
 //! # Cost
 //! One loop with δ = 2 to degree 4: some hundred microseconds. In general C(2δ+K, K) products of displacements per joint
 //! and degree, and one dense singular value decomposition of the Jacobian.
 
+mod definite;
 mod dual_space;
 mod effective;
 mod ideal;
@@ -40,6 +41,7 @@ mod splitting;
 #[allow(clippy::unwrap_used)]
 mod tests;
 
+pub use definite::{isolated_by_leading_terms, signature};
 pub use dual_space::{ComplexDimension, complex_dimension};
 pub use reduction::Germ;
 pub use second_order::{PrestressCertificate, prestress_certificate};

@@ -11,10 +11,10 @@
 //! and the set's extreme point against a direction comes from the eigenvector of a smallest eigenvalue. So the search is
 //! one for a nearest point ([`super::min_norm_point`]); the combination it ends with is verified by itself.
 
+use super::definite::quadratic_form;
 use super::min_norm_point::nearest_to_origin;
 use super::reduction::{Germ, order_of};
 use super::splitting::dot;
-use kutzbach_math::group::Series;
 use nalgebra::{DMatrix, SymmetricEigen};
 
 /// The search ends with a combination whose smallest eigenvalue is at least this share of the best possible one.
@@ -57,27 +57,6 @@ pub fn prestress_certificate(germ: &Germ) -> Option<PrestressCertificate> {
         smallest_eigenvalue,
         noise,
     })
-}
-
-/// The symmetric matrix of the degree-two part of a series.
-fn quadratic_form(series: &Series) -> DMatrix<f64> {
-    let monomials = series.monomials();
-    let mut form = DMatrix::zeros(monomials.variables(), monomials.variables());
-    for slot in monomials.of_degree(2) {
-        let c = series.coefficients()[slot];
-        let present: Vec<usize> = (0..monomials.variables())
-            .filter(|i| monomials.exponents(slot)[*i] > 0)
-            .collect();
-        match present[..] {
-            [i] => form[(i, i)] = c,
-            [i, j] => {
-                form[(i, j)] = 0.5 * c;
-                form[(j, i)] = 0.5 * c;
-            }
-            _ => {}
-        }
-    }
-    form
 }
 
 /// A combination of unit length whose smallest eigenvalue exceeds `least`, with that eigenvalue.

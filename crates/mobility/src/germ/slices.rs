@@ -46,17 +46,26 @@ pub(super) fn restricted(series: &[Series], basis: &[Vec<f64>]) -> Option<Vec<Se
             Series::linear(&to, &coefficients)
         })
         .collect();
+    composed(series, &linear)
+}
+
+/// Every series with series in the place of its variables, none of which has a constant term.
+pub(super) fn composed(series: &[Series], variables: &[Series]) -> Option<Vec<Series>> {
+    let (Some(first), Some(inner)) = (series.first(), variables.first()) else {
+        return Some(Vec::new());
+    };
+    let (from, to) = (first.monomials(), inner.monomials());
     // Every monomial is one of lower degree times a variable, and comes later in the numbering.
-    let mut powers: Vec<Series> = vec![Series::constant(&to, 1.0)];
+    let mut powers: Vec<Series> = vec![Series::constant(to, 1.0)];
     for slot in 1..from.count() {
         let mut exponents = from.exponents(slot).to_vec();
         let variable = exponents.iter().position(|e| *e > 0)?;
         exponents[variable] -= 1;
         let lower = from.index_of(&exponents)?;
-        powers.push(&linear[variable] * &powers[lower]);
+        powers.push(&variables[variable] * &powers[lower]);
     }
-    let restrict = |f: &Series| {
-        let mut sum = Series::zero(&to);
+    let compose = |f: &Series| {
+        let mut sum = Series::zero(to);
         for (c, power) in f.coefficients().iter().zip(&powers) {
             if *c != 0.0 {
                 sum.add_scaled(*c, power);
@@ -64,7 +73,7 @@ pub(super) fn restricted(series: &[Series], basis: &[Vec<f64>]) -> Option<Vec<Se
         }
         sum
     };
-    Some(series.iter().map(restrict).collect())
+    Some(series.iter().map(compose).collect())
 }
 
 #[cfg(test)]

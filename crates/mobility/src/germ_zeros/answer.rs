@@ -35,6 +35,7 @@ pub fn germ_zeros(
         seed: options.seed,
         radii: Vec::new(),
         thin: None,
+        varies: false,
     };
     let finite = |series: &Series| series.coefficients().iter().all(|c| c.is_finite());
     let shape = |series: &Series| {
@@ -269,6 +270,8 @@ fn collect(search: &mut Search<'_>, answer: &mut GermZeros) {
             branch.half_branches.push(half);
             continue;
         }
+        // Its partner may end between the spheres.
+        search.varies = true;
         search
             .doubts
             .push("a half-branch has no continuation through the origin".into());
@@ -292,6 +295,7 @@ fn collect(search: &mut Search<'_>, answer: &mut GermZeros) {
     if answer.branches.is_empty() {
         answer.isolation = Some(isolation(search));
     }
+    answer.varies = search.varies;
     search.doubts.dedup();
     if !search.doubts.is_empty() {
         answer.thin = Some(search.doubts.join("; "));
@@ -474,6 +478,7 @@ fn isolation(search: &mut Search<'_>) -> Isolation {
     let order = fitted_slope(&points);
     let slopes: Vec<f64> = points.windows(2).map(fitted_slope).collect();
     if (slopes[0] - slopes[1]).abs() > 0.5 {
+        search.varies = true;
         search.doubts.push(format!(
             "the equations grow with order {:.1} at larger and {:.1} at smaller radii",
             slopes[0], slopes[1]

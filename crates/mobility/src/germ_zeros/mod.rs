@@ -54,6 +54,8 @@ pub struct GermZeroOptions {
     pub most_starts: usize,
     /// Radius up to which the variables are meaningful; the spheres searched have at most a fifth of it.
     pub largest_radius: f64,
+    /// No sphere is larger than this, whatever the equations would allow.
+    pub outermost: f64,
 }
 
 impl Default for GermZeroOptions {
@@ -63,6 +65,7 @@ impl Default for GermZeroOptions {
             fewest_starts: 100,
             most_starts: 3000,
             largest_radius: 1.0,
+            outermost: f64::INFINITY,
         }
     }
 }
@@ -83,6 +86,8 @@ pub struct GermZeros {
     pub radii: Vec<f64>,
     /// Why the answer should not be trusted, if there is a reason.
     pub thin: Option<String>,
+    /// Whether other zeros were found on smaller spheres: the germ shows inside of them only.
+    pub varies: bool,
 }
 
 /// A lower bound of the equations near an isolated zero: |κ(y)| ≥ factor·|y|^order on the spheres tried, each equation taken

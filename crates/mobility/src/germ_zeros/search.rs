@@ -31,6 +31,8 @@ pub(super) struct Search<'a> {
     strangers: Vec<Vec<f64>>,
     pub(super) starts: usize,
     pub(super) doubts: Vec<String>,
+    /// Whether zeros were found at an inner radius that are not there at the outer one.
+    pub(super) varies: bool,
     pub(super) random: SplitMix64,
     pub(super) work: Work,
 }
@@ -39,12 +41,13 @@ impl<'a> Search<'a> {
     pub(super) fn new(system: &'a System, options: &GermZeroOptions) -> Self {
         Self {
             system,
-            radii: ladder(system),
+            radii: ladder(system, options.outermost),
             halves: Vec::new(),
             sheets: Vec::new(),
             strangers: Vec::new(),
             starts: 0,
             doubts: Vec::new(),
+            varies: false,
             random: SplitMix64::new(options.seed),
             work: Work::default(),
         }
@@ -264,6 +267,7 @@ impl<'a> Search<'a> {
         }
         if kind.dimension > 1 {
             if self.sheets.iter().all(|s| s.dimension != kind.dimension) {
+                self.varies = true;
                 self.doubts.push(format!(
                     "zeros of dimension {} were found at radius {:.2e} only",
                     kind.dimension, level.radius
@@ -290,6 +294,7 @@ impl<'a> Search<'a> {
             self.sort(&outer, &outside);
         }
         if self.halves.len() == before && !self.halves.iter().any(known) {
+            self.varies = true;
             self.doubts.push(format!(
                 "a half-branch found at radius {:.2e} was not found at {:.2e}",
                 level.radius, self.radii[0]
@@ -342,11 +347,12 @@ fn same_point(level: &Level<'_>, landed: &Landing, kind: &Local) -> f64 {
 /// The outermost leaves the terms beyond the truncation degree K about 1e-4 of the quadratic ones, but is at most a
 /// fifth of the radius at which the higher degrees outweigh the lowest. The innermost is as small as the noise allows if
 /// a term of degree K is still to be told from zero.
-pub(super) fn ladder(system: &System) -> Vec<f64> {
+pub(super) fn ladder(system: &System, outermost: f64) -> Vec<f64> {
     const COUNT: usize = 7;
     let (lowest, _) = system.lowest();
     let span = (system.degree() + 1 - lowest).max(1) as f64;
-    let outer = system.radius * 1e-4_f64.powf(1.0 / span.max(2.0)).clamp(0.02, 0.2);
+    let outer =
+        (system.radius * 1e-4_f64.powf(1.0 / span.max(2.0)).clamp(0.02, 0.2)).min(outermost);
     let tolerance = Level::new(system, outer).tolerance();
     let noisy = system.radius * (1e3 * tolerance).powf(1.0 / span);
     let inner = noisy.clamp(outer / 24.0, outer / 4.0);
