@@ -74,3 +74,4 @@ mod verification;
 mod work_precision;
 mod world;
 mod zoo;
+mod zoo2;
