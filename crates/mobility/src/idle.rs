@@ -190,6 +190,10 @@ pub(super) fn idle_spaces(
     poses: &[BranchPose],
 ) -> Vec<IdleSpace> {
     let seen = link_twists(mechanism, geometry, structure, poses);
+    // Without a pose nothing bounds what might move alone.
+    if seen.is_empty() {
+        return Vec::new();
+    }
     let connections = Connections::of(mechanism, geometry, structure);
     let clusters = clusters(mechanism, structure, &connections);
     let (freedoms, moving) = moving_alone(&seen, &clusters, false);
