@@ -290,9 +290,11 @@ pub fn part_mobility(
         return Ok(PartFinding::open(lower, freedom, why).with(evidence));
     };
     let mut chart = chart_test(pose, more, part, rank, kernel)?;
-    // More digits would show a leftover near the pose; neither rounded numbers nor large parts have them.
-    let rounded = rank.stated > 0.5 * chart.noise && !chart.literal;
-    if rounded || rank.unknowns() > LADDER_UNKNOWNS {
+    // More digits would show a leftover near the pose; neither rounded numbers nor large parts have them. One of high order they
+    // do not show either: it shows farther away.
+    let only_far =
+        rank.stated > 0.5 * chart.noise && !chart.literal || rank.unknowns() > LADDER_UNKNOWNS;
+    if only_far || chart.outcome == ChartOutcome::Regular {
         confirm_on_the_way(pose, part, rank, kernel, &mut chart)?;
     }
     evidence.push(chart_evidence(&chart, freedom));
@@ -304,7 +306,7 @@ pub fn part_mobility(
                 if freedom == 1 { "" } else { "s" },
                 chart.leftover,
                 chart.noise,
-                if chart.followed > 0.0 {
+                if only_far && chart.followed > 0.0 {
                     ", and the motion goes on as far as it was followed"
                 } else {
                     ""
