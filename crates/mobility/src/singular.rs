@@ -25,6 +25,7 @@ use super::pose_rank::{PartRank, Pose, TALL, height_at};
 use super::vocabulary::{CertificateLevel, PoseKind, SingularKind};
 use kutzbach_closure::Part;
 use kutzbach_math::matrix::MatrixError;
+use nalgebra::DMatrix;
 
 /// Degrees to which the series are computed: the first, and the last tried. A germ in the plane is cheap enough for more.
 const FIRST_DEGREE: usize = 4;
@@ -224,6 +225,7 @@ pub(super) fn singular_finding(
                 germ_text(&germ, order, degree, &zeros, complex.as_ref())
             ),
         });
+        let cut = cut_in_pieces(&zeros, complex.as_ref());
         let complex = complex.map(|c| c.dimension + idle.len());
         found.complex_dimension = complex;
         if let Some(thin) = &zeros.thin {
@@ -232,6 +234,10 @@ pub(super) fn singular_finding(
         }
         if !agrees_with(&germ, &zeros) {
             let reason = "a quadratic form of full rank has other zeros than those found";
+            why = refused(&mut evidence, reason.to_owned());
+            continue;
+        }
+        if let Some(reason) = cut {
             why = refused(&mut evidence, reason.to_owned());
             continue;
         }
@@ -398,6 +404,49 @@ fn agrees_with(germ: &Germ, zeros: &GermZeros) -> bool {
             .branches
             .iter()
             .all(|branch| branch.dimension + 1 == germ.freedom())
+}
+
+/// Sheets whose directions all lie in one linear space but for this share of their length may touch.
+const TOUCHING: f64 = 0.05;
+
+/// Why some of the branches found may be pieces of one, if they may.
+fn cut_in_pieces(zeros: &GermZeros, complex: Option<&ComplexDimension>) -> Option<&'static str> {
+    // Every branch of full dimension has a share of the multiplicity, at least one.
+    if let Some(complex) = complex {
+        let full = zeros
+            .branches
+            .iter()
+            .filter(|b| b.dimension == complex.dimension);
+        if full.count() > complex.multiplicity {
+            return Some(
+                "more branches were found than the multiplicity of the pose allows, so that some are parts of one",
+            );
+        }
+    }
+    // Sheets that meet in the pose only and have one tangent space there may be one, as z² = x⁴ + y⁴ is.
+    let pairs = zeros
+        .branches
+        .iter()
+        .enumerate()
+        .flat_map(|(i, a)| zeros.branches[i + 1..].iter().map(move |b| (a, b)));
+    let touch = |(a, b): (&GermBranch, &GermBranch)| {
+        a.dimension > 1 && a.dimension == b.dimension && directions(a, b) <= a.dimension
+    };
+    pairs.into_iter().any(touch).then_some(
+        "sheets were found that touch in the pose, and whether they are parts of one is not told",
+    )
+}
+
+/// The dimension of the space that the directions of two branches span, but for a small share.
+fn directions(a: &GermBranch, b: &GermBranch) -> usize {
+    let tangents: Vec<&Vec<f64>> = a.tangents.iter().chain(&b.tangents).collect();
+    let size = tangents.first().map_or(0, |t| t.len());
+    let matrix = DMatrix::from_fn(tangents.len(), size, |i, j| tangents[i][j]);
+    let values = matrix.singular_values();
+    values
+        .iter()
+        .filter(|value| **value > TOUCHING * values.amax())
+        .count()
 }
 
 /// The pieces of an irreducible cone as one branch: they are joined through small parts of it that walking may miss.
