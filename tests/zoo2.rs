@@ -3,8 +3,6 @@
 //!
 //! All of their answers are proven. None may be contradicted; to leave one open is no error.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::support;
 
 use serde_json::Value;
@@ -22,7 +20,11 @@ fn no_known_fact_is_contradicted() {
     for what in ["without_expectation", "unreadable"] {
         assert_eq!(told[what].as_array().unwrap().len(), 0, "{what}");
     }
-    println!("{} facts found, {} left open", count("right"), count("open"));
+    println!(
+        "{} facts found, {} left open",
+        count("right"),
+        count("open")
+    );
     assert_eq!(count("wrong"), 0, "{told:#}");
     assert!(count("right") > count("open"), "{told:#}");
 }
