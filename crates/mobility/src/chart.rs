@@ -83,7 +83,7 @@ pub struct ChartTest {
     pub directions: usize,
     /// Bits of the arithmetic that decided.
     pub bits: u32,
-    /// How far the motion was followed (metric), where the neighbourhood of the pose did not suffice; zero elsewhere.
+    /// How far the motion was followed (metric); zero where it was not.
     pub followed: f64,
     /// Whether the numbers had to be taken literally, their stated precision being too coarse to decide anything.
     pub literal: bool,
@@ -179,6 +179,59 @@ pub fn chart_test(
         }
     }
     Ok(test)
+}
+
+/// Radii (metric) tried for [`far_chart`], largest first.
+const FAR_RADII: [f64; 3] = [1.0, 0.5, 0.25];
+
+/// Of so many loops double precision sees every contact a radian away; each loop more squares what is left over, as a chain of
+/// four-bars at dead centre does (eight of them touch to order 256 and leave 1e-116 over there).
+const LOOPS_IN_DOUBLE: usize = 3;
+
+/// Where double precision does not lead far, the neighbourhood is seen in this many bits at least.
+const NEARBY_BITS: u32 = 212;
+
+/// A regular outcome for exact numbers, tested again as far away as double precision follows the chart, in as many bits as its loops
+/// ask for: what touches to a high order shows there only. Returned is the test given, and how far its outcome holds, or the one
+/// that contradicts it.
+///
+/// # Errors
+/// [`MatrixError`] where numbers overflow.
+pub(super) fn far_chart(
+    pose: &Pose<'_>,
+    more: &mut MoreDigits,
+    part: &Part,
+    kernel: &Kernel,
+    near: ChartTest,
+) -> Result<ChartTest, MatrixError> {
+    let mut probes = Probes::new(pose, part, kernel);
+    let rungs = part.cycles.len().saturating_sub(LOOPS_IN_DOUBLE);
+    let mut bits = if rungs == 0 {
+        53
+    } else {
+        LADDER[rungs.min(LADDER.len()) - 1]
+    };
+    let mut radius = near.radius;
+    for far in FAR_RADII.into_iter().filter(|r| *r > near.radius) {
+        let double = probes.in_bits(more, (far, 0.0), 53)?;
+        if double.leftover <= double.noise {
+            radius = far;
+            break;
+        }
+    }
+    if radius == near.radius {
+        bits = bits.max(NEARBY_BITS);
+    }
+    if bits > 53 && (bits > near.bits || radius > near.radius) {
+        let test = probes.in_bits(more, (radius, 0.0), bits)?;
+        if test.outcome != ChartOutcome::Regular {
+            return Ok(test);
+        }
+    }
+    Ok(ChartTest {
+        followed: radius,
+        ..near
+    })
 }
 
 /// What the numbers, taken literally, leave over at the radius of the chart test, if that is more than rounding: a rounded

@@ -15,7 +15,7 @@
 //! A verdict is never given on a thin margin: what an engine cannot tell, it leaves open and says why.
 
 use super::chart::{
-    ChartOutcome, ChartTest, Kernel, LADDER_UNKNOWNS, chart_test, literal_leftover,
+    ChartOutcome, ChartTest, Kernel, LADDER_UNKNOWNS, chart_test, far_chart, literal_leftover,
 };
 use super::depth::Depth;
 use super::more_digits::MoreDigits;
@@ -290,12 +290,14 @@ pub fn part_mobility(
         return Ok(PartFinding::open(lower, freedom, why).with(evidence));
     };
     let mut chart = chart_test(pose, more, part, rank, kernel)?;
-    // More digits would show a leftover near the pose; neither rounded numbers nor large parts have them. One of high order they
-    // do not show either: it shows farther away.
+    // More digits would show a leftover near the pose; neither rounded numbers nor large parts have them. One of high order shows
+    // farther away only.
     let only_far =
         rank.stated > 0.5 * chart.noise && !chart.literal || rank.unknowns() > LADDER_UNKNOWNS;
-    if only_far || chart.outcome == ChartOutcome::Regular {
+    if only_far {
         confirm_on_the_way(pose, part, rank, kernel, &mut chart)?;
+    } else if chart.outcome == ChartOutcome::Regular && rank.stated == 0.0 {
+        chart = far_chart(pose, more, part, kernel, chart)?;
     }
     evidence.push(chart_evidence(&chart, freedom));
     match chart.outcome {

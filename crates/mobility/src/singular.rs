@@ -115,6 +115,7 @@ pub(super) fn singular_finding(
     } else {
         rank
     };
+    let rounded = doubtful.stated > rank.accuracy;
     // What is idle at all poses is a factor of the configuration space.
     let by_kind = height_at(pose, part) > TALL;
     let idle = idle_directions(pose.mechanism, part, kernel, by_kind);
@@ -162,8 +163,8 @@ pub(super) fn singular_finding(
             continue;
         };
         // Twice the order shows the next terms too, by which branches of a common tangent cone differ; a step more confirms what
-        // is multiple.
-        last = last.max((2 * order + 2).min(LAST_DEGREE_IN_THE_PLANE));
+        // is multiple, another serves where one search comes to nothing.
+        last = last.max((2 * order + 4).min(LAST_DEGREE_IN_THE_PLANE));
         if degree < 2 * order {
             next = 2 * order;
             why = format!(
@@ -205,7 +206,7 @@ pub(super) fn singular_finding(
             found.complex_dimension = complex.map(|c| c.dimension + idle.len());
             break;
         }
-        let zeros = zeros_within(&germ, order, &mut outermost);
+        let zeros = zeros_within(&germ, order, !rounded, &mut outermost);
         evidence.push(Evidence {
             engine: "germ",
             scope: "a neighbourhood",
@@ -225,7 +226,7 @@ pub(super) fn singular_finding(
                 germ_text(&germ, order, degree, &zeros, complex.as_ref())
             ),
         });
-        let cut = cut_in_pieces(&zeros, complex.as_ref());
+        let cut = cut_in_pieces(&zeros, complex.as_ref()).or_else(|| merged(&germ, &zeros));
         let complex = complex.map(|c| c.dimension + idle.len());
         found.complex_dimension = complex;
         if let Some(thin) = &zeros.thin {
@@ -283,10 +284,7 @@ pub(super) fn singular_finding(
                 let again = before.as_ref() == Some(&shapes);
                 let multiple = lifted.iter().any(|l| l.shaky);
                 before = Some(shapes);
-                if !again
-                    && let Some(reason) =
-                        not_yet(complex.is_some(), multiple, doubtful.stated > rank.accuracy)
-                {
+                if !again && let Some(reason) = not_yet(complex.is_some(), multiple, rounded) {
                     why = refused(&mut evidence, reason.to_owned());
                     continue;
                 }
@@ -357,8 +355,8 @@ const NOT_PROVED: &str =
     "no other real solution was found near the pose, and nothing proves that there is none";
 
 /// The zeros of a germ on spheres no larger than `outermost`, and on smaller ones where what shows inside differs from what shows
-/// outside: what shows inside is the germ. No later search is made on larger spheres than an earlier one.
-fn zeros_within(germ: &Germ, order: usize, outermost: &mut f64) -> GermZeros {
+/// outside: what shows inside is the germ. No later search in exact numbers is made on larger spheres than an earlier one.
+fn zeros_within(germ: &Germ, order: usize, exact: bool, outermost: &mut f64) -> GermZeros {
     let search = |outermost: f64| {
         let mut zeros = germ_zeros(
             germ.freedom(),
@@ -375,7 +373,9 @@ fn zeros_within(germ: &Germ, order: usize, outermost: &mut f64) -> GermZeros {
     };
     let mut zeros = search(*outermost);
     let mut again = if germ.freedom() == 2 { SMALLER } else { 0 };
+    let mut shrunk = false;
     while zeros.varies || (zeros.thin.is_none() && !agrees_with(germ, &zeros)) {
+        shrunk = true;
         *outermost = zeros.radii.last().copied().unwrap_or(*outermost);
         if again == 0 {
             return zeros;
@@ -383,7 +383,10 @@ fn zeros_within(germ: &Germ, order: usize, outermost: &mut f64) -> GermZeros {
         again -= 1;
         zeros = search(*outermost);
     }
-    *outermost = zeros.radii.first().copied().unwrap_or(*outermost);
+    // What rounded numbers leave open outweighs the equations on small spheres: the longer the series, the larger those that tell.
+    if exact || shrunk {
+        *outermost = zeros.radii.first().copied().unwrap_or(*outermost);
+    }
     zeros
 }
 
@@ -434,6 +437,25 @@ fn cut_in_pieces(zeros: &GermZeros, complex: Option<&ComplexDimension>) -> Optio
     };
     pairs.into_iter().any(touch).then_some(
         "sheets were found that touch in the pose, and whether they are parts of one is not told",
+    )
+}
+
+/// Why some of the branches of a plane curve may be several, or some be overlooked, if they may: the multiplicity of the curve is the
+/// sum of its branches', and what is not real comes in conjugate pairs.
+fn merged(germ: &Germ, zeros: &GermZeros) -> Option<&'static str> {
+    if germ.freedom() != 2
+        || germ.equations().len() != 1
+        || !zeros.branches.iter().all(|branch| branch.reduced)
+    {
+        return None;
+    }
+    let found: Option<usize> = zeros
+        .branches
+        .iter()
+        .map(|branch| branch.ramification)
+        .sum();
+    (found? % 2 != germ.order()? % 2).then_some(
+        "the multiplicity of the pose is another than that of the branches found, so that some are overlooked or taken for one",
     )
 }
 
