@@ -24,6 +24,7 @@ use super::pose_rank::{LADDER, PartRank, Pose};
 use guide::Guide;
 use kutzbach_closure::{Closing, Metric, Part, Section};
 use kutzbach_math::matrix::{MatrixError, NullVectors, Real, SplitMix64, null_vectors};
+use std::collections::BTreeSet;
 
 /// A germ whose leftover vanishes to a higher order than this is not told from none. Order 4 decides all that is known;
 /// two more are a margin, which rounded numbers do not have.
@@ -184,12 +185,30 @@ pub fn chart_test(
 /// Radii (metric) tried for [`far_chart`], largest first.
 const FAR_RADII: [f64; 3] = [1.0, 0.5, 0.25];
 
-/// Of so many loops double precision sees every contact a radian away; each loop more squares what is left over, as a chain of
-/// four-bars at dead centre does (eight of them touch to order 256 and leave 1e-116 over there).
+/// Of so many loops with a joint at rest double precision sees every contact a radian away; each one more squares what is left over,
+/// as a chain of four-bars at dead centre does (eight of them touch to order 256 and leave 1e-116 over there).
 const LOOPS_IN_DOUBLE: usize = 3;
+
+/// A joint whose share of a unit kernel vector is smaller is at rest.
+const AT_REST: f64 = 1e-6;
 
 /// Where double precision does not lead far, the neighbourhood is seen in this many bits at least.
 const NEARBY_BITS: u32 = 212;
+
+/// How often what the kernel does not show may be squared on the way: loops in which a joint is at rest, though it may move to higher
+/// order, and couplings, in which first orders may cancel.
+fn squarings(part: &Part, rank: &PartRank, kernel: &NullVectors<f64>) -> usize {
+    let moving: BTreeSet<usize> = rank
+        .jacobian
+        .variables
+        .iter()
+        .enumerate()
+        .filter(|(row, _)| kernel.vectors.iter().any(|v| v[*row].abs() > AT_REST))
+        .map(|(_, (joint, _))| *joint)
+        .collect();
+    let resting = |cycle: &&Vec<(usize, bool)>| cycle.iter().any(|(j, _)| !moving.contains(j));
+    part.cycles.iter().filter(resting).count() + part.couplings.len()
+}
 
 /// A regular outcome for exact numbers, tested again as far away as double precision follows the chart, in as many bits as its loops
 /// ask for: what touches to a high order shows there only. Returned is the test given, and how far its outcome holds, or the one
@@ -201,11 +220,12 @@ pub(super) fn far_chart(
     pose: &Pose<'_>,
     more: &mut MoreDigits,
     part: &Part,
+    rank: &PartRank,
     kernel: &Kernel,
     near: ChartTest,
 ) -> Result<ChartTest, MatrixError> {
     let mut probes = Probes::new(pose, part, kernel);
-    let rungs = part.cycles.len().saturating_sub(LOOPS_IN_DOUBLE);
+    let rungs = squarings(part, rank, &kernel.basis).saturating_sub(LOOPS_IN_DOUBLE);
     let mut bits = if rungs == 0 {
         53
     } else {

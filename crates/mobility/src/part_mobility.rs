@@ -297,7 +297,7 @@ pub fn part_mobility(
     if only_far {
         confirm_on_the_way(pose, part, rank, kernel, &mut chart)?;
     } else if chart.outcome == ChartOutcome::Regular && rank.stated == 0.0 {
-        chart = far_chart(pose, more, part, kernel, chart)?;
+        chart = far_chart(pose, more, part, rank, kernel, chart)?;
     }
     evidence.push(chart_evidence(&chart, freedom));
     match chart.outcome {
