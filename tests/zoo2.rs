@@ -28,3 +28,25 @@ fn no_known_fact_is_contradicted() {
     assert_eq!(count("wrong"), 0, "{told:#}");
     assert!(count("right") > count("open"), "{told:#}");
 }
+
+#[test]
+fn where_only_idle_links_move_all_other_joints_are_locked() {
+    for (name, locked) in [
+        ("crank_slider_tangent", &["j2", "j3"][..]),
+        ("spherical_7r_doubled", &["j0", "j3", "j4", "j5", "j6"]),
+    ] {
+        let file = folder(&format!("tests/zoo2/{name}.urdf"));
+        let mechanism = kutzbach::format::read_file(file, &[]).unwrap().mechanism;
+        let analysis = support::analysis(&mechanism);
+        let [branch] = &analysis.branches.unwrap()[..] else {
+            panic!("{name}: one branch")
+        };
+        let joints = mechanism.joints().iter().zip(&branch.roles);
+        let mut found: Vec<&str> = joints
+            .filter(|(_, role)| role.locked == Some(true))
+            .map(|(joint, _)| joint.name.as_str())
+            .collect();
+        found.sort_unstable();
+        assert_eq!(found, locked, "{name}");
+    }
+}

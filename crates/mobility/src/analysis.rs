@@ -3,6 +3,7 @@
 use super::advice::{Advice, advice_for_part};
 use super::alike::treat_alike;
 use super::branch::Branch;
+use super::chart::moving_far;
 use super::cycles::{CycleFacts, cycle_facts};
 use super::depth::Depth;
 use super::exact::{ExactAllowance, ExactBudget, ask_exact};
@@ -12,8 +13,9 @@ use super::more_digits::MoreDigits;
 use super::part_mobility::{PartFinding, part_mobility};
 use super::pose_rank::{PartRank, Pose, Trial, rank_part_with};
 use super::redundancy::SelfStresses;
-use super::roles::{JointRole, roles_of_part};
+use super::roles::{JointRole, roles_seen_closer};
 use super::verdict::{Mobility, judge, not_asked, unassembled};
+use super::vocabulary::PoseKind;
 use super::whole_branches::whole_branches;
 use kutzbach_closure::Structure;
 use kutzbach_closure::{
@@ -265,7 +267,17 @@ impl Analysis {
             );
         }
         if options.depth == Depth::Everything {
-            self.details(mechanism, geometry, &parts, &home)?;
+            let mut closer = Vec::with_capacity(parts.len());
+            for ((part, rank), found) in self.structure.parts.iter().zip(&parts).zip(&self.findings)
+            {
+                let regular = found.pose == Some(PoseKind::Regular);
+                closer.push(if regular {
+                    moving_far(&pose, &mut more, part, rank)?
+                } else {
+                    None
+                });
+            }
+            self.details(mechanism, geometry, &parts, &home, &closer)?;
         }
         self.home = Some(home);
         self.parts = parts;
@@ -279,6 +291,7 @@ impl Analysis {
         geometry: &Geometry<f64>,
         parts: &[PartRank],
         home: &HomeFreedom,
+        closer: &[Option<Vec<bool>>],
     ) -> Result<(), MatrixError> {
         let states = &self.assembly.states;
         // What is tried part by part is tried on these and undone again, since copies for every part would add up.
@@ -288,14 +301,21 @@ impl Analysis {
             self.roles[joint].locked = (mechanism.joints()[joint].freedom() > 0).then_some(false);
             self.redundant_wrenches[joint] = Some(0);
         }
-        for (part, rank) in self.structure.parts.iter().zip(parts) {
-            for (joint, role) in part.joints.iter().zip(roles_of_part(
+        for ((part, rank), closer) in self.structure.parts.iter().zip(parts).zip(closer) {
+            for (joint, role) in part.joints.iter().zip(roles_seen_closer(
                 mechanism,
                 geometry,
                 &mut trial_states,
                 part,
                 rank,
+                closer.as_deref(),
             )?) {
+                // At a regular pose every branch of the whole has the part's only one.
+                if closer.is_some() {
+                    for branch in self.branches.iter_mut().flatten() {
+                        branch.roles[*joint] = role.clone();
+                    }
+                }
                 self.roles[*joint] = role;
             }
             let Some(stresses) = SelfStresses::new(part, rank)? else {

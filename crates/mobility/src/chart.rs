@@ -17,14 +17,15 @@
 //!
 //! A finite number of directions and orders proves nothing about all of them: the certificate is numeric.
 
+mod far;
 mod guide;
 
 use super::more_digits::MoreDigits;
 use super::pose_rank::{LADDER, PartRank, Pose};
+pub(super) use far::{far_chart, moving_far};
 use guide::Guide;
 use kutzbach_closure::{Closing, Metric, Part, Section};
 use kutzbach_math::matrix::{MatrixError, NullVectors, Real, SplitMix64, null_vectors};
-use std::collections::BTreeSet;
 
 /// A germ whose leftover vanishes to a higher order than this is not told from none. Order 4 decides all that is known;
 /// two more are a margin, which rounded numbers do not have.
@@ -182,78 +183,6 @@ pub fn chart_test(
     Ok(test)
 }
 
-/// Radii (metric) tried for [`far_chart`], largest first.
-const FAR_RADII: [f64; 3] = [1.0, 0.5, 0.25];
-
-/// Of so many loops with a joint at rest double precision sees every contact a radian away; each one more squares what is left over,
-/// as a chain of four-bars at dead centre does (eight of them touch to order 256 and leave 1e-116 over there).
-const LOOPS_IN_DOUBLE: usize = 3;
-
-/// A joint whose share of a unit kernel vector is smaller is at rest.
-const AT_REST: f64 = 1e-6;
-
-/// Where double precision does not lead far, the neighbourhood is seen in this many bits at least.
-const NEARBY_BITS: u32 = 212;
-
-/// How often what the kernel does not show may be squared on the way: loops in which a joint is at rest, though it may move to higher
-/// order, and couplings, in which first orders may cancel.
-fn squarings(part: &Part, rank: &PartRank, kernel: &NullVectors<f64>) -> usize {
-    let moving: BTreeSet<usize> = rank
-        .jacobian
-        .variables
-        .iter()
-        .enumerate()
-        .filter(|(row, _)| kernel.vectors.iter().any(|v| v[*row].abs() > AT_REST))
-        .map(|(_, (joint, _))| *joint)
-        .collect();
-    let resting = |cycle: &&Vec<(usize, bool)>| cycle.iter().any(|(j, _)| !moving.contains(j));
-    part.cycles.iter().filter(resting).count() + part.couplings.len()
-}
-
-/// A regular outcome for exact numbers, tested again as far away as double precision follows the chart, in as many bits as its loops
-/// ask for: what touches to a high order shows there only. Returned is the test given, and how far its outcome holds, or the one
-/// that contradicts it.
-///
-/// # Errors
-/// [`MatrixError`] where numbers overflow.
-pub(super) fn far_chart(
-    pose: &Pose<'_>,
-    more: &mut MoreDigits,
-    part: &Part,
-    rank: &PartRank,
-    kernel: &Kernel,
-    near: ChartTest,
-) -> Result<ChartTest, MatrixError> {
-    let mut probes = Probes::new(pose, part, kernel);
-    let rungs = squarings(part, rank, &kernel.basis).saturating_sub(LOOPS_IN_DOUBLE);
-    let mut bits = if rungs == 0 {
-        53
-    } else {
-        LADDER[rungs.min(LADDER.len()) - 1]
-    };
-    let mut radius = near.radius;
-    for far in FAR_RADII.into_iter().filter(|r| *r > near.radius) {
-        let double = probes.in_bits(more, (far, 0.0), 53)?;
-        if double.leftover <= double.noise {
-            radius = far;
-            break;
-        }
-    }
-    if radius == near.radius {
-        bits = bits.max(NEARBY_BITS);
-    }
-    if bits > 53 && (bits > near.bits || radius > near.radius) {
-        let test = probes.in_bits(more, (radius, 0.0), bits)?;
-        if test.outcome != ChartOutcome::Regular {
-            return Ok(test);
-        }
-    }
-    Ok(ChartTest {
-        followed: radius,
-        ..near
-    })
-}
-
 /// What the numbers, taken literally, leave over at the radius of the chart test, if that is more than rounding: a rounded
 /// mechanism moves as meant, and as written it does not. Numbers with all the digits of a double are what a program
 /// computed, and nobody asks whether their last digits move too.
@@ -404,6 +333,30 @@ impl<'a> Probes<'a> {
         probe(&self.ways, reach, bits, &mut |way, radius| {
             guide.finished(&section, base, (&mut states, &mut near), way, radius)
         })
+    }
+
+    /// By how much the variables move (metric) where one of the ways leads by a radius, in so many bits (more than 53).
+    fn displaced(
+        &mut self,
+        more: &mut MoreDigits,
+        (index, radius): (usize, f64),
+        bits: u32,
+    ) -> Result<(Vec<f64>, Closing), MatrixError> {
+        let pose = self.pose;
+        let (geometry, base) = more.polished(pose, self.part, !pose.as_drawn, bits)?;
+        let section = Section {
+            mechanism: pose.mechanism,
+            geometry,
+            part: self.part,
+            metric: &self.kernel.metric,
+        };
+        let mut near = pose.states.to_vec();
+        let mut states = base.to_vec();
+        let way = (index, self.ways[index].as_slice());
+        let closing = self
+            .guide
+            .finished(&section, base, (&mut states, &mut near), way, radius)?;
+        Ok((section.way_between(base, &states), closing))
     }
 }
 

@@ -34,6 +34,7 @@ pub mod families;
 mod generic;
 mod germ;
 mod germ_zeros;
+mod hidden;
 mod idle;
 mod idle_directions;
 mod kutzbach;

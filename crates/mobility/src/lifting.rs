@@ -10,6 +10,7 @@
 use super::chart::Kernel;
 use super::germ::Germ;
 use super::germ_zeros::GermBranch;
+use super::idle_directions::idle_directions;
 use super::more_digits::MoreDigits;
 use super::part_mobility::PartBranch;
 use super::pose_rank::{LADDER, PartRank, Pose, TALL, height_at};
@@ -17,7 +18,7 @@ use super::tracing::{
     APPROACHES, FAR, POSES, PartPose, Tangents, natural, orthonormal, tangents_at, walk,
 };
 use kutzbach_closure::{JointState, Part, Section, jacobian};
-use kutzbach_math::matrix::{MatrixError, Real, decide};
+use kutzbach_math::matrix::{MatrixError, NullVectors, Real, decide};
 
 /// A lifted point may move by this share of its distance from the pose, and from other branches, while all equations are
 /// closed.
@@ -367,14 +368,20 @@ pub(super) fn idle_branch(start: &Start<'_>) -> Result<PartBranch, MatrixError> 
     let freedom = start.kernel.basis.nullity;
     let there = tangents_at(&section, &states, start.rank.stated, freedom)?;
     let poses = match there {
-        Some((tangents, _)) => secant_poses(
-            &section,
-            &states,
-            &tangents.basis,
-            dimension,
-            tangents.instantaneous.unwrap_or(freedom),
-            start.rank.stated,
-        )?,
+        Some((tangents, _)) => {
+            let instantaneous = tangents.instantaneous.unwrap_or(freedom);
+            match idle_there(start, &tangents) {
+                Some(idle) => vec![pose_on(&section, &states, &idle, instantaneous)],
+                None => secant_poses(
+                    &section,
+                    &states,
+                    &tangents.basis,
+                    dimension,
+                    instantaneous,
+                    start.rank.stated,
+                )?,
+            }
+        }
         None => Vec::new(),
     };
     Ok(PartBranch {
@@ -382,6 +389,43 @@ pub(super) fn idle_branch(start: &Start<'_>) -> Result<PartBranch, MatrixError> 
         half_branches: (dimension == 1).then_some(2),
         poses,
     })
+}
+
+/// The idle directions at another pose with these tangents, if they are as many as at the pose itself.
+fn idle_there(start: &Start<'_>, tangents: &Tangents) -> Option<Vec<Vec<f64>>> {
+    let kernel = Kernel {
+        basis: NullVectors {
+            length: start.kernel.basis.length,
+            nullity: tangents.basis.len(),
+            vectors: tangents.basis.clone(),
+            complete: true,
+            residual: start.kernel.basis.residual,
+        },
+        metric: start.kernel.metric.clone(),
+    };
+    let by_kind = height_at(start.pose, start.part) > TALL;
+    let idle = idle_directions(start.pose.mechanism, start.part, &kernel, by_kind);
+    (idle.len() == start.idle.len()).then_some(idle)
+}
+
+/// A pose of a branch with its tangents, orthonormal in the metric.
+fn pose_on(
+    section: &Section<'_, f64>,
+    states: &[JointState<f64>],
+    tangents: &[Vec<f64>],
+    instantaneous: usize,
+) -> PartPose {
+    let part = section.part;
+    let equations = 6 * part.cycles.len() + part.couplings.len();
+    PartPose {
+        states: part.joints.iter().map(|&j| states[j].clone()).collect(),
+        tangents: tangents
+            .iter()
+            .map(|v| natural(section.metric, v))
+            .collect(),
+        instantaneous: Some(instantaneous),
+        surplus: section.metric.weights.len() as i64 - equations as i64,
+    }
 }
 
 /// How far a secant reaches (metric). Its error falls with the fourth power, and grows with the pose's, of 1e-8, over it.
@@ -441,18 +485,7 @@ fn secant_poses(
     if basis.len() != dimension {
         return Ok(Vec::new());
     }
-    let (columns, rows) = (section.metric.weights.len(), 6 * section.part.cycles.len());
-    Ok(vec![PartPose {
-        states: section
-            .part
-            .joints
-            .iter()
-            .map(|&j| start[j].clone())
-            .collect(),
-        tangents: basis.iter().map(|v| natural(section.metric, v)).collect(),
-        instantaneous: Some(instantaneous),
-        surplus: columns as i64 - (rows + section.part.couplings.len()) as i64,
-    }])
+    Ok(vec![pose_on(section, start, &basis, instantaneous)])
 }
 
 /// The part of a vector in the span of an orthonormal basis.

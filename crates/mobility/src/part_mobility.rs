@@ -21,7 +21,7 @@ use super::depth::Depth;
 use super::more_digits::MoreDigits;
 use super::pose_rank::{PartRank, Pose};
 use super::singular::{SingularFinding, singular_finding};
-use super::subgroup::subgroup_finding;
+use super::subgroup::{hidden_offset, subgroup_finding};
 use super::tracing::{KERNEL_LIMIT, PartPose, WALKED_UNKNOWNS, poses_of_regular_part, walk};
 use super::vocabulary::{CertificateLevel, MobilityClass, PoseKind, SingularKind};
 use kutzbach_closure::Structure;
@@ -236,7 +236,7 @@ pub fn part_mobility(
         }
         Ok(())
     };
-    let subgroups = subgroup_finding(
+    let mut subgroups = subgroup_finding(
         pose.mechanism,
         pose.geometry,
         pose.states,
@@ -244,6 +244,12 @@ pub fn part_mobility(
         part,
         rank,
     )?;
+    if surplus != freedom as i64
+        && subgroups.finite.is_some()
+        && let Some(offset) = hidden_offset(pose, more, part, rank)?
+    {
+        subgroups = subgroups.withdrawn(offset, Some(freedom));
+    }
     evidence.push(Evidence {
         engine: "subgroup",
         scope: "every pose",

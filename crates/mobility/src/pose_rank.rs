@@ -21,6 +21,7 @@
 //! A pose that is drawn closed within the stated precision, but not beyond, is moved by closing it exactly. What it was
 //! meant to be is then as open as the way it moved.
 
+use super::hidden::bits_for_ratios;
 use super::more_digits::MoreDigits;
 use super::rounded::{OtherRank, if_rounded};
 use kutzbach_closure::{CycleJacobian, Geometry, JointState, Part, entry_accuracy, jacobian};
@@ -342,6 +343,10 @@ pub(super) fn rank_part_with(
         if tall > TALL {
             suspicious = true;
             finest_needed = 3 * tall;
+        }
+        if let Some(needed) = bits_for_ratios(pose.mechanism, pose.geometry, part) {
+            suspicious = true;
+            finest_needed = finest_needed.max(needed);
         }
     }
     suspicious |= stated == 0.0

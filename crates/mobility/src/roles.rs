@@ -41,14 +41,39 @@ pub fn roles_of_part(
     part: &Part,
     rank: &PartRank,
 ) -> Result<Vec<JointRole>, MatrixError> {
+    roles_seen_closer(mechanism, geometry, states, part, rank, None)
+}
+
+/// [`roles_of_part`], where somebody has seen in more digits which variables move.
+pub(super) fn roles_seen_closer(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    states: &mut [JointState<f64>],
+    part: &Part,
+    rank: &PartRank,
+    moving_closer: Option<&[bool]>,
+) -> Result<Vec<JointRole>, MatrixError> {
     // Where the numbers may be rounded, what moves is as open as the rank.
     let Some(decision) = rank.settled().filter(|_| rank.doubt.is_none()) else {
         return Ok(vec![JointRole::default(); part.joints.len()]);
     };
     let null = null_vectors(&rank.matrix, &decision, NULL_VECTORS, 1)?;
-    let Some(Resting { mut zero, doubtful }) = Resting::columns(&null, &decision) else {
+    let Some(Resting {
+        mut zero,
+        mut doubtful,
+    }) = Resting::columns(&null, &decision)
+    else {
         return Ok(vec![JointRole::default(); part.joints.len()]);
     };
+    for (column, _) in moving_closer
+        .unwrap_or_default()
+        .iter()
+        .enumerate()
+        .filter(|(_, moves)| **moves)
+    {
+        zero[column] = false;
+        doubtful[column] = false;
+    }
     let freedom = decision.nullity().unwrap_or(0);
     if freedom > 0 && zero.iter().any(|z| *z) {
         for size in STEPS {

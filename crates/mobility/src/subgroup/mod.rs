@@ -54,6 +54,7 @@ mod axes;
 mod chain;
 mod loop_spaces;
 mod network;
+mod offsets;
 mod one_loop;
 mod parallelogram;
 mod placing;
@@ -69,6 +70,7 @@ use kutzbach_math::matrix::MatrixError;
 use kutzbach_model::mechanism::Mechanism;
 use loop_spaces::{LoopSpaces, loop_spaces};
 use network::{Network, Outcome};
+pub(crate) use offsets::hidden_offset;
 
 /// Parts of more joints are not reduced: their screws would have to be known in one frame, to which errors add up.
 pub const MOST_JOINTS: usize = 400;
@@ -207,6 +209,22 @@ fn reduced(
 }
 
 impl SubgroupFinding {
+    /// What is left of a finding by subgroups that were recognised although two screws are apart by `offset` (rad, part lengths), which
+    /// doubles do not see.
+    pub(crate) fn withdrawn(self, offset: f64, greatest: Option<usize>) -> Self {
+        Self {
+            finite: None,
+            class: None,
+            text: format!(
+                "two axes differ by {offset:.1e} (rad, lengths of the part) only, so that subgroups are not looked for"
+            ),
+            steps: Vec::new(),
+            lower: 0,
+            upper: greatest,
+            margin: self.margin,
+        }
+    }
+
     fn decide(&mut self, freedom: usize, class: MobilityClass) {
         self.finite = Some(freedom);
         self.class = (freedom > 0).then_some(class);

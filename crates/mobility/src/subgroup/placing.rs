@@ -5,6 +5,7 @@ use kutzbach_closure::{
     Geometry, JointState, Part, PlacedScrew, Rigid, Uncertainty, characteristic_length,
 };
 use kutzbach_math::group::{Gauge, GroupError, Twist};
+use kutzbach_math::matrix::Real;
 use kutzbach_model::mechanism::Mechanism;
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, VecDeque};
@@ -104,12 +105,12 @@ pub fn cycle_frame(
 }
 
 /// Poses of the part's links, breadth first, and the number of joints to the farthest.
-fn link_poses(
+pub fn link_poses<R: Real>(
     mechanism: &Mechanism,
-    geometry: &Geometry<f64>,
-    states: &[JointState<f64>],
+    geometry: &Geometry<R>,
+    states: &[JointState<R>],
     part: &Part,
-) -> (BTreeMap<usize, Rigid<f64>>, usize) {
+) -> (BTreeMap<usize, Rigid<R>>, usize) {
     let mut incident: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for &joint in &part.joints {
         for side in ends(mechanism, joint) {
@@ -123,7 +124,7 @@ fn link_poses(
         .chain(first)
         .chain(incident.keys().copied());
     let mut depth = 0;
-    let mut poses: BTreeMap<usize, Rigid<f64>> = BTreeMap::new();
+    let mut poses: BTreeMap<usize, Rigid<R>> = BTreeMap::new();
     for root in roots {
         if poses.contains_key(&root) {
             continue;
