@@ -32,6 +32,9 @@ const FIRST_DEGREE: usize = 4;
 const LAST_DEGREE: usize = 8;
 const LAST_DEGREE_IN_THE_PLANE: usize = 12;
 
+/// Work that all searches on the germ of one part may take together: some seconds.
+const SEARCHED: u64 = 1_500_000_000;
+
 /// After so many searches that found less than there may be, longer series are not tried.
 const UNPROVED: usize = 2;
 
@@ -146,6 +149,7 @@ pub(super) fn singular_finding(
     // What the last search found.
     let mut before: Option<Vec<Shape>> = None;
     let mut outermost = f64::INFINITY;
+    let mut allowance = SEARCHED;
     let mut unproved = 0;
     let mut next = FIRST_DEGREE;
     let mut last = match freedom - idle.len() {
@@ -206,7 +210,7 @@ pub(super) fn singular_finding(
             found.complex_dimension = complex.map(|c| c.dimension + idle.len());
             break;
         }
-        let zeros = zeros_within(&germ, order, !rounded, &mut outermost);
+        let zeros = zeros_within(&germ, order, !rounded, &mut outermost, &mut allowance);
         evidence.push(Evidence {
             engine: "germ",
             scope: "a neighbourhood",
@@ -231,6 +235,9 @@ pub(super) fn singular_finding(
         found.complex_dimension = complex;
         if let Some(thin) = &zeros.thin {
             why = refused(&mut evidence, thin.clone());
+            if allowance == 0 {
+                break;
+            }
             continue;
         }
         if !agrees_with(&germ, &zeros) {
@@ -356,8 +363,14 @@ const NOT_PROVED: &str =
 
 /// The zeros of a germ on spheres no larger than `outermost`, and on smaller ones where what shows inside differs from what shows
 /// outside: what shows inside is the germ. No later search in exact numbers is made on larger spheres than an earlier one.
-fn zeros_within(germ: &Germ, order: usize, exact: bool, outermost: &mut f64) -> GermZeros {
-    let search = |outermost: f64| {
+fn zeros_within(
+    germ: &Germ,
+    order: usize,
+    exact: bool,
+    outermost: &mut f64,
+    allowance: &mut u64,
+) -> GermZeros {
+    let search = |outermost: f64, allowance: &mut u64| {
         let mut zeros = germ_zeros(
             germ.freedom(),
             germ.equations(),
@@ -365,23 +378,25 @@ fn zeros_within(germ: &Germ, order: usize, exact: bool, outermost: &mut f64) -> 
             &GermZeroOptions {
                 most_starts: most_starts(germ),
                 outermost,
+                work: *allowance,
                 ..GermZeroOptions::default()
             },
         );
+        *allowance = allowance.saturating_sub(zeros.work);
         join_quadric(germ, &mut zeros);
         zeros
     };
-    let mut zeros = search(*outermost);
+    let mut zeros = search(*outermost, allowance);
     let mut again = if germ.freedom() == 2 { SMALLER } else { 0 };
     let mut shrunk = false;
     while zeros.varies || (zeros.thin.is_none() && !agrees_with(germ, &zeros)) {
         shrunk = true;
         *outermost = zeros.radii.last().copied().unwrap_or(*outermost);
-        if again == 0 {
+        if again == 0 || *allowance == 0 {
             return zeros;
         }
         again -= 1;
-        zeros = search(*outermost);
+        zeros = search(*outermost, allowance);
     }
     // What rounded numbers leave open outweighs the equations on small spheres: the longer the series, the larger those that tell.
     if exact || shrunk {

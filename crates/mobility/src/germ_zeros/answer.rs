@@ -35,6 +35,7 @@ pub fn germ_zeros(
         seed: options.seed,
         radii: Vec::new(),
         thin: None,
+        work: 0,
         varies: false,
     };
     let finite = |series: &Series| series.coefficients().iter().all(|c| c.is_finite());
@@ -68,11 +69,15 @@ pub fn germ_zeros(
             });
         }
         Some(system) => {
+            system.allow(options.work);
             let mut search = Search::new(&system, options);
             search.run(options);
-            merge_inseparable(&mut search);
-            join_by_slices(&mut search, options);
+            if system.left() > 0 {
+                merge_inseparable(&mut search);
+                join_by_slices(&mut search, options);
+            }
             collect(&mut search, &mut answer);
+            answer.work = system.spent();
         }
     }
     answer
@@ -163,7 +168,10 @@ fn join_by_slices(search: &mut Search<'_>, options: &GermZeroOptions) {
         let dimension = search.sheets[slot].dimension;
         for piece in search.sheets[slot].pieces() {
             for attempt in 0..3 {
-                if search.sheets[slot].pieces().len() < 2 || variables + 1 - dimension < 2 {
+                if search.sheets[slot].pieces().len() < 2
+                    || variables + 1 - dimension < 2
+                    || search.system.left() == 0
+                {
                     break;
                 }
                 // Near a crossing a slice has a second curve close by.
@@ -192,10 +200,12 @@ fn join_along(
     let Some(system) = search.system.restricted(basis, search.system.radius) else {
         return;
     };
+    system.allow(search.system.left());
     let mut inner = Search::new(&system, options);
     let ratio = outer / inner.radii[0];
     inner.radii.iter_mut().for_each(|r| *r *= ratio);
     inner.run(options);
+    search.system.spend(system.spent());
     let through = inner
         .halves
         .iter()
@@ -296,6 +306,11 @@ fn collect(search: &mut Search<'_>, answer: &mut GermZeros) {
         answer.isolation = Some(isolation(search));
     }
     answer.varies = search.varies;
+    if search.system.left() == 0 {
+        search
+            .doubts
+            .push("the search took more work than it may".into());
+    }
     search.doubts.dedup();
     if !search.doubts.is_empty() {
         answer.thin = Some(search.doubts.join("; "));

@@ -56,6 +56,8 @@ pub struct GermZeroOptions {
     pub largest_radius: f64,
     /// No sphere is larger than this, whatever the equations would allow.
     pub outermost: f64,
+    /// Work after which the search ends without having settled: about so many multiplications.
+    pub work: u64,
 }
 
 impl Default for GermZeroOptions {
@@ -66,6 +68,7 @@ impl Default for GermZeroOptions {
             most_starts: 3000,
             largest_radius: 1.0,
             outermost: f64::INFINITY,
+            work: u64::MAX,
         }
     }
 }
@@ -86,6 +89,8 @@ pub struct GermZeros {
     pub radii: Vec<f64>,
     /// Why the answer should not be trusted, if there is a reason.
     pub thin: Option<String>,
+    /// The work done.
+    pub work: u64,
     /// Whether other zeros were found on smaller spheres: the germ shows inside of them only.
     pub varies: bool,
 }

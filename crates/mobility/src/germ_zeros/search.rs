@@ -66,7 +66,7 @@ impl<'a> Search<'a> {
         loop {
             let lonely = self.halves.iter().any(|half| half.hits < 2);
             let enough = self.starts >= options.fewest_starts.max(2 * last_new) && !lonely;
-            if enough || self.starts >= options.most_starts {
+            if enough || self.starts >= options.most_starts || self.system.left() == 0 {
                 if !enough {
                     self.doubts.push(format!(
                         "{} starts were not enough to find every class of zeros twice",
@@ -89,6 +89,9 @@ impl<'a> Search<'a> {
         }
         let level = Level::new(self.system, self.radii[2]);
         for _ in 0..self.starts / 3 {
+            if self.system.left() == 0 {
+                return;
+            }
             let start = self.next_start();
             let landed = land(&level, &start, &Within::Sphere, 80, &mut self.work);
             let landed = self.settled(&level, landed);

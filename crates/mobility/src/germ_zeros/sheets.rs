@@ -123,6 +123,9 @@ fn walk(
     let mut tangent = tangent.to_vec();
     let mut stride = STRIDE;
     for _ in 0..80 {
+        if level.system.left() == 0 {
+            return false;
+        }
         let ahead = plus(&to.z, -1.0, &z);
         let left = length(&ahead);
         // Within a thousandth of the radius and along the same tangent space: the same sheet, or one so close that

@@ -82,6 +82,9 @@ pub(super) fn rotate_to_orthogonal(
         None => dot(a, b),
         Some(w) => a.iter().zip(b).zip(w).map(|((x, y), w)| x * y * w).sum(),
     };
+    // No product of unit vectors is closer to zero than the rounding of its sum.
+    let length = vectors.first().map_or(0, Vec::len);
+    let rounding = f64::EPSILON * (length.max(1) as f64).sqrt();
     // Convergence is quadratic; a dozen sweeps are never reached for these sizes.
     for _ in 0..30 {
         let mut turned = false;
@@ -93,7 +96,7 @@ pub(super) fn rotate_to_orthogonal(
                     product(&vectors[i], &vectors[j]),
                 );
                 // Vectors of length zero are orthogonal to everything.
-                if ab.abs() <= 1e-16 * (aa * bb).sqrt() || ab == 0.0 {
+                if ab.abs() <= rounding * (aa * bb).sqrt() || ab == 0.0 {
                     continue;
                 }
                 turned = true;

@@ -1,9 +1,13 @@
 //! The equations as they are solved: independent by degree, without noise, compiled, weighted for a radius.
 
+use std::cell::Cell;
 use std::sync::Arc;
 
 use super::small::{dot, rotate_to_orthogonal};
 use kutzbach_math::group::{Monomials, Series};
+
+/// Operations of a decomposition of the derivatives, over their number times the variables.
+const LINEAR_ALGEBRA: usize = 60;
 
 /// Polynomial equations with their leading forms made orthogonal, ready for fast evaluation.
 ///
@@ -19,6 +23,11 @@ pub(super) struct System {
     /// Radius within which no homogeneous part outweighs the leading one.
     pub(super) radius: f64,
     noise: f64,
+    /// Work of one evaluation, about one multiplication each, linear algebra with the derivatives included.
+    cost: u64,
+    /// Work done, and the most that may be.
+    spent: Cell<u64>,
+    allowed: Cell<u64>,
 }
 
 #[derive(Clone, Debug)]
@@ -95,13 +104,39 @@ impl System {
             }
         }
         let parents = parents(&monomials);
+        let terms = equations.iter().map(|e| e.terms.len() + e.gradient.len());
+        let dense = equations.len() * monomials.variables().pow(2);
+        let cost = parents.len() + terms.sum::<usize>() + LINEAR_ALGEBRA * dense;
         Some(Self {
             monomials,
             parents,
             equations,
             radius,
             noise,
+            cost: cost as u64,
+            spent: Cell::new(0),
+            allowed: Cell::new(u64::MAX),
         })
+    }
+
+    /// Allows so much more work.
+    pub(super) fn allow(&self, work: u64) {
+        self.allowed.set(self.spent.get().saturating_add(work));
+    }
+
+    /// Work done so far.
+    pub(super) fn spent(&self) -> u64 {
+        self.spent.get()
+    }
+
+    /// Work that is left.
+    pub(super) fn left(&self) -> u64 {
+        self.allowed.get().saturating_sub(self.spent.get())
+    }
+
+    /// Counts work done elsewhere.
+    pub(super) fn spend(&self, work: u64) {
+        self.spent.set(self.spent.get().saturating_add(work));
     }
 
     pub(super) fn variables(&self) -> usize {
@@ -301,6 +336,7 @@ impl<'a> Level<'a> {
     /// Values and derivatives at the point radius·z.
     pub(super) fn evaluate(&self, z: &[f64], work: &mut Work) {
         let system = self.system;
+        system.spend(system.cost);
         work.monomials.resize(system.parents.len(), 0.0);
         work.monomials[0] = 1.0;
         for (index, (parent, variable)) in system.parents.iter().enumerate().skip(1) {

@@ -602,6 +602,28 @@ fn one_variable_and_no_equation() {
     assert!(wrong.thin.is_some() && wrong.branches.is_empty() && wrong.isolation.is_none());
 }
 
+#[test]
+fn a_search_ends_with_the_work_it_may_do_and_says_so() {
+    for case in CASES.iter().filter(|case| case.variables > 2) {
+        let equations = as_it_is(case);
+        let whole = zeros(case, &equations);
+        let allowed = whole.work / 3;
+        let options = GermZeroOptions {
+            work: allowed,
+            ..GermZeroOptions::default()
+        };
+        let cut = germ_zeros(case.variables, &equations, 1e-12, &options);
+        let told = cut.thin.unwrap_or_default();
+        assert!(
+            told.contains("more work than it may"),
+            "{}: {told}",
+            case.name
+        );
+        // What was begun is ended: a start, and the tracks of what was found.
+        assert!(cut.work < whole.work, "{}", case.name);
+    }
+}
+
 /// How often a germ in other units of the variables and of the equations, and along other axes, has the right zeros, and
 /// how often wrong ones without a doubt.
 fn rescaled(index: usize, rounds: u64) -> (usize, usize) {
