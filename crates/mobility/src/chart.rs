@@ -20,12 +20,13 @@
 mod far;
 mod guide;
 
+use super::hidden::null_vectors_in_doubles;
 use super::more_digits::MoreDigits;
 use super::pose_rank::{LADDER, PartRank, Pose};
 pub(super) use far::{far_chart, moving_far};
 use guide::Guide;
 use kutzbach_closure::{Closing, Metric, Part, Section};
-use kutzbach_math::matrix::{MatrixError, NullVectors, Real, SplitMix64, null_vectors};
+use kutzbach_math::matrix::{MatrixError, NullVectors, Real, SplitMix64};
 
 /// A germ whose leftover vanishes to a higher order than this is not told from none. Order 4 decides all that is known;
 /// two more are a margin, which rounded numbers do not have.
@@ -108,8 +109,11 @@ impl Kernel {
         let Some(decision) = rank.settled() else {
             return Ok(None);
         };
+        let Some(basis) = null_vectors_in_doubles(&rank.matrix, &decision, limit, SEED)? else {
+            return Ok(None);
+        };
         Ok(Some(Self {
-            basis: null_vectors(&rank.matrix, &decision, limit, SEED)?,
+            basis,
             metric: Metric::of(pose.mechanism, &rank.jacobian, &rank.column_scales),
         }))
     }

@@ -7,7 +7,7 @@
 
 use super::pose_rank::PartRank;
 use kutzbach_closure::{Geometry, Part};
-use kutzbach_math::matrix::NullVectors;
+use kutzbach_math::matrix::{MatrixError, NullVectors, RankDecision, SparseMatrix, null_vectors};
 use kutzbach_model::mechanism::Mechanism;
 use std::collections::BTreeSet;
 
@@ -15,7 +15,7 @@ use std::collections::BTreeSet;
 const RATIO_IN_DOUBLE: usize = 30;
 
 /// Bits of a loop's ratio of arms that are usual, and do not multiply.
-const USUAL_ARMS: f64 = 2.0;
+const USUAL_ARMS: f64 = 1.0;
 
 /// Of so many loops with a joint at rest double precision sees every contact a radian away; each one more squares what is left over.
 const LOOPS_IN_DOUBLE: usize = 3;
@@ -66,6 +66,19 @@ fn arms(geometry: &Geometry<f64>, cycle: &[(usize, bool)]) -> impl Iterator<Item
         let squares = leaving.iter().zip(coming).map(|(a, b)| (a - b).powi(2));
         squares.sum::<f64>().sqrt()
     })
+}
+
+/// Null vectors in double precision at a rank that more digits may have decided; `None` where doubles do not separate it.
+pub(super) fn null_vectors_in_doubles(
+    matrix: &SparseMatrix<f64>,
+    decision: &RankDecision,
+    limit: usize,
+    seed: u64,
+) -> Result<Option<NullVectors<f64>>, MatrixError> {
+    match null_vectors(matrix, decision, limit, seed) {
+        Err(MatrixError::Decomposition { .. }) => Ok(None),
+        found => found.map(Some),
+    }
 }
 
 /// How often what the kernel does not show may be squared on the way, beyond what doubles follow: loops in which a joint is at rest,

@@ -5,9 +5,10 @@
 //! motion determines (Wojtyra 2005). Freeing a screw T in the joint removes one redundancy, and adds no freedom, exactly
 //! when `Tᵀ W_j ≠ 0`: the new column is then independent of the old ones.
 
+use super::hidden::null_vectors_in_doubles;
 use super::pose_rank::PartRank;
 use kutzbach_closure::{Part, PlacedScrew, Vector, WalkedJoint};
-use kutzbach_math::matrix::{MatrixError, NullVectors, null_vectors};
+use kutzbach_math::matrix::{MatrixError, NullVectors};
 use nalgebra::DMatrix;
 use std::collections::BTreeMap;
 
@@ -41,7 +42,11 @@ impl SelfStresses {
         if (0..transposed.rows()).any(|row| transposed.row(row).len() > MOST_COUPLED) {
             return Ok(None);
         }
-        let vectors = null_vectors(&transposed, &decision.transposed(), SELF_STRESSES, 2)?;
+        let decided = decision.transposed();
+        let Some(vectors) = null_vectors_in_doubles(&transposed, &decided, SELF_STRESSES, 2)?
+        else {
+            return Ok(None);
+        };
         let kept = decision.kept.max(f64::MIN_POSITIVE);
         // A null vector of unit length is off by up to the accuracy of the matrix over the smallest kept singular value,
         // and a joint's share of it is of the order of 1/√rows. In a large part the smallest singular value belongs to a
