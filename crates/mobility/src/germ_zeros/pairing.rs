@@ -5,7 +5,7 @@
 //! both half-branches, the second one with the sign (−1)^m, are values of one analytic function at positive and negative t.
 //! m = 1 is a smooth curve, m = 2 a cusp. Candidates are judged by how well one polynomial fits both sides.
 
-use super::small::{dot, least_squares, plus, unit};
+use super::small::{distance, dot, least_squares, plus, unit};
 
 /// Two half-branches of one curve.
 #[derive(Clone, Debug)]
@@ -22,6 +22,10 @@ pub(super) struct Pair {
 /// Largest misfit of a true pair, in units of the radius. Fits of true pairs are good to the number of nodes: the worst
 /// measured are cusps with m = 2, at 1e-4.
 const LARGEST_MISFIT: f64 = 5e-3;
+
+/// Between the innermost points of both sides an analytic function changes about as much as along either of them, times the ratio of
+/// the ways in t; this many times that much is allowed.
+const STEADY: f64 = 4.0;
 
 struct Fit {
     misfit: f64,
@@ -66,6 +70,18 @@ fn fit(h: &[Vec<f64>], g: &[Vec<f64>], radii: &[f64], m: usize) -> Fit {
     }
 }
 
+/// Whether directions `h` and `g` change as slowly across the origin as they do along the radii. Where these span little, a polynomial
+/// with its bend between the two sides would fit any two half-branches.
+fn steady(h: &[Vec<f64>], g: &[Vec<f64>], radii: &[f64], m: usize, accuracy: f64) -> bool {
+    let sign = if m % 2 == 1 { -1.0 } else { 1.0 };
+    let last = radii.len() - 1;
+    let innermost = (radii[last] / radii[0]).powf(1.0 / m as f64);
+    let along = distance(&h[0], &h[last]).max(distance(&g[0], &g[last]));
+    let mirrored: Vec<f64> = g[last].iter().map(|x| sign * x).collect();
+    let across = distance(&h[last], &mirrored);
+    across <= STEADY * (2.0 * innermost / (1.0 - innermost) * along + accuracy)
+}
+
 /// Pairs half-branches given as directions at `radii`, outermost first; those without a partner are left over.
 /// `accuracies`: how well the directions of each are known.
 pub(super) fn pair(
@@ -79,12 +95,14 @@ pub(super) fn pair(
     let inner = &radii[1..];
     for i in 0..tracks.len() {
         for j in i + 1..tracks.len() {
+            let accuracy = accuracies[i].max(accuracies[j]);
             let best = (1..=largest_ramification)
+                .filter(|m| steady(&tracks[i][1..], &tracks[j][1..], inner, *m, accuracy))
                 .map(|m| (m, fit(&tracks[i][1..], &tracks[j][1..], inner, m)))
                 // A larger m is more flexible: it has to be better to be believed.
                 .map(|(m, fit)| {
                     // Below the accuracy of the points all misfits are alike.
-                    let misfit = fit.misfit.max(accuracies[i]).max(accuracies[j]);
+                    let misfit = fit.misfit.max(accuracy);
                     (misfit * f64::powi(2.0, m as i32), m, fit)
                 })
                 .min_by(|a, b| a.0.total_cmp(&b.0));
