@@ -164,6 +164,9 @@ fn a_budget_is_kept() {
     // What is known without the rest is kept.
     let exact = small.evidence.iter().find(|(_, e)| e.engine == "exact");
     assert_eq!(exact.unwrap().1.bounds, (0, Some(1)));
+    let little = with(&mechanism, ExactBudget::default().within(1_000)).mobility;
+    assert_eq!(little.level, CertificateLevel::Numeric);
+    assert!(said(&little)[0].contains("memory"), "{:?}", said(&little));
     for none in [0.0, -1.0, f64::NAN] {
         assert_eq!(ExactBudget::seconds(none), ExactBudget::none());
     }

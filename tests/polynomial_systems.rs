@@ -6,7 +6,7 @@
 use crate::support;
 
 use kutzbach::algebra::{
-    Formulation, HomePose, Meaning, Origin, PolynomialSystem, Relaxation, SystemError,
+    Formulation, HomePose, MEMORY, Meaning, Origin, PolynomialSystem, Relaxation, SystemError,
     SystemOptions, polynomial_system,
 };
 use kutzbach::closure::{Arithmetic, Geometry, Part, Rigid, assemble, spanning_poses};
@@ -208,7 +208,7 @@ fn symbolic_properties_are_variables() {
         assert_eq!(values[b], Number::integer(2));
         // At the values of the file it is the same system.
         let modulo = |system: &PolynomialSystem| {
-            let modulo = system.home_modulo(0).unwrap();
+            let modulo = system.home_modulo(0, MEMORY).unwrap();
             let names: Vec<String> = modulo
                 .variables
                 .iter()
@@ -451,7 +451,7 @@ mod corpus {
                 match &system.home {
                     HomePose::Exact(values) if !rounded => {
                         assert_eq!(values.len(), system.variables.len());
-                        let Some(modulo) = system.home_modulo(0) else {
+                        let Some(modulo) = system.home_modulo(0, MEMORY) else {
                             wrong.push(format!("{name} {formulation:?}: nothing modulo a prime"));
                             continue;
                         };

@@ -7,8 +7,9 @@ use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressDrawTarget};
 use kutzbach::algebra::{
     BlockAnswer, BlockFinding, Budget, ExactOptions, Formulation, Limits, Method, MonomialOrder,
-    Progress, Stop, SystemError, SystemOptions, assembly_conditions, exact_answer, exact_by_blocks,
-    motion_conditions, polynomial_system, relation_by_relation, relations_of, without_loops,
+    Progress, Stop, SystemError, SystemOptions, assembly_conditions, entries_in, exact_answer,
+    exact_by_blocks, motion_conditions, polynomial_system, relation_by_relation, relations_of,
+    without_loops,
 };
 use kutzbach::graph::ConstraintGraph;
 use kutzbach::mechanism::Mechanism;
@@ -55,6 +56,9 @@ pub struct Arguments {
     /// Stop after so many seconds and say what is known
     #[arg(long, value_name = "SECONDS", default_value_t = 30.0)]
     time: f64,
+    /// Fill at most so many gigabytes of memory; what would not fit is not computed
+    #[arg(long, value_name = "GIGABYTES", default_value = "2", value_parser = load::gigabytes)]
+    memory: u64,
     /// Exit with code 3 if it stopped before everything was answered
     #[arg(long)]
     strict: bool,
@@ -396,6 +400,7 @@ fn watched<T>(arguments: &Arguments, work: impl FnOnce(&Budget) -> T) -> T {
     let limits = Limits {
         cancelled: Some(Arc::clone(&cancelled)),
         progress: Some(Arc::clone(&progress)),
+        entries: Some(entries_in(arguments.memory)),
         ..Limits::seconds(seconds)
     };
     let file = arguments.source.file.display().to_string();

@@ -74,6 +74,14 @@ pub struct Closing {
     pub closure_tolerance: Option<f64>,
 }
 
+/// Bytes; no memory at all is a slip.
+pub fn gigabytes(text: &str) -> Result<u64, String> {
+    match text.parse::<f64>() {
+        Ok(size) if size > 0.0 && size.is_finite() => Ok((size * 1e9) as u64),
+        _ => Err("a number of gigabytes, more than 0".to_owned()),
+    }
+}
+
 /// A gap that is none is a slip, not a wish for exactness.
 fn gap(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {

@@ -52,6 +52,9 @@ pub struct Arguments {
     /// machine; 0 leaves it out [default: 0.2]
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     exact: Option<f64>,
+    /// Let exact algebra, which takes most of it, fill at most so many gigabytes; what would not fit stays undecided
+    #[arg(long, value_name = "GIGABYTES", default_value = "2", value_parser = load::gigabytes)]
+    memory: u64,
     /// Say how link A moves, seen from link B, on every branch; may be repeated
     #[arg(long, num_args = 2, value_names = ["A", "B"])]
     between: Vec<String>,
@@ -95,7 +98,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         configuration: arguments.at.clone(),
         exact: arguments
             .exact
-            .map_or_else(ExactBudget::default, ExactBudget::seconds),
+            .map_or_else(ExactBudget::default, ExactBudget::seconds)
+            .within(arguments.memory),
         timing: arguments.timing,
         evidence: arguments.evidence,
         between: arguments

@@ -29,9 +29,9 @@ pub use components::{
     components,
 };
 pub use engine::{
-    Budget, Certificate, GroebnerBasis, HilbertSeries, Limits, LocalRing, MonomialOrder, Progress,
-    ResidueTerms, Stop, eliminate, groebner_basis, local_dimension, local_dimension_is_at_most,
-    local_dimension_modulo, quotient, radical_contains, saturate,
+    Budget, Certificate, GroebnerBasis, HilbertSeries, Limits, LocalRing, MEMORY, MonomialOrder,
+    Progress, ResidueTerms, Stop, eliminate, entries_in, groebner_basis, local_dimension,
+    local_dimension_is_at_most, local_dimension_modulo, quotient, radical_contains, saturate,
 };
 pub use factor::{Factorization, UnivariateFactors, factor};
 pub use polynomial::{Polynomial, Rational};

@@ -21,11 +21,20 @@ pub struct Limits {
     pub progress: Option<Arc<Progress>>,
 }
 
-/// Entries of the largest matrix where only a time is given: about a gigabyte.
-const MOST_ENTRIES: u64 = 100_000_000;
+/// Memory where none is stated (bytes).
+pub const MEMORY: u64 = 2_000_000_000;
+
+/// An entry of a matrix takes about ten bytes; as much again is left to what stands beside the largest matrix.
+const BYTES_PER_ENTRY: u64 = 20;
+
+/// Entries that a matrix may have in so much memory (bytes).
+#[must_use]
+pub fn entries_in(memory: u64) -> u64 {
+    memory / BYTES_PER_ENTRY
+}
 
 impl Limits {
-    /// So many seconds and a sensible bound of the memory. A time that is negative or no number is no time at all; one
+    /// So many seconds and two gigabytes. A time that is negative or no number is no time at all; one
     /// too large for a clock is no limit.
     #[must_use]
     pub fn seconds(seconds: f64) -> Self {
@@ -36,7 +45,7 @@ impl Limits {
         };
         Self {
             time,
-            entries: Some(MOST_ENTRIES),
+            entries: Some(entries_in(MEMORY)),
             ..Self::default()
         }
     }

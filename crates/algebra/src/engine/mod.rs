@@ -23,7 +23,7 @@ mod trace;
 
 pub(super) use basis::groebner_basis_noting;
 pub use basis::{GroebnerBasis, groebner_basis};
-pub use budget::{Budget, Limits, Progress, Stop};
+pub use budget::{Budget, Limits, MEMORY, Progress, Stop, entries_in};
 pub use certificate::Certificate;
 pub use hilbert::HilbertSeries;
 pub use ideal::{eliminate, quotient, radical_contains, saturate};

@@ -27,19 +27,19 @@ pub struct ModularSystem {
 const FIRST: u64 = 1 << 61;
 /// Most primes tried.
 const MOST_PRIMES: usize = 200_000;
-/// Most terms of a system at its pose: some hundreds of bytes each.
-const MOST_TERMS: usize = 1_000_000;
+/// A term of a system at its pose takes about five hundred bytes; four times that is reckoned, so that a basis has room too.
+const BYTES_PER_TERM: u64 = 2000;
 
 impl PolynomialSystem {
     /// The system and its drawn pose modulo a prime, the pose moved to the origin. Different `attempt`s give different
     /// primes. `None` where the drawn pose is no exact solution, or no prime was found (hundreds of thousands are tried,
     /// of which at least one in the degree of the field does).
     ///
-    /// Nothing is expanded where that would make too many terms: see [`has_many_terms_at_home`](Self::has_many_terms_at_home).
+    /// Nothing is expanded where that would take more than `memory` (bytes): see [`fits_at_home`](Self::fits_at_home).
     #[must_use]
-    pub fn home_modulo(&self, attempt: usize) -> Option<ModularSystem> {
+    pub fn home_modulo(&self, attempt: usize, memory: u64) -> Option<ModularSystem> {
         let point = self.construction.point.as_ref()?;
-        if self.has_many_terms_at_home() {
+        if !self.fits_at_home(memory) {
             return None;
         }
         let field = &self.construction.field;
@@ -68,19 +68,19 @@ impl PolynomialSystem {
         None
     }
 
-    /// Whether the system moved to its drawn pose would have more than a million terms. A factor xᵉ of a monomial becomes (x + a)ᵉ,
-    /// of e + 1 terms where the value a at the pose is not zero: counted, with multiplicity, before anything is expanded.
+    /// Whether the system moved to its drawn pose takes no more than `memory` (bytes). A factor xᵉ of a monomial becomes (x + a)ᵉ, of
+    /// e + 1 terms where the value a at the pose is not zero: counted, with multiplicity, before anything is expanded.
     #[must_use]
-    pub fn has_many_terms_at_home(&self) -> bool {
+    pub fn fits_at_home(&self, memory: u64) -> bool {
         let Some(point) = &self.construction.point else {
-            return false;
+            return true;
         };
         let monomials = self.equations.iter().flat_map(|e| e.polynomial.terms());
         let counts = monomials.map(|(exponents, _)| {
             let factors = exponents.iter().zip(point).filter(|(_, x)| !x.is_zero());
             factors.fold(1usize, |all, (&e, _)| all.saturating_mul(e as usize + 1))
         });
-        counts.fold(0, usize::saturating_add) > MOST_TERMS
+        counts.fold(0, usize::saturating_add) as u64 <= memory / BYTES_PER_TERM
     }
 
     fn reduced(&self, point: &[Element], images: &[u64], p: u64) -> Option<ModularSystem> {

@@ -1,25 +1,25 @@
 //! How much exact algebra may do, counted in work and not in time.
 
+use kutzbach_algebra::MEMORY;
+
 /// Matrix entries that are eliminated in about a second (release build, one core of a machine of 2024).
 const WORK_PER_SECOND: f64 = 5e6;
 
 /// How long exact algebra may take for one part where nothing is said.
 const SECONDS: f64 = 0.2;
 
-/// A matrix larger than this is not made: some hundred megabytes.
-pub(super) const MOST_ENTRIES: u64 = 20_000_000;
-
 /// The parts of a mechanism share so many times the budget of one.
 const PARTS: u64 = 5;
 
-/// How much work exact algebra may do, for each part of a mechanism.
+/// How much work exact algebra may do and how much memory it may take, for each part of a mechanism.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ExactBudget {
-    pub(super) work: u64,
+    work: u64,
+    memory: u64,
 }
 
 impl Default for ExactBudget {
-    /// About 0.2 s.
+    /// About 0.2 s, 2 GB.
     fn default() -> Self {
         Self::seconds(SECONDS)
     }
@@ -29,7 +29,10 @@ impl ExactBudget {
     /// Exact algebra is not asked.
     #[must_use]
     pub fn none() -> Self {
-        Self { work: 0 }
+        Self {
+            work: 0,
+            memory: MEMORY,
+        }
     }
 
     /// About as much work as takes so many seconds, the same on every machine. No time, or none that is a number, is
@@ -39,7 +42,14 @@ impl ExactBudget {
         // Saturating; not a number becomes zero.
         Self {
             work: (seconds * WORK_PER_SECOND) as u64,
+            memory: MEMORY,
         }
+    }
+
+    /// The same with other memory (bytes). What would not fit is not begun: everything is counted before it is expanded.
+    #[must_use]
+    pub fn within(self, memory: u64) -> Self {
+        Self { memory, ..self }
     }
 
     /// Work, in matrix entries.
@@ -54,6 +64,8 @@ impl ExactBudget {
 pub struct ExactAllowance {
     /// For one part.
     pub(super) each: u64,
+    /// Bytes.
+    pub(super) memory: u64,
     /// For all that are still to come.
     pub(super) left: u64,
 }
@@ -63,6 +75,7 @@ impl ExactAllowance {
     pub(crate) fn new(budget: ExactBudget) -> Self {
         Self {
             each: budget.work,
+            memory: budget.memory,
             left: budget.work.saturating_mul(PARTS),
         }
     }

@@ -43,12 +43,13 @@ use super::part_mobility::{Evidence, PartFinding};
 use super::pose_rank::{PartRank, Pose};
 use super::vocabulary::CertificateLevel;
 use agreement::combine;
-use budget::MOST_ENTRIES;
-use kutzbach_algebra::{Budget, Formulation, Limits, Stop, SystemOptions, polynomial_system};
+use kutzbach_algebra::{
+    Budget, Formulation, Limits, Stop, SystemOptions, entries_in, polynomial_system,
+};
 use kutzbach_closure::Part;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{JointId, Precision};
-use question::Question;
+use question::{Most, Question};
 
 /// Mechanisms with more joints are not asked about: their equations take longer to write than others to solve.
 const MOST_JOINTS: usize = 200;
@@ -91,10 +92,14 @@ pub(super) fn ask_exact(
     let work = allowance.each.min(allowance.left);
     let budget = Budget::new(Limits {
         work: Some(work),
-        entries: Some(MOST_ENTRIES),
+        entries: Some(entries_in(allowance.memory)),
         ..Limits::default()
     });
-    let answer = exact_finding(pose, part, rank, found, &budget, work);
+    let most = Most {
+        work,
+        memory: allowance.memory,
+    };
+    let answer = exact_finding(pose, part, rank, found, &budget, most);
     allowance.left -= budget.work().min(work);
     match answer {
         Ok(exact) => {
@@ -149,7 +154,7 @@ fn exact_finding(
     rank: &PartRank,
     found: &PartFinding,
     budget: &Budget,
-    work: u64,
+    most: Most,
 ) -> Result<ExactFinding, String> {
     let mechanism = pose.mechanism;
     if rank.stated > 0.0 || rank.taken_literally || !numbers_are_exact(pose, part) {
@@ -179,11 +184,14 @@ fn exact_finding(
     };
     let system = polynomial_system(mechanism, &options)
         .map_err(|error| format!("no polynomial equations: {error}"))?;
-    if system.has_many_terms_at_home() {
-        return Err("not asked: around the pose its equations have too many terms".to_owned());
+    if !system.fits_at_home(most.memory) {
+        let gigabytes = most.memory as f64 / 1e9;
+        return Err(format!(
+            "not asked: around the pose its equations have more terms than {gigabytes} GB of memory hold (`--memory`)"
+        ));
     }
     let modular = system
-        .home_modulo(0)
+        .home_modulo(0, most.memory)
         .ok_or("the pose drawn is not known to be an exact solution")?;
     Question {
         system: &system,
@@ -191,7 +199,7 @@ fn exact_finding(
         rank,
         found,
         budget,
-        work,
+        most,
     }
     .answer()
 }

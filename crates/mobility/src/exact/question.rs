@@ -1,12 +1,11 @@
 //! The solutions of a polynomial system near the pose drawn: their tangent space and their dimension.
 
-use super::budget::MOST_ENTRIES;
 use super::{ExactFinding, stopped};
 use crate::part_mobility::PartFinding;
 use crate::pose_rank::PartRank;
 use kutzbach_algebra::{
     Budget, Limits, ModularSystem, MonomialOrder, Polynomial, PolynomialSystem, Rational, Stop,
-    groebner_basis, local_dimension_is_at_most, local_dimension_modulo,
+    entries_in, groebner_basis, local_dimension_is_at_most, local_dimension_modulo,
 };
 use kutzbach_math::number::Number;
 
@@ -23,6 +22,15 @@ const NEXT_ATTEMPT: u64 = 4;
 /// Systems of more unknowns are asked for their tangent space only.
 const MOST_VARIABLES: usize = 60;
 
+/// What one question may take.
+#[derive(Clone, Copy)]
+pub(super) struct Most {
+    /// In matrix entries.
+    pub(super) work: u64,
+    /// In bytes.
+    pub(super) memory: u64,
+}
+
 /// A part as a polynomial system, with the drawn pose at the origin modulo a prime.
 pub(super) struct Question<'a> {
     pub(super) system: &'a PolynomialSystem,
@@ -30,8 +38,8 @@ pub(super) struct Question<'a> {
     pub(super) rank: &'a PartRank,
     pub(super) found: &'a PartFinding,
     pub(super) budget: &'a Budget,
-    /// The limit of the budget.
-    pub(super) work: u64,
+    /// The limits of the budget.
+    pub(super) most: Most,
 }
 
 impl Question<'_> {
@@ -129,7 +137,7 @@ impl Question<'_> {
         }
         if answer.complex_dimension.is_none()
             && answer.upper > self.found.lower
-            && let Some(second) = self.system.home_modulo(1)
+            && let Some(second) = self.system.home_modulo(1, self.most.memory)
         {
             let again = self.dimension(&second)?;
             text.push_str(&format!(", modulo {} at most {again}", second.prime));
@@ -183,11 +191,11 @@ impl Question<'_> {
     ) -> Result<T, Stop> {
         let mut share = FIRST_ATTEMPT;
         loop {
-            let left = self.work.saturating_sub(self.budget.work()) / price;
+            let left = self.most.work.saturating_sub(self.budget.work()) / price;
             let limit = share.min(left);
             let budget = Budget::new(Limits {
                 work: Some(limit),
-                entries: Some(MOST_ENTRIES),
+                entries: Some(entries_in(self.most.memory)),
                 ..Limits::default()
             });
             let answer = attempt(&budget);
