@@ -73,5 +73,6 @@ mod variations;
 mod verification;
 mod work_precision;
 mod world;
+mod written_otherwise;
 mod zoo;
 mod zoo2;

@@ -6,15 +6,13 @@
 
 #[path = "support/combine.rs"]
 mod combine;
-#[path = "support/drawn.rs"]
-mod drawn;
 use crate::support;
 
-use drawn::{Drawn, Known};
 use kutzbach::mechanism::{JointKind, Mechanism};
 use kutzbach::mobility::{Analysis, AnalysisOptions, PoseKind, Verdict, analyse};
 use kutzbach::number::Number;
 use std::sync::OnceLock;
+use support::drawn::{self, Drawn, Known};
 use support::rewrite::Draft;
 use support::{analysis, assert_none, in_parallel, zoo};
 

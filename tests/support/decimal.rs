@@ -114,10 +114,17 @@ pub fn sum(a: &Number, b: &Number) -> Number {
     if a.stated().is_none() && b.stated().is_none() {
         return total;
     }
-    let decimals = x.max(y).max(0);
+    finite(&total, x.max(y).max(0))
+}
+
+/// A number that so many decimals hold, written with all of them; any other as it is.
+pub fn finite(number: &Number, decimals: i32) -> Number {
     let power = Number::integer(10).power(decimals).unwrap();
-    let whole = &total * &power;
-    let text = whole.rational().unwrap().to_string();
+    let whole = number * &power;
+    let Some(whole) = whole.rational().filter(|whole| whole.is_int()) else {
+        return number.clone();
+    };
+    let text = whole.to_string();
     let digits = text.trim_start_matches('-');
     read(
         &Digits {

@@ -1,6 +1,7 @@
 //! What the tests of whole mechanisms share: finding files, running over them on two cores, and listing what went wrong.
 
 pub mod decimal;
+pub mod drawn;
 pub mod rewrite;
 
 use kutzbach::mechanism::Mechanism;

@@ -206,6 +206,26 @@ impl Draft {
             .chain(self.placed.iter_mut().map(|p| &mut p.origin))
     }
 
+    /// Whether some number of the geometry is neither a decimal nor whole.
+    pub fn has_fractions(&self) -> bool {
+        let found = std::cell::Cell::new(false);
+        let look = |number: &Number| {
+            let plain = number.stated().is_some() || number.rational().is_some_and(|r| r.is_int());
+            found.set(found.get() || !plain);
+            number.clone()
+        };
+        let _ = self.clone().each_number(&look);
+        found.get()
+    }
+
+    /// Whether every frame is parallel to its link's.
+    pub fn is_parallel(&self) -> bool {
+        let ends = self.joints.iter().flat_map(|joint| &joint.ends);
+        ends.map(|end| &end.frame)
+            .chain(self.placed.iter().map(|placed| &placed.origin))
+            .all(|frame| frame.roll_pitch_yaw.iter().all(Number::is_zero))
+    }
+
     /// Every number of the geometry, each by itself: coordinates, angles, directions, leads, distances.
     #[must_use]
     pub fn each_number(mut self, change: &dyn Fn(&Number) -> Number) -> Self {
@@ -240,6 +260,30 @@ impl Draft {
     /// The coordinates of every link frame turned alike. Frames must be parallel to their links.
     #[must_use]
     pub fn turned(mut self) -> Self {
+        for frame in self.frames() {
+            assert_parallel(frame);
+            frame.position = turned(&frame.position);
+        }
+        for joint in &mut self.joints {
+            joint.axis.0 = turned(&joint.axis.0);
+            joint.axis2.0 = turned(&joint.axis2.0);
+        }
+        self
+    }
+
+    /// The coordinates of every link frame turned alike, decimals staying decimals that are as exact as before, with three digits more.
+    /// Frames must be parallel to their links.
+    #[must_use]
+    pub fn turned_in_decimals(mut self) -> Self {
+        let decimals = 3 + self.decimals().max(0);
+        let turned = |v: &[Number; 3]| {
+            [0, 1, 2].map(|i| {
+                let sum = (0..3).fold(Number::zero(), |total, j| {
+                    &total + &(&Number::ratio(TURN_IN_DECIMALS[i][j], 125).unwrap() * &v[j])
+                });
+                decimal::finite(&sum, decimals)
+            })
+        };
         for frame in self.frames() {
             assert_parallel(frame);
             frame.position = turned(&frame.position);
@@ -320,7 +364,10 @@ impl Draft {
                 (link.clone(), [0, 1, 2].map(component))
             })
             .collect();
-        let decimals = self.decimals();
+        let stated = |number: &Number| number.stated().map_or(0, |stated| stated.decimals);
+        let decimals = self
+            .decimals()
+            .max(by.iter().map(stated).max().unwrap_or(0));
         let moved = |p: &[Number; 3], by: &[Number; 3]| {
             sum(p, by).map(|n| decimal::with_decimals(&n, decimals))
         };
@@ -492,6 +539,9 @@ fn difference(a: &[Number; 3], b: &[Number; 3]) -> [Number; 3] {
 
 /// The rotation of the quaternion (1, 2, 3, 4)/√30, times fifteen: w² + x² − y² − z², 2(xy − wz), ….
 pub const TURN: [[i64; 3]; 3] = [[-10, 2, 11], [10, -5, 10], [5, 14, 2]];
+
+/// 125 times a rotation: by the angle of the triangle 3, 4, 5 about z, then by that of 7, 24, 25 about x.
+const TURN_IN_DECIMALS: [[i64; 3]; 3] = [[75, -100, 0], [28, 21, -120], [96, 72, 35]];
 
 /// Turns a vector by [`TURN`], exactly.
 fn turned(v: &[Number; 3]) -> [Number; 3] {

@@ -13,7 +13,7 @@ use super::more_digits::MoreDigits;
 use super::part_mobility::{PartFinding, part_mobility};
 use super::pose_rank::{PartRank, Pose, Trial, rank_part_with};
 use super::redundancy::SelfStresses;
-use super::roles::{JointRole, roles_seen_closer};
+use super::roles::{JointRole, Seen, roles_seen_closer};
 use super::verdict::{Mobility, judge, not_asked, unassembled};
 use super::vocabulary::PoseKind;
 use super::whole_branches::whole_branches;
@@ -267,17 +267,22 @@ impl Analysis {
             );
         }
         if options.depth == Depth::Everything {
-            let mut closer = Vec::with_capacity(parts.len());
+            let mut seen = Vec::with_capacity(parts.len());
             for ((part, rank), found) in self.structure.parts.iter().zip(&parts).zip(&self.findings)
             {
                 let regular = found.pose == Some(PoseKind::Regular);
-                closer.push(if regular {
+                let moving = if regular {
                     moving_far(&pose, &mut more, part, rank)?
                 } else {
                     None
+                };
+                seen.push(match moving {
+                    Some(moving) => Seen::Moving(moving),
+                    None if found.open.is_some() => Seen::Open,
+                    None => Seen::Here,
                 });
             }
-            self.details(mechanism, geometry, &parts, &home, &closer)?;
+            self.details(mechanism, geometry, &parts, &home, &seen)?;
         }
         self.home = Some(home);
         self.parts = parts;
@@ -291,7 +296,7 @@ impl Analysis {
         geometry: &Geometry<f64>,
         parts: &[PartRank],
         home: &HomeFreedom,
-        closer: &[Option<Vec<bool>>],
+        seen: &[Seen],
     ) -> Result<(), MatrixError> {
         let states = &self.assembly.states;
         // What is tried part by part is tried on these and undone again, since copies for every part would add up.
@@ -301,17 +306,17 @@ impl Analysis {
             self.roles[joint].locked = (mechanism.joints()[joint].freedom() > 0).then_some(false);
             self.redundant_wrenches[joint] = Some(0);
         }
-        for ((part, rank), closer) in self.structure.parts.iter().zip(parts).zip(closer) {
+        for ((part, rank), seen) in self.structure.parts.iter().zip(parts).zip(seen) {
             for (joint, role) in part.joints.iter().zip(roles_seen_closer(
                 mechanism,
                 geometry,
                 &mut trial_states,
                 part,
                 rank,
-                closer.as_deref(),
+                seen,
             )?) {
                 // At a regular pose every branch of the whole has the part's only one.
-                if closer.is_some() {
+                if matches!(seen, Seen::Moving(_)) {
                     for branch in self.branches.iter_mut().flatten() {
                         branch.roles[*joint] = role.clone();
                     }

@@ -26,7 +26,7 @@ use super::tracing::{KERNEL_LIMIT, PartPose, WALKED_UNKNOWNS, poses_of_regular_p
 use super::vocabulary::{CertificateLevel, MobilityClass, PoseKind, SingularKind};
 use kutzbach_closure::Structure;
 use kutzbach_closure::{Part, Section};
-use kutzbach_math::matrix::{MatrixError, Real};
+use kutzbach_math::matrix::{MatrixError, RankDecision, Real};
 
 /// What one engine contributed.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -139,6 +139,41 @@ impl PartFinding {
         self.evidence = evidence;
         self
     }
+}
+
+/// The class of a regular part that subgroups within the precision of its numbers do not explain: paradoxical where such subgroups were
+/// looked for in exact numbers, or in those that were taken literally; in rounded ones they may be there and not show.
+fn unexplained(
+    pose: &Pose<'_>,
+    structure: &Structure,
+    part: &Part,
+    rank: &PartRank,
+    chart: &ChartTest,
+) -> Result<Option<MobilityClass>, MatrixError> {
+    if rank.stated <= rank.accuracy {
+        return Ok(Some(MobilityClass::Paradoxical));
+    }
+    if !chart.literal {
+        return Ok(None);
+    }
+    let decision = RankDecision {
+        accuracy: rank.accuracy,
+        ..rank.decision.clone()
+    };
+    let literal = PartRank {
+        stated: 0.0,
+        decision,
+        ..rank.clone()
+    };
+    let found = subgroup_finding(
+        pose.mechanism,
+        pose.geometry,
+        pose.states,
+        structure,
+        part,
+        &literal,
+    )?;
+    Ok(Some(found.class.unwrap_or(MobilityClass::Paradoxical)))
 }
 
 /// Asks the engines about one part. Below [`Depth::Motions`] the branch of a regular pose comes without poses on it.
@@ -302,7 +337,7 @@ pub fn part_mobility(
         rank.stated > 0.5 * chart.noise && !chart.literal || rank.unknowns() > LADDER_UNKNOWNS;
     if only_far {
         confirm_on_the_way(pose, part, rank, kernel, &mut chart)?;
-    } else if chart.outcome == ChartOutcome::Regular && rank.stated == 0.0 {
+    } else if chart.outcome == ChartOutcome::Regular && (rank.stated == 0.0 || chart.literal) {
         chart = far_chart(pose, more, part, rank, kernel, chart)?;
     }
     evidence.push(chart_evidence(&chart, freedom));
@@ -320,12 +355,11 @@ pub fn part_mobility(
                     ""
                 }
             );
-            let mut found = PartFinding::regular(
-                freedom,
-                Some(subgroups.class.unwrap_or(MobilityClass::Paradoxical)),
-                CertificateLevel::Numeric,
-                text,
-            );
+            let class = match subgroups.class {
+                None => unexplained(pose, structure, part, rank, &chart)?,
+                explained => explained,
+            };
+            let mut found = PartFinding::regular(freedom, class, CertificateLevel::Numeric, text);
             one_branch(&mut found, more, Some(kernel))?;
             Ok(found.with(evidence))
         }

@@ -44,6 +44,9 @@ const COARSEST_STATED: f64 = 0.05;
 /// numbers call for it.
 const CHECKED_UNKNOWNS: usize = 400;
 
+/// A singular value smaller than this share of what stated digits leave open is not rounding: ratios that multiply make such values.
+const FAR_BELOW_ROUNDING: f64 = 1e-6;
+
 /// Rounding leaves a zero at some per cent of its bound at most. What exceeds that share is looked at with more digits.
 const SUSPICIOUS: f64 = 0.05;
 
@@ -294,6 +297,22 @@ pub(super) fn known_to(mechanism: &Mechanism, jacobian: &CycleJacobian<f64>) -> 
     (stated, rounding, stated > COARSEST_STATED)
 }
 
+/// The rank of the numbers as written, in as many digits as their ratios ask for; `None` where doubles suffice. What rounding leaves
+/// of a zero is about as large as rounding is, or nothing: a value far below it comes from the mechanism.
+fn in_digits_of_ratios(
+    pose: &Pose<'_>,
+    more: &mut MoreDigits,
+    part: &Part,
+    moved: bool,
+) -> Result<Option<RankDecision>, MatrixError> {
+    let Some(needed) = bits_for_ratios(pose.mechanism, pose.geometry, part) else {
+        return Ok(None);
+    };
+    let rung = LADDER.into_iter().find(|bits| *bits as usize >= needed);
+    let finer = more.matrix(pose, part, moved, rung.unwrap_or(LADDER[LADDER.len() - 1]))?;
+    decide(&finer.matrix, finer.rounding + finer.residual).map(Some)
+}
+
 /// [`rank_part`], sharing what is evaluated in many digits with other parts. `known` are the part's equations at the pose,
 /// where somebody has evaluated them before.
 pub(super) fn rank_part_with(
@@ -401,6 +420,17 @@ pub(super) fn rank_part_with(
     if let (Some(OtherRank { rank, .. }), Some(literal)) = (other, written.rank) {
         nominal.rank = None;
         nominal.candidates = (rank, literal);
+    }
+    if stated > 0.0 && deficient && columns <= CHECKED_UNKNOWNS {
+        let seen = in_digits_of_ratios(pose, more, part, standing.moved)?;
+        if let Some(closer) = seen.filter(|c| c.kept < FAR_BELOW_ROUNDING * stated)
+            && let Some(literal) = closer.rank.filter(|r| written.rank.is_none_or(|w| w < *r))
+        {
+            if let Some(rank) = nominal.rank.take() {
+                nominal.candidates = (rank, literal);
+            }
+            written = closer;
+        }
     }
     let freedom = |rank: usize| columns - rank;
     let (least, most) = possible.unwrap_or(nominal.candidates);

@@ -27,6 +27,17 @@ pub struct JointRole {
     pub locked_parts: Vec<String>,
 }
 
+/// What is known of the finite motion of a part, beside its rank.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Seen {
+    /// Nothing more than doubles show near the pose.
+    Here,
+    /// The variables that move along the motion, seen in more digits.
+    Moving(Vec<bool>),
+    /// That it is open: what rests at the pose may move to higher order, or in the mechanism meant.
+    Open,
+}
+
 /// Roles of the joints of a part at its pose, in the part's order.
 ///
 /// A joint can pause: at a dead centre its rate is zero for an instant. So where some joint seems locked, the part is
@@ -42,17 +53,17 @@ pub fn roles_of_part(
     part: &Part,
     rank: &PartRank,
 ) -> Result<Vec<JointRole>, MatrixError> {
-    roles_seen_closer(mechanism, geometry, states, part, rank, None)
+    roles_seen_closer(mechanism, geometry, states, part, rank, &Seen::Here)
 }
 
-/// [`roles_of_part`], where somebody has seen in more digits which variables move.
+/// [`roles_of_part`], where somebody has looked at the part's finite motion.
 pub(super) fn roles_seen_closer(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
     states: &mut [JointState<f64>],
     part: &Part,
     rank: &PartRank,
-    moving_closer: Option<&[bool]>,
+    seen: &Seen,
 ) -> Result<Vec<JointRole>, MatrixError> {
     // Where the numbers may be rounded, what moves is as open as the rank.
     let Some(decision) = rank.settled().filter(|_| rank.doubt.is_none()) else {
@@ -68,14 +79,19 @@ pub(super) fn roles_seen_closer(
     else {
         return Ok(vec![JointRole::default(); part.joints.len()]);
     };
-    for (column, _) in moving_closer
-        .unwrap_or_default()
-        .iter()
-        .enumerate()
-        .filter(|(_, moves)| **moves)
-    {
-        zero[column] = false;
-        doubtful[column] = false;
+    match seen {
+        Seen::Here => {}
+        Seen::Moving(closer) => {
+            for (column, _) in closer.iter().enumerate().filter(|(_, moves)| **moves) {
+                zero[column] = false;
+                doubtful[column] = false;
+            }
+        }
+        Seen::Open => {
+            for (rests, open) in zero.iter_mut().zip(&mut doubtful) {
+                *open |= std::mem::take(rests);
+            }
+        }
     }
     let freedom = decision.nullity().unwrap_or(0);
     if freedom > 0 && zero.iter().any(|z| *z) {
@@ -173,8 +189,13 @@ fn moving(
         let mut matrix = moved.matrix;
         matrix.scale_columns();
         let left = 0.0.norm(&moved.residual);
-        // The same reading of the numbers as at the pose itself.
-        let decision = decide(&matrix, rank.stated + rounding + left)?;
+        // The same reading of the numbers as at the pose itself: literal, where both say the same there.
+        let stated = if rank.as_written == rank.instantaneous {
+            0.0
+        } else {
+            rank.stated
+        };
+        let decision = decide(&matrix, stated + rounding + left)?;
         if decision.nullity().is_none() || decision.nullity() != rank.instantaneous {
             return Ok(None);
         }

@@ -266,6 +266,12 @@ pub(super) fn singular_finding(
         }
         match lift_all(&start, &germ, &zeros.branches)? {
             Ok(lifted) => {
+                let pairs = lifted.iter().zip(&zeros.branches);
+                if pairs.into_iter().any(|(l, b)| !l.shaky && !b.reduced) {
+                    let reason = "a branch is a multiple zero of the power series and a simple one farther away, so that it may be several";
+                    why = refused(&mut evidence, reason.to_owned());
+                    continue;
+                }
                 let dimensions = lifted.iter().map(|l| l.branch.dimension);
                 let top = dimensions.max().unwrap_or(0);
                 if complex.is_some_and(|c| c < top) {

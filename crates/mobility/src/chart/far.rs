@@ -70,7 +70,10 @@ pub(in super::super) fn far_chart(
     if bits > 53 && (bits > near.bits || far.is_some()) {
         let test = probes.in_bits(more, (radius, 0.0), bits)?;
         if test.outcome != ChartOutcome::Regular {
-            return Ok(test);
+            return Ok(ChartTest {
+                literal: near.literal,
+                ..test
+            });
         }
     }
     Ok(ChartTest {
@@ -90,7 +93,8 @@ pub(in super::super) fn moving_far(
     part: &Part,
     rank: &PartRank,
 ) -> Result<Option<Vec<bool>>, MatrixError> {
-    if rank.stated > 0.0 || rank.unknowns() > LADDER_UNKNOWNS || rank.instantaneous == Some(0) {
+    let rounded = rank.stated > 0.0 && rank.as_written != rank.instantaneous;
+    if rounded || rank.unknowns() > LADDER_UNKNOWNS || rank.instantaneous == Some(0) {
         return Ok(None);
     }
     let Some(kernel) = Kernel::of(pose, rank, super::DIRECTIONS)? else {
