@@ -1,6 +1,7 @@
 //! Idle and useful freedoms of robots, and what inputs do: mechanisms whose answers can be counted by hand.
 
 use kutzbach::format::read;
+use kutzbach::report::text::Layout;
 use kutzbach::report::{InputSource, Inputs, Options, Report, report};
 
 fn reported_with(text: &str, inputs: &[&str]) -> Report {
@@ -430,4 +431,33 @@ fn a_spin_that_hardly_moves_anything_is_nearly_idle() {
         branch.nearly_idle
     );
     assert_eq!(shares(&report), (2, 1));
+}
+
+/// A report with some inputs, as one line.
+fn told(text: &str, inputs: &[&str]) -> String {
+    let report = reported_with(text, inputs);
+    let text = kutzbach::report::text::render(&report, Layout::default());
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn idle_freedoms_that_inputs_hold_are_not_left() {
+    let text = include_str!("../mechanisms/rssr.urdf");
+    assert!(told(text, &["crank_pivot"]).contains("(1), with 1 idle left."));
+    let both = told(text, &["crank_pivot", "crank_ball.rot2"]);
+    assert!(both.contains("enough for all 2 degrees of freedom, the idle ones included."));
+}
+
+#[test]
+fn frames_that_are_fixed_to_one_link_are_one_neighbour() {
+    let door = format!(
+        r#"<robot name="door">{}{}{}{}<loop name="upper" type="revolute"><predecessor link="above"/><successor link="door"><origin xyz="0 0 2"/></successor><axis xyz="0 0 1"/></loop></robot>"#,
+        links(&["wall", "above", "below", "door"]),
+        joint("f1", "fixed", "wall", "below", "0 0 0", "1 0 0"),
+        joint("f2", "fixed", "wall", "above", "0 0 2", "1 0 0"),
+        joint("lower", "continuous", "below", "door", "0 0 0", "0 0 1"),
+    );
+    let report = reported(&door);
+    assert_eq!(shares(&report), (1, 0));
+    assert!(idle(&report).is_empty());
 }

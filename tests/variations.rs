@@ -4,14 +4,13 @@
 //! An answer that contradicts what is known fails. An answer that stays open is counted, and the short list of those is
 //! part of the test, so that it can only change on purpose.
 
-#[path = "support/combine.rs"]
-mod combine;
 use crate::support;
 
 use kutzbach::mechanism::{JointKind, Mechanism};
 use kutzbach::mobility::{Analysis, AnalysisOptions, PoseKind, Verdict, analyse};
 use kutzbach::number::Number;
 use std::sync::OnceLock;
+use support::combine;
 use support::drawn::{self, Drawn, Known};
 use support::rewrite::Draft;
 use support::{analysis, assert_none, in_parallel, zoo};

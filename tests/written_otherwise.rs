@@ -6,12 +6,12 @@
 use crate::support;
 
 use kutzbach::mechanism::Mechanism;
-use kutzbach::mobility::{Analysis, Verdict};
+use kutzbach::mobility::{Analysis, Branch, Verdict};
 use kutzbach::number::Number;
 use std::collections::BTreeMap;
 use std::fmt::Debug;
 use support::rewrite::Draft;
-use support::{analysis, assert_none, drawn, folder, in_parallel, mechanism_files, zoo};
+use support::{analysis, assert_none, combine, drawn, folder, in_parallel, mechanism_files, zoo};
 
 /// Every reference mechanism, the relatives of these, and the poses that look like others.
 fn mechanisms() -> Vec<(String, Mechanism)> {
@@ -47,6 +47,9 @@ fn rewritten(draft: &Draft, seed: u64) -> (Draft, BTreeMap<String, String>) {
     if seed & 8 != 0 {
         draft = draft.scaled(3);
     }
+    if seed & 32 != 0 {
+        draft = combine::with_links_cut(draft);
+    }
     if seed & 16 != 0 {
         draft.shuffled(seed)
     } else {
@@ -73,6 +76,19 @@ fn decided(analysis: &Analysis) -> Vec<(&'static str, Option<String>)> {
         all.sort_unstable();
         all
     });
+    // By dimension: what is idle, and what may be done at a generic pose.
+    let idle = analysis.branches.as_ref().map(|branches| {
+        let idle = |b: &Branch| b.idle.iter().map(|link| link.freedom).sum::<usize>();
+        let mut all: Vec<_> = branches.iter().map(|b| (b.dimension, idle(b))).collect();
+        all.sort_unstable();
+        all
+    });
+    let generic = analysis.branches.as_ref().and_then(|branches| {
+        let freedom = |b: &Branch| b.instantaneous.map(|i| (b.dimension, i));
+        let mut all: Vec<_> = branches.iter().map(freedom).collect::<Option<_>>()?;
+        all.sort_unstable();
+        Some(all)
+    });
     let verdict = (mobility.verdict != Verdict::Undecided).then_some(mobility.verdict);
     vec![
         ("the count", Some(analysis.kutzbach.to_string())),
@@ -86,18 +102,25 @@ fn decided(analysis: &Analysis) -> Vec<(&'static str, Option<String>)> {
         ("kind", told(&mobility.kind)),
         ("class", told(&mobility.class)),
         ("branches", told(&branches)),
+        ("idle", told(&idle)),
+        ("freedom on the branches", told(&generic)),
     ]
 }
+
+/// Facts that are open where they are not seen; rounded numbers may hide them.
+const SEEN_OR_NOT: [&str; 1] = ["idle"];
 
 fn contradictions(
     first: &(&Mechanism, &Analysis),
     second: &(&Mechanism, &Analysis),
     names: &BTreeMap<String, String>,
+    same_numbers: bool,
 ) -> Vec<String> {
     let mut wrong = Vec::new();
     for ((what, one), (_, other)) in decided(first.1).into_iter().zip(decided(second.1)) {
         if let (Some(one), Some(other)) = (one, other)
             && one != other
+            && (same_numbers || !SEEN_OR_NOT.contains(&what))
         {
             wrong.push(format!("{what}: {one} became {other}"));
         }
@@ -124,17 +147,22 @@ fn compare(count: usize) {
     let all = mechanisms();
     let base: Vec<Analysis> = in_parallel(&all, |(_, mechanism)| analysis(mechanism));
     let cases: Vec<(usize, u64)> = (0..count)
-        .map(|case| ((case * 7) % all.len(), 1 + (case as u64 * 13) % 31))
+        .map(|case| ((case * 7) % all.len(), 1 + (case as u64 * 13) % 63))
         .collect();
     let wrong = in_parallel(&cases, |&(index, seed)| {
         let (name, mechanism) = &all[index];
         let (draft, names) = rewritten(&Draft::of(mechanism), seed);
         let other = draft.build();
         let there = analysis(&other);
-        contradictions(&(mechanism, &base[index]), &(&other, &there), &names)
-            .into_iter()
-            .map(|what| format!("{name}, changes {seed:05b}: {what}"))
-            .collect::<Vec<_>>()
+        contradictions(
+            &(mechanism, &base[index]),
+            &(&other, &there),
+            &names,
+            seed & 14 == 0,
+        )
+        .into_iter()
+        .map(|what| format!("{name}, changes {seed:06b}: {what}"))
+        .collect::<Vec<_>>()
     });
     assert_none(&wrong.concat());
 }

@@ -1,5 +1,6 @@
 //! What the tests of whole mechanisms share: finding files, running over them on two cores, and listing what went wrong.
 
+pub mod combine;
 pub mod decimal;
 pub mod drawn;
 pub mod rewrite;

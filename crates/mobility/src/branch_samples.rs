@@ -17,6 +17,12 @@ pub struct Sample {
 /// Values of every joint, and tangents.
 type Drawn = (Vec<Vec<f64>>, Vec<Vec<f64>>);
 
+/// What holds two joints together.
+const FRAME: Place = (JointKind::Fixed, [0.0, 1.0, 0.0], [0.0; 3]);
+
+/// A hinge that they do not let turn.
+const LOCKED_HINGE: Place = (JointKind::Revolute, [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+
 impl Sample {
     pub fn new(mechanism: Mechanism, poses: Vec<Drawn>) -> Self {
         let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
@@ -53,37 +59,52 @@ impl Sample {
 
     /// Two balls at the ends of a rod along x, held by a rigid frame: the rod spins.
     pub fn rod() -> Self {
-        let places: Vec<Place> = vec![
-            (JointKind::Spherical, [0.0; 3], [0.0; 3]),
-            (JointKind::Spherical, [1.0, 0.0, 0.0], [0.0; 3]),
-            (JointKind::Fixed, [0.0, 1.0, 0.0], [0.0; 3]),
-        ];
-        let poses = [0.3, 0.8].map(|angle: f64| {
-            let values = vec![vec![angle, 0.0, 0.0], vec![-angle, 0.0, 0.0], vec![]];
-            (values, vec![vec![1.0, 0.0, 0.0, -1.0, 0.0, 0.0]])
-        });
-        Self::new(ring(&places, [0.0; 3], Written::Exactly), poses.into())
+        Self::rod_on(FRAME)
+    }
+
+    /// The same between two links whose hinge the rod locks.
+    pub fn rod_between_links() -> Self {
+        Self::rod_on(LOCKED_HINGE)
     }
 
     /// A link that slides and turns on a shaft whose ends are joined.
     pub fn sleeve() -> Self {
-        let sleeve = |x| (JointKind::Cylindrical, [x, 0.5, 0.0], [1.0, 0.0, 0.0]);
+        Self::sleeve_on(FRAME)
+    }
+
+    /// The same on a shaft whose ends are two links, with a hinge that it locks.
+    pub fn sleeve_between_links() -> Self {
+        Self::sleeve_on(LOCKED_HINGE)
+    }
+
+    fn rod_on(frame: Place) -> Self {
+        let poses = [0.3, 0.8].map(|angle: f64| {
+            let values = vec![vec![angle, 0.0, 0.0], vec![-angle, 0.0, 0.0]];
+            (values, vec![vec![1.0, 0.0, 0.0, -1.0, 0.0, 0.0]])
+        });
+        let ball = |x| (JointKind::Spherical, [x, 0.0, 0.0], [0.0; 3]);
+        Self::at_rest_in(frame, [ball(0.0), ball(1.0)], poses)
+    }
+
+    fn sleeve_on(frame: Place) -> Self {
         let poses = [0.3, 0.8].map(|way: f64| {
-            let values = vec![vec![way, 2.0 * way], vec![-way, -2.0 * way], vec![]];
+            let values = vec![vec![way, 2.0 * way], vec![-way, -2.0 * way]];
             let tangents = vec![vec![1.0, 0.0, -1.0, 0.0], vec![1.0, 1.0, -1.0, -1.0]];
             (values, tangents)
         });
-        Self::new(
-            ring(
-                &[
-                    sleeve(0.0),
-                    sleeve(1.0),
-                    (JointKind::Fixed, [0.0, 1.0, 0.0], [0.0; 3]),
-                ],
-                [0.0; 3],
-                Written::Exactly,
-            ),
-            poses.into(),
-        )
+        let sleeve = |x| (JointKind::Cylindrical, [x, 0.5, 0.0], [1.0, 0.0, 0.0]);
+        Self::at_rest_in(frame, [sleeve(0.0), sleeve(1.0)], poses)
+    }
+
+    /// A ring of two joints that move and a third that does not.
+    fn at_rest_in(frame: Place, [first, second]: [Place; 2], poses: [Drawn; 2]) -> Self {
+        let still = vec![0.0; frame.0.freedom()];
+        let poses = poses.map(|(mut values, mut tangents)| {
+            values.push(still.clone());
+            tangents.iter_mut().for_each(|t| t.extend(&still));
+            (values, tangents)
+        });
+        let mechanism = ring(&[first, second, frame], [0.0; 3], Written::Exactly);
+        Self::new(mechanism, poses.into())
     }
 }

@@ -35,7 +35,7 @@ const NEARLY_AT_REST: f64 = 1e-3;
 /// Bodies of loops that can move alone at all of the poses, with the smallest freedom they have there, by link index.
 ///
 /// A body counts as inside a loop if at least two of its joints are in cycles of one part, and these lead to at least two
-/// other links: between two links alone the motion of one is what the mechanism is for. Links that hang on bridges, and the
+/// other bodies: between two bodies alone the motion of one is what the mechanism is for. Links that hang on bridges, and the
 /// ground, are never idle. Where margins are thin a link is not called idle. Freedoms of several entries are independent of
 /// one another.
 #[must_use]
@@ -355,12 +355,7 @@ fn clusters(
             .neighbours
             .iter()
             .filter(|(joint, _)| part_of[*joint].is_some());
-        let others: BTreeSet<usize> = in_loops
-            .map(|&(_, link)| match cluster.between.is_empty() {
-                true => link,
-                false => bodies.of[link],
-            })
-            .collect();
+        let others: BTreeSet<usize> = in_loops.map(|&(_, link)| bodies.of[link]).collect();
         if others.len() >= 2 {
             single_of[body] = Some(found.len());
             found.push(cluster);
@@ -525,8 +520,14 @@ mod tests {
 
     #[test]
     fn rods_spin_and_sleeves_slide() {
-        assert_eq!(idle(&Sample::rod()), [("r1", 1)]);
-        assert_eq!(idle(&Sample::sleeve()), [("r1", 2)]);
+        assert_eq!(idle(&Sample::rod_between_links()), [("r1", 1)]);
+        assert_eq!(idle(&Sample::sleeve_between_links()), [("r1", 2)]);
+    }
+
+    #[test]
+    fn between_two_places_of_one_body_nothing_is_idle() {
+        assert!(idle(&Sample::rod()).is_empty());
+        assert!(idle(&Sample::sleeve()).is_empty());
     }
 
     #[test]
@@ -536,7 +537,7 @@ mod tests {
 
     #[test]
     fn the_poorest_pose_counts() {
-        let mut sample = Sample::sleeve();
+        let mut sample = Sample::sleeve_between_links();
         sample.poses[1].tangents.pop();
         assert_eq!(idle(&sample), [("r1", 1)]);
         sample.poses[0].tangents.clear();

@@ -103,11 +103,16 @@ fn verdict(report: &Report, inputs: &Inputs, source: InputSource, most: usize) -
             let does = match (left, shares.map(|shares| (shares.useful, shares.idle))) {
                 (0, Some((1, 0))) => "enough for the only degree of freedom".to_owned(),
                 (0, Some((useful, 0))) => format!("enough for all {useful} degrees of freedom"),
-                (0, Some((useful, idle))) => {
-                    format!(
+                // What the inputs hold beyond the useful degrees of freedom are idle ones.
+                (0, Some((useful, idle))) => match (useful + idle).saturating_sub(independent) {
+                    0 => format!(
+                        "enough for all {} degrees of freedom, the idle ones included",
+                        useful + idle
+                    ),
+                    idle => format!(
                         "enough for the useful degrees of freedom ({useful}), with {idle} idle left"
-                    )
-                }
+                    ),
+                },
                 (0, None) => "enough".to_owned(),
                 (1, _) => "1 degree of freedom is left".to_owned(),
                 (left, _) => format!("{left} degrees of freedom are left"),
