@@ -399,3 +399,135 @@ fn one_name_is_one_value() {
             .any(|w| w.message.contains("a tree with 4 degrees"))
     );
 }
+
+/// The fault of three bars with something more.
+fn fault(more: &str) -> String {
+    match read(&bars("0 0 0", more), "file", &[]) {
+        Err(error) => error.to_string(),
+        Ok(_) => panic!("read: {more}"),
+    }
+}
+
+#[test]
+fn what_bears_on_a_loop_and_is_not_read_is_refused() {
+    let sdf = |parts: &str| {
+        format!(
+            "<gazebo><joint name='l' type='revolute'><parent>d</parent><child>c</child>{parts}</joint></gazebo>"
+        )
+    };
+    let isaac = |parts: &str| format!("<loop_joint name='l' type='revolute'>{parts}</loop_joint>");
+    let sides = "<link1 link='d' xyz='0 1 0'/><link2 link='c'/>";
+    let proposed = |parts: &str| {
+        format!(
+            "<constraint name='l' type='revolute'><parent link='d'/><child link='c'/>{parts}</constraint>"
+        )
+    };
+    for (more, said) in [
+        (sdf("<axis xyz='1 0 0'/>"), "written as SDFormat does"),
+        (sdf("<axis><xzy>1 0 0</xzy></axis>"), "<xzy>"),
+        (
+            sdf("<axis><xyz>1 0 0</xyz></axis><axis><xyz>0 0 1</xyz></axis>"),
+            "second <axis>",
+        ),
+        (sdf("<origin xyz='0 1 0'/><axis/>"), "<origin>"),
+        (sdf("<axis/><mimic joint='ab'/>"), "<mimic>"),
+        (
+            isaac("<link1 link='d'><origin xyz='0 1 0'/></link1><link2 link='c'/>"),
+            "<origin>",
+        ),
+        (isaac(&format!("{sides}<axsi xyz='0 0 1'/>")), "<axsi>"),
+        (isaac(&format!("{sides}<mimic joint='ab'/>")), "<mimic>"),
+        (proposed("<parent_orign xyz='0 1 0'/>"), "<parent_orign>"),
+        (proposed("<axis xyz='0 0 1'/>"), "<axis>"),
+        (proposed("<mimic joint='ab'/>"), "<mimic>"),
+        (
+            "<mujoco><equality><connect body1='b' anchor='1 0 0'/></equality></mujoco>".to_owned(),
+            "in the world",
+        ),
+        (
+            "<mujoco><equality><weld site1='x' site2='y'/></equality></mujoco>".to_owned(),
+            "joins two links",
+        ),
+    ] {
+        let told = fault(&more);
+        assert!(told.contains(said), "{more}: {told}");
+    }
+}
+
+#[test]
+fn the_childs_axis_alone_is_the_axis() {
+    let more = "<constraint name='l' type='revolute'><parent link='d'/><child link='c'/><child_axis xyz='1 0 0'/></constraint>";
+    assert_eq!(
+        values(&last(&reading(&bars("0 0 0", more))).axis.0),
+        [1.0, 0.0, 0.0]
+    );
+}
+
+#[test]
+fn a_joint_inside_gazebo_may_follow_another() {
+    let more = "<gazebo><joint name='l' type='revolute'><parent>d</parent><child>c</child><axis><xyz>0 0 1</xyz>\
+                <mimic joint='ab'><multiplier>0.5</multiplier><offset>1</offset><reference>4</reference></mimic></axis></joint></gazebo>";
+    let reading = reading(&bars("0 0 0", more));
+    let [coupling] = reading.mechanism.couplings() else {
+        panic!("one coupling")
+    };
+    let mut factors: Vec<f64> = coupling.terms.iter().map(|t| t.factor.value()).collect();
+    factors.sort_by(f64::total_cmp);
+    assert_eq!(factors, [-0.5, 1.0]);
+    // 0.5 (ab − 4) + 1.
+    assert_eq!(coupling.offset.value().abs(), 1.0);
+}
+
+#[test]
+fn what_names_two_joints_or_links_and_is_not_read_is_told_first() {
+    let joins = |more: &str| {
+        let reading = reading(&bars("0 0 0", more));
+        let warnings = reading.warnings.iter();
+        warnings
+            .filter(|w| w.message.contains(kutzbach::format::MAY_JOIN))
+            .count()
+    };
+    for more in [
+        "<ros2_control><joint name='ab'><param name='mimic'>ad</param></joint></ros2_control>",
+        "<mujoco><equality><joint joint1='ab' joint2='ad' polycoef='0 1 0 0 0'/></equality></mujoco>",
+        "<mujoco><tendon><fixed name='t'><joint joint='ab' coef='1'/><joint joint='ad' coef='-1'/></fixed></tendon></mujoco>",
+        "<gazebo><plugin filename='x.so'><joint>ab</joint><mimicJoint>ad</mimicJoint></plugin></gazebo>",
+        "<gazebo><plugin filename='x.so'><parentLink>r::c</parentLink><childLink>r::d</childLink></plugin></gazebo>",
+        "<gear joint1='ab' joint2='ad' ratio='-2'/>",
+        "<loop_closure><base link='c'/><tip link='d'/></loop_closure>",
+    ] {
+        assert_eq!(joins(more), 1, "{more}");
+    }
+    for more in [
+        "<ros2_control><joint name='ab'/><joint name='ad'/></ros2_control>",
+        "<gazebo><plugin filename='drive.so'><leftJoint>ab</leftJoint><rightJoint>ad</rightJoint></plugin></gazebo>",
+        "<gazebo><plugin filename='p3d.so'><bodyName>b</bodyName><frameName>a</frameName></plugin></gazebo>",
+        "<transmission name='t'><joint name='ab'/><other joint='ad'/></transmission>",
+        "<disable_collisions link1='a' link2='b'/>",
+    ] {
+        assert_eq!(joins(more), 0, "{more}");
+    }
+    // What <mimic> says too is said.
+    let both = bars(
+        "0 0 0",
+        "<gazebo><plugin><joint>ab</joint><mimicJoint>ad</mimicJoint></plugin></gazebo>",
+    )
+    .replacen(
+        "<origin xyz='2 0 0'/><axis xyz='0 0 1'/></joint>\n<gazebo>",
+        "<origin xyz='2 0 0'/><axis xyz='0 0 1'/><mimic joint='ab'/></joint>\n<gazebo>",
+        1,
+    );
+    assert!(both.contains("<mimic joint"));
+    assert!(read(&both, "file", &[]).unwrap().warnings.is_empty());
+}
+
+#[test]
+fn a_joint_follows_in_one_way() {
+    let two = "<link name='e'/><joint name='ce' type='continuous'><parent link='c'/><child link='e'/>\
+               <mimic joint='ab' multiplier='2'/><drake:mimic joint='ab' multiplier='3'/></joint>";
+    assert!(fault(two).contains("in two ways"));
+    let slip = two
+        .replace("<mimic joint='ab' multiplier='2'/>", "")
+        .replace("drake:mimic", "drake:mimc");
+    assert!(fault(&slip).contains("<drake:mimc>"));
+}

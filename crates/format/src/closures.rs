@@ -10,8 +10,53 @@ use super::element::Element;
 use super::error::Outcome;
 use super::names::Named;
 use super::reader::{Dialect, Reader};
+use super::unread::{OF_JOINTS, Parts};
 use super::words::quoted;
 use kutzbach_model::mechanism::{Direction, Frame, JointBuilder, JointKind};
+
+/// What may stand inside `<loop_joint>`; what moves it is nothing else.
+const LOOP_JOINT: Parts<'_> = Parts {
+    known: &["axis", "axis2", "limit", "dynamics"],
+    often: &["link1", "link2"],
+    bearing: &OF_JOINTS,
+};
+
+/// What may stand inside a side of it: nothing, since its attributes say all.
+const SIDE: Parts<'_> = Parts {
+    known: &[],
+    often: &[],
+    bearing: &OF_JOINTS,
+};
+
+/// What may stand inside `<constraint>`.
+const CONSTRAINT: Parts<'_> = Parts {
+    known: &CONSTRAINT_WORDS,
+    often: &[],
+    bearing: &BEARING_ON_CONSTRAINTS,
+};
+
+const CONSTRAINT_WORDS: [&str; 6] = [
+    "parent",
+    "child",
+    "parent_origin",
+    "child_origin",
+    "parent_axis",
+    "child_axis",
+];
+
+const BEARING_ON_CONSTRAINTS: [&str; 11] = [
+    "parent",
+    "child",
+    "parent_origin",
+    "child_origin",
+    "parent_axis",
+    "child_axis",
+    "origin",
+    "axis",
+    "axis2",
+    "mimic",
+    "screw",
+];
 
 impl<'a> Reader<'a> {
     pub(super) fn read_loop_joint(&mut self, joint: Element<'a>) -> Outcome<()> {
@@ -34,15 +79,14 @@ impl<'a> Reader<'a> {
                 .origin(frame1)
                 .successor_origin(frame2)
         };
-        for part in joint.elements() {
+        for part in self.parts_of(joint, &LOOP_JOINT)? {
             match part.name() {
                 "link1" | "link2" => {}
                 "axis" if kind.uses_axis() => builder = builder.axis(self.direction(part)?),
                 "axis2" if kind.uses_second_axis() => {
                     builder = builder.axis2(self.direction(part)?);
                 }
-                "axis" | "axis2" | "limit" | "dynamics" => self.skip(part),
-                _ => self.skip_unless_joining(part)?,
+                _ => self.skip(part),
             }
         }
         self.add_closing(name, kind, builder);
@@ -51,6 +95,7 @@ impl<'a> Reader<'a> {
 
     fn loop_side(&mut self, side: Element<'a>) -> Outcome<(&'a str, Frame)> {
         self.attributes_of(side, &["link", "xyz", "rpy", "quat_xyzw"], true)?;
+        self.parts_of(side, &SIDE)?;
         let link = self.directory.refer(Named::Link, side, "link")?;
         Ok((link, self.frame_of(side)?))
     }
@@ -60,15 +105,14 @@ impl<'a> Reader<'a> {
         let kind = self.closing_kind(constraint)?;
         let (mut links, mut frames) = ([None; 2], [Frame::identity(), Frame::identity()]);
         let mut axes: [Option<Direction>; 2] = [None, None];
-        for part in constraint.elements() {
+        for part in self.parts_of(constraint, &CONSTRAINT)? {
             match part.name() {
                 "parent" => links[0] = Some(self.directory.refer(Named::Link, part, "link")?),
                 "child" => links[1] = Some(self.directory.refer(Named::Link, part, "link")?),
                 "parent_origin" => frames[0] = self.origin(part)?,
                 "child_origin" => frames[1] = self.origin(part)?,
                 "parent_axis" => axes[0] = Some(self.direction(part)?),
-                "child_axis" => axes[1] = Some(self.direction(part)?),
-                _ => self.skip_unless_joining(part)?,
+                _ => axes[1] = Some(self.direction(part)?),
             }
         }
         let [Some(parent), Some(child)] = links else {
@@ -82,9 +126,9 @@ impl<'a> Reader<'a> {
         let mut builder = JointBuilder::closing(name, kind, parent, child)
             .origin(origin)
             .successor_origin(successor_origin);
-        let [first, second] = axes;
+        let [first, mut second] = axes;
         if kind.uses_second_axis() {
-            builder = match second {
+            builder = match second.take() {
                 Some(axis) => builder.axis2(axis),
                 None => builder,
             };
@@ -96,7 +140,7 @@ impl<'a> Reader<'a> {
                 .help("turn an origin so that <parent_axis> and <child_axis> are the same"));
         }
         if kind.uses_axis()
-            && let Some(axis) = first
+            && let Some(axis) = first.or(second)
         {
             builder = builder.axis(axis);
         }

@@ -22,7 +22,7 @@ use super::element::{Attribute, Element};
 use super::error::Outcome;
 use super::names::Named;
 use super::reader::{Dialect, Reader};
-use super::unread::truth;
+use super::unread::{Parts, truth};
 use super::words::{cut, quoted};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Direction, Dynamics, Frame, JointBuilder, JointKind, Limit};
@@ -35,6 +35,59 @@ const MODEL: &str = "__model__";
 
 /// Added to a name that a joint of the tree has already.
 pub(super) const IN_GAZEBO: &str = "_in_gazebo";
+
+/// What may stand inside a `<joint>` of SDFormat.
+const SDF_JOINT: Parts<'_> = Parts {
+    known: &[
+        "parent",
+        "child",
+        "pose",
+        "axis",
+        "axis2",
+        "screw_thread_pitch",
+        "thread_pitch",
+        "physics",
+        "sensor",
+        "gearbox_ratio",
+        "gearbox_reference_body",
+    ],
+    often: &[],
+    bearing: &[
+        "parent",
+        "child",
+        "pose",
+        "axis",
+        "axis2",
+        "screw_thread_pitch",
+        "thread_pitch",
+        "origin",
+        "mimic",
+        "screw",
+        "predecessor",
+        "successor",
+    ],
+};
+
+/// What may stand inside an `<axis>` of SDFormat.
+const SDF_AXIS: Parts<'_> = Parts {
+    known: &[
+        "xyz",
+        "use_parent_model_frame",
+        "mimic",
+        "limit",
+        "dynamics",
+        "initial_position",
+    ],
+    often: &[],
+    bearing: &["xyz", "use_parent_model_frame", "mimic", "origin", "axis"],
+};
+
+/// What may stand inside a `<mimic>` of SDFormat.
+const SDF_MIMIC: Parts<'_> = Parts {
+    known: &["multiplier", "offset", "reference"],
+    often: &[],
+    bearing: &["multiplier", "offset", "reference"],
+};
 
 /// Where a joint is, as SDFormat gives it.
 struct Place<'a> {
@@ -59,9 +112,6 @@ impl<'a> Reader<'a> {
                 continue;
             }
             only_joints = false;
-            if part.name() == "plugin" {
-                self.note_plugin(part);
-            }
             self.check_for_joints(part)?;
         }
         if !only_joints || gazebo.elements().next().is_none() {
@@ -107,14 +157,6 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A plugin that makes one joint follow another acts in the simulator alone, which is worth knowing.
-    fn note_plugin(&mut self, plugin: Element<'a>) {
-        if plugin.elements().any(|part| part.name() == "mimicJoint") {
-            let message = "a Gazebo plugin makes joints follow others; that holds in Gazebo alone and is not read, unless <mimic> says it too";
-            self.warn(plugin.start(), message);
-        }
-    }
-
     /// Reads the joints that had to wait.
     pub(super) fn read_late_joints(&mut self) -> Vec<super::error::Fault> {
         let mut faults = Vec::new();
@@ -149,7 +191,7 @@ impl<'a> Reader<'a> {
         let (mut parent, mut child) = (None, None);
         let (mut axis, mut axis2) = (None, None);
         let (mut lead, mut old_lead) = (None, None);
-        for part in joint.elements() {
+        for part in self.parts_of(joint, &SDF_JOINT)? {
             match part.name() {
                 "parent" => parent = Some(self.sdf_link(part)?),
                 "child" => child = Some(self.sdf_link(part)?),
@@ -158,10 +200,7 @@ impl<'a> Reader<'a> {
                 "axis2" => axis2 = Some(part),
                 "screw_thread_pitch" => lead = Some(self.number(needed(part)?)?),
                 "thread_pitch" => old_lead = Some(self.lead_of_thread(part)?),
-                "physics" | "sensor" | "gearbox_ratio" | "gearbox_reference_body" => {
-                    self.skip(part);
-                }
-                _ => self.skip_unless_joining(part)?,
+                _ => self.skip(part),
             }
         }
         let needs = |what: &str| joint.fault(format!("a joint inside <gazebo> needs <{what}>"));
@@ -183,6 +222,7 @@ impl<'a> Reader<'a> {
             if dynamics != Dynamics::default() {
                 builder = builder.dynamics(dynamics);
             }
+            self.read_sdf_mimic(&name, kind, axis)?;
         }
         if kind.uses_second_axis() {
             let part = axis2.ok_or_else(|| needs("axis2"))?;
@@ -418,9 +458,49 @@ impl<'a> Reader<'a> {
         Ok(place)
     }
 
+    /// `<mimic joint><multiplier/><offset/><reference/></mimic>` of an axis, since SDFormat 1.11: the joint's value is
+    /// multiplier · (leader − reference) + offset.
+    fn read_sdf_mimic(
+        &mut self,
+        name: &str,
+        kind: JointKind,
+        axis: Option<Element<'a>>,
+    ) -> Outcome<()> {
+        let mut parts = axis.into_iter().flat_map(|axis| axis.elements());
+        let Some(mimic) = parts.find(|part| part.name() == "mimic") else {
+            return Ok(());
+        };
+        let other_axis = mimic.attribute("axis").filter(|word| word.value != "axis");
+        if kind.freedom() != 1 || other_axis.is_some() {
+            return Err(mimic
+                .fault("only a joint of one axis that follows another one is read")
+                .help("a <coupling> may say the same"));
+        }
+        let leader = self.directory.refer(Named::Joint, mimic, "joint")?;
+        let (mut multiplier, mut offset, mut reference) =
+            (Number::one(), Number::zero(), Number::zero());
+        for part in self.parts_of(mimic, &SDF_MIMIC)? {
+            let number = self.number(needed(part)?)?;
+            match part.name() {
+                "multiplier" => multiplier = number,
+                "offset" => offset = number,
+                _ => reference = number,
+            }
+        }
+        let offset = &offset - &(&multiplier * &reference);
+        self.builder.mimic(name, leader, multiplier, offset);
+        Ok(())
+    }
+
     /// An axis, and whether it is given in the model's frame.
     fn sdf_axis(&mut self, axis: Element<'a>) -> Outcome<(Direction, bool)> {
-        let find = |name: &str| axis.elements().find(|part| part.name() == name);
+        if let Some(xyz) = axis.attribute("xyz") {
+            return Err(xyz
+                .fault("inside <gazebo> an axis is written as SDFormat does")
+                .help(format!("<axis><xyz>{}</xyz></axis>", cut(xyz.value))));
+        }
+        let parts = self.parts_of(axis, &SDF_AXIS)?;
+        let find = |name: &str| parts.iter().copied().find(|part| part.name() == name);
         let flag = find("use_parent_model_frame").and_then(|flag| flag.value());
         let mut in_model = flag.map(truth).transpose()?.unwrap_or(false);
         let Some(xyz) = find("xyz") else {

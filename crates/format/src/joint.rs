@@ -342,7 +342,15 @@ impl<'a> Reader<'a> {
                     }
                 }
                 "mimic" if kind.freedom() == 0 => self.ignore(part, word),
-                _ => mimic = Some(self.read_mimic(part)?),
+                _ => {
+                    let read = self.read_mimic(part)?;
+                    if mimic.as_ref().is_some_and(|earlier| *earlier != read) {
+                        return Err(part
+                            .fault(format!("joint {} follows in two ways", quoted(name)))
+                            .help("remove <mimic> or <drake:mimic>"));
+                    }
+                    mimic = Some(read);
+                }
             }
         }
         if kind.uses_lead() && !has_lead {

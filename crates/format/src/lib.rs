@@ -49,6 +49,7 @@ mod gazebo;
 mod guard;
 mod joint;
 mod link;
+mod mentions;
 mod names;
 mod number_text;
 mod quaternion;
@@ -62,6 +63,7 @@ mod xacro;
 mod xml;
 
 pub use error::FormatError;
+pub use mentions::MAY_JOIN;
 pub use writer::write;
 
 use error::{Fault, located};

@@ -34,6 +34,8 @@ pub(super) struct Reader<'a> {
     pub(super) root_namespace: Option<&'a str>,
     warnings: Vec<(usize, String)>,
     pub(super) unread: Tally<'a>,
+    /// Elements that are not read, until all names are known.
+    pub(super) set_aside: Vec<Element<'a>>,
     /// The joint that places each link so far.
     pub(super) placed_by: HashMap<&'a str, &'a str>,
     /// The kind of each joint that was read so far; a `floating` joint is none.
@@ -123,6 +125,7 @@ pub(super) fn read(
     reader.note_tree();
     reader.resolve_motors();
     reader.note_closing_frames();
+    reader.note_mentions();
     if options.strict {
         faults.extend(reader.unread.faults(text));
     }
@@ -160,6 +163,7 @@ impl<'a> Reader<'a> {
             root_namespace: root.namespace(),
             warnings: Vec::new(),
             unread: Tally::default(),
+            set_aside: Vec::new(),
             directory: Directory::default(),
             placed_by: HashMap::new(),
             kinds: HashMap::new(),

@@ -47,7 +47,8 @@ const STANDARD: [&str; 10] = [
 ];
 
 /// Pairs of elements or attributes by which tools name the two sides of a constraint, without underscores.
-const SIDES: [(&str, &str); 8] = [
+const SIDES: [(&str, &str); 9] = [
+    ("site1", "site2"),
     ("parent", "child"),
     ("predecessor", "successor"),
     ("link1", "link2"),
@@ -207,6 +208,13 @@ impl<'a> Reader<'a> {
                 child.name()
             };
             if foreign && !kinds.known.contains(&name) {
+                let foreign = kinds.known.iter().copied().filter(|k| k.contains(':'));
+                if let Some(meant) = slip_of(name, foreign) {
+                    let message = format!("<{}> is not known here", cut(name));
+                    return Err(child
+                        .fault(message)
+                        .help(format!("did you mean <{meant}>?")));
+                }
                 self.skip_unless_joining(child)?;
                 continue;
             }
@@ -325,10 +333,19 @@ impl<'a> Reader<'a> {
 
     /// Nothing inside an element that is skipped may join two links.
     pub(super) fn check_for_joints(&mut self, element: Element<'a>) -> Outcome<()> {
+        self.set_aside.push(element);
         let mut open = vec![element];
         while let Some(next) = open.pop() {
             if COMPLIANT.contains(&next.name()) {
                 continue;
+            }
+            if let Some(body) = held_in_the_world(next) {
+                return Err(body
+                    .fault(format!(
+                        "<{}> holds this in the world, and how is not known",
+                        cut(next.written_name())
+                    ))
+                    .help("write it as a <loop> to the root link, or remove it"));
             }
             if let Some((first, second)) = sides_of(next) {
                 return Err(next
@@ -360,6 +377,13 @@ impl<'a> Reader<'a> {
             owner => Ok(owner),
         }
     }
+}
+
+/// The body that one of MuJoCo's equalities holds in the world, the other body being left out.
+fn held_in_the_world(element: Element<'_>) -> Option<Attribute<'_>> {
+    let holds = matches!(element.name(), "connect" | "weld");
+    let body = element.attribute("body1").filter(|_| holds)?;
+    element.attribute("body2").is_none().then_some(body)
 }
 
 /// The two words by which an element names the two links that it joins; `None` where it joins none.

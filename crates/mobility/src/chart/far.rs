@@ -13,6 +13,10 @@ const RADII: [f64; 3] = [1.0, 0.5, 0.25];
 /// Where double precision does not lead far, the neighbourhood is seen in this many bits at least.
 const NEARBY_BITS: u32 = 212;
 
+/// What the last digits of numbers taken literally leave over grows with a lower power of the radius than this; what begins with one as
+/// low shows in double precision.
+const LOW_ORDER: f64 = 4.0;
+
 /// What exceeds rounding by this factor, over the smallest singular value kept, is motion.
 const CLEAR: f64 = 1e3;
 
@@ -44,6 +48,17 @@ impl Probes<'_> {
         }
         Ok(None)
     }
+
+    /// Whether what a test leaves over falls off with a low power towards the pose.
+    fn is_low_order(
+        &mut self,
+        more: &mut MoreDigits,
+        test: &ChartTest,
+        bits: u32,
+    ) -> Result<bool, MatrixError> {
+        let half = self.in_bits(more, (0.5 * test.radius, 0.0), bits)?;
+        Ok(test.leftover < half.leftover * 2.0f64.powf(LOW_ORDER))
+    }
 }
 
 /// A regular outcome for exact numbers, tested again as far away as double precision follows the chart, in as many bits as its loops
@@ -69,7 +84,8 @@ pub(in super::super) fn far_chart(
     let radius = far.unwrap_or(near.radius);
     if bits > 53 && (bits > near.bits || far.is_some()) {
         let test = probes.in_bits(more, (radius, 0.0), bits)?;
-        if test.outcome != ChartOutcome::Regular {
+        let rounding = near.literal && probes.is_low_order(more, &test, bits)?;
+        if test.outcome != ChartOutcome::Regular && !rounding {
             return Ok(ChartTest {
                 literal: near.literal,
                 ..test

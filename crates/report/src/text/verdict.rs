@@ -8,6 +8,7 @@ use super::page::Page;
 use super::style::Tint;
 use super::words::{capitalised, counted, figure, names};
 use crate::schema::{Branch, Report};
+use kutzbach_format::MAY_JOIN;
 use kutzbach_mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
 
 /// Writes the verdict, its reasons and the line that says what was read.
@@ -71,6 +72,10 @@ fn mobile(report: &Report) -> String {
     }
     if report.home.pose == Some(PoseKind::Singular) {
         text.push_str(&format!(": {}.", singular(report)));
+        return text;
+    }
+    if report.warnings.iter().any(|w| w.contains(MAY_JOIN)) {
+        text.push_str(", by what of the file is read.");
         return text;
     }
     if without_loops(report) {
