@@ -70,6 +70,7 @@ fn anywhere(mechanism: &Mechanism, size: f64, start: usize) -> Configuration {
         })
         .collect();
     Configuration {
+        free: BTreeSet::new(),
         name: "anywhere".to_owned(),
         positions,
     }

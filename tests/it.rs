@@ -52,6 +52,7 @@ mod models;
 mod near_singular;
 mod polynomial_systems;
 mod pose_warnings;
+mod poses;
 mod readme;
 mod record;
 mod record_files;

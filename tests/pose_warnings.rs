@@ -37,6 +37,21 @@ fn poses_next_to_a_singular_one_are_told_with_a_clearer_one() {
     assert!(warnings(&small).is_empty());
 }
 
+#[test]
+fn a_singular_pose_comes_with_another_where_limits_say_which() {
+    let flat = parallelogram("0");
+    assert!(warnings(&flat).is_empty());
+    let limited = flat.replacen(
+        r#"<axis xyz="0 0 1"/></joint>"#,
+        r#"<axis xyz="0 0 1"/><limit lower="0" upper="1"/></joint>"#,
+        1,
+    );
+    let told = warnings(&limited);
+    let offered =
+        |text: &String| text.starts_with("singular pose: ") && text.contains("`--pose limits`");
+    assert!(told.iter().any(offered), "{told:?}");
+}
+
 /// A crank of length 1, a rod of length 2 and a slider, stretched or not.
 fn slider_crank(angle: &str) -> String {
     format!(
@@ -101,7 +116,7 @@ fn limits_are_held_against_the_pose_and_the_couplings() {
         warnings(&arm(&limit("${pi/6}", "1"), &limit("-0.2", "-0.1"))),
         [
             "this pose is outside joint limits: `one` is at 0°, 30° below its limit of 30°; `two` is at 0 mm, 100 mm above its \
-          limit of -100 mm"
+          limit of -100 mm; `--pose limits` analyses the middle of the limits, `--pose joint=value` any other pose"
         ]
     );
     assert!(warnings(&arm(&limit("0", "0"), ""))[0].starts_with("1 joint has a range of zero"));

@@ -1,6 +1,7 @@
 //! `kutzbach accuracy FILE`: what every way to an answer costs, and how far off it is.
 
 use super::failure::Failure;
+use super::pose::Pose;
 use super::progress::Progress;
 use super::simulate::aside::{Listener, Teller, aside};
 use super::{DONE, interrupt, load, output, terminal};
@@ -31,9 +32,8 @@ pub struct Arguments {
     /// Joint to drive; one that serves if not given
     #[arg(long, value_name = "JOINT")]
     drive: Option<String>,
-    /// Start at a configuration of the file instead of the home pose
-    #[arg(long, value_name = "CONFIGURATION")]
-    at: Option<String>,
+    #[command(flatten)]
+    pose: Pose,
     /// A first impression: fewer settings and fewer runs
     #[arg(long)]
     quick: bool,
@@ -85,13 +85,13 @@ const SETTINGS: f64 = 6.0;
 /// # Errors
 /// Where the file cannot be read, has no such configuration, branch or joint, or output cannot be written.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let reading = arguments.source.read()?;
+    let mut reading = arguments.source.read()?;
+    let configuration = arguments.pose.configure(&mut reading)?;
     let mechanism = &reading.mechanism;
     let plain = |message: String, help: Option<String>| Failure::Plain {
         message: format!("{}: {message}", arguments.source.file.display()),
         help,
     };
-    let configuration = arguments.at.clone().filter(|name| name != "home");
     let analysis = analyse(
         mechanism,
         &AnalysisOptions {

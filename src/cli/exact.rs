@@ -2,6 +2,7 @@
 
 use super::failure::Failure;
 use super::interrupt::{self, INTERRUPTED};
+use super::pose::Pose;
 use super::{BAD_INPUT, DONE, UNDECIDED, load, output, terminal};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressDrawTarget};
@@ -62,9 +63,8 @@ pub struct Arguments {
     /// Exit with code 3 if it stopped before everything was answered
     #[arg(long)]
     strict: bool,
-    /// Start at a configuration of the file instead of the home pose
-    #[arg(long, value_name = "CONFIGURATION")]
-    at: Option<String>,
+    #[command(flatten)]
+    pose: Pose,
     /// Form of the answer
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -127,8 +127,17 @@ enum Format {
 /// # Errors
 /// Where the file cannot be read, its numbers are not algebraic, or the output cannot be written.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let reading = arguments.source.read_symbolic(&arguments.symbolic)?;
-    let request = arguments.request();
+    let mut reading = arguments.source.read_symbolic(&arguments.symbolic)?;
+    if arguments.pose.begins_at_limits() {
+        return Err(Failure::Plain {
+            message:
+                "`--pose limits` is where assembly begins; exact equations need a pose that closes"
+                    .to_owned(),
+            help: Some("`report --pose limits --write-assembled OUT` writes one".to_owned()),
+        });
+    }
+    let configuration = arguments.pose.configure(&mut reading)?;
+    let request = arguments.request(configuration);
     let refused = |error: SystemError| Failure::Plain {
         message: format!("{}: {error}", arguments.source.file.display()),
         help: matches!(
@@ -176,7 +185,7 @@ enum Ended {
 }
 
 impl Arguments {
-    fn request(&self) -> Request {
+    fn request(&self, configuration: Option<String>) -> Request {
         let formulation = match (self.variables, self.incremental) {
             (Some(Variables::Canonical), _) | (None, false) => Formulation::Canonical,
             (Some(Variables::Tree), _) => Formulation::Tree,
@@ -187,7 +196,7 @@ impl Arguments {
             options: ExactOptions {
                 system: SystemOptions {
                     formulation,
-                    configuration: self.at.clone(),
+                    configuration,
                     unoriented: self.unoriented,
                     ..SystemOptions::default()
                 },
@@ -275,7 +284,7 @@ impl Arguments {
         self.print.is_empty()
             && self.variables.is_none()
             && self.method.is_none()
-            && self.at.is_none()
+            && self.pose.is_home()
     }
 
     /// What is told of work that could not be broken off: a form of its own, since there is no answer.

@@ -14,6 +14,7 @@ mod graph;
 mod interrupt;
 mod load;
 mod output;
+mod pose;
 mod progress;
 mod report;
 mod simulate;

@@ -2,6 +2,7 @@
 
 use super::accuracy::measured;
 use super::failure::Failure;
+use super::pose::Pose;
 use super::progress::Progress;
 use super::{DONE, UNDECIDED, load, output, terminal};
 use clap::{Args, ValueEnum};
@@ -28,9 +29,8 @@ pub struct Arguments {
     format: Format,
     #[command(flatten)]
     destination: output::Destination,
-    /// Analyse a configuration of the file instead of the home pose
-    #[arg(long, value_name = "CONFIGURATION")]
-    at: Option<String>,
+    #[command(flatten)]
+    pose: Pose,
     #[command(flatten)]
     closing: load::Closing,
     /// Write the mechanism to a file too, with a configuration `assembled` that holds the joint values at the pose analysed
@@ -93,9 +93,9 @@ fn seconds(text: &str) -> Result<f64, String> {
 /// # Errors
 /// Where the file cannot be read, has no such configuration, or the output cannot be written.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let reading = arguments.source.read_strictly(arguments.strict)?;
+    let mut reading = arguments.source.read_strictly(arguments.strict)?;
     let options = Options {
-        configuration: arguments.at.clone(),
+        configuration: arguments.pose.configure(&mut reading)?,
         exact: arguments
             .exact
             .map_or_else(ExactBudget::default, ExactBudget::seconds)
@@ -134,7 +134,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             terminal::layout(arguments.destination.file().is_some(), arguments.verbose),
         ),
         Format::Json => output::json(&report)?,
-        Format::Html => page(arguments, &reading, &report, &analysis)?,
+        Format::Html => {
+            let configuration = options.configuration.as_deref();
+            page(arguments, &reading, &report, &analysis, configuration)?
+        }
     };
     arguments.destination.put(&text)?;
     if let Some(out) = &arguments.write_assembled {
@@ -163,8 +166,8 @@ fn page(
     reading: &Reading,
     report: &Report,
     analysis: &Analysis,
+    configuration: Option<&str>,
 ) -> Result<String, Failure> {
-    let configuration = arguments.at.as_deref().filter(|name| *name != "home");
     let verification = match arguments.verify {
         true => Some(verified(
             arguments,

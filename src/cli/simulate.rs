@@ -7,6 +7,7 @@ mod setting;
 mod table;
 
 use super::failure::Failure;
+use super::pose::Pose;
 use super::{DISAGREEMENT, DONE, UNDECIDED, interrupt, load, output, terminal};
 use choices::{Effect, Format, SolverChoice, substeps};
 use clap::Args;
@@ -81,9 +82,8 @@ pub struct Arguments {
     format: Format,
     #[command(flatten)]
     destination: output::Destination,
-    /// Start at a configuration of the file instead of the home pose
-    #[arg(long, value_name = "CONFIGURATION")]
-    at: Option<String>,
+    #[command(flatten)]
+    pose: Pose,
     /// End with exit code 3 where nothing is decided
     #[arg(long)]
     strict: bool,
@@ -111,9 +111,9 @@ const COST_STEPS: usize = 500;
 /// Where the file cannot be read, has no such configuration, branch or joint, no world can be made, or output cannot be
 /// written.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let reading = arguments.source.read()?;
+    let mut reading = arguments.source.read()?;
+    let configuration = arguments.pose.configure(&mut reading)?;
     let mechanism = &reading.mechanism;
-    let configuration = arguments.at.clone().filter(|name| name != "home");
     let plain = |message: String, help: Option<String>| Failure::Plain {
         message: format!("{}: {message}", arguments.source.file.display()),
         help,

@@ -3,6 +3,7 @@
 mod table;
 
 use super::failure::Failure;
+use super::pose::Pose;
 use super::{DONE, load, output};
 use clap::{Args, ValueEnum};
 use kutzbach::mobility::{AnalysisOptions, Depth, analyse};
@@ -40,9 +41,8 @@ pub struct Arguments {
     format: Format,
     #[command(flatten)]
     destination: output::Destination,
-    /// Start at a configuration of the file instead of the home pose
-    #[arg(long, value_name = "CONFIGURATION")]
-    at: Option<String>,
+    #[command(flatten)]
+    pose: Pose,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -90,9 +90,9 @@ fn drive(text: &str) -> Result<Drive, String> {
 /// # Errors
 /// Where the file cannot be read, has no such configuration, branch or joint, or the output cannot be written.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let reading = arguments.source.read()?;
+    let mut reading = arguments.source.read()?;
+    let configuration = arguments.pose.configure(&mut reading)?;
     let mechanism = &reading.mechanism;
-    let configuration = arguments.at.clone().filter(|name| name != "home");
     let plain = |message: String, help: String| Failure::Plain {
         message: format!("{}: {message}", arguments.source.file.display()),
         help: Some(help),

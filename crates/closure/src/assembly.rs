@@ -21,7 +21,7 @@ use descent::{Effort, Kept, PartOutcome, Task, advance, descend, largest, movabl
 use kutzbach_math::matrix::{LeastSquares, MatrixError, Real};
 use kutzbach_math::space::{Rigid, length, subtract};
 use kutzbach_model::mechanism::{FreedomPart, Mechanism};
-pub use limits::OutsideLimit;
+pub use limits::{OutsideLimit, coupled_joints, nearest_turn};
 pub use proof::{Obstacle, ProvenOpen};
 pub use reversal::Reversal;
 use std::collections::{BTreeMap, BTreeSet};
@@ -370,8 +370,7 @@ fn close(
             if outcome.steps > 0 {
                 outcome = nearest::commensurate(task, reference, states, outcome, work)?;
             }
-            let within = |states: &[JointState<f64>]| limits::excess(task, states);
-            if outcome.steps > 0 && within(states) > within(reference) {
+            if outcome.steps > 0 && limits::excess(task, states) > 0.0 {
                 outcome = within_limits(task, states, reference, outcome, work, &mut done)?;
             }
             done.outcome = PartOutcome {
@@ -428,8 +427,8 @@ fn close(
     Ok(done)
 }
 
-/// Where closing took joints out of the limits they were drawn within: looks for a closing that does not. The states end
-/// there, or where they were.
+/// Where closing left joints outside their limits: looks for a closing that does not. The states end there, or where they
+/// were.
 fn within_limits(
     task: &Task<'_>,
     states: &mut [JointState<f64>],

@@ -30,7 +30,7 @@ mod structure;
 
 pub use assembly::{
     Assembly, AssemblyOptions, JointPlace, LoopGap, Obstacle, OutsideLimit, ProvenOpen, Reversal,
-    assemble, assemble_with, follow, refine, spanning_poses,
+    assemble, assemble_with, coupled_joints, follow, nearest_turn, refine, spanning_poses,
 };
 pub use cycle::{Walk, WalkedCycle, WalkedJoint, characteristic_length};
 pub use displacement::Factor;

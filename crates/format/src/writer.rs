@@ -6,8 +6,8 @@
 
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{
-    Coupling, CouplingOrigin, Direction, Frame, Geometry, Joint, JointKind, Link, Mechanism,
-    Placement, Scene, Shape,
+    Configuration, Coupling, CouplingOrigin, Direction, Frame, Geometry, Joint, JointKind, Link,
+    Mechanism, Placement, Scene, Shape,
 };
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -248,7 +248,9 @@ impl Writer {
     }
 
     fn configurations(&mut self, mechanism: &Mechanism) {
-        for configuration in mechanism.configurations() {
+        // One with joints that assembly may move is a wish of the moment, not of the file.
+        let stated = |c: &&Configuration| c.free.is_empty();
+        for configuration in mechanism.configurations().iter().filter(stated) {
             self.line(
                 1,
                 &format!("<configuration{}>", pair("name", &configuration.name)),

@@ -128,7 +128,8 @@ pub fn analyse(
     };
     let held: BTreeSet<usize> = configuration
         .iter()
-        .flat_map(|c| c.positions.iter().map(|(joint, _)| joint.0))
+        .flat_map(|c| c.held())
+        .map(|joint| joint.0)
         .filter(|&joint| mechanism.joints()[joint].freedom() > 0)
         .collect();
     let structure = Structure::new(mechanism);

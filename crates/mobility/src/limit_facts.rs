@@ -6,7 +6,7 @@
 //!
 //! Cost: linear in joints and couplings.
 
-use kutzbach_closure::JointState;
+use kutzbach_closure::{JointState, coupled_joints, nearest_turn};
 use kutzbach_model::mechanism::{Joint, Mechanism};
 
 /// Something that the limits of a mechanism say.
@@ -16,7 +16,7 @@ pub enum LimitFact {
     Outside {
         /// Index of the joint.
         joint: usize,
-        /// Its value at the pose.
+        /// Its value at the pose; of the turns of a hinge that no coupling counts, the one nearest to the limits.
         value: f64,
         /// The limit that it is beyond.
         limit: f64,
@@ -53,9 +53,14 @@ pub fn limit_facts(mechanism: &Mechanism, states: &[JointState<f64>]) -> Vec<Lim
         .iter()
         .map(|joint| Range::of(mechanism, joint))
         .collect();
+    let coupled = coupled_joints(mechanism);
     for (index, (range, state)) in ranges.iter().zip(states).enumerate() {
         let (Some(range), &[value]) = (range, state.values.as_slice()) else {
             continue;
+        };
+        let value = match coupled[index] {
+            true => value,
+            false => nearest_turn(&mechanism.joints()[index], value),
         };
         let open = range.open + ROUNDING * value.abs();
         let beyond = [
@@ -200,6 +205,18 @@ mod tests {
         }
         let found = facts(r#"<limit lower="0.5"/>"#, "", "", "0");
         assert!(matches!(found.as_slice(), [LimitFact::Outside { .. }]));
+    }
+
+    #[test]
+    fn whole_turns_do_not_count() {
+        // 300° is −60°, and 220° is 40° above 180°, not 220° − 360° and 50° below −90°.
+        let limits = limit("${-pi/2}", "${pi}");
+        assert_eq!(facts(&limits, "", "", "${300*pi/180}"), []);
+        let found = facts(&limits, "", "", "${-140*pi/180}");
+        let [LimitFact::Outside { value, limit, .. }] = found.as_slice() else {
+            panic!("{found:?}")
+        };
+        assert!(((value - limit).to_degrees() - 40.0).abs() < 1e-9);
     }
 
     #[test]

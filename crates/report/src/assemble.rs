@@ -19,7 +19,7 @@ use std::time::Instant;
 use thiserror::Error;
 
 /// The name of the pose with all joint variables zero.
-const HOME: &str = "home";
+pub(crate) const HOME: &str = "home";
 
 /// What is reported on.
 #[derive(Clone, Copy, Debug)]

@@ -5,7 +5,8 @@ use super::schema::{Assembly, Gap, JointPlace, OutsideLimit, Reversal};
 use super::text::words::{figure, metres};
 use kutzbach_closure::{self as closure, Obstacle};
 use kutzbach_math::number::Number;
-use kutzbach_model::mechanism::{FreedomPart, JointId, Mechanism};
+use kutzbach_model::mechanism::{Configuration, FreedomPart, JointId, Mechanism};
+use std::collections::BTreeSet;
 
 /// The name of the configuration that [`assembled_file`] adds.
 pub const ASSEMBLED: &str = "assembled";
@@ -125,7 +126,11 @@ pub fn assembled_file(mechanism: &Mechanism, found: &closure::Assembly) -> Optio
             Some((JointId(place.joint), values.collect::<Option<Vec<_>>>()?))
         })
         .collect();
-    Some(kutzbach_format::write(
-        &mechanism.with_configuration(ASSEMBLED, positions?),
-    ))
+    Some(kutzbach_format::write(&mechanism.with_configuration(
+        Configuration {
+            name: ASSEMBLED.to_owned(),
+            positions: positions?,
+            free: BTreeSet::new(),
+        },
+    )))
 }

@@ -1,5 +1,6 @@
 //! What a careful owner should know of the pose: limits, dead centres, singular poses nearby. Sentences for the warnings.
 
+use super::assemble::HOME;
 use super::findings::LOCKED_TOGETHER;
 use super::schema::Report;
 use super::text::words::{counted, figure, names};
@@ -14,16 +15,21 @@ use kutzbach_model::mechanism::{FreedomPart, Mechanism};
 /// How the sentences begin that are about the pose itself, not about the file.
 const OUTSIDE: &str = "this pose is outside joint limits: ";
 const DEAD: &str = "dead centre: ";
+const SINGULAR: &str = "singular pose: ";
 const NEARLY: &str = "nearly singular: the smallest singular value kept";
 
 /// Whether a warning belongs to the first lines: what is wrong with the pose, or with what holds there, or may hold.
 pub(super) fn is_about_the_pose(warning: &str) -> bool {
     warning.starts_with(OUTSIDE)
         || warning.starts_with(DEAD)
+        || warning.starts_with(SINGULAR)
         || warning.contains(NEARLY)
         || warning.contains(LOCKED_TOGETHER)
         || warning.contains(MAY_JOIN)
 }
+
+/// A middle of limits farther than this (rad, m) from the pose drawn is another pose.
+const WELL_AWAY: f64 = 1e-3;
 
 /// Joints named in a sentence.
 const NAMED: usize = 4;
@@ -38,13 +44,16 @@ pub(super) fn warn(
     if !analysis.assembly.closed {
         return;
     }
-    limits(report, mechanism, analysis);
+    limits(report, mechanism, analysis, configuration);
     let geometry = Geometry::new(
         mechanism,
         mechanism.configuration(configuration),
         &Arithmetic::double(),
     );
     dead(report, mechanism, analysis, &geometry);
+    if configuration == HOME && analysis.mobility.pose == Some(PoseKind::Singular) {
+        singular(report, mechanism);
+    }
     let states = &analysis.assembly.states;
     let structure = &analysis.structure;
     // Where the equations cannot be evaluated nearby there is nothing to say.
@@ -62,7 +71,11 @@ pub(super) fn warn(
     }
 }
 
-fn limits(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis) {
+/// What to do about a home pose outside limits.
+const OFFER: &str =
+    "; `--pose limits` analyses the middle of the limits, `--pose joint=value` any other pose";
+
+fn limits(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis, configuration: &str) {
     let mut outside: Vec<(f64, String)> = Vec::new();
     let (mut no_range, mut couplings) = (Vec::new(), Vec::new());
     let joint = |index: usize| &mechanism.joints()[index];
@@ -112,9 +125,10 @@ fn limits(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis) {
         if outside.len() > NAMED {
             texts.push(format!("and {} more", outside.len() - NAMED));
         }
+        let offer = if configuration == HOME { OFFER } else { "" };
         report
             .warnings
-            .push(format!("{OUTSIDE}{}", texts.join("; ")));
+            .push(format!("{OUTSIDE}{}{offer}", texts.join("; ")));
     }
     if !no_range.is_empty() {
         no_range.sort_by(|a, b| super::natural_order(a, b));
@@ -152,6 +166,16 @@ fn dead(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis, geometr
             "{DEAD}{} {} at this pose, for an instant; as inputs they cannot start the motion from here",
             names(&quoted, NAMED),
             if quoted.len() == 1 { "rests" } else { "rest" },
+        ));
+    }
+}
+
+/// What holds at a singular pose need not hold elsewhere; where the limits say where elsewhere is, that is offered.
+fn singular(report: &mut Report, mechanism: &Mechanism) {
+    let elsewhere = |(_, middle): &(_, f64)| middle.abs() > WELL_AWAY;
+    if mechanism.middle_of_limits().iter().any(elsewhere) {
+        report.warnings.push(format!(
+            "{SINGULAR}what is said here need not hold elsewhere{OFFER}"
         ));
     }
 }

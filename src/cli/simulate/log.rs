@@ -65,7 +65,7 @@ impl<'a> Log<'a> {
             reading,
             &arguments.source.file,
             &Options {
-                configuration: arguments.at.clone(),
+                configuration: options.configuration.clone(),
                 ..Options::default()
             },
         )?;

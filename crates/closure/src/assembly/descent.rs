@@ -3,12 +3,16 @@
 use super::super::displacement::JointState;
 use super::super::geometry::Geometry;
 use super::super::jacobian::{CycleJacobian, Part, entry_accuracy, jacobian};
+use super::nearest::COMMENSURATE;
 use kutzbach_math::matrix::{LeastSquares, MatrixError, Real, SplitMix64};
 use kutzbach_model::mechanism::Mechanism;
 use std::collections::BTreeSet;
 
 /// However coarsely the numbers are stated or rounded, a cycle that misses by more than this (rad, or cycle lengths) is not closed.
 const COARSEST_CLOSING: f64 = 0.02;
+
+/// Least factor between the squared residual and the damping.
+const LEAST_CAUTION: f64 = 1e-6;
 
 /// A part to close.
 #[derive(Clone, Copy)]
@@ -161,6 +165,7 @@ pub(super) fn descend(
     let mut caution = 1.0;
     let sum = |r: &[f64]| r.iter().map(|x| x * x).sum::<f64>();
     let mut milestone = sum(&here.residual);
+    let mut polishing = false;
     // A pose that closes to the last digit is left exactly as it was drawn.
     while residual > rounding && steps < effort.steps {
         let square = sum(&here.residual);
@@ -172,14 +177,19 @@ pub(super) fn descend(
             }
             milestone = square;
         }
+        let within = residual <= stated.min(COARSEST_CLOSING);
+        if within && !polishing {
+            // The caution that led here from afar is no measure of what the steps at the end are worth.
+            polishing = true;
+            caution = LEAST_CAUTION;
+        }
         let columns = movable_columns(&here, held);
         let Some(increments) = step(&here, &columns, caution * square.min(1.0))? else {
             break;
         };
-        // What closes within the stated precision is polished only as far as that precision goes: rounded numbers leave
-        // a gap that no motion removes, and chasing it would drag the mechanism along its own freedom.
-        let within = residual <= stated.min(COARSEST_CLOSING);
-        if within && largest(&increments) > stated {
+        // What closes within the stated precision is polished on only by steps in proportion to the gap: rounded numbers
+        // may leave a gap that no motion removes, and chasing it would drag the mechanism along its own freedom.
+        if within && largest(&increments) > stated.max(COMMENSURATE * residual) {
             break;
         }
         let before = Kept::of(part, states);
@@ -195,7 +205,7 @@ pub(super) fn descend(
             let stalled = reached > square * (1.0 - 1e-6);
             here = there;
             residual = largest(&here.residual);
-            caution = (caution * 0.25).max(1e-6);
+            caution = (caution * 0.25).max(LEAST_CAUTION);
             if stalled {
                 break;
             }

@@ -71,7 +71,7 @@ pub(super) fn distance(
     way.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// Walks from a closed pose towards the reference, as far as the closed poses allow. The states end at the nearest pose
+/// Walks from a closed pose towards the reference, as far as the closed poses and the joint limits allow. The states end at the nearest pose
 /// found, with its outcome.
 pub(super) fn settle(
     task: &Task<'_>,
@@ -83,6 +83,7 @@ pub(super) fn settle(
     let mut best = outcome;
     let mut nearest = distance(task, reference, states, &best);
     let mut shorten = 1.0;
+    let mut outside = limits::excess(task, states);
     for _ in 0..STEPS {
         let Some(here) = best.jacobian.as_ref().filter(|_| best.closed()) else {
             break;
@@ -117,7 +118,10 @@ pub(super) fn settle(
         let there = descend(task, states, Effort::SHORT)?;
         *work -= 2.0 * there.work;
         let reached = distance(task, reference, states, &there);
-        if there.closed() && reached < nearest {
+        // Limits go before nearness: no step leads out of them, or farther out.
+        let out = limits::excess(task, states);
+        if there.closed() && reached < nearest && out <= outside {
+            outside = out;
             let gained = nearest - reached;
             best = PartOutcome {
                 steps: best.steps + there.steps,

@@ -25,6 +25,9 @@ pub(super) const STARTS: usize = 256;
 /// Starts that a search goes on after its first closing, in case another one is nearer or within the limits.
 const FURTHER: usize = 12;
 
+/// And as long as none is within the limits.
+const FURTHER_OUTSIDE: usize = 64;
+
 /// Of the starts, this share leaves the driven joints where they are drawn.
 const DRIVEN_KEPT: f64 = 0.25;
 
@@ -102,6 +105,18 @@ pub(super) fn search(
         steps: 0,
         best: None,
     };
+    if let Some(settled) = by_groups(&careful, states, reference, starts, work, &mut found)? {
+        let merit = Merit {
+            outside: limits::excess(task, states),
+            moves_driven: false,
+            distance: distance(task, reference, states, &settled),
+        };
+        if merit.outside == 0.0 {
+            found.best = Some(settled);
+            return Ok(found);
+        }
+        best = Some((merit, Kept::of(task.part, states), settled));
+    }
     let mut nearest: Option<(Kept<f64>, PartOutcome)> = None;
     let mut last = starts;
     while found.starts < last && *work > 0.0 {
@@ -133,9 +148,6 @@ pub(super) fn search(
             }
             continue;
         }
-        if best.is_none() {
-            last = last.min(found.starts + FURTHER);
-        }
         unwind(here, reference, states);
         let outcome = descend(here, states, Effort::SHORT)?;
         let settled = settle(here, reference, states, outcome, work)?;
@@ -144,6 +156,13 @@ pub(super) fn search(
             moves_driven,
             distance: distance(task, reference, states, &settled),
         };
+        if settled.closed() {
+            let further = match merit.outside > 0.0 {
+                true => FURTHER_OUTSIDE,
+                false => FURTHER,
+            };
+            last = last.min(found.starts + further);
+        }
         if settled.closed() && best.as_ref().is_none_or(|(least, ..)| merit < *least) {
             best = Some((merit, Kept::of(task.part, states), settled));
         }
@@ -156,6 +175,96 @@ pub(super) fn search(
         None => begun.put_back(states),
     }
     Ok(found)
+}
+
+/// Closes groups of cycles one by one that share no joint which may move, as the legs of a walking machine do once its crank
+/// is held. `None` where there is but one group, or one does not close; the states are then as they were.
+fn by_groups(
+    task: &Task<'_>,
+    states: &mut [JointState<f64>],
+    reference: &[JointState<f64>],
+    starts: usize,
+    work: &mut f64,
+    found: &mut Search,
+) -> Result<Option<PartOutcome>, MatrixError> {
+    let groups = groups(task);
+    if groups.len() < 2 {
+        return Ok(None);
+    }
+    let begun = Kept::of(task.part, states);
+    for part in &groups {
+        let group = Task { part, ..*task };
+        let here = search(&group, states, reference, starts, work)?;
+        found.starts += here.starts;
+        found.steps += here.steps;
+        if !here.best.as_ref().is_some_and(PartOutcome::closed) {
+            begun.put_back(states);
+            return Ok(None);
+        }
+    }
+    let outcome = descend(task, states, Effort::SHORT)?;
+    if !outcome.closed() {
+        begun.put_back(states);
+        return Ok(None);
+    }
+    Ok(Some(outcome))
+}
+
+/// The cycles and couplings of a part, parted by the joints that may move.
+fn groups(task: &Task<'_>) -> Vec<Part> {
+    let part = task.part;
+    let movable = |joint: &usize| !task.held.contains(joint);
+    let sets = part
+        .cycles
+        .iter()
+        .map(|cycle| cycle.iter().map(|(joint, _)| *joint).collect::<Vec<_>>());
+    let tied = part.couplings.iter().map(|&coupling| {
+        let (terms, _) = &task.geometry.couplings[coupling];
+        terms.iter().map(|(joint, _)| *joint).collect::<Vec<_>>()
+    });
+    let sets: Vec<BTreeSet<usize>> = sets
+        .chain(tied)
+        .map(|joints| joints.into_iter().filter(movable).collect())
+        .collect();
+    let mut groups: Vec<(BTreeSet<usize>, Vec<usize>)> = Vec::new();
+    for (index, joints) in sets.iter().enumerate() {
+        let mut grown = (joints.clone(), vec![index]);
+        let (touched, apart): (Vec<_>, Vec<_>) = groups
+            .into_iter()
+            .partition(|(others, _)| !others.is_disjoint(joints));
+        for (others, members) in touched {
+            grown.0.extend(others);
+            grown.1.extend(members);
+        }
+        groups = apart;
+        groups.push(grown);
+    }
+    let cycles = part.cycles.len();
+    groups
+        .into_iter()
+        .map(|(_, mut members)| {
+            members.sort_unstable();
+            let (in_cycles, in_couplings): (Vec<usize>, Vec<usize>) =
+                members.into_iter().partition(|&index| index < cycles);
+            let walked = in_cycles.iter().flat_map(|&i| &part.cycles[i]);
+            let related = in_couplings
+                .iter()
+                .flat_map(|&i| &task.geometry.couplings[part.couplings[i - cycles]].0);
+            let inside: BTreeSet<usize> = walked
+                .map(|(joint, _)| *joint)
+                .chain(related.map(|(joint, _)| *joint))
+                .collect();
+            let joints = part.joints.iter().copied();
+            Part {
+                joints: joints.filter(|joint| inside.contains(joint)).collect(),
+                cycles: in_cycles.iter().map(|&i| part.cycles[i].clone()).collect(),
+                couplings: in_couplings
+                    .iter()
+                    .map(|&i| part.couplings[i - cycles])
+                    .collect(),
+            }
+        })
+        .collect()
 }
 
 /// Closes the first cycle, then the first two, and so on.
@@ -230,7 +339,12 @@ fn spread(
         let range = limits::range(described).filter(|_| within_limits);
         if let (Some((lower, upper)), 1) = (range, freedoms.len()) {
             let middle = 0.5 * (lower + upper);
-            let value = middle + 0.5 * (upper - lower) * random.symmetric();
+            // The first start is the middle itself, which is clear of most that is singular at the ends.
+            let away = match start {
+                0 => 0.0,
+                _ => random.symmetric(),
+            };
+            let value = middle + 0.5 * (upper - lower) * away;
             states[joint] = displacement.at(&[value]);
             continue;
         }

@@ -7,7 +7,6 @@ use super::joint::Joint;
 use super::link::Link;
 use super::precision::Precision;
 use super::scene::{Expectation, Scene};
-use kutzbach_math::number::Number;
 use std::collections::BTreeMap;
 
 /// Index of a link in [`Mechanism::links`].
@@ -102,17 +101,35 @@ impl Mechanism {
     /// The mechanism with one configuration more, or with that of the same name replaced. There have to be as many values
     /// for each joint as it has freedoms.
     #[must_use]
-    pub fn with_configuration(&self, name: &str, positions: Vec<(JointId, Vec<Number>)>) -> Self {
+    pub fn with_configuration(&self, added: Configuration) -> Self {
         let mut other = self.clone();
-        let added = Configuration {
-            name: name.to_owned(),
-            positions,
-        };
-        match other.configurations.iter_mut().find(|c| c.name == name) {
+        match other
+            .configurations
+            .iter_mut()
+            .find(|c| c.name == added.name)
+        {
             Some(configuration) => *configuration = added,
             None => other.configurations.push(added),
         }
         other
+    }
+
+    /// For every joint with limits, a value well within them (rad, m): the middle, or where there is but one limit, the
+    /// value nearest to zero.
+    #[must_use]
+    pub fn middle_of_limits(&self) -> Vec<(JointId, f64)> {
+        let middle = |joint: &Joint| {
+            let (lower, upper) = joint.bounds()?;
+            let middle = 0.5 * lower + 0.5 * upper;
+            Some(match middle.is_finite() {
+                true => middle,
+                false => 0.0f64.max(lower).min(upper),
+            })
+        };
+        let joints = self.joints.iter().enumerate();
+        joints
+            .filter_map(|(index, joint)| Some((JointId(index), middle(joint)?)))
+            .collect()
     }
 
     /// Physical effects for a simulation.

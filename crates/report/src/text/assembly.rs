@@ -6,6 +6,7 @@ use super::sections::{more, rows_of};
 use super::style::Tint;
 use super::table::{Cell, Column, Subject, Table};
 use super::words::{counted, figure, metres, names};
+use crate::assemble::HOME;
 use crate::schema::{Assembly, Gap, JointPlace, Report};
 use kutzbach_mobility::Verdict;
 
@@ -34,7 +35,7 @@ pub(crate) fn section(report: &Report, page: &mut Page) {
     }
     page.heading("Assembly");
     if let Some(moved) = moved {
-        let mut text = how_far(assembly, moved);
+        let mut text = how_far(report, moved);
         let all = farthest_first(&assembly.joints).len();
         if !page.layout().verbose && all > ROWS {
             text.push_str(&format!(" All {all} that moved: `--verbose`."));
@@ -60,14 +61,19 @@ pub(crate) fn section(report: &Report, page: &mut Page) {
 }
 
 /// A closed pose that was not drawn.
-fn how_far(assembly: &Assembly, moved: f64) -> String {
+fn how_far(report: &Report, moved: f64) -> String {
+    let assembly = &report.assembly;
+    let drawn = match report.home.configuration.as_str() {
+        HOME => "As the file draws it".to_owned(),
+        name => format!("With the values of `{name}`"),
+    };
     let worst = assembly
         .gaps
         .iter()
         .max_by(|a, b| a.position.total_cmp(&b.position));
     let mut text = match worst {
         Some(gap) => format!(
-            "As the file draws it, loop `{}` is open by {} m and {}°.",
+            "{drawn}, loop `{}` is open by {} m and {}°.",
             gap.cycle,
             figure(gap.position),
             figure(gap.angle.to_degrees())
@@ -84,7 +90,7 @@ fn how_far(assembly: &Assembly, moved: f64) -> String {
     text.push_str(". Everything here holds at the assembled pose.");
     if let Some(starts) = assembly.starts.filter(|starts| *starts > 1) {
         text.push_str(&format!(
-            " From the drawn pose itself none was found, or none within the joint limits: this is the best closing of {}.",
+            " From that pose itself none was found, or none within the joint limits: this is the best closing of {}.",
             counted(starts, "start")
         ));
     }
@@ -251,10 +257,13 @@ fn released(assembly: &Assembly) -> Option<String> {
     let farthest = places
         .iter()
         .max_by(|a, b| a.correction.total_cmp(&b.correction))?;
+    let way = match amount(farthest) {
+        none if none.is_empty() => "by less than a nanometre and a nanoradian".to_owned(),
+        amount => format!("farthest, by {amount}"),
+    };
     Some(format!(
-        "Loops with held joints close once these are released: `{}` then moves farthest, by {}.",
-        farthest.name,
-        amount(farthest)
+        "Loops with held joints close once these are released: `{}` then moves {way}.",
+        farthest.name
     ))
 }
 

@@ -51,7 +51,7 @@ impl Subject<'_> {
         let mut ways = Vec::new();
         let mut held = BTreeSet::new();
         if let Some(configuration) = self.configuration {
-            held.extend(configuration.positions.iter().map(|(joint, _)| joint.0));
+            held.extend(configuration.held().map(|joint| joint.0));
         }
         let pose = Pose {
             mechanism: self.mechanism,

@@ -64,6 +64,7 @@ fn resolve(
     Ok(Configuration {
         name: spec.name,
         positions,
+        free: BTreeSet::new(),
     })
 }
 

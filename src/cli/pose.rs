@@ -1,0 +1,171 @@
+//! At which pose: a configuration of the file, values given on the command line, or the middle of the limits.
+
+use super::failure::Failure;
+use clap::Args;
+use kutzbach::format::Reading;
+use kutzbach::mechanism::{Configuration, FreedomPart, Joint, JointId, Mechanism};
+use kutzbach::number::Number;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The configuration of the file as it is drawn.
+const HOME: &str = "home";
+
+/// What `--pose` says instead of joints and values.
+const LIMITS: &str = "limits";
+
+/// The pose to analyse.
+#[derive(Clone, Debug, Args)]
+pub struct Pose {
+    /// Take a configuration of the file instead of the home pose
+    #[arg(long, value_name = "CONFIGURATION")]
+    at: Option<String>,
+    /// Put joints elsewhere: `crank=30deg,slide=5mm` holds these (rad and m without a unit; several values as
+    /// `"ball=0.1 0 0"`), `limits` lets all others begin in the middle of their limits; may be repeated
+    #[arg(long, value_name = "JOINT=VALUE|limits", value_delimiter = ',')]
+    pose: Vec<String>,
+}
+
+impl Pose {
+    /// Whether anything but the home pose is asked for.
+    pub fn is_home(&self) -> bool {
+        self.at.is_none() && self.pose.is_empty()
+    }
+
+    /// Whether assembly may move what is asked for.
+    pub fn begins_at_limits(&self) -> bool {
+        self.pose.iter().any(|item| item.trim() == LIMITS)
+    }
+
+    /// The name of the configuration asked for, which the mechanism then has; `None` for the home pose.
+    ///
+    /// # Errors
+    /// Joints that the file does not have, and values that these cannot take.
+    pub fn configure(&self, reading: &mut Reading) -> Result<Option<String>, Failure> {
+        let at = self.at.clone().filter(|name| name != HOME);
+        if self.pose.is_empty() {
+            return Ok(at);
+        }
+        let mechanism = &reading.mechanism;
+        let mut positions: BTreeMap<JointId, Vec<Number>> = BTreeMap::new();
+        let mut free = BTreeSet::new();
+        if self.begins_at_limits() {
+            for (joint, value) in mechanism.middle_of_limits() {
+                positions.insert(
+                    joint,
+                    vec![Number::from_f64(value).unwrap_or_else(Number::zero)],
+                );
+                free.insert(joint);
+            }
+        }
+        let base = match &self.at {
+            Some(name) => mechanism
+                .configuration(name)
+                .ok_or_else(|| Failure::Plain {
+                    message: format!("there is no configuration `{name}`"),
+                    help: None,
+                })?
+                .positions
+                .clone(),
+            None => Vec::new(),
+        };
+        let given = self
+            .pose
+            .iter()
+            .map(|item| item.trim())
+            .filter(|item| *item != LIMITS);
+        let given: Vec<_> = given
+            .map(|item| place(mechanism, item))
+            .collect::<Result<_, _>>()?;
+        for (joint, values) in base.into_iter().chain(given) {
+            free.remove(&joint);
+            positions.insert(joint, values);
+        }
+        let mut name: Vec<&str> = at.iter().map(String::as_str).collect();
+        name.extend(self.pose.iter().map(|item| item.trim()));
+        let configuration = Configuration {
+            name: name.join(", "),
+            positions: positions.into_iter().collect(),
+            free,
+        };
+        let name = configuration.name.clone();
+        reading.mechanism = mechanism.with_configuration(configuration);
+        Ok(Some(name))
+    }
+}
+
+/// Reads `joint=value`.
+fn place(mechanism: &Mechanism, item: &str) -> Result<(JointId, Vec<Number>), Failure> {
+    let wrong = |message: String, help: &str| Failure::Plain {
+        message,
+        help: Some(help.to_owned()),
+    };
+    let Some((name, text)) = item.split_once('=') else {
+        return Err(wrong(
+            format!("`--pose {item}` states no value"),
+            "write it as joint=value, for example `crank=0.3` or `crank=30deg`; or `limits`",
+        ));
+    };
+    let Some(joint) = mechanism.joint_named(name.trim()) else {
+        return Err(wrong(
+            format!("`--pose`: there is no joint named `{}`", name.trim()),
+            "`kutzbach report FILE --verbose` lists the joints",
+        ));
+    };
+    let described = mechanism.joint(joint);
+    let parts = described.kind.freedoms();
+    let words: Vec<&str> = text.split_whitespace().collect();
+    if words.len() != parts.len() {
+        let message = format!(
+            "`--pose`: joint `{}` has {} freedoms, given are {} values",
+            described.name,
+            parts.len(),
+            words.len()
+        );
+        return Err(wrong(message, "one value for each, `\"ball=0.1 0 0\"`"));
+    }
+    let values = words
+        .iter()
+        .zip(parts)
+        .map(|(word, part)| measured(word, *part).map_err(|why| refused(described, word, &why)))
+        .collect::<Result<_, _>>()?;
+    Ok((joint, values))
+}
+
+fn refused(joint: &Joint, word: &str, why: &str) -> Failure {
+    Failure::Plain {
+        message: format!(
+            "`--pose`: `{word}` is no value for joint `{}`: {why}",
+            joint.name
+        ),
+        help: Some(
+            "a number or an expression such as `pi/4`; with `deg` or `rad`, `mm` or `m` after it"
+                .to_owned(),
+        ),
+    }
+}
+
+/// A value with or without a unit, in rad or m.
+fn measured(word: &str, part: FreedomPart) -> Result<Number, String> {
+    let slides = part == FreedomPart::Translation;
+    let units = [
+        ("deg", "*pi/180", false),
+        ("°", "*pi/180", false),
+        ("rad", "", false),
+        ("mm", "/1000", true),
+        ("m", "", true),
+    ];
+    let unit = units.iter().find(|(unit, ..)| word.ends_with(unit));
+    let (value, factor) = match unit {
+        Some((_, _, length)) if *length != slides => {
+            let moves = if slides { "slides" } else { "turns" };
+            return Err(format!("this freedom {moves}"));
+        }
+        Some((unit, factor, _)) => (word.trim_end_matches(unit), *factor),
+        None => (word, ""),
+    };
+    if let (Ok(number), "") = (Number::decimal(value), factor) {
+        return Ok(number);
+    }
+    Number::expression(&format!("({value}){factor}"), &mut |_| Ok(None))
+        .map_err(|error| error.to_string())
+}

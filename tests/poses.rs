@@ -1,0 +1,178 @@
+//! Poses given on the command line, and closings within joint limits.
+
+use kutzbach::format::read;
+use kutzbach::report::{Options, Report, Verdict, report};
+use std::process::Command;
+
+/// A parallelogram with a crank of 1 m and a base of 2 m, drawn upright, whose crank is limited.
+fn parallelogram(lower: &str, upper: &str) -> String {
+    format!(
+        r#"<robot name="bar"><link name="ground"/><link name="crank"/><link name="coupler"/><link name="rocker"/>
+        <joint name="A" type="revolute"><parent link="ground"/><child link="crank"/><axis xyz="0 0 1"/>
+          <limit lower="{lower}" upper="{upper}"/></joint>
+        <joint name="B" type="continuous"><parent link="crank"/><child link="coupler"/><origin xyz="0 1 0"/><axis xyz="0 0 1"/></joint>
+        <joint name="D" type="continuous"><parent link="ground"/><child link="rocker"/><origin xyz="2 0 0"/><axis xyz="0 0 1"/></joint>
+        <loop name="C" type="revolute"><predecessor link="coupler"><origin xyz="2 0 0"/></predecessor>
+          <successor link="rocker"><origin xyz="0 1 0"/></successor><axis xyz="0 0 1"/></loop></robot>"#
+    )
+}
+
+/// The exit code and what was printed, and what was complained of, of `kutzbach report` of a file with this text.
+fn reported(name: &str, text: &str, arguments: &[&str]) -> (Option<i32>, String, String) {
+    let file = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("poses_{name}.urdf"));
+    std::fs::write(&file, text).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+        .arg("report")
+        .arg(&file)
+        .args(arguments)
+        .output()
+        .unwrap();
+    let words = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
+    (
+        output.status.code(),
+        words(&output.stdout),
+        words(&output.stderr),
+    )
+}
+
+fn json(name: &str, text: &str, pose: &[&str]) -> serde_json::Value {
+    let mut arguments = vec!["--format", "json"];
+    arguments.extend(pose.iter().flat_map(|pose| ["--pose", pose]));
+    let (code, printed, complaint) = reported(name, text, &arguments);
+    assert_eq!(code, Some(0), "{complaint}");
+    serde_json::from_str(&printed).unwrap()
+}
+
+/// The angle of a joint after assembly, in degrees.
+fn angle(report: &serde_json::Value, joint: &str) -> f64 {
+    let joints = report["assembly"]["joints"].as_array().unwrap();
+    let place = joints.iter().find(|place| place["name"] == joint).unwrap();
+    place["values"][0].as_f64().unwrap().to_degrees()
+}
+
+#[test]
+fn a_pose_on_the_command_line_holds_what_it_names() {
+    let text = parallelogram("-3", "3");
+    for (pose, degrees) in [("A=30deg", 30.0), ("A=pi/6", 30.0), ("A=0.5", 28.6479)] {
+        let report = json("held", &text, &[pose]);
+        assert_eq!(report["home"]["configuration"], *pose);
+        assert_eq!(report["mobility"]["finite"], 1);
+        assert!((angle(&report, "A") - degrees).abs() < 1e-3, "{pose}");
+        assert!((angle(&report, "D") - degrees).abs() < 1e-3, "{pose}");
+        assert_eq!(report["assembly"]["held"], serde_json::json!(["A"]));
+    }
+}
+
+#[test]
+fn a_pose_outside_limits_comes_with_an_offer_that_serves() {
+    let text = parallelogram("0.5", "1.5");
+    let (_, home, _) = reported("offered", &text, &[]);
+    let home = home.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        home.contains("`A` is at 0°, 28.6° below its limit of 28.6°"),
+        "{home}"
+    );
+    assert!(
+        home.contains("`--pose limits` analyses the middle"),
+        "{home}"
+    );
+    let middle = json("middle", &text, &["limits"]);
+    assert!((28.64..85.95).contains(&angle(&middle, "A")));
+    assert_eq!(middle["assembly"]["outside_limits"], serde_json::json!([]));
+    // What else is given is held, in the limits or not.
+    let both = json("both", &text, &["limits", "D=70deg"]);
+    assert!((angle(&both, "A") - 70.0).abs() < 1e-3);
+    assert_eq!(both["assembly"]["held"], serde_json::json!(["D"]));
+}
+
+#[test]
+fn poses_that_cannot_be_meant_are_refused_with_a_hint() {
+    let text = parallelogram("-3", "3");
+    for (pose, problem, hint) in [
+        (
+            "A=5mm",
+            "`5mm` is no value for joint `A`: this freedom turns",
+            "`deg` or `rad`",
+        ),
+        (
+            "A=north",
+            "`north` is no value for joint `A`",
+            "an expression such as `pi/4`",
+        ),
+        ("A", "states no value", "joint=value"),
+        ("Z=1", "no joint named `Z`", "lists the joints"),
+        (
+            "A=1 2",
+            "has 1 freedoms, given are 2 values",
+            "one value for each",
+        ),
+    ] {
+        let (code, _, complaint) = reported("refused", &text, &["--pose", pose]);
+        assert_eq!(code, Some(2), "{pose}");
+        let complaint = complaint.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(
+            complaint.contains(problem) && complaint.contains(hint),
+            "{complaint}"
+        );
+    }
+}
+
+/// Legs on one crank that a motor drives: each a rod from the crank's end to a rocker, drawn open, whose limits allow one of
+/// the two ways in which it can be put together.
+fn walker(legs: usize) -> String {
+    let mut text = r#"<robot name="walker"><link name="body"/><link name="crank"/>
+        <joint name="shaft" type="continuous"><parent link="body"/><child link="crank"/><axis xyz="0 0 1"/></joint>
+        <transmission name="t"><joint name="shaft"/></transmission>"#
+        .to_owned();
+    for leg in 0..legs {
+        let around = format!("2*pi*{leg}/{legs}");
+        // The rocker stands about 1 rad to one side of the line to the shaft.
+        let (lower, upper) = match leg % 2 {
+            0 => ("0.2", "2.5"),
+            _ => ("-2.5", "-0.2"),
+        };
+        text += &format!(
+            r#"<link name="rod{leg}"/><link name="rocker{leg}"/>
+            <joint name="pin{leg}" type="continuous"><parent link="crank"/><child link="rod{leg}"/><origin xyz="0.3 0 0"/><axis xyz="0 0 1"/></joint>
+            <joint name="hip{leg}" type="revolute"><parent link="body"/><child link="rocker{leg}"/>
+              <origin xyz="${{2*cos({around})}} ${{2*sin({around})}} 0" rpy="0 0 ${{{around} + pi}}"/><axis xyz="0 0 1"/>
+              <limit lower="{lower}" upper="{upper}"/></joint>
+            <loop name="knee{leg}" type="revolute"><predecessor link="rod{leg}"><origin xyz="2 0 0"/></predecessor>
+              <successor link="rocker{leg}"><origin xyz="1 0 0"/></successor><axis xyz="0 0 1"/></loop>"#
+        );
+    }
+    text + "</robot>"
+}
+
+fn analysed(text: &str) -> Report {
+    let reading = read(text, "file.urdf", &[]).unwrap_or_else(|error| panic!("{error}"));
+    report(&reading, "file.urdf", &Options::default()).unwrap()
+}
+
+/// All legs at once hit the one of 2ⁿ ways that the limits allow hardly ever; each by itself does at once.
+#[test]
+fn legs_of_one_crank_are_closed_one_by_one_within_their_limits() {
+    let report = analysed(&walker(10));
+    assert_eq!(report.mobility.verdict, Verdict::Mobile);
+    assert_eq!(report.mobility.finite, Some(1));
+    assert!(
+        report.assembly.outside_limits.is_empty(),
+        "{:?}",
+        report.assembly.outside_limits
+    );
+    assert!(report.assembly.residual.unwrap() < 1e-12);
+}
+
+/// Coarse numbers do not excuse a coarse closing where the joints can do better.
+#[test]
+fn a_closing_of_coarse_numbers_is_polished_to_rounding() {
+    let text = walker(6)
+        .replace("xyz=\"0.3 0 0\"", "xyz=\"0.301 0 0\"")
+        .replace("xyz=\"1 0 0\"", "xyz=\"1.013 0 0\"");
+    let report = analysed(&text);
+    assert!(
+        report.assembly.residual.unwrap() < 1e-12,
+        "{:?}",
+        report.assembly.residual
+    );
+}
