@@ -176,3 +176,151 @@ fn a_closing_of_coarse_numbers_is_polished_to_rounding() {
         report.assembly.residual
     );
 }
+
+/// A hinge and a screw between two links, made to close where the hinge is turned by 1.8 rad and the screw, of 0.2 m a turn,
+/// by −0.8 rad; its distance as drawn is that of another turn.
+#[test]
+fn a_screw_that_closes_a_loop_is_found_whatever_its_turn() {
+    let text = r#"<robot name="r"><link name="l0"/><link name="l1"/>
+        <joint name="hinge" type="continuous"><parent link="l0"/><child link="l1"/><origin xyz="-0.6 0.1 -0.8" rpy="0.5 1.3 -1"/>
+          <axis xyz="0.5 -0.3 -1.2"/></joint>
+        <loop name="screw" type="screw"><predecessor link="l1"><origin xyz="0.3 0.6 -0.2" rpy="0.8 0.5 -0.2"/></predecessor>
+          <successor link="l0"><origin xyz="X" rpy="R"/></successor><axis xyz="0 0 1"/><screw lead="0.2"/></loop></robot>"#;
+    let (xyz, rpy) = closing_side();
+    let report = analysed(&text.replace('X', &xyz).replace('R', &rpy));
+    assert_eq!(report.mobility.verdict, Verdict::Rigid);
+    assert!(report.assembly.residual.unwrap() < 1e-12);
+    let place = |name: &str| {
+        let joints = &report.assembly.joints;
+        joints
+            .iter()
+            .find(|place| place.name == name)
+            .unwrap()
+            .values[0]
+    };
+    assert!((place("hinge") - 1.8).abs() < 1e-9 && (place("screw") + 0.8).abs() < 1e-9);
+}
+
+/// Where the screw's frame is in `l0` at that pose: origin and roll, pitch, yaw, with all digits.
+fn closing_side() -> (String, String) {
+    use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
+    let frame = |xyz: [f64; 3], rpy: [f64; 3]| {
+        Isometry3::from_parts(
+            Translation3::from(xyz),
+            UnitQuaternion::from_euler_angles(rpy[0], rpy[1], rpy[2]),
+        )
+    };
+    let turn = |axis: [f64; 3], angle: f64| {
+        UnitQuaternion::from_axis_angle(&Unit::new_normalize(Vector3::from(axis)), angle)
+    };
+    let along = -0.8 * 0.2 / std::f64::consts::TAU;
+    let side = frame([-0.6, 0.1, -0.8], [0.5, 1.3, -1.0])
+        * turn([0.5, -0.3, -1.2], 1.8)
+        * frame([0.3, 0.6, -0.2], [0.8, 0.5, -0.2])
+        * Translation3::new(0.0, 0.0, along)
+        * turn([0.0, 0.0, 1.0], -0.8);
+    let (roll, pitch, yaw) = side.rotation.euler_angles();
+    let place = side.translation.vector;
+    (
+        format!("{} {} {}", place.x, place.y, place.z),
+        format!("{roll} {pitch} {yaw}"),
+    )
+}
+
+/// What is written closes when it is read again, wherever the pose found is, and without moving.
+#[test]
+fn what_was_assembled_closes_again() {
+    use kutzbach::closure::assemble;
+    use kutzbach::matrix::SplitMix64;
+    use kutzbach::report::assembled_file;
+    let mut random = SplitMix64::new(7);
+    let mut number = move || format!("{:?}", random.symmetric());
+    for _ in 0..60 {
+        let mut place = || {
+            format!(
+                r#"<origin xyz="{} {} {}" rpy="{} {} {}"/>"#,
+                number(),
+                number(),
+                number(),
+                number(),
+                number(),
+                number()
+            )
+        };
+        let mut text = r#"<robot name="r"><link name="l0"/>"#.to_owned();
+        for (joint, kind) in [
+            "spherical",
+            "revolute",
+            "cylindrical",
+            "revolute",
+            "prismatic",
+        ]
+        .iter()
+        .enumerate()
+        {
+            text += &format!(
+                r#"<link name="l{0}"/><joint name="j{joint}" type="{kind}"><parent link="l{joint}"/><child link="l{0}"/>{1}</joint>"#,
+                joint + 1,
+                place()
+            );
+        }
+        text += &format!(
+            r#"<loop name="last" type="spherical"><predecessor link="l5">{}</predecessor><successor link="l0">{}</successor></loop></robot>"#,
+            place(),
+            place()
+        );
+        let reading = read(&text, "r.urdf", &[]).unwrap_or_else(|error| panic!("{error}"));
+        let found = closed_from(&reading.mechanism, None);
+        let Some(file) = assembled_file(&reading.mechanism, &found) else {
+            continue;
+        };
+        let again = read(&file, "again.urdf", &[]).unwrap().mechanism;
+        let there = closed_from(&again, Some("assembled"));
+        assert!(
+            there.closed && there.steps == 0,
+            "{} against {}",
+            there.residual,
+            there.tolerance
+        );
+        assert!(there.residual < 0.1 * there.tolerance);
+    }
+
+    fn closed_from(
+        mechanism: &kutzbach::mechanism::Mechanism,
+        at: Option<&str>,
+    ) -> kutzbach::closure::Assembly {
+        use kutzbach::closure::{Arithmetic, Geometry, Structure};
+        let geometry = Geometry::new(
+            mechanism,
+            at.and_then(|name| mechanism.configuration(name)),
+            &Arithmetic::double(),
+        );
+        assemble(
+            mechanism,
+            &geometry,
+            &Structure::new(mechanism).parts,
+            &Default::default(),
+        )
+        .unwrap()
+    }
+}
+
+/// A planar four-bar that closes as drawn but for one axis, which is tilted by 1° or turned over.
+#[test]
+fn a_tilted_axis_is_told_without_a_gap_that_is_not_drawn() {
+    for (tilt, told) in [
+        ("${pi/180}", "nearest: 0 m and 1° at loop `C`"),
+        ("${pi}", "nearest: 0 m and 180° at loop `C`"),
+    ] {
+        let tilted = format!(r#"<origin xyz="0 1 0" rpy="{tilt} 0 0"/></successor>"#);
+        let text =
+            parallelogram("-3", "3").replace(r#"<origin xyz="0 1 0"/></successor>"#, &tilted);
+        assert_eq!(text.matches("rpy").count(), 1);
+        let (_, printed, _) = reported("tilted", &text, &[]);
+        let printed = printed.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(
+            printed.contains("no pose closes it") && printed.contains(told),
+            "{printed}"
+        );
+    }
+}

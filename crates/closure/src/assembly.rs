@@ -236,7 +236,8 @@ impl Assembly {
     /// the states stay as they are.
     ///
     /// Each of n values is off by u at most, all together by √n u; what is free follows by up to 1/σ times as much, and may
-    /// draw the held joints along. The smallest singular value σ of a well-conditioned closure is about a tenth.
+    /// draw the held joints along. The smallest singular value σ of a well-conditioned closure is about a tenth. A
+    /// hair's breadth is always allowed: values that were computed elsewhere close as well as the arithmetic there did.
     fn release(
         &mut self,
         task: &Task<'_>,
@@ -246,6 +247,7 @@ impl Assembly {
     ) -> Result<PartOutcome, MatrixError> {
         const RELEASED_STARTS: usize = 32;
         const ONE_OVER_SIGMA: f64 = 10.0;
+        const HAIRS_BREADTH: f64 = 1e-9;
         let nobody = BTreeSet::new();
         let free = Task {
             held: &nobody,
@@ -268,7 +270,7 @@ impl Assembly {
             let off = options.rounded.get(joint).copied().unwrap_or(0.0);
             off * off * task.mechanism.joints()[*joint].freedom() as f64
         });
-        let allowed = ONE_OVER_SIGMA * squares.sum::<f64>().sqrt();
+        let allowed = (ONE_OVER_SIGMA * squares.sum::<f64>().sqrt()).max(HAIRS_BREADTH);
         if places.iter().all(|p| p.turned.max(p.shifted) <= allowed) {
             self.corrected.extend(&held);
             held.iter().for_each(|joint| {
@@ -386,8 +388,16 @@ fn close(
             best = Some((Kept::of(task.part, states), outcome));
         }
     }
-    let (nearest, outcome) = best.unwrap_or((drawn, PartOutcome::none()));
-    nearest.put_back(states);
+    let outcome = match best {
+        Some((nearest, outcome)) => {
+            nearest.put_back(states);
+            outcome
+        }
+        None => {
+            drawn.put_back(states);
+            PartOutcome::none()
+        }
+    };
     done.outcome = PartOutcome { steps, ..outcome };
     let walks = done.outcome.jacobian.as_ref().map(|here| &here.walks);
     done.proven_open = proof::proven_open(task, done.outcome.tolerance, |cycle| {
@@ -409,7 +419,7 @@ fn close(
         found.starts < starts && !found.best.as_ref().is_some_and(PartOutcome::closed);
     let steps = steps + found.steps;
     done.outcome = match found.best {
-        Some(best) if best.closed() || best.residual < done.outcome.residual => PartOutcome {
+        Some(best) if best.closed() || best.gap() < done.outcome.gap() => PartOutcome {
             steps: steps.max(1),
             ..best
         },
@@ -423,6 +433,16 @@ fn close(
     };
     if done.outcome.closed() {
         done.proven_open = None;
+        return Ok(done);
+    }
+    // Nothing found may be worse than what is drawn.
+    let nearest = Kept::of(task.part, states);
+    drawn.put_back(states);
+    let as_drawn = descend(task, states, Effort::NONE)?;
+    if as_drawn.gap() <= done.outcome.gap() {
+        done.outcome = PartOutcome { steps, ..as_drawn };
+    } else {
+        nearest.put_back(states);
     }
     Ok(done)
 }

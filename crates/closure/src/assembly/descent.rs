@@ -5,6 +5,7 @@ use super::super::geometry::Geometry;
 use super::super::jacobian::{CycleJacobian, Part, entry_accuracy, jacobian};
 use super::nearest::COMMENSURATE;
 use kutzbach_math::matrix::{LeastSquares, MatrixError, Real, SplitMix64};
+use kutzbach_math::space::{length, subtract};
 use kutzbach_model::mechanism::Mechanism;
 use std::collections::BTreeSet;
 
@@ -41,6 +42,11 @@ impl Effort {
         steps: 200,
         patience: None,
     };
+    /// Only where it stands.
+    pub(super) const NONE: Self = Self {
+        steps: 0,
+        patience: None,
+    };
     /// From one start among many.
     pub(super) const SHORT: Self = Self {
         steps: 80,
@@ -69,6 +75,27 @@ impl PartOutcome {
             work: 0.0,
             jacobian: None,
         }
+    }
+
+    /// How far the cycles are open where their joints are: of the worst, the angle (rad) and the largest distance by which a
+    /// joint misses itself after a walk around, in units of the size of the set of joints. The residual says less of a cycle whose axes
+    /// almost meet far away: turned about that point it is hardly open there, and far open at the joints.
+    pub(super) fn gap(&self) -> f64 {
+        let Some(here) = &self.jacobian else {
+            return f64::INFINITY;
+        };
+        let of_cycles = here.walks.iter().map(|walk| {
+            let places = || walk.joints.iter().map(|joint| &joint.frame.translation);
+            let far = |a: &[f64; 3], b: &[f64; 3]| length(&subtract(a, b));
+            let size = places()
+                .flat_map(|a| places().map(move |b| far(a, b)))
+                .fold(0.0, f64::max);
+            let size = if size > 0.0 { size } else { 1.0 };
+            let miss = places().map(move |place| far(&walk.closure.apply(place), place) / size);
+            length(&walk.closure.rotation_vector()) + largest(&miss.collect::<Vec<f64>>())
+        });
+        let of_couplings = here.residual[6 * here.walks.len()..].iter().copied();
+        largest(&of_cycles.chain(of_couplings).collect::<Vec<f64>>())
     }
 
     pub(super) fn closed(&self) -> bool {
@@ -166,8 +193,10 @@ pub(super) fn descend(
     let sum = |r: &[f64]| r.iter().map(|x| x * x).sum::<f64>();
     let mut milestone = sum(&here.residual);
     let mut polishing = false;
-    // A pose that closes to the last digit is left exactly as it was drawn.
-    while residual > rounding && steps < effort.steps {
+    // A pose that closes to the last digit is left exactly as it was drawn. One that had to be moved is polished as long as
+    // that helps, so that it closes well within the bound wherever else it is read.
+    let mut halved = true;
+    while (residual > rounding || residual > 0.0 && steps > 0 && halved) && steps < effort.steps {
         let square = sum(&here.residual);
         if let Some(patience) = effort.patience
             && steps % patience == patience - 1
@@ -203,6 +232,7 @@ pub(super) fn descend(
         }
         if reached.is_finite() && reached < square {
             let stalled = reached > square * (1.0 - 1e-6);
+            halved = reached <= 0.25 * square;
             here = there;
             residual = largest(&here.residual);
             caution = (caution * 0.25).max(LEAST_CAUTION);
@@ -211,6 +241,7 @@ pub(super) fn descend(
             }
         } else {
             before.put_back(states);
+            halved = false;
             caution *= 8.0;
             if caution > 1e12 {
                 break;

@@ -15,9 +15,9 @@ use super::descent::{Effort, Kept, PartOutcome, Task, descend};
 use super::limits;
 use super::nearest::{distance, settle, unwind};
 use kutzbach_math::matrix::{MatrixError, SplitMix64};
-use kutzbach_model::mechanism::{FreedomPart, JointKind, Mechanism};
+use kutzbach_model::mechanism::{FreedomPart, Joint, JointKind, Mechanism};
 use std::collections::BTreeSet;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// Starts of a search that finds nothing.
 pub(super) const STARTS: usize = 256;
@@ -353,7 +353,8 @@ fn spread(
             .map(|freedom| {
                 let far = match freedom {
                     FreedomPart::Translation => extent,
-                    FreedomPart::Rotation | FreedomPart::Screw => PI,
+                    FreedomPart::Rotation => PI,
+                    FreedomPart::Screw => PI + TAU * turns(described, extent),
                 };
                 width * far * random.symmetric()
             })
@@ -365,6 +366,18 @@ fn spread(
             let values: Vec<f64> = drawn.iter().zip(&away).map(|(a, b)| a + b).collect();
             states[joint] = displacement.at(&values);
         }
+    }
+}
+
+/// How often a screw may have to turn: its turns, unlike a hinge's, are different places. More than a few dozen are more than
+/// the starts can tell apart.
+fn turns(joint: &Joint, extent: f64) -> f64 {
+    const MOST: f64 = 16.0;
+    let lead = joint.lead.as_ref().map_or(0.0, |lead| lead.value().abs());
+    if lead > 0.0 {
+        (extent / lead).min(MOST)
+    } else {
+        0.0
     }
 }
 
