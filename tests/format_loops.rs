@@ -531,3 +531,82 @@ fn a_joint_follows_in_one_way() {
         .replace("drake:mimic", "drake:mimc");
     assert!(fault(&slip).contains("<drake:mimc>"));
 }
+
+/// What is told before everything else.
+fn told_first(text: &str) -> Vec<String> {
+    let warnings = reading(text).warnings.into_iter();
+    warnings
+        .map(|warning| warning.message)
+        .filter(|message| kutzbach::format::is_told_first(message))
+        .collect()
+}
+
+#[test]
+fn the_world_of_drake_is_a_link_that_no_file_writes() {
+    let arm = |links: &str, parent: &str, child: &str| {
+        format!(
+            "<robot name='r'>{links}<link name='base'/><link name='arm'/>\
+             <joint name='weld' type='fixed'><parent link='{parent}'/><child link='{child}'/></joint>\
+             <joint name='pivot' type='continuous'><parent link='base'/><child link='arm'/><axis xyz='0 1 0'/></joint></robot>"
+        )
+    };
+    for (parent, child) in [("world", "base"), ("base", "world")] {
+        let text = arm("", parent, child);
+        let mechanism = reading(&text).mechanism;
+        assert_eq!(mechanism.link(mechanism.ground()).name, "world");
+        assert_eq!(mechanism.freedom(), 1);
+        assert_eq!(
+            told_first(&text),
+            ["no link of the file is called `world`: it is the ground, as in Drake"]
+        );
+    }
+    // A world that is written is a link like any other, and one that is nearly written is probably meant.
+    assert!(told_first(&arm("<link name='world'/>", "world", "base")).is_empty());
+    for near in ["World", "wrold"] {
+        let text = arm(&format!("<link name='{near}'/>"), "world", "base");
+        let error = read(&text, "f", &[]).unwrap_err();
+        assert_eq!(error.message, "there is no link named `world`");
+        assert_eq!(error.help.unwrap(), format!("did you mean `{near}`?"));
+    }
+    // To choose the ground is not to join it.
+    let ground = arm("<ground link='world'/><link name='w'/>", "w", "base");
+    assert!(read(&ground, "f", &[]).is_err());
+}
+
+#[test]
+fn what_no_joint_places_floats_in_a_file_of_drakes() {
+    let two = |more: &str| {
+        format!(
+            "<robot name='r' xmlns:drake='urn:drake'><link name='a'/><link name='b'/><link name='c'/>\
+             <joint name='j' type='continuous'><parent link='b'/><child link='c'/><axis xyz='0 1 0'/></joint>{more}</robot>"
+        )
+    };
+    let error = read(&two(""), "f", &[]).unwrap_err();
+    assert!(
+        error.message.contains("nothing connects it to `a`"),
+        "{error}"
+    );
+    assert!(error.help.unwrap().contains("type=\"floating\""));
+
+    let ball = "<drake:ball_constraint><drake:ball_constraint_body_A name='a'/><drake:ball_constraint_body_B name='c'/>\
+                <drake:ball_constraint_p_AP value='0 0 0'/><drake:ball_constraint_p_BQ value='0 0 0'/></drake:ball_constraint>";
+    assert_eq!(
+        told_first(&two(ball)),
+        ["no joint places `b`: such a link floats, as in Drake"]
+    );
+    let mechanism = reading(&two(ball)).mechanism;
+    assert_eq!(mechanism.link(mechanism.ground()).name, "a");
+
+    // In a world, every link that nothing places floats.
+    let weld =
+        "<loop name='l' type='fixed'><predecessor link='world'/><successor link='c'/></loop>";
+    let told = told_first(&two(weld));
+    assert_eq!(told.len(), 2);
+    // In the order of the file.
+    assert_eq!(
+        told[0],
+        "no joint places `a` and `b`: such a link floats, as in Drake"
+    );
+    let mechanism = reading(&two(weld)).mechanism;
+    assert_eq!(mechanism.link(mechanism.ground()).name, "world");
+}

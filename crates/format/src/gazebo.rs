@@ -24,11 +24,9 @@ use super::names::Named;
 use super::reader::{Dialect, Reader};
 use super::unread::{Parts, truth};
 use super::words::{cut, quoted};
+use super::world::WORLD;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Direction, Dynamics, Frame, JointBuilder, JointKind, Limit};
-
-/// SDFormat's word for no link: what the model stands on.
-const WORLD: &str = "world";
 
 /// SDFormat's word for the frame of the model, which is that of the root link.
 const MODEL: &str = "__model__";
@@ -134,17 +132,6 @@ impl<'a> Reader<'a> {
             self.skip_because(part, what);
         }
         Ok(())
-    }
-
-    /// The link that nothing in the file's tree places.
-    fn root_link(&self) -> Option<&'a str> {
-        let mut links = self.directory.link_names().map(|(link, _)| link);
-        links.find(|link| self.is_root(link))
-    }
-
-    fn is_root(&self, link: &str) -> bool {
-        let placed = self.placed_by.contains_key(link);
-        !placed && !self.floating.contains(link) && !self.sdf_links.contains(link)
     }
 
     /// Places the links that only Gazebo knows.
@@ -571,21 +558,6 @@ impl<'a> Reader<'a> {
         let turn = &Number::integer(-2) * &Number::pi();
         turn.checked_div(&pitch)
             .map_err(|_| value.fault("a thread needs a pitch that is not zero"))
-    }
-
-    /// Adds the world as a link, placed so that nothing holds the robot in it but the joints that were read.
-    pub(super) fn add_world(&mut self) {
-        let Some(root) = self.tree_root.filter(|_| self.joins_world) else {
-            return;
-        };
-        self.builder.link(WORLD);
-        let name = format!("{root}{IN_GAZEBO}");
-        if self.root_is_held {
-            let held = JointBuilder::tree(&name, JointKind::Fixed, WORLD, root);
-            self.builder.joint(held);
-        } else {
-            self.builder.floating(&name, WORLD, root, Frame::identity());
-        }
     }
 }
 

@@ -7,6 +7,7 @@ use super::names::Named;
 use super::reader::{Dialect, Reader};
 use super::unread::{OF_JOINTS, Parts, truth};
 use super::words::{did_you_mean, quoted};
+use super::world::WORLD;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Dynamics, Frame, JointBuilder, JointKind, Limit};
 
@@ -164,6 +165,7 @@ impl<'a> Reader<'a> {
 
     /// Remembers which links a joint joins.
     pub(super) fn join(&mut self, name: &'a str, sides: [&'a str; 2]) {
+        self.meets_world |= sides.contains(&WORLD);
         self.sides_of.insert(name, sides);
         self.joined.entry(ordered(sides)).or_insert(name);
     }

@@ -55,15 +55,18 @@ mod number_text;
 mod quaternion;
 mod reader;
 mod relax;
+mod told;
 mod unread;
 mod values;
 mod words;
+mod world;
 mod writer;
 mod xacro;
 mod xml;
 
 pub use error::FormatError;
 pub use mentions::MAY_JOIN;
+pub use told::is_told_first;
 pub use writer::write;
 
 use error::{Fault, located};

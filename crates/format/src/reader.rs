@@ -30,7 +30,7 @@ pub(super) struct Reader<'a> {
     pub(super) directory: Directory<'a>,
     /// Short literals that were read already.
     pub(super) literals: HashMap<&'a str, Number>,
-    root: Element<'a>,
+    pub(super) root: Element<'a>,
     pub(super) root_namespace: Option<&'a str>,
     warnings: Vec<(usize, String)>,
     pub(super) unread: Tally<'a>,
@@ -69,7 +69,11 @@ pub(super) struct Reader<'a> {
     pub(super) other_closures: bool,
     /// How many constraints without a name were given one.
     pub(super) unnamed: usize,
-    ground: Option<Range<usize>>,
+    /// Whether a joint names `world`.
+    pub(super) meets_world: bool,
+    /// Whether the file has a world that it does not write.
+    pub(super) implicit_world: bool,
+    pub(super) ground: Option<Range<usize>>,
     scene: Option<Range<usize>>,
     expectation: Option<Range<usize>>,
 }
@@ -116,12 +120,14 @@ pub(super) fn read(
         }
     }
     if faults.is_empty() {
+        reader.find_world();
         faults = reader.read_late_joints();
     }
     if faults.is_empty() {
         faults = reader.directory.unresolved();
     }
     reader.add_world();
+    reader.float_roots();
     reader.note_tree();
     reader.resolve_motors();
     reader.note_closing_frames();
@@ -182,6 +188,8 @@ impl<'a> Reader<'a> {
             followers: HashSet::new(),
             other_closures: false,
             unnamed: 0,
+            meets_world: false,
+            implicit_world: false,
             ground: None,
             scene: None,
             expectation: None,

@@ -4,7 +4,7 @@ use super::findings::LOCKED_TOGETHER;
 use super::schema::Report;
 use super::text::words::{counted, figure, names};
 use kutzbach_closure::{Arithmetic, Geometry};
-use kutzbach_format::MAY_JOIN;
+use kutzbach_format::is_told_first;
 use kutzbach_mobility::{
     Analysis, LimitFact, NearSingular, PoseKind, dead_centres, limit_facts, near_singular,
     pose_of_branch,
@@ -16,13 +16,14 @@ const OUTSIDE: &str = "this pose is outside joint limits: ";
 const DEAD: &str = "dead centre: ";
 const NEARLY: &str = "nearly singular: the smallest singular value kept";
 
-/// Whether a warning belongs to the first lines: what is wrong with the pose, or with what holds there, or may hold.
+/// Whether a warning belongs to the first lines: what is wrong with the pose, or with what holds there, or may hold, and what the
+/// file left to be guessed.
 pub(super) fn is_about_the_pose(warning: &str) -> bool {
     warning.starts_with(OUTSIDE)
         || warning.starts_with(DEAD)
         || warning.contains(NEARLY)
         || warning.contains(LOCKED_TOGETHER)
-        || warning.contains(MAY_JOIN)
+        || is_told_first(warning)
 }
 
 /// Joints named in a sentence.
