@@ -441,7 +441,7 @@ fn what_bears_on_a_loop_and_is_not_read_is_refused() {
         (proposed("<axis xyz='0 0 1'/>"), "<axis>"),
         (proposed("<mimic joint='ab'/>"), "<mimic>"),
         (
-            "<mujoco><equality><connect body1='b' anchor='1 0 0'/></equality></mujoco>".to_owned(),
+            "<mujoco><equality><weld body1='b'/></equality></mujoco>".to_owned(),
             "in the world",
         ),
         (
@@ -488,8 +488,8 @@ fn what_names_two_joints_or_links_and_is_not_read_is_told_first() {
             .count()
     };
     for more in [
-        "<ros2_control><joint name='ab'><param name='mimic'>ad</param></joint></ros2_control>",
-        "<mujoco><equality><joint joint1='ab' joint2='ad' polycoef='0 1 0 0 0'/></equality></mujoco>",
+        "<ros2_control><joint name='ab'><param name='mimic'>ad</param><param name='multiplier'>x</param></joint></ros2_control>",
+        "<mujoco><equality><joint joint1='ab' joint2='ad' polycoef='0 1 0.5 0 0'/></equality></mujoco>",
         "<mujoco><tendon><fixed name='t'><joint joint='ab' coef='1'/><joint joint='ad' coef='-1'/></fixed></tendon></mujoco>",
         "<gazebo><plugin filename='x.so'><joint>ab</joint><mimicJoint>ad</mimicJoint></plugin></gazebo>",
         "<gazebo><plugin filename='x.so'><parentLink>r::c</parentLink><childLink>r::d</childLink></plugin></gazebo>",
@@ -609,4 +609,218 @@ fn what_no_joint_places_floats_in_a_file_of_drakes() {
     );
     let mechanism = reading(&two(weld)).mechanism;
     assert_eq!(mechanism.link(mechanism.ground()).name, "world");
+}
+
+#[test]
+fn a_loop_joint_without_a_type_turns_about_its_axis() {
+    let more = |parts: &str| {
+        format!(
+            "<loop_joint name='l'><link1 link='d' xyz='0 1 0'/><link2 link='c'/>{parts}</loop_joint>"
+        )
+    };
+    let text = bars("0 0 0", &more("<axis xyz='0 0 1'/>"));
+    assert_eq!(last(&reading(&text)).kind, JointKind::Revolute);
+    assert_eq!(
+        told_first(&text),
+        ["loop `l` has an <axis> and no type: it is read as revolute"]
+    );
+    let error = read(&bars("0 0 0", &more("")), "f", &[]).unwrap_err();
+    assert!(
+        error.message.contains("needs the attribute `type`"),
+        "{error}"
+    );
+    assert!(error.help.unwrap().contains("<axis"));
+}
+
+#[test]
+fn a_loop_joint_may_write_its_point_in_both_links() {
+    let more = |first: &str, second: &str, axis: &str| {
+        format!(
+            "<loop_joint name='l' type='revolute'><parent link='d'/><child link='c'/>\
+             <parent_origin xyz='{first}'/><child_origin xyz='{second}'/><axis {axis}/></loop_joint>"
+        )
+    };
+    // c stands one above d and is turned by a quarter about x: what is written in the parent is turned into the child.
+    let text = bars(
+        "${pi/2} 0 0",
+        &more("0 1 2", "0 2 0", "xyz='0 0 1' frame='parent'"),
+    );
+    let joint = reading(&text);
+    let joint = last(&joint);
+    assert_eq!(position(joint), [vec![0.0, 1.0, 2.0], vec![0.0, 2.0, 0.0]]);
+    assert_eq!(values(&joint.axis.0), [0.0, 0.0, 1.0]);
+    assert_eq!(
+        values(&joint.successor.frame.roll_pitch_yaw)[0],
+        -std::f64::consts::FRAC_PI_2
+    );
+    // Without `frame` these are frames of their own.
+    let text = bars("0 0 0", &more("0 1 0", "0 0 3", "xyz='0 0 1'"));
+    assert_eq!(
+        position(last(&reading(&text))),
+        [vec![0.0, 1.0, 0.0], vec![0.0, 0.0, 3.0]]
+    );
+    for (more, said) in [
+        (
+            more("0 1 2", "0 1 2", "xyz='0 0 1' frame='parent'"),
+            "are apart",
+        ),
+        (
+            more("0 1 0", "0 0 0", "xyz='0 0 1' frame='child'"),
+            "in another frame",
+        ),
+        (
+            "<loop_joint name='l' type='fixed'><parent link='d'/></loop_joint>".to_owned(),
+            "needs two sides",
+        ),
+    ] {
+        let told = fault(&more);
+        assert!(told.contains(said), "{more}: {told}");
+    }
+}
+
+#[test]
+fn a_joint_whose_leader_is_not_there_is_free() {
+    let text = bars("0 0 0", "").replacen("<axis", "<mimic joint='abb'/><axis", 1);
+    let found = reading(&text);
+    assert!(found.mechanism.couplings().is_empty());
+    assert_eq!(
+        told_first(&text),
+        [
+            "joint `ab` follows `abb`, which the file does not have: it is free, as in ROS (did you mean `ab`?)"
+        ]
+    );
+}
+
+#[test]
+fn a_connection_of_mujoco_is_a_ball() {
+    let connect = |what: &str| format!("<mujoco><equality><connect {what}/></equality></mujoco>");
+    // c is at (2, 1), d at (2, 0), b at (0, 1).
+    for (what, sides, at) in [
+        (
+            "name='x' body1='c' body2='d' anchor='0 0 1'",
+            ["c", "d"],
+            [0.0, 1.0, 1.0],
+        ),
+        ("body1='b' anchor='1 0 0'", ["b", "a"], [1.0, 1.0, 0.0]),
+        (
+            "body1='b' body2='world' anchor='1 0 0'",
+            ["b", "a"],
+            [1.0, 1.0, 0.0],
+        ),
+    ] {
+        let found = reading(&bars("0 0 0", &connect(what)));
+        let joint = last(&found);
+        let links = [&joint.predecessor, &joint.successor]
+            .map(|side| &found.mechanism.link(side.link).name);
+        assert_eq!(
+            (joint.kind, links[0].as_str(), links[1].as_str()),
+            (JointKind::Spherical, sides[0], sides[1])
+        );
+        assert_eq!(position(joint)[1], at, "{what}");
+        assert!(joint.closes_loop);
+    }
+    let off = reading(&bars(
+        "0 0 0",
+        &connect("body1='c' body2='d' anchor='0 0 1' active='false'"),
+    ));
+    assert_eq!(off.mechanism.joints().len(), 3);
+    assert!(off.skipped.iter().any(|s| s.what.contains("not active")));
+    assert!(fault(&connect("body1='c' body2='e' anchor='0 0 1'")).contains("no link named `e`"));
+    assert!(fault(&connect("body1='c' body2='d' anchor='0 1'")).contains("expected 3 numbers"));
+    assert!(fault(&connect("body1='c' body2='d'")).contains("joins two links"));
+}
+
+#[test]
+fn followers_in_the_words_of_other_tools() {
+    let ros = |numbers: &str| {
+        format!(
+            "<ros2_control><joint name='ad'><param name='mimic'>ab</param>{numbers}</joint></ros2_control>"
+        )
+    };
+    let plugin = |numbers: &str| {
+        format!(
+            "<gazebo><plugin filename='libroboticsgroup_gazebo_mimic_joint_plugin.so'><joint>ab</joint><mimicJoint>ad</mimicJoint>{numbers}</plugin></gazebo>"
+        )
+    };
+    let equality = |numbers: &str| {
+        format!("<mujoco><equality><joint joint1='ad' joint2='ab' {numbers}/></equality></mujoco>")
+    };
+    let with = |mimic: &str, more: &str| {
+        let text = bars("0 0 0", more);
+        let at = text.rfind("<axis xyz='0 0 1'/></joint>").unwrap();
+        format!("{}{mimic}{}", &text[..at], &text[at..])
+    };
+    for more in [
+        ros("<param name='multiplier'>-2</param><param name='offset'>0.5</param>"),
+        plugin("<multiplier>-2.0</multiplier><offset>0.5</offset>"),
+        equality("polycoef='0.5 -2 0 0 0'"),
+    ] {
+        let plain = reading(&with(
+            "<mimic joint='ab' multiplier='-2' offset='0.5'/>",
+            "",
+        ));
+        let said = reading(&with("", &more));
+        assert_eq!(
+            difference(&plain.mechanism, &said.mechanism),
+            None,
+            "{more}"
+        );
+        assert!(said.warnings[0].message.contains("it is read as <mimic>"));
+        // Said twice alike, and said otherwise.
+        let twice = reading(&with(
+            "<mimic joint='ab' multiplier='-2' offset='0.5'/>",
+            &more,
+        ));
+        assert_eq!(
+            difference(&plain.mechanism, &twice.mechanism),
+            None,
+            "{more}"
+        );
+        assert!(twice.warnings.is_empty(), "{:?}", twice.warnings);
+        let other = with("<mimic joint='ab' multiplier='2'/>", &more);
+        let error = read(&other, "f", &[]).unwrap_err();
+        assert!(
+            error.message.contains("says otherwise than <mimic>"),
+            "{error}"
+        );
+    }
+    // Through another follower, and the other way about.
+    let chain = with(
+        "<mimic joint='bc' multiplier='2'/>",
+        &ros("<param name='multiplier'>6</param>"),
+    )
+    .replacen(
+        "<axis xyz='0 0 1'/></joint>\n",
+        "<axis xyz='0 0 1'/></joint>",
+        1,
+    )
+    .replacen(
+        "rpy='0 0 0'/>",
+        "rpy='0 0 0'/><mimic joint='ab' multiplier='3'/>",
+        1,
+    );
+    assert_eq!(reading(&chain).mechanism.couplings().len(), 2);
+    let back = with(
+        "<mimic joint='ab' multiplier='4'/>",
+        "<ros2_control><joint name='ab'><param name='mimic'>ad</param><param name='multiplier'>0.25</param></joint></ros2_control>",
+    );
+    assert_eq!(reading(&back).mechanism.couplings().len(), 1);
+    let off = reading(&with("", &equality("active='false'")));
+    assert!(off.mechanism.couplings().is_empty());
+}
+
+#[test]
+fn a_turn_in_unknown_words_is_refused() {
+    let text =
+        |origin: &str| bars("0 0 0", "").replace("xyz='0 1 0'", &format!("xyz='0 1 0' {origin}"));
+    for word in [
+        "quat='1 0 0 0'",
+        "quat_wxyz='1 0 0 0'",
+        "orientation='0 0 0 1'",
+    ] {
+        let error = read(&text(word), "f", &[]).unwrap_err();
+        assert!(error.message.contains("turns the frame"), "{word}: {error}");
+        assert!(error.help.unwrap().contains("quat_xyzw"));
+    }
+    reading(&text("quat_xyzw='0 0 0 1'"));
 }

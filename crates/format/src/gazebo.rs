@@ -330,7 +330,7 @@ impl<'a> Reader<'a> {
                 .sides_of
                 .get(name)
                 .is_some_and(|[tree, _]| *tree == parent)
-            && !self.followers.contains(name);
+            && !self.followers.contains_key(name);
         let same = if one_value {
             self.builder
                 .mimic(name, &other, Number::one(), Number::zero());
@@ -463,7 +463,9 @@ impl<'a> Reader<'a> {
                 .fault("only a joint of one axis that follows another one is read")
                 .help("a <coupling> may say the same"));
         }
-        let leader = self.directory.refer(Named::Joint, mimic, "joint")?;
+        let Some(leader) = self.leader_of(mimic, name)? else {
+            return Ok(());
+        };
         let (mut multiplier, mut offset, mut reference) =
             (Number::one(), Number::zero(), Number::zero());
         for part in self.parts_of(mimic, &SDF_MIMIC)? {

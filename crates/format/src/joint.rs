@@ -8,7 +8,6 @@ use super::reader::{Dialect, Reader};
 use super::unread::{OF_JOINTS, Parts, truth};
 use super::words::{did_you_mean, quoted};
 use super::world::WORLD;
-use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Dynamics, Frame, JointBuilder, JointKind, Limit};
 
 /// What may stand inside `<joint>`.
@@ -78,7 +77,7 @@ impl<'a> Reader<'a> {
             match part.name() {
                 "parent" => parent = Some(self.link_of(part)?),
                 "child" => child = Some((part, self.side(part)?)),
-                "origin" => origin = self.origin(part)?,
+                "origin" => origin = self.joint_origin(part)?,
                 _ => body.push(part),
             }
         }
@@ -229,7 +228,7 @@ impl<'a> Reader<'a> {
             bearing: &OF_JOINTS,
         };
         let frame = match self.parts_of(element, &kinds)?.first() {
-            Some(origin) => self.origin(*origin)?,
+            Some(origin) => self.joint_origin(*origin)?,
             None => Frame::identity(),
         };
         Ok((link, frame))
@@ -345,7 +344,9 @@ impl<'a> Reader<'a> {
                 }
                 "mimic" if kind.freedom() == 0 => self.ignore(part, word),
                 _ => {
-                    let read = self.read_mimic(part)?;
+                    let Some(read) = self.read_mimic(part, name)? else {
+                        continue;
+                    };
                     if mimic.as_ref().is_some_and(|earlier| *earlier != read) {
                         return Err(part
                             .fault(format!("joint {} follows in two ways", quoted(name)))
@@ -365,9 +366,8 @@ impl<'a> Reader<'a> {
         }
         self.builder.joint(builder);
         self.kinds.insert(name, kind);
-        if let Some((leader, multiplier, offset)) = mimic {
-            self.followers.insert(name);
-            self.builder.mimic(name, leader, multiplier, offset);
+        if let Some(follows) = mimic {
+            self.follow(name, follows);
         }
         Ok(())
     }
@@ -407,18 +407,6 @@ impl<'a> Reader<'a> {
             damping: self.optional_number(dynamics, "damping")?,
             friction: self.optional_number(dynamics, "friction")?,
         })
-    }
-
-    fn read_mimic(&mut self, mimic: Element<'a>) -> Outcome<(&'a str, Number, Number)> {
-        self.leaf_of(mimic, &["joint", "multiplier", "offset"], true)?;
-        let leader = self.directory.refer(Named::Joint, mimic, "joint")?;
-        let multiplier = self.optional_number(mimic, "multiplier")?;
-        let offset = self.optional_number(mimic, "offset")?;
-        Ok((
-            leader,
-            multiplier.unwrap_or_else(Number::one),
-            offset.unwrap_or_else(Number::zero),
-        ))
     }
 
     /// Passes over a part that says nothing for this type of joint, with a warning.

@@ -4,6 +4,8 @@ use super::actuation::{ACTUATION, Motor};
 use super::definitions::Definitions;
 use super::element::{Element, Owner};
 use super::error::{Fault, MOST_FAULTS, Outcome, lines_and_columns};
+use super::loop_joint::SecondPoint;
+use super::mimic::{Follows, joint_names};
 use super::names::{Directory, Named};
 use super::unread::{Parts, Tally, Unread};
 use super::words::{alternatives, cut, did_you_mean};
@@ -63,8 +65,16 @@ pub(super) struct Reader<'a> {
     pub(super) in_gazebo: HashMap<String, usize>,
     /// Where the first of them stands.
     pub(super) first_in_gazebo: Option<usize>,
-    /// Joints that follow another one.
-    pub(super) followers: HashSet<&'a str>,
+    /// Joints that follow another one, and how.
+    pub(super) followers: HashMap<&'a str, Follows<'a>>,
+    /// The names of all joints of the file.
+    pub(super) joint_names: HashSet<&'a str>,
+    /// Where the elements stand that are read out of what is set aside.
+    pub(super) taken: HashSet<usize>,
+    /// MuJoCo's loops, which are read when all links are known.
+    pub(super) connects: Vec<Element<'a>>,
+    /// Points written twice, which must be one.
+    pub(super) second_points: Vec<SecondPoint<'a>>,
     /// Whether loops or couplings stand elsewhere than inside `<gazebo>`.
     pub(super) other_closures: bool,
     /// How many constraints without a name were given one.
@@ -122,6 +132,8 @@ pub(super) fn read(
     if faults.is_empty() {
         reader.find_world();
         faults = reader.read_late_joints();
+        faults.extend(reader.read_connects());
+        faults.extend(reader.read_other_mimics());
     }
     if faults.is_empty() {
         faults = reader.directory.unresolved();
@@ -185,7 +197,11 @@ impl<'a> Reader<'a> {
             joins_world: false,
             in_gazebo: HashMap::new(),
             first_in_gazebo: None,
-            followers: HashSet::new(),
+            followers: HashMap::new(),
+            joint_names: joint_names(root).collect(),
+            taken: HashSet::new(),
+            connects: Vec::new(),
+            second_points: Vec::new(),
             other_closures: false,
             unnamed: 0,
             meets_world: false,
@@ -291,6 +307,9 @@ impl<'a> Reader<'a> {
                 self.read_expectation(child)
             }
             name if ACTUATION.contains(&name) => {
+                if name == "mujoco" {
+                    self.read_mujoco(child);
+                }
                 self.check_for_joints(child)?;
                 self.read_actuation(child);
                 Ok(())
@@ -444,6 +463,10 @@ impl<'a> Reader<'a> {
             let message = error.to_string();
             vec![Fault::new(self.place_of(&error.entity, root), message).maybe_help(error.help)]
         })?;
+        let apart = self.points_apart(&mechanism);
+        if !apart.is_empty() {
+            return Err(apart);
+        }
         Ok(Reading {
             mechanism,
             warnings: counted_warnings(text, self.warnings),

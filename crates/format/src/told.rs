@@ -9,8 +9,14 @@ pub(super) const IS_GROUND: &str = "it is the ground, as in Drake";
 /// Says that a link is placed by no joint.
 pub(super) const FLOATS: &str = "such a link floats, as in Drake";
 
+/// Says what a loop without a type is.
+pub(super) const IS_REVOLUTE: &str = "it is read as revolute";
+
+/// Says that a joint follows one that is not there.
+pub(super) const NO_LEADER: &str = "which the file does not have: it is free, as in ROS";
+
 /// Parts of the warnings that are told first.
-const FIRST: [&str; 3] = [MAY_JOIN, IS_GROUND, FLOATS];
+const FIRST: [&str; 5] = [MAY_JOIN, IS_GROUND, FLOATS, IS_REVOLUTE, NO_LEADER];
 
 /// Whether a warning of a reading is to be told before everything else.
 #[must_use]
