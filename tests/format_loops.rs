@@ -9,7 +9,7 @@
 use crate::format_support;
 
 use format_support::difference;
-use kutzbach::format::{Reading, read, write};
+use kutzbach::format::{ReadOptions, Reading, read, read_with, write};
 use kutzbach::mechanism::{Joint, JointKind};
 use kutzbach::number::Number;
 
@@ -823,4 +823,153 @@ fn a_turn_in_unknown_words_is_refused() {
         assert!(error.help.unwrap().contains("quat_xyzw"));
     }
     reading(&text("quat_xyzw='0 0 0 1'"));
+}
+
+#[test]
+fn a_missing_axis_is_told_in_one_line() {
+    let bare = |count: usize| bars("0 0 0", "").replacen("<axis xyz='0 0 1'/>", "", count);
+    assert!(told_first(&bare(0)).is_empty());
+    assert_eq!(
+        told_first(&bare(1)),
+        ["`ab` has no <axis>: x is taken, as URDF says"]
+    );
+    assert_eq!(
+        told_first(&bare(3)),
+        ["`ab`, `bc` and `ad` have no <axis>: x is taken, as URDF says"]
+    );
+    let closing = |loops: &str| told_first(&bars("0 0 0", loops));
+    for loops in [
+        "<loop name='l' type='revolute'><predecessor link='d'/><successor link='c'/></loop>",
+        "<loop_joint name='l' type='revolute'><link1 link='d'/><link2 link='c'/></loop_joint>",
+        "<constraint name='l' type='revolute'><parent link='d'/><child link='c'/></constraint>",
+    ] {
+        assert_eq!(
+            closing(loops),
+            ["`l` has no <axis>: x is taken, as URDF says"]
+        );
+    }
+    assert!(
+        closing(
+            "<loop name='l' type='spherical'><predecessor link='d'/><successor link='c'/></loop>"
+        )
+        .is_empty()
+    );
+}
+
+#[test]
+fn the_second_axis_of_a_universal_joint_is_another_one() {
+    let joint = |axes: &str| {
+        format!(
+            "<loop name='l' type='universal'><predecessor link='d'/><successor link='c'/>{axes}</loop>"
+        )
+    };
+    let told = told_first(&bars("0 0 0", &joint("<axis xyz='0 1 0'/>")));
+    assert_eq!(told, ["`l` has no <axis2>: x is taken"]);
+    assert!(fault(&joint("")).contains("without <axis2> its two axes are parallel"));
+    assert!(
+        fault(&joint("<axis xyz='0 1 1'/><axis2 xyz='0 -2 -2'/>"))
+            .contains("its two axes are parallel")
+    );
+    reading(&bars(
+        "0 0 0",
+        &joint("<axis xyz='0 1 1'/><axis2 xyz='0 1 1.001'/>"),
+    ));
+}
+
+#[test]
+fn angles_that_look_like_others_are_told_where_loops_close() {
+    let text = |rpy: &str, closed: &str| {
+        bars(
+            "0 0 0",
+            &format!(
+                "<loop name='l' type='fixed'><predecessor link='d'/><successor link='{closed}'><origin rpy='{rpy}'/></successor></loop>"
+            ),
+        )
+    };
+    assert_eq!(
+        told_first(&text("-1.57 0 3.142", "c")),
+        [
+            "`1.57` in `rpy` looks like ${pi/2} and is read as 1.57 rad; write what is meant, or more digits",
+            "`3.142` in `rpy` looks like ${pi} and is read as 3.142 rad; write what is meant, or more digits"
+        ]
+    );
+    assert!(told_first(&text("1.5708 0.3 ${pi/2}", "c")).is_empty());
+    // A tree can stand anyhow, and of numbers meant as written nothing is told.
+    assert!(told_first(&bars("1.57 0 0", "")).is_empty());
+    let literal = ReadOptions {
+        literal: true,
+        ..ReadOptions::default()
+    };
+    assert!(
+        read_with(&text("1.57 0 0", "c"), "f", &literal)
+            .unwrap()
+            .warnings
+            .is_empty()
+    );
+    let twice = read(&text("1.57 0 1.57", "c"), "f", &[]).unwrap();
+    assert_eq!((twice.warnings.len(), twice.warnings[0].count), (1, 2));
+}
+
+#[test]
+fn a_limit_without_bounds_is_told() {
+    let with = |kind: &str, limit: &str| {
+        let text = bars("0 0 0", "").replacen("continuous", kind, 1);
+        let text = text.replacen("<axis", &format!("{limit}<axis"), 1);
+        read(&text, "f", &[]).unwrap().warnings
+    };
+    for kind in ["revolute", "prismatic"] {
+        let warnings = with(kind, "<limit effort='1' velocity='1'/>");
+        assert!(
+            warnings[0]
+                .message
+                .contains("`ab` has a <limit> without `lower` and `upper`, which is 0…0 in URDF")
+        );
+    }
+    for (kind, limit) in [
+        ("continuous", "<limit effort='1' velocity='1'/>"),
+        ("revolute", "<limit upper='1' effort='1'/>"),
+        ("revolute", "<limit lower='1' upper='-1'/>"),
+        ("revolute", ""),
+    ] {
+        let warnings = with(kind, limit);
+        assert!(
+            !warnings.iter().any(|w| w.message.contains("0…0")),
+            "{kind} {limit}"
+        );
+    }
+}
+
+#[test]
+fn two_joints_with_one_child_meet_at_its_origin() {
+    let joint = |inside: &str| {
+        format!(
+            "<joint name='dc' type='continuous'><parent link='d'/><child link='c'>{inside}</child><origin xyz='0 1 0'/><axis xyz='0 0 1'/></joint>"
+        )
+    };
+    let told = told_first(&bars("0 0 0", &joint("")));
+    assert!(
+        told.len() == 1
+            && told[0].contains("both hold it at its origin, as <child> has no <origin> inside"),
+        "{told:?}"
+    );
+    assert!(told_first(&bars("0 0 0", &joint("<origin xyz='1 0 0'/>"))).is_empty());
+}
+
+#[test]
+fn names_that_announce_a_loop_are_told_where_there_is_none() {
+    let named = |name: &str| bars("0 0 0", "").replacen("'ab'", &format!("'{name}'"), 1);
+    for name in ["closing_knee", "loop_1", "closed_loop_pin", "Knee_Closure"] {
+        let told = told_first(&named(name));
+        assert_eq!(told.len(), 1, "{name}");
+        assert!(
+            told[0].contains(&format!("`{name}` has the name of what closes a loop")),
+            "{told:?}"
+        );
+    }
+    assert!(told_first(&named("enclosure_door")).is_empty());
+    let closed = named("closing_knee").replace(
+        "</robot>",
+        "<loop name='l' type='fixed'><predecessor link='d'/><successor link='c'/></loop></robot>",
+    );
+    assert!(told_first(&closed).is_empty());
 }

@@ -7,6 +7,7 @@ use super::element::Element;
 use super::error::Outcome;
 use super::names::Named;
 use super::reader::{Dialect, Reader};
+use super::told::LIKE_SIDES;
 use super::unread::Parts;
 use super::words::quoted;
 use kutzbach_model::mechanism::{Direction, Frame, JointBuilder, JointKind};
@@ -68,6 +69,9 @@ impl<'a> Reader<'a> {
         let mut builder = JointBuilder::closing(name, kind, parent, child)
             .origin(origin)
             .successor_origin(successor_origin);
+        let shared = first_of(kind, &axes);
+        self.note_axes((constraint.start(), name), kind, [shared, axes[1].as_ref()])
+            .map_err(|why| constraint.fault(format!("constraint {}: {why}", quoted(name))))?;
         let [first, mut second] = axes;
         if kind.uses_second_axis() {
             builder = match second.take() {
@@ -141,12 +145,23 @@ impl<'a> Reader<'a> {
             if self.directory.has(Named::Link, &other) && !joined {
                 open.push((
                     place.start,
-                    format!("the frames {} and {} look like the two sides of a loop, which the file does not state: it is read without that loop", quoted(link), quoted(&other)),
+                    format!(
+                        "the frames {} and {} {LIKE_SIDES}: it is read without that loop",
+                        quoted(link),
+                        quoted(&other)
+                    ),
                 ));
             }
         }
+        self.closing_frames_told = !open.is_empty();
         for (at, message) in open {
             self.warn(at, message);
         }
     }
+}
+
+/// The axis on the first side, which of a joint of one axis may stand on the second.
+fn first_of(kind: JointKind, [first, second]: &[Option<Direction>; 2]) -> Option<&Direction> {
+    let other = second.as_ref().filter(|_| !kind.uses_second_axis());
+    first.as_ref().or(other)
 }

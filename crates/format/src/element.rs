@@ -214,6 +214,11 @@ impl<'a> Element<'a> {
             .map(|a| self.own(&a))
     }
 
+    /// Whether it has one of these attributes.
+    pub(super) fn has_any(&self, names: &[&str]) -> bool {
+        names.iter().any(|name| self.attribute(name).is_some())
+    }
+
     /// An attribute that must be there.
     pub(super) fn required(&self, name: &str) -> Outcome<Attribute<'a>> {
         self.attribute(name).ok_or_else(|| {

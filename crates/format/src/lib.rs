@@ -39,6 +39,7 @@
 //! ```
 
 mod actuation;
+mod assumed;
 mod beside;
 mod closures;
 mod definitions;

@@ -16,7 +16,7 @@ use super::unread::{OF_JOINTS, Parts};
 use super::values::no_other_turn;
 use super::words::quoted;
 use kutzbach_math::number::Number;
-use kutzbach_model::mechanism::{Frame, JointBuilder, JointKind, Mechanism};
+use kutzbach_model::mechanism::{Direction, Frame, JointBuilder, JointKind, Mechanism};
 use std::ops::Range;
 
 /// What may stand inside `<loop_joint>`; what moves it is nothing else.
@@ -94,16 +94,19 @@ impl<'a> Reader<'a> {
         let mut builder = JointBuilder::closing(name, kind, first, second)
             .origin(first_frame.clone())
             .successor_origin(second_frame);
+        let (mut axis, mut axis2) = (None, None);
         for part in &parts {
             match part.name() {
-                "axis" if kind.uses_axis() => builder = builder.axis(self.loop_axis(*part)?),
-                "axis2" if kind.uses_second_axis() => {
-                    builder = builder.axis2(self.direction(*part)?);
-                }
+                "axis" if kind.uses_axis() => axis = Some(self.loop_axis(*part)?),
+                "axis2" if kind.uses_second_axis() => axis2 = Some(self.direction(*part)?),
                 "limit" | "dynamics" | "axis" | "axis2" => self.skip(*part),
                 _ => {}
             }
         }
+        self.note_axes((joint.start(), name), kind, [axis.as_ref(), axis2.as_ref()])
+            .map_err(|why| joint.fault(format!("loop {}: {why}", quoted(name))))?;
+        builder = axis.into_iter().fold(builder, JointBuilder::axis);
+        builder = axis2.into_iter().fold(builder, JointBuilder::axis2);
         if let Some(frame) = part("axis").and_then(|axis| axis.attribute("frame")) {
             if frame.value != "parent" || turned != [false; 2] || kind.uses_second_axis() {
                 return Err(frame
@@ -162,6 +165,9 @@ impl<'a> Reader<'a> {
         self.attributes_of(side, &["link", "xyz", "rpy", "quat_xyzw"], true)?;
         self.parts_of(side, &SIDE)?;
         let link = self.directory.refer(Named::Link, side, "link")?;
+        if let Some(rpy) = side.attribute("rpy") {
+            self.note_angles(rpy);
+        }
         Ok((link, self.frame_of(side)?))
     }
 
@@ -180,7 +186,7 @@ impl<'a> Reader<'a> {
     }
 
     /// `<axis xyz frame/>`.
-    fn loop_axis(&mut self, axis: Element<'a>) -> Outcome<kutzbach_model::mechanism::Direction> {
+    fn loop_axis(&mut self, axis: Element<'a>) -> Outcome<Direction> {
         self.leaf_of(axis, &["xyz", "frame"], true)?;
         self.direction_of(axis)
     }

@@ -112,6 +112,12 @@ impl<'a> Directory<'a> {
         links.map(|(_, name, range)| (*name, range.clone()))
     }
 
+    /// The names of joints so far, in file order.
+    pub(super) fn joint_names(&self) -> impl Iterator<Item = (&'a str, Range<usize>)> {
+        let joints = self.given.iter().filter(|(sort, ..)| *sort == Named::Joint);
+        joints.map(|(_, name, range)| (*name, range.clone()))
+    }
+
     /// Where the thing of that name is.
     pub(super) fn place(&self, sort: Named, name: &str) -> Option<Range<usize>> {
         self.given

@@ -1,6 +1,7 @@
 //! The robot element: definitions first, then every other element in file order, then the checks that need all of them.
 
 use super::actuation::{ACTUATION, Motor};
+use super::assumed::Assumed;
 use super::definitions::Definitions;
 use super::element::{Element, Owner};
 use super::error::{Fault, MOST_FAULTS, Outcome, lines_and_columns};
@@ -73,6 +74,10 @@ pub(super) struct Reader<'a> {
     pub(super) taken: HashSet<usize>,
     /// MuJoCo's loops, which are read when all links are known.
     pub(super) connects: Vec<Element<'a>>,
+    /// What joints leave out.
+    pub(super) assumed: Assumed<'a>,
+    /// Whether links were told that look like the sides of a loop.
+    pub(super) closing_frames_told: bool,
     /// Points written twice, which must be one.
     pub(super) second_points: Vec<SecondPoint<'a>>,
     /// Whether loops or couplings stand elsewhere than inside `<gazebo>`.
@@ -143,6 +148,7 @@ pub(super) fn read(
     reader.note_tree();
     reader.resolve_motors();
     reader.note_closing_frames();
+    reader.tell_assumed(options.literal);
     reader.note_mentions();
     if options.strict {
         faults.extend(reader.unread.faults(text));
@@ -201,6 +207,8 @@ impl<'a> Reader<'a> {
             joint_names: joint_names(root).collect(),
             taken: HashSet::new(),
             connects: Vec::new(),
+            assumed: Assumed::default(),
+            closing_frames_told: false,
             second_points: Vec::new(),
             other_closures: false,
             unnamed: 0,

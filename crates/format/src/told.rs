@@ -15,8 +15,35 @@ pub(super) const IS_REVOLUTE: &str = "it is read as revolute";
 /// Says that a joint follows one that is not there.
 pub(super) const NO_LEADER: &str = "which the file does not have: it is free, as in ROS";
 
+/// Says which direction stands for one that is left out.
+pub(super) const TAKEN_AS_X: &str = "x is taken";
+
+/// Says that an angle may be another one.
+pub(super) const LOOKS_LIKE: &str = "in `rpy` looks like";
+
+/// Says that no loop is closed by what is named so.
+pub(super) const IS_TREE: &str = "it is read as a tree";
+
+/// Says that two links look like two sides of a loop.
+pub(super) const LIKE_SIDES: &str =
+    "look like the two sides of a loop, which the file does not state";
+
+/// Says where two joints hold the child that both have.
+pub(super) const AT_ORIGIN: &str = "both hold it at its origin";
+
 /// Parts of the warnings that are told first.
-const FIRST: [&str; 5] = [MAY_JOIN, IS_GROUND, FLOATS, IS_REVOLUTE, NO_LEADER];
+const FIRST: [&str; 10] = [
+    MAY_JOIN,
+    IS_GROUND,
+    FLOATS,
+    IS_REVOLUTE,
+    NO_LEADER,
+    TAKEN_AS_X,
+    LOOKS_LIKE,
+    IS_TREE,
+    LIKE_SIDES,
+    AT_ORIGIN,
+];
 
 /// Whether a warning of a reading is to be told before everything else.
 #[must_use]

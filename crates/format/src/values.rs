@@ -141,6 +141,9 @@ impl<'a> Reader<'a> {
     /// `<origin>` of a joint, which moves with how it is turned.
     pub(super) fn joint_origin(&mut self, element: Element<'a>) -> Outcome<Frame> {
         no_other_turn(element)?;
+        if let Some(rpy) = element.attribute("rpy") {
+            self.note_angles(rpy);
+        }
         self.origin(element)
     }
 
