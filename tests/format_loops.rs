@@ -973,3 +973,74 @@ fn names_that_announce_a_loop_are_told_where_there_is_none() {
     );
     assert!(told_first(&closed).is_empty());
 }
+
+#[test]
+fn a_joint_that_is_stated_again_is_the_same() {
+    // c stands at (2, 1) and turns about z; its frame may be turned about x.
+    let again = |rpy: &str, parts: &str| {
+        bars(
+            rpy,
+            &format!(
+                "<gazebo><joint name='bc' type='revolute'><parent>b</parent><child>c</child>{parts}</joint></gazebo>"
+            ),
+        )
+    };
+    for (rpy, parts) in [
+        ("0 0 0", ""),
+        ("0 0 0", "<axis><xyz>0 0 -2</xyz></axis>"),
+        (
+            "0 0 0",
+            "<pose>0 0 3 0 0 1</pose><axis><xyz>0 0 1</xyz></axis>",
+        ),
+        ("0.3 0.2 0", "<axis><xyz>0 0 1</xyz></axis>"),
+        (
+            "1.570796 0 0",
+            "<axis><xyz>0 -1 0</xyz><use_parent_model_frame>1</use_parent_model_frame></axis>",
+        ),
+    ] {
+        let found =
+            read(&again(rpy, parts), "f", &[]).unwrap_or_else(|error| panic!("{error}: {parts}"));
+        assert_eq!(found.mechanism.joints().len(), 3);
+        assert!(
+            found.warnings[0].message.contains("read once"),
+            "{:?}",
+            found.warnings
+        );
+    }
+    for (parts, what) in [
+        ("<axis><xyz>0 1 0</xyz></axis>", "with another axis"),
+        (
+            "<pose>1 0 0 0 0 0</pose><axis><xyz>0 0 1</xyz></axis>",
+            "with another place",
+        ),
+        (
+            "<pose>0 0 0 0.1 0 0</pose><axis><xyz>0 0 1</xyz></axis>",
+            "with another axis",
+        ),
+        (
+            "<axis><xyz>0 0 1</xyz><mimic joint='ab'/></axis>",
+            "what it follows",
+        ),
+    ] {
+        let error = read(&again("0 0 0", parts), "f", &[]).unwrap_err();
+        assert!(error.message.contains(what), "{parts}: {error}");
+        assert_eq!(error.line, 3, "{error}");
+    }
+}
+
+#[test]
+fn the_tree_without_gazebo_floats_where_its_base_does() {
+    let more = "<gazebo><joint name='dc' type='revolute'><parent>d</parent><child>c</child><axis><xyz>0 0 1</xyz></axis></joint></gazebo>";
+    let text = bars("0 0 0", more).replacen(
+        "<link name='a'/>",
+        "<link name='w'/><joint name='f' type='floating'><parent link='w'/><child link='a'/></joint><link name='a'/>",
+        1,
+    );
+    let warnings = reading(&text).warnings;
+    assert!(
+        warnings[0]
+            .message
+            .contains("a tree with 9 degrees of freedom"),
+        "{warnings:?}"
+    );
+}

@@ -59,6 +59,7 @@ mod number_text;
 mod quaternion;
 mod reader;
 mod relax;
+mod restated;
 mod told;
 mod unread;
 mod values;

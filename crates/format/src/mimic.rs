@@ -210,6 +210,7 @@ impl<'a> Reader<'a> {
                     quoted(said.follows.leader)
                 );
                 self.warn(said.element.start(), message);
+                self.followers_in_gazebo += usize::from(said.element.name() == "plugin");
                 self.follow(said.follower, said.follows);
                 Ok(())
             }

@@ -8,6 +8,7 @@ use super::error::{Fault, MOST_FAULTS, Outcome, lines_and_columns};
 use super::loop_joint::SecondPoint;
 use super::mimic::{Follows, joint_names};
 use super::names::{Directory, Named};
+use super::restated::Restated;
 use super::unread::{Parts, Tally, Unread};
 use super::words::{alternatives, cut, did_you_mean};
 use super::{ReadOptions, Reading, Skipped, Warning, relax, xml};
@@ -68,6 +69,10 @@ pub(super) struct Reader<'a> {
     pub(super) first_in_gazebo: Option<usize>,
     /// Joints that follow another one, and how.
     pub(super) followers: HashMap<&'a str, Follows<'a>>,
+    /// How many of them do so by what stands inside `<gazebo>`.
+    pub(super) followers_in_gazebo: usize,
+    /// Joints of the tree that stand inside `<gazebo>` too.
+    pub(super) restated: Vec<Restated<'a>>,
     /// The names of all joints of the file.
     pub(super) joint_names: HashSet<&'a str>,
     /// Where the elements stand that are read out of what is set aside.
@@ -204,6 +209,8 @@ impl<'a> Reader<'a> {
             in_gazebo: HashMap::new(),
             first_in_gazebo: None,
             followers: HashMap::new(),
+            followers_in_gazebo: 0,
+            restated: Vec::new(),
             joint_names: joint_names(root).collect(),
             taken: HashSet::new(),
             connects: Vec::new(),
@@ -466,6 +473,10 @@ impl<'a> Reader<'a> {
     }
 
     fn finish(mut self, text: &str, root: Element<'a>) -> Result<Reading, Vec<Fault>> {
+        let otherwise = self.restated_otherwise();
+        if !otherwise.is_empty() {
+            return Err(otherwise);
+        }
         let builder = std::mem::take(&mut self.builder);
         let mechanism = builder.build().map_err(|error| {
             let message = error.to_string();
