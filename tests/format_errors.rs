@@ -122,7 +122,7 @@ fn no_loop_is_lost() {
     check(&[
         (robot("<weld><link1 link='a'/><link2 link='b'/></weld>"), 3, 1, "<weld> joins two links", "<loop>"),
         (robot("<closure body1='a' body2='b'/>"), 3, 1, "<closure> joins two links", ""),
-        (robot("<mujoco><equality><connect body1='a' body2='b' anchor='0 0 0'/></equality></mujoco>"), 3, 19, "<connect> joins two links", ""),
+        (robot("<mujoco><equality><weld body1='a' body2='b'/></equality></mujoco>"), 3, 19, "<weld> joins two links", ""),
         (robot("<x:tie xmlns:x='u'><body_a/><body_b/></x:tie>"), 3, 1, "<x:tie> joins two links", ""),
         (robot("<link name='d'><joint name='x'><parent link='a'/><child link='b'/></joint></link>"), 3, 16, "<joint>", ""),
         (in_gazebo(&format!("<joint name='l' type='gearbox'>{tall}</joint>")), 8, 31, "`gearbox` inside <gazebo> is not read", ""),

@@ -9,7 +9,7 @@
 use crate::format_support;
 
 use format_support::difference;
-use kutzbach::format::{Reading, read, write};
+use kutzbach::format::{ReadOptions, Reading, read, read_with, write};
 use kutzbach::mechanism::{Joint, JointKind};
 use kutzbach::number::Number;
 
@@ -441,7 +441,7 @@ fn what_bears_on_a_loop_and_is_not_read_is_refused() {
         (proposed("<axis xyz='0 0 1'/>"), "<axis>"),
         (proposed("<mimic joint='ab'/>"), "<mimic>"),
         (
-            "<mujoco><equality><connect body1='b' anchor='1 0 0'/></equality></mujoco>".to_owned(),
+            "<mujoco><equality><weld body1='b'/></equality></mujoco>".to_owned(),
             "in the world",
         ),
         (
@@ -488,8 +488,8 @@ fn what_names_two_joints_or_links_and_is_not_read_is_told_first() {
             .count()
     };
     for more in [
-        "<ros2_control><joint name='ab'><param name='mimic'>ad</param></joint></ros2_control>",
-        "<mujoco><equality><joint joint1='ab' joint2='ad' polycoef='0 1 0 0 0'/></equality></mujoco>",
+        "<ros2_control><joint name='ab'><param name='mimic'>ad</param><param name='multiplier'>x</param></joint></ros2_control>",
+        "<mujoco><equality><joint joint1='ab' joint2='ad' polycoef='0 1 0.5 0 0'/></equality></mujoco>",
         "<mujoco><tendon><fixed name='t'><joint joint='ab' coef='1'/><joint joint='ad' coef='-1'/></fixed></tendon></mujoco>",
         "<gazebo><plugin filename='x.so'><joint>ab</joint><mimicJoint>ad</mimicJoint></plugin></gazebo>",
         "<gazebo><plugin filename='x.so'><parentLink>r::c</parentLink><childLink>r::d</childLink></plugin></gazebo>",
@@ -530,4 +530,517 @@ fn a_joint_follows_in_one_way() {
         .replace("<mimic joint='ab' multiplier='2'/>", "")
         .replace("drake:mimic", "drake:mimc");
     assert!(fault(&slip).contains("<drake:mimc>"));
+}
+
+/// What is told before everything else.
+fn told_first(text: &str) -> Vec<String> {
+    let warnings = reading(text).warnings.into_iter();
+    warnings
+        .map(|warning| warning.message)
+        .filter(|message| kutzbach::format::is_told_first(message))
+        .collect()
+}
+
+#[test]
+fn the_world_of_drake_is_a_link_that_no_file_writes() {
+    let arm = |links: &str, parent: &str, child: &str| {
+        format!(
+            "<robot name='r'>{links}<link name='base'/><link name='arm'/>\
+             <joint name='weld' type='fixed'><parent link='{parent}'/><child link='{child}'/></joint>\
+             <joint name='pivot' type='continuous'><parent link='base'/><child link='arm'/><axis xyz='0 1 0'/></joint></robot>"
+        )
+    };
+    for (parent, child) in [("world", "base"), ("base", "world")] {
+        let text = arm("", parent, child);
+        let mechanism = reading(&text).mechanism;
+        assert_eq!(mechanism.link(mechanism.ground()).name, "world");
+        assert_eq!(mechanism.freedom(), 1);
+        assert_eq!(
+            told_first(&text),
+            ["no link of the file is called `world`: it is the ground, as in Drake"]
+        );
+    }
+    // A world that is written is a link like any other, and one that is nearly written is probably meant.
+    assert!(told_first(&arm("<link name='world'/>", "world", "base")).is_empty());
+    for near in ["World", "wrold"] {
+        let text = arm(&format!("<link name='{near}'/>"), "world", "base");
+        let error = read(&text, "f", &[]).unwrap_err();
+        assert_eq!(error.message, "there is no link named `world`");
+        assert_eq!(error.help.unwrap(), format!("did you mean `{near}`?"));
+    }
+    // To choose the ground is not to join it.
+    let ground = arm("<ground link='world'/><link name='w'/>", "w", "base");
+    assert!(read(&ground, "f", &[]).is_err());
+}
+
+#[test]
+fn what_no_joint_places_floats_in_a_file_of_drakes() {
+    let two = |more: &str| {
+        format!(
+            "<robot name='r' xmlns:drake='urn:drake'><link name='a'/><link name='b'/><link name='c'/>\
+             <joint name='j' type='continuous'><parent link='b'/><child link='c'/><axis xyz='0 1 0'/></joint>{more}</robot>"
+        )
+    };
+    let error = read(&two(""), "f", &[]).unwrap_err();
+    assert!(
+        error.message.contains("nothing connects it to `a`"),
+        "{error}"
+    );
+    assert!(error.help.unwrap().contains("type=\"floating\""));
+
+    let ball = "<drake:ball_constraint><drake:ball_constraint_body_A name='a'/><drake:ball_constraint_body_B name='c'/>\
+                <drake:ball_constraint_p_AP value='0 0 0'/><drake:ball_constraint_p_BQ value='0 0 0'/></drake:ball_constraint>";
+    assert_eq!(
+        told_first(&two(ball)),
+        ["no joint places `b`: such a link floats, as in Drake"]
+    );
+    let mechanism = reading(&two(ball)).mechanism;
+    assert_eq!(mechanism.link(mechanism.ground()).name, "a");
+
+    // In a world, every link that nothing places floats.
+    let weld =
+        "<loop name='l' type='fixed'><predecessor link='world'/><successor link='c'/></loop>";
+    let told = told_first(&two(weld));
+    assert_eq!(told.len(), 2);
+    // In the order of the file.
+    assert_eq!(
+        told[0],
+        "no joint places `a` and `b`: such a link floats, as in Drake"
+    );
+    let mechanism = reading(&two(weld)).mechanism;
+    assert_eq!(mechanism.link(mechanism.ground()).name, "world");
+}
+
+#[test]
+fn a_loop_joint_without_a_type_turns_about_its_axis() {
+    let more = |parts: &str| {
+        format!(
+            "<loop_joint name='l'><link1 link='d' xyz='0 1 0'/><link2 link='c'/>{parts}</loop_joint>"
+        )
+    };
+    let text = bars("0 0 0", &more("<axis xyz='0 0 1'/>"));
+    assert_eq!(last(&reading(&text)).kind, JointKind::Revolute);
+    assert_eq!(
+        told_first(&text),
+        ["loop `l` has an <axis> and no type: it is read as revolute"]
+    );
+    let error = read(&bars("0 0 0", &more("")), "f", &[]).unwrap_err();
+    assert!(
+        error.message.contains("needs the attribute `type`"),
+        "{error}"
+    );
+    assert!(error.help.unwrap().contains("<axis"));
+}
+
+#[test]
+fn a_loop_joint_may_write_its_point_in_both_links() {
+    let more = |first: &str, second: &str, axis: &str| {
+        format!(
+            "<loop_joint name='l' type='revolute'><parent link='d'/><child link='c'/>\
+             <parent_origin xyz='{first}'/><child_origin xyz='{second}'/><axis {axis}/></loop_joint>"
+        )
+    };
+    // c stands one above d and is turned by a quarter about x: what is written in the parent is turned into the child.
+    let text = bars(
+        "${pi/2} 0 0",
+        &more("0 1 2", "0 2 0", "xyz='0 0 1' frame='parent'"),
+    );
+    let joint = reading(&text);
+    let joint = last(&joint);
+    assert_eq!(position(joint), [vec![0.0, 1.0, 2.0], vec![0.0, 2.0, 0.0]]);
+    assert_eq!(values(&joint.axis.0), [0.0, 0.0, 1.0]);
+    assert_eq!(
+        values(&joint.successor.frame.roll_pitch_yaw)[0],
+        -std::f64::consts::FRAC_PI_2
+    );
+    // Without `frame` these are frames of their own.
+    let text = bars("0 0 0", &more("0 1 0", "0 0 3", "xyz='0 0 1'"));
+    assert_eq!(
+        position(last(&reading(&text))),
+        [vec![0.0, 1.0, 0.0], vec![0.0, 0.0, 3.0]]
+    );
+    for (more, said) in [
+        (
+            more("0 1 2", "0 1 2", "xyz='0 0 1' frame='parent'"),
+            "are apart",
+        ),
+        (
+            more("0 1 0", "0 0 0", "xyz='0 0 1' frame='child'"),
+            "in another frame",
+        ),
+        (
+            "<loop_joint name='l' type='fixed'><parent link='d'/></loop_joint>".to_owned(),
+            "needs two sides",
+        ),
+    ] {
+        let told = fault(&more);
+        assert!(told.contains(said), "{more}: {told}");
+    }
+}
+
+#[test]
+fn a_joint_whose_leader_is_not_there_is_free() {
+    let text = bars("0 0 0", "").replacen("<axis", "<mimic joint='abb'/><axis", 1);
+    let found = reading(&text);
+    assert!(found.mechanism.couplings().is_empty());
+    assert_eq!(
+        told_first(&text),
+        [
+            "joint `ab` follows `abb`, which the file does not have: it is free, as in ROS (did you mean `ab`?)"
+        ]
+    );
+}
+
+#[test]
+fn a_connection_of_mujoco_is_a_ball() {
+    let connect = |what: &str| format!("<mujoco><equality><connect {what}/></equality></mujoco>");
+    // c is at (2, 1), d at (2, 0), b at (0, 1).
+    for (what, sides, at) in [
+        (
+            "name='x' body1='c' body2='d' anchor='0 0 1'",
+            ["c", "d"],
+            [0.0, 1.0, 1.0],
+        ),
+        ("body1='b' anchor='1 0 0'", ["b", "a"], [1.0, 1.0, 0.0]),
+        (
+            "body1='b' body2='world' anchor='1 0 0'",
+            ["b", "a"],
+            [1.0, 1.0, 0.0],
+        ),
+    ] {
+        let found = reading(&bars("0 0 0", &connect(what)));
+        let joint = last(&found);
+        let links = [&joint.predecessor, &joint.successor]
+            .map(|side| &found.mechanism.link(side.link).name);
+        assert_eq!(
+            (joint.kind, links[0].as_str(), links[1].as_str()),
+            (JointKind::Spherical, sides[0], sides[1])
+        );
+        assert_eq!(position(joint)[1], at, "{what}");
+        assert!(joint.closes_loop);
+    }
+    let off = reading(&bars(
+        "0 0 0",
+        &connect("body1='c' body2='d' anchor='0 0 1' active='false'"),
+    ));
+    assert_eq!(off.mechanism.joints().len(), 3);
+    assert!(off.skipped.iter().any(|s| s.what.contains("not active")));
+    assert!(fault(&connect("body1='c' body2='e' anchor='0 0 1'")).contains("no link named `e`"));
+    assert!(fault(&connect("body1='c' body2='d' anchor='0 1'")).contains("expected 3 numbers"));
+    assert!(fault(&connect("body1='c' body2='d'")).contains("joins two links"));
+}
+
+#[test]
+fn followers_in_the_words_of_other_tools() {
+    let ros = |numbers: &str| {
+        format!(
+            "<ros2_control><joint name='ad'><param name='mimic'>ab</param>{numbers}</joint></ros2_control>"
+        )
+    };
+    let plugin = |numbers: &str| {
+        format!(
+            "<gazebo><plugin filename='libroboticsgroup_gazebo_mimic_joint_plugin.so'><joint>ab</joint><mimicJoint>ad</mimicJoint>{numbers}</plugin></gazebo>"
+        )
+    };
+    let equality = |numbers: &str| {
+        format!("<mujoco><equality><joint joint1='ad' joint2='ab' {numbers}/></equality></mujoco>")
+    };
+    let with = |mimic: &str, more: &str| {
+        let text = bars("0 0 0", more);
+        let at = text.rfind("<axis xyz='0 0 1'/></joint>").unwrap();
+        format!("{}{mimic}{}", &text[..at], &text[at..])
+    };
+    for more in [
+        ros("<param name='multiplier'>-2</param><param name='offset'>0.5</param>"),
+        plugin("<multiplier>-2.0</multiplier><offset>0.5</offset>"),
+        equality("polycoef='0.5 -2 0 0 0'"),
+    ] {
+        let plain = reading(&with(
+            "<mimic joint='ab' multiplier='-2' offset='0.5'/>",
+            "",
+        ));
+        let said = reading(&with("", &more));
+        assert_eq!(
+            difference(&plain.mechanism, &said.mechanism),
+            None,
+            "{more}"
+        );
+        assert!(said.warnings[0].message.contains("it is read as <mimic>"));
+        // Said twice alike, and said otherwise.
+        let twice = reading(&with(
+            "<mimic joint='ab' multiplier='-2' offset='0.5'/>",
+            &more,
+        ));
+        assert_eq!(
+            difference(&plain.mechanism, &twice.mechanism),
+            None,
+            "{more}"
+        );
+        assert!(twice.warnings.is_empty(), "{:?}", twice.warnings);
+        let other = with("<mimic joint='ab' multiplier='2'/>", &more);
+        let error = read(&other, "f", &[]).unwrap_err();
+        assert!(
+            error.message.contains("says otherwise than <mimic>"),
+            "{error}"
+        );
+    }
+    // Through another follower, and the other way about.
+    let chain = with(
+        "<mimic joint='bc' multiplier='2'/>",
+        &ros("<param name='multiplier'>6</param>"),
+    )
+    .replacen(
+        "<axis xyz='0 0 1'/></joint>\n",
+        "<axis xyz='0 0 1'/></joint>",
+        1,
+    )
+    .replacen(
+        "rpy='0 0 0'/>",
+        "rpy='0 0 0'/><mimic joint='ab' multiplier='3'/>",
+        1,
+    );
+    assert_eq!(reading(&chain).mechanism.couplings().len(), 2);
+    let back = with(
+        "<mimic joint='ab' multiplier='4'/>",
+        "<ros2_control><joint name='ab'><param name='mimic'>ad</param><param name='multiplier'>0.25</param></joint></ros2_control>",
+    );
+    assert_eq!(reading(&back).mechanism.couplings().len(), 1);
+    let off = reading(&with("", &equality("active='false'")));
+    assert!(off.mechanism.couplings().is_empty());
+}
+
+#[test]
+fn a_turn_in_unknown_words_is_refused() {
+    let text =
+        |origin: &str| bars("0 0 0", "").replace("xyz='0 1 0'", &format!("xyz='0 1 0' {origin}"));
+    for word in [
+        "quat='1 0 0 0'",
+        "quat_wxyz='1 0 0 0'",
+        "orientation='0 0 0 1'",
+    ] {
+        let error = read(&text(word), "f", &[]).unwrap_err();
+        assert!(error.message.contains("turns the frame"), "{word}: {error}");
+        assert!(error.help.unwrap().contains("quat_xyzw"));
+    }
+    reading(&text("quat_xyzw='0 0 0 1'"));
+}
+
+#[test]
+fn a_missing_axis_is_told_in_one_line() {
+    let bare = |count: usize| bars("0 0 0", "").replacen("<axis xyz='0 0 1'/>", "", count);
+    assert!(told_first(&bare(0)).is_empty());
+    assert_eq!(
+        told_first(&bare(1)),
+        ["`ab` has no <axis>: x is taken, as URDF says"]
+    );
+    assert_eq!(
+        told_first(&bare(3)),
+        ["`ab`, `bc` and `ad` have no <axis>: x is taken, as URDF says"]
+    );
+    let closing = |loops: &str| told_first(&bars("0 0 0", loops));
+    for loops in [
+        "<loop name='l' type='revolute'><predecessor link='d'/><successor link='c'/></loop>",
+        "<loop_joint name='l' type='revolute'><link1 link='d'/><link2 link='c'/></loop_joint>",
+        "<constraint name='l' type='revolute'><parent link='d'/><child link='c'/></constraint>",
+    ] {
+        assert_eq!(
+            closing(loops),
+            ["`l` has no <axis>: x is taken, as URDF says"]
+        );
+    }
+    assert!(
+        closing(
+            "<loop name='l' type='spherical'><predecessor link='d'/><successor link='c'/></loop>"
+        )
+        .is_empty()
+    );
+}
+
+#[test]
+fn the_second_axis_of_a_universal_joint_is_another_one() {
+    let joint = |axes: &str| {
+        format!(
+            "<loop name='l' type='universal'><predecessor link='d'/><successor link='c'/>{axes}</loop>"
+        )
+    };
+    let told = told_first(&bars("0 0 0", &joint("<axis xyz='0 1 0'/>")));
+    assert_eq!(told, ["`l` has no <axis2>: x is taken"]);
+    assert!(fault(&joint("")).contains("without <axis2> its two axes are parallel"));
+    assert!(
+        fault(&joint("<axis xyz='0 1 1'/><axis2 xyz='0 -2 -2'/>"))
+            .contains("its two axes are parallel")
+    );
+    reading(&bars(
+        "0 0 0",
+        &joint("<axis xyz='0 1 1'/><axis2 xyz='0 1 1.001'/>"),
+    ));
+}
+
+#[test]
+fn angles_that_look_like_others_are_told_where_loops_close() {
+    let text = |rpy: &str, closed: &str| {
+        bars(
+            "0 0 0",
+            &format!(
+                "<loop name='l' type='fixed'><predecessor link='d'/><successor link='{closed}'><origin rpy='{rpy}'/></successor></loop>"
+            ),
+        )
+    };
+    assert_eq!(
+        told_first(&text("-1.57 0 3.142", "c")),
+        [
+            "`1.57` in `rpy` looks like ${pi/2} and is read as 1.57 rad; write what is meant, or more digits",
+            "`3.142` in `rpy` looks like ${pi} and is read as 3.142 rad; write what is meant, or more digits"
+        ]
+    );
+    assert!(told_first(&text("1.5708 0.3 ${pi/2}", "c")).is_empty());
+    // A tree can stand anyhow, and of numbers meant as written nothing is told.
+    assert!(told_first(&bars("1.57 0 0", "")).is_empty());
+    let literal = ReadOptions {
+        literal: true,
+        ..ReadOptions::default()
+    };
+    assert!(
+        read_with(&text("1.57 0 0", "c"), "f", &literal)
+            .unwrap()
+            .warnings
+            .is_empty()
+    );
+    let twice = read(&text("1.57 0 1.57", "c"), "f", &[]).unwrap();
+    assert_eq!((twice.warnings.len(), twice.warnings[0].count), (1, 2));
+}
+
+#[test]
+fn a_limit_without_bounds_is_told() {
+    let with = |kind: &str, limit: &str| {
+        let text = bars("0 0 0", "").replacen("continuous", kind, 1);
+        let text = text.replacen("<axis", &format!("{limit}<axis"), 1);
+        read(&text, "f", &[]).unwrap().warnings
+    };
+    for kind in ["revolute", "prismatic"] {
+        let warnings = with(kind, "<limit effort='1' velocity='1'/>");
+        assert!(
+            warnings[0]
+                .message
+                .contains("`ab` has a <limit> without `lower` and `upper`, which is 0…0 in URDF")
+        );
+    }
+    for (kind, limit) in [
+        ("continuous", "<limit effort='1' velocity='1'/>"),
+        ("revolute", "<limit upper='1' effort='1'/>"),
+        ("revolute", "<limit lower='1' upper='-1'/>"),
+        ("revolute", ""),
+    ] {
+        let warnings = with(kind, limit);
+        assert!(
+            !warnings.iter().any(|w| w.message.contains("0…0")),
+            "{kind} {limit}"
+        );
+    }
+}
+
+#[test]
+fn two_joints_with_one_child_meet_at_its_origin() {
+    let joint = |inside: &str| {
+        format!(
+            "<joint name='dc' type='continuous'><parent link='d'/><child link='c'>{inside}</child><origin xyz='0 1 0'/><axis xyz='0 0 1'/></joint>"
+        )
+    };
+    let told = told_first(&bars("0 0 0", &joint("")));
+    assert!(
+        told.len() == 1
+            && told[0].contains("both hold it at its origin, as <child> has no <origin> inside"),
+        "{told:?}"
+    );
+    assert!(told_first(&bars("0 0 0", &joint("<origin xyz='1 0 0'/>"))).is_empty());
+}
+
+#[test]
+fn names_that_announce_a_loop_are_told_where_there_is_none() {
+    let named = |name: &str| bars("0 0 0", "").replacen("'ab'", &format!("'{name}'"), 1);
+    for name in ["closing_knee", "loop_1", "closed_loop_pin", "Knee_Closure"] {
+        let told = told_first(&named(name));
+        assert_eq!(told.len(), 1, "{name}");
+        assert!(
+            told[0].contains(&format!("`{name}` has the name of what closes a loop")),
+            "{told:?}"
+        );
+    }
+    assert!(told_first(&named("enclosure_door")).is_empty());
+    let closed = named("closing_knee").replace(
+        "</robot>",
+        "<loop name='l' type='fixed'><predecessor link='d'/><successor link='c'/></loop></robot>",
+    );
+    assert!(told_first(&closed).is_empty());
+}
+
+#[test]
+fn a_joint_that_is_stated_again_is_the_same() {
+    // c stands at (2, 1) and turns about z; its frame may be turned about x.
+    let again = |rpy: &str, parts: &str| {
+        bars(
+            rpy,
+            &format!(
+                "<gazebo><joint name='bc' type='revolute'><parent>b</parent><child>c</child>{parts}</joint></gazebo>"
+            ),
+        )
+    };
+    for (rpy, parts) in [
+        ("0 0 0", ""),
+        ("0 0 0", "<axis><xyz>0 0 -2</xyz></axis>"),
+        (
+            "0 0 0",
+            "<pose>0 0 3 0 0 1</pose><axis><xyz>0 0 1</xyz></axis>",
+        ),
+        ("0.3 0.2 0", "<axis><xyz>0 0 1</xyz></axis>"),
+        (
+            "1.570796 0 0",
+            "<axis><xyz>0 -1 0</xyz><use_parent_model_frame>1</use_parent_model_frame></axis>",
+        ),
+    ] {
+        let found =
+            read(&again(rpy, parts), "f", &[]).unwrap_or_else(|error| panic!("{error}: {parts}"));
+        assert_eq!(found.mechanism.joints().len(), 3);
+        assert!(
+            found.warnings[0].message.contains("read once"),
+            "{:?}",
+            found.warnings
+        );
+    }
+    for (parts, what) in [
+        ("<axis><xyz>0 1 0</xyz></axis>", "with another axis"),
+        (
+            "<pose>1 0 0 0 0 0</pose><axis><xyz>0 0 1</xyz></axis>",
+            "with another place",
+        ),
+        (
+            "<pose>0 0 0 0.1 0 0</pose><axis><xyz>0 0 1</xyz></axis>",
+            "with another axis",
+        ),
+        (
+            "<axis><xyz>0 0 1</xyz><mimic joint='ab'/></axis>",
+            "what it follows",
+        ),
+    ] {
+        let error = read(&again("0 0 0", parts), "f", &[]).unwrap_err();
+        assert!(error.message.contains(what), "{parts}: {error}");
+        assert_eq!(error.line, 3, "{error}");
+    }
+}
+
+#[test]
+fn the_tree_without_gazebo_floats_where_its_base_does() {
+    let more = "<gazebo><joint name='dc' type='revolute'><parent>d</parent><child>c</child><axis><xyz>0 0 1</xyz></axis></joint></gazebo>";
+    let text = bars("0 0 0", more).replacen(
+        "<link name='a'/>",
+        "<link name='w'/><joint name='f' type='floating'><parent link='w'/><child link='a'/></joint><link name='a'/>",
+        1,
+    );
+    let warnings = reading(&text).warnings;
+    assert!(
+        warnings[0]
+            .message
+            .contains("a tree with 9 degrees of freedom"),
+        "{warnings:?}"
+    );
 }

@@ -27,6 +27,7 @@ fn every_type_word_is_a_kind() {
         let inside = match kind {
             JointKind::Screw | JointKind::TranslatingScrew => "<screw lead='-0.01'/>",
             JointKind::Distance => "<distance value='0.5'/>",
+            JointKind::Universal => "<axis2 xyz='0 1 0'/>",
             _ => "",
         };
         let reading = reading(&chain(word, inside));
@@ -164,7 +165,7 @@ fn a_floating_joint_places_and_does_not_constrain() {
 
 #[test]
 fn what_says_nothing_about_motion_is_skipped_and_counted() {
-    let text = chain("revolute", "<safety_controller k_velocity='1'/><calibration rising='0'/><gazebo><a>text</a></gazebo>")
+    let text = chain("revolute", "<safety_controller k_velocity='1'/><calibration rising='0'/><gazebo><a>text</a></gazebo><axis xyz='0 0 1'/>")
         .replace("xmlns:xacro", "xmlns:o='urn:other' o:mark='1' xmlns:xacro")
         .replace(
             "</robot>",
@@ -377,17 +378,74 @@ fn what_may_be_meant_otherwise_is_warned_of() {
         (warning.line, warning.column, warning.message.clone())
     };
     for (text, line, column, part) in [
-        (chain("fixed", "<axis xyz='0 0 0'/>"), 5, 1, "<axis> means nothing for a fixed joint"),
-        (chain("spherical", " <axis xyz='1 0 0'/>"), 5, 2, "<axis> means nothing for a spherical joint"),
-        (chain("planar", "<limit effort='1' velocity='1'/>"), 5, 1, "<limit> means nothing for a planar joint"),
-        (chain("revolute", "<joint_properties friction='0'/>"), 5, 1, "old name of <dynamics>"),
-        (chain("continuous", "<limit lower='-1' upper='1' effort='3'/>"), 5, 1, "turns without end"),
-        (chain("revolute", "<limit lower='1' upper='-1'/>"), 5, 1, "means no limit"),
-        (chain("fixed", "<mimic joint='k'/>"), 5, 1, "<mimic> means nothing for a fixed joint"),
-        (chain("floating", "<mimic joint='k'/>"), 5, 1, "<mimic> means nothing for a floating joint"),
         (
-            chain("revolute", "").replace("</robot>", "<joint name='m' type='revolute'><parent link='a'/><child link='c'/></joint></robot>"),
-            8, 1, "joint `m` closes a loop: link `c` is the child of joint `k` already",
+            chain("fixed", "<axis xyz='0 0 0'/>"),
+            5,
+            1,
+            "<axis> means nothing for a fixed joint",
+        ),
+        (
+            chain("spherical", " <axis xyz='1 0 0'/>"),
+            5,
+            2,
+            "<axis> means nothing for a spherical joint",
+        ),
+        (
+            chain(
+                "planar",
+                "<limit effort='1' velocity='1'/><axis xyz='0 0 1'/>",
+            ),
+            5,
+            1,
+            "<limit> means nothing for a planar joint",
+        ),
+        (
+            chain(
+                "revolute",
+                "<joint_properties friction='0'/><axis xyz='0 0 1'/>",
+            ),
+            5,
+            1,
+            "old name of <dynamics>",
+        ),
+        (
+            chain(
+                "continuous",
+                "<limit lower='-1' upper='1' effort='3'/><axis xyz='0 0 1'/>",
+            ),
+            5,
+            1,
+            "turns without end",
+        ),
+        (
+            chain(
+                "revolute",
+                "<limit lower='1' upper='-1'/><axis xyz='0 0 1'/>",
+            ),
+            5,
+            1,
+            "means no limit",
+        ),
+        (
+            chain("fixed", "<mimic joint='k'/>"),
+            5,
+            1,
+            "<mimic> means nothing for a fixed joint",
+        ),
+        (
+            chain("floating", "<mimic joint='k'/>"),
+            5,
+            1,
+            "<mimic> means nothing for a floating joint",
+        ),
+        (
+            chain("fixed", "").replace(
+                "</robot>",
+                "<joint name='m' type='fixed'><parent link='a'/><child link='c'/></joint></robot>",
+            ),
+            8,
+            1,
+            "joint `m` closes a loop: link `c` is the child of joint `k` already",
         ),
     ] {
         let (found_line, found_column, message) = warning(&text);

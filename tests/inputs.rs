@@ -461,3 +461,32 @@ fn frames_that_are_fixed_to_one_link_are_one_neighbour() {
     assert_eq!(shares(&report), (1, 0));
     assert!(idle(&report).is_empty());
 }
+
+#[test]
+fn joints_that_are_marked_as_dependent_are_not_proposed() {
+    // A parallelogram of four hinges, any one of which could drive it; no joint is left to be called independent but the last.
+    let hinge = |name: &str, parent: &str, child: &str, at: &str, marked: &str| {
+        joint(name, "continuous", parent, child, at, "0 0 1").replacen(
+            "type=",
+            &format!("independent=\"{marked}\" type="),
+            1,
+        )
+    };
+    let text = |last: &str| {
+        format!(
+            r#"<robot name="r">{}{}{}{}<loop name="l" type="revolute"><predecessor link="b"><origin xyz="2 0 0"/></predecessor><successor link="c"><origin xyz="0 1 0"/></successor><axis xyz="0 0 1"/></loop></robot>"#,
+            links(&["base", "a", "b", "c"]),
+            hinge("j1", "base", "a", "0 0 0", "false"),
+            hinge("j2", "a", "b", "0 1 0", "false"),
+            hinge("j3", "base", "c", "2 0 0", last),
+        )
+    };
+    let given = reported(&text("true")).inputs.unwrap();
+    assert_eq!(
+        (given.given, given.source),
+        (vec!["j3".to_owned()], Some(InputSource::Independent))
+    );
+    // Where nothing is marked independent, the loop's own joint is all that may be proposed.
+    let proposed = reported(&text("false")).inputs.unwrap();
+    assert_eq!(proposed.proposed, ["l"]);
+}

@@ -1,32 +1,16 @@
-//! Loops in the words of other tools: `<loop_joint>` and `<constraint>`.
+//! `<constraint>`, a loop in the words of a proposal, and what loops of all dialects have in common.
 //!
-//! - `<loop_joint name type><link1 link xyz rpy/><link2 link xyz rpy/></loop_joint>`: Isaac Sim's importer
-//!   (`UrdfParser.cpp`), and Drake before 2016, which adds an `<axis>`. A frame on each side. Some writers call both sides
-//!   `link1`.
-//! - `<constraint name type><parent link/><parent_origin/><parent_axis/><child link/><child_origin/><child_axis/></constraint>`:
-//!   proposed for urdfdom (pull request 264); each side with its frame and axis.
+//! `<constraint name type><parent link/><parent_origin/><parent_axis/><child link/><child_origin/><child_axis/></constraint>` is proposed
+//! for urdfdom (pull request 264); each side has its frame and axis.
 
 use super::element::Element;
 use super::error::Outcome;
 use super::names::Named;
 use super::reader::{Dialect, Reader};
-use super::unread::{OF_JOINTS, Parts};
+use super::told::LIKE_SIDES;
+use super::unread::Parts;
 use super::words::quoted;
 use kutzbach_model::mechanism::{Direction, Frame, JointBuilder, JointKind};
-
-/// What may stand inside `<loop_joint>`; what moves it is nothing else.
-const LOOP_JOINT: Parts<'_> = Parts {
-    known: &["axis", "axis2", "limit", "dynamics"],
-    often: &["link1", "link2"],
-    bearing: &OF_JOINTS,
-};
-
-/// What may stand inside a side of it: nothing, since its attributes say all.
-const SIDE: Parts<'_> = Parts {
-    known: &[],
-    often: &[],
-    bearing: &OF_JOINTS,
-};
 
 /// What may stand inside `<constraint>`.
 const CONSTRAINT: Parts<'_> = Parts {
@@ -59,47 +43,6 @@ const BEARING_ON_CONSTRAINTS: [&str; 11] = [
 ];
 
 impl<'a> Reader<'a> {
-    pub(super) fn read_loop_joint(&mut self, joint: Element<'a>) -> Outcome<()> {
-        let name = self.directory.add(Named::Joint, joint)?;
-        let kind = self.closing_kind(joint)?;
-        let sides: Vec<Element<'a>> = joint
-            .elements()
-            .filter(|part| matches!(part.name(), "link1" | "link2"))
-            .collect();
-        let [first, second] = sides.as_slice() else {
-            return Err(joint
-                .fault(format!("loop {} needs two sides", quoted(name)))
-                .help("<link1 link xyz rpy/> and <link2 link xyz rpy/>"));
-        };
-        let mut builder = {
-            let (link1, frame1) = self.loop_side(*first)?;
-            let (link2, frame2) = self.loop_side(*second)?;
-            self.join(name, [link1, link2]);
-            JointBuilder::closing(name, kind, link1, link2)
-                .origin(frame1)
-                .successor_origin(frame2)
-        };
-        for part in self.parts_of(joint, &LOOP_JOINT)? {
-            match part.name() {
-                "link1" | "link2" => {}
-                "axis" if kind.uses_axis() => builder = builder.axis(self.direction(part)?),
-                "axis2" if kind.uses_second_axis() => {
-                    builder = builder.axis2(self.direction(part)?);
-                }
-                _ => self.skip(part),
-            }
-        }
-        self.add_closing(name, kind, builder);
-        Ok(())
-    }
-
-    fn loop_side(&mut self, side: Element<'a>) -> Outcome<(&'a str, Frame)> {
-        self.attributes_of(side, &["link", "xyz", "rpy", "quat_xyzw"], true)?;
-        self.parts_of(side, &SIDE)?;
-        let link = self.directory.refer(Named::Link, side, "link")?;
-        Ok((link, self.frame_of(side)?))
-    }
-
     pub(super) fn read_constraint(&mut self, constraint: Element<'a>) -> Outcome<()> {
         let name = self.directory.add(Named::Joint, constraint)?;
         let kind = self.closing_kind(constraint)?;
@@ -109,8 +52,8 @@ impl<'a> Reader<'a> {
             match part.name() {
                 "parent" => links[0] = Some(self.directory.refer(Named::Link, part, "link")?),
                 "child" => links[1] = Some(self.directory.refer(Named::Link, part, "link")?),
-                "parent_origin" => frames[0] = self.origin(part)?,
-                "child_origin" => frames[1] = self.origin(part)?,
+                "parent_origin" => frames[0] = self.joint_origin(part)?,
+                "child_origin" => frames[1] = self.joint_origin(part)?,
                 "parent_axis" => axes[0] = Some(self.direction(part)?),
                 _ => axes[1] = Some(self.direction(part)?),
             }
@@ -126,6 +69,9 @@ impl<'a> Reader<'a> {
         let mut builder = JointBuilder::closing(name, kind, parent, child)
             .origin(origin)
             .successor_origin(successor_origin);
+        let shared = first_of(kind, &axes);
+        self.note_axes((constraint.start(), name), kind, [shared, axes[1].as_ref()])
+            .map_err(|why| constraint.fault(format!("constraint {}: {why}", quoted(name))))?;
         let [first, mut second] = axes;
         if kind.uses_second_axis() {
             builder = match second.take() {
@@ -149,7 +95,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The kind of a joint that closes a loop, by the words of all dialects.
-    fn closing_kind(&mut self, element: Element<'a>) -> Outcome<JointKind> {
+    pub(super) fn closing_kind(&mut self, element: Element<'a>) -> Outcome<JointKind> {
         let word = element.required("type")?;
         let kind = JointKind::from_word(word.value).or_else(|| Self::drake_kind(word.value));
         match kind {
@@ -166,7 +112,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn add_closing(&mut self, name: &'a str, kind: JointKind, builder: JointBuilder) {
+    pub(super) fn add_closing(&mut self, name: &'a str, kind: JointKind, builder: JointBuilder) {
         let plain = matches!(
             kind,
             JointKind::Revolute | JointKind::Prismatic | JointKind::Fixed | JointKind::Planar
@@ -199,12 +145,23 @@ impl<'a> Reader<'a> {
             if self.directory.has(Named::Link, &other) && !joined {
                 open.push((
                     place.start,
-                    format!("the frames {} and {} look like the two sides of a loop, which the file does not state: it is read without that loop", quoted(link), quoted(&other)),
+                    format!(
+                        "the frames {} and {} {LIKE_SIDES}: it is read without that loop",
+                        quoted(link),
+                        quoted(&other)
+                    ),
                 ));
             }
         }
+        self.closing_frames_told = !open.is_empty();
         for (at, message) in open {
             self.warn(at, message);
         }
     }
+}
+
+/// The axis on the first side, which of a joint of one axis may stand on the second.
+fn first_of(kind: JointKind, [first, second]: &[Option<Direction>; 2]) -> Option<&Direction> {
+    let other = second.as_ref().filter(|_| !kind.uses_second_axis());
+    first.as_ref().or(other)
 }

@@ -14,6 +14,7 @@ use super::element::Element;
 use super::error::Outcome;
 use super::names::Named;
 use super::reader::{Dialect, Reader};
+use super::world::WORLD;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Direction, Frame, JointBuilder, JointKind};
 
@@ -98,6 +99,7 @@ impl<'a> Reader<'a> {
         }
         let body_a = self.directory.refer(Named::Link, part("body_A")?, "name")?;
         let body_b = self.directory.refer(Named::Link, part("body_B")?, "name")?;
+        self.meets_world |= [body_a, body_b].contains(&WORLD);
         let p_ap = self.numbers(part("p_AP")?.required("value")?)?;
         let p_bq = self.numbers(part("p_BQ")?.required("value")?)?;
         let name = self.name_unnamed(own);
@@ -113,8 +115,8 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// A name for a constraint that has none.
-    fn name_unnamed(&mut self, base: &str) -> String {
+    /// A name for a joint that has none.
+    pub(super) fn name_unnamed(&mut self, base: &str) -> String {
         loop {
             self.unnamed += 1;
             let name = format!("{base}_{}", self.unnamed);

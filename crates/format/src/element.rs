@@ -144,6 +144,18 @@ impl<'a> Element<'a> {
         Ok(children)
     }
 
+    /// Whether this element, or one anywhere inside it, is written with that prefix.
+    pub(super) fn has_any_of(&self, prefix: &str) -> bool {
+        let mut open = vec![*self];
+        while let Some(next) = open.pop() {
+            if next.written_name().starts_with(prefix) {
+                return true;
+            }
+            open.extend(next.elements());
+        }
+        false
+    }
+
     /// Whether another element has the same attributes, and neither has anything inside.
     pub(super) fn says_the_same(&self, other: &Self) -> bool {
         let said = |element: &Self| -> Vec<(&'a str, &'a str)> {
@@ -200,6 +212,11 @@ impl<'a> Element<'a> {
             .attributes()
             .find(|a| a.namespace().is_none() && a.name() == name)
             .map(|a| self.own(&a))
+    }
+
+    /// Whether it has one of these attributes.
+    pub(super) fn has_any(&self, names: &[&str]) -> bool {
+        names.iter().any(|name| self.attribute(name).is_some())
     }
 
     /// An attribute that must be there.

@@ -24,11 +24,9 @@ use super::names::Named;
 use super::reader::{Dialect, Reader};
 use super::unread::{Parts, truth};
 use super::words::{cut, quoted};
+use super::world::WORLD;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Direction, Dynamics, Frame, JointBuilder, JointKind, Limit};
-
-/// SDFormat's word for no link: what the model stands on.
-const WORLD: &str = "world";
 
 /// SDFormat's word for the frame of the model, which is that of the root link.
 const MODEL: &str = "__model__";
@@ -96,6 +94,13 @@ struct Place<'a> {
     parallel_to_root: bool,
 }
 
+/// What a joint inside `<gazebo>` is called.
+struct Late {
+    name: String,
+    /// Whether the tree has it already.
+    restates: bool,
+}
+
 impl<'a> Reader<'a> {
     /// Keeps the joints of a `<gazebo>` until all links are known; the rest of it is not read.
     pub(super) fn read_gazebo(&mut self, gazebo: Element<'a>) -> Outcome<()> {
@@ -134,17 +139,6 @@ impl<'a> Reader<'a> {
             self.skip_because(part, what);
         }
         Ok(())
-    }
-
-    /// The link that nothing in the file's tree places.
-    fn root_link(&self) -> Option<&'a str> {
-        let mut links = self.directory.link_names().map(|(link, _)| link);
-        links.find(|link| self.is_root(link))
-    }
-
-    fn is_root(&self, link: &str) -> bool {
-        let placed = self.placed_by.contains_key(link);
-        !placed && !self.floating.contains(link) && !self.sdf_links.contains(link)
     }
 
     /// Places the links that only Gazebo knows.
@@ -206,9 +200,15 @@ impl<'a> Reader<'a> {
         let needs = |what: &str| joint.fault(format!("a joint inside <gazebo> needs <{what}>"));
         let parent = parent.ok_or_else(|| needs("parent"))?;
         let child = child.ok_or_else(|| needs("child"))?;
-        let Some(name) = self.name_of_late(joint, kind, [parent, child])? else {
+        let Some(late) = self.name_of_late(joint, kind, [parent, child])? else {
             return Ok(());
         };
+        // One that the tree has already may leave its axes to that.
+        let says_all = axis.is_some() || !kind.uses_axis();
+        if late.restates && !says_all {
+            return Ok(());
+        }
+        let name = late.name.clone();
         let mut place = self.sdf_place(place, child)?;
         let mut builder = JointBuilder::closing(&name, kind, parent, child);
         if kind.uses_axis() {
@@ -222,7 +222,7 @@ impl<'a> Reader<'a> {
             if dynamics != Dynamics::default() {
                 builder = builder.dynamics(dynamics);
             }
-            self.read_sdf_mimic(&name, kind, axis)?;
+            self.read_sdf_mimic(&late, kind, axis)?;
         }
         if kind.uses_second_axis() {
             let part = axis2.ok_or_else(|| needs("axis2"))?;
@@ -236,7 +236,7 @@ impl<'a> Reader<'a> {
             let lead = lead.or(old_lead);
             builder = builder.lead(lead.ok_or_else(|| needs("screw_thread_pitch"))?);
         }
-        self.add_late(&name, joint, kind, builder, &place);
+        self.add_late(late, joint, kind, builder, &place);
         Ok(())
     }
 
@@ -259,7 +259,7 @@ impl<'a> Reader<'a> {
         };
         let parent = self.sdf_link(part("body1")?)?;
         let child = self.sdf_link(part("body2")?)?;
-        let Some(name) = self.name_of_late(joint, kind, [parent, child])? else {
+        let Some(late) = self.name_of_late(joint, kind, [parent, child])? else {
             return Ok(());
         };
         let mut frame = Frame::identity();
@@ -271,22 +271,25 @@ impl<'a> Reader<'a> {
             frame,
             parallel_to_root: true,
         };
-        let mut builder = JointBuilder::closing(&name, kind, parent, child);
+        let mut builder = JointBuilder::closing(&late.name, kind, parent, child);
         if kind.uses_axis() {
             builder = builder.axis(self.sdf_direction(part("axis")?)?);
         }
-        self.add_late(&name, joint, kind, builder, &place);
+        self.add_late(late, joint, kind, builder, &place);
         Ok(())
     }
 
-    /// The name of a joint that had to wait; `None` where the file's tree has that joint already, or where it only holds the
-    /// robot's root, which is held anyway.
+    /// The name of a joint that had to wait; `None` where it only holds the robot's root, which is held anyway.
     fn name_of_late(
         &mut self,
         joint: Element<'a>,
         kind: JointKind,
         sides: [&'a str; 2],
-    ) -> Outcome<Option<String>> {
+    ) -> Outcome<Option<Late>> {
+        let new = |name: String| Late {
+            name,
+            restates: false,
+        };
         let name = joint.required("name")?.value;
         let [parent, child] = sides;
         if let Some(known) = self.sides_of.get(name)
@@ -307,7 +310,10 @@ impl<'a> Reader<'a> {
                 quoted(name)
             );
             self.warn(joint.start(), message);
-            return Ok(None);
+            return Ok(Some(Late {
+                name: format!("{name}{IN_GAZEBO}"),
+                restates: true,
+            }));
         }
         if kind == JointKind::Fixed && self.is_world(parent) && self.tree_root == Some(child) {
             self.root_is_held = true;
@@ -329,7 +335,8 @@ impl<'a> Reader<'a> {
         self.joined.entry(ordered(sides)).or_insert(name);
         self.joins_world |= self.is_world(parent) || self.is_world(child);
         if !self.directory.has_joint_or_coupling(name) {
-            return Ok(Some(self.directory.add(Named::Joint, joint)?.to_owned()));
+            let name = self.directory.add(Named::Joint, joint)?;
+            return Ok(Some(new(name.to_owned())));
         }
         let other = format!("{name}{IN_GAZEBO}");
         if self.directory.has_joint_or_coupling(&other) || self.in_gazebo.contains_key(&other) {
@@ -343,7 +350,7 @@ impl<'a> Reader<'a> {
                 .sides_of
                 .get(name)
                 .is_some_and(|[tree, _]| *tree == parent)
-            && !self.followers.contains(name);
+            && !self.followers.contains_key(name);
         let same = if one_value {
             self.builder
                 .mimic(name, &other, Number::one(), Number::zero());
@@ -357,25 +364,29 @@ impl<'a> Reader<'a> {
             quoted(&other)
         );
         self.warn(joint.start(), message);
-        Ok(Some(other))
+        Ok(Some(new(other)))
     }
 
     fn add_late(
         &mut self,
-        name: &str,
+        late: Late,
         joint: Element<'a>,
         kind: JointKind,
         builder: JointBuilder,
         place: &Place<'a>,
     ) {
-        self.uses(Dialect::UrdfPlus);
-        self.first_in_gazebo.get_or_insert(joint.start());
-        self.in_gazebo.insert(name.to_owned(), kind.freedom());
         let link = match place.link {
             MODEL => self.tree_root.unwrap_or_default(),
             link => link,
         };
         let builder = builder.at_home(link, place.frame.clone(), place.parallel_to_root);
+        if late.restates {
+            self.restate(joint, late.name, builder);
+            return;
+        }
+        self.uses(Dialect::UrdfPlus);
+        self.first_in_gazebo.get_or_insert(joint.start());
+        self.in_gazebo.insert(late.name, kind.freedom());
         self.builder.joint(builder);
     }
 
@@ -384,13 +395,16 @@ impl<'a> Reader<'a> {
         let Some(at) = self.first_in_gazebo else {
             return;
         };
+        const LOOSE: usize = 6;
         let joints: usize = self.kinds.values().map(|kind| kind.freedom()).sum();
+        let free = joints + LOOSE * self.floating.len();
+        let tied = self.followers.len() - self.followers_in_gazebo;
         let count = self.in_gazebo.len();
         let message = match self.other_closures {
             false => format!(
                 "{} inside <gazebo> and read; without what stands there the file is a tree with {}",
                 counted_joints(count),
-                freedoms(joints.saturating_sub(self.followers.len()))
+                freedoms(free.saturating_sub(tied))
             ),
             true => format!("{} inside <gazebo> and read", counted_joints(count)),
         };
@@ -462,7 +476,7 @@ impl<'a> Reader<'a> {
     /// multiplier · (leader − reference) + offset.
     fn read_sdf_mimic(
         &mut self,
-        name: &str,
+        late: &Late,
         kind: JointKind,
         axis: Option<Element<'a>>,
     ) -> Outcome<()> {
@@ -471,12 +485,19 @@ impl<'a> Reader<'a> {
             return Ok(());
         };
         let other_axis = mimic.attribute("axis").filter(|word| word.value != "axis");
+        if late.restates {
+            return Err(mimic
+                .fault("the tree has this joint already, and says there what it follows")
+                .help("write <mimic> in the tree"));
+        }
         if kind.freedom() != 1 || other_axis.is_some() {
             return Err(mimic
                 .fault("only a joint of one axis that follows another one is read")
                 .help("a <coupling> may say the same"));
         }
-        let leader = self.directory.refer(Named::Joint, mimic, "joint")?;
+        let Some(leader) = self.leader_of(mimic, &late.name)? else {
+            return Ok(());
+        };
         let (mut multiplier, mut offset, mut reference) =
             (Number::one(), Number::zero(), Number::zero());
         for part in self.parts_of(mimic, &SDF_MIMIC)? {
@@ -488,7 +509,7 @@ impl<'a> Reader<'a> {
             }
         }
         let offset = &offset - &(&multiplier * &reference);
-        self.builder.mimic(name, leader, multiplier, offset);
+        self.builder.mimic(&late.name, leader, multiplier, offset);
         Ok(())
     }
 
@@ -571,21 +592,6 @@ impl<'a> Reader<'a> {
         let turn = &Number::integer(-2) * &Number::pi();
         turn.checked_div(&pitch)
             .map_err(|_| value.fault("a thread needs a pitch that is not zero"))
-    }
-
-    /// Adds the world as a link, placed so that nothing holds the robot in it but the joints that were read.
-    pub(super) fn add_world(&mut self) {
-        let Some(root) = self.tree_root.filter(|_| self.joins_world) else {
-            return;
-        };
-        self.builder.link(WORLD);
-        let name = format!("{root}{IN_GAZEBO}");
-        if self.root_is_held {
-            let held = JointBuilder::tree(&name, JointKind::Fixed, WORLD, root);
-            self.builder.joint(held);
-        } else {
-            self.builder.floating(&name, WORLD, root, Frame::identity());
-        }
     }
 }
 

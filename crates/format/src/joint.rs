@@ -5,10 +5,11 @@ use super::error::Outcome;
 use super::gazebo::ordered;
 use super::names::Named;
 use super::reader::{Dialect, Reader};
+use super::told::AT_ORIGIN;
 use super::unread::{OF_JOINTS, Parts, truth};
 use super::words::{did_you_mean, quoted};
-use kutzbach_math::number::Number;
-use kutzbach_model::mechanism::{Dynamics, Frame, JointBuilder, JointKind, Limit};
+use super::world::WORLD;
+use kutzbach_model::mechanism::{Direction, Dynamics, Frame, JointBuilder, JointKind, Limit};
 
 /// What may stand inside `<joint>`.
 const JOINT: [&str; 13] = [
@@ -77,7 +78,7 @@ impl<'a> Reader<'a> {
             match part.name() {
                 "parent" => parent = Some(self.link_of(part)?),
                 "child" => child = Some((part, self.side(part)?)),
-                "origin" => origin = self.origin(part)?,
+                "origin" => origin = self.joint_origin(part)?,
                 _ => body.push(part),
             }
         }
@@ -104,12 +105,18 @@ impl<'a> Reader<'a> {
         };
         match self.placed_by.get(child) {
             Some(first) => {
-                let message = format!(
+                let mut message = format!(
                     "joint {} closes a loop: link {} is the child of joint {} already",
                     quoted(name),
                     quoted(child),
                     quoted(first)
                 );
+                if !own_frame {
+                    message += &format!(
+                        "; {AT_ORIGIN}, as <child> has no <origin> inside that says where {} is in it",
+                        quoted(name)
+                    );
+                }
                 self.warn(joint.start(), message);
                 self.other_closures = true;
             }
@@ -164,6 +171,7 @@ impl<'a> Reader<'a> {
 
     /// Remembers which links a joint joins.
     pub(super) fn join(&mut self, name: &'a str, sides: [&'a str; 2]) {
+        self.meets_world |= sides.contains(&WORLD);
         self.sides_of.insert(name, sides);
         self.joined.entry(ordered(sides)).or_insert(name);
     }
@@ -227,7 +235,7 @@ impl<'a> Reader<'a> {
             bearing: &OF_JOINTS,
         };
         let frame = match self.parts_of(element, &kinds)?.first() {
-            Some(origin) => self.origin(*origin)?,
+            Some(origin) => self.joint_origin(*origin)?,
             None => Frame::identity(),
         };
         Ok((link, frame))
@@ -281,17 +289,15 @@ impl<'a> Reader<'a> {
             builder = builder.independent(truth(attribute)?);
         }
         let word = joint_type.word;
-        if joint.written_name() == "drake:joint" && kind == JointKind::Universal {
-            builder = builder.axis2(Self::drake_second_axis());
-        }
+        let of_drake = joint.written_name() == "drake:joint" && kind == JointKind::Universal;
+        let mut axis = of_drake.then(Direction::x);
+        let mut axis2 = of_drake.then(Self::drake_second_axis);
         let mut mimic = None;
         let (mut has_lead, mut has_dynamics) = (false, false);
         for &part in body {
             match part.name() {
-                "axis" if joint.written_name() == "drake:joint" && kind == JointKind::Universal => {
-                    self.ignore(part, word);
-                }
-                "axis" if kind.uses_axis() => builder = builder.axis(self.direction(part)?),
+                "axis" if of_drake => self.ignore(part, word),
+                "axis" if kind.uses_axis() => axis = Some(self.direction(part)?),
                 // Exporters of plain URDF write an axis for every joint.
                 "axis" if matches!(kind, JointKind::Fixed | JointKind::Spherical) => {
                     self.ignore(part, word);
@@ -301,9 +307,7 @@ impl<'a> Reader<'a> {
                         || format!("a {word} joint has its direction in <axis2 xyz=\"...\"/>"),
                     )));
                 }
-                "axis2" if kind.uses_second_axis() => {
-                    builder = builder.axis2(self.direction(part)?)
-                }
+                "axis2" if kind.uses_second_axis() => axis2 = Some(self.direction(part)?),
                 "screw" if kind.uses_lead() => {
                     self.leaf(part, &["lead"])?;
                     builder = builder.lead(self.number(part.required("lead")?)?);
@@ -321,7 +325,13 @@ impl<'a> Reader<'a> {
                     return Err(useless(part, word));
                 }
                 "limit" if kind.freedom() == 1 => {
-                    builder = builder.limit(self.read_limit(part, word)?);
+                    let limit = self.read_limit(part, word)?;
+                    let unbounded = limit.lower.is_none() && limit.upper.is_none();
+                    let is_urdf = matches!(word, "revolute" | "prismatic");
+                    if unbounded && !part.has_any(&["lower", "upper"]) && is_urdf {
+                        self.note_no_bounds(part.start(), name);
+                    }
+                    builder = builder.limit(limit);
                 }
                 "limit" => self.ignore(part, word),
                 "dynamics" | "joint_properties" => {
@@ -343,7 +353,9 @@ impl<'a> Reader<'a> {
                 }
                 "mimic" if kind.freedom() == 0 => self.ignore(part, word),
                 _ => {
-                    let read = self.read_mimic(part)?;
+                    let Some(read) = self.read_mimic(part, name)? else {
+                        continue;
+                    };
                     if mimic.as_ref().is_some_and(|earlier| *earlier != read) {
                         return Err(part
                             .fault(format!("joint {} follows in two ways", quoted(name)))
@@ -353,6 +365,10 @@ impl<'a> Reader<'a> {
                 }
             }
         }
+        self.note_axes((joint.start(), name), kind, [axis.as_ref(), axis2.as_ref()])
+            .map_err(|why| joint.fault(format!("joint {}: {why}", quoted(name))))?;
+        builder = axis.into_iter().fold(builder, JointBuilder::axis);
+        builder = axis2.into_iter().fold(builder, JointBuilder::axis2);
         if kind.uses_lead() && !has_lead {
             return Err(joint
                 .fault(format!(
@@ -363,9 +379,8 @@ impl<'a> Reader<'a> {
         }
         self.builder.joint(builder);
         self.kinds.insert(name, kind);
-        if let Some((leader, multiplier, offset)) = mimic {
-            self.followers.insert(name);
-            self.builder.mimic(name, leader, multiplier, offset);
+        if let Some(follows) = mimic {
+            self.follow(name, follows);
         }
         Ok(())
     }
@@ -405,18 +420,6 @@ impl<'a> Reader<'a> {
             damping: self.optional_number(dynamics, "damping")?,
             friction: self.optional_number(dynamics, "friction")?,
         })
-    }
-
-    fn read_mimic(&mut self, mimic: Element<'a>) -> Outcome<(&'a str, Number, Number)> {
-        self.leaf_of(mimic, &["joint", "multiplier", "offset"], true)?;
-        let leader = self.directory.refer(Named::Joint, mimic, "joint")?;
-        let multiplier = self.optional_number(mimic, "multiplier")?;
-        let offset = self.optional_number(mimic, "offset")?;
-        Ok((
-            leader,
-            multiplier.unwrap_or_else(Number::one),
-            offset.unwrap_or_else(Number::zero),
-        ))
     }
 
     /// Passes over a part that says nothing for this type of joint, with a warning.

@@ -39,6 +39,7 @@
 //! ```
 
 mod actuation;
+mod assumed;
 mod beside;
 mod closures;
 mod definitions;
@@ -49,21 +50,28 @@ mod gazebo;
 mod guard;
 mod joint;
 mod link;
+mod loop_joint;
 mod mentions;
+mod mimic;
+mod mujoco;
 mod names;
 mod number_text;
 mod quaternion;
 mod reader;
 mod relax;
+mod restated;
+mod told;
 mod unread;
 mod values;
 mod words;
+mod world;
 mod writer;
 mod xacro;
 mod xml;
 
 pub use error::FormatError;
 pub use mentions::MAY_JOIN;
+pub use told::is_told_first;
 pub use writer::write;
 
 use error::{Fault, located};

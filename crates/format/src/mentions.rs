@@ -42,6 +42,9 @@ impl<'a> Reader<'a> {
         for element in std::mem::take(&mut self.set_aside) {
             let mut open = vec![element];
             while let Some(next) = open.pop() {
+                if self.taken.contains(&next.start()) {
+                    continue;
+                }
                 let name = next.name().to_lowercase();
                 if HARMLESS.iter().any(|part| name.contains(part)) {
                     continue;
@@ -50,7 +53,9 @@ impl<'a> Reader<'a> {
                     open.extend(next.elements());
                     continue;
                 };
-                let said = [a, b].iter().any(|joint| self.followers.contains(joint));
+                let said = [a, b]
+                    .iter()
+                    .any(|joint| self.followers.contains_key(joint));
                 if said || !told.insert((next.written_name(), a, b)) {
                     continue;
                 }

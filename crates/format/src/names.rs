@@ -80,6 +80,22 @@ impl<'a> Directory<'a> {
         Ok(attribute.value)
     }
 
+    /// Gives a link that is referred to and does not exist its name; returns where it is referred to first.
+    pub(super) fn assume_link(&mut self, name: &str) -> Option<usize> {
+        if self.exists(Named::Link, name) {
+            return None;
+        }
+        let named = self.references.iter().map(|(_, attribute)| attribute);
+        let first = named
+            .filter(|attribute| attribute.value == name)
+            .min_by_key(|attribute| attribute.range().start)?;
+        let (value, range) = (first.value, first.range());
+        let start = range.start;
+        self.links.insert(value, self.given.len());
+        self.given.push((Named::Link, value, range));
+        Some(start)
+    }
+
     /// Whether there is a thing of that name so far.
     pub(super) fn has(&self, sort: Named, name: &str) -> bool {
         self.exists(sort, name)
@@ -94,6 +110,12 @@ impl<'a> Directory<'a> {
     pub(super) fn link_names(&self) -> impl Iterator<Item = (&'a str, Range<usize>)> {
         let links = self.given.iter().filter(|(sort, ..)| *sort == Named::Link);
         links.map(|(_, name, range)| (*name, range.clone()))
+    }
+
+    /// The names of joints so far, in file order.
+    pub(super) fn joint_names(&self) -> impl Iterator<Item = (&'a str, Range<usize>)> {
+        let joints = self.given.iter().filter(|(sort, ..)| *sort == Named::Joint);
+        joints.map(|(_, name, range)| (*name, range.clone()))
     }
 
     /// Where the thing of that name is.

@@ -1,10 +1,14 @@
 //! The robot element: definitions first, then every other element in file order, then the checks that need all of them.
 
 use super::actuation::{ACTUATION, Motor};
+use super::assumed::Assumed;
 use super::definitions::Definitions;
 use super::element::{Element, Owner};
 use super::error::{Fault, MOST_FAULTS, Outcome, lines_and_columns};
+use super::loop_joint::SecondPoint;
+use super::mimic::{Follows, joint_names};
 use super::names::{Directory, Named};
+use super::restated::Restated;
 use super::unread::{Parts, Tally, Unread};
 use super::words::{alternatives, cut, did_you_mean};
 use super::{ReadOptions, Reading, Skipped, Warning, relax, xml};
@@ -30,7 +34,7 @@ pub(super) struct Reader<'a> {
     pub(super) directory: Directory<'a>,
     /// Short literals that were read already.
     pub(super) literals: HashMap<&'a str, Number>,
-    root: Element<'a>,
+    pub(super) root: Element<'a>,
     pub(super) root_namespace: Option<&'a str>,
     warnings: Vec<(usize, String)>,
     pub(super) unread: Tally<'a>,
@@ -63,13 +67,33 @@ pub(super) struct Reader<'a> {
     pub(super) in_gazebo: HashMap<String, usize>,
     /// Where the first of them stands.
     pub(super) first_in_gazebo: Option<usize>,
-    /// Joints that follow another one.
-    pub(super) followers: HashSet<&'a str>,
+    /// Joints that follow another one, and how.
+    pub(super) followers: HashMap<&'a str, Follows<'a>>,
+    /// How many of them do so by what stands inside `<gazebo>`.
+    pub(super) followers_in_gazebo: usize,
+    /// Joints of the tree that stand inside `<gazebo>` too.
+    pub(super) restated: Vec<Restated<'a>>,
+    /// The names of all joints of the file.
+    pub(super) joint_names: HashSet<&'a str>,
+    /// Where the elements stand that are read out of what is set aside.
+    pub(super) taken: HashSet<usize>,
+    /// MuJoCo's loops, which are read when all links are known.
+    pub(super) connects: Vec<Element<'a>>,
+    /// What joints leave out.
+    pub(super) assumed: Assumed<'a>,
+    /// Whether links were told that look like the sides of a loop.
+    pub(super) closing_frames_told: bool,
+    /// Points written twice, which must be one.
+    pub(super) second_points: Vec<SecondPoint<'a>>,
     /// Whether loops or couplings stand elsewhere than inside `<gazebo>`.
     pub(super) other_closures: bool,
     /// How many constraints without a name were given one.
     pub(super) unnamed: usize,
-    ground: Option<Range<usize>>,
+    /// Whether a joint names `world`.
+    pub(super) meets_world: bool,
+    /// Whether the file has a world that it does not write.
+    pub(super) implicit_world: bool,
+    pub(super) ground: Option<Range<usize>>,
     scene: Option<Range<usize>>,
     expectation: Option<Range<usize>>,
 }
@@ -116,15 +140,20 @@ pub(super) fn read(
         }
     }
     if faults.is_empty() {
+        reader.find_world();
         faults = reader.read_late_joints();
+        faults.extend(reader.read_connects());
+        faults.extend(reader.read_other_mimics());
     }
     if faults.is_empty() {
         faults = reader.directory.unresolved();
     }
     reader.add_world();
+    reader.float_roots();
     reader.note_tree();
     reader.resolve_motors();
     reader.note_closing_frames();
+    reader.tell_assumed(options.literal);
     reader.note_mentions();
     if options.strict {
         faults.extend(reader.unread.faults(text));
@@ -179,9 +208,19 @@ impl<'a> Reader<'a> {
             joins_world: false,
             in_gazebo: HashMap::new(),
             first_in_gazebo: None,
-            followers: HashSet::new(),
+            followers: HashMap::new(),
+            followers_in_gazebo: 0,
+            restated: Vec::new(),
+            joint_names: joint_names(root).collect(),
+            taken: HashSet::new(),
+            connects: Vec::new(),
+            assumed: Assumed::default(),
+            closing_frames_told: false,
+            second_points: Vec::new(),
             other_closures: false,
             unnamed: 0,
+            meets_world: false,
+            implicit_world: false,
             ground: None,
             scene: None,
             expectation: None,
@@ -283,6 +322,9 @@ impl<'a> Reader<'a> {
                 self.read_expectation(child)
             }
             name if ACTUATION.contains(&name) => {
+                if name == "mujoco" {
+                    self.read_mujoco(child);
+                }
                 self.check_for_joints(child)?;
                 self.read_actuation(child);
                 Ok(())
@@ -431,11 +473,19 @@ impl<'a> Reader<'a> {
     }
 
     fn finish(mut self, text: &str, root: Element<'a>) -> Result<Reading, Vec<Fault>> {
+        let otherwise = self.restated_otherwise();
+        if !otherwise.is_empty() {
+            return Err(otherwise);
+        }
         let builder = std::mem::take(&mut self.builder);
         let mechanism = builder.build().map_err(|error| {
             let message = error.to_string();
             vec![Fault::new(self.place_of(&error.entity, root), message).maybe_help(error.help)]
         })?;
+        let apart = self.points_apart(&mechanism);
+        if !apart.is_empty() {
+            return Err(apart);
+        }
         Ok(Reading {
             mechanism,
             warnings: counted_warnings(text, self.warnings),

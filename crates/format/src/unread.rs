@@ -336,7 +336,7 @@ impl<'a> Reader<'a> {
         self.set_aside.push(element);
         let mut open = vec![element];
         while let Some(next) = open.pop() {
-            if COMPLIANT.contains(&next.name()) {
+            if COMPLIANT.contains(&next.name()) || self.taken.contains(&next.start()) {
                 continue;
             }
             if let Some(body) = held_in_the_world(next) {

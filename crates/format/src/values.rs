@@ -5,7 +5,7 @@ use super::error::{Fault, Outcome};
 use super::number_text;
 use super::quaternion::roll_pitch_yaw;
 use super::reader::{Dialect, Reader};
-use super::words::counted;
+use super::words::{counted, cut};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Direction, Frame};
 use std::ops::Range;
@@ -138,6 +138,15 @@ impl<'a> Reader<'a> {
         self.frame_of(element)
     }
 
+    /// `<origin>` of a joint, which moves with how it is turned.
+    pub(super) fn joint_origin(&mut self, element: Element<'a>) -> Outcome<Frame> {
+        no_other_turn(element)?;
+        if let Some(rpy) = element.attribute("rpy") {
+            self.note_angles(rpy);
+        }
+        self.origin(element)
+    }
+
     /// The attributes `xyz` and `rpy` or `quat_xyzw` of whatever element has them.
     pub(super) fn frame_of(&mut self, element: Element<'a>) -> Outcome<Frame> {
         let mut frame = Frame::identity();
@@ -163,6 +172,11 @@ impl<'a> Reader<'a> {
     /// `<axis xyz/>` or `<axis2 xyz/>`, any length but zero.
     pub(super) fn direction(&mut self, element: Element<'a>) -> Outcome<Direction> {
         self.leaf_of(element, &["xyz"], true)?;
+        self.direction_of(element)
+    }
+
+    /// The attribute `xyz` of an axis.
+    pub(super) fn direction_of(&mut self, element: Element<'a>) -> Outcome<Direction> {
         let xyz = element.required("xyz")?;
         let direction = Direction(self.numbers(xyz)?);
         if direction.is_zero() {
@@ -172,4 +186,17 @@ impl<'a> Reader<'a> {
         }
         Ok(direction)
     }
+}
+
+/// A fault where the frame of a joint is turned in words that are not read.
+pub(super) fn no_other_turn(element: Element<'_>) -> Outcome<()> {
+    const TURNS: [&str; 6] = ["wxyz", "xyzw", "orientation", "rotation", "euler", "ypr"];
+    for (name, range) in element.other_attributes(&["quat_xyzw"]) {
+        if name.starts_with("quat") || TURNS.contains(&name) {
+            let message = format!("`{}` turns the frame, and how is not known", cut(name));
+            return Err(Fault::new(range, message)
+                .help("rpy=\"roll pitch yaw\", or quat_xyzw=\"x y z w\" with the real part last"));
+        }
+    }
+    Ok(())
 }

@@ -27,6 +27,25 @@ pub(super) fn alternatives(words: &[&str]) -> String {
     }
 }
 
+/// `a`, `a` and `b`, or `a`, `b` and 12 more, of one name or more.
+pub(super) fn listed(names: &[&str]) -> String {
+    const MOST: usize = 4;
+    const SHOWN: usize = 2;
+    let shown = if names.len() > MOST {
+        SHOWN
+    } else {
+        names.len()
+    };
+    let mut parts: Vec<String> = names.iter().take(shown).map(|name| quoted(name)).collect();
+    if names.len() > shown {
+        parts.push(format!("{} more", names.len() - shown));
+    }
+    match parts.as_slice() {
+        [first @ .., last] if !first.is_empty() => format!("{} and {last}", first.join(", ")),
+        _ => parts.concat(),
+    }
+}
+
 /// `1 number`, `3 numbers`.
 pub(super) fn counted(count: usize, what: &str) -> String {
     let mut text = format!("{count} {what}");
@@ -94,6 +113,9 @@ mod tests {
     fn lists_read_like_sentences() {
         assert_eq!(alternatives(&["a"]), "a");
         assert_eq!(alternatives(&["a", "b", "c"]), "a, b or c");
+        assert_eq!(listed(&["a"]), "`a`");
+        assert_eq!(listed(&["a", "b", "c", "d"]), "`a`, `b`, `c` and `d`");
+        assert_eq!(listed(&["a", "b", "c", "d", "e"]), "`a`, `b` and 3 more");
         assert_eq!(counted(1, "number"), "1 number");
         assert_eq!(counted(0, "number"), "0 numbers");
     }

@@ -354,7 +354,7 @@ impl Chosen {
     }
 }
 
-/// The freedoms that could be inputs, best first, but for those taken already.
+/// The freedoms that could be inputs, best first, but for those taken already and those of joints that the file calls dependent.
 fn candidates(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
@@ -373,6 +373,9 @@ fn candidates(
             .limit
             .as_ref()
             .is_some_and(|limit| limit.lower.is_some() && limit.upper.is_some());
+        if joint.independent == Some(false) {
+            continue;
+        }
         for variable in 0..joint.freedom() {
             let freedom = Freedom {
                 joint: index,

@@ -5,7 +5,7 @@ use super::findings::LOCKED_TOGETHER;
 use super::schema::Report;
 use super::text::words::{counted, figure, names};
 use kutzbach_closure::{Arithmetic, Geometry};
-use kutzbach_format::MAY_JOIN;
+use kutzbach_format::is_told_first;
 use kutzbach_mobility::{
     Analysis, LimitFact, NearSingular, PoseKind, dead_centres, limit_facts, near_singular,
     pose_of_branch,
@@ -18,14 +18,15 @@ const DEAD: &str = "dead centre: ";
 const SINGULAR: &str = "singular pose: ";
 const NEARLY: &str = "nearly singular: the smallest singular value kept";
 
-/// Whether a warning belongs to the first lines: what is wrong with the pose, or with what holds there, or may hold.
+/// Whether a warning belongs to the first lines: what is wrong with the pose, or with what holds there, or may hold, and what the
+/// file left to be guessed.
 pub(super) fn is_about_the_pose(warning: &str) -> bool {
     warning.starts_with(OUTSIDE)
         || warning.starts_with(DEAD)
         || warning.starts_with(SINGULAR)
         || warning.contains(NEARLY)
         || warning.contains(LOCKED_TOGETHER)
-        || warning.contains(MAY_JOIN)
+        || is_told_first(warning)
 }
 
 /// A middle of limits farther than this (rad, m) from the pose drawn is another pose.

@@ -1,0 +1,180 @@
+//! What a file leaves out or writes so short that it may not be meant: told, since the answer hangs on it.
+//!
+//! - A joint without `<axis>` moves along or about x, as URDF says; a direction `axis2` that is left out is x too.
+//! - `1.57` in `rpy` is 1.57 rad, two decimals being what a designer writes; where loops have to close, π/2 may have been meant. Told of
+//!   two and three decimals, which no reading of constants recognises, and only where the file closes a loop.
+//! - A `<limit>` without bounds is 0…0 in URDF, by which the joint could not move.
+//! - A joint that is named as if it closed a loop, in a file that closes none: some exporters leave the loop to other tools.
+
+use super::element::Attribute;
+use super::reader::Reader;
+use super::told::{IS_TREE, LOOKS_LIKE, TAKEN_AS_X};
+use super::words::listed;
+use kutzbach_math::number::Number;
+use kutzbach_model::mechanism::{Direction, JointKind};
+use std::f64::consts::FRAC_PI_4;
+
+/// What joints are without, and which ones.
+#[derive(Default)]
+pub(super) struct Assumed<'a> {
+    no_axis: Vec<(usize, &'a str)>,
+    no_axis2: Vec<(usize, &'a str)>,
+    no_bounds: Vec<(usize, &'a str)>,
+    /// Angles that look like others: where they stand, what is written, and what it looks like.
+    angles: Vec<(usize, String, &'static str)>,
+}
+
+/// Multiples of a quarter of π by number.
+const QUARTERS: [&str; 9] = [
+    "0", "pi/4", "pi/2", "3*pi/4", "pi", "5*pi/4", "3*pi/2", "7*pi/4", "2*pi",
+];
+
+impl<'a> Reader<'a> {
+    /// Notes which of its axes a joint leaves out, and refuses two axes of a universal joint that are one.
+    pub(super) fn note_axes(
+        &mut self,
+        (at, name): (usize, &'a str),
+        kind: JointKind,
+        axes: [Option<&Direction>; 2],
+    ) -> Result<(), &'static str> {
+        let [axis, axis2] = axes;
+        if kind.uses_axis() && axis.is_none() {
+            self.assumed.no_axis.push((at, name));
+        }
+        if kind.uses_second_axis() && axis2.is_none() {
+            self.assumed.no_axis2.push((at, name));
+        }
+        let x = Direction::x();
+        let parallel =
+            kind == JointKind::Universal && are_parallel(axis.unwrap_or(&x), axis2.unwrap_or(&x));
+        match (parallel, axis2) {
+            (false, _) => Ok(()),
+            (true, Some(_)) => Err("its two axes are parallel, so that it turns about one only"),
+            (true, None) => Err("without <axis2> its two axes are parallel, both x"),
+        }
+    }
+
+    /// Notes a joint whose `<limit>` has no bounds.
+    pub(super) fn note_no_bounds(&mut self, at: usize, name: &'a str) {
+        self.assumed.no_bounds.push((at, name));
+    }
+
+    /// Notes what in the attribute `rpy` of a joint looks like a rounded angle.
+    pub(super) fn note_angles(&mut self, rpy: Attribute<'a>) {
+        for token in rpy.value.split_ascii_whitespace() {
+            if let Some((written, meant)) = looks_like(token) {
+                let angle = (rpy.range().start, written.to_owned(), meant);
+                self.assumed.angles.push(angle);
+            }
+        }
+    }
+
+    /// Tells what was noted; `literal` says that numbers are meant as they are written.
+    pub(super) fn tell_assumed(&mut self, literal: bool) {
+        let assumed = std::mem::take(&mut self.assumed);
+        let closes = self.other_closures || !self.in_gazebo.is_empty();
+        self.tell_of(&assumed.no_axis, |names, has| {
+            format!("{names} {has} no <axis>: {TAKEN_AS_X}, as URDF says")
+        });
+        self.tell_of(&assumed.no_axis2, |names, has| {
+            format!("{names} {has} no <axis2>: {TAKEN_AS_X}")
+        });
+        self.tell_of(&assumed.no_bounds, |names, has| {
+            format!("{names} {has} a <limit> without `lower` and `upper`, which is 0…0 in URDF: by that no joint can move, here each counts as free")
+        });
+        for (at, written, meant) in assumed.angles.into_iter().filter(|_| closes && !literal) {
+            let message = format!(
+                "`{written}` {LOOKS_LIKE} ${{{meant}}} and is read as {written} rad; write what is meant, or more digits"
+            );
+            self.warn(at, message);
+        }
+        if !closes && !self.closing_frames_told {
+            let announced: Vec<(usize, &'a str)> = self
+                .directory
+                .joint_names()
+                .filter(|(name, _)| announces_a_loop(name))
+                .map(|(name, place)| (place.start, name))
+                .collect();
+            self.tell_of(&announced, |names, has| {
+                format!("{names} {has} the name of what closes a loop, and the file states none: {IS_TREE}")
+            });
+        }
+    }
+
+    fn tell_of(&mut self, joints: &[(usize, &'a str)], told: impl Fn(&str, &str) -> String) {
+        let Some(&(at, _)) = joints.first() else {
+            return;
+        };
+        let names: Vec<&str> = joints.iter().map(|(_, name)| *name).collect();
+        let has = if names.len() == 1 { "has" } else { "have" };
+        self.warn(at, told(&listed(&names), has));
+    }
+}
+
+/// The literal without sign and the multiple of a quarter of π that it is a rounding of, to two or three decimals.
+fn looks_like(token: &str) -> Option<(&str, &'static str)> {
+    let size = token.trim_start_matches(['-', '+']);
+    let bare = size.trim_end_matches('0');
+    let (_, decimals) = bare.split_once('.')?;
+    let half_a_unit = match decimals.len() {
+        2 => 0.5e-2,
+        3 => 0.5e-3,
+        _ => return None,
+    };
+    let value: f64 = bare.parse().ok()?;
+    let quarters = (value / FRAC_PI_4).round();
+    let near = (value - quarters * FRAC_PI_4).abs() <= half_a_unit;
+    let meant = QUARTERS
+        .get(quarters as usize)
+        .filter(|_| quarters >= 1.0)?;
+    near.then_some((bare, *meant))
+}
+
+fn announces_a_loop(name: &str) -> bool {
+    let name = name.to_lowercase();
+    ["closing_", "loop_", "closed_loop", "closedloop"]
+        .iter()
+        .any(|start| name.starts_with(start))
+        || name.ends_with("_closure")
+}
+
+/// Whether two directions are parallel or opposed, exactly.
+fn are_parallel(Direction(a): &Direction, Direction(b): &Direction) -> bool {
+    let minor = |i: usize, j: usize| -> Number { &(&a[i] * &b[j]) - &(&a[j] * &b[i]) };
+    [(0, 1), (1, 2), (2, 0)]
+        .into_iter()
+        .all(|(i, j)| minor(i, j).is_zero())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn roundings_of_quarter_turns_are_recognised() {
+        for (token, meant) in [
+            ("1.57", "pi/2"),
+            ("-1.57", "pi/2"),
+            ("1.570000", "pi/2"),
+            ("1.571", "pi/2"),
+            ("3.14", "pi"),
+            ("3.142", "pi"),
+            ("0.79", "pi/4"),
+            (".785", "pi/4"),
+            ("2.36", "3*pi/4"),
+            ("6.28", "2*pi"),
+        ] {
+            assert_eq!(
+                looks_like(token).map(|found| found.1),
+                Some(meant),
+                "{token}"
+            );
+        }
+        for token in [
+            "0", "0.00", "1.5708", "1.56", "1.572", "1.6", "3.15", "0.78", "12.57", "${pi/2}",
+            "x.57", "1.5",
+        ] {
+            assert_eq!(looks_like(token), None, "{token}");
+        }
+    }
+}
