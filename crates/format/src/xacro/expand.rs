@@ -189,7 +189,12 @@ impl<'o> Run<'o> {
         making: &mut Making,
     ) -> Outcome<()> {
         for node in nodes {
-            self.spend(1)?;
+            let place = match node {
+                Node::Element(element) => element.place,
+                Node::Text(_, place) => *place,
+            };
+            self.spend(1)
+                .map_err(|trouble| trouble.at(place, self.call))?;
             match node {
                 Node::Element(element) => {
                     let call = self.call;
@@ -341,9 +346,12 @@ impl<'o> Run<'o> {
         names: &Names,
         making: &mut Making,
     ) -> Outcome<()> {
-        let mut apart = Making::inside(making);
+        let mut apart = Making {
+            nodes: std::mem::take(&mut making.nodes),
+            ..Making::inside(making)
+        };
         self.expand_all(nodes, names, &mut apart)?;
-        making.nodes.append(&mut apart.nodes);
+        making.nodes = apart.nodes;
         Ok(())
     }
 
@@ -385,6 +393,7 @@ impl<'o> Run<'o> {
         making: &mut Making,
     ) -> Outcome<()> {
         let name = self.required(element, "name")?;
+        self.spend(name.value.as_str().len() / 64 + names.symbols.level())?;
         let block = |sort: &str| {
             let found = names
                 .symbols

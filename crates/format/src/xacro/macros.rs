@@ -174,7 +174,7 @@ impl Run<'_> {
         names: &Names,
         making: &mut Making,
     ) -> Outcome<()> {
-        self.spend(10)?;
+        self.spend(10 + (1 + name.len() / 64) * (1 + names.macros.level()))?;
         let Some((called, seen)) = self.find_macro(name, names) else {
             let known = names.macros.known();
             return Err(
@@ -187,6 +187,8 @@ impl Run<'_> {
             macros: Table::inside(&seen.macros),
             symbols: Table::inside(&seen.symbols),
         };
+        let letters: usize = called.parameters.iter().map(|own| own.name.len()).sum();
+        self.spend(called.parameters.len() + letters / 64)?;
         let mut open: Vec<&Parameter> = called.parameters.iter().collect();
         for attribute in &element.attributes {
             self.pass_attribute(attribute, &mut open, names, &inner, name, &called)?;

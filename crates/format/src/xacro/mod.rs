@@ -16,6 +16,7 @@
 mod arguments;
 mod arithmetic;
 mod budget;
+mod comparison;
 mod detect;
 mod element;
 mod evaluate;
@@ -24,6 +25,7 @@ mod files;
 mod functions;
 mod glob;
 mod include;
+mod keyed;
 mod macros;
 mod map;
 mod methods;

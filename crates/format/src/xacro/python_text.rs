@@ -1,7 +1,9 @@
 //! Numbers and texts as Python prints them, and Python's two ways of formatting.
 
-use super::arithmetic::floor_to_int;
-use super::value::{Kind, Value};
+use super::arithmetic::{LONGEST_TEXT, floor_to_int};
+use super::budget::Budget;
+use super::value::{Kind, Num, Value};
+use super::{Outcome, Trouble};
 
 /// Widest field and longest fraction of a format.
 const WIDEST: usize = 4096;
@@ -117,18 +119,19 @@ impl Field {
     }
 
     /// The text of a value in this field.
-    pub(super) fn apply(&self, value: &Value) -> Option<String> {
+    pub(super) fn apply(&self, value: &Value, budget: &mut Budget) -> Outcome<Option<String>> {
+        if self.sort == Some('s') || self.sort.is_none() && !matches!(value, Value::Number(_)) {
+            let text = budget.text(value)?;
+            let most = self.precision.unwrap_or(usize::MAX);
+            let cut: String = text.as_str().chars().take(most).collect();
+            return Ok(Some(self.padded(&cut, false)));
+        }
+        Ok(self.of_number(value))
+    }
+
+    fn of_number(&self, value: &Value) -> Option<String> {
         let number = value.number();
         let (body, is_number) = match (self.sort, &number) {
-            (None | Some('s'), _) if !matches!(value, Value::Number(_)) => {
-                let text = value.to_text(WIDEST * 16)?;
-                let text: String = match self.precision {
-                    Some(most) => text.as_str().chars().take(most).collect(),
-                    None => text.as_str().to_owned(),
-                };
-                (text, false)
-            }
-            (Some('s'), _) => (value.to_text(WIDEST)?.as_str().to_owned(), false),
             (Some('d' | 'x' | 'X' | 'o' | 'b'), Some(number)) => {
                 let Kind::Int(value) = number.kind else {
                     return None;
@@ -269,7 +272,11 @@ fn general(value: f64, precision: usize) -> String {
 }
 
 /// `template % values`. `None` where the template and the values do not fit.
-pub(super) fn percent(template: &str, values: &Value) -> Option<String> {
+pub(super) fn percent(
+    template: &str,
+    values: &Value,
+    budget: &mut Budget,
+) -> Outcome<Option<String>> {
     let listed = match values {
         Value::Tuple(items) => items.to_vec(),
         other => vec![other.clone()],
@@ -280,8 +287,10 @@ pub(super) fn percent(template: &str, values: &Value) -> Option<String> {
     while let Some(at) = rest.find('%') {
         out.push_str(&rest[..at]);
         rest = &rest[at + 1..];
-        let end = rest.find(|c: char| c.is_ascii_alphabetic() || c == '%')?;
-        let sort = rest[end..].chars().next()?;
+        let Some(end) = rest.find(|c: char| c.is_ascii_alphabetic() || c == '%') else {
+            return Ok(None);
+        };
+        let sort = char::from(rest.as_bytes()[end]);
         let flags = &rest[..end];
         rest = &rest[end + 1..];
         if sort == '%' {
@@ -294,33 +303,44 @@ pub(super) fn percent(template: &str, values: &Value) -> Option<String> {
             field_align = '<';
             spec = stripped.to_owned();
         }
-        let mut field = Field::read(&spec)?;
+        let (Some(mut field), Some(value)) = (Field::read(&spec), values.next()) else {
+            return Ok(None);
+        };
         if !field.zero || field_align == '<' {
             field.align = Some(field_align);
         }
-        let value = values.next()?;
         let value = match sort {
             'd' | 'i' | 'u' => {
                 field.sort = Some('d');
-                let number = value.number()?;
-                match number.kind {
-                    Kind::Int(_) => value.clone(),
-                    Kind::Float(double) => Value::Number(floor_to_int(double.trunc())?),
+                match value.number().and_then(whole) {
+                    Some(whole) => Value::Number(whole),
+                    None => return Ok(None),
                 }
             }
-            'r' => Value::Text(value.repr(WIDEST)?),
+            'r' => Value::Text(budget.repr(value)?),
             _ => {
                 field.sort = Some(sort);
                 value.clone()
             }
         };
-        out.push_str(&field.apply(&value)?);
-        if out.len() > 1 << 20 {
-            return None;
+        match field.apply(&value, budget)? {
+            Some(text) => out.push_str(&text),
+            None => return Ok(None),
+        }
+        if out.len() > LONGEST_TEXT {
+            return Err(Trouble::new("the text is too long"));
         }
     }
     out.push_str(rest);
-    values.next().is_none().then_some(out)
+    Ok(values.next().is_none().then_some(out))
+}
+
+/// The integer that `%d` makes of a number.
+fn whole(number: Num) -> Option<Num> {
+    match number.kind {
+        Kind::Int(_) => Some(number),
+        Kind::Float(double) => floor_to_int(double.trunc()),
+    }
 }
 
 /// `template.format(values...)`, without nested fields. `None` where the template and the values do not fit.
@@ -328,7 +348,8 @@ pub(super) fn braces(
     template: &str,
     values: &[Value],
     named: &[(std::rc::Rc<str>, Value)],
-) -> Option<String> {
+    budget: &mut Budget,
+) -> Outcome<Option<String>> {
     let mut out = String::new();
     let mut next = 0;
     let mut rest = template;
@@ -340,32 +361,42 @@ pub(super) fn braces(
             rest = &rest[at + 2..];
             continue;
         }
-        rest = rest[at..].strip_prefix('{')?;
-        let end = rest.find('}')?;
-        let (name, spec) = rest[..end].split_once(':').unwrap_or((&rest[..end], ""));
-        rest = &rest[end + 1..];
+        let inside = rest[at..].strip_prefix('{');
+        let Some((inside, after)) = inside.and_then(|inside| inside.split_once('}')) else {
+            return Ok(None);
+        };
+        rest = after;
+        let (name, spec) = inside.split_once(':').unwrap_or((inside, ""));
         let value = if name.is_empty() {
             next += 1;
-            values.get(next - 1)?
+            values.get(next - 1)
         } else if let Ok(index) = name.parse::<usize>() {
-            values.get(index)?
+            values.get(index)
         } else {
-            &named.iter().find(|(own, _)| &**own == name)?.1
+            named
+                .iter()
+                .find(|(own, _)| &**own == name)
+                .map(|(_, value)| value)
         };
-        out.push_str(&Field::read(spec)?.apply(value)?);
-        if out.len() > 1 << 20 {
-            return None;
+        let (Some(field), Some(value)) = (Field::read(spec), value) else {
+            return Ok(None);
+        };
+        match field.apply(value, budget)? {
+            Some(text) => out.push_str(&text),
+            None => return Ok(None),
+        }
+        if out.len() > LONGEST_TEXT {
+            return Err(Trouble::new("the text is too long"));
         }
     }
     out.push_str(rest);
-    Some(out)
+    Ok(Some(out))
 }
 
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::xacro::value::Num;
 
     #[test]
     fn doubles_print_as_python_prints_them() {
@@ -386,6 +417,7 @@ mod tests {
 
     #[test]
     fn fields_format_as_in_python() {
+        let budget = &mut Budget::default();
         let float = Value::Number(Num::float(-2.5));
         let int = Value::Number(Num::int(7));
         for (spec, value, text) in [
@@ -401,7 +433,11 @@ mod tests {
             (".1e", &float, "-2.5e+00"),
         ] {
             assert_eq!(
-                Field::read(spec).unwrap().apply(value).unwrap(),
+                Field::read(spec)
+                    .unwrap()
+                    .apply(value, budget)
+                    .unwrap()
+                    .unwrap(),
                 text,
                 "{spec}"
             );
@@ -410,21 +446,28 @@ mod tests {
         assert!(Field::read("d!").is_none());
     }
 
+    fn filled(template: &str, values: &Value) -> Option<String> {
+        percent(template, values, &mut Budget::default()).unwrap()
+    }
+
     #[test]
     fn percent_and_braces_fill_templates() {
+        let budget = &mut Budget::default();
         let pair = Value::Tuple([Value::text("a"), Value::int(3)].into());
-        assert_eq!(percent("%s_%02d%%", &pair).unwrap(), "a_03%");
+        assert_eq!(filled("%s_%02d%%", &pair).unwrap(), "a_03%");
         assert_eq!(
-            percent("%.2f", &Value::Number(Num::float(0.5))).unwrap(),
+            filled("%.2f", &Value::Number(Num::float(0.5))).unwrap(),
             "0.50"
         );
-        assert_eq!(percent("%-3s|", &Value::text("a")).unwrap(), "a  |");
-        assert_eq!(percent("%r", &Value::text("a")).unwrap(), "'a'");
-        assert!(percent("%s%s", &Value::text("a")).is_none());
+        assert_eq!(filled("%-3s|", &Value::text("a")).unwrap(), "a  |");
+        assert_eq!(filled("%r", &Value::text("a")).unwrap(), "'a'");
+        assert!(filled("%s%s", &Value::text("a")).is_none());
         assert_eq!(
-            braces("{{{}}}{1}", &[Value::int(1), Value::int(2)], &[]).unwrap(),
+            braces("{{{}}}{1}", &[Value::int(1), Value::int(2)], &[], budget)
+                .unwrap()
+                .unwrap(),
             "{1}2"
         );
-        assert!(braces("{x}", &[], &[]).is_none());
+        assert!(braces("{x}", &[], &[], budget).unwrap().is_none());
     }
 }

@@ -1,11 +1,13 @@
 //! YAML files as values, read as xacro's YAML reader reads them: version 1.1 of the language, and the tags for units.
 
-use super::arithmetic::binary;
+use super::arithmetic::numbers;
+use super::budget::Budget;
+use super::keyed::Keyed;
 use super::scope::Table;
 use super::syntax::{Binary, parse};
 use super::text::Text;
-use super::value::{Kind, Num, Value, dictionary};
-use super::{Outcome, Run, Trouble, files};
+use super::value::{Kind, Num, Value};
+use super::{Outcome, Run, Trouble};
 use kutzbach_math::number::Number;
 use saphyr_parser::{Event, Parser, ScalarStyle, Tag};
 use std::collections::HashMap;
@@ -26,7 +28,7 @@ impl Run<'_> {
     /// `xacro.load_yaml('file')`.
     pub(super) fn load_yaml(&mut self, written: &str) -> Outcome<Value> {
         let path = self.resolved(written)?;
-        let text = files::read_text(&path)?;
+        let text = self.paid_file(&path)?;
         self.spend(text.len() / 8)?;
         self.yaml(&text).map_err(|trouble| {
             let message = format!("in `{}`: {}", path.display(), trouble.message);
@@ -59,7 +61,7 @@ impl Run<'_> {
                     continue;
                 }
                 Event::SequenceEnd | Event::MappingEnd => match open.pop() {
-                    Some(done) => (done.anchor, done.finish()),
+                    Some(done) => (done.anchor, done.finish(&mut self.budget)?),
                     None => continue,
                 },
                 Event::Scalar(text, style, anchor, tag) => {
@@ -105,12 +107,12 @@ impl Run<'_> {
                     value.sort()
                 )));
             };
-            let product = binary(
+            return Ok(Value::Number(numbers(
                 Binary::Multiply,
-                &Value::Number(number),
-                &Value::Number(unit),
-            )?;
-            return Ok(product);
+                &number,
+                &unit,
+                &mut self.budget,
+            )?));
         }
         let core = tag
             .filter(|tag| tag.is_yaml_core_schema())
@@ -123,29 +125,35 @@ impl Run<'_> {
 }
 
 impl Open {
-    fn finish(self) -> Value {
+    fn finish(self, budget: &mut Budget) -> Outcome<Value> {
         if self.is_list {
-            return Value::List(self.items.into());
+            return Ok(Value::List(self.items.into()));
         }
         let mut merged = Vec::new();
         let mut own = Vec::new();
+        let mut merge = |value: &Value, budget: &mut Budget| -> Outcome<()> {
+            budget.spend_on(value)?;
+            if let Value::Dict(more) = value {
+                merged.extend(more.iter().cloned());
+            }
+            Ok(())
+        };
         let mut items = self.items.into_iter();
         while let (Some(key), Some(value)) = (items.next(), items.next()) {
             let is_merge = matches!(&key, Value::Text(key) if key.as_str() == "<<");
             match (is_merge, &value) {
-                (true, Value::Dict(more)) => merged.extend(more.iter().cloned()),
+                (true, Value::Dict(_)) => merge(&value, budget)?,
                 (true, Value::List(several)) => {
                     // Of several, the first has the last word.
                     for one in several.iter().rev() {
-                        if let Value::Dict(more) = one {
-                            merged.extend(more.iter().cloned());
-                        }
+                        merge(one, budget)?;
                     }
                 }
                 _ => own.push((key, value)),
             }
         }
-        dictionary(merged.into_iter().chain(own))
+        let all = merged.into_iter().chain(own);
+        Ok(Value::Dict(Keyed::collect(all, budget)?))
     }
 }
 
