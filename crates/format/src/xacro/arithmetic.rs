@@ -93,7 +93,7 @@ pub(super) fn binary(
             None => mismatched(),
         },
         (Binary::Remainder, Value::Text(template), _) => {
-            match super::python_text::percent(template.as_str(), b, budget)? {
+            match super::percent::percent(template.as_str(), b, budget)? {
                 Some(text) => Ok(Value::text(&text)),
                 None => Err(Trouble::new(
                     "the values after `%` do not fit the format before it",
@@ -219,28 +219,37 @@ fn kind_of(operator: Binary, a: &Num, b: &Num) -> Said<Kind> {
         return result.map(Kind::Int).ok_or_else(|| OVERFLOW.to_owned());
     }
     let (x, y) = (a.double(), b.double());
-    let floor_mod = || {
-        let r = x % y;
-        if r != 0.0 && (r < 0.0) != (y < 0.0) {
-            r + y
-        } else {
-            r
-        }
-    };
     Ok(Kind::Float(match operator {
         Binary::Add => x + y,
         Binary::Subtract => x - y,
         Binary::Multiply => x * y,
         Binary::Divide | Binary::FloorDivide | Binary::Remainder if y == 0.0 => return zero(),
         Binary::Divide => x / y,
-        Binary::FloorDivide => ((x - floor_mod()) / y).round(),
-        Binary::Remainder => floor_mod(),
+        Binary::FloorDivide => floor_and_rest(x, y).0,
+        Binary::Remainder => floor_and_rest(x, y).1,
         Binary::Power if x == 0.0 && y < 0.0 => return zero(),
         Binary::Power if x < 0.0 && y.fract() != 0.0 => {
             return Err("the power is not a real number".to_owned());
         }
         Binary::Power => x.powf(y),
     }))
+}
+
+/// `x // y` and `x % y`: the rest has the sign of the divisor, and a quotient of zero that of the exact one.
+fn floor_and_rest(x: f64, y: f64) -> (f64, f64) {
+    let mut rest = x % y;
+    let mut quotient = (x - rest) / y;
+    if rest == 0.0 {
+        rest = 0.0_f64.copysign(y);
+    } else if (rest < 0.0) != (y < 0.0) {
+        rest += y;
+        quotient -= 1.0;
+    }
+    let floor = match quotient {
+        0.0 => 0.0_f64.copysign(x / y),
+        quotient => quotient.round(),
+    };
+    (floor, rest)
 }
 
 fn is_unit(number: &Number) -> Option<bool> {
@@ -281,6 +290,12 @@ fn exact_of(operator: Binary, a: &Num, b: &Num) -> Option<Number> {
             Kind::Float(_) => x.half_power(y).ok(),
         },
     }
+}
+
+/// `+value`: a number, of a truth value as well.
+pub(super) fn positive(value: &Value) -> Said<Value> {
+    let number = value.number().map(Value::Number);
+    number.ok_or_else(|| format!("`+` needs a number, found {}", value.sort()))
 }
 
 pub(super) fn negated(value: &Value) -> Said<Value> {
@@ -326,6 +341,11 @@ mod tests {
             (Binary::Remainder, "7", "-2", "-1"),
             (Binary::FloorDivide, "-7.5", "2", "-4.0"),
             (Binary::Remainder, "-7.5", "2", "0.5"),
+            (Binary::FloorDivide, "-0.0", "2", "-0.0"),
+            (Binary::FloorDivide, "0.0", "-2.5", "-0.0"),
+            (Binary::FloorDivide, "0.5", "-2.5", "-1.0"),
+            (Binary::Remainder, "5.0", "-2.5", "-0.0"),
+            (Binary::Remainder, "-5.0", "2.5", "0.0"),
             (Binary::Power, "2", "-1", "0.5"),
             (Binary::Power, "2", "10", "1024"),
             (Binary::Multiply, "true", "3", "3"),

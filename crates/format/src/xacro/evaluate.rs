@@ -1,6 +1,6 @@
 //! Expressions to values.
 
-use super::arithmetic::{LONGEST_LIST, binary, negated};
+use super::arithmetic::{LONGEST_LIST, binary, negated, positive};
 use super::comparison::compare;
 use super::functions::{builtin, iterated};
 use super::keyed::Keyed;
@@ -34,6 +34,7 @@ impl Run<'_> {
                 self.dictionary(all)
             }
             Expr::Negate(operand) => Ok(negated(&self.evaluate(operand, names)?)?),
+            Expr::Plus(operand) => Ok(positive(&self.evaluate(operand, names)?)?),
             Expr::Not(operand) => Ok(Value::Bool(!self.evaluate(operand, names)?.is_true())),
             Expr::Binary(operator, a, b) => {
                 let a = self.evaluate(a, names)?;

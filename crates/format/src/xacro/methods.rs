@@ -3,9 +3,9 @@
 use super::arithmetic::{LONGEST_LIST, LONGEST_TEXT};
 use super::budget::Budget;
 use super::comparison::{equals, position};
+use super::field::braces;
 use super::functions::iterated;
 use super::keyed::Keyed;
-use super::python_text::braces;
 use super::text::{Joined, Text};
 use super::value::Value;
 use super::{Outcome, Trouble};

@@ -21,6 +21,7 @@ mod detect;
 mod element;
 mod evaluate;
 mod expand;
+mod field;
 mod files;
 mod functions;
 mod glob;
@@ -31,6 +32,7 @@ mod map;
 mod methods;
 mod output;
 mod packages;
+mod percent;
 mod property;
 mod python_text;
 mod scope;
@@ -43,6 +45,7 @@ mod text;
 mod token;
 mod value;
 mod yaml;
+mod yaml_scalar;
 
 pub(super) use output::{Expanded, number_named};
 

@@ -144,6 +144,11 @@ fn expressions_print_as_in_python() {
         ("max([x * x for x in range(4) if x % 2 == 0])", "4"),
         ("dict(a=1)['a'] if 'a' in ['a'] else 2", "1"),
         ("not (True and 0)", "True"),
+        (
+            "'%.3s %#x %G' % (3.0708, 30, 0.0000076)",
+            "3.0 0x1e 7.6E-06",
+        ),
+        ("[+True, -True, +0.5, -0.0 // 2]", "[1, -1, 0.5, -0.0]"),
         ("round(2.5) + len('abc')", "5"),
         ("math.pi", "3.141592653589793"),
         ("'x' 'y' + str(1.0)", "xy1.0"),

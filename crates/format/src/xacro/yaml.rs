@@ -5,9 +5,10 @@ use super::budget::Budget;
 use super::keyed::Keyed;
 use super::scope::Table;
 use super::syntax::{Binary, parse};
-use super::text::Text;
 use super::value::{Kind, Num, Value};
+use super::yaml_scalar::{plain, tagged};
 use super::{Outcome, Run, Trouble};
+use crate::words::{cut, quoted};
 use kutzbach_math::number::Number;
 use saphyr_parser::{Event, Parser, ScalarStyle, Tag};
 use std::collections::HashMap;
@@ -114,13 +115,15 @@ impl Run<'_> {
                 &mut self.budget,
             )?));
         }
-        let core = tag
-            .filter(|tag| tag.is_yaml_core_schema())
-            .map(|tag| tag.suffix.as_str());
-        if core == Some("str") || style != ScalarStyle::Plain {
-            return Ok(Value::text(text));
+        let core = tag.filter(|tag| tag.is_yaml_core_schema());
+        match core {
+            Some(tag) => tagged(text, &tag.suffix).ok_or_else(|| {
+                let message = format!("{} is no `!!{}`", quoted(text), cut(&tag.suffix));
+                Trouble::new(message)
+            }),
+            None if style == ScalarStyle::Plain => Ok(plain(text)),
+            None => Ok(Value::text(text)),
         }
-        Ok(plain_scalar(text))
     }
 }
 
@@ -178,67 +181,6 @@ fn unit(tag: &str) -> Option<Num> {
     }
 }
 
-/// A word without quotes. In YAML 1.1 a decimal needs a point and an exponent its sign; else it is text.
-fn plain_scalar(text: &str) -> Value {
-    match text {
-        "" | "~" | "null" | "Null" | "NULL" => return Value::None,
-        "true" | "True" | "TRUE" | "yes" | "Yes" | "YES" | "on" | "On" | "ON" => {
-            return Value::Bool(true);
-        }
-        "false" | "False" | "FALSE" | "no" | "No" | "NO" | "off" | "Off" | "OFF" => {
-            return Value::Bool(false);
-        }
-        ".inf" | ".Inf" | ".INF" | "+.inf" => return Value::Number(Num::float(f64::INFINITY)),
-        "-.inf" | "-.Inf" | "-.INF" => return Value::Number(Num::float(f64::NEG_INFINITY)),
-        ".nan" | ".NaN" | ".NAN" => return Value::Number(Num::float(f64::NAN)),
-        _ => {}
-    }
-    let plain = text.replace('_', "");
-    let unsigned = plain.strip_prefix(['+', '-']).unwrap_or(&plain);
-    let digits = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
-    let starts = text
-        .trim_start_matches(['+', '-'])
-        .starts_with(|c: char| c.is_ascii_digit() || c == '.');
-    if !starts || unsigned.is_empty() {
-        return Value::text(text);
-    }
-    let number = if digits(unsigned) && (unsigned == "0" || !unsigned.starts_with('0')) {
-        Num::read_int(&Text::plain(&plain))
-    } else if let Some(octal) = unsigned.strip_prefix('0').filter(|rest| digits(rest)) {
-        radix(octal, 8, plain.starts_with('-'))
-    } else if let Some(hexadecimal) = unsigned.strip_prefix("0x") {
-        radix(hexadecimal, 16, plain.starts_with('-'))
-    } else if is_decimal(unsigned) {
-        Num::read_float(&Text::plain(&plain))
-    } else {
-        None
-    };
-    number.map_or_else(|| Value::text(text), Value::Number)
-}
-
-fn radix(digits: &str, radix: u32, is_negative: bool) -> Option<Num> {
-    let value = i128::from_str_radix(digits, radix).ok()?;
-    Some(Num::int(if is_negative { -value } else { value }))
-}
-
-fn is_decimal(unsigned: &str) -> bool {
-    let (mantissa, exponent) = match unsigned.split_once(['e', 'E']) {
-        Some((mantissa, exponent)) => (mantissa, Some(exponent)),
-        None => (unsigned, None),
-    };
-    let digits = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
-    let exponent_fits = exponent.is_none_or(|exponent| {
-        exponent
-            .strip_prefix(['+', '-'])
-            .is_some_and(|digits_of| !digits_of.is_empty() && digits(digits_of))
-    });
-    let parts = mantissa.split_once('.');
-    exponent_fits
-        && parts.is_some_and(|(whole, fraction)| {
-            digits(whole) && digits(fraction) && !(whole.is_empty() && fraction.is_empty())
-        })
-}
-
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
@@ -271,6 +213,7 @@ mod tests {
                 "a: &x {b: 1, c: 2}\nd: {<<: *x, c: 3}",
                 "{'a': {'b': 1, 'c': 2}, 'd': {'b': 1, 'c': 3}}",
             ),
+            ("[1:30, 0b101, !!float 1, !!str 7]", "[90, 5, 1.0, '7']"),
             ("", "None"),
         ] {
             assert_eq!(shown(text), value, "{text}");
