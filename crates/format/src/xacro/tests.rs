@@ -78,13 +78,37 @@ fn macros_take_values_defaults_and_blocks() {
         ),
         "<e v=\"3\"/><e v=\"2\"/><e v=\"1\"/><e v=\"1\"/>"
     );
-    // Without its prefix a macro is called directly in the robot only.
+    // Without its prefix it is no call.
     assert_eq!(
         expanded(
-            "<xacro:macro name='n' params='i'><e v='${i}'/></xacro:macro><n i='1'/><o><n i='2'/></o>"
+            "<xacro:macro name='n' params='i'><e v='${i}'/></xacro:macro><n i='1'/><o><n i='2'/></o><xacro:n i='3'/>"
         ),
-        "<e v=\"1\"/><o><n i=\"2\"/></o>"
+        "<n i=\"1\"/><o><n i=\"2\"/></o><e v=\"3\"/>"
     );
+}
+
+#[test]
+fn an_element_with_the_name_of_a_macro_is_no_call() {
+    let body = format!(
+        "<xacro:macro name='eyes' params='on:=a'><link name='eye'/><joint name='k' type='revolute'><parent link='${{on}}'/>\
+         <child link='eye'/></joint></xacro:macro>{CHAIN}</joint>\n<eyes/>"
+    );
+    let plain = reading(&body, &[]);
+    assert_eq!(names(&plain.mechanism), ["a", "b"]);
+    assert_eq!(plain.warnings.len(), 1);
+    let warning = &plain.warnings[0];
+    assert_eq!((warning.line, warning.column), (3, 1), "{warning:?}");
+    assert!(
+        warning.message.contains("<xacro:eyes> calls it"),
+        "{warning:?}"
+    );
+    let called = body.replace("<eyes/>", "<xacro:eyes/>");
+    assert_eq!(names(&reading(&called, &[]).mechanism).len(), 3);
+    // A macro may write an element of its own name, any number of times.
+    let body = "<xacro:macro name='sensors'><sensors><other/></sensors></xacro:macro><link name='a'/><xacro:sensors/><xacro:sensors/>";
+    let plain = reading(body, &[]);
+    assert_eq!(names(&plain.mechanism), ["a"]);
+    assert!(plain.warnings.is_empty(), "{:?}", plain.warnings);
 }
 
 #[test]
