@@ -3,11 +3,13 @@
 //! Which branch a condition takes and how a number is printed in a name follow Python's doubles; geometry gets the exact
 //! value. Multiplying by 1 or −1 and adding 0 keep the very number, and so the precision that its digits state.
 
-use super::syntax::{Binary, Comparison};
+use super::budget::Budget;
+use super::keyed::Keyed;
+use super::syntax::Binary;
 use super::text::Joined;
-use super::value::{Kind, Num, Value, found, has};
-use kutzbach_math::number::Number;
-use std::cmp::Ordering;
+use super::value::{Kind, Num, Value};
+use super::{Outcome, Trouble};
+use kutzbach_math::number::{Exact, Number};
 
 /// Texts and lists made by an expression are no longer than this.
 pub(super) const LONGEST_TEXT: usize = 1 << 20;
@@ -34,11 +36,23 @@ pub(super) fn floor_to_int(value: f64) -> Option<Num> {
     (value.is_finite() && value.abs() < 1e36).then(|| Num::int(value as i128))
 }
 
-pub(super) fn binary(operator: Binary, a: &Value, b: &Value) -> Said<Value> {
+/// The value of `a + b` and the like, whose operands are paid for.
+pub(super) fn binary(
+    operator: Binary,
+    a: &Value,
+    b: &Value,
+    budget: &mut Budget,
+) -> Outcome<Value> {
     if let (Some(x), Some(y)) = (a.number(), b.number()) {
-        return numbers(operator, &x, &y).map(Value::Number);
+        return numbers(operator, &x, &y, budget).map(Value::Number);
     }
-    let too_long = || Err(format!("the result of `{}` is too long", operator.sign()));
+    let too_long = || {
+        Err(Trouble::new(format!(
+            "the result of `{}` is too long",
+            operator.sign()
+        )))
+    };
+    let mismatched = || Err(Trouble::new(mismatch(operator, a, b)));
     match (operator, a, b) {
         (Binary::Add, Value::Text(x), Value::Text(y)) => {
             if x.as_str().len() + y.as_str().len() > LONGEST_TEXT {
@@ -62,23 +76,31 @@ pub(super) fn binary(operator: Binary, a: &Value, b: &Value) -> Said<Value> {
             Ok(Value::Tuple(x.iter().chain(y.iter()).cloned().collect()))
         }
         (Binary::Subtract, Value::Set(x), Value::Set(y)) => {
-            let left = x.iter().filter(|item| !has(y, item));
-            Ok(Value::Set(left.cloned().collect()))
+            let mut left = Vec::new();
+            for item in x.iter() {
+                if y.find(item, budget)?.is_none() {
+                    left.push(item.clone());
+                }
+            }
+            Ok(Value::Set(Keyed::collect(left, budget)?))
         }
         (Binary::Multiply, Value::Text(_) | Value::List(_), _) => match times(b) {
             Some(count) => repeated(a, count).map_or_else(too_long, Ok),
-            None => Err(mismatch(operator, a, b)),
+            None => mismatched(),
         },
         (Binary::Multiply, _, Value::Text(_) | Value::List(_)) => match times(a) {
             Some(count) => repeated(b, count).map_or_else(too_long, Ok),
-            None => Err(mismatch(operator, a, b)),
+            None => mismatched(),
         },
         (Binary::Remainder, Value::Text(template), _) => {
-            super::python_text::percent(template.as_str(), b)
-                .map(|text| Value::text(&text))
-                .ok_or_else(|| "the values after `%` do not fit the format before it".to_owned())
+            match super::percent::percent(template.as_str(), b, budget)? {
+                Some(text) => Ok(Value::text(&text)),
+                None => Err(Trouble::new(
+                    "the values after `%` do not fit the format before it",
+                )),
+            }
         }
-        _ => Err(mismatch(operator, a, b)),
+        _ => mismatched(),
     }
 }
 
@@ -123,7 +145,40 @@ fn repeated(value: &Value, count: usize) -> Option<Value> {
     }
 }
 
-fn numbers(operator: Binary, a: &Num, b: &Num) -> Said<Num> {
+/// What calculating with an exact number costs, as a factor: sums of roots are multiplied term by term, and all of it takes
+/// longer the longer the integers are.
+pub(super) fn weight(number: &Number) -> usize {
+    match number.exact() {
+        Some(Exact::Rational(x)) => {
+            let (_, numerator) = x.numerator().as_sign_words();
+            1 + numerator.len().max(x.denominator().as_words().len()) / 16
+        }
+        Some(Exact::Surd(x)) => x.terms().len(),
+        Some(Exact::Angle(x)) => 1 + x.parts().count(),
+        _ => 1 + number.size() as usize / 50,
+    }
+}
+
+/// Steps of an operation beyond the one that every operation costs, so that none takes much more than a microsecond a step.
+fn steps(operator: Binary, a: &Num, b: &Num) -> usize {
+    let (Some(x), Some(y)) = (&a.exact, &b.exact) else {
+        return 0;
+    };
+    let (x, y) = (weight(x), weight(y));
+    match operator {
+        Binary::Add | Binary::Subtract => x + y - 2,
+        Binary::Multiply => x * y - 1,
+        // A sum of roots is multiplied by its conjugates.
+        Binary::Divide => y * (x + 2 * y) - 3,
+        // Squared up to ten times.
+        Binary::Power => (16 + x) * x * x - 17,
+        Binary::FloorDivide | Binary::Remainder => 0,
+    }
+}
+
+/// The value of an operation on numbers.
+pub(super) fn numbers(operator: Binary, a: &Num, b: &Num, budget: &mut Budget) -> Outcome<Num> {
+    budget.spend(steps(operator, a, b))?;
     let kind = kind_of(operator, a, b)?;
     // An integer that fits needs no more than itself, unless it is a number with a name or with stated digits.
     let exact = exact_of(operator, a, b).and_then(kept);
@@ -164,28 +219,37 @@ fn kind_of(operator: Binary, a: &Num, b: &Num) -> Said<Kind> {
         return result.map(Kind::Int).ok_or_else(|| OVERFLOW.to_owned());
     }
     let (x, y) = (a.double(), b.double());
-    let floor_mod = || {
-        let r = x % y;
-        if r != 0.0 && (r < 0.0) != (y < 0.0) {
-            r + y
-        } else {
-            r
-        }
-    };
     Ok(Kind::Float(match operator {
         Binary::Add => x + y,
         Binary::Subtract => x - y,
         Binary::Multiply => x * y,
         Binary::Divide | Binary::FloorDivide | Binary::Remainder if y == 0.0 => return zero(),
         Binary::Divide => x / y,
-        Binary::FloorDivide => ((x - floor_mod()) / y).round(),
-        Binary::Remainder => floor_mod(),
+        Binary::FloorDivide => floor_and_rest(x, y).0,
+        Binary::Remainder => floor_and_rest(x, y).1,
         Binary::Power if x == 0.0 && y < 0.0 => return zero(),
         Binary::Power if x < 0.0 && y.fract() != 0.0 => {
             return Err("the power is not a real number".to_owned());
         }
         Binary::Power => x.powf(y),
     }))
+}
+
+/// `x // y` and `x % y`: the rest has the sign of the divisor, and a quotient of zero that of the exact one.
+fn floor_and_rest(x: f64, y: f64) -> (f64, f64) {
+    let mut rest = x % y;
+    let mut quotient = (x - rest) / y;
+    if rest == 0.0 {
+        rest = 0.0_f64.copysign(y);
+    } else if (rest < 0.0) != (y < 0.0) {
+        rest += y;
+        quotient -= 1.0;
+    }
+    let floor = match quotient {
+        0.0 => 0.0_f64.copysign(x / y),
+        quotient => quotient.round(),
+    };
+    (floor, rest)
 }
 
 fn is_unit(number: &Number) -> Option<bool> {
@@ -228,6 +292,12 @@ fn exact_of(operator: Binary, a: &Num, b: &Num) -> Option<Number> {
     }
 }
 
+/// `+value`: a number, of a truth value as well.
+pub(super) fn positive(value: &Value) -> Said<Value> {
+    let number = value.number().map(Value::Number);
+    number.ok_or_else(|| format!("`+` needs a number, found {}", value.sort()))
+}
+
 pub(super) fn negated(value: &Value) -> Said<Value> {
     let number = value
         .number()
@@ -242,70 +312,6 @@ pub(super) fn negated(value: &Value) -> Said<Value> {
     }))
 }
 
-pub(super) fn compare(operator: Comparison, a: &Value, b: &Value) -> Said<bool> {
-    let ordering =
-        || order(a, b).ok_or_else(|| format!("{} and {} have no order", a.sort(), b.sort()));
-    let nan = |value: &Value| value.number().is_some_and(|n| n.double().is_nan());
-    let ordered = |wanted: fn(Ordering) -> bool| {
-        if nan(a) || nan(b) {
-            return Ok(false);
-        }
-        ordering().map(wanted)
-    };
-    match operator {
-        Comparison::Equal => Ok(a.equals(b)),
-        Comparison::Unequal => Ok(!a.equals(b)),
-        Comparison::Less => ordered(Ordering::is_lt),
-        Comparison::LessOrEqual => ordered(Ordering::is_le),
-        Comparison::Greater => ordered(Ordering::is_gt),
-        Comparison::GreaterOrEqual => ordered(Ordering::is_ge),
-        Comparison::In => contains(b, a),
-        Comparison::NotIn => contains(b, a).map(|inside| !inside),
-        Comparison::Is => Ok(same(a, b)),
-        Comparison::IsNot => Ok(!same(a, b)),
-    }
-}
-
-/// `is`, which is meant for None and truth values.
-fn same(a: &Value, b: &Value) -> bool {
-    std::mem::discriminant(a) == std::mem::discriminant(b) && a.equals(b)
-}
-
-/// The order of numbers, of texts, and of lists of such.
-pub(super) fn order(a: &Value, b: &Value) -> Option<Ordering> {
-    if let (Some(x), Some(y)) = (a.number(), b.number()) {
-        return match (x.kind, y.kind) {
-            (Kind::Int(x), Kind::Int(y)) => Some(x.cmp(&y)),
-            _ => x.double().partial_cmp(&y.double()),
-        };
-    }
-    match (a, b) {
-        (Value::Text(a), Value::Text(b)) => Some(a.as_str().cmp(b.as_str())),
-        (Value::List(a), Value::List(b)) | (Value::Tuple(a), Value::Tuple(b)) => {
-            for (a, b) in a.iter().zip(b.iter()) {
-                if !a.equals(b) {
-                    return order(a, b);
-                }
-            }
-            Some(a.len().cmp(&b.len()))
-        }
-        _ => None,
-    }
-}
-
-fn contains(container: &Value, item: &Value) -> Said<bool> {
-    match (container, item) {
-        (Value::List(items) | Value::Tuple(items) | Value::Set(items), _) => Ok(has(items, item)),
-        (Value::Dict(items), _) => Ok(found(items, item).is_some()),
-        (Value::Text(text), Value::Text(part)) => Ok(text.as_str().contains(part.as_str())),
-        _ => Err(format!(
-            "`in` does not look for {} in {}",
-            item.sort(),
-            container.sort()
-        )),
-    }
-}
-
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
@@ -315,8 +321,12 @@ mod tests {
         Value::literal(&text.into())
     }
 
+    fn calculated(operator: Binary, a: &str, b: &str) -> Outcome<Value> {
+        binary(operator, &read(a), &read(b), &mut Budget::default())
+    }
+
     fn shown(operator: Binary, a: &str, b: &str) -> String {
-        let value = binary(operator, &read(a), &read(b)).unwrap();
+        let value = calculated(operator, a, b).unwrap();
         value.to_text(100).unwrap().as_str().to_owned()
     }
 
@@ -331,6 +341,11 @@ mod tests {
             (Binary::Remainder, "7", "-2", "-1"),
             (Binary::FloorDivide, "-7.5", "2", "-4.0"),
             (Binary::Remainder, "-7.5", "2", "0.5"),
+            (Binary::FloorDivide, "-0.0", "2", "-0.0"),
+            (Binary::FloorDivide, "0.0", "-2.5", "-0.0"),
+            (Binary::FloorDivide, "0.5", "-2.5", "-1.0"),
+            (Binary::Remainder, "5.0", "-2.5", "-0.0"),
+            (Binary::Remainder, "-5.0", "2.5", "0.0"),
             (Binary::Power, "2", "-1", "0.5"),
             (Binary::Power, "2", "10", "1024"),
             (Binary::Multiply, "true", "3", "3"),
@@ -345,14 +360,13 @@ mod tests {
             (Binary::Multiply, "a", "1000000000000"),
             (Binary::Add, "a", "1"),
         ] {
-            assert!(binary(operator, &read(a), &read(b)).is_err());
+            assert!(calculated(operator, a, b).is_err());
         }
     }
 
     #[test]
     fn a_sign_keeps_the_stated_digits() {
-        let Ok(Value::Number(product)) = binary(Binary::Multiply, &read("-1"), &read("0.10"))
-        else {
+        let Ok(Value::Number(product)) = calculated(Binary::Multiply, "-1", "0.10") else {
             panic!("a number");
         };
         let exact = product.exact.unwrap();

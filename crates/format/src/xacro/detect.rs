@@ -46,7 +46,11 @@ pub(super) fn needs_expansion(document: &Document<'_>) -> bool {
         let name = node.attribute("name").unwrap_or_default();
         twice |= !names.insert((node.tag_name().name(), name));
     }
-    let known = |name: &str| names.iter().any(|(_, own)| *own == name);
+    let known = |name: &str| {
+        ["property", "arg"]
+            .iter()
+            .any(|sort| names.contains(&(*sort, name)))
+    };
     let bare = |value: &str| Number::decimal(value).is_err() && !value.contains('$');
     let values: Vec<String> = definitions.iter().map(value_of).collect();
     if values.iter().any(|value| is_beyond_numbers(value, &known)) {

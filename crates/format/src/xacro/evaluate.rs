@@ -1,12 +1,14 @@
 //! Expressions to values.
 
-use super::arithmetic::{LONGEST_LIST, LONGEST_TEXT, binary, compare, negated};
+use super::arithmetic::{LONGEST_LIST, binary, negated, positive};
+use super::comparison::compare;
 use super::functions::{builtin, iterated};
+use super::keyed::Keyed;
 use super::methods::{has_method, method};
 use super::scope::{Entry, Table};
 use super::syntax::{Clause, Comprehension, Expr};
 use super::text::Text;
-use super::value::{Kind, Num, Value, dictionary, found};
+use super::value::{Kind, Num, Value};
 use super::{Outcome, Run, Trouble};
 use crate::words::{did_you_mean, quoted};
 use std::rc::Rc;
@@ -29,24 +31,25 @@ impl Run<'_> {
                 for (key, value) in items {
                     all.push((self.evaluate(key, names)?, self.evaluate(value, names)?));
                 }
-                Ok(dictionary(all))
+                self.dictionary(all)
             }
             Expr::Negate(operand) => Ok(negated(&self.evaluate(operand, names)?)?),
+            Expr::Plus(operand) => Ok(positive(&self.evaluate(operand, names)?)?),
             Expr::Not(operand) => Ok(Value::Bool(!self.evaluate(operand, names)?.is_true())),
             Expr::Binary(operator, a, b) => {
                 let a = self.evaluate(a, names)?;
                 let b = self.evaluate(b, names)?;
                 self.spend_on(&a)?;
                 self.spend_on(&b)?;
-                Ok(binary(*operator, &a, &b)?)
+                let result = binary(*operator, &a, &b, &mut self.budget)?;
+                self.spend_on(&result)?;
+                Ok(result)
             }
             Expr::Compare(first, rest) => {
                 let mut left = self.evaluate(first, names)?;
                 for (comparison, operand) in rest {
                     let right = self.evaluate(operand, names)?;
-                    self.spend_on(&left)?;
-                    self.spend_on(&right)?;
-                    if !compare(*comparison, &left, &right)? {
+                    if !compare(*comparison, &left, &right, &mut self.budget)? {
                         return Ok(Value::Bool(false));
                     }
                     left = right;
@@ -73,7 +76,7 @@ impl Run<'_> {
             Expr::Index(object, index) => {
                 let object = self.evaluate(object, names)?;
                 let index = self.evaluate(index, names)?;
-                item(&object, &index)
+                self.item(&object, &index)
             }
             Expr::Slice(object, parts) => {
                 let object = self.evaluate(object, names)?;
@@ -87,16 +90,26 @@ impl Run<'_> {
                 self.spend_on(&object)?;
                 slice(&object, bounds)
             }
-            Expr::Call(function, values, named) => self.call(function, values, named, names),
+            Expr::Call(function, values, named) => {
+                let result = self.call(function, values, named, names)?;
+                self.spend_on(&result)?;
+                Ok(result)
+            }
             Expr::Comprehension(comprehension) => {
                 let mut found = Vec::new();
                 self.comprehend(comprehension, 0, names, &mut found)?;
-                Ok(match comprehension.key {
-                    None => Value::List(found.into_iter().map(|(_, value)| value).collect()),
-                    Some(_) => dictionary(found),
-                })
+                match comprehension.key {
+                    None => Ok(Value::List(
+                        found.into_iter().map(|(_, value)| value).collect(),
+                    )),
+                    Some(_) => self.dictionary(found),
+                }
             }
         }
+    }
+
+    fn dictionary(&mut self, items: Vec<(Value, Value)>) -> Outcome<Value> {
+        Ok(Value::Dict(Keyed::collect(items, &mut self.budget)?))
     }
 
     fn all(&mut self, items: &[Expr], names: &Rc<Table>) -> Outcome<Vec<Value>> {
@@ -124,6 +137,7 @@ impl Run<'_> {
 
     /// The value of a name that the file defines; text is evaluated at first use, where it was defined.
     pub(super) fn lookup(&mut self, name: &str, names: &Rc<Table>) -> Outcome<Option<Value>> {
+        self.spend(names.level())?;
         let Some(owner) = names.owner(name) else {
             return Ok(None);
         };
@@ -188,13 +202,10 @@ impl Run<'_> {
                     )
                 })
             }
-            Value::Dict(items) => {
-                self.spend_on(object)?;
-                match found(items, &Value::text(name)) {
-                    Some(value) => Ok(value.clone()),
-                    None => Err(no_key(items, name)),
-                }
-            }
+            Value::Dict(items) => match items.find(&Value::text(name), &mut self.budget)? {
+                Some((_, value)) => Ok(value.clone()),
+                None => Err(no_key(items, name)),
+            },
             _ => Err(Trouble::new(format!(
                 "{} has nothing named {}",
                 object.sort(),
@@ -232,12 +243,54 @@ impl Run<'_> {
         }
         if let Some((object, name)) = object {
             self.spend_on(&object)?;
-            return Ok(method(&object, name, &values, &by_name)?);
+            return method(&object, name, &values, &by_name, &mut self.budget);
         }
         match callee {
             Some(Value::Function(name)) => self.apply(name, &values, &by_name),
             Some(other) => Err(Trouble::new(format!("{} cannot be called", other.sort()))),
             None => Err(Trouble::new("nothing to call")),
+        }
+    }
+
+    /// `object[index]`.
+    fn item(&mut self, object: &Value, index: &Value) -> Outcome<Value> {
+        if let Value::Dict(items) = object {
+            return match items.find(index, &mut self.budget)? {
+                Some((_, value)) => Ok(value.clone()),
+                None => {
+                    let shown = index.to_text(100);
+                    Err(no_key(items, shown.as_ref().map_or("", Text::as_str)))
+                }
+            };
+        }
+        let length = match object {
+            Value::List(items) | Value::Tuple(items) => items.len(),
+            Value::Text(text) => {
+                self.spend_on(object)?;
+                text.as_str().chars().count()
+            }
+            _ => {
+                return Err(Trouble::new(format!("{} has no items", object.sort())));
+            }
+        };
+        let Some(wanted) = integer(index)? else {
+            return Err(Trouble::new("needed an integer as index, found None"));
+        };
+        let at = if wanted < 0 {
+            wanted + length as i128
+        } else {
+            wanted
+        };
+        let at = usize::try_from(at).ok().filter(|at| *at < length);
+        let Some(at) = at else {
+            return Err(Trouble::new(format!(
+                "there is no item {wanted}: {} has {length}",
+                object.sort()
+            )));
+        };
+        match object {
+            Value::List(items) | Value::Tuple(items) => Ok(items[at].clone()),
+            _ => slice(object, [Some(at as i128), Some(at as i128 + 1), None]),
         }
     }
 
@@ -268,13 +321,12 @@ impl Run<'_> {
             }
             Some(Clause::For(targets, items)) => {
                 let items = self.evaluate(items, names)?;
-                self.spend_on(&items)?;
                 let inner = Table::inside(names);
-                for item in iterated(&items)? {
+                for item in iterated(&items, &mut self.budget)? {
                     if let [only] = &targets[..] {
                         inner.set_value(only, item);
                     } else {
-                        let parts = iterated(&item)?;
+                        let parts = iterated(&item, &mut self.budget)?;
                         if parts.len() != targets.len() {
                             return Err(Trouble::new(format!(
                                 "needed {} values, found {}",
@@ -339,41 +391,6 @@ fn integer(value: &Value) -> Outcome<Option<i128>> {
     }
 }
 
-fn item(object: &Value, index: &Value) -> Outcome<Value> {
-    if let Value::Dict(items) = object {
-        return found(items, index).cloned().map(Ok).unwrap_or_else(|| {
-            let shown = index.to_text(100);
-            Err(no_key(items, shown.as_ref().map_or("", Text::as_str)))
-        });
-    }
-    let length = match object {
-        Value::List(items) | Value::Tuple(items) => items.len(),
-        Value::Text(text) => text.as_str().chars().count(),
-        _ => {
-            return Err(Trouble::new(format!("{} has no items", object.sort())));
-        }
-    };
-    let Some(wanted) = integer(index)? else {
-        return Err(Trouble::new("needed an integer as index, found None"));
-    };
-    let at = if wanted < 0 {
-        wanted + length as i128
-    } else {
-        wanted
-    };
-    let at = usize::try_from(at).ok().filter(|at| *at < length);
-    let Some(at) = at else {
-        return Err(Trouble::new(format!(
-            "there is no item {wanted}: {} has {length}",
-            object.sort()
-        )));
-    };
-    match object {
-        Value::List(items) | Value::Tuple(items) => Ok(items[at].clone()),
-        _ => slice(object, [Some(at as i128), Some(at as i128 + 1), None]),
-    }
-}
-
 /// `object[start:stop:step]` with Python's treatment of what lies outside.
 fn slice(object: &Value, [start, stop, step]: [Option<i128>; 3]) -> Outcome<Value> {
     let step = step.unwrap_or(1);
@@ -434,11 +451,4 @@ fn slice(object: &Value, [start, stop, step]: [Option<i128>; 3]) -> Outcome<Valu
         }
         _ => return Err(Trouble::new(format!("{} has no items", object.sort()))),
     })
-}
-
-/// A value as text that is not endless.
-pub(super) fn text_of(value: &Value) -> Outcome<Text> {
-    value
-        .to_text(LONGEST_TEXT)
-        .ok_or_else(|| Trouble::new("the text of the value is too long"))
 }

@@ -40,7 +40,7 @@ impl Making {
     }
 }
 
-/// Elements of a robot, which are never calls of a macro without its prefix.
+/// Elements of a robot, which are never meant as calls of a macro.
 const OF_ROBOT: [&str; 11] = [
     "link",
     "joint",
@@ -189,7 +189,12 @@ impl<'o> Run<'o> {
         making: &mut Making,
     ) -> Outcome<()> {
         for node in nodes {
-            self.spend(1)?;
+            let place = match node {
+                Node::Element(element) => element.place,
+                Node::Text(_, place) => *place,
+            };
+            self.spend(1)
+                .map_err(|trouble| trouble.at(place, self.call))?;
             match node {
                 Node::Element(element) => {
                     let call = self.call;
@@ -215,10 +220,8 @@ impl<'o> Run<'o> {
         making: &mut Making,
     ) -> Outcome<()> {
         if !element.is_xacro {
-            let local = &*element.name;
-            // Before xacro 1.13 macros were called without prefix; directly in a robot such a name can mean nothing else.
-            if making.at_root && !OF_ROBOT.contains(&local) && self.is_call(element, names) {
-                return self.call_macro(element, local, names, making);
+            if making.at_root {
+                self.warn_of_old_call(element, names)?;
             }
             let made = self.expand_plain(element, names, false)?;
             making.nodes.push(Node::Element(made));
@@ -273,11 +276,34 @@ impl<'o> Run<'o> {
 
     /// A message of the file itself, told where the element stands that says it.
     pub(super) fn said(&mut self, sort: &str, message: String) {
-        const MOST: usize = 100;
-        if sort != "message" && self.warnings.len() < MOST {
+        if sort != "message" {
             let call = self.call.and_then(|call| self.calls.get(call as usize));
             let place = call.map_or(Place::new(0, 0..0), |call| call.place);
-            self.warnings.push((place, self.call, message));
+            self.warn(place, self.call, message);
+        }
+    }
+
+    /// Before version 2 of xacro, macros could be called without a prefix; now such an element stays as it is.
+    fn warn_of_old_call(&mut self, element: &Element, names: &Names) -> Outcome<()> {
+        self.spend(names.macros.level())?;
+        if OF_ROBOT.contains(&&*element.name) || !self.is_like_call(element, names) {
+            return Ok(());
+        }
+        let name = quoted(&element.name);
+        let message = format!(
+            "<{}> is no call of the macro {name} and stays as it is; <xacro:{}> calls it",
+            element.name, element.name
+        );
+        self.warn(element.place, self.call, message);
+        Ok(())
+    }
+
+    /// Tells something beside the result, once.
+    pub(super) fn warn(&mut self, place: Place, call: Option<u32>, message: String) {
+        const MOST: usize = 100;
+        let is_told = self.warnings.iter().any(|(.., own)| *own == message);
+        if self.warnings.len() < MOST && !is_told {
+            self.warnings.push((place, call, message));
         }
     }
 
@@ -341,9 +367,12 @@ impl<'o> Run<'o> {
         names: &Names,
         making: &mut Making,
     ) -> Outcome<()> {
-        let mut apart = Making::inside(making);
+        let mut apart = Making {
+            nodes: std::mem::take(&mut making.nodes),
+            ..Making::inside(making)
+        };
         self.expand_all(nodes, names, &mut apart)?;
-        making.nodes.append(&mut apart.nodes);
+        making.nodes = apart.nodes;
         Ok(())
     }
 
@@ -385,6 +414,7 @@ impl<'o> Run<'o> {
         making: &mut Making,
     ) -> Outcome<()> {
         let name = self.required(element, "name")?;
+        self.spend(name.value.as_str().len() / 64 + names.symbols.level())?;
         let block = |sort: &str| {
             let found = names
                 .symbols

@@ -5,7 +5,7 @@ use super::{Outcome, Place, Run, Sort, Trouble};
 use crate::error::Fault;
 use crate::words::quoted;
 use crate::{bytes_of, guard, xml};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
@@ -42,6 +42,7 @@ pub(super) struct Files {
     /// Prefixes and their addresses; the first declaration holds.
     prefixes: Vec<(String, String)>,
     bytes: usize,
+    numbers: HashMap<PathBuf, u32>,
     /// Packages that were looked for.
     pub(super) packages: BTreeMap<String, Option<PathBuf>>,
 }
@@ -56,6 +57,9 @@ impl Files {
             ));
         }
         let index = self.all.len() as u32;
+        if let Some(path) = &file.path {
+            self.numbers.insert(path.clone(), index);
+        }
         let parsed = xml::parse(&file.text).map(|document| root_of(&document, index));
         match parsed {
             Ok((root, prefixes)) => {
@@ -114,25 +118,24 @@ impl Files {
             .map(|(file, _)| (file.name.clone(), file.text.clone()));
         named.collect()
     }
-
-    fn find(&self, path: &Path) -> Option<u32> {
-        let found = self
-            .all
-            .iter()
-            .position(|(file, _)| file.path.as_deref() == Some(path));
-        found.map(|index| index as u32)
-    }
 }
 
 impl Run<'_> {
     /// Reads a file, once.
     pub(super) fn open(&mut self, path: &Path) -> Outcome<u32> {
-        if let Some(known) = self.files.find(path) {
+        if let Some(known) = self.files.numbers.get(path).copied() {
             return Ok(known);
         }
-        let text = read_text(path)?;
+        let text = self.paid_file(path)?;
         let name = path.display().to_string();
         self.files.add(File::new(&name, Some(path), &text))
+    }
+
+    /// The text of a file, paid for before it is read: a file that cannot be read may be asked for again and again.
+    pub(super) fn paid_file(&mut self, path: &Path) -> Outcome<String> {
+        let bytes = std::fs::metadata(path).map_or(0, |known| known.len());
+        self.spend(usize::try_from(bytes / 256).unwrap_or(usize::MAX))?;
+        read_text(path)
     }
 
     /// The folder of the file under evaluation.
@@ -154,7 +157,7 @@ impl Run<'_> {
     pub(super) fn resolved(&mut self, written: &str) -> Outcome<PathBuf> {
         if let Some(rest) = written.strip_prefix("package://") {
             let (package, inside) = rest.split_once('/').unwrap_or((rest, ""));
-            return match self.find_package(package) {
+            return match self.find_package(package)? {
                 Some(folder) => Ok(folder.join(inside)),
                 None => Err(
                     Trouble::new(format!("the package {} is not found", quoted(package)))

@@ -1,10 +1,12 @@
 //! The functions that expressions may call.
 
-use super::arithmetic::{LONGEST_LIST, Said, binary, floor_to_int, kept, order};
-use super::evaluate::text_of;
+use super::arithmetic::{LONGEST_LIST, floor_to_int, kept, numbers as calculated, weight};
+use super::budget::Budget;
+use super::comparison::{extreme, sorted};
+use super::keyed::Keyed;
 use super::syntax::Binary;
 use super::text::Text;
-use super::value::{Kind, Num, Value, dictionary, set};
+use super::value::{Kind, Num, Value};
 use super::{Outcome, Run, Trouble};
 use crate::words::quoted;
 use kutzbach_math::number::Number;
@@ -39,6 +41,11 @@ const OF_DOUBLE: [OfDouble; 21] = [
     ("asinh", f64::asinh, inexact),
     ("acosh", f64::acosh, inexact),
     ("atanh", f64::atanh, inexact),
+];
+
+/// Functions whose exact values take longest to find.
+const IRRATIONAL: [&str; 10] = [
+    "sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "hypot", "pow",
 ];
 
 /// All others.
@@ -145,9 +152,11 @@ pub(super) fn builtin(name: &str) -> Option<Value> {
 }
 
 /// The items that Python's `for` goes through.
-pub(super) fn iterated(value: &Value) -> Outcome<Vec<Value>> {
+pub(super) fn iterated(value: &Value, budget: &mut Budget) -> Outcome<Vec<Value>> {
+    budget.spend(length(value).unwrap_or(0))?;
     match value {
-        Value::List(items) | Value::Tuple(items) | Value::Set(items) => Ok(items.to_vec()),
+        Value::List(items) | Value::Tuple(items) => Ok(items.to_vec()),
+        Value::Set(items) => Ok(items.to_vec()),
         Value::Dict(items) => Ok(items.iter().map(|(key, _)| key.clone()).collect()),
         Value::Text(text) => Ok(text
             .as_str()
@@ -155,6 +164,17 @@ pub(super) fn iterated(value: &Value) -> Outcome<Vec<Value>> {
             .map(|c| Value::text(c.encode_utf8(&mut [0; 4])))
             .collect()),
         other => Err(Trouble::new(format!("{} has no items", other.sort()))),
+    }
+}
+
+/// How many items a value has.
+fn length(value: &Value) -> Option<usize> {
+    match value {
+        Value::List(items) | Value::Tuple(items) => Some(items.len()),
+        Value::Set(items) => Some(items.len()),
+        Value::Dict(items) => Some(items.len()),
+        Value::Text(text) => Some(text.as_str().chars().count()),
+        _ => None,
     }
 }
 
@@ -194,28 +214,37 @@ impl Run<'_> {
         let truth = |value| Ok(Value::Bool(value));
         match (name, values) {
             ("str", []) => Ok(Value::text("")),
-            ("str", [value]) => Ok(Value::Text(text_of(value)?)),
-            ("repr", [value]) => match value.repr(super::arithmetic::LONGEST_TEXT) {
-                Some(text) => Ok(Value::Text(text)),
+            ("str", [value]) => Ok(Value::Text(self.paid_text(value)?)),
+            ("repr", [value]) => Ok(Value::Text(self.budget.repr(value)?)),
+            ("bool", [value]) => truth(value.is_true()),
+            ("len", [value]) => match length(value) {
+                Some(length) => Ok(Value::int(length)),
                 None => wrong(),
             },
-            ("bool", [value]) => truth(value.is_true()),
-            ("len", [value]) => Ok(Value::int(iterated(value)?.len())),
             ("list", []) => list(Vec::new()),
-            ("list", [value]) => list(iterated(value)?),
-            ("tuple", [value]) => Ok(Value::Tuple(iterated(value)?.into())),
-            ("set" | "frozenset", []) => Ok(set([])),
-            ("set" | "frozenset", [value]) => Ok(set(iterated(value)?)),
-            ("dict", _) => made_dictionary(values, named),
+            ("list", [value]) => list(iterated(value, &mut self.budget)?),
+            ("tuple", [value]) => Ok(Value::Tuple(iterated(value, &mut self.budget)?.into())),
+            ("set" | "frozenset", []) => Ok(Value::Set(Rc::default())),
+            ("set" | "frozenset", [value]) => {
+                let items = iterated(value, &mut self.budget)?;
+                Ok(Value::Set(Keyed::collect(items, &mut self.budget)?))
+            }
+            ("dict", _) => made_dictionary(values, named, &mut self.budget),
             ("dotify", [value]) => Ok(value.clone()),
             ("sorted", [value]) => {
                 let descending = option(named, "reverse").is_some_and(Value::is_true);
-                sorted(iterated(value)?, descending).and_then(list)
+                let items = iterated(value, &mut self.budget)?;
+                sorted(items, descending, &mut self.budget).and_then(list)
             }
-            ("reversed", [value]) => list(iterated(value)?.into_iter().rev().collect()),
+            ("reversed", [value]) => list(
+                iterated(value, &mut self.budget)?
+                    .into_iter()
+                    .rev()
+                    .collect(),
+            ),
             ("range", _) => range(values).and_then(list),
             ("enumerate", [value]) => {
-                let pairs = iterated(value)?.into_iter().enumerate();
+                let pairs = iterated(value, &mut self.budget)?.into_iter().enumerate();
                 list(
                     pairs
                         .map(|(at, value)| pair(Value::int(at), value))
@@ -223,36 +252,46 @@ impl Run<'_> {
                 )
             }
             ("zip", [first, second]) => {
-                let pairs = iterated(first)?.into_iter().zip(iterated(second)?);
+                let pairs = iterated(first, &mut self.budget)?
+                    .into_iter()
+                    .zip(iterated(second, &mut self.budget)?);
                 list(pairs.map(|(a, b)| pair(a, b)).collect())
             }
             ("map", [Value::Function(function), value]) => {
                 let mut results = Vec::new();
-                for item in iterated(value)? {
+                for item in iterated(value, &mut self.budget)? {
                     self.spend(1)?;
                     results.push(self.deeper(|run| run.apply(function, &[item], &[]))?);
                 }
                 list(results)
             }
             ("filter", [Value::None, value]) => list(
-                iterated(value)?
+                iterated(value, &mut self.budget)?
                     .into_iter()
                     .filter(Value::is_true)
                     .collect(),
             ),
-            ("any", [value]) => truth(iterated(value)?.iter().any(Value::is_true)),
-            ("all", [value]) => truth(iterated(value)?.iter().all(Value::is_true)),
-            ("min", _) => extreme(values, Ordering::Less),
-            ("max", _) => extreme(values, Ordering::Greater),
+            ("any", [value]) => truth(
+                iterated(value, &mut self.budget)?
+                    .iter()
+                    .any(Value::is_true),
+            ),
+            ("all", [value]) => truth(
+                iterated(value, &mut self.budget)?
+                    .iter()
+                    .all(Value::is_true),
+            ),
+            ("min", _) => extreme(values, Ordering::Less, &mut self.budget),
+            ("max", _) => extreme(values, Ordering::Greater, &mut self.budget),
             ("sum" | "fsum" | "prod", [value]) => {
                 let (operator, first) = match name {
                     "prod" => (Binary::Multiply, 1),
                     _ => (Binary::Add, 0),
                 };
                 let mut total = Value::int(first);
-                for item in iterated(value)? {
+                for item in iterated(value, &mut self.budget)? {
                     self.spend(1)?;
-                    total = binary(operator, &total, &item)?;
+                    total = super::arithmetic::binary(operator, &total, &item, &mut self.budget)?;
                 }
                 Ok(total)
             }
@@ -274,9 +313,11 @@ impl Run<'_> {
                     .is_some_and(|skip| !skip.is_true());
                 list(tokenized(text, &separators, keep_empty))
             }
-            ("fatal", _) => Err(Trouble::new(joined(values)?).help("the file itself says so")),
+            ("fatal", _) => {
+                Err(Trouble::new(self.said_text(values)?).help("the file itself says so"))
+            }
             ("message" | "warning" | "error", _) => {
-                let message = joined(values)?;
+                let message = self.said_text(values)?;
                 self.said(name, message);
                 Ok(Value::text(""))
             }
@@ -300,11 +341,20 @@ impl Run<'_> {
                 "set" => matches!(value, Value::Set(_)),
                 _ => return wrong(),
             }),
-            _ => match numeric(name, values)? {
+            _ => match numeric(name, values, &mut self.budget)? {
                 Some(number) => Ok(number),
                 None => wrong(),
             },
         }
+    }
+
+    /// What a file says by `xacro.warning(...)`.
+    fn said_text(&mut self, values: &[Value]) -> Outcome<String> {
+        let mut all = Vec::new();
+        for value in values {
+            all.push(self.paid_text(value)?.as_str().to_owned());
+        }
+        Ok(all.join(" "))
     }
 }
 
@@ -312,22 +362,14 @@ fn pair(a: Value, b: Value) -> Value {
     Value::Tuple([a, b].into())
 }
 
-fn joined(values: &[Value]) -> Outcome<String> {
-    let mut all = Vec::new();
-    for value in values {
-        all.push(text_of(value)?.as_str().to_owned());
-    }
-    Ok(all.join(" "))
-}
-
-fn made_dictionary(values: &[Value], named: &Named) -> Outcome<Value> {
+fn made_dictionary(values: &[Value], named: &Named, budget: &mut Budget) -> Outcome<Value> {
     let mut items = Vec::new();
     match values {
         [] => {}
         [Value::Dict(own)] => items.extend(own.iter().cloned()),
         [other] => {
-            for item in iterated(other)? {
-                match &iterated(&item)?[..] {
+            for item in iterated(other, budget)? {
+                match &iterated(&item, budget)?[..] {
                     [key, value] => items.push((key.clone(), value.clone())),
                     _ => return Err(Trouble::new("dict() needs pairs")),
                 }
@@ -340,27 +382,7 @@ fn made_dictionary(values: &[Value], named: &Named) -> Outcome<Value> {
             .iter()
             .map(|(name, value)| (Value::text(name), value.clone())),
     );
-    Ok(dictionary(items))
-}
-
-fn sorted(mut items: Vec<Value>, descending: bool) -> Outcome<Vec<Value>> {
-    let mut comparable = true;
-    items.sort_by(|a, b| {
-        let ordering = order(a, b).unwrap_or_else(|| {
-            comparable = false;
-            Ordering::Equal
-        });
-        if descending {
-            ordering.reverse()
-        } else {
-            ordering
-        }
-    });
-    if comparable {
-        Ok(items)
-    } else {
-        Err(Trouble::new("sorted() needs values of one sort"))
-    }
+    Ok(Value::Dict(Keyed::collect(items, budget)?))
 }
 
 fn range(values: &[Value]) -> Outcome<Vec<Value>> {
@@ -395,25 +417,6 @@ fn range(values: &[Value]) -> Outcome<Vec<Value>> {
     Ok(items)
 }
 
-fn extreme(values: &[Value], wanted: Ordering) -> Outcome<Value> {
-    let items = match values {
-        [one] => iterated(one)?,
-        several => several.to_vec(),
-    };
-    let mut items = items.into_iter();
-    let Some(mut best) = items.next() else {
-        return Err(Trouble::new("the least or greatest of no values"));
-    };
-    for item in items {
-        match order(&item, &best) {
-            Some(ordering) if ordering == wanted => best = item,
-            Some(_) => {}
-            None => return Err(Trouble::new("these values have no order")),
-        }
-    }
-    Ok(best)
-}
-
 fn tokenized(text: &Text, separators: &str, keep_empty: bool) -> Vec<Value> {
     let whole = text.as_str();
     let mut start = 0;
@@ -434,7 +437,7 @@ fn tokenized(text: &Text, separators: &str, keep_empty: bool) -> Vec<Value> {
 }
 
 /// Functions of numbers; `None` where the values do not fit.
-fn numeric(name: &str, values: &[Value]) -> Said<Option<Value>> {
+fn numeric(name: &str, values: &[Value], budget: &mut Budget) -> Outcome<Option<Value>> {
     let made = |kind, exact: Option<Number>| {
         Ok(Some(Value::Number(Num {
             kind,
@@ -446,19 +449,19 @@ fn numeric(name: &str, values: &[Value]) -> Said<Option<Value>> {
         ("int", [Value::Text(text)]) => {
             return match Num::read_int(text) {
                 Some(number) => Ok(Some(Value::Number(number))),
-                None => Err(format!(
+                None => Err(Trouble::new(format!(
                     "int() finds no integer in {}",
                     quoted(text.as_str())
-                )),
+                ))),
             };
         }
         ("float", [Value::Text(text)]) => {
             return match Num::read_float(text) {
                 Some(number) => Ok(Some(Value::Number(number))),
-                None => Err(format!(
+                None => Err(Trouble::new(format!(
                     "float() finds no number in {}",
                     quoted(text.as_str())
-                )),
+                ))),
             };
         }
         _ => {}
@@ -470,11 +473,18 @@ fn numeric(name: &str, values: &[Value]) -> Said<Option<Value>> {
     else {
         return Ok(None);
     };
+    if IRRATIONAL.contains(&name) {
+        let exact = numbers.iter().filter_map(|number| number.exact.as_ref());
+        // Roots are found, and directions squared, term by term.
+        budget.spend(exact.map(|x| 40 * weight(x).pow(2) - 30).sum())?;
+    }
     let whole = |value: f64, number: &Num| match number.kind {
         Kind::Int(_) => Ok(Some(Value::Number(number.clone()))),
         Kind::Float(_) => match floor_to_int(value) {
             Some(number) => Ok(Some(Value::Number(number))),
-            None => Err(format!("{name}() of a number that is too large")),
+            None => Err(Trouble::new(format!(
+                "{name}() of a number that is too large"
+            ))),
         },
     };
     match (name, &numbers[..]) {
@@ -493,9 +503,11 @@ fn numeric(name: &str, values: &[Value]) -> Said<Option<Value>> {
         },
         ("abs", [x]) => {
             let kind = match x.kind {
-                Kind::Int(value) => {
-                    Kind::Int(value.checked_abs().ok_or("the integer is too large")?)
-                }
+                Kind::Int(value) => Kind::Int(
+                    value
+                        .checked_abs()
+                        .ok_or_else(|| Trouble::new("the integer is too large"))?,
+                ),
                 Kind::Float(value) => Kind::Float(value.abs()),
             };
             made(kind, x.exact.as_ref().map(Number::abs))
@@ -508,15 +520,8 @@ fn numeric(name: &str, values: &[Value]) -> Said<Option<Value>> {
             made(Kind::Float(y.double().atan2(x.double())), exact)
         }
         ("pow", [x, y]) => {
-            let result = binary(
-                Binary::Power,
-                &Value::Number(x.clone()),
-                &Value::Number(y.clone()),
-            )?;
-            match result.number() {
-                Some(number) => made(Kind::Float(number.double()), number.exact),
-                None => Ok(None),
-            }
+            let number = calculated(Binary::Power, x, y, budget)?;
+            made(Kind::Float(number.double()), number.exact)
         }
         ("hypot", several) => {
             let square = several.iter().try_fold(Number::zero(), |sum, x| {
@@ -561,10 +566,11 @@ fn numeric(name: &str, values: &[Value]) -> Said<Option<Value>> {
             _ => Ok(None),
         },
         ("divmod", [a, b]) => {
-            let (a, b) = (Value::Number(a.clone()), Value::Number(b.clone()));
+            let quotient = calculated(Binary::FloorDivide, a, b, budget)?;
+            let remainder = calculated(Binary::Remainder, a, b, budget)?;
             Ok(Some(pair(
-                binary(Binary::FloorDivide, &a, &b)?,
-                binary(Binary::Remainder, &a, &b)?,
+                Value::Number(quotient),
+                Value::Number(remainder),
             )))
         }
         (_, [x]) => {
@@ -573,7 +579,7 @@ fn numeric(name: &str, values: &[Value]) -> Said<Option<Value>> {
             };
             let value = function(x.double());
             if value.is_nan() && !x.double().is_nan() {
-                return Err(format!("{name}() has no value there"));
+                return Err(Trouble::new(format!("{name}() has no value there")));
             }
             made(Kind::Float(value), x.exact.as_ref().and_then(exact))
         }

@@ -1,15 +1,12 @@
 //! Files whose names fit a pattern: `*`, `?` and `[abc]`, each within one name.
 
-use super::{Outcome, Trouble};
+use super::Outcome;
+use super::budget::Budget;
 use std::path::{Component, Path, PathBuf};
 
-/// Entries of folders that are looked at.
-const MOST_ENTRIES: usize = 100_000;
-
 /// All existing paths that fit, sorted.
-pub(super) fn matching(pattern: &Path) -> Outcome<Vec<PathBuf>> {
+pub(super) fn matching(pattern: &Path, budget: &mut Budget) -> Outcome<Vec<PathBuf>> {
     let mut found = vec![PathBuf::new()];
-    let mut seen = 0;
     for component in pattern.components() {
         let name = component.as_os_str().to_string_lossy().into_owned();
         if !matches!(component, Component::Normal(_)) || !name.contains(['*', '?', '[']) {
@@ -27,10 +24,7 @@ pub(super) fn matching(pattern: &Path) -> Outcome<Vec<PathBuf>> {
                 continue;
             };
             for entry in entries.flatten() {
-                seen += 1;
-                if seen > MOST_ENTRIES {
-                    return Err(Trouble::new("the pattern is looked for in too many files"));
-                }
+                budget.spend(1)?;
                 let own = entry.file_name().to_string_lossy().into_owned();
                 let hidden = own.starts_with('.') && !name.starts_with('.');
                 if !hidden && fits(&wanted, &own.chars().collect::<Vec<_>>()) {

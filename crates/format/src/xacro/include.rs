@@ -79,7 +79,7 @@ impl Run<'_> {
     fn included(&mut self, written: &str) -> Outcome<Vec<PathBuf>> {
         let path = self.resolved(written)?;
         if written.contains(['*', '[', '?']) {
-            return glob::matching(&path);
+            return glob::matching(&path, &mut self.budget);
         }
         Ok(vec![path])
     }

@@ -137,11 +137,18 @@ impl Run<'_> {
         }
     }
 
-    /// Whether an element without prefix can be meant as the call of a macro.
-    pub(super) fn is_call(&self, element: &Element, names: &Names) -> bool {
+    /// Whether an element without prefix looks like the call of a macro, and not like what a macro of its name writes.
+    pub(super) fn is_like_call(&self, element: &Element, names: &Names) -> bool {
         let Some(Entry::Ready(Value::Macro(found))) = names.macros.find(&element.name) else {
             return false;
         };
+        let mut call = self.call;
+        while let Some(outer) = call.and_then(|call| self.calls.get(call as usize)) {
+            if outer.name == *element.name {
+                return false;
+            }
+            call = outer.parent;
+        }
         let known = |name: &str| found.parameters.iter().any(|own| own.name == name);
         element.attributes.iter().all(|own| known(&own.name))
     }
@@ -174,7 +181,7 @@ impl Run<'_> {
         names: &Names,
         making: &mut Making,
     ) -> Outcome<()> {
-        self.spend(10)?;
+        self.spend(10 + (1 + name.len() / 64) * (1 + names.macros.level()))?;
         let Some((called, seen)) = self.find_macro(name, names) else {
             let known = names.macros.known();
             return Err(
@@ -187,6 +194,8 @@ impl Run<'_> {
             macros: Table::inside(&seen.macros),
             symbols: Table::inside(&seen.symbols),
         };
+        let letters: usize = called.parameters.iter().map(|own| own.name.len()).sum();
+        self.spend(called.parameters.len() + letters / 64)?;
         let mut open: Vec<&Parameter> = called.parameters.iter().collect();
         for attribute in &element.attributes {
             self.pass_attribute(attribute, &mut open, names, &inner, name, &called)?;

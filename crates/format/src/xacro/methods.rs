@@ -1,10 +1,15 @@
 //! What is called on a value: `name.split('_')`, `sizes.get('x', 1)`.
 
-use super::arithmetic::{LONGEST_TEXT, Said};
+use super::arithmetic::{LONGEST_LIST, LONGEST_TEXT};
+use super::budget::Budget;
+use super::comparison::{equals, position};
+use super::field::braces;
 use super::functions::iterated;
-use super::python_text::braces;
+use super::keyed::Keyed;
 use super::text::{Joined, Text};
-use super::value::{Value, found, has, set};
+use super::value::Value;
+use super::{Outcome, Trouble};
+use std::ops::Range;
 use std::rc::Rc;
 
 const OF_TEXT: [&str; 26] = [
@@ -56,73 +61,107 @@ pub(super) fn has_method(value: &Value, name: &str) -> bool {
     }
 }
 
-/// The value of `object.name(values)`.
+/// The value of `object.name(values)`, all of them paid for.
 pub(super) fn method(
     object: &Value,
     name: &str,
     values: &[Value],
     named: &[(Rc<str>, Value)],
-) -> Said<Value> {
+    budget: &mut Budget,
+) -> Outcome<Value> {
     let result = match object {
-        Value::Text(text) => of_text(text, name, values, named)?,
-        Value::List(items) | Value::Tuple(items) => match (name, values) {
-            ("count", [item]) => Some(Value::int(
-                items.iter().filter(|own| own.equals(item)).count(),
-            )),
-            ("index", [item]) => match items.iter().position(|own| own.equals(item)) {
-                Some(index) => Some(Value::int(index)),
-                None => return Err("the list has no such item".to_owned()),
-            },
-            _ => None,
-        },
-        Value::Set(items) => of_set(items, name, values),
-        Value::Dict(items) => {
-            let list = |values: Vec<Value>| Some(Value::List(values.into()));
-            match (name, values) {
-                ("keys", []) => list(items.iter().map(|(key, _)| key.clone()).collect()),
-                ("values", []) => list(items.iter().map(|(_, value)| value.clone()).collect()),
-                ("items", []) => list(
-                    items
-                        .iter()
-                        .map(|(key, value)| Value::Tuple([key.clone(), value.clone()].into()))
-                        .collect(),
-                ),
-                ("get", [key, rest @ ..]) if rest.len() < 2 => Some(
-                    found(items, key)
-                        .or(rest.first())
-                        .cloned()
-                        .unwrap_or(Value::None),
-                ),
-                _ => None,
-            }
-        }
+        Value::Text(text) => of_text(text, name, values, named, budget)?,
+        Value::List(items) | Value::Tuple(items) => of_list(items, name, values, budget)?,
+        Value::Set(items) => of_set(items, name, values, budget)?,
+        Value::Dict(items) => of_dictionary(items, name, values, budget)?,
         _ => None,
     };
-    result.ok_or_else(|| format!("{}.{name}() does not take these values", object.sort()))
+    result.ok_or_else(|| {
+        Trouble::new(format!(
+            "{}.{name}() does not take these values",
+            object.sort()
+        ))
+    })
+}
+
+fn of_list(
+    items: &[Value],
+    name: &str,
+    values: &[Value],
+    budget: &mut Budget,
+) -> Outcome<Option<Value>> {
+    match (name, values) {
+        ("count", [item]) => {
+            let mut count = 0;
+            for own in items {
+                count += usize::from(equals(own, item, budget)?);
+            }
+            Ok(Some(Value::int(count)))
+        }
+        ("index", [item]) => match position(items, item, budget)? {
+            Some(index) => Ok(Some(Value::int(index))),
+            None => Err(Trouble::new("the list has no such item")),
+        },
+        _ => Ok(None),
+    }
+}
+
+fn of_dictionary(
+    items: &Keyed<(Value, Value)>,
+    name: &str,
+    values: &[Value],
+    budget: &mut Budget,
+) -> Outcome<Option<Value>> {
+    let list = |values: Vec<Value>| Ok(Some(Value::List(values.into())));
+    match (name, values) {
+        ("keys", []) => list(items.iter().map(|(key, _)| key.clone()).collect()),
+        ("values", []) => list(items.iter().map(|(_, value)| value.clone()).collect()),
+        ("items", []) => list(
+            items
+                .iter()
+                .map(|(key, value)| Value::Tuple([key.clone(), value.clone()].into()))
+                .collect(),
+        ),
+        ("get", [key, rest @ ..]) if rest.len() < 2 => {
+            let own = items.find(key, budget)?.map(|(_, value)| value);
+            Ok(Some(own.or(rest.first()).cloned().unwrap_or(Value::None)))
+        }
+        _ => Ok(None),
+    }
 }
 
 /// Methods of a set with one other collection.
-fn of_set(items: &[Value], name: &str, values: &[Value]) -> Option<Value> {
+fn of_set(
+    items: &Keyed<Value>,
+    name: &str,
+    values: &[Value],
+    budget: &mut Budget,
+) -> Outcome<Option<Value>> {
     let [other] = values else {
-        return None;
+        return Ok(None);
     };
-    let other = iterated(other).ok()?;
-    let common = items.iter().filter(|item| has(&other, item));
-    Some(match name {
-        "intersection" => Value::Set(common.cloned().collect()),
-        "difference" => Value::Set(
-            items
-                .iter()
-                .filter(|item| !has(&other, item))
-                .cloned()
-                .collect(),
-        ),
-        "union" => set(items.iter().cloned().chain(other)),
-        "isdisjoint" => Value::Bool(common.count() == 0),
-        "issubset" => Value::Bool(common.count() == items.len()),
-        "issuperset" => Value::Bool(other.iter().all(|item| has(items, item))),
-        _ => return None,
-    })
+    let other = Keyed::collect(iterated(other, budget)?, budget)?;
+    let mut common = Vec::new();
+    let mut different = Vec::new();
+    for item in items.iter() {
+        match other.find(item, budget)? {
+            Some(_) => common.push(item.clone()),
+            None => different.push(item.clone()),
+        }
+    }
+    let set = |items: Vec<Value>, budget: &mut Budget| {
+        Ok(Some(Value::Set(Keyed::collect(items, budget)?)))
+    };
+    let truth = |value| Ok(Some(Value::Bool(value)));
+    match name {
+        "intersection" => set(common, budget),
+        "difference" => set(different, budget),
+        "union" => set(items.iter().chain(other.iter()).cloned().collect(), budget),
+        "isdisjoint" => truth(common.is_empty()),
+        "issubset" => truth(different.is_empty()),
+        "issuperset" => truth(common.len() == other.len()),
+        _ => Ok(None),
+    }
 }
 
 fn of_text(
@@ -130,11 +169,12 @@ fn of_text(
     name: &str,
     values: &[Value],
     named: &[(Rc<str>, Value)],
-) -> Said<Option<Value>> {
+    budget: &mut Budget,
+) -> Outcome<Option<Value>> {
     let whole = text.as_str();
     let plain = |text: &str| {
         if text.len() > LONGEST_TEXT {
-            return Err("the text is too long".to_owned());
+            return Err(Trouble::new("the text is too long"));
         }
         Ok(Some(Value::text(text)))
     };
@@ -153,27 +193,33 @@ fn of_text(
         .collect();
     let only_texts = texts.len() == values.len();
     match (name, &texts[..]) {
-        ("format", _) => return Ok(braces(whole, values, named).map(|text| Value::text(&text))),
+        ("format", _) => {
+            let filled = braces(whole, values, named, budget)?;
+            return Ok(filled.map(|text| Value::text(&text)));
+        }
         ("join", _) => {
             let [items] = values else {
                 return Ok(None);
             };
             let mut joined = Joined::default();
-            for (index, item) in iterated(items).map_err(|t| t.message)?.iter().enumerate() {
+            for (index, item) in iterated(items, budget)?.iter().enumerate() {
                 let Value::Text(item) = item else {
-                    return Err(format!("join() needs texts, found {}", item.sort()));
+                    return Err(Trouble::new(format!(
+                        "join() needs texts, found {}",
+                        item.sort()
+                    )));
                 };
                 if index > 0 {
                     joined.push(text);
                 }
                 joined.push(item);
                 if joined.len() > LONGEST_TEXT {
-                    return Err("the text is too long".to_owned());
+                    return Err(Trouble::new("the text is too long"));
                 }
             }
             return Ok(Some(Value::Text(joined.finish())));
         }
-        ("split" | "rsplit", _) => return Ok(split(text, name, values)),
+        ("split" | "rsplit", _) => return split(text, name, values, budget),
         ("zfill" | "ljust" | "rjust", _) => {
             let [width] = values else {
                 return Ok(None);
@@ -238,13 +284,13 @@ fn of_text(
         ("rfind", [part]) => Ok(Some(place(whole.rfind(part)))),
         ("index", [part]) => match whole.find(part) {
             Some(byte) => Ok(Some(place(Some(byte)))),
-            None => Err("the text has no such part".to_owned()),
+            None => Err(Trouble::new("the text has no such part")),
         },
         ("count", [part]) if !part.is_empty() => Ok(Some(Value::int(whole.matches(part).count()))),
         ("replace", [old, new]) if !old.is_empty() => {
             let more = whole.matches(old).count().saturating_mul(new.len());
             if more > LONGEST_TEXT {
-                return Err("the text is too long".to_owned());
+                return Err(Trouble::new("the text is too long"));
             }
             plain(&whole.replace(old, new))
         }
@@ -269,32 +315,27 @@ fn capitalized(text: &str) -> String {
 }
 
 /// The parts of a text, each with its marks.
-fn split(text: &Text, name: &str, values: &[Value]) -> Option<Value> {
+fn split(text: &Text, name: &str, values: &[Value], budget: &mut Budget) -> Outcome<Option<Value>> {
     let whole = text.as_str();
-    let most = match values.get(1) {
+    let most = match values.get(1).map(Value::number) {
         None => usize::MAX,
-        Some(most) => {
-            let most = most.number()?.double();
-            if most < 0.0 {
-                usize::MAX
-            } else {
-                most as usize
-            }
-        }
+        Some(None) => return Ok(None),
+        Some(Some(most)) if most.double() < 0.0 => usize::MAX,
+        Some(Some(most)) => most.double() as usize,
     };
     let mut cuts: Vec<(usize, usize)> = match values.first() {
         None | Some(Value::None) => {
             let words = whole.split_whitespace().map(|word| {
                 let start = word.as_ptr() as usize - whole.as_ptr() as usize;
-                Value::Text(text.slice(start..start + word.len()))
+                start..start + word.len()
             });
-            return Some(Value::List(words.collect()));
+            return parts(text, words.collect(), budget);
         }
         Some(Value::Text(separator)) if !separator.as_str().is_empty() => whole
             .match_indices(separator.as_str())
             .map(|(at, part)| (at, at + part.len()))
             .collect(),
-        _ => return None,
+        _ => return Ok(None),
     };
     if cuts.len() > most {
         match name {
@@ -302,12 +343,23 @@ fn split(text: &Text, name: &str, values: &[Value]) -> Option<Value> {
             _ => cuts.truncate(most),
         }
     }
-    let mut parts = Vec::with_capacity(cuts.len() + 1);
+    let mut ranges = Vec::with_capacity(cuts.len() + 1);
     let mut start = 0;
     for (end, next) in cuts {
-        parts.push(Value::Text(text.slice(start..end)));
+        ranges.push(start..end);
         start = next;
     }
-    parts.push(Value::Text(text.slice(start..whole.len())));
-    Some(Value::List(parts.into()))
+    ranges.push(start..whole.len());
+    parts(text, ranges, budget)
+}
+
+fn parts(text: &Text, ranges: Vec<Range<usize>>, budget: &mut Budget) -> Outcome<Option<Value>> {
+    if ranges.len() > LONGEST_LIST {
+        return Err(Trouble::new("the list is too long"));
+    }
+    budget.spend(ranges.len())?;
+    let parts = ranges
+        .into_iter()
+        .map(|range| Value::Text(text.slice(range)));
+    Ok(Some(Value::List(parts.collect())))
 }

@@ -16,19 +16,23 @@
 mod arguments;
 mod arithmetic;
 mod budget;
+mod comparison;
 mod detect;
 mod element;
 mod evaluate;
 mod expand;
+mod field;
 mod files;
 mod functions;
 mod glob;
 mod include;
+mod keyed;
 mod macros;
 mod map;
 mod methods;
 mod output;
 mod packages;
+mod percent;
 mod property;
 mod python_text;
 mod scope;
@@ -41,6 +45,7 @@ mod text;
 mod token;
 mod value;
 mod yaml;
+mod yaml_scalar;
 
 pub(super) use output::{Expanded, number_named};
 

@@ -5,7 +5,7 @@
 //! above the file, and the packages below it, nearest first.
 
 use super::files::folder_of;
-use super::{Run, files};
+use super::{Outcome, Run, files};
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
@@ -13,31 +13,33 @@ use std::path::{Path, PathBuf};
 const HIGHEST: usize = 8;
 /// Levels of folders below each of them.
 const DEEPEST: usize = 3;
-/// Folders that are looked at altogether.
+/// Folders that are looked at for one package, each paid for.
 const MOST_FOLDERS: usize = 20_000;
 
 impl Run<'_> {
     /// The value of `$(find package)`; where it is not found, its address: a mesh there is of no importance here.
-    pub(super) fn package(&mut self, name: &str) -> String {
-        match self.find_package(name) {
+    pub(super) fn package(&mut self, name: &str) -> Outcome<String> {
+        Ok(match self.find_package(name)? {
             Some(folder) => folder.to_string_lossy().into_owned(),
             None => format!("package://{name}"),
-        }
+        })
     }
 
-    pub(super) fn find_package(&mut self, name: &str) -> Option<PathBuf> {
+    pub(super) fn find_package(&mut self, name: &str) -> Outcome<Option<PathBuf>> {
         if name.is_empty() || name.contains(['/', '\\']) || name.starts_with('.') {
-            return None;
+            return Ok(None);
         }
         if let Some(known) = self.files.packages.get(name) {
-            return known.clone();
+            return Ok(known.clone());
         }
-        let found = self.search(name);
+        let mut left = MOST_FOLDERS;
+        let found = self.search(name, &mut left);
+        self.spend(MOST_FOLDERS - left)?;
         self.files.packages.insert(name.to_owned(), found.clone());
-        found
+        Ok(found)
     }
 
-    fn search(&self, name: &str) -> Option<PathBuf> {
+    fn search(&self, name: &str, left: &mut usize) -> Option<PathBuf> {
         let given = self
             .options
             .packages
@@ -47,9 +49,8 @@ impl Run<'_> {
         if let Some((_, path)) = given {
             return Some(path.clone());
         }
-        let mut left = MOST_FOLDERS;
         for folder in folders_of("ROS_PACKAGE_PATH") {
-            if let Some(found) = below(&folder, name, DEEPEST, &mut left) {
+            if let Some(found) = below(&folder, name, DEEPEST, left) {
                 return Some(found);
             }
         }
@@ -64,7 +65,7 @@ impl Run<'_> {
         start.ancestors().take(HIGHEST).find_map(|folder| {
             // The whole disk, or all users' folders, are not searched.
             let levels = DEEPEST.min(folder.ancestors().count() - 1);
-            below(folder, name, levels, &mut left).filter(|_| levels > 0)
+            below(folder, name, levels, left).filter(|_| levels > 0)
         })
     }
 }

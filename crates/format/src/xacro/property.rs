@@ -26,6 +26,7 @@ impl Run<'_> {
             .at(name.place, self.call));
         }
         let symbols = &names.symbols;
+        self.spend(symbols.level())?;
         if let Some(remove) = element.attribute("remove")
             && self.attribute_truth(remove, names)?
         {

@@ -12,6 +12,8 @@ use std::rc::Rc;
 pub(super) struct Table {
     names: RefCell<HashMap<Rc<str>, Entry>>,
     parent: Option<Rc<Table>>,
+    /// Tables around this one.
+    depth: usize,
     pub(super) is_namespace: bool,
 }
 
@@ -29,6 +31,7 @@ impl Table {
     pub(super) fn inside(parent: &Rc<Table>) -> Rc<Self> {
         Rc::new(Self {
             parent: Some(parent.clone()),
+            depth: parent.depth + 1,
             ..Self::default()
         })
     }
@@ -36,6 +39,7 @@ impl Table {
     pub(super) fn namespace(parent: Option<&Rc<Table>>) -> Rc<Self> {
         Rc::new(Self {
             parent: parent.cloned(),
+            depth: parent.map_or(0, |parent| parent.depth + 1),
             is_namespace: true,
             ..Self::default()
         })
@@ -43,6 +47,11 @@ impl Table {
 
     pub(super) fn parent(&self) -> Option<&Rc<Table>> {
         self.parent.as_ref()
+    }
+
+    /// What looking for a name costs in steps: a table is asked in a sixteenth of the time that an operation takes.
+    pub(super) fn level(&self) -> usize {
+        self.depth / 16
     }
 
     pub(super) fn set(&self, name: &str, entry: Entry) {

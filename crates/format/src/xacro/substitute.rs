@@ -1,6 +1,5 @@
 //! `${...}` and `$(...)` in texts.
 
-use super::evaluate::text_of;
 use super::scope::Table;
 use super::syntax::parse;
 use super::text::{Joined, Text};
@@ -99,6 +98,7 @@ impl Run<'_> {
         let all = pieces(text.as_str())
             .map_err(|(at, message)| Trouble::new(message).at(part(&(at..at + 2)), call))?;
         let single = all.len() == 1;
+        self.spend(all.len().saturating_sub(1))?;
         let mut joined = Joined::default();
         for piece in all {
             let value = match piece {
@@ -154,7 +154,7 @@ impl Run<'_> {
         let path = |path: &Path| Ok(Value::text(&path.to_string_lossy()));
         match words[..] {
             ["arg", name] => Ok(Value::Text(self.argument(name)?)),
-            ["find", package] => Ok(Value::text(&self.package(package))),
+            ["find", package] => Ok(Value::text(&self.package(package)?)),
             ["env", name] => match std::env::var(name) {
                 Ok(value) => Ok(Value::text(&value)),
                 Err(_) => Err(Trouble::new(format!(
@@ -194,6 +194,7 @@ impl Run<'_> {
     /// `$(eval ...)`: an expression over the arguments, whose value is text.
     fn argument_expression(&mut self, text: &str) -> Outcome<Value> {
         let names = Rc::new(Table::default());
+        self.spend(self.arguments.len())?;
         for (name, value) in &self.arguments {
             let value = match value.as_str().to_ascii_lowercase().as_str() {
                 "true" => Value::Bool(true),
@@ -206,8 +207,9 @@ impl Run<'_> {
         names.set_value("false", Value::Bool(false));
         let tree = parse(&text.into())
             .map_err(|message| Trouble::new(format!("{message} in {}", quoted(text))))?;
+        self.spend(text.len() / 8)?;
         let value = self.evaluate(&tree, &names)?;
-        Ok(Value::Text(text_of(&value)?))
+        Ok(Value::Text(self.paid_text(&value)?))
     }
 }
 

@@ -19,6 +19,7 @@ pub(super) enum Expr {
     Tuple(Vec<Expr>),
     Dict(Vec<(Expr, Expr)>),
     Negate(Box<Expr>),
+    Plus(Box<Expr>),
     Not(Box<Expr>),
     Binary(Binary, Box<Expr>, Box<Expr>),
     /// `a < b <= c`: the first operand, and each further one with the comparison before it.
@@ -302,7 +303,8 @@ impl Parser {
             return self.node(Expr::Negate(Box::new(operand)));
         }
         if self.take("+") {
-            return self.deeper(Self::signed);
+            let operand = self.deeper(Self::signed)?;
+            return self.node(Expr::Plus(Box::new(operand)));
         }
         self.power()
     }

@@ -78,13 +78,37 @@ fn macros_take_values_defaults_and_blocks() {
         ),
         "<e v=\"3\"/><e v=\"2\"/><e v=\"1\"/><e v=\"1\"/>"
     );
-    // Without its prefix a macro is called directly in the robot only.
+    // Without its prefix it is no call.
     assert_eq!(
         expanded(
-            "<xacro:macro name='n' params='i'><e v='${i}'/></xacro:macro><n i='1'/><o><n i='2'/></o>"
+            "<xacro:macro name='n' params='i'><e v='${i}'/></xacro:macro><n i='1'/><o><n i='2'/></o><xacro:n i='3'/>"
         ),
-        "<e v=\"1\"/><o><n i=\"2\"/></o>"
+        "<n i=\"1\"/><o><n i=\"2\"/></o><e v=\"3\"/>"
     );
+}
+
+#[test]
+fn an_element_with_the_name_of_a_macro_is_no_call() {
+    let body = format!(
+        "<xacro:macro name='eyes' params='on:=a'><link name='eye'/><joint name='k' type='revolute'><parent link='${{on}}'/>\
+         <child link='eye'/></joint></xacro:macro>{CHAIN}</joint>\n<eyes/>"
+    );
+    let plain = reading(&body, &[]);
+    assert_eq!(names(&plain.mechanism), ["a", "b"]);
+    assert_eq!(plain.warnings.len(), 1);
+    let warning = &plain.warnings[0];
+    assert_eq!((warning.line, warning.column), (3, 1), "{warning:?}");
+    assert!(
+        warning.message.contains("<xacro:eyes> calls it"),
+        "{warning:?}"
+    );
+    let called = body.replace("<eyes/>", "<xacro:eyes/>");
+    assert_eq!(names(&reading(&called, &[]).mechanism).len(), 3);
+    // A macro may write an element of its own name, any number of times.
+    let body = "<xacro:macro name='sensors'><sensors><other/></sensors></xacro:macro><link name='a'/><xacro:sensors/><xacro:sensors/>";
+    let plain = reading(body, &[]);
+    assert_eq!(names(&plain.mechanism), ["a"]);
+    assert!(plain.warnings.is_empty(), "{:?}", plain.warnings);
 }
 
 #[test]
@@ -144,6 +168,11 @@ fn expressions_print_as_in_python() {
         ("max([x * x for x in range(4) if x % 2 == 0])", "4"),
         ("dict(a=1)['a'] if 'a' in ['a'] else 2", "1"),
         ("not (True and 0)", "True"),
+        (
+            "'%.3s %#x %G' % (3.0708, 30, 0.0000076)",
+            "3.0 0x1e 7.6E-06",
+        ),
+        ("[+True, -True, +0.5, -0.0 // 2]", "[1, -1, 0.5, -0.0]"),
         ("round(2.5) + len('abc')", "5"),
         ("math.pi", "3.141592653589793"),
         ("'x' 'y' + str(1.0)", "xy1.0"),
@@ -335,6 +364,173 @@ fn endless_files_end() {
                 .any(|words| told.contains(words)),
             "{told}"
         );
+    }
+}
+
+/// A property that holds two of the one before it, many times: a tree of 2^60 items in 60 lists.
+fn doubled(name: &str) -> String {
+    let first = format!("<xacro:property name='{name}0' value='${{[1]}}'/>\n");
+    let further = (0..60).map(|at| {
+        let next = at + 1;
+        format!("<xacro:property name='{name}{next}' value='${{[{name}{at}, {name}{at}]}}'/>\n")
+    });
+    std::iter::once(first).chain(further).collect()
+}
+
+/// The message about a body whose last line is at fault, with the line and column that it names.
+fn told_on_the_last_line(body: &str) -> String {
+    let body = format!("<xacro:if value='0'/>\n{body}");
+    let told = message(&body);
+    let line = robot(&body).lines().count() - 1;
+    assert!(
+        told.starts_with(&format!("robot.xacro:{line}:")),
+        "line {line}: {told}"
+    );
+    told
+}
+
+#[test]
+fn values_that_share_their_parts_are_not_walked_as_trees() {
+    for (expression, value) in [
+        ("a60 == a60", "True"),
+        ("[a60] == [a60]", "True"),
+        ("a60 in [a60]", "True"),
+        ("len(max(a60, a60))", "2"),
+        ("a60 &lt; a60", "False"),
+        ("[a60].index(a60)", "0"),
+    ] {
+        let body = format!("{}<e v='${{{expression}}}'/>", doubled("a"));
+        assert_eq!(
+            expanded(&body),
+            format!("<e v=\"{value}\"/>"),
+            "{expression}"
+        );
+    }
+    // Built twice, these are equal only after 2^60 comparisons.
+    for expression in [
+        "a60 == b60",
+        "a60 != b60",
+        "a60 is b60",
+        "a60 in [b60]",
+        "a60 &lt; b60",
+        "max(a60, b60)",
+        "sorted([a60, b60])",
+        "[a60].count(b60)",
+        "dict([['k', a60]]) == dict([['k', b60]])",
+        "tuple([a60]) in dict([[tuple([b60]), 1]])",
+    ] {
+        let both = format!("{}{}", doubled("a"), doubled("b"));
+        let told = told_on_the_last_line(&format!("{both}<e v=\"${{{expression}}}\"/>"));
+        assert!(told.contains("1000000 steps"), "{expression}: {told}");
+    }
+    for expression in ["a60", "str(a60)", "'%s' % [a60]"] {
+        let body = format!("{}<e v=\"${{{expression}}}\"/>", doubled("a"));
+        let told = told_on_the_last_line(&body);
+        assert!(told.contains("too long"), "{expression}: {told}");
+    }
+}
+
+#[test]
+fn sets_and_dictionaries_find_their_items_at_once() {
+    for (expression, value) in [
+        ("len(set(range(100000)))", "100000"),
+        ("dict([(i, i) for i in range(50000)])[49999]", "49999"),
+        ("len(set([str(i) for i in range(30000)]))", "30000"),
+    ] {
+        assert_eq!(
+            expanded(&format!("<e v='${{{expression}}}'/><xacro:if value='0'/>")),
+            format!("<e v=\"{value}\"/>"),
+            "{expression}"
+        );
+    }
+}
+
+#[test]
+fn what_costs_time_costs_steps() {
+    let text = "<xacro:property name='t' value=\"${'a' * 1000000}\"/>\n";
+    let list = "<xacro:property name='l' value='${[0] * 20000}'/>\n";
+    let roots = "<xacro:property name='r' value='${(1+sqrt(2))*(1+sqrt(3))*(1+sqrt(5))*(1+sqrt(7))*(1+sqrt(11))}'/>\n";
+    let loops = |inner: &str| format!("<e v=\"${{len([{inner} for i in range(90000)])}}\"/>");
+    let parameters: Vec<String> = (0..2000).map(|at| format!("p{at}:=1")).collect();
+    let arguments: String = (0..2000)
+        .map(|at| format!("<xacro:arg name='a{at}' default='1'/>\n"))
+        .collect();
+    for body in [
+        format!("{text}{}", loops("t[0]")),
+        format!("{text}{}", loops("t.replace('a', 'b')")),
+        format!("{text}{}", loops("[c for c in t]")),
+        format!("{list}{}", loops("l + l")),
+        format!("{list}{}", loops("max(l)")),
+        format!("{list}{}", loops("'%.0s' % l")),
+        format!("{list}{}", loops("str(l)")),
+        format!("{list}{}", loops("7 in l")),
+        format!("{roots}{}", loops("r * r")),
+        format!("{roots}{}", loops("1 / r")),
+        format!("{roots}{}", loops("r ** 9")),
+        format!(
+            "<e v=\"${{{}}}\"/>",
+            "sorted([i * 7919 % 90001 for i in range(90000)])"
+        ),
+        format!(
+            "<xacro:macro name='m' params='{}'/>\n{}",
+            parameters.join(" "),
+            "<xacro:m/>".repeat(1000)
+        ),
+        format!("{arguments}{}", "<a b='$(eval 1)'/>".repeat(1000)),
+        format!(
+            "<a/>{}",
+            "<xacro:include filename='/*/*/no*' optional='true'/>".repeat(100_000)
+        ),
+    ] {
+        let told = told_on_the_last_line(&body);
+        assert!(told.contains("1000000 steps"), "{told}");
+    }
+    let name = "n".repeat(2000);
+    let told = told_on_the_last_line(&loops(&format!("[1 for {name} in [1]]")));
+    assert!(told.contains("a name of more than 1000 bytes"), "{told}");
+    let deep = format!(
+        "<xacro:property name='a' value='${{[]}}' lazy_eval='false'/>\n{}<e v='${{a == [[a]]}}'/>",
+        "<xacro:property name='a' value='${[a]}' lazy_eval='false'/>\n".repeat(2000)
+    );
+    assert!(told_on_the_last_line(&deep).contains("more than 600 levels deep"));
+}
+
+#[test]
+fn yaml_that_repeats_itself_is_bounded() {
+    let levels: String = (1..22)
+        .map(|at| {
+            format!(
+                "l{at}: &l{at} [{}]\n",
+                vec![format!("*l{}", at - 1); 9].join(", ")
+            )
+        })
+        .collect();
+    let keys: Vec<String> = (0..4000).map(|at| format!("k{at}: 1")).collect();
+    let merged = format!(
+        "a: &a {{{}}}\nb: {{<<: [{}]}}\n",
+        keys.join(", "),
+        vec!["*a"; 4000].join(", ")
+    );
+    let compared = "${xacro.load_yaml('levels.yaml') == xacro.load_yaml('levels.yaml')}";
+    let folder = Folder::new(
+        "yaml",
+        &[
+            ("levels.yaml", &format!("l0: &l0 [x]\n{levels}")),
+            ("merged.yaml", &merged),
+            (
+                "compared.xacro",
+                &robot(&format!("<xacro:if value='0'/>\n<e v=\"{compared}\"/>")),
+            ),
+            (
+                "merged.xacro",
+                &robot("<xacro:if value='0'/>\n<e v=\"${xacro.load_yaml('merged.yaml')}\"/>"),
+            ),
+        ],
+    );
+    for name in ["compared.xacro", "merged.xacro"] {
+        let error = read_file_with(folder.0.join(name), &ReadOptions::default()).unwrap_err();
+        assert!(error.message.contains("1000000 steps"), "{error}");
+        assert_eq!(error.line, 3, "{error}");
     }
 }
 

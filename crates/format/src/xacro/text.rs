@@ -45,6 +45,11 @@ impl Text {
         &self.text
     }
 
+    /// The text without its marks.
+    pub(super) fn shared(&self) -> Rc<str> {
+        self.text.clone()
+    }
+
     pub(super) fn marks(&self) -> &[Mark] {
         &self.marks
     }
@@ -64,10 +69,12 @@ impl Text {
         let Some(text) = self.text.get(part.clone()) else {
             return Self::plain("");
         };
-        let marks = self
+        let first = self
             .marks
+            .partition_point(|mark| mark.range.start < part.start);
+        let marks = self.marks[first..]
             .iter()
-            .filter(|mark| part.start <= mark.range.start && mark.range.end <= part.end)
+            .take_while(|mark| mark.range.end <= part.end)
             .map(|mark| Mark {
                 range: mark.range.start - part.start..mark.range.end - part.start,
                 number: mark.number.clone(),

@@ -15,6 +15,9 @@ pub(super) enum Token {
     Sign(&'static str),
 }
 
+/// Names are looked for more often than they are written.
+const LONGEST_NAME: usize = 1000;
+
 const KEYWORDS: [&str; 9] = [
     "and", "or", "not", "in", "is", "if", "else", "for", "lambda",
 ];
@@ -50,6 +53,9 @@ pub(super) fn tokens(text: &Text) -> Result<Vec<(Token, usize)>, String> {
         } else if c.is_alphabetic() || c == '_' {
             let ends = |c: char| !(c.is_alphanumeric() || c == '_');
             let name = &rest[..rest.find(ends).unwrap_or(rest.len())];
+            if name.len() > LONGEST_NAME {
+                return Err(format!("a name of more than {LONGEST_NAME} bytes"));
+            }
             at += name.len();
             match KEYWORDS.iter().find(|keyword| **keyword == name) {
                 Some(keyword) => Token::Sign(keyword),

@@ -1,6 +1,7 @@
 //! What an expression can stand for: the values of Python that xacro files use.
 
 use super::element::Element;
+use super::keyed::Keyed;
 use super::python_text::{float_text, quoted_text};
 use super::scope::Table;
 use super::text::{Joined, Text};
@@ -17,9 +18,9 @@ pub(super) enum Value {
     List(Rc<[Value]>),
     Tuple(Rc<[Value]>),
     /// Items that differ, in the order in which they were given: Python promises none.
-    Set(Rc<[Value]>),
+    Set(Rc<Keyed<Value>>),
     /// Keys in the order in which they were given.
-    Dict(Rc<[(Value, Value)]>),
+    Dict(Rc<Keyed<(Value, Value)>>),
     /// A function by its name.
     Function(&'static str),
     /// `math`, `python` or `xacro`.
@@ -175,7 +176,8 @@ impl Value {
             Self::Bool(value) => *value,
             Self::Number(number) => number.double() != 0.0,
             Self::Text(text) => !text.as_str().is_empty(),
-            Self::List(items) | Self::Tuple(items) | Self::Set(items) => !items.is_empty(),
+            Self::List(items) | Self::Tuple(items) => !items.is_empty(),
+            Self::Set(items) => !items.is_empty(),
             Self::Dict(items) => !items.is_empty(),
             _ => true,
         }
@@ -263,77 +265,4 @@ impl Value {
         }
         Some(())
     }
-
-    /// Python's `==`.
-    pub(super) fn equals(&self, other: &Self) -> bool {
-        if let (Some(a), Some(b)) = (self.number(), other.number()) {
-            return match (a.kind, b.kind) {
-                (Kind::Int(a), Kind::Int(b)) => a == b,
-                _ => a.double() == b.double(),
-            };
-        }
-        match (self, other) {
-            (Self::None, Self::None) => true,
-            (Self::Text(a), Self::Text(b)) => a.as_str() == b.as_str(),
-            (Self::List(a), Self::List(b)) | (Self::Tuple(a), Self::Tuple(b)) => {
-                a.len() == b.len() && a.iter().zip(b.iter()).all(|(a, b)| a.equals(b))
-            }
-            (Self::Set(a), Self::Set(b)) => a.len() == b.len() && a.iter().all(|item| has(b, item)),
-            (Self::Dict(a), Self::Dict(b)) => {
-                a.len() == b.len()
-                    && a.iter()
-                        .all(|(key, value)| found(b, key).is_some_and(|other| value.equals(other)))
-            }
-            (Self::Function(a), Self::Function(b)) | (Self::Module(a), Self::Module(b)) => a == b,
-            _ => false,
-        }
-    }
-}
-
-/// Whether an item is among some.
-pub(super) fn has(items: &[Value], item: &Value) -> bool {
-    items.iter().any(|own| own.equals(item))
-}
-
-/// A set of those items that differ.
-pub(super) fn set(items: impl IntoIterator<Item = Value>) -> Value {
-    match dictionary(items.into_iter().map(|item| (item, Value::None))) {
-        Value::Dict(items) => Value::Set(items.iter().map(|(item, _)| item.clone()).collect()),
-        other => other,
-    }
-}
-
-/// What a dictionary has for a key.
-pub(super) fn found<'a>(items: &'a [(Value, Value)], key: &Value) -> Option<&'a Value> {
-    items
-        .iter()
-        .find(|(own, _)| own.equals(key))
-        .map(|(_, value)| value)
-}
-
-/// A dictionary; of two values for one key the later holds, in the place of the earlier.
-pub(super) fn dictionary(items: impl IntoIterator<Item = (Value, Value)>) -> Value {
-    let mut all: Vec<(Value, Value)> = Vec::new();
-    let mut places = std::collections::HashMap::new();
-    for (key, value) in items {
-        // Texts are most keys of large dictionaries; others are few.
-        let place = match &key {
-            Value::Text(text) => places.get(text.as_str()).copied(),
-            _ => all.iter().position(|(own, _)| own.equals(&key)),
-        };
-        match place {
-            Some(index) => {
-                if let Some(entry) = all.get_mut::<usize>(index) {
-                    entry.1 = value;
-                }
-            }
-            None => {
-                if let Value::Text(text) = &key {
-                    places.insert(text.as_str().to_owned(), all.len());
-                }
-                all.push((key, value));
-            }
-        }
-    }
-    Value::Dict(all.into())
 }

@@ -1,11 +1,14 @@
 //! YAML files as values, read as xacro's YAML reader reads them: version 1.1 of the language, and the tags for units.
 
-use super::arithmetic::binary;
+use super::arithmetic::numbers;
+use super::budget::Budget;
+use super::keyed::Keyed;
 use super::scope::Table;
 use super::syntax::{Binary, parse};
-use super::text::Text;
-use super::value::{Kind, Num, Value, dictionary};
-use super::{Outcome, Run, Trouble, files};
+use super::value::{Kind, Num, Value};
+use super::yaml_scalar::{plain, tagged};
+use super::{Outcome, Run, Trouble};
+use crate::words::{cut, quoted};
 use kutzbach_math::number::Number;
 use saphyr_parser::{Event, Parser, ScalarStyle, Tag};
 use std::collections::HashMap;
@@ -26,7 +29,7 @@ impl Run<'_> {
     /// `xacro.load_yaml('file')`.
     pub(super) fn load_yaml(&mut self, written: &str) -> Outcome<Value> {
         let path = self.resolved(written)?;
-        let text = files::read_text(&path)?;
+        let text = self.paid_file(&path)?;
         self.spend(text.len() / 8)?;
         self.yaml(&text).map_err(|trouble| {
             let message = format!("in `{}`: {}", path.display(), trouble.message);
@@ -59,7 +62,7 @@ impl Run<'_> {
                     continue;
                 }
                 Event::SequenceEnd | Event::MappingEnd => match open.pop() {
-                    Some(done) => (done.anchor, done.finish()),
+                    Some(done) => (done.anchor, done.finish(&mut self.budget)?),
                     None => continue,
                 },
                 Event::Scalar(text, style, anchor, tag) => {
@@ -105,47 +108,55 @@ impl Run<'_> {
                     value.sort()
                 )));
             };
-            let product = binary(
+            return Ok(Value::Number(numbers(
                 Binary::Multiply,
-                &Value::Number(number),
-                &Value::Number(unit),
-            )?;
-            return Ok(product);
+                &number,
+                &unit,
+                &mut self.budget,
+            )?));
         }
-        let core = tag
-            .filter(|tag| tag.is_yaml_core_schema())
-            .map(|tag| tag.suffix.as_str());
-        if core == Some("str") || style != ScalarStyle::Plain {
-            return Ok(Value::text(text));
+        let core = tag.filter(|tag| tag.is_yaml_core_schema());
+        match core {
+            Some(tag) => tagged(text, &tag.suffix).ok_or_else(|| {
+                let message = format!("{} is no `!!{}`", quoted(text), cut(&tag.suffix));
+                Trouble::new(message)
+            }),
+            None if style == ScalarStyle::Plain => Ok(plain(text)),
+            None => Ok(Value::text(text)),
         }
-        Ok(plain_scalar(text))
     }
 }
 
 impl Open {
-    fn finish(self) -> Value {
+    fn finish(self, budget: &mut Budget) -> Outcome<Value> {
         if self.is_list {
-            return Value::List(self.items.into());
+            return Ok(Value::List(self.items.into()));
         }
         let mut merged = Vec::new();
         let mut own = Vec::new();
+        let mut merge = |value: &Value, budget: &mut Budget| -> Outcome<()> {
+            budget.spend_on(value)?;
+            if let Value::Dict(more) = value {
+                merged.extend(more.iter().cloned());
+            }
+            Ok(())
+        };
         let mut items = self.items.into_iter();
         while let (Some(key), Some(value)) = (items.next(), items.next()) {
             let is_merge = matches!(&key, Value::Text(key) if key.as_str() == "<<");
             match (is_merge, &value) {
-                (true, Value::Dict(more)) => merged.extend(more.iter().cloned()),
+                (true, Value::Dict(_)) => merge(&value, budget)?,
                 (true, Value::List(several)) => {
                     // Of several, the first has the last word.
                     for one in several.iter().rev() {
-                        if let Value::Dict(more) = one {
-                            merged.extend(more.iter().cloned());
-                        }
+                        merge(one, budget)?;
                     }
                 }
                 _ => own.push((key, value)),
             }
         }
-        dictionary(merged.into_iter().chain(own))
+        let all = merged.into_iter().chain(own);
+        Ok(Value::Dict(Keyed::collect(all, budget)?))
     }
 }
 
@@ -168,67 +179,6 @@ fn unit(tag: &str) -> Option<Num> {
         "inches" => of(0.0254, Number::ratio(254, 10000)),
         _ => None,
     }
-}
-
-/// A word without quotes. In YAML 1.1 a decimal needs a point and an exponent its sign; else it is text.
-fn plain_scalar(text: &str) -> Value {
-    match text {
-        "" | "~" | "null" | "Null" | "NULL" => return Value::None,
-        "true" | "True" | "TRUE" | "yes" | "Yes" | "YES" | "on" | "On" | "ON" => {
-            return Value::Bool(true);
-        }
-        "false" | "False" | "FALSE" | "no" | "No" | "NO" | "off" | "Off" | "OFF" => {
-            return Value::Bool(false);
-        }
-        ".inf" | ".Inf" | ".INF" | "+.inf" => return Value::Number(Num::float(f64::INFINITY)),
-        "-.inf" | "-.Inf" | "-.INF" => return Value::Number(Num::float(f64::NEG_INFINITY)),
-        ".nan" | ".NaN" | ".NAN" => return Value::Number(Num::float(f64::NAN)),
-        _ => {}
-    }
-    let plain = text.replace('_', "");
-    let unsigned = plain.strip_prefix(['+', '-']).unwrap_or(&plain);
-    let digits = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
-    let starts = text
-        .trim_start_matches(['+', '-'])
-        .starts_with(|c: char| c.is_ascii_digit() || c == '.');
-    if !starts || unsigned.is_empty() {
-        return Value::text(text);
-    }
-    let number = if digits(unsigned) && (unsigned == "0" || !unsigned.starts_with('0')) {
-        Num::read_int(&Text::plain(&plain))
-    } else if let Some(octal) = unsigned.strip_prefix('0').filter(|rest| digits(rest)) {
-        radix(octal, 8, plain.starts_with('-'))
-    } else if let Some(hexadecimal) = unsigned.strip_prefix("0x") {
-        radix(hexadecimal, 16, plain.starts_with('-'))
-    } else if is_decimal(unsigned) {
-        Num::read_float(&Text::plain(&plain))
-    } else {
-        None
-    };
-    number.map_or_else(|| Value::text(text), Value::Number)
-}
-
-fn radix(digits: &str, radix: u32, is_negative: bool) -> Option<Num> {
-    let value = i128::from_str_radix(digits, radix).ok()?;
-    Some(Num::int(if is_negative { -value } else { value }))
-}
-
-fn is_decimal(unsigned: &str) -> bool {
-    let (mantissa, exponent) = match unsigned.split_once(['e', 'E']) {
-        Some((mantissa, exponent)) => (mantissa, Some(exponent)),
-        None => (unsigned, None),
-    };
-    let digits = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
-    let exponent_fits = exponent.is_none_or(|exponent| {
-        exponent
-            .strip_prefix(['+', '-'])
-            .is_some_and(|digits_of| !digits_of.is_empty() && digits(digits_of))
-    });
-    let parts = mantissa.split_once('.');
-    exponent_fits
-        && parts.is_some_and(|(whole, fraction)| {
-            digits(whole) && digits(fraction) && !(whole.is_empty() && fraction.is_empty())
-        })
 }
 
 #[cfg(test)]
@@ -263,6 +213,7 @@ mod tests {
                 "a: &x {b: 1, c: 2}\nd: {<<: *x, c: 3}",
                 "{'a': {'b': 1, 'c': 2}, 'd': {'b': 1, 'c': 3}}",
             ),
+            ("[1:30, 0b101, !!float 1, !!str 7]", "[90, 5, 1.0, '7']"),
             ("", "None"),
         ] {
             assert_eq!(shown(text), value, "{text}");
