@@ -419,10 +419,14 @@ fn close(
         found.starts < starts && !found.best.as_ref().is_some_and(PartOutcome::closed);
     let steps = steps + found.steps;
     done.outcome = match found.best {
-        Some(best) if best.closed() || best.gap() < done.outcome.gap() => PartOutcome {
-            steps: steps.max(1),
-            ..best
-        },
+        Some(best)
+            if best.closed() || best.gap(task.mechanism) < done.outcome.gap(task.mechanism) =>
+        {
+            PartOutcome {
+                steps: steps.max(1),
+                ..best
+            }
+        }
         _ => {
             before.put_back(states);
             PartOutcome {
@@ -439,7 +443,7 @@ fn close(
     let nearest = Kept::of(task.part, states);
     drawn.put_back(states);
     let as_drawn = descend(task, states, Effort::NONE)?;
-    if as_drawn.gap() <= done.outcome.gap() {
+    if as_drawn.gap(task.mechanism) <= done.outcome.gap(task.mechanism) {
         done.outcome = PartOutcome { steps, ..as_drawn };
     } else {
         nearest.put_back(states);

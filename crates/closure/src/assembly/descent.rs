@@ -77,10 +77,10 @@ impl PartOutcome {
         }
     }
 
-    /// How far the cycles are open where their joints are: of the worst, the angle (rad) and the largest distance by which a
-    /// joint misses itself after a walk around, in units of the size of the set of joints. The residual says less of a cycle whose axes
+    /// How far the cycles are open at the joints that close loops: of the worst, the angle (rad) and the largest distance by
+    /// which such a joint misses itself after a walk around, in units of the size of the set of joints. The residual says less of a cycle whose axes
     /// almost meet far away: turned about that point it is hardly open there, and far open at the joints.
-    pub(super) fn gap(&self) -> f64 {
+    pub(super) fn gap(&self, mechanism: &Mechanism) -> f64 {
         let Some(here) = &self.jacobian else {
             return f64::INFINITY;
         };
@@ -91,7 +91,12 @@ impl PartOutcome {
                 .flat_map(|a| places().map(move |b| far(a, b)))
                 .fold(0.0, f64::max);
             let size = if size > 0.0 { size } else { 1.0 };
-            let miss = places().map(move |place| far(&walk.closure.apply(place), place) / size);
+            let closing = walk
+                .joints
+                .iter()
+                .filter(|joint| mechanism.joints()[joint.joint].closes_loop)
+                .map(|joint| &joint.frame.translation);
+            let miss = closing.map(|place| far(&walk.closure.apply(place), place) / size);
             length(&walk.closure.rotation_vector()) + largest(&miss.collect::<Vec<f64>>())
         });
         let of_couplings = here.residual[6 * here.walks.len()..].iter().copied();
