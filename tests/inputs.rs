@@ -490,3 +490,40 @@ fn joints_that_are_marked_as_dependent_are_not_proposed() {
     let proposed = reported(&text("false")).inputs.unwrap();
     assert_eq!(proposed.proposed, ["l"]);
 }
+
+/// A torso on a post that turns, with two arms of three hinges and a neck of two, beside a wheel.
+#[test]
+fn a_limb_that_branches_is_named_by_its_start() {
+    let mut text = links(&["base", "wheel", "torso"])
+        + &joint("axle", "continuous", "base", "wheel", "1 0 0", "0 1 0")
+        + &joint("waist", "continuous", "base", "torso", "0 0 1", "0 0 1");
+    let mut chain = |name: &str, axes: &[&str]| {
+        let mut parent = "torso".to_owned();
+        for (index, axis) in axes.iter().enumerate() {
+            let link = format!("{name}_{index}");
+            text += &links(&[&link]);
+            text += &joint(
+                &format!("to_{link}"),
+                "continuous",
+                &parent,
+                &link,
+                "0.3 0.2 0.1",
+                axis,
+            );
+            parent = link;
+        }
+    };
+    chain("left_arm", &["1 0 0", "0 1 0", "0 1 0"]);
+    chain("right_arm", &["1 0 0", "0 1 0", "0 1 0"]);
+    chain("neck", &["0 1 0", "1 0 0"]);
+    let tie = r#"<coupling name="c"><predecessor link="left_arm_0"/><successor link="left_arm_1"/><ratio value="2"/></coupling>"#;
+    let report = reported(&format!(r#"<robot name="r">{text}{tie}</robot>"#));
+    let found: Vec<(&str, usize, bool)> = inputs(&report)
+        .limbs
+        .iter()
+        .map(|limb| (limb.end.as_str(), limb.freedom, limb.branches))
+        .collect();
+    assert_eq!(found, [("torso", 8, true), ("wheel", 1, false)]);
+    let page = kutzbach::report::text::render(&report, Layout::default());
+    assert!(page.contains("`torso` and its branches 8"), "{page}");
+}

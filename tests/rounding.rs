@@ -288,3 +288,39 @@ mod corpus {
         assert_none(&by_subgroups);
     }
 }
+
+/// A parallelogram of whole numbers, with zeros written in some way.
+#[test]
+fn zeros_with_decimals_are_zeros() {
+    let four_bar = |turn: &str| {
+        let joint = |name: &str, parent: &str, child: &str, at: &str| {
+            format!(
+                "<joint name='{name}' type='continuous'><parent link='{parent}'/><child link='{child}'/><origin xyz='{at}' {turn}/><axis xyz='0 0 1'/></joint>"
+            )
+        };
+        let text = format!(
+            "<robot name='r'><link name='a'/><link name='b'/><link name='c'/><link name='d'/>{}{}{}\
+             <loop name='l' type='revolute'><predecessor link='c'><origin xyz='2 0 0'/></predecessor>\
+             <successor link='d'><origin xyz='0 1 0'/></successor><axis xyz='0 0 1'/></loop></robot>",
+            joint("ab", "a", "b", "0 0 0"),
+            joint("bc", "b", "c", "0 1 0"),
+            joint("ad", "a", "d", "2 0 0"),
+        );
+        let reading = kutzbach::format::read(&text, "file.urdf", &[]).unwrap();
+        analysis(&reading.mechanism).mobility
+    };
+    let plain = four_bar("");
+    assert_eq!((plain.verdict, plain.finite()), (Verdict::Mobile, Some(1)));
+    for turn in [
+        "rpy='0.000000 0.000000 0.000000'",
+        "quat_xyzw='0 0 0 1'",
+        "quat_xyzw='0.000 0.000 0.000 1.000'",
+    ] {
+        let padded = four_bar(turn);
+        assert_eq!(
+            (padded.verdict, padded.finite()),
+            (Verdict::Mobile, Some(1)),
+            "{turn}"
+        );
+    }
+}

@@ -1,6 +1,6 @@
 //! `quat_xyzw`, the other way in which URDF writes how a frame is turned (urdfdom 2 and later).
 //!
-//! A frame keeps roll, pitch and yaw. The angles are worked out in doubles and stated with as many decimals as the quaternion has,
+//! A frame keeps roll, pitch and yaw. The angles are worked out in doubles and stated with as many decimals as the quaternion has besides zeros,
 //! so that its precision stays part of the file; one whose squares add up to exactly 1, such as `0 0 0 1` or
 //! `0.5 0.5 0.5 0.5`, states them in full.
 
@@ -46,6 +46,7 @@ fn decimals_of(quaternion: &[Number; 4]) -> usize {
     quaternion
         .iter()
         .filter_map(Number::stated)
+        .filter(|stated| stated.significant > 0)
         .map(|stated| stated.decimals)
         .max()
         .map_or(FULL, |most| usize::try_from(most).unwrap_or(0).min(FULL))
@@ -114,6 +115,10 @@ mod tests {
     #[test]
     fn the_angles_state_the_digits_of_the_quaternion() {
         let parts = ["0", "0", "0.7071", "0.7071"].map(|word| Number::decimal(word).unwrap());
+        let [.., yaw] = roll_pitch_yaw(&parts).unwrap();
+        assert_eq!(yaw.stated().unwrap().decimals, 4);
+        let padded = ["0.000000", "0.000000", "0.7071", "0.7071"];
+        let parts = padded.map(|word| Number::decimal(word).unwrap());
         let [.., yaw] = roll_pitch_yaw(&parts).unwrap();
         assert_eq!(yaw.stated().unwrap().decimals, 4);
         let zero = ["0", "0", "0", "0"].map(|word| Number::decimal(word).unwrap());

@@ -18,8 +18,11 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 /// What hangs on the base by itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Limb {
-    /// The link at its end: that of the body that moves most freely; of several, of the heaviest, or the farthest from the base.
+    /// The link that it is called by. That at its end, of the body that moves most freely; of several, of the heaviest, or the
+    /// farthest from the base. Where it branches that at its start, since no one end stands for all.
     pub end: usize,
+    /// Whether it branches, as a torso with two arms does.
+    pub branches: bool,
     /// Its freedoms along the branch, idle ones included.
     pub freedom: usize,
     /// Its idle freedoms.
@@ -39,6 +42,12 @@ pub struct Limbs {
 
 /// A limb of more variables is not ranked by itself.
 const MOST_VARIABLES: usize = 1000;
+
+/// What hangs on a body is a branch if it moves by so many freedoms more than that: an arm or a head, not a finger or a wheel.
+const OF_A_BRANCH: usize = 2;
+
+/// So many bodies of a limb are asked whether it branches there, the first from the base, which bounds the work.
+const MOST_FORKS: usize = 32;
 
 /// The limbs of a mechanism, with their freedoms along a branch; `None` where there are no two of them, or where a margin does
 /// not tell.
@@ -85,8 +94,10 @@ pub fn limbs(
             .iter()
             .flat_map(|&body| &bodies.joints[body])
             .map(|(joint, _)| *joint);
+        let start = ends.branching_start(base, piece);
         found.push(Limb {
-            end: ends.of_piece(base, piece),
+            end: start.unwrap_or_else(|| ends.of_piece(base, piece)),
+            branches: start.is_some(),
             freedom: freedoms(&joints.collect())?,
             idle: piece.iter().map(|&body| idle_of[body]).sum(),
         });
@@ -234,6 +245,66 @@ impl<'a> Ends<'a> {
             freedom,
             link: links.collect(),
         }
+    }
+
+    /// The link that a limb starts with, if it starts with one and branches: two parts or more hang on one of its bodies, and each
+    /// moves by [`OF_A_BRANCH`] freedoms more.
+    fn branching_start(&self, base: usize, piece: &BTreeSet<usize>) -> Option<usize> {
+        let inside = |body: usize| self.bodies.joints[body].iter().map(|(_, other)| *other);
+        let mut beside = piece
+            .iter()
+            .copied()
+            .filter(|&body| inside(body).any(|other| other == base));
+        let start = beside.next()?;
+        if beside.next().is_some() {
+            return None;
+        }
+        let mut queue = VecDeque::from([start]);
+        let mut seen = BTreeSet::from([base, start]);
+        for _ in 0..MOST_FORKS {
+            let fork = queue.pop_front()?;
+            // Those behind the fork, if not even one way round it leads to the base.
+            let parts = self.parts_behind(base, fork);
+            let moves = |part: &BTreeSet<usize>| {
+                let most = part.iter().map(|&body| self.freedom[body]).max();
+                most >= Some(self.freedom[fork] + OF_A_BRANCH)
+            };
+            if parts.iter().filter(|part| moves(part)).count() > 1 {
+                return Some(self.link[start].0);
+            }
+            queue.extend(inside(fork).filter(|&next| seen.insert(next)));
+        }
+        None
+    }
+
+    /// The sets of bodies that hang together without a body, but for that which has the base.
+    fn parts_behind(&self, base: usize, fork: usize) -> Vec<BTreeSet<usize>> {
+        let joints = &self.bodies.joints;
+        let mut seen = BTreeSet::from([fork]);
+        let mut parts = Vec::new();
+        // The base's part first, so that it is left out.
+        let neighbours: BTreeSet<usize> = joints[fork].iter().map(|(_, other)| *other).collect();
+        if neighbours.len() < 3 {
+            return parts;
+        }
+        for start in std::iter::once(base).chain(neighbours) {
+            if !seen.insert(start) {
+                continue;
+            }
+            let (mut part, mut open) = (BTreeSet::from([start]), vec![start]);
+            while let Some(body) = open.pop() {
+                for &(_, next) in &joints[body] {
+                    if seen.insert(next) {
+                        part.insert(next);
+                        open.push(next);
+                    }
+                }
+            }
+            if start != base {
+                parts.push(part);
+            }
+        }
+        parts
     }
 
     fn of_piece(&self, base: usize, piece: &BTreeSet<usize>) -> usize {

@@ -196,6 +196,7 @@ pub(super) fn lay_over(
         limbs: limbs.map_or_else(Vec::new, |limbs| {
             let rows = limbs.limbs.iter().map(|limb| Limb {
                 end: link(limb.end),
+                branches: limb.branches,
                 freedom: limb.freedom,
                 idle: limb.idle,
             });

@@ -401,8 +401,11 @@ pub struct Follower {
 /// What hangs on the base by itself.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Limb {
-    /// The link at its end.
+    /// The link at its end; that at its start where it branches.
     pub end: String,
+    /// Whether it branches, as a torso with two arms does.
+    #[serde(default)]
+    pub branches: bool,
     /// Its finite freedoms, idle ones included.
     pub freedom: usize,
     /// Its idle freedoms.

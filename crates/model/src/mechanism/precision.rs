@@ -16,15 +16,15 @@ use kutzbach_math::number::{Number, Stated};
 /// u(x) = ½ min(10⁻ᵈ, max(10⁻ᴰ, 10⁻ˢ 10ᵉ)),   10ᵉ⁻¹ ≤ |x| < 10ᵉ
 /// ```
 ///
-/// which is right for both manners: the first term wherever no zeros were stripped, the second where they were. Expressions
-/// are exact. A file whose numbers all have at most [`Precision::EXACT_DECIMALS`] decimals holds numbers that a designer
+/// which is right for both manners: the first term wherever no zeros were stripped, the second where they were. Zeros do not count
+/// for `D`: `0.000000` stands beside whole numbers as `0` does. Expressions are exact. A file whose numbers all have at most [`Precision::EXACT_DECIMALS`] decimals holds numbers that a designer
 /// chose, not rounded ones, and is taken as exact too. Decimals of lengths count in the decade of the longest one, if that
 /// is below 1 m: `0.125` says of metres what `1.25` says of decimetres. Literals that were read as constants
 /// ([`Recognised`](super::Recognised)) are exact; those that were read as shorter decimals state what these state. Where every
 /// literal ends in zeros, at least three more than it needs, in twelve digits or more, these are padding and state nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Precision {
-    /// Most decimals of any literal in the geometry; `None` where there is no literal.
+    /// Most decimals of any literal in the geometry but zeros, for which 0 counts; `None` where there is no literal.
     pub decimals: Option<i32>,
     /// Most significant digits of any literal in the geometry.
     pub significant: u32,
@@ -183,7 +183,12 @@ impl Digits {
         let Some(stated) = number.stated() else {
             return;
         };
-        self.decimals = self.decimals.max(Some(stated.decimals));
+        // However a zero is written, it says nothing of how other numbers were rounded.
+        let decimals = match stated.significant {
+            0 => stated.decimals.min(0),
+            _ => stated.decimals,
+        };
+        self.decimals = self.decimals.max(Some(decimals));
         self.significant = self.significant.max(stated.significant);
         let bare = bare(number, stated);
         self.bare.0 = self.bare.0.max(Some(bare.decimals));
@@ -288,6 +293,25 @@ mod tests {
         assert_uncertainty(&precision, "2e3", 0.5e-2);
         // A zero has no digits: the finest decimal place of the file.
         assert_uncertainty(&precision, "0", 0.5e-7);
+    }
+
+    #[test]
+    fn zeros_state_no_decimals_of_other_numbers() {
+        for texts in [
+            &["1", "2", "0.000000"][..],
+            &["0.25", "0.000000000000000"],
+            &["0.000"],
+        ] {
+            let precision = of(texts);
+            assert!(precision.is_exact(), "{texts:?}");
+            assert_uncertainty(&precision, texts[0], 0.0);
+        }
+        let rounded = of(&["0.866", "1", "0.000000"]);
+        assert_eq!((rounded.decimals, rounded.significant), (Some(3), 3));
+        assert_uncertainty(&rounded, "0", 0.5e-3);
+        assert_uncertainty(&rounded, "0.000000", 0.5e-6);
+        // By hand, zeros are as uncertain as anything.
+        assert!(!of(&["0.000"]).known_to(1e-3).is_exact());
     }
 
     #[test]

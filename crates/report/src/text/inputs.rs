@@ -164,7 +164,10 @@ fn limbs(inputs: &Inputs) -> Option<String> {
     let mut alike: Vec<(&Limb, Vec<String>)> = Vec::new();
     for limb in inputs.limbs.iter().take(LIMBS) {
         let shares = |known: &&Limb| (known.freedom, known.idle) == (limb.freedom, limb.idle);
-        let end = format!("`{}`", limb.end);
+        let end = match limb.branches {
+            true => format!("`{}` and its branches", limb.end),
+            false => format!("`{}`", limb.end),
+        };
         match alike.iter_mut().find(|(known, _)| shares(known)) {
             Some((_, ends)) => ends.push(end),
             None => alike.push((limb, vec![end])),
