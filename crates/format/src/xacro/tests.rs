@@ -658,6 +658,40 @@ fn includes_are_found_beside_the_file_and_in_packages() {
 }
 
 #[test]
+fn the_folder_of_a_package_is_given_from_where_the_program_was_started() {
+    let part = robot("<xacro:include filename='$(find pk)/sub/two.xacro'/>");
+    // Deeper than the folder of the test, so that as many steps up do not lead to the same place from there.
+    let deep = "d/".repeat(40);
+    let folder = Folder::new(
+        "relative",
+        &[
+            (
+                &format!("{deep}main.xacro"),
+                &robot("<xacro:include filename='$(find pk)/sub/one.xacro'/>"),
+            ),
+            (&format!("{deep}pk/sub/one.xacro"), &part),
+            (
+                &format!("{deep}pk/sub/two.xacro"),
+                &robot("<link name='a'/>"),
+            ),
+        ],
+    );
+    let here = std::env::current_dir().unwrap();
+    let up = "../".repeat(here.components().count() - 1);
+    let there = folder.0.join(format!("{deep}pk"));
+    let options = ReadOptions {
+        packages: vec![(
+            "pk".into(),
+            PathBuf::from(up).join(there.strip_prefix("/").unwrap_or(&there)),
+        )],
+        ..ReadOptions::default()
+    };
+    let path = folder.0.join(format!("{deep}main.xacro"));
+    let reading = read_file_with(path, &options).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(names(&reading.mechanism), ["a"]);
+}
+
+#[test]
 fn what_is_wrong_in_an_included_file_is_told_there() {
     let bad = robot("<link name='x'>\n <inertial><mass value='-1'/></inertial></link><joint/>");
     let folder = Folder::new(
