@@ -82,7 +82,7 @@ fn unknown_words() {
         (chain("revolute", "<limit lowr='0'/>"), 5, 8, "no attribute `lowr`", "`lower`"),
         (robot("<xacro:macro/>"), 3, 1, "needs the attribute `name`", ""),
         (robot("<link name='${n}'/>"), 3, 15, "no property named `n`", ""),
-        (robot("<xacro:macro name='arm'/><link name='d'><xacro:leg name='x'/></link>"), 3, 41, "no macro named `leg`", ""),
+        (robot("<xacro:macro name='arm'/><link name='d'><xacro:leg name='x'/></link>"), 3, 41, "unknown macro `leg`", ""),
         (robot("<expect finit='1'/>"), 3, 9, "no attribute `finit`", "`finite`"),
         (chain("fixed", "<!-- x -->").replace("</robot>", "<expect pose='reglar'/></robot>"), 8, 15, "needed regular or singular", "`regular`"),
         (chain("fixed", "").replace("</robot>", "<expect finite='1.5'/></robot>"), 8, 17, "needed a whole number, found `1.5`", ""),

@@ -514,7 +514,10 @@ fn a_call_left_over_from_an_expansion_is_skipped_and_said_so() {
         "</robot>",
         "<xacro:sensors xmlns:xacro='http://www.ros.org/wiki/xacro' side='left'/></robot>",
     );
-    let reading = reading(&text);
+    let error = read(&text, "robot.xacro", &[]).unwrap_err();
+    assert!(error.message.contains("unknown macro `sensors`"), "{error}");
+    assert_eq!((error.line, error.column), (8, 1));
+    let reading = read(&text, "robot.urdf", &[]).unwrap();
     assert_eq!(reading.format, "urdf");
     let told: Vec<&str> = reading.skipped.iter().map(|s| s.what.as_str()).collect();
     assert!(
@@ -522,6 +525,11 @@ fn a_call_left_over_from_an_expansion_is_skipped_and_said_so() {
             .any(|what| what.contains("<xacro:sensors>, the call of a macro")),
         "{told:?}"
     );
+    let [warning] = &reading.warnings[..] else {
+        panic!("{:?}", reading.warnings);
+    };
+    assert_eq!((warning.line, warning.column), (8, 1));
+    assert!(warning.message.contains("<xacro:sensors>"), "{warning:?}");
 }
 
 #[test]

@@ -79,6 +79,7 @@ use kutzbach_model::mechanism::Mechanism;
 use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
+use xacro::Source;
 
 /// A mechanism and what its file says beyond it.
 #[derive(Clone, Debug)]
@@ -173,8 +174,16 @@ fn read_text(
     options: &ReadOptions,
 ) -> Result<Reading, FormatError> {
     let mut reading = match xacro::expand(text, file, base, options)? {
-        None => reader::read(text, options, None).map_err(|faults| located(file, text, faults))?,
-        Some(expanded) => {
+        Source::Plain(warnings) => {
+            let mut reading =
+                reader::read(text, options, None).map_err(|faults| located(file, text, faults))?;
+            reading.warnings.extend(warnings);
+            reading
+                .warnings
+                .sort_by_key(|warning| (warning.line, warning.column));
+            reading
+        }
+        Source::Expanded(expanded) => {
             // The expansion has used the settings up.
             let left = ReadOptions {
                 settings: Vec::new(),
@@ -205,8 +214,10 @@ pub fn expanded_file(path: impl AsRef<Path>, options: &ReadOptions) -> Result<St
     let file = path.display().to_string();
     let bytes = bytes_of(path).map_err(|fault| located(&file, "", vec![fault]))?;
     bytes_with(&bytes, &file, |text| {
-        let expanded = xacro::expand(text, &file, Some(path), options)?;
-        Ok(expanded.map_or_else(|| text.to_owned(), |expanded| expanded.plain))
+        Ok(match xacro::expand(text, &file, Some(path), options)? {
+            Source::Plain(_) => text.to_owned(),
+            Source::Expanded(expanded) => expanded.plain,
+        })
     })
 }
 

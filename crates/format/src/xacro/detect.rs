@@ -12,18 +12,13 @@ use std::collections::BTreeSet;
 
 pub(super) fn needs_expansion(document: &Document<'_>) -> bool {
     let root = document.root_element();
-    let space = root.tag_name().namespace();
-    let is_xacro = |node: &Node<'_, '_>| {
-        let own = node.tag_name().namespace();
-        own != space && own.is_some_and(|address| address.contains("xacro")) || written_prefix(node)
-    };
     // Without these no macro can be called: what looks like a call is left over from an expansion.
-    let calls = root
-        .descendants()
-        .any(|node| is_xacro(&node) && matches!(node.tag_name().name(), "macro" | "include"));
+    let calls = root.descendants().any(|node| {
+        is_xacro(&node, &root) && matches!(node.tag_name().name(), "macro" | "include")
+    });
     let mut definitions = Vec::new();
     for node in root.descendants().filter(Node::is_element) {
-        if is_xacro(&node) && (calls || XACRO.contains(&node.tag_name().name())) {
+        if is_xacro(&node, &root) && (calls || XACRO.contains(&node.tag_name().name())) {
             if !is_plain(&node, &root) {
                 return true;
             }
@@ -58,6 +53,13 @@ pub(super) fn needs_expansion(document: &Document<'_>) -> bool {
     }
     // Defined again is redefined, in order, unless expressions without `${}` show that the file is none of xacro's.
     twice && !values.iter().any(|value| bare(value))
+}
+
+/// Whether an element is one of xacro's, by its prefix or its address.
+pub(super) fn is_xacro(node: &Node<'_, '_>, root: &Node<'_, '_>) -> bool {
+    let own = node.tag_name().namespace();
+    own != root.tag_name().namespace() && own.is_some_and(|address| address.contains("xacro"))
+        || written_prefix(node)
 }
 
 fn written_prefix(node: &Node<'_, '_>) -> bool {

@@ -2,6 +2,7 @@
 
 use super::element::{Attribute, Element, Node};
 use super::files::File;
+use super::leftover;
 use super::output::Expanded;
 use super::scope::{Entry, Table};
 use super::text::Text;
@@ -26,15 +27,35 @@ pub(super) struct Making {
     pub(super) nodes: Vec<Node>,
     /// Attributes of the element that the nodes stand in: `<xacro:attribute>` adds to them.
     attributes: Vec<Attribute>,
-    /// Whether the nodes stand directly in the robot.
-    at_root: bool,
+    /// Where the nodes come to stand.
+    pub(super) level: Level,
+}
+
+/// What elements stand in, macros and conditions aside.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Level {
+    Robot,
+    Link,
+    #[default]
+    Other,
+}
+
+impl Level {
+    /// What stands inside an element here.
+    fn inside(self, element: &Element) -> Self {
+        match self {
+            Self::Robot if &*element.name == "link" => Self::Link,
+            Self::Robot => Self::Other,
+            inner => inner,
+        }
+    }
 }
 
 impl Making {
     /// A place for nodes that may come to stand where the others do.
     pub(super) fn inside(other: &Making) -> Self {
         Self {
-            at_root: other.at_root,
+            level: other.level,
             ..Self::default()
         }
     }
@@ -73,6 +94,7 @@ impl<'o> Run<'o> {
             evaluating: Vec::new(),
             namespaces: Vec::new(),
             macros: Default::default(),
+            is_alone: false,
             warnings: Vec::new(),
             budget: Default::default(),
         }
@@ -105,12 +127,13 @@ impl<'o> Run<'o> {
     fn expand_main(&mut self, text: &str, file: &str, base: Option<&Path>) -> Outcome<Rc<Element>> {
         let main = self.files.add(File::new(file, base, text))?;
         let root = self.files.root(main);
+        self.is_alone = !leftover::can_call(&root);
         self.file_stack.push(main);
         let names = Names {
             macros: Rc::default(),
             symbols: Rc::default(),
         };
-        let made = self.expand_plain(&root, &names, true);
+        let made = self.expand_plain(&root, &names, Level::Robot);
         self.file_stack.pop();
         let made = made?;
         names.macros.clear();
@@ -220,10 +243,10 @@ impl<'o> Run<'o> {
         making: &mut Making,
     ) -> Outcome<()> {
         if !element.is_xacro {
-            if making.at_root {
+            if making.level == Level::Robot {
                 self.warn_of_old_call(element, names)?;
             }
-            let made = self.expand_plain(element, names, false)?;
+            let made = self.expand_plain(element, names, making.level.inside(element))?;
             making.nodes.push(Node::Element(made));
             return Ok(());
         }
@@ -242,15 +265,15 @@ impl<'o> Run<'o> {
         }
     }
 
-    /// An element of URDF: its attributes and what is inside it.
+    /// An element of URDF: its attributes and what is inside it, which stands at this level.
     fn expand_plain(
         &mut self,
         element: &Rc<Element>,
         names: &Names,
-        is_root: bool,
+        level: Level,
     ) -> Outcome<Rc<Element>> {
         let mut inner = Making {
-            at_root: is_root,
+            level,
             ..Making::default()
         };
         for attribute in &element.attributes {
@@ -435,7 +458,7 @@ impl<'o> Run<'o> {
             .help("a macro takes blocks as params=\"*name\", or several elements in one as \"**name\"")
             .at(name.place, self.call));
         };
-        let made = self.expand_plain(&one, names, false)?;
+        let made = self.expand_plain(&one, names, making.level.inside(&one))?;
         making.nodes.push(Node::Element(made));
         Ok(())
     }

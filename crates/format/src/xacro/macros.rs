@@ -1,7 +1,8 @@
 //! `<xacro:macro>` and its calls.
 
 use super::element::{Attribute, Element, Node};
-use super::expand::{Making, Names};
+use super::expand::{Level, Making, Names};
+use super::leftover;
 use super::scope::{Entry, Table};
 use super::text::Text;
 use super::value::Value;
@@ -183,12 +184,7 @@ impl Run<'_> {
     ) -> Outcome<()> {
         self.spend(10 + (1 + name.len() / 64) * (1 + names.macros.level()))?;
         let Some((called, seen)) = self.find_macro(name, names) else {
-            let known = names.macros.known();
-            return Err(
-                Trouble::new(format!("there is no macro named {}", quoted(name))).maybe_help(
-                    did_you_mean(name, known.iter().map(String::as_str), ("`", "`")),
-                ),
-            );
+            return self.unknown_macro(element, name, names, making);
         };
         let inner = Names {
             macros: Table::inside(&seen.macros),
@@ -226,6 +222,23 @@ impl Run<'_> {
         let result = self.expand_apart(&called.element.children, &inner, making);
         self.call = outer;
         result
+    }
+
+    /// Skips the call of a macro that nothing can have defined, where that may be left over; else it is an error.
+    fn unknown_macro(
+        &mut self,
+        element: &Element,
+        name: &str,
+        names: &Names,
+        making: &Making,
+    ) -> Outcome<()> {
+        let main = self.files.get(0);
+        let is_plain = main.is_some_and(|file| leftover::is_plain(&file.name));
+        if self.is_alone && (is_plain || making.level == Level::Link) {
+            self.warn(element.place, self.call, leftover::message(&element.name));
+            return Ok(());
+        }
+        Err(leftover::unknown(name, &names.macros.known()))
     }
 
     fn pass_attribute<'m>(

@@ -27,6 +27,7 @@ mod functions;
 mod glob;
 mod include;
 mod keyed;
+mod leftover;
 mod macros;
 mod map;
 mod methods;
@@ -50,7 +51,7 @@ mod yaml_scalar;
 pub(super) use output::{Expanded, number_named};
 
 use super::error::FormatError;
-use super::{ReadOptions, xml};
+use super::{ReadOptions, Warning, xml};
 use budget::Budget;
 use files::Files;
 use scope::Table;
@@ -170,8 +171,17 @@ struct Run<'o> {
     evaluating: Vec<String>,
     namespaces: Vec<Rc<Table>>,
     macros: BTreeSet<String>,
+    /// Whether the main file neither defines nor includes macros.
+    is_alone: bool,
     warnings: Vec<(Place, Option<u32>, String)>,
     budget: Budget,
+}
+
+/// What is to be read for a text.
+pub(super) enum Source {
+    /// The text itself, with these warnings.
+    Plain(Vec<Warning>),
+    Expanded(Box<Expanded>),
 }
 
 /// Expands a text if it uses more of xacro than named numbers; `base` is the file that it was read from.
@@ -183,19 +193,20 @@ pub(super) fn expand(
     file: &str,
     base: Option<&Path>,
     options: &ReadOptions,
-) -> Result<Option<Expanded>, FormatError> {
+) -> Result<Source, FormatError> {
     if !text.contains("xacro") {
-        return Ok(None);
+        return Ok(Source::Plain(Vec::new()));
     }
     // What cannot be parsed is told by the reader.
     let Ok(document) = xml::parse(text) else {
-        return Ok(None);
+        return Ok(Source::Plain(Vec::new()));
     };
     if !detect::needs_expansion(&document) {
-        return Ok(None);
+        return leftover::calls(&document, text, file).map(Source::Plain);
     }
     drop(document);
-    on_large_stack(|| Run::new(options).expand(text, file, base)).map(Some)
+    let expanded = on_large_stack(|| Run::new(options).expand(text, file, base))?;
+    Ok(Source::Expanded(Box::new(expanded)))
 }
 
 /// Nested macros and long sums are walked recursively, deeper than the stack of an ordinary thread allows.

@@ -7,6 +7,7 @@
 use super::files::folder_of;
 use super::{Outcome, Run, files};
 use std::collections::VecDeque;
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 /// Folders above a file that are looked at.
@@ -47,7 +48,7 @@ impl Run<'_> {
             .rev()
             .find(|(own, _)| own == name);
         if let Some((_, path)) = given {
-            return Some(path.clone());
+            return Some(from_here(path));
         }
         for folder in folders_of("ROS_PACKAGE_PATH") {
             if let Some(found) = below(&folder, name, DEEPEST, left) {
@@ -70,10 +71,19 @@ impl Run<'_> {
     }
 }
 
+/// A relative path of the user is meant from where the program was started, not from the file that asks for it.
+fn from_here(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf())
+}
+
 fn folders_of(variable: &str) -> Vec<PathBuf> {
-    let value = std::env::var_os(variable).unwrap_or_default();
-    std::env::split_paths(&value)
+    folders_in(&std::env::var_os(variable).unwrap_or_default())
+}
+
+fn folders_in(list: &OsStr) -> Vec<PathBuf> {
+    std::env::split_paths(list)
         .filter(|path| !path.as_os_str().is_empty())
+        .map(|path| from_here(&path))
         .collect()
 }
 
@@ -121,4 +131,20 @@ fn declared_name(folder: &Path) -> Option<String> {
     let start = text.find("<name>")? + "<name>".len();
     let end = text[start..].find("</name>")? + start;
     Some(text[start..end].trim().to_owned())
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn relative_folders_are_taken_from_where_the_program_was_started() {
+        let here = std::env::current_dir().unwrap();
+        let list = std::env::join_paths(["one", "", "./two/three"]).unwrap();
+        assert_eq!(
+            folders_in(&list),
+            [here.join("one"), here.join("two/three")]
+        );
+    }
 }

@@ -22,9 +22,11 @@ fn options(settings: &[(&str, &str)]) -> ReadOptions {
 fn expanded(body: &str) -> String {
     let none = ReadOptions::default();
     let text = robot(body);
-    let expanded = super::expand(&text, "robot.xacro", None, &none)
-        .unwrap_or_else(|error| panic!("{error} {:?}", error.help))
-        .unwrap_or_else(|| panic!("not expanded"));
+    let source = super::expand(&text, "robot.xacro", None, &none)
+        .unwrap_or_else(|error| panic!("{error} {:?}", error.help));
+    let super::Source::Expanded(expanded) = source else {
+        panic!("not expanded");
+    };
     let lines: Vec<&str> = expanded.plain.lines().map(str::trim).collect();
     lines[1..lines.len() - 1].join("")
 }
@@ -109,6 +111,68 @@ fn an_element_with_the_name_of_a_macro_is_no_call() {
     let plain = reading(body, &[]);
     assert_eq!(names(&plain.mechanism), ["a"]);
     assert!(plain.warnings.is_empty(), "{:?}", plain.warnings);
+}
+
+#[test]
+fn a_macro_that_nobody_defined_is_an_error_in_the_robot() {
+    let none = ReadOptions::default();
+    let parts = "<link name='a'/>\n <xacro:left_arm on='a'/>\n";
+    let define = "<xacro:macro name='right_arm' params='on'/>";
+    let inside = "<xacro:macro name='arms'><xacro:left_arm on='a'/></xacro:macro>";
+    for (body, place) in [
+        (parts.to_owned(), (3, 2)),
+        (format!("{define}{parts}"), (3, 2)),
+        (format!("<xacro:if value='1'>{parts}</xacro:if>"), (3, 2)),
+        (
+            format!("<link name='a'/>\n{inside}\n<xacro:arms/>"),
+            (3, 26),
+        ),
+        // What stands in a joint may bear on its motion.
+        (format!("{CHAIN}\n<xacro:limits/></joint>"), (3, 1)),
+    ] {
+        let error = read_with(&robot(&body), "robot.xacro", &none).unwrap_err();
+        assert!(error.message.contains("unknown macro"), "{error}");
+        assert_eq!((error.line, error.column), place, "{body}: {error}");
+        assert!(error.help.is_some(), "{error}");
+    }
+    let error = read_with(&robot(parts), "robot.xacro", &none).unwrap_err();
+    assert!(error.help.unwrap().contains("<xacro:include>"));
+    let error = read_with(
+        &robot(&format!("{define}{parts}").replace("left", "rigt")),
+        "r",
+        &none,
+    );
+    assert_eq!(
+        error.unwrap_err().help.as_deref(),
+        Some("did you mean `right_arm`?")
+    );
+}
+
+#[test]
+fn calls_left_over_from_an_expansion_are_skipped_with_a_warning() {
+    let none = ReadOptions::default();
+    let looks = "<link name='a'>\n<visual><xacro:paint/></visual><collision><xacro:paint/></collision></link>";
+    let warnings = |body: &str, file: &str| {
+        let reading = read_with(&robot(body), file, &none).unwrap();
+        assert_eq!(names(&reading.mechanism), ["a"]);
+        reading.warnings
+    };
+    for body in [
+        looks.to_owned(),
+        format!("{looks}<xacro:if value='1'><material/></xacro:if>"),
+    ] {
+        let told = warnings(&body, "robot.xacro");
+        assert_eq!(told.len(), 1, "{told:?}");
+        assert_eq!((told[0].line, told[0].column), (3, 9));
+        assert!(told[0].message.contains("<xacro:paint>"), "{told:?}");
+    }
+    let leftover = "<link name='a'/>\n<xacro:left_arm/><xacro:right_arm/>";
+    assert_eq!(warnings(leftover, "robot.urdf").len(), 2);
+    let also = format!("{leftover}<xacro:if value='1'><material/></xacro:if>");
+    assert_eq!(warnings(&also, "robot.URDF").len(), 2);
+    // A file that includes others says where macros are to come from.
+    let defined = format!("{looks}<xacro:macro name='other'/>");
+    assert!(message(&defined).contains("unknown macro `paint`"));
 }
 
 #[test]
@@ -284,8 +348,7 @@ fn faults_in_macros_have_their_place_and_their_call() {
         message("<xacro:macro name='leg' params='n *o'/><xacro:leg/>").contains("needs `n`, `*o`")
     );
     assert!(
-        message("<xacro:macro name='arm' params='n'/><xacro:leg/>")
-            .contains("no macro named `leg`")
+        message("<xacro:macro name='arm' params='n'/><xacro:leg/>").contains("unknown macro `leg`")
     );
     let only = message("<xacro:macro name='leg' params='n'/><xacro:macro name='arm' params='n'/>");
     assert!(
@@ -592,6 +655,40 @@ fn includes_are_found_beside_the_file_and_in_packages() {
     // Without a file there is no place to look in.
     let error = read_with(&main, "text", &ReadOptions::default()).unwrap_err();
     assert!(error.message.contains("read without a file"), "{error}");
+}
+
+#[test]
+fn the_folder_of_a_package_is_given_from_where_the_program_was_started() {
+    let part = robot("<xacro:include filename='$(find pk)/sub/two.xacro'/>");
+    // Deeper than the folder of the test, so that as many steps up do not lead to the same place from there.
+    let deep = "d/".repeat(40);
+    let folder = Folder::new(
+        "relative",
+        &[
+            (
+                &format!("{deep}main.xacro"),
+                &robot("<xacro:include filename='$(find pk)/sub/one.xacro'/>"),
+            ),
+            (&format!("{deep}pk/sub/one.xacro"), &part),
+            (
+                &format!("{deep}pk/sub/two.xacro"),
+                &robot("<link name='a'/>"),
+            ),
+        ],
+    );
+    let here = std::env::current_dir().unwrap();
+    let up = "../".repeat(here.components().count() - 1);
+    let there = folder.0.join(format!("{deep}pk"));
+    let options = ReadOptions {
+        packages: vec![(
+            "pk".into(),
+            PathBuf::from(up).join(there.strip_prefix("/").unwrap_or(&there)),
+        )],
+        ..ReadOptions::default()
+    };
+    let path = folder.0.join(format!("{deep}main.xacro"));
+    let reading = read_file_with(path, &options).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(names(&reading.mechanism), ["a"]);
 }
 
 #[test]
