@@ -170,8 +170,11 @@ fn steps(operator: Binary, a: &Num, b: &Num) -> usize {
         Binary::Multiply => x * y - 1,
         // A sum of roots is multiplied by its conjugates.
         Binary::Divide => y * (x + 2 * y) - 3,
-        // Squared up to ten times.
-        Binary::Power => (16 + x) * x * x - 17,
+        // Squared up to ten times; a sum of n roots has products of all of them in its powers, up to 64.
+        Binary::Power => {
+            let terms = 1 << x.min(7).saturating_sub(1);
+            (16 + 2 * terms) * terms * terms - 18
+        }
         Binary::FloorDivide | Binary::Remainder => 0,
     }
 }

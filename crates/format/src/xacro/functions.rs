@@ -476,7 +476,7 @@ fn numeric(name: &str, values: &[Value], budget: &mut Budget) -> Outcome<Option<
     if IRRATIONAL.contains(&name) {
         let exact = numbers.iter().filter_map(|number| number.exact.as_ref());
         // Roots are found, and directions squared, term by term.
-        budget.spend(exact.map(|x| 40 * weight(x).pow(2) - 30).sum())?;
+        budget.spend(exact.map(|x| 40 * weight(x).pow(2) - 20).sum())?;
     }
     let whole = |value: f64, number: &Num| match number.kind {
         Kind::Int(_) => Ok(Some(Value::Number(number.clone()))),
