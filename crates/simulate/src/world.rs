@@ -319,6 +319,30 @@ impl World {
         }
     }
 
+    /// Work of the engine's mass matrices, in units of links × coordinates and of links × coordinates²: it makes one for every
+    /// tree that is held by reduced coordinates, and sums it up link by link.
+    pub(crate) fn matrix_work(&self) -> [usize; 2] {
+        let joints = &self.physics.multibody_joints;
+        let trees = self.built.multibodies(&self.physics).into_iter();
+        trees
+            .filter_map(|index| joints.get_multibody(index))
+            .map(|tree| (tree.num_links() * tree.ndofs(), tree.ndofs()))
+            .fold([0, 0], |[first, second], (work, coordinates)| {
+                [first + work, second + work * coordinates]
+            })
+    }
+
+    /// Why no simulation speaks of the mechanism: there is something that the engine cannot hold.
+    pub(crate) fn another_mechanism(&self) -> Option<String> {
+        let missing = self.not_simulated();
+        (!missing.is_empty()).then(|| {
+            format!(
+                "the engine cannot hold {}: what it would simulate is another mechanism",
+                missing.join(", ")
+            )
+        })
+    }
+
     /// What was derived, approximated or left out.
     #[must_use]
     pub fn notes(&self) -> &[Note] {

@@ -198,7 +198,8 @@ fn simulation(accuracy: &Accuracy, page: &mut Page) {
         page.paragraph(
             &format!(
                 "Branch {}, `{}` driven from {} to {} ({}) in {} s, no joint faster than a radian per second. A star marks what \
-                 no other setting beats in both time and error.",
+                 no other setting beats in both time and error, where both errors are as small as `kutzbach simulate` asks of a \
+                 motion that it confirms.",
                 driven.branch,
                 driven.variable,
                 figure(rounded(driven.from)),
@@ -253,7 +254,7 @@ fn settings(rows: &[Setting], predicted: bool, page: &mut Page) {
             left_out.push(row);
             continue;
         }
-        let on_front = row.timing.is_some_and(|timing| timing.pareto);
+        let best = row.confirms() && row.timing.is_some_and(|timing| timing.pareto);
         let number = |value: Option<f64>| value.map_or("–".to_owned(), error);
         let mut cells = vec![
             Cell::new(row.solver.word()),
@@ -269,7 +270,7 @@ fn settings(rows: &[Setting], predicted: bool, page: &mut Page) {
         }
         cells.push(Cell::new(row.seconds().map_or("–".to_owned(), duration)));
         cells.push(match row.state {
-            State::Arrived if on_front => Cell::new("★").tint(Tint::Good),
+            State::Arrived if best => Cell::new("★").tint(Tint::Good),
             State::Arrived => Cell::new(""),
             other => Cell::new(other.word()).tint(Tint::Doubtful),
         });

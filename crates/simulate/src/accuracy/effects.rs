@@ -1,7 +1,7 @@
 //! What gravity, contact, limits, friction and damping cost, each alone and as the scene has them together.
 
 use super::result::{Effect, EffectTiming};
-use super::work::seconds_per_second;
+use super::work::Load;
 use crate::{Drive, Effects, World, WorldError, WorldOptions, cost_table, effect_names};
 use kutzbach_closure::{Geometry, JointState};
 use kutzbach_model::mechanism::Mechanism;
@@ -11,14 +11,12 @@ const STEPS: f64 = 400.0;
 const FEWEST: f64 = 10.0;
 const SECONDS: f64 = 0.1;
 
-/// Rounds are begun until all of them would take about so many seconds, counted in work; one is always made.
-const ALL_SECONDS: f64 = 5.0;
-
 /// No effects, five effects, and the scene.
 const ROWS: f64 = 7.0;
 
 /// Measures a step with each effect, four substeps in 1/240 s with the tree as multibodies: the best of some rounds over all
-/// effects, since what else the machine does only adds.
+/// effects, since what else the machine does only adds. Rounds are begun until all of them would take about so many seconds,
+/// counted in work; one is always made.
 ///
 /// # Errors
 /// Where no world can be made or driven.
@@ -28,17 +26,17 @@ pub(super) fn effects_of(
     states: &[JointState<f64>],
     effects: Effects,
     drives: &[Drive],
-    rounds: usize,
+    (rounds, all_seconds): (usize, f64),
 ) -> Result<Vec<Effect>, WorldError> {
     let options = WorldOptions {
         effects,
         ..WorldOptions::default()
     };
-    let pieces = World::new(mechanism, geometry, states, &options)?.pieces();
+    let load = Load::of(&World::new(mechanism, geometry, states, &options)?);
     let (length, substeps) = (options.time_step, options.substeps);
-    let step = length * seconds_per_second(options.solver, &pieces, length, substeps);
+    let step = length * load.seconds_per_second(length, substeps);
     let steps = (SECONDS / step).clamp(FEWEST, STEPS);
-    let rounds = rounds.min((ALL_SECONDS / (ROWS * steps * step)) as usize);
+    let rounds = rounds.min((all_seconds / (ROWS * steps * step)) as usize);
     let steps = steps as usize;
     let called_for = effect_names(&effects);
     let mut rows = cost_table(mechanism, geometry, states, &options, drives, steps)?;

@@ -7,7 +7,9 @@ use super::effects::effects_of;
 use super::motion::traced;
 use super::result::{Accuracy, Motion, SCHEMA, Scene, Setting, Simulation};
 use super::simulation::{Grid, Watch, driven_rows, scene_rows};
-use crate::verification::{DrivenMotion, VerificationError, VerificationOptions};
+use crate::verification::{
+    DrivenMotion, Size, VerificationError, VerificationOptions, looped_variables,
+};
 use crate::{Effects, World, WorldError, WorldOptions, effect_names, scene_drives};
 use kutzbach_closure::{Arithmetic, Geometry};
 use kutzbach_math::matrix::MatrixError;
@@ -90,6 +92,8 @@ pub enum Stage {
     Simulation,
     /// Simulations of the scene.
     Scene,
+    /// Steps with each effect.
+    Effects,
 }
 
 /// Moments looked at in a simulation: about so many joint variables in all, within these bounds.
@@ -98,7 +102,7 @@ const FEWEST_LOOKS: usize = 30;
 const MOST_LOOKS: usize = 240;
 
 /// Shares of the stages in the whole, for a progress bar: simulations take longest.
-const SHARES: [f64; 4] = [0.1, 0.05, 0.7, 0.15];
+const SHARES: [f64; 5] = [0.1, 0.05, 0.6, 0.1, 0.15];
 
 /// Measures everything. `analysis` is that of the configuration of the options. `watch` is told how far all of it has come,
 /// from 0 to 1, and may break it off; what was measured by then is told.
@@ -184,6 +188,7 @@ pub fn measure(
         accuracy.scene = Some(scene);
         accuracy.stopped = stopped;
     }
+    accuracy.stopped |= watch(Stage::Effects, from + SHARES[3]).is_break();
     if !accuracy.stopped && ready.is_posed() {
         accuracy.effects = effects_of(
             mechanism,
@@ -191,7 +196,7 @@ pub fn measure(
             &analysis.assembly.states,
             Effects::of_scene(mechanism),
             &scene_drives(mechanism),
-            ready.patience.runs,
+            (ready.patience.runs, options.grid.effects),
         )?;
     }
     accuracy.choice = options.wanted.map(|wanted| {
@@ -308,12 +313,16 @@ impl<'a> Ready<'a> {
         })
     }
 
-    /// Characteristic length (m).
-    fn length(&self) -> Result<f64, AccuracyError> {
+    /// The world at the pose that was analysed.
+    fn world(&self) -> Result<World, WorldError> {
         let states = &self.analysis.assembly.states;
         let options = WorldOptions::default();
-        let world = World::new(self.mechanism, &self.geometry, states, &options)?;
-        Ok(world.scale().0)
+        World::new(self.mechanism, &self.geometry, states, &options)
+    }
+
+    /// Characteristic length (m).
+    fn length(&self) -> Result<f64, AccuracyError> {
+        Ok(self.world()?.scale().0)
     }
 
     fn simulation(&self, watch: &mut Watch<'_>) -> Result<(Simulation, bool), AccuracyError> {
@@ -344,27 +353,29 @@ impl<'a> Ready<'a> {
             longest: self.options.grid.longest,
             ..VerificationOptions::default()
         };
-        let motions = DrivenMotion::along(
+        if let Some(why) = self.world()?.another_mechanism() {
+            return none(&why);
+        }
+        let motion = DrivenMotion::first_along(
             self.mechanism,
             &self.geometry,
             self.analysis,
             branch,
             &verification,
         );
-        let motions = match motions {
-            Ok(motions) => motions,
+        let motion = match motion {
+            Ok(Some(motion)) => motion,
+            Ok(None) => return none("no stretch of the branch can be driven"),
             Err(why) => return none(&why),
-        };
-        let Some(motion) = motions.into_iter().next() else {
-            return none("no stretch of the branch can be driven");
         };
         let freedoms = self.mechanism.joints().iter().map(|joint| joint.freedom());
         let unknowns = freedoms.sum::<usize>().max(1);
         let motion = motion.looked_at((LOOKED_AT / unknowns).clamp(FEWEST_LOOKS, MOST_LOOKS));
+        let looped = looped_variables(self.mechanism, &self.analysis.structure);
         Ok(driven_rows(
             self.mechanism,
             &self.geometry,
-            &motion,
+            (&motion, &Size::of(self.mechanism, looped)),
             &branch.name,
             (&self.options.grid, self.options.wanted),
             watch,

@@ -2,6 +2,7 @@
 
 use super::choose::Choice;
 use crate::Solver;
+use crate::verification::{FINE_ENOUGH, NEAR};
 use kutzbach_mobility::CertificateLevel;
 use serde::{Deserialize, Serialize};
 
@@ -192,7 +193,7 @@ pub enum State {
     Arrived,
     /// The drive did not arrive in three times the time.
     Stalled,
-    /// A number was not finite any more.
+    /// It fell to pieces: joints opened by a third of its size, or a number was not finite any more.
     CameApart,
     /// It was not run: too much work.
     LeftOut,
@@ -243,6 +244,17 @@ impl Setting {
             .closure_error
             .filter(|_| self.state == State::Arrived)?;
         Some(closure.max(self.distance.unwrap_or(0.0)))
+    }
+
+    /// Whether a verification takes errors of this size for those of a true motion. A setting that errs by more can be as
+    /// cheap as it likes: what it shows confirms nothing.
+    #[must_use]
+    pub fn confirms(&self) -> bool {
+        let closure = self.closure_error.unwrap_or(f64::INFINITY);
+        let near = FINE_ENOUGH.max(NEAR * closure);
+        self.state == State::Arrived
+            && closure <= FINE_ENOUGH
+            && self.distance.is_none_or(|distance| distance <= near)
     }
 
     /// Seconds on the clock for a simulated second.

@@ -133,3 +133,52 @@ fn what_makes_no_sense_is_refused() {
     assert!(with(&|o| o.wanted = Some(f64::NAN)).contains("positive"));
     assert!(with(&|o| o.branch = Some("Z".to_owned())).contains("`Z`"));
 }
+
+/// A parallelogram of which every hinge follows or is followed, so that the one that closes the loop does.
+const FOLLOWERS: &str = r#"<robot name="parallelogram">
+    <link name="ground"/><link name="crank"/><link name="coupler"/><link name="rocker"/>
+    <joint name="a" type="continuous"><parent link="ground"/><child link="crank"/><axis xyz="0 0 1"/></joint>
+    <joint name="b" type="continuous"><parent link="crank"/><child link="coupler"/><origin xyz="0 1 0"/><axis xyz="0 0 1"/>
+        <mimic joint="c" multiplier="-1"/></joint>
+    <joint name="d" type="continuous"><parent link="ground"/><child link="rocker"/><origin xyz="2 0 0"/><axis xyz="0 0 1"/>
+        <mimic joint="a"/></joint>
+    <loop name="c" type="continuous">
+        <predecessor link="coupler"><origin xyz="2 0 0"/></predecessor>
+        <successor link="rocker"><origin xyz="0 1 0"/></successor>
+        <axis xyz="0 0 1"/>
+    </loop>
+</robot>"#;
+
+#[test]
+fn what_the_engine_cannot_hold_is_not_measured_in_its_stead() {
+    let read = kutzbach_format::read_bytes(FOLLOWERS.as_bytes(), "a.urdf", &[]).unwrap();
+    let accuracy = measured(&read.mechanism, &options()).unwrap();
+    assert!(accuracy.simulation.rows.is_empty());
+    let why = accuracy.simulation.why_not.unwrap();
+    assert!(why.contains("the engine cannot hold "), "{why}");
+}
+
+#[test]
+fn errors_confirm_only_where_a_verification_would_take_them() {
+    let row = |closure: f64, distance: Option<f64>, state: State| Setting {
+        solver: crate::Solver::Impulse,
+        time_step: 0.01,
+        substeps: 1,
+        state,
+        closure_error: Some(closure),
+        distance,
+        came: None,
+        timing: None,
+    };
+    for (setting, confirms) in [
+        (row(1e-6, Some(2e-5), State::Arrived), true),
+        (row(2e-5, Some(1e-4), State::Arrived), true),
+        (row(2e-5, None, State::Arrived), true),
+        // Held together, and somewhere else.
+        (row(4e-15, Some(0.12), State::Arrived), false),
+        (row(5e-3, Some(6e-3), State::Arrived), false),
+        (row(1e-6, Some(1e-6), State::Stalled), false),
+    ] {
+        assert_eq!(setting.confirms(), confirms, "{setting:?}");
+    }
+}

@@ -6,6 +6,7 @@
 
 use super::driven_motion::DrivenMotion;
 use super::excitation::SUBSTEPS;
+use kutzbach_mobility::Structure;
 use kutzbach_model::mechanism::Mechanism;
 
 /// Seconds for a substep: of every world, for each body, and for each body and pair of coordinates, since the engine sums
@@ -35,7 +36,7 @@ const SHORTEST_TIME: f64 = 1.0;
 
 /// How large a mechanism is, for the cost of its simulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Size {
+pub(crate) struct Size {
     /// Links, and wheels that couplings are made of.
     pub bodies: f64,
     /// Variables of joints and wheels.
@@ -142,6 +143,14 @@ impl Budget {
             None => "the budget".to_owned(),
         }
     }
+}
+
+/// Variables of the joints that are in loops and couplings.
+pub(crate) fn looped_variables(mechanism: &Mechanism, structure: &Structure) -> usize {
+    let looped = structure.parts.iter().flat_map(|part| &part.joints);
+    looped
+        .map(|&joint| mechanism.joints()[joint].freedom())
+        .sum()
 }
 
 /// How many wheels couplings of three joints and more are made of: one for each term.

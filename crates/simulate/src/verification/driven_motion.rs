@@ -87,27 +87,33 @@ pub struct DrivenRun {
 }
 
 impl<'a> DrivenMotion<'a> {
-    /// The stretches to drive along a branch: one for each part of the mechanism that has loops and moves, or one in all;
-    /// of the options, `configuration`, `drive` and `longest` count.
+    /// The stretch to drive along a branch: along the part that has loops and moves and comes first, if any does; of the
+    /// options, `configuration`, `drive` and `longest` count.
     ///
     /// # Errors
     /// Why there is none, in words.
-    pub fn along(
+    pub fn first_along(
         mechanism: &'a Mechanism,
         geometry: &'a Geometry<f64>,
         analysis: &'a Analysis,
         branch: &Branch,
         options: &VerificationOptions,
-    ) -> Result<Vec<Self>, String> {
-        Self::along_those_wanted(mechanism, geometry, analysis, branch, options, &mut |_| {
-            true
-        })
+    ) -> Result<Option<Self>, String> {
+        let mut asked = 0;
+        let mut first = |_: Option<&str>| {
+            asked += 1;
+            asked == 1
+        };
+        let motions =
+            Self::along_those_wanted(mechanism, geometry, analysis, branch, options, &mut first)?;
+        Ok(motions.into_iter().next())
     }
 
-    /// As [`Self::along`], but each is asked for before it is traced, by the name of what drives it where that is known.
+    /// The stretches to drive along a branch: one for each part of the mechanism that has loops and moves, or one in all.
+    /// Each is asked for before it is traced, by the name of what drives it where that is known.
     ///
     /// # Errors
-    /// As [`Self::along`].
+    /// As [`Self::first_along`].
     pub(super) fn along_those_wanted(
         mechanism: &'a Mechanism,
         geometry: &'a Geometry<f64>,

@@ -31,6 +31,10 @@ pub const ROUNDING: f64 = 1e-9;
 /// a loop that closes. Smaller than any play a joint has.
 pub const FINE_ENOUGH: f64 = 3e-5;
 
+/// A simulation is near the predicted motion where it is not farther off than so many closure errors: joints that give way
+/// by some let links in a row stray by more.
+pub(crate) const NEAR: f64 = 10.0;
+
 /// Errors that are below this at three rungs running confirm without an order: motions that the integrator follows
 /// exactly, such as turns about one point, have no error to fall but the solver's noise. A defect of this size is not
 /// excluded then, and the finding says so.
@@ -123,7 +127,7 @@ const STALLED: f64 = 0.5;
 const SAME: f64 = 0.05;
 
 /// Errors that grow past this (rad, characteristic lengths) are a simulation that came apart, and say nothing.
-const APART: f64 = 0.3;
+pub(crate) const APART: f64 = 0.3;
 
 /// Judges the rungs so far, coarse to fine; `None` where another rung may still decide.
 #[must_use]
@@ -242,7 +246,7 @@ fn keeps_near(rungs: &[Rung]) -> bool {
         (last.substeps, last.distance),
     )
     .is_none_or(|order| order >= 0.5 * LEAST_ORDER);
-    last.distance <= FINE_ENOUGH.max(10.0 * last.closure_error)
+    last.distance <= FINE_ENOUGH.max(NEAR * last.closure_error)
         || falls && last.distance <= 2.0 * last.closure_error.sqrt()
 }
 

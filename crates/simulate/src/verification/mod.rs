@@ -36,9 +36,11 @@ mod pushing;
 mod scale;
 mod verify;
 
+pub(crate) use budget::{Size, looped_variables};
 pub use driven_motion::{DrivenMotion, DrivenRun};
 pub use error::VerificationError;
 pub use excitation::{FreedomCount, count_freedoms};
+pub(crate) use ladder::{APART, FINE_ENOUGH, NEAR};
 pub use ladder::{Finding, Outcome, Rung, defect, judge_motion, order_between, undecided};
 pub use observer::{Moment, Observer, Passage, PredictedPose, Unobserved};
 pub use prediction::{Prediction, distance_between};

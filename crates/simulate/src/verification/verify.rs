@@ -9,7 +9,7 @@
 //! None of it is a proof: it is evidence from physics that knows nothing of the analysis, and it is stated with the size
 //! of the defect that it could have missed.
 
-use super::budget::{Budget, Size, cost_of_count, cost_of_run, wheels};
+use super::budget::{Budget, Size, cost_of_count, cost_of_run, looped_variables, wheels};
 use super::driven_motion::DrivenMotion;
 use super::excitation::{self, MOST_SPREAD};
 use super::ladder::{Finding, Outcome, ROUNDING, Rung, judge_motion, order_between, undecided};
@@ -174,31 +174,20 @@ pub fn verify(
         },
     )?;
     verification.notes = notes(mechanism, &home);
-    if !home.not_simulated().is_empty() {
-        verification.finding.why = format!(
-            "the engine cannot hold {}: what it would simulate is another mechanism",
-            home.not_simulated().join(", ")
-        );
+    if let Some(why) = home.another_mechanism() {
+        verification.finding.why = why;
         return Ok(verification);
     }
     if analysis.mobility.verdict == Verdict::Rigid {
         verify_rigid(mechanism, geometry, analysis, options, &home, observer)
             .map(|pushing| verification.with_pushing(pushing))
     } else {
-        let looped = analysis
-            .structure
-            .parts
-            .iter()
-            .flat_map(|part| &part.joints);
-        let looped = looped
-            .map(|&joint| mechanism.joints()[joint].freedom())
-            .sum();
         let mut test = Test {
             mechanism,
             geometry,
             analysis,
             options,
-            size: Size::of(mechanism, looped),
+            size: Size::of(mechanism, looped_variables(mechanism, &analysis.structure)),
             budget: Budget::new(options.budget),
         };
         for branch in chosen {

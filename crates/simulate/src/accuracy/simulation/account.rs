@@ -99,7 +99,10 @@ impl<'g, 'w, 'v> Account<'g, 'w, 'v> {
         order.sort_by(|&a, &b| work(a).total_cmp(&work(b)).then(a.cmp(&b)));
         let before = self.spent;
         order.retain(|&i| {
-            let room = work(i) <= self.grid.work && self.spent + work(i) <= self.grid.all_work;
+            // The cheapest one may take all there is: one setting says more than none.
+            let first = self.spent == 0.0;
+            let small = first || work(i) <= self.grid.work;
+            let room = small && self.spent + work(i) <= self.grid.all_work;
             if room {
                 self.spent += work(i);
             }

@@ -5,7 +5,7 @@ use super::grid::Grid;
 use super::watch::Watch;
 use crate::accuracy::result::{Driven, Simulation, State};
 use crate::accuracy::work::work_of;
-use crate::verification::{DrivenMotion, VerificationError};
+use crate::verification::{APART, DrivenMotion, Size, VerificationError};
 use kutzbach_closure::Geometry;
 use kutzbach_model::mechanism::Mechanism;
 
@@ -19,7 +19,7 @@ const ARRIVED: f64 = 0.999;
 pub(in crate::accuracy) fn driven_rows(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
-    motion: &DrivenMotion<'_>,
+    (motion, size): (&DrivenMotion<'_>, &Size),
     branch: &str,
     (grid, wanted): (&Grid, Option<f64>),
     watch: &mut Watch<'_>,
@@ -28,10 +28,13 @@ pub(in crate::accuracy) fn driven_rows(
     let seconds = motion.duration();
     let mut account = Account::new(grid, wanted, watch);
     let (rows, stopped) = account.rows(
-        &|solver, step, n| seconds * cost(solver, step, n),
+        &|solver, step, n| {
+            let looks = motion.moments().min((seconds / step) as usize);
+            seconds * cost(solver, step, n) + size.looks(looks as f64)
+        },
         &mut |options, watched| {
             let run = motion.run(options, watched)?;
-            let whole = run.closure_error.is_finite() && run.distance.is_finite();
+            let whole = run.closure_error < APART && run.distance.is_finite();
             Ok::<_, VerificationError>((!run.stopped).then_some(Outcome {
                 state: match whole {
                     false => State::CameApart,

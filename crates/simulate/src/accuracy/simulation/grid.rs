@@ -15,7 +15,7 @@ pub struct Grid {
     /// Substeps of a step.
     pub substeps: Vec<usize>,
     /// A setting is left out where it would take about so many seconds or more. They are counted in work, so that the same
-    /// settings are left out on every machine.
+    /// settings are left out on every machine. The cheapest of all may take longer, as long as all may together.
     pub work: f64,
     /// And where all that were run before it have taken about so many.
     pub all_work: f64,
@@ -23,6 +23,8 @@ pub struct Grid {
     pub longest: f64,
     /// Simulated seconds of the scene.
     pub scene: f64,
+    /// Rounds over all effects are begun while they would take about so many seconds, counted in work.
+    pub effects: f64,
 }
 
 impl Grid {
@@ -38,17 +40,19 @@ impl Grid {
             all_work: 25.0,
             longest: 10.0,
             scene: 1.0,
+            effects: 5.0,
         }
     }
 
-    /// For a first impression: steps of 1/60 s and 1/240 s, and settings of about a second.
+    /// For a first impression: steps of 1/60 s and 1/240 s, and settings of half a second or less.
     #[must_use]
     pub fn quick() -> Self {
         Self {
             time_steps: vec![1.0 / 60.0, 1.0 / 240.0],
-            work: 1.0,
-            all_work: 6.0,
+            work: 0.5,
+            all_work: 2.0,
             scene: 0.5,
+            effects: 0.5,
             ..Self::full()
         }
     }
