@@ -194,6 +194,15 @@ fn held_joints_are_named_and_stay() {
         "{text}"
     );
     assert!(report.assembly.released.is_some());
+    // Proven of the pose asked for, and of no other.
+    let proof = report.assembly.proof.as_deref().unwrap();
+    assert!(proof.contains("with 2 joints held"), "{proof}");
+    assert!(!report.assembly.proven_open);
+    let certificate = report.mobility.certificate.unwrap().text;
+    assert!(
+        certificate.contains("at no pose with the held joints"),
+        "{certificate}"
+    );
 }
 
 #[test]

@@ -73,10 +73,10 @@ pub fn unassembled(assembly: &Assembly) -> Mobility {
         level: CertificateLevel::Numeric,
         certificate: format!(
             "{}: the best pose still misses by {:.2e} (allowed {:.2e})",
-            if assembly.proven_open.is_some() {
-                "a loop is proven to close at no pose"
-            } else {
-                "no closed pose was found"
+            match &assembly.proven_open {
+                Some(_) if assembly.held.is_empty() => "a loop is proven to close at no pose",
+                Some(_) => "a loop is proven to close at no pose with the held joints as they are",
+                None => "no closed pose was found",
             },
             assembly.residual,
             assembly.tolerance

@@ -2,7 +2,7 @@
 
 use super::natural::natural_order;
 use super::schema::{Assembly, Gap, JointPlace, OutsideLimit, Reversal};
-use super::text::words::{figure, metres};
+use super::text::words::{counted, figure, metres};
 use kutzbach_closure::{self as closure, Obstacle};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Configuration, FreedomPart, JointId, Mechanism};
@@ -68,10 +68,10 @@ pub(super) fn assembly(mechanism: &Mechanism, found: &closure::Assembly) -> Asse
                     != Some(&FreedomPart::Translation),
             })
             .collect(),
-        proven_open: found.proven_open.is_some(),
+        proven_open: found.proven_open.is_some() && found.held.is_empty(),
         proof: found
             .proven_open
-            .map(|open| proof(&name(open.joint), open.obstacle)),
+            .map(|open| proof(&name(open.joint), open.obstacle, found.held.len())),
         released: found.released.as_deref().map(places),
         reversal: found.reversal.map(|reversal| Reversal {
             cycle: name(reversal.joint),
@@ -80,23 +80,31 @@ pub(super) fn assembly(mechanism: &Mechanism, found: &closure::Assembly) -> Asse
     }
 }
 
-/// Why a loop closes at no pose, as a clause.
-fn proof(cycle: &str, obstacle: Obstacle) -> String {
+/// Why a loop closes at no pose, as a clause; at none with so many joints held, where any are.
+fn proof(cycle: &str, obstacle: Obstacle, held: usize) -> String {
+    let (held, held_then) = match held {
+        0 => (String::new(), String::new()),
+        _ => {
+            let held = format!(", with {} held", counted(held, "joint"));
+            let then = format!("{held},");
+            (held, then)
+        }
+    };
     match obstacle {
         Obstacle::TooShort(missing) => format!(
-            "in the loop through `{cycle}` one side is longer than all the others together, by {}",
+            "in the loop through `{cycle}`{held_then} one side is longer than all the others together, by {}",
             metres(missing)
         ),
         Obstacle::Directions(miss) => format!(
-            "the angles between the axes of the loop through `{cycle}` miss those of a closed loop by {}°",
+            "the angles between the axes of the loop through `{cycle}`{held_then} miss those of a closed loop by {}°",
             figure(miss.to_degrees())
         ),
         Obstacle::Offset(along) => format!(
-            "all axes of the loop through `{cycle}` are parallel, and its links step {} along them in all",
+            "all axes of the loop through `{cycle}` are parallel, and its links step {} along them in all{held}",
             metres(along)
         ),
         Obstacle::NothingMoves => {
-            format!("no joint of the loop through `{cycle}` may move")
+            format!("no joint of the loop through `{cycle}` may move{held}")
         }
     }
 }

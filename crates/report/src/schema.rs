@@ -156,10 +156,11 @@ pub struct Assembly {
     /// Joints outside their limits there, farthest first.
     #[serde(default)]
     pub outside_limits: Vec<OutsideLimit>,
-    /// Whether it is proven that the loops close at no pose; `false` says nothing.
+    /// Whether it is proven that the loops close at no pose; `false` says nothing. Not of a pose with held joints: what is
+    /// [`proof`](Self::proof) then holds as long as they are.
     #[serde(default)]
     pub proven_open: bool,
-    /// The proof, in one clause.
+    /// Why the loops close at no pose, or at none with the held joints as they are, in one clause.
     #[serde(default)]
     pub proof: Option<String>,
     /// Where the loops do not close with the held joints as they are, but do once these are released: where that takes them.

@@ -316,7 +316,7 @@ pub(super) fn unassembled(assembly: &Assembly) -> String {
         count => format!(" with {} held", counted(count, "joint")),
     };
     let why = match (&assembly.proof, assembly.starts) {
-        (Some(proof), _) => format!("no pose closes it{held}, since {proof}{nearest}"),
+        (Some(proof), _) => format!("no pose closes it, since {proof}{nearest}"),
         (None, Some(starts)) => {
             let limited = match assembly.work_limited {
                 true => ", the work allowed for a mechanism of this size",
