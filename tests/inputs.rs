@@ -527,3 +527,49 @@ fn a_limb_that_branches_is_named_by_its_start() {
     let page = kutzbach::report::text::render(&report, Layout::default());
     assert!(page.contains("`torso` and its branches 8"), "{page}");
 }
+
+/// ```text
+/// B ----- C ----- D    rods of 2, in one line
+/// |               |
+/// A               E    cranks of 2, 4 apart
+/// ```
+///
+/// The rods are as long as they can be together, so that both cranks turn at the same rate: A and E are one input here.
+fn stretched_five_bar(mark: &str) -> String {
+    format!(
+        r#"<robot name="five_bar"><link name="ground"/><link name="a"/><link name="b"/><link name="c"/><link name="d"/>
+        <joint name="A" type="continuous"><parent link="ground"/><child link="a"/><axis xyz="0 0 1"/></joint>
+        <joint name="B" type="continuous" {mark}><parent link="a"/><child link="b"/><origin xyz="0 2 0"/><axis xyz="0 0 1"/></joint>
+        <joint name="E" type="continuous"><parent link="ground"/><child link="d"/><origin xyz="4 0 0"/><axis xyz="0 0 1"/></joint>
+        <joint name="D" type="continuous" {mark}><parent link="d"/><child link="c"/><origin xyz="0 2 0"/><axis xyz="0 0 1"/></joint>
+        <loop name="C" type="continuous" {mark}><predecessor link="b"><origin xyz="2 0 0"/></predecessor>
+            <successor link="c"><origin xyz="-2 0 0"/></successor><axis xyz="0 0 1"/></loop></robot>"#
+    )
+}
+
+#[test]
+fn inputs_are_proposed_that_do_their_work_at_the_pose_itself() {
+    const DEAD_CENTRE: &str = "act independently: it is a dead centre of the inputs.";
+    let five_bar = stretched_five_bar("");
+    let (report, text) = (reported(&five_bar), told(&five_bar, &[]));
+    let found = inputs(&report);
+    assert!(found.complete && found.proposed.len() == 2, "{found:?}");
+    assert_ne!(found.proposed, ["A", "E"]);
+    assert_eq!(found.together_here, Some(2));
+    assert!(!text.contains(DEAD_CENTRE), "{text}");
+    // Both cranks are asked for, or the file leaves no other choice.
+    let cranks = ["A", "E"];
+    let (report, text) = (reported_with(&five_bar, &cranks), told(&five_bar, &cranks));
+    assert_eq!(inputs(&report).independent_here, Some(1));
+    let said = format!("At this pose only 1 {DEAD_CENTRE}");
+    assert_eq!(text.matches(&said).count(), 1, "{text}");
+    let marked = stretched_five_bar(r#"independent="false""#);
+    let (report, text) = (reported_with(&marked, &["A"]), told(&marked, &["A"]));
+    let found = inputs(&report);
+    assert_eq!(
+        (&found.proposed[..], found.together_here),
+        (&["E".to_owned()][..], Some(1))
+    );
+    let said = format!("At this pose only 1 of them all {DEAD_CENTRE}");
+    assert_eq!(text.matches(&said).count(), 1, "{text}");
+}

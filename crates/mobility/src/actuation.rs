@@ -13,7 +13,8 @@
 //!
 //! The joints proposed are the first independent ones in an order that a designer would ask in: joints of one freedom before others,
 //! no intermediate links of balls, tree joints before those that close loops, near the ground before far from it, with limits
-//! before without, and by name.
+//! before without, and by name. Those that are independent at the pose itself come before all others: nobody starts from a dead
+//! centre if there is a choice.
 //!
 //! Everything is asked part by part, or for several parts together where idle motion reaches across them.
 //!
@@ -70,6 +71,9 @@ pub struct Actuation {
     pub left: usize,
     /// Freedoms that take the rest as further inputs: as many as [`left`](Self::left), or more where idle motion moves them too.
     pub proposed: Vec<Freedom>,
+    /// How many of the independent inputs and those proposed are independent together at the pose itself; `None` where that is
+    /// not known.
+    pub together_here: Option<usize>,
     /// Whether nothing is left with these; they may not suffice where no choice has clear margins.
     pub complete: bool,
     /// The freedoms that are neither given nor proposed, by joint and variable.
@@ -108,7 +112,13 @@ pub fn actuation(
     let left = reference.left(&chosen.spans)?;
     let taken: BTreeSet<Freedom> = given.iter().copied().collect();
     let candidates = candidates(mechanism, geometry, structure, reference, &taken);
-    let (proposed, complete) = complete(reference, &candidates, chosen.spans);
+    let here = here
+        .and_then(|here| TangentSpace::at(mechanism, geometry, structure, here))
+        .and_then(|tangents| Rows::of(IdleSpace::without_idle(tangents)));
+    let given_here = here.as_ref().and_then(|rows| Chosen::of(rows, given));
+    let independent_here = given_here.as_ref().map(|chosen| chosen.independent.len());
+    let mut at_pose = here.as_ref().zip(given_here).map(AtPose::of);
+    let (proposed, complete) = complete(reference, &candidates, chosen.spans, at_pose.as_mut());
     let set: Vec<Freedom> = chosen
         .independent
         .iter()
@@ -148,12 +158,10 @@ pub fn actuation(
         })
         .collect();
     Some(Actuation {
-        independent_here: here
-            .and_then(|here| TangentSpace::at(mechanism, geometry, structure, here))
-            .and_then(|tangents| {
-                let rows = Rows::of(IdleSpace::without_idle(tangents))?;
-                Some(Chosen::of(&rows, given)?.independent.len())
-            }),
+        independent_here,
+        together_here: here
+            .as_ref()
+            .and_then(|rows| Some(Chosen::of(rows, &set)?.independent.len())),
         independent: chosen.independent,
         dependent,
         left,
@@ -354,6 +362,44 @@ impl Chosen {
     }
 }
 
+/// What the inputs taken so far span at the pose itself.
+struct AtPose<'r> {
+    rows: &'r Rows,
+    spans: Vec<Span>,
+}
+
+impl<'r> AtPose<'r> {
+    fn of((rows, chosen): (&'r Rows, Chosen)) -> Self {
+        Self {
+            rows,
+            spans: chosen.spans,
+        }
+    }
+
+    /// The row of a freedom with what is left of it after the inputs taken, and its block; `None` where that is not clearly
+    /// something.
+    fn own(&self, freedom: Freedom) -> Option<(usize, Row, Remainder)> {
+        let row = self.rows.row(freedom);
+        let block = row.block?;
+        let remainder = self.spans[block].remainder(&row.values, self.rows.error());
+        let limits = self.rows.limits(remainder.error);
+        (limits.moves(norm(&remainder.rest)) == Some(true)).then_some((block, row, remainder))
+    }
+
+    /// Whether a freedom moves by itself here when the inputs taken are held.
+    fn is_independent(&self, freedom: Freedom) -> bool {
+        self.own(freedom).is_some()
+    }
+
+    /// Takes an input.
+    fn take(&mut self, freedom: Freedom) {
+        if let Some((block, row, remainder)) = self.own(freedom) {
+            let name = self.spans[block].rows.len();
+            self.spans[block].push(name, row.values, remainder);
+        }
+    }
+}
+
 /// The freedoms that could be inputs, best first, but for those taken already and those of joints that the file calls dependent.
 fn candidates(
     mechanism: &Mechanism,
@@ -406,23 +452,69 @@ fn candidates(
 }
 
 /// The candidates that have to be added until nothing is left, and whether nothing is left then.
-fn complete(rows: &Rows, candidates: &[(Freedom, Row)], spans: Vec<Span>) -> (Vec<Freedom>, bool) {
+fn complete(
+    rows: &Rows,
+    candidates: &[(Freedom, Row)],
+    spans: Vec<Span>,
+    mut at_pose: Option<&mut AtPose<'_>>,
+) -> (Vec<Freedom>, bool) {
     let mut of_blocks = vec![Vec::new(); spans.len()];
-    for (index, (_, row)) in candidates.iter().enumerate() {
+    for (index, (freedom, row)) in candidates.iter().enumerate() {
         if let Some(block) = row.block {
-            of_blocks[block].push((index, &row.values[..]));
+            of_blocks[block].push(Candidate {
+                index,
+                freedom: *freedom,
+                row: &row.values,
+            });
         }
     }
     let mut proposed = Vec::new();
     let mut enough = true;
     for (block, (mut span, own)) in spans.into_iter().zip(of_blocks).enumerate() {
-        let (found, complete) = complete_block(rows, block, &own, &mut span);
+        let (found, complete) =
+            complete_block(rows, block, &own, &mut span, at_pose.as_deref_mut());
         proposed.extend(found);
         enough &= complete;
     }
     proposed.sort_unstable();
     let freedoms = proposed.into_iter().map(|(_, index)| candidates[index].0);
     (freedoms.collect(), enough)
+}
+
+/// A freedom of a block that could be an input.
+#[derive(Clone, Copy)]
+struct Candidate<'c> {
+    /// Its place among all candidates.
+    index: usize,
+    freedom: Freedom,
+    row: &'c [f64],
+}
+
+/// Which candidates a round takes.
+struct Round {
+    /// The share of its motion that an input should have for itself.
+    share: f64,
+    /// Only those that are independent at the pose itself.
+    at_pose: bool,
+    /// Also those that idle motion moves.
+    with_idle: bool,
+}
+
+/// The rounds, from what is wanted to what will do.
+const ROUNDS: [Round; 5] = [
+    round(FAIR_SHARE, true, false),
+    round(0.0, true, false),
+    round(FAIR_SHARE, false, false),
+    round(0.0, false, false),
+    round(0.0, false, true),
+];
+
+const fn round(share: f64, at_pose: bool, with_idle: bool) -> Round {
+    Round {
+        share,
+        at_pose,
+        with_idle,
+    }
 }
 
 /// Adds candidates of a block to its span until nothing is left; the indices of those added, each after the number of the round that
@@ -434,31 +526,41 @@ fn complete(rows: &Rows, candidates: &[(Freedom, Row)], spans: Vec<Span>) -> (Ve
 fn complete_block(
     rows: &Rows,
     block: usize,
-    candidates: &[(usize, &[f64])],
+    candidates: &[Candidate<'_>],
     span: &mut Span,
+    mut at_pose: Option<&mut AtPose<'_>>,
 ) -> (Vec<(usize, usize)>, bool) {
     let mut proposed: Vec<(usize, usize)> = Vec::new();
     let mut taken = vec![false; candidates.len()];
     let driven = span.rows.len();
     let wanted = rows.left_in(block, span);
-    let rounds = [(FAIR_SHARE, false), (0.0, false), (0.0, true)];
-    for (round, (share, with_idle)) in rounds.into_iter().enumerate() {
-        for (&(index, row), taken) in candidates.iter().zip(&mut taken) {
+    for (number, round) in ROUNDS.iter().enumerate() {
+        if round.at_pose && at_pose.is_none() {
+            continue;
+        }
+        for (candidate, taken) in candidates.iter().zip(&mut taken) {
             let Some(left) = rows.left_in(block, span).filter(|left| *left > 0) else {
                 break;
             };
-            if *taken {
+            let Candidate { index, row, .. } = *candidate;
+            let here = at_pose.as_deref().filter(|_| round.at_pose);
+            if *taken || here.is_some_and(|here| !here.is_independent(candidate.freedom)) {
                 continue;
             }
             let remainder = span.remainder(row, rows.error());
             let size = norm(&remainder.rest);
-            if rows.limits(remainder.error).moves(size) != Some(true) || size < share * norm(row) {
+            if rows.limits(remainder.error).moves(size) != Some(true)
+                || size < round.share * norm(row)
+            {
                 continue;
             }
             span.push(index, row.to_vec(), remainder);
-            if with_idle || rows.left_in(block, span) == left.checked_sub(1) {
-                proposed.push((round, index));
+            if round.with_idle || rows.left_in(block, span) == left.checked_sub(1) {
+                proposed.push((number, index));
                 *taken = true;
+                if let Some(here) = at_pose.as_deref_mut() {
+                    here.take(candidate.freedom);
+                }
             } else {
                 span.pop();
             }

@@ -187,6 +187,7 @@ pub(super) fn lay_over(
         proposed: found
             .as_ref()
             .map_or_else(Vec::new, |found| names(&found.proposed)),
+        together_here: found.as_ref().and_then(|found| found.together_here),
         complete: found.as_ref().is_some_and(|found| found.complete),
         followers: found
             .as_ref()

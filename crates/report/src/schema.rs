@@ -357,6 +357,10 @@ pub struct Inputs {
     pub left: Option<usize>,
     /// Further inputs that would take them, none of which could be left out.
     pub proposed: Vec<String>,
+    /// How many of the independent inputs and those proposed are independent together at the pose itself; `null` where that is
+    /// not known.
+    #[serde(default)]
+    pub together_here: Option<usize>,
     /// Whether nothing is left with these.
     pub complete: bool,
     /// What follows from the inputs, given and proposed, in natural order of names.

@@ -52,6 +52,7 @@ fn sentences(report: &Report, inputs: &Inputs, most: usize) -> Vec<(String, Tint
                 )
             };
             all.push((text, Tint::Plain));
+            all.extend(dead_centre_together(inputs));
         }
         Some(source) => {
             let incomplete = inputs.left != Some(0) || !inputs.dependent.is_empty();
@@ -65,13 +66,11 @@ fn sentences(report: &Report, inputs: &Inputs, most: usize) -> Vec<(String, Tint
             if let (Some(here), Some(independent)) = (inputs.independent_here, inputs.independent)
                 && here < independent
             {
-                let text = format!(
-                    "At this pose only {here} act independently: it is a dead centre of the inputs."
-                );
-                all.push((text, Tint::Notable));
+                all.push(dead_centre(&here.to_string()));
             }
             if let Some(text) = missing(inputs, most) {
                 all.push((text, Tint::Notable));
+                all.extend(dead_centre_together(inputs));
             }
         }
     }
@@ -79,6 +78,25 @@ fn sentences(report: &Report, inputs: &Inputs, most: usize) -> Vec<(String, Tint
         all.push((text, Tint::Plain));
     }
     all
+}
+
+/// That inputs do less at the pose itself than elsewhere.
+fn dead_centre(number: &str) -> (String, Tint) {
+    let text =
+        format!("At this pose only {number} act independently: it is a dead centre of the inputs.");
+    (text, Tint::Notable)
+}
+
+/// The same of the inputs proposed, with those given, where it was not said of the given ones alone.
+fn dead_centre_together(inputs: &Inputs) -> Option<(String, Tint)> {
+    let independent = inputs.independent?;
+    let lost = independent.saturating_sub(inputs.independent_here?);
+    let all = independent + inputs.proposed.len();
+    let here = inputs.together_here?;
+    (all.saturating_sub(here) > lost).then(|| match inputs.given.len() {
+        0 => dead_centre(&here.to_string()),
+        _ => dead_centre(&format!("{here} of them all")),
+    })
 }
 
 fn verdict(report: &Report, inputs: &Inputs, source: InputSource, most: usize) -> (String, Tint) {
