@@ -573,3 +573,40 @@ fn inputs_are_proposed_that_do_their_work_at_the_pose_itself() {
     let said = format!("At this pose only 1 of them all {DEAD_CENTRE}");
     assert_eq!(text.matches(&said).count(), 1, "{text}");
 }
+
+/// ```text
+///   rail_a == drawer == rail_b
+///    |  |               |  |     two hinges side by side hold each rail to the wall
+///   ========= wall =========
+/// ```
+#[test]
+fn what_slides_between_rails_on_one_wall_is_useful() {
+    let hinge = |name: &str, rail: &str, at: &str| {
+        format!(
+            r#"<loop name="{name}" type="revolute"><predecessor link="wall"><origin xyz="{at}"/></predecessor>
+            <successor link="{rail}"><origin xyz="0 1 0"/></successor><axis xyz="0 0 1"/></loop>"#
+        )
+    };
+    let mut text = links(&["wall", "rail_a", "rail_b", "drawer"]);
+    text += &joint("a1", "revolute", "wall", "rail_a", "0 0 0", "0 0 1");
+    text += &hinge("a2", "rail_a", "0 1 0");
+    text += &joint("b1", "revolute", "wall", "rail_b", "1 0 0", "0 0 1");
+    text += &hinge("b2", "rail_b", "1 1 0");
+    text += &joint("s1", "prismatic", "rail_a", "drawer", "0 0 0", "0 1 0");
+    let slide = r#"<loop name="s2" type="prismatic"><predecessor link="rail_b"/>
+        <successor link="drawer"><origin xyz="1 0 0"/></successor><axis xyz="0 1 0"/></loop>"#;
+    let report = reported(&format!(r#"<robot name="drawer">{text}{slide}</robot>"#));
+    assert_eq!(report.mobility.finite, Some(1));
+    assert_eq!(shares(&report), (1, 0));
+    assert_eq!(inputs(&report).proposed, ["s1"]);
+    // A rod between balls on the two rails spins, and is of no use.
+    let rod = ball("left", "rail_a", "rod", "0 0 1");
+    let right = r#"<link name="rod"/><loop name="right" type="spherical"><predecessor link="rod"><origin xyz="1 0 0"/></predecessor>
+        <successor link="rail_b"><origin xyz="0 0 1"/></successor></loop>"#;
+    let report = reported(&format!(
+        r#"<robot name="drawer">{text}{slide}{rod}{right}</robot>"#
+    ));
+    assert_eq!(report.mobility.finite, Some(2));
+    assert_eq!(shares(&report), (1, 1));
+    assert_eq!(idle(&report), [("rod".to_owned(), 1)]);
+}

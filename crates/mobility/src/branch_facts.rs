@@ -31,7 +31,7 @@ pub fn branch_facts(
     poses: &[BranchPose],
 ) -> BranchFacts {
     let seen = link_twists(mechanism, geometry, structure, poses);
-    let idle = idle_seen(mechanism, geometry, structure, &seen);
+    let idle = idle_seen(mechanism, geometry, structure, (poses, &seen));
     BranchFacts {
         roles: roles_seen(mechanism, &seen),
         idle: idle.idle,

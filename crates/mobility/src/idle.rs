@@ -21,6 +21,7 @@ use super::one_sided::{OneSided, dot};
 use super::point_chains::{Bodies, Connection, Connections, heaviest_first};
 use super::relative_motion::link_twists;
 use super::tangent_space::{Blocks, TangentSpace};
+use super::without_body::standing_without;
 use kutzbach_closure::Geometry;
 use kutzbach_closure::Structure;
 use kutzbach_model::mechanism::Mechanism;
@@ -35,8 +36,9 @@ const NEARLY_AT_REST: f64 = 1e-3;
 /// Bodies of loops that can move alone at all of the poses, with the smallest freedom they have there, by link index.
 ///
 /// A body counts as inside a loop if at least two of its joints are in cycles of one part, and these lead to at least two
-/// other bodies: between two bodies alone the motion of one is what the mechanism is for. Links that hang on bridges, and the
-/// ground, are never idle. Where margins are thin a link is not called idle. Freedoms of several entries are independent of
+/// other bodies: between two bodies alone the motion of one is what the mechanism is for. Bodies that would stand still
+/// relative to one another without it count as one for that, as two rails on one wall; but not for a rod between balls, whose
+/// spin is of no use in a truss either. Links that hang on bridges, and the ground, are never idle. Where margins are thin a link is not called idle. Freedoms of several entries are independent of
 /// one another.
 #[must_use]
 pub fn idle_links(
@@ -46,28 +48,28 @@ pub fn idle_links(
     poses: &[BranchPose],
 ) -> Vec<IdleLink> {
     let seen = link_twists(mechanism, geometry, structure, poses);
-    idle_seen(mechanism, geometry, structure, &seen).idle
+    idle_seen(mechanism, geometry, structure, (poses, &seen)).idle
 }
 
 pub(super) fn idle_seen(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
     structure: &Structure,
-    seen: &[LinkTwists],
+    (poses, seen): (&[BranchPose], &[LinkTwists]),
 ) -> IdleFreedoms {
     if seen.is_empty() {
         return IdleFreedoms::default();
     }
-    let connections = Connections::of(mechanism, geometry, structure);
-    let clusters = clusters(mechanism, structure, &connections);
-    let (freedoms, _) = moving_alone(seen, &clusters, false);
-    let (nearly, _) = moving_alone(seen, &clusters, true);
+    let around = Around::new(mechanism, geometry, structure, poses);
+    let clusters = around.clusters();
+    let (freedoms, _) = moving_alone(seen, (&around, &clusters), false);
+    let (nearly, _) = moving_alone(seen, (&around, &clusters), true);
     let named = |clusters_with: Vec<(&Cluster, usize)>| -> Vec<IdleLink> {
         let mut idle: Vec<IdleLink> = clusters_with
             .into_iter()
             .filter(|(_, freedom)| *freedom > 0)
             .map(|(cluster, freedom)| {
-                cluster.named(mechanism, structure, &connections.bodies, freedom)
+                cluster.named(mechanism, structure, &around.connections.bodies, freedom)
             })
             .collect();
         idle.sort_by_key(|idle| idle.link);
@@ -96,7 +98,7 @@ pub(super) struct IdleFreedoms {
 /// The freedom of each cluster beyond that of its bodies one by one, and the tangents that move it alone, pose by pose.
 fn moving_alone(
     seen: &[LinkTwists],
-    clusters: &[Cluster],
+    (around, clusters): (&Around<'_>, &[Cluster]),
     nearly: bool,
 ) -> (Vec<usize>, Vec<Vec<Combinations>>) {
     let mut freedoms = vec![usize::MAX; clusters.len()];
@@ -129,7 +131,60 @@ fn moving_alone(
         }
         all.push(moving);
     }
+    for (freedom, cluster) in freedoms.iter_mut().zip(clusters) {
+        if *freedom > 0 && around.is_between_two(cluster) {
+            *freedom = 0;
+        }
+    }
     (freedoms, all)
+}
+
+/// What a cluster is in.
+struct Around<'a> {
+    mechanism: &'a Mechanism,
+    geometry: &'a Geometry<f64>,
+    structure: &'a Structure,
+    poses: &'a [BranchPose],
+    connections: Connections,
+}
+
+impl<'a> Around<'a> {
+    fn new(
+        mechanism: &'a Mechanism,
+        geometry: &'a Geometry<f64>,
+        structure: &'a Structure,
+        poses: &'a [BranchPose],
+    ) -> Self {
+        Self {
+            mechanism,
+            geometry,
+            structure,
+            poses,
+            connections: Connections::of(mechanism, geometry, structure),
+        }
+    }
+
+    fn clusters(&self) -> Vec<Cluster> {
+        clusters(self.mechanism, self.structure, &self.connections)
+    }
+
+    /// Whether the bodies that a body moves between are as good as one: they stand still relative to one another without it.
+    fn is_between_two(&self, cluster: &Cluster) -> bool {
+        let Some(beyond) = &cluster.beyond else {
+            return false;
+        };
+        let part = &self.structure.parts[beyond.part];
+        self.poses.iter().all(|pose| {
+            let still = standing_without(
+                self.mechanism,
+                self.geometry,
+                &pose.states,
+                part,
+                &cluster.own,
+            );
+            still.is_some_and(|still| self.connections.bodies.joined(&beyond.bodies, &still))
+        })
+    }
 }
 
 /// Sums of some vectors of a basis of tangents.
@@ -194,9 +249,9 @@ pub(super) fn idle_spaces(
     if seen.is_empty() {
         return Vec::new();
     }
-    let connections = Connections::of(mechanism, geometry, structure);
-    let clusters = clusters(mechanism, structure, &connections);
-    let (freedoms, moving) = moving_alone(&seen, &clusters, false);
+    let around = Around::new(mechanism, geometry, structure, poses);
+    let clusters = around.clusters();
+    let (freedoms, moving) = moving_alone(&seen, (&around, &clusters), false);
     if seen.is_empty() {
         return Vec::new();
     }
@@ -243,6 +298,14 @@ pub(super) fn idle_spaces(
         .collect()
 }
 
+/// What a body moves between.
+struct Beyond {
+    /// The part that its loops are in.
+    part: usize,
+    /// The other bodies that its joints in these loops lead to.
+    bodies: BTreeSet<usize>,
+}
+
 /// Bodies that might move alone.
 struct Cluster {
     /// The bodies that move as one.
@@ -255,6 +318,8 @@ struct Cluster {
     link: usize,
     /// The links beyond the joints, each with its joint.
     neighbours: Vec<(usize, usize)>,
+    /// What it moves between, of a single body that is neither a rod nor an intermediate one.
+    beyond: Option<Beyond>,
     /// Whether it hangs between balls only.
     rod: bool,
     /// Of a chain: the clusters of its bodies.
@@ -281,6 +346,7 @@ impl Cluster {
             between,
             own,
             neighbours,
+            beyond: None,
             rod: ends.iter().all(|end| end.ball),
             singles: Vec::new(),
         }
@@ -350,13 +416,21 @@ fn clusters(
             .iter()
             .map(|&index| &connections.all[index]);
         let ends: Vec<&Connection> = at.chain(&apart).collect();
-        let cluster = Cluster::new(mechanism, bodies, vec![body], &ends);
+        let mut cluster = Cluster::new(mechanism, bodies, vec![body], &ends);
         let in_loops = cluster
             .neighbours
             .iter()
             .filter(|(joint, _)| part_of[*joint].is_some());
         let others: BTreeSet<usize> = in_loops.map(|&(_, link)| bodies.of[link]).collect();
         if others.len() >= 2 {
+            // What other loops hold together is not asked of several parts at once.
+            parts.dedup();
+            if let ([part], false) = (&parts[..], cluster.rod || connections.intermediate[body]) {
+                cluster.beyond = Some(Beyond {
+                    part: *part,
+                    bodies: others,
+                });
+            }
             single_of[body] = Some(found.len());
             found.push(cluster);
         }

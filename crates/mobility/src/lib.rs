@@ -63,6 +63,7 @@ mod tracing;
 mod verdict;
 mod vocabulary;
 mod whole_branches;
+mod without_body;
 
 pub use actuation::{Actuation, DependentInput, Follower, Freedom, actuation};
 pub use advice::{Advice, advice_for_part};
