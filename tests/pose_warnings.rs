@@ -91,8 +91,8 @@ fn limits_are_held_against_the_pose_and_the_couplings() {
     let arm = |first: &str, second: &str| {
         format!(
             r#"<robot name="r"><link name="a"/><link name="b"/><link name="c"/>
-            <joint name="one" type="revolute"><parent link="a"/><child link="b"/>{first}</joint>
-            <joint name="two" type="prismatic"><parent link="b"/><child link="c"/>{second}</joint></robot>"#
+            <joint name="one" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>{first}</joint>
+            <joint name="two" type="prismatic"><parent link="b"/><child link="c"/><axis xyz="0 0 1"/>{second}</joint></robot>"#
         )
     };
     let limit = |lower: &str, upper: &str| format!(r#"<limit lower="{lower}" upper="{upper}"/>"#);
