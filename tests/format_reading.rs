@@ -510,7 +510,7 @@ fn motors_are_read_in_every_form() {
 
 #[test]
 fn a_call_left_over_from_an_expansion_is_skipped_and_said_so() {
-    let text = chain("revolute", "").replace(
+    let text = chain("revolute", "<axis xyz='1 0 0'/>").replace(
         "</robot>",
         "<xacro:sensors xmlns:xacro='http://www.ros.org/wiki/xacro' side='left'/></robot>",
     );

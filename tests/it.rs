@@ -47,6 +47,7 @@ mod known_mechanisms;
 mod log_readers;
 #[path = "long_runs/main.rs"]
 mod long_runs;
+mod margins;
 mod mechanism_table;
 mod models;
 mod near_singular;

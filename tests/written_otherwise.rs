@@ -175,3 +175,17 @@ mod corpus {
         super::compare(500);
     }
 }
+
+/// A joint that rests at the pose is followed to where it moves, though decimals leave open how the loop closes there.
+#[test]
+fn a_dead_centre_of_rounded_numbers_is_no_lock() {
+    let all = mechanisms();
+    let (_, mechanism) = all.iter().find(|(name, _)| name == "planesym_0").unwrap();
+    let (draft, names) = rewritten(&Draft::of(mechanism), 0b00_1110);
+    let other = draft.build();
+    let found = [analysis(mechanism), analysis(&other)];
+    let wrong = contradictions(&(mechanism, &found[0]), &(&other, &found[1]), &names, false);
+    assert_none(&wrong);
+    assert_eq!(found[0].roles[0].locked, Some(false));
+    assert_eq!(found[1].roles[0].locked, Some(false));
+}

@@ -60,6 +60,7 @@ mod singular;
 mod subgroup;
 mod tangent_space;
 mod tracing;
+mod tree_bound;
 mod verdict;
 mod vocabulary;
 mod whole_branches;

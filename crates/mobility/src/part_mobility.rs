@@ -23,6 +23,7 @@ use super::pose_rank::{PartRank, Pose};
 use super::singular::{SingularFinding, singular_finding};
 use super::subgroup::{hidden_offset, subgroup_finding};
 use super::tracing::{KERNEL_LIMIT, PartPose, WALKED_UNKNOWNS, poses_of_regular_part, walk};
+use super::tree_bound::most_by_joints;
 use super::vocabulary::{CertificateLevel, MobilityClass, PoseKind, SingularKind};
 use kutzbach_closure::Structure;
 use kutzbach_closure::{Part, Section};
@@ -193,7 +194,7 @@ pub fn part_mobility(
     // then hold it fast may be due to the digits left out.
     let held_by_rounding = rank.taken_literally && rank.instantaneous == Some(0) && surplus < 0;
     let upper = if held_by_rounding {
-        rank.unknowns()
+        most_by_joints(pose.mechanism, part)
     } else {
         rank.candidates.1
     };

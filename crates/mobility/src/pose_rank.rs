@@ -24,8 +24,11 @@
 use super::hidden::bits_for_ratios;
 use super::more_digits::MoreDigits;
 use super::rounded::{OtherRank, if_rounded};
+use super::tree_bound::most_by_joints;
 use kutzbach_closure::{CycleJacobian, Geometry, JointState, Part, entry_accuracy, jacobian};
-use kutzbach_math::matrix::{MatrixError, Method, RankDecision, Real, SparseMatrix, decide};
+use kutzbach_math::matrix::{
+    CLEARANCE, MatrixError, Method, RankDecision, Real, SparseMatrix, decide,
+};
 use kutzbach_model::mechanism::{Configuration, Mechanism};
 use std::cell::Cell;
 use std::collections::BTreeSet;
@@ -39,6 +42,10 @@ const LADDER_UNKNOWNS: usize = 2000;
 /// A stated precision that makes the Jacobian uncertain by more than this separates nothing: a kept singular value would
 /// have to be ten times as large. Unless even so the rank is clear, the numbers are taken literally, which the report says.
 const COARSEST_STATED: f64 = 0.05;
+
+/// The stated precision bounds a Jacobian's uncertainty to first order. At 5 %, the coarsest that is used, the second order
+/// is a twentieth of that; half as much again leaves room for it and for the estimate in the bound itself.
+const BEYOND_FIRST_ORDER: f64 = 1.5;
 
 /// Parts of at most so many unknowns are ranked in more digits though double precision is content with them, where their
 /// numbers call for it.
@@ -282,6 +289,24 @@ fn decide_twice<R: Real>(
     Ok(decision)
 }
 
+/// The decision within the stated precision, where full rank is provable: singular values move by no more than the norm of
+/// the perturbation (Weyl), so that a smallest one above it cannot be a rounded zero, and no gap has to separate it from
+/// anything. `other` is what else the entries are uncertain by, of which there is only an estimate.
+fn full_within(decision: RankDecision, stated: f64, other: f64) -> RankDecision {
+    let side = decision.rows.min(decision.columns);
+    let all_kept = decision.candidates.1 == side && decision.dropped == 0.0;
+    let bound = BEYOND_FIRST_ORDER * stated + CLEARANCE * other;
+    let proved = stated > 0.0 && all_kept && decision.kept > bound;
+    if decision.rank.is_some() || decision.method != Method::Svd || !proved {
+        return decision;
+    }
+    RankDecision {
+        rank: Some(side),
+        candidates: (side, side),
+        ..decision
+    }
+}
+
 /// Decides the rank of one part. Parts that double precision leaves open are evaluated anew each time; see [`MoreDigits`]
 /// for ranking many.
 ///
@@ -333,7 +358,8 @@ pub(super) fn rank_part_with(
     let mut matrix = double.matrix.clone();
     let column_scales = matrix.scale_columns();
     let columns = matrix.columns();
-    let mut nominal = decide_twice(&matrix, stated + rounding + 2.0 * standing.shift, poorer)?;
+    let nominal = decide_twice(&matrix, stated + rounding + 2.0 * standing.shift, poorer)?;
+    let mut nominal = full_within(nominal, stated, rounding + poorer + 2.0 * standing.shift);
     coarse &= nominal.rank.is_none();
     let mut possible = None;
     if coarse {
@@ -439,6 +465,8 @@ pub(super) fn rank_part_with(
     if let Some(literal) = literal {
         candidates = (candidates.0.min(literal), candidates.1.max(literal));
     }
+    // Whatever the numbers are.
+    candidates.1 = candidates.1.min(most_by_joints(pose.mechanism, part));
     let (instantaneous, decision, note) = match (nominal.rank.map(freedom), literal) {
         (Some(answer), Some(literal)) if literal != answer => {
             let note = format!(

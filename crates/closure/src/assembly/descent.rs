@@ -12,9 +12,6 @@ use std::collections::BTreeSet;
 /// However coarsely the numbers are stated or rounded, a cycle that misses by more than this (rad, or cycle lengths) is not closed.
 const COARSEST_CLOSING: f64 = 0.02;
 
-/// Least factor between the squared residual and the damping.
-const LEAST_CAUTION: f64 = 1e-6;
-
 /// A part to close.
 #[derive(Clone, Copy)]
 pub(super) struct Task<'a> {
@@ -194,7 +191,7 @@ pub(super) fn descend(
     }
     let mut residual = largest(&here.residual);
     let mut steps = 0;
-    let mut caution = 1.0;
+    let mut caution = 1.0f64;
     let sum = |r: &[f64]| r.iter().map(|x| x * x).sum::<f64>();
     let mut milestone = sum(&here.residual);
     let mut polishing = false;
@@ -213,9 +210,10 @@ pub(super) fn descend(
         }
         let within = residual <= stated.min(COARSEST_CLOSING);
         if within && !polishing {
-            // The caution that led here from afar is no measure of what the steps at the end are worth.
+            // The caution that led here from afar is no measure of what the steps at the end are worth. Some is needed: beside
+            // a closed pose of dependent equations a step without damping goes any way along the motion.
             polishing = true;
-            caution = LEAST_CAUTION;
+            caution = caution.min(1.0);
         }
         let columns = movable_columns(&here, held);
         let Some(increments) = step(&here, &columns, caution * square.min(1.0))? else {
@@ -240,7 +238,7 @@ pub(super) fn descend(
             halved = reached <= 0.25 * square;
             here = there;
             residual = largest(&here.residual);
-            caution = (caution * 0.25).max(LEAST_CAUTION);
+            caution = (caution * 0.25).max(1e-6);
             if stalled {
                 break;
             }

@@ -93,7 +93,7 @@ fn macros_take_values_defaults_and_blocks() {
 fn an_element_with_the_name_of_a_macro_is_no_call() {
     let body = format!(
         "<xacro:macro name='eyes' params='on:=a'><link name='eye'/><joint name='k' type='revolute'><parent link='${{on}}'/>\
-         <child link='eye'/></joint></xacro:macro>{CHAIN}</joint>\n<eyes/>"
+         <child link='eye'/></joint></xacro:macro>{CHAIN}<axis xyz='1 0 0'/></joint>\n<eyes/>"
     );
     let plain = reading(&body, &[]);
     assert_eq!(names(&plain.mechanism), ["a", "b"]);

@@ -36,7 +36,7 @@ use super::{DENSE_COLUMNS, DENSE_ROWS};
 pub const ROUNDINGS: f64 = 16.0;
 
 /// Kept values must exceed the tolerance by this factor.
-const CLEARANCE: f64 = 10.0;
+pub const CLEARANCE: f64 = 10.0;
 
 /// Smallest ratio of the last kept to the first dropped value.
 const SMALLEST_GAP: f64 = 1e3;

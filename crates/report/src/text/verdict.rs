@@ -289,8 +289,8 @@ pub(super) fn not_more(report: &Report) -> Option<String> {
                     counted(freedom, "freedom")
                 ),
                 _ => format!(
-                    "Not more than {most}: the rank of the closure equations at this pose leaves no more, and no motion \
-                     has more freedoms than its poses ({definition})."
+                    "Not more than {most}: the closure equations at this pose and the joints by themselves leave no more, \
+                     and no motion has more freedoms than its poses ({definition})."
                 ),
             }
         }

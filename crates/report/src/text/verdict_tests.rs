@@ -179,7 +179,7 @@ fn undecided_says_what_is_open() {
     assert!(
         not_more(&report)
             .unwrap()
-            .starts_with("Not more than 1: the rank")
+            .starts_with("Not more than 1: the closure equations")
     );
     assert_eq!(
         not_less(&report).unwrap(),
