@@ -610,3 +610,42 @@ fn what_slides_between_rails_on_one_wall_is_useful() {
     assert_eq!(shares(&report), (1, 1));
     assert_eq!(idle(&report), [("rod".to_owned(), 1)]);
 }
+
+#[test]
+fn proofs_do_not_name_frames() {
+    let parallelogram = |frames: bool| {
+        let [left, right] = if frames {
+            ["left", "right"]
+        } else {
+            ["wall"; 2]
+        };
+        let fixed = |name: &str| {
+            let joint = joint(
+                &format!("{name}_frame"),
+                "fixed",
+                "wall",
+                name,
+                "0 0 0",
+                "1 0 0",
+            );
+            format!("{}{joint}", links(&[name]))
+        };
+        let frames = match frames {
+            true => fixed("left") + &fixed("right"),
+            false => String::new(),
+        };
+        let text = format!(
+            r#"{}{frames}{}{}{}<loop name="D" type="revolute"><predecessor link="b"><origin xyz="3 0 0"/></predecessor>
+            <successor link="c"><origin xyz="0 1 0"/></successor><axis xyz="0 0 1"/></loop>"#,
+            links(&["wall", "a", "b", "c"]),
+            joint("A", "revolute", left, "a", "0 0 0", "0 0 1"),
+            joint("B", "revolute", "a", "b", "0 1 0", "0 0 1"),
+            joint("C", "revolute", right, "c", "3 0 0", "0 0 1"),
+        );
+        let report = reported(&format!(r#"<robot name="parallelogram">{text}</robot>"#));
+        report.mobility.certificate.unwrap().text
+    };
+    let text = parallelogram(true);
+    assert!(text.contains("`A`") && !text.contains("frame"), "{text}");
+    assert_eq!(text, parallelogram(false));
+}

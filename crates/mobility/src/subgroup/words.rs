@@ -264,8 +264,7 @@ fn chain_of<'a>(mechanism: &Mechanism, pieces: impl Iterator<Item = &'a Piece> +
                 names.push(name);
             }
             Piece::Replaced(loop_) => {
-                let joints = loop_.joints.iter();
-                names.extend(joints.map(|&joint| mechanism.joints()[joint].name.clone()));
+                names.extend(names_of(mechanism, &loop_.joints));
             }
         }
     }
@@ -275,11 +274,17 @@ fn chain_of<'a>(mechanism: &Mechanism, pieces: impl Iterator<Item = &'a Piece> +
 }
 
 fn list(mechanism: &Mechanism, joints: &[usize]) -> String {
-    let joints = joints.iter();
-    let names: Vec<String> = joints
-        .map(|&joint| mechanism.joints()[joint].name.clone())
-        .collect();
-    quoted(&names)
+    quoted(&names_of(mechanism, joints))
+}
+
+/// The names of the joints that have a freedom; of all where none has.
+fn names_of(mechanism: &Mechanism, joints: &[usize]) -> Vec<String> {
+    let all = || joints.iter().map(|&joint| &mechanism.joints()[joint]);
+    let rigid = all().all(|joint| joint.freedom() == 0);
+    all()
+        .filter(|joint| rigid || joint.freedom() > 0)
+        .map(|joint| joint.name.clone())
+        .collect()
 }
 
 fn quoted(names: &[String]) -> String {
