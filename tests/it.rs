@@ -71,6 +71,7 @@ mod trace;
 mod trace_cli;
 mod trace_large;
 mod trace_singular;
+mod true_motions;
 mod variations;
 mod verification;
 mod work_precision;

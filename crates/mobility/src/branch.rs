@@ -79,7 +79,7 @@ pub struct IdleLink {
     pub rod: bool,
 }
 
-/// How a link moves relative to another along a branch.
+/// How a link moves relative to another along a branch. What the margins do not tell is `None`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RelativeMotion {
     /// Index of the moving link.
@@ -87,14 +87,23 @@ pub struct RelativeMotion {
     /// Index of the link it is seen from.
     pub relative_to: usize,
     /// Dimension of the set of its relative displacements.
-    pub freedom: usize,
+    pub freedom: Option<usize>,
     /// The displacement subgroup it moves in, where its motion is one: axes in the frame of `relative_to`, at the pose
     /// that the displacements are counted from.
     pub class: Option<DisplacementSubgroup>,
+    /// The smallest displacement subgroup that all its displacements lie in, as far as it is known: `class` where there is one.
+    pub within: Option<DisplacementSubgroup>,
+    /// Whether its motion certainly is no subgroup: its axes or directions move.
+    pub axes_move: bool,
+    /// The joint of one freedom between the two links, or between what moves with them, whose motion this is.
+    pub joint: Option<usize>,
     /// How many of its freedoms turn it, at a generic pose: the rank of its angular velocities.
-    pub rotations: usize,
+    pub rotations: Option<usize>,
     /// The others, which move it without turning.
-    pub translations: usize,
+    pub translations: Option<usize>,
+    /// Of a motion of one freedom that turns: the least and the greatest pitch of its screws (m/rad) at the poses seen; both zero
+    /// where it turns without sliding.
+    pub pitches: Option<[f64; 2]>,
 }
 
 /// One branch through the pose (D8).

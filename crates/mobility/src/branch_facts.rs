@@ -32,10 +32,11 @@ pub fn branch_facts(
 ) -> BranchFacts {
     let seen = link_twists(mechanism, geometry, structure, poses);
     let idle = idle_seen(mechanism, geometry, structure, (poses, &seen));
+    let roles = roles_seen(mechanism, &seen);
     BranchFacts {
-        roles: roles_seen(mechanism, &seen),
+        motions: motions_seen_from_ground(mechanism, geometry, &roles, &seen),
+        roles,
         idle: idle.idle,
         nearly_idle: idle.nearly,
-        motions: motions_seen_from_ground(mechanism, &seen),
     }
 }

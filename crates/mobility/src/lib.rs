@@ -15,6 +15,7 @@
 //! Cost: near-linear in the mechanism where its loops are short and hang together like a chain; fronts of the sparse
 //! elimination grow with the width of a lattice. Singular poses cost power series in the variables of one part's kernel.
 
+mod across_joints;
 mod actuation;
 mod advice;
 mod alike;

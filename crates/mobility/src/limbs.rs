@@ -232,7 +232,7 @@ impl<'a> Ends<'a> {
         let mut freedom = vec![0; bodies.links.len()];
         for motion in &branch.motions {
             let most = &mut freedom[bodies.of[motion.link]];
-            *most = motion.freedom.max(*most);
+            *most = motion.freedom.unwrap_or(0).max(*most);
         }
         let links = bodies.links.iter().map(|links| {
             let link = main_link(mechanism, structure, links);

@@ -187,6 +187,11 @@ impl LinkTwists {
         self.pieces[a] == self.pieces[b]
     }
 
+    /// `world_from_link`: rotation and translation.
+    pub fn link_pose(&self, link: usize) -> (Matrix3<f64>, Vector3<f64>) {
+        parts(&self.poses[link])
+    }
+
     /// The centre in the frame of a link (m).
     pub fn centre_in(&self, link: usize) -> Vector3<f64> {
         let (rotation, translation) = parts(&self.poses[link]);
@@ -376,7 +381,8 @@ pub(super) fn coordinates(twist: &Twist, length: f64) -> [f64; 6] {
     [w.x, w.y, w.z, v.x, v.y, v.z]
 }
 
-fn parts(pose: &Rigid<f64>) -> (Matrix3<f64>, Vector3<f64>) {
+/// Rotation and translation.
+pub(super) fn parts(pose: &Rigid<f64>) -> (Matrix3<f64>, Vector3<f64>) {
     let rotation = Matrix3::from_fn(|i, j| pose.rotation[i][j]);
     (rotation, pose.translation.into())
 }

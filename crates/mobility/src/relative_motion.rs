@@ -5,31 +5,38 @@
 //! space. Conversely, where all of them lie in one space of the dimension of the motion and that space is closed under
 //! the bracket, the motion stays in the coset `H T₀` of the pose it is counted from (Frobenius' theorem; Hervé 1978,
 //! section 2). A coupler of a four-bar has one freedom, and its twists at several poses span three dimensions: it moves
-//! within planar motion, but its own motion is no subgroup, and no class is given.
+//! within planar motion, but its own motion is no subgroup, and no class is given. What its axis does is told by the
+//! smallest subalgebra that all the twists generate and by the pitch of each.
+//!
+//! A link that a hinge, a slider or a screw joins to the other moves as that joint lets it, whatever the digits of all
+//! others: such a row is read off the joint ([`super::across_joints`]) and never off twists.
 //!
 //! Poses stand for the branch: they must be generic and a finite way apart, as those of [`super::Branch`] are.
 //!
 //! Cost: a decomposition of six rows for every pair of links and pose, as long as there are tangents that move the links. Seen from
 //! the ground those that move nothing else any more are merged on the way outwards, so that a chain costs no more than its length.
 
+use super::across_joints::{AcrossJoints, Between};
 use super::branch::{BranchPose, RelativeMotion};
+use super::branch_roles::roles_seen;
 use super::link_twists::{LinkTwists, coordinates};
 use super::one_sided::OneSided;
+use super::roles::JointRole;
 use super::tangent_space::Limits;
 use kutzbach_closure::Geometry;
 use kutzbach_closure::Structure;
 use kutzbach_math::group::{
-    Axis, DisplacementSubgroup, Gauge, GroupError, Pose, ScrewSystem, Twist, classify,
+    Axis, DisplacementSubgroup, Gauge, GroupError, Pose, ScrewSystem, Subalgebra, Twist, classify,
 };
 use kutzbach_model::mechanism::Mechanism;
 use nalgebra::Vector3;
 
 /// Relative motions of pairs (link, relative to), in the order of the pairs.
 ///
-/// Links are named by index. A pair whose freedom no pose tells clearly is left out: an answer would be a guess. The class
-/// is `None` where the motion is no subgroup, where the margin does not tell, and, unless the links stand still relative
-/// to one another or move in every way, where there are fewer than two poses. Links that no chain of joints connects have
-/// all six freedoms. A pose whose numbers are out of range, or that belongs to another mechanism, is not used.
+/// Links are named by index. Every pair has its row, with `None` for what no pose tells clearly. The class is `None` too
+/// where the motion is no subgroup and, unless a joint of one freedom between the links decides, the links stand still
+/// relative to one another or move in every way, where there are fewer than two poses. Links that no chain of joints
+/// connects have all six freedoms. A pose whose numbers are out of range, or that belongs to another mechanism, is not used.
 #[must_use]
 pub fn relative_motions(
     mechanism: &Mechanism,
@@ -38,7 +45,25 @@ pub fn relative_motions(
     poses: &[BranchPose],
     pairs: &[(usize, usize)],
 ) -> Vec<RelativeMotion> {
-    motions_seen(&link_twists(mechanism, geometry, structure, poses), pairs)
+    let seen = link_twists(mechanism, geometry, structure, poses);
+    let Some(first) = seen.first() else {
+        return pairs.iter().map(|&pair| unknown(pair)).collect();
+    };
+    let roles = roles_seen(mechanism, &seen);
+    let across = AcrossJoints::new(mechanism, geometry, &roles, first);
+    let found = pairs.iter().map(|&(link, relative_to)| {
+        // One point of the other's frame for all poses, near the mechanism.
+        let point = first.centre_in(relative_to);
+        let spans: Vec<Span> = seen
+            .iter()
+            .filter_map(|there| {
+                let twists = there.relative(link, relative_to, &point);
+                Span::of(&twists, first.length, &there.limits)
+            })
+            .collect();
+        motion(first, &across, (link, relative_to), &spans)
+    });
+    found.collect()
 }
 
 /// Motions of all links but the ground relative to the ground, by link index; see [`relative_motions`].
@@ -49,10 +74,9 @@ pub fn motions_to_ground(
     structure: &Structure,
     poses: &[BranchPose],
 ) -> Vec<RelativeMotion> {
-    motions_seen_from_ground(
-        mechanism,
-        &link_twists(mechanism, geometry, structure, poses),
-    )
+    let seen = link_twists(mechanism, geometry, structure, poses);
+    let roles = roles_seen(mechanism, &seen);
+    motions_seen_from_ground(mechanism, geometry, &roles, &seen)
 }
 
 /// The twists of all links at every usable pose.
@@ -68,29 +92,19 @@ pub(super) fn link_twists(
         .collect()
 }
 
-pub(super) fn motions_seen(seen: &[LinkTwists], pairs: &[(usize, usize)]) -> Vec<RelativeMotion> {
-    let found = pairs.iter().filter_map(|&(link, relative_to)| {
-        let first = seen.first()?;
-        // One point of the other's frame for all poses, near the mechanism.
-        let point = first.centre_in(relative_to);
-        let spans = seen.iter().filter_map(|there| {
-            let twists = there.relative(link, relative_to, &point);
-            Span::of(&twists, first.length, &there.limits)
-        });
-        motion(first, link, relative_to, &spans.collect::<Vec<_>>())
-    });
-    found.collect()
-}
-
-/// Motions of all links but the ground relative to the ground, by link index.
+/// Motions of all links but the ground relative to the ground, by link index, where the joints have these roles.
 pub(super) fn motions_seen_from_ground(
     mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    roles: &[JointRole],
     seen: &[LinkTwists],
 ) -> Vec<RelativeMotion> {
-    let Some(first) = seen.first() else {
-        return Vec::new();
-    };
     let ground = mechanism.ground().0;
+    let links = (0..mechanism.links().len()).filter(|link| *link != ground);
+    let Some(first) = seen.first() else {
+        return links.map(|link| unknown((link, ground))).collect();
+    };
+    let across = AcrossJoints::new(mechanism, geometry, roles, first);
     let point = first.centre_in(ground);
     let mut spans: Vec<Vec<Span>> = mechanism.links().iter().map(|_| Vec::new()).collect();
     for there in seen {
@@ -99,45 +113,133 @@ pub(super) fn motions_seen_from_ground(
             spans[link].extend(Span::of(&twists, first.length, &there.limits));
         });
     }
-    let links = (0..spans.len()).filter(|link| *link != ground);
     links
-        .filter_map(|link| motion(first, link, ground, &spans[link]))
+        .map(|link| motion(first, &across, (link, ground), &spans[link]))
         .collect()
 }
 
+/// A pair of which nothing is known.
+fn unknown((link, relative_to): (usize, usize)) -> RelativeMotion {
+    RelativeMotion {
+        link,
+        relative_to,
+        freedom: None,
+        class: None,
+        within: None,
+        axes_move: false,
+        joint: None,
+        rotations: None,
+        translations: None,
+        pitches: None,
+    }
+}
+
+/// A motion that is this subgroup.
+fn is_subgroup(pair: (usize, usize), class: DisplacementSubgroup) -> RelativeMotion {
+    let kind = class.kind();
+    RelativeMotion {
+        freedom: Some(class.dimension()),
+        class: Some(class),
+        within: Some(class),
+        rotations: Some(kind.rotations()),
+        translations: Some(class.dimension() - kind.rotations()),
+        pitches: match class {
+            DisplacementSubgroup::Rotation { .. } => Some([0.0; 2]),
+            DisplacementSubgroup::Helical { pitch, .. } => Some([pitch; 2]),
+            _ => None,
+        },
+        ..unknown(pair)
+    }
+}
+
+/// The motion of a pair: what the joint between them says, then what their velocities at the poses do.
 fn motion(
     first: &LinkTwists,
-    link: usize,
-    relative_to: usize,
+    across: &AcrossJoints<'_>,
+    pair: (usize, usize),
     spans: &[Span],
-) -> Option<RelativeMotion> {
-    let found = |freedom, rotations, class| {
-        Some(RelativeMotion {
-            link,
-            relative_to,
-            freedom,
-            class,
-            rotations,
-            translations: freedom - rotations,
-        })
-    };
+) -> RelativeMotion {
+    let (link, relative_to) = pair;
     if !first.connected(link, relative_to) {
-        return found(6, 3, Some(DisplacementSubgroup::General));
+        return is_subgroup(pair, DisplacementSubgroup::General);
     }
-    let freedom = spans.iter().map(|span| span.basis.len()).max()?;
-    let rotations = spans
+    let joint = match across.between(link, relative_to) {
+        Between::Nothing => None,
+        Between::Rigid => return is_subgroup(pair, DisplacementSubgroup::Identity),
+        Between::Joint(joint) => Some(joint),
+    };
+    let allowed = joint.and_then(|joint| across.subgroup(joint, relative_to));
+    if let (Some(joint), Some(class)) = (joint, allowed)
+        && class.dimension() == 1
+        && across.moves(joint)
+    {
+        return RelativeMotion {
+            joint: Some(joint),
+            ..is_subgroup(pair, class)
+        };
+    }
+    let mut found = by_velocities(pair, first, spans);
+    let Some(allowed) = allowed else {
+        return found;
+    };
+    if found.freedom == Some(allowed.dimension()) {
+        return RelativeMotion {
+            joint: joint.filter(|_| allowed.dimension() == 1),
+            ..is_subgroup(pair, allowed)
+        };
+    }
+    if found
+        .within
+        .is_none_or(|within| within.dimension() >= allowed.dimension())
+    {
+        found.within = Some(allowed);
+    }
+    found
+}
+
+fn by_velocities(pair: (usize, usize), first: &LinkTwists, spans: &[Span]) -> RelativeMotion {
+    let Some(freedom) = spans.iter().map(|span| span.basis.len()).max() else {
+        return unknown(pair);
+    };
+    match freedom {
+        0 => return is_subgroup(pair, DisplacementSubgroup::Identity),
+        6 => return is_subgroup(pair, DisplacementSubgroup::General),
+        _ => {}
+    }
+    let full: Vec<&Span> = spans
         .iter()
         .filter(|span| span.basis.len() == freedom)
-        .filter_map(Span::rotations)
-        .max()?;
-    let class = match freedom {
-        0 => Some(DisplacementSubgroup::Identity),
-        6 => Some(DisplacementSubgroup::General),
-        _ => subgroup(spans, freedom, first.length, &first.centre_in(relative_to))
-            .ok()
-            .flatten(),
+        .collect();
+    let rotations = full.iter().filter_map(|span| span.rotations()).max();
+    // Three freedoms that do not turn are all there are.
+    if (freedom, rotations) == (3, Some(0)) {
+        return is_subgroup(pair, DisplacementSubgroup::SpatialTranslation);
+    }
+    let point = first.centre_in(pair.1);
+    let found = enclosing(spans, freedom, first.length).ok().flatten();
+    let (error, placed) = found.as_ref().map_or((0.0, None), |found| {
+        let back = Pose::translation(point);
+        (found.error, found.within.map(|g| g.conjugated_by(&back)))
+    });
+    let within = placed.map(|subgroup| tidied(subgroup, error, first.length));
+    let axes_move = found.as_ref().is_some_and(|found| found.axes_move);
+    let class = within.filter(|g| g.dimension() == freedom && !axes_move);
+    if let Some(class) = class.filter(|_| found.is_some_and(|found| found.clear)) {
+        return is_subgroup(pair, class);
+    }
+    let pitches = match (freedom, rotations) {
+        (1, Some(1)) => pitches(&full, first.length),
+        _ => None,
     };
-    found(freedom, rotations, class)
+    RelativeMotion {
+        freedom: Some(freedom),
+        within: within.filter(|g| g.dimension() > freedom),
+        axes_move,
+        rotations,
+        translations: rotations.map(|rotations| freedom - rotations),
+        pitches,
+        ..unknown(pair)
+    }
 }
 
 /// What one pose lets a link do relative to another.
@@ -176,54 +278,180 @@ impl Span {
         let found = OneSided::of(angular.collect())?;
         Limits::new(self.error, 6).rank(&found.values)
     }
+
+    fn twists(&self, length: f64) -> impl Iterator<Item = Twist> + '_ {
+        self.basis.iter().map(move |x| {
+            let linear = Vector3::new(x[3], x[4], x[5]) * length;
+            Twist::new(Vector3::new(x[0], x[1], x[2]), linear)
+        })
+    }
 }
 
-/// The subgroup whose algebra all the spans together are, if they are one of the dimension of the motion.
-fn subgroup(
-    spans: &[Span],
-    freedom: usize,
-    length: f64,
-    point: &Vector3<f64>,
-) -> Result<Option<DisplacementSubgroup>, GroupError> {
+/// A difference of pitches, in lengths of the mechanism, that is none to a reader of coarse numbers.
+const NO_PITCH: f64 = 1e-3;
+
+/// The least and the greatest pitch (m/rad) of one-dimensional spans; `None` where one is doubtful.
+fn pitches(spans: &[&Span], length: f64) -> Option<[f64; 2]> {
+    let mut found = Vec::with_capacity(spans.len());
+    for span in spans {
+        let [x] = span.basis.as_slice() else {
+            return None;
+        };
+        let (turn, slide) = (
+            Vector3::new(x[0], x[1], x[2]),
+            Vector3::new(x[3], x[4], x[5]),
+        );
+        let square = turn.norm_squared();
+        let pitch = turn.dot(&slide) / square;
+        // Of a product of unit vectors over a square, each wrong by the error: three errors and the square's two.
+        let error = span.error * (2.0 + 2.0 * pitch.abs() * turn.norm()) / square;
+        let none = pitch.abs() <= (10.0 * error).min(NO_PITCH);
+        if !none && !(pitch.abs() > (10.0 * error).min(VISIBLE)) {
+            return None;
+        }
+        found.push(if none { 0.0 } else { pitch * length });
+    }
+    let least = found.iter().copied().fold(f64::INFINITY, f64::min);
+    let greatest = found.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    Some([least, greatest])
+}
+
+/// The subgroup that velocities at several poses generate.
+#[derive(Clone, Copy)]
+struct Enclosing {
+    /// `None` where the last pose still adds to it.
+    within: Option<DisplacementSubgroup>,
+    /// Whether the velocities clearly span more at all poses together than at one.
+    axes_move: bool,
+    /// Whether no decision about the subgroup is thin.
+    clear: bool,
+    error: f64,
+}
+
+/// What rounding alone leaves of directions at poses that are closed as written (rad, lengths of the mechanism).
+const AS_WRITTEN: f64 = 1e-9;
+
+/// A subgroup found no more finely than this says nothing, however coarse the numbers.
+const COARSEST: f64 = 1e-3;
+
+/// An axis that moves by so much moves in the file as written, whatever its precision leaves open: three degrees, or a
+/// twentieth of the mechanism's size.
+const VISIBLE: f64 = 0.05;
+
+/// `None` where there are too few poses, or where the numbers are so coarse that directions mean nothing.
+///
+/// Coarse numbers are asked twice: whether the motion stays in a subgroup as it is written, and whether it does within what they
+/// leave open. The smaller subgroup that holds all velocities is the answer.
+fn enclosing(spans: &[Span], freedom: usize, length: f64) -> Result<Option<Enclosing>, GroupError> {
     if spans.len() < 2 {
         return Ok(None);
     }
     let error = spans.iter().fold(0.0, |m: f64, span| m.max(span.error));
     // Ten errors count as none, as for freedoms; the gauge's tolerance is that of a screw's axis, which bounds its
     // direction in the space of twists to 2.14 of it.
-    let gauge = match Gauge::new(Vector3::zeros(), length, 10.0 * error / 2.14) {
-        Ok(gauge) => gauge,
-        // So coarse that directions mean nothing.
-        Err(GroupError::BadGauge { .. }) => return Ok(None),
-        Err(error) => return Err(error),
+    let wanted = 10.0 * error / 2.14;
+    let tolerances = match wanted <= AS_WRITTEN {
+        true => vec![wanted],
+        false => vec![AS_WRITTEN, wanted.min(COARSEST)],
     };
-    let twists: Vec<Twist> = spans
-        .iter()
-        .flat_map(|span| &span.basis)
-        .map(|x| {
-            let linear = Vector3::new(x[3], x[4], x[5]) * length;
-            Twist::new(Vector3::new(x[0], x[1], x[2]), linear)
-        })
-        .collect();
-    let system = ScrewSystem::span(&twists, &gauge)?;
-    if system.dimension() != freedom {
-        return Ok(None);
+    let mut best: Option<Enclosing> = None;
+    for tolerance in tolerances {
+        let gauge = match Gauge::new(Vector3::zeros(), length, tolerance) {
+            Ok(gauge) => gauge,
+            // So coarse that directions mean nothing.
+            Err(GroupError::BadGauge { .. }) => continue,
+            Err(error) => return Err(error),
+        };
+        let found = enclosing_to(spans, freedom, &gauge, error)?;
+        let size = |of: &Enclosing| of.within.map_or(7, |within| within.dimension());
+        best = match best {
+            Some(known) if size(&known) <= size(&found) => Some(known),
+            _ => Some(found),
+        };
     }
-    let found = classify(&system)?;
-    // A pitch, or a rotation, that is barely above its error is as good as none.
-    let clear = found.margin.kept >= 10.0;
-    let back = Pose::translation(*point);
-    Ok(found
-        .subgroup
-        .filter(|_| clear)
-        .map(|subgroup| tidied(subgroup.conjugated_by(&back), error, length)))
+    Ok(best)
+}
+
+/// Whether velocities at one pose are clearly none of those at another.
+fn moves_its_axes(spans: &[Span], gauge: &Gauge, error: f64) -> Result<bool, GroupError> {
+    let least = (100.0 * error / 2.14).clamp(
+        10.0 * gauge.tolerance(),
+        VISIBLE.max(10.0 * gauge.tolerance()),
+    );
+    let Some((first, others)) = spans.split_first() else {
+        return Ok(false);
+    };
+    let twists = |span: &Span| span.twists(gauge.length()).collect::<Vec<_>>();
+    let here = ScrewSystem::span(&twists(first), gauge)?;
+    let others = others.iter().flat_map(twists);
+    Ok(others
+        .map(|twist| here.distance(&twist))
+        .fold(0.0, f64::max)
+        >= least)
+}
+
+fn enclosing_to(
+    spans: &[Span],
+    freedom: usize,
+    gauge: &Gauge,
+    error: f64,
+) -> Result<Enclosing, GroupError> {
+    let length = gauge.length();
+    let of = |spans: &[Span]| -> Vec<Twist> {
+        spans.iter().flat_map(|span| span.twists(length)).collect()
+    };
+    let twists = of(spans);
+    let system = ScrewSystem::span(&twists, gauge)?;
+    let holds = |subgroup: &DisplacementSubgroup| -> Result<bool, GroupError> {
+        let all = ScrewSystem::span(&subgroup.algebra(), gauge)?;
+        let away = twists.iter().map(|twist| all.distance(twist));
+        Ok(away.fold(0.0, f64::max) <= 10.0 * gauge.tolerance().max(1e-14))
+    };
+    if system.dimension() == freedom {
+        let found = classify(&system)?;
+        let within = match found.subgroup {
+            Some(subgroup) if holds(&subgroup)? => Some(subgroup),
+            _ => None,
+        };
+        return Ok(Enclosing {
+            within,
+            axes_move: false,
+            clear: found.margin.kept >= 10.0,
+            error,
+        });
+    }
+    let all = Subalgebra::generated_by_system(&system)?;
+    // What the poses before the last one generate holds the last one too, unless the motion leaves it elsewhere as well.
+    let before = &spans[..spans.len() - 1];
+    let confirmed = all.dimension() == 6
+        || Subalgebra::generated_by(&of(before), gauge)?.dimension() == all.dimension();
+    let within = match all.subgroup()? {
+        // To coarse numbers every short piece of a curve is plane.
+        Some(DisplacementSubgroup::PlanarTranslation { .. })
+            if gauge.tolerance() > AS_WRITTEN && confirmed =>
+        {
+            Some(DisplacementSubgroup::SpatialTranslation)
+        }
+        Some(subgroup) if confirmed && holds(&subgroup)? => Some(subgroup),
+        _ => None,
+    };
+    Ok(Enclosing {
+        within,
+        axes_move: moves_its_axes(spans, gauge, error)?,
+        clear: all.margin().kept >= 10.0,
+        error,
+    })
 }
 
 /// The same geometry with coordinates that are nothing but error set to zero.
 ///
 /// Even of coarse numbers no more than a billionth is taken for error here: a coordinate that means something to a reader
 /// is not to vanish.
-fn tidied(subgroup: DisplacementSubgroup, error: f64, length: f64) -> DisplacementSubgroup {
+pub(super) fn tidied(
+    subgroup: DisplacementSubgroup,
+    error: f64,
+    length: f64,
+) -> DisplacementSubgroup {
     use DisplacementSubgroup as G;
     let error = error.min(1e-9);
     let cleaned = |v: Vector3<f64>, noise: f64| v.map(|x| if x.abs() <= noise { 0.0 } else { x });
@@ -292,7 +520,12 @@ mod tests {
         fn words(&self, link: &str, relative_to: &str) -> String {
             let motion = self.motion(link, relative_to).unwrap();
             let class = motion.class.map_or("-", |class| class.short_name());
-            format!("{}{} {class}", motion.rotations, motion.translations)
+            let count = |number: Option<usize>| number.map_or("?".to_owned(), |n| n.to_string());
+            format!(
+                "{}{} {class}",
+                count(motion.rotations),
+                count(motion.translations)
+            )
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::assemble::ReportError;
 use super::definitions::closest;
-use super::findings::motion_row;
+use super::motions::motion_row;
 use super::schema::{Evidence, Motion, Report};
 use kutzbach_closure::{Arithmetic, Geometry};
 use kutzbach_mobility::{Analysis, relative_motions};
@@ -83,16 +83,11 @@ pub(super) fn ask_between(
             )),
             Some(branches) => {
                 for (branch, motions) in branches.iter().zip(&answers) {
-                    match motions.iter().find(|m| (m.link, m.relative_to) == (a, b)) {
-                        Some(motion) => asked.push(Motion {
-                            asked: true,
-                            ..motion_row(mechanism, &branch.name, motion)
-                        }),
-                        None => unanswered.push(format!(
-                            "{question} on branch {} is not clear: the margins are too thin there",
-                            branch.name
-                        )),
-                    }
+                    let known = motions.iter().find(|m| (m.link, m.relative_to) == (a, b));
+                    asked.extend(known.map(|motion| Motion {
+                        asked: true,
+                        ..motion_row(mechanism, &branch.name, motion)
+                    }));
                 }
             }
         }

@@ -1,5 +1,6 @@
 //! Lays what an analysis found over a report that holds counts only.
 
+use super::motions::motion_row;
 use super::natural::natural_order;
 use super::schema::{
     Advice, Block, Branch, Certificate, Cycle, GenericCount, Home, Idle, JointRow, Mobility,
@@ -9,8 +10,7 @@ use super::text::words::counted;
 use kutzbach_closure::{owners, with_owners};
 use kutzbach_math::matrix::Method;
 use kutzbach_mobility::{
-    Analysis, IdleLink, JointRole, PartFinding, PartRank, RelativeMotion,
-    freedom_locked_by_couplings,
+    Analysis, IdleLink, JointRole, PartFinding, PartRank, freedom_locked_by_couplings,
 };
 use kutzbach_model::mechanism::{JointKind, Mechanism};
 
@@ -266,48 +266,6 @@ fn branch_rows(mechanism: &Mechanism, analysis: &Analysis) -> Option<Vec<Branch>
         }
     });
     Some(rows.collect())
-}
-
-/// `1R 2T`: freedoms that turn and freedoms that do not.
-fn split(motion: &RelativeMotion) -> String {
-    let count = |number: usize, letter: &str| (number > 0).then(|| format!("{number}{letter}"));
-    let counts = [
-        count(motion.rotations, "R"),
-        count(motion.translations, "T"),
-    ];
-    counts.into_iter().flatten().collect::<Vec<_>>().join(" ")
-}
-
-fn split_text(motion: &RelativeMotion) -> String {
-    match (motion.rotations, motion.translations) {
-        (0, _) => "translates along curved paths".to_owned(),
-        (1, 0) => "turns about an axis that moves".to_owned(),
-        (_, 0) => format!("turns in {} ways, about axes that move", motion.rotations),
-        (1, 1) => "turns in one way and translates in another".to_owned(),
-        (r, t) => format!("turns in {r} and translates in {t} independent ways"),
-    }
-}
-
-/// One motion on the branch of this name.
-pub(super) fn motion_row(mechanism: &Mechanism, branch: &str, motion: &RelativeMotion) -> Motion {
-    let link = |index: usize| mechanism.links()[index].name.clone();
-    Motion {
-        branch: branch.to_owned(),
-        link: link(motion.link),
-        relative_to: link(motion.relative_to),
-        freedom: motion.freedom,
-        class: motion
-            .class
-            .as_ref()
-            .map_or_else(|| split(motion), |class| class.short_name().to_owned()),
-        text: motion
-            .class
-            .as_ref()
-            .map_or_else(|| split_text(motion), ToString::to_string),
-        rotations: motion.rotations,
-        translations: motion.translations,
-        asked: false,
-    }
 }
 
 fn motion_rows(mechanism: &Mechanism, analysis: &Analysis) -> Vec<Motion> {

@@ -47,6 +47,7 @@ mod findings;
 #[cfg(feature = "html")]
 pub mod html;
 mod inputs;
+mod motions;
 mod natural;
 #[cfg(feature = "simulate")]
 pub mod picture;

@@ -568,7 +568,7 @@ pub struct TreeLink {
 }
 
 /// How one link moves relative to another along a branch.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Motion {
     /// The branch.
     pub branch: String,
@@ -576,17 +576,27 @@ pub struct Motion {
     pub link: String,
     /// The link it is seen from.
     pub relative_to: String,
-    /// In how many ways it moves: the dimension of the set of its relative displacements.
-    pub freedom: usize,
-    /// Hervé's letter, such as `R` or `T3`, where these displacements are a subgroup; otherwise how many of its freedoms
-    /// turn it and how many do not, such as `1R` or `1R 2T`.
+    /// Its degrees of freedom: the dimension of the set of its relative displacements; `None` where that is not decided.
+    pub freedom: Option<usize>,
+    /// Hervé's letter, such as `R` or `T3`, where these displacements are a subgroup; otherwise how many of its degrees of
+    /// freedom turn it and how many do not, such as `1R` or `1R 2T`; `?` where that is not decided.
     pub class: String,
     /// The same in words, with axes in the frame of `relative_to`.
     pub text: String,
-    /// How many of its freedoms turn it, at a generic pose.
-    pub rotations: usize,
+    /// Hervé's letter of the smallest subgroup that is known to hold all its displacements.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub within: Option<String>,
+    /// The joint whose motion this is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joint: Option<String>,
+    /// How many of its degrees of freedom turn it, at a generic pose; `None` where that is not decided.
+    pub rotations: Option<usize>,
     /// The others.
-    pub translations: usize,
+    pub translations: Option<usize>,
+    /// Least and greatest pitch (m/rad) of the screws of a motion of one degree of freedom, at the generic poses of the branch that
+    /// were looked at; zeros where it turns without sliding.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pitches: Option<[f64; 2]>,
     /// Whether this pair of links was asked for by name.
     #[serde(default, skip_serializing_if = "is_false")]
     pub asked: bool,

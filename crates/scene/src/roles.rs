@@ -28,7 +28,7 @@ impl Roles {
                 })
                 .collect(),
         };
-        for motion in links.iter().filter(|motion| motion.freedom == 0) {
+        for motion in links.iter().filter(|motion| motion.freedom == Some(0)) {
             roles.links[motion.link] = Role::Locked;
         }
         for idle in idle {

@@ -148,7 +148,7 @@ const NAMED: usize = 3;
 
 /// The motions of many links: of each kind, in a line, which links move so.
 fn by_kind(motions: &[&Motion], page: &mut Page) {
-    let mut kinds: BTreeMap<(Reverse<usize>, &str, &str), Vec<String>> = BTreeMap::new();
+    let mut kinds: BTreeMap<(Reverse<Option<usize>>, &str, &str), Vec<String>> = BTreeMap::new();
     for motion in motions {
         let kind = (
             Reverse(motion.freedom),
@@ -179,12 +179,15 @@ fn by_kind(motions: &[&Motion], page: &mut Page) {
 }
 
 /// `4 links move in 2 ways (2R)`.
-fn how(freedom: usize, class: &str, links: usize) -> String {
+fn how(freedom: Option<usize>, class: &str, links: usize) -> String {
     let (move_, does) = match links {
         1 => ("moves", "does"),
         _ => ("move", "do"),
     };
     let many = counted(links, "link");
+    let Some(freedom) = freedom else {
+        return format!("{many}: not decided");
+    };
     match freedom {
         0 => format!("{many} {does} not move"),
         6 => format!("{many} {move_} without restriction"),
@@ -217,12 +220,20 @@ fn motion_table(motions: &[&Motion], several: bool, page: &mut Page) {
         cells.extend([
             Cell::new(&motion.link).tint(Tint::Strong),
             Cell::new(&motion.relative_to),
-            Cell::new(motion.freedom.to_string()),
-            Cell::new(format!("{}: {}", motion.class, motion.text)),
+            Cell::new(unsure(motion.freedom)),
+            Cell::new(how_it_moves(motion)),
         ]);
         table.row_about(Subject::Link(motion.link.clone()), cells);
     }
     page.table(table, "motions");
+}
+
+/// `1R: screws about a moving axis`; where nothing is known of how it moves, that.
+fn how_it_moves(motion: &Motion) -> String {
+    match motion.class.as_str() {
+        "?" => motion.text.clone(),
+        class => format!("{class}: {}", motion.text),
+    }
 }
 
 /// The rows for a first screen: ends of open chains first, since tools are held there, then the links with most joints
