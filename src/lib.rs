@@ -11,15 +11,18 @@
 //! 7. [`closure`]: the equations of the cycles: residual, Jacobian, assembly.
 //! 8. [`algebra`]: the same equations as polynomials; Groebner bases.
 //! 9. [`mobility`]: engines and the verdict.
-//! 10. [`motion`]: a branch followed as a curve: predicted motion.
-//! 11. [`simulate`]: a world of rigid bodies for a mechanism, and what it says about a prediction.
-//! 12. [`accuracy`]: what every way to an answer costs, and how far off it is.
-//! 13. [`record`]: logs of both for viewers.
-//! 14. [`families`]: mechanisms of any size for examples, benches and tests.
-//! 15. [`report`]: what a person or a program reads.
+//! 10. [`assembly`]: all configurations: collections of bodies, incidence trees.
+//! 11. [`motion`]: a branch followed as a curve: predicted motion.
+//! 12. [`simulate`]: a world of rigid bodies for a mechanism, and what it says about a prediction.
+//! 13. [`accuracy`]: what every way to an answer costs, and how far off it is.
+//! 14. [`record`]: logs of both for viewers.
+//! 15. [`families`]: mechanisms of any size for examples, benches and tests.
+//! 16. [`report`]: what a person or a program reads.
 
 #[doc(inline)]
 pub use kutzbach_algebra as algebra;
+#[doc(inline)]
+pub use kutzbach_assembly as assembly;
 #[doc(inline)]
 pub use kutzbach_closure as closure;
 #[doc(inline)]

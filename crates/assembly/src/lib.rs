@@ -1,0 +1,14 @@
+//! Every way in which bodies fit together.
+//!
+//! The other crates start where a file draws its mechanism. Here the question is in how many ways it closes at all, and
+//! which they are. Two ideas of Sitharam, Peters and Zhou make that tractable: of bodies that share points a *tree* can be
+//! resolved by hand, so that only the freedoms left along it remain unknown; and the tree can be chosen so that these are
+//! as few as possible, by combinatorics alone.
+//!
+//! | module | what it knows |
+//! |---|---|
+//! | [`collection`] | bodies that share points, which of them are implied, when a collection is standard |
+//! | [`tree`] | covering sets and the incidence tree with the fewest unknowns |
+
+pub mod collection;
+pub mod tree;
