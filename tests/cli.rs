@@ -206,7 +206,7 @@ fn motions_between_links_are_told_on_every_branch() {
     let page = text(&kutzbach(&folder, &arguments).stdout);
     let (_, asked) = page.split_once("Relative motions asked for").unwrap();
     let (asked, others) = asked.split_once("Motions (").unwrap();
-    assert!(asked.contains("translates") && asked.contains("turns about an axis that moves"));
+    assert!(asked.contains("translates") && asked.contains("rotates about a moving axis"));
     assert!(
         !others.split_once("Advice").unwrap().0.contains("coupler "),
         "{others}"

@@ -94,7 +94,11 @@ fn moving_axis(motion: &RelativeMotion) -> String {
         return format!("whether its axis moves is not decided{within}");
     }
     match motion.within {
-        Some(within @ G::Planar { .. }) => format!("{within}: rotates about a moving axis"),
+        Some(within @ G::Planar { .. }) => {
+            let place = within.to_string();
+            let normal = place.strip_prefix("planar motion normal to ").unwrap_or("");
+            format!("planar: rotates about a moving axis along {normal}")
+        }
         Some(within @ G::Spherical { .. }) => {
             let place = within.to_string();
             let point = place.strip_prefix("rotation about the ").unwrap_or("");
@@ -112,9 +116,9 @@ fn screwing(pitches: Option<[f64; 2]>) -> String {
             let (least, greatest) = (figure(least), figure(greatest));
             let pitch = match least == greatest {
                 true => least,
-                false => format!("{least} and {greatest}"),
+                false => format!("{least} … {greatest}"),
             };
-            format!("screws about a moving axis (pitch {pitch} m/rad, at poses seen)")
+            format!("screws about a moving axis (pitch {pitch} m/rad seen)")
         }
         None => "moves about a moving axis; whether it screws is not decided".to_owned(),
     }
