@@ -41,8 +41,9 @@ pub use strategy::{
     relation_by_relation,
 };
 pub use system::{
-    CycleEquations, Equation, Formulation, HomePose, Meaning, ModularSystem, Origin,
-    PolynomialSystem, Relaxation, SystemError, SystemOptions, Variable, polynomial_system,
+    CycleEquations, Equation, FieldElement, FieldGenerator, Formulation, HomePose, Meaning,
+    ModularSystem, NumberField, Origin, PolynomialSystem, Relaxation, SystemError, SystemOptions,
+    Variable, polynomial_system,
 };
 pub use univariate::{RealRoot, Univariate};
 pub use without_loops::{WithoutLoops, without_loops};

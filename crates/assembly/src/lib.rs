@@ -8,7 +8,16 @@
 //! | module | what it knows |
 //! |---|---|
 //! | [`collection`] | bodies that share points, which of them are implied, when a collection is standard |
+//! | [`placed`] | the collection of a mechanism, with exact points |
+//! | [`real`] | all real solutions, with proof |
+//! | [`reduced`] | the equations that a tree leaves, exact |
 //! | [`tree`] | covering sets and the incidence tree with the fewest unknowns |
 
 pub mod collection;
+pub mod placed;
+pub mod real;
+pub mod reduced;
 pub mod tree;
+
+#[cfg(test)]
+mod samples;

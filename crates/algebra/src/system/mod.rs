@@ -43,6 +43,7 @@ mod implicit;
 mod joint_form;
 mod model;
 mod modular;
+mod number_field;
 mod numbers;
 mod poly;
 mod positional;
@@ -57,6 +58,7 @@ pub use build::polynomial_system;
 pub use error::SystemError;
 pub use home::HomePose;
 pub use modular::ModularSystem;
+pub use number_field::{FieldElement, FieldGenerator, NumberField};
 pub(super) use relative_displacement::{ExactVector, Reduce, RelativeDisplacement, Unavailable};
 pub use variables::{Meaning, Variable};
 

@@ -91,7 +91,7 @@ pub fn covering_sets(collection: &Collection) -> Option<Vec<Cover>> {
         return None;
     }
     let mut sets = Vec::new();
-    each_cover(&overlaps, &usable, usize::MAX, |bodies, _| {
+    each_cover(&overlaps, &[], &usable, usize::MAX, |bodies, _| {
         sets.push(Cover {
             weight: overlaps.tree_weight(bodies),
             bodies: bodies.to_vec(),
@@ -105,6 +105,7 @@ pub fn covering_sets(collection: &Collection) -> Option<Vec<Cover>> {
 /// least); what it returns is the new bound.
 fn each_cover(
     overlaps: &Overlaps,
+    needed: &[usize],
     usable: &[usize],
     bound: usize,
     mut found: impl FnMut(&[usize], usize) -> usize,
@@ -121,10 +122,11 @@ fn each_cover(
     // The points of few bodies rule out most sets.
     holders.sort_by_key(|h| (h.count_ones(), *h));
     holders.dedup();
+    let needed = mask(&needed.to_vec());
     let mut bound = bound;
     for set in 1u32..1 << usable.len() {
         let size = set.count_ones() as usize;
-        if size - 1 > bound || holders.iter().any(|h| h & set == 0) {
+        if size - 1 > bound || set & needed != needed || holders.iter().any(|h| h & set == 0) {
             continue;
         }
         let chosen = usable.iter().enumerate().filter(|(i, _)| set >> i & 1 == 1);
@@ -134,16 +136,20 @@ fn each_cover(
 }
 
 /// The covering sets of the least weight, and whether that is known to be the least.
-pub(super) fn best_covers(overlaps: &Overlaps, usable: &[usize]) -> Option<(Vec<Cover>, bool)> {
+pub(super) fn best_covers(
+    overlaps: &Overlaps,
+    needed: &[usize],
+    usable: &[usize],
+) -> Option<(Vec<Cover>, bool)> {
     if usable.is_empty() || !overlaps.covers(usable) {
         return None;
     }
     if usable.len() > EXACT_BODIES {
-        return Some((vec![dropped_one_by_one(overlaps, usable)], false));
+        return Some((vec![dropped_one_by_one(overlaps, needed, usable)], false));
     }
     let mut best: Vec<Cover> = Vec::new();
     let start = overlaps.tree_weight(usable);
-    each_cover(overlaps, usable, start, |bodies, bound| {
+    each_cover(overlaps, needed, usable, start, |bodies, bound| {
         let weight = overlaps.tree_weight(bodies);
         if weight < bound || best.is_empty() && weight == bound {
             best.clear();
@@ -160,15 +166,15 @@ pub(super) fn best_covers(overlaps: &Overlaps, usable: &[usize]) -> Option<(Vec<
 }
 
 /// All bodies, without those whose absence makes the tree lighter or no heavier, the last ones first.
-fn dropped_one_by_one(overlaps: &Overlaps, usable: &[usize]) -> Cover {
+fn dropped_one_by_one(overlaps: &Overlaps, needed: &[usize], usable: &[usize]) -> Cover {
     let mut bodies = usable.to_vec();
     let mut weight = overlaps.tree_weight(&bodies);
     loop {
         let mut lighter = None;
         for place in (0..bodies.len()).rev() {
             let mut fewer = bodies.clone();
-            fewer.remove(place);
-            if fewer.is_empty() || !overlaps.covers(&fewer) {
+            let dropped = fewer.remove(place);
+            if needed.contains(&dropped) || fewer.is_empty() || !overlaps.covers(&fewer) {
                 continue;
             }
             let without = overlaps.tree_weight(&fewer);

@@ -56,18 +56,19 @@ pub struct IncidenceTree {
     pub shallowest: bool,
 }
 
-/// The best incidence tree among the bodies that may be used; `None` where these do not have all points of the collection's
+/// The best incidence tree among the bodies that may be used, with those that are needed; `None` where these do not have all points of the collection's
 /// bodies, or there is no body at all. Ties go to the smaller sum of depths, then to the bodies that come first.
 #[must_use]
 pub fn optimal_incidence_tree(
     collection: &Collection,
+    needed: &[usize],
     may_use: impl Fn(usize) -> bool,
 ) -> Option<IncidenceTree> {
     let overlaps = Overlaps::new(collection);
     let usable: Vec<usize> = (0..collection.bodies().len())
         .filter(|&b| may_use(b))
         .collect();
-    let (covers, exact) = best_covers(&overlaps, &usable)?;
+    let (covers, exact) = best_covers(&overlaps, needed, &usable)?;
     depth::shallowest(collection, &overlaps, covers, exact)
 }
 
@@ -78,7 +79,7 @@ mod tests {
     use crate::collection::{Body, samples};
 
     fn best(collection: &Collection) -> IncidenceTree {
-        let tree = optimal_incidence_tree(collection, |_| true).unwrap();
+        let tree = optimal_incidence_tree(collection, &[], |_| true).unwrap();
         assert!(tree.exact && tree.shallowest);
         let sum: usize = tree.edges.iter().map(|e| e.weight).sum();
         assert_eq!(sum, tree.weight);
@@ -146,9 +147,9 @@ mod tests {
     #[test]
     fn without_a_body_that_is_not_to_be_used_the_tree_is_heavier() {
         let tetra = samples::tetra_whole();
-        let tree = optimal_incidence_tree(&tetra, |b| b != 3).unwrap();
+        let tree = optimal_incidence_tree(&tetra, &[], |b| b != 3).unwrap();
         assert!(tree.weight > 3);
-        assert!(optimal_incidence_tree(&tetra, |b| b > 4).is_none());
+        assert!(optimal_incidence_tree(&tetra, &[], |b| b > 4).is_none());
     }
 
     /// A chain of 40 bodies, each sharing two points with the next: more than are tried one by one.
@@ -162,7 +163,7 @@ mod tests {
             })
             .collect();
         let chain = Collection::new(points, bodies, Vec::new()).unwrap();
-        let tree = optimal_incidence_tree(&chain, |_| true).unwrap();
+        let tree = optimal_incidence_tree(&chain, &[], |_| true).unwrap();
         assert!(!tree.exact);
         assert_eq!(tree.weight, 39);
         assert!(covering_sets(&chain).is_none());

@@ -1,0 +1,256 @@
+//! Subdivision: boxes are dropped, proven to hold one solution, made smaller, or cut in two.
+
+use super::chart::{self, Chart, REACH};
+use super::interval::Interval;
+use super::krawczyk::image;
+use super::tensor::Tensor;
+use crate::reduced::ReducedSystem;
+use kutzbach_algebra::{Budget, Stop};
+
+/// Sides below which a box is left open: coordinates are of size one, known to some 10⁻¹⁴, and a simple solution is
+/// proven long before.
+const SMALLEST: f64 = 1.0 / (1 << 22) as f64;
+
+/// How far a box is widened on every side, in its own length, before a solution is proven in it: solutions on a face are then
+/// inside.
+const WIDER: f64 = 0.25;
+
+/// How far rounding may move a box: every cut moves its ends by at most 2⁻⁵², and there are below a hundred.
+const SLACK: f64 = 1e-13;
+
+/// A box in a chart.
+#[derive(Clone, Debug)]
+pub(super) struct Cell {
+    pub(super) chart: usize,
+    pub(super) sides: Vec<Interval>,
+    tensors: Vec<Tensor>,
+}
+
+/// A solution that was proven.
+#[derive(Clone, Debug)]
+pub(super) struct Proven {
+    pub(super) chart: usize,
+    /// Where it is.
+    pub(super) at: Vec<Interval>,
+    /// Where no other one is.
+    alone: Vec<Interval>,
+    /// The equations that prove it.
+    pub(super) used: Vec<usize>,
+}
+
+/// What a search found.
+#[derive(Debug, Default)]
+pub(super) struct Found {
+    pub(super) proven: Vec<Proven>,
+    /// Boxes that may hold solutions, as chart and sides.
+    pub(super) open: Vec<(usize, Vec<Interval>)>,
+    /// Boxes looked at.
+    pub(super) boxes: usize,
+    /// Why it ended early.
+    pub(super) stopped: Option<Stop>,
+    /// Whether it ended because too many boxes stayed open.
+    pub(super) crowded: bool,
+}
+
+/// Boxes left open after which a search ends: isolated solutions leave a few each, curves thousands.
+const MOST_OPEN: usize = 600;
+
+/// Searches all boxes of all charts.
+pub(super) fn search(system: &ReducedSystem, charts: &[Chart], budget: &Budget) -> Found {
+    let scales = chart::scales(system);
+    let count = system.freedom();
+    let mut found = Found::default();
+    for (index, chart) in charts.iter().enumerate() {
+        let mut waiting = vec![Cell {
+            chart: index,
+            sides: vec![Interval::new(-REACH, REACH); count],
+            tensors: chart::tensors(system, &scales, chart),
+        }];
+        while let Some(cell) = waiting.pop() {
+            found.boxes += 1;
+            if found.boxes % 64 == 0
+                && let Err(stop) = budget.spend(64)
+            {
+                found.stopped = Some(stop);
+            }
+            if found.stopped.is_some() || found.crowded {
+                found.open.push((cell.chart, cell.sides));
+                continue;
+            }
+            examine(system, charts, cell, &mut waiting, &mut found);
+            found.crowded = found.open.len() > MOST_OPEN;
+        }
+    }
+    found
+}
+
+fn examine(
+    system: &ReducedSystem,
+    charts: &[Chart],
+    mut cell: Cell,
+    waiting: &mut Vec<Cell>,
+    found: &mut Found,
+) {
+    let count = cell.sides.len();
+    loop {
+        if cell
+            .tensors
+            .iter()
+            .any(|t| t.range().0 > 0.0 || t.range().1 < 0.0)
+        {
+            return;
+        }
+        let Some(first) = image(&cell.tensors, count) else {
+            break;
+        };
+        let cube = Interval::new(0.0, 1.0);
+        if first.image.iter().any(|k| k.misses(cube)) {
+            return;
+        }
+        // Where K is shorter than the box there is hope that the wider box holds one solution.
+        if first.image.iter().all(|k| k.width() < 1.0)
+            && let Some(one) = prove(&cell)
+        {
+            if let Some(proven) = one {
+                add(system, charts, proven, found);
+            }
+            return;
+        }
+        // Cut off what K leaves out, at sixty-fourths.
+        let mut shrunk = false;
+        for (variable, k) in first.image.iter().enumerate() {
+            let a = ((k.low.max(0.0) * 64.0).floor() / 64.0).min(1.0);
+            let b = ((k.high.min(1.0) * 64.0).ceil() / 64.0).max(0.0);
+            if b - a < 0.75 && b > a {
+                cell.cut(variable, a, b);
+                shrunk = true;
+            }
+        }
+        if !shrunk || cell.longest() < SMALLEST {
+            break;
+        }
+    }
+    if cell.longest() < SMALLEST {
+        found.open.push((cell.chart, cell.sides));
+        return;
+    }
+    let variable = cell.steepest();
+    let mut upper = cell.clone();
+    cell.cut(variable, 0.0, 0.5);
+    upper.cut(variable, 0.5, 1.0);
+    waiting.push(upper);
+    waiting.push(cell);
+}
+
+impl Cell {
+    fn longest(&self) -> f64 {
+        self.sides.iter().fold(0.0, |m: f64, s| m.max(s.width()))
+    }
+
+    /// Keeps the part from `a` to `b` along a variable.
+    fn cut(&mut self, variable: usize, a: f64, b: f64) {
+        let side = self.sides[variable];
+        let at = |t: f64| {
+            if t == 1.0 {
+                side.high
+            } else {
+                side.low + t * side.width()
+            }
+        };
+        self.sides[variable] = Interval::new(at(a), at(b));
+        self.tensors
+            .iter_mut()
+            .for_each(|t| t.restrict(variable, a, b));
+    }
+
+    /// The variable along which the equations change most, of those that are not short already.
+    fn steepest(&self) -> usize {
+        let long = 0.05 * self.longest();
+        let change = |v: usize| {
+            let slope = |t: &Tensor| {
+                let (low, high) = t.slope(v);
+                low.abs().max(high.abs())
+                    / t.coefficients
+                        .iter()
+                        .fold(1e-300, |m: f64, c| m.max(c.abs()))
+            };
+            self.tensors.iter().map(slope).fold(0.0, f64::max)
+        };
+        (0..self.sides.len())
+            .filter(|&v| self.sides[v].width() >= long)
+            .max_by(|&a, &b| change(a).total_cmp(&change(b)).then(b.cmp(&a)))
+            .unwrap_or(0)
+    }
+}
+
+/// Tries to prove one solution of as many equations as unknowns in a box made a little wider; then makes it as narrow as
+/// rounding allows. Inside, `None` where another equation does not hold there.
+fn prove(cell: &Cell) -> Option<Option<Proven>> {
+    let mut cell = cell.clone();
+    let count = cell.sides.len();
+    for variable in 0..count {
+        cell.cut(variable, -WIDER, 1.0 + WIDER);
+    }
+    let cube = Interval::new(0.0, 1.0);
+    let first = image(&cell.tensors, count)?;
+    if !first.image.iter().all(|k| k.inside(cube)) {
+        return None;
+    }
+    let alone = cell.sides.clone();
+    let used = first.used;
+    let mut next = first.image;
+    for _ in 0..40 {
+        let before = cell.longest();
+        for (variable, k) in next.iter().enumerate() {
+            // A box of no length has no slopes.
+            let (a, b) = (k.low.max(0.0), k.high.min(1.0));
+            let margin = if b - a < 1e-6 { 1e-6 } else { 0.0 };
+            cell.cut(variable, (a - margin).max(0.0), (b + margin).min(1.0));
+        }
+        if cell.longest() < 1e-12 || cell.longest() > 0.999 * before {
+            break;
+        }
+        match image(&cell.tensors, count) {
+            Some(image) => next = image.image,
+            None => break,
+        }
+    }
+    if cell
+        .tensors
+        .iter()
+        .any(|t| t.range().0 > 0.0 || t.range().1 < 0.0)
+    {
+        return Some(None);
+    }
+    let widened = |s: &Interval| Interval::new(s.low - SLACK, s.high + SLACK);
+    Some(Some(Proven {
+        chart: cell.chart,
+        at: cell.sides.iter().map(widened).collect(),
+        alone: alone
+            .iter()
+            .map(|s| Interval::new(s.low + SLACK, s.high - SLACK))
+            .collect(),
+        used,
+    }))
+}
+
+/// Adds a solution unless it is one that was found in a neighbouring box or chart.
+fn add(system: &ReducedSystem, charts: &[Chart], proven: Proven, found: &mut Found) {
+    let known = found.proven.iter().any(|other| {
+        let here = if other.chart == proven.chart {
+            Some(proven.at.clone())
+        } else {
+            chart::moved(
+                system,
+                &charts[proven.chart],
+                &proven.at,
+                &charts[other.chart],
+            )
+        };
+        // The only solution there is in `alone` is the other one.
+        here.is_some_and(|at| at.iter().zip(&other.alone).all(|(a, b)| a.inside(*b)))
+    });
+    if !known {
+        found.proven.push(proven);
+    }
+}
