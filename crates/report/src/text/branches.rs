@@ -146,9 +146,12 @@ const KINDS: usize = 8;
 /// Links, or runs of them, named in a line.
 const NAMED: usize = 3;
 
+/// Degrees of freedom, the most first, class, and the link it is seen from.
+type Kind<'a> = (Reverse<Option<usize>>, &'a str, &'a str);
+
 /// The motions of many links: of each kind, in a line, which links move so.
 fn by_kind(motions: &[&Motion], page: &mut Page) {
-    let mut kinds: BTreeMap<(Reverse<Option<usize>>, &str, &str), Vec<String>> = BTreeMap::new();
+    let mut kinds: BTreeMap<Kind<'_>, Vec<String>> = BTreeMap::new();
     for motion in motions {
         let kind = (
             Reverse(motion.freedom),
