@@ -30,6 +30,7 @@ pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
         Err(Unsuited::Contradiction(mismatch)) if mechanism.precision().is_exact() => {
             return Outcome::Modes(Box::new(Modes {
                 held: Vec::new(),
+                freedom: None,
                 configurations: Vec::new(),
                 complete: Complete::Proven,
                 moves: Some(0),
@@ -53,6 +54,7 @@ pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
     }
     let mut modes = Modes {
         held: Vec::new(),
+        freedom: None,
         configurations: Vec::new(),
         complete: Complete::Proven,
         moves: Some(0),
@@ -98,6 +100,19 @@ pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
         .iter()
         .map(|root| configuration(&root.unknowns, 1, root.proven))
         .collect();
+    let finite = |pose: &place::Pose| {
+        let numbers = pose
+            .translation
+            .iter()
+            .chain(pose.rotation.iter().flatten());
+        numbers.copied().all(f64::is_finite)
+    };
+    let poses = modes.configurations.iter().flat_map(|c| &c.poses);
+    if !poses.flatten().all(finite) {
+        return Outcome::NotByTree(
+            "some of a body's points are the same within rounding".to_owned(),
+        );
+    }
     if found.is_complete() {
         return Outcome::Modes(Box::new(modes));
     }

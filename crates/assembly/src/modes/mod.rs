@@ -106,6 +106,8 @@ pub struct Configuration {
 pub struct Modes {
     /// The joints held, and where.
     pub held: Vec<(JointId, Number)>,
+    /// Finite freedoms of the mechanism with nothing held, at the drawn pose; `None` where that was not asked or is not known.
+    pub freedom: Option<usize>,
     /// The configurations.
     pub configurations: Vec<Configuration>,
     /// Whether these are all.
@@ -128,8 +130,8 @@ pub struct Modes {
 /// [`ModesError`] for joints that cannot be held; everything else is an answer.
 pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Modes, ModesError> {
     let began = Instant::now();
-    let held = match &question.held {
-        Some(held) => held.clone(),
+    let (held, freedom) = match &question.held {
+        Some(held) => (held.clone(), None),
         None => inputs::proposed(mechanism),
     };
     let fixed = mechanism.with_joints_held(&held)?;
@@ -143,7 +145,8 @@ pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Mode
         by_tree::Outcome::NotByTree(why) => by_polynomials::answer(&fixed, &why, &budget),
     };
     modes.held = held;
-    mark_drawn(&mut modes, drawn.as_deref());
+    modes.freedom = freedom;
+    mark_drawn(&mut modes, drawn.as_ref());
     if modes.moves.is_some_and(|freedom| freedom > 0) {
         modes.proposed = inputs::names(&fixed);
     }
@@ -155,6 +158,24 @@ pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Mode
     Ok(modes)
 }
 
+impl Modes {
+    /// The answer where there was no time for one.
+    #[must_use]
+    pub fn out_of_time(question: &Question) -> Self {
+        Self {
+            held: question.held.clone().unwrap_or_default(),
+            freedom: None,
+            configurations: Vec::new(),
+            complete: Complete::Unknown("the time limit was reached".to_owned()),
+            moves: None,
+            proposed: Vec::new(),
+            contradiction: None,
+            way: Way::Nothing,
+            open: 0,
+        }
+    }
+}
+
 /// Part of a mechanism's size that two poses of one configuration may differ: the drawn one is closed in doubles.
 const SAME: f64 = 1e-6;
 /// The same for singular ones: an error of e in the equations moves a double solution by √e.
@@ -162,18 +183,14 @@ const SAME_SINGULAR: f64 = 1e-3;
 
 /// Marks the configuration that is drawn. Where the drawn pose closes and is none of those that are said to be all, they are
 /// not.
-fn mark_drawn(modes: &mut Modes, drawn: Option<&[Pose]>) {
+fn mark_drawn(modes: &mut Modes, drawn: Option<&place::Drawn>) {
     let Some(drawn) = drawn else { return };
-    let size = drawn
-        .iter()
-        .flat_map(|pose| pose.translation)
-        .fold(1e-9, |m: f64, x| m.max(x.abs()));
     let apart = |configuration: &Configuration| {
         configuration
             .poses
             .iter()
-            .zip(drawn)
-            .filter_map(|(pose, other)| Some(place::apart(pose.as_ref()?, other, size)))
+            .zip(&drawn.poses)
+            .filter_map(|(pose, other)| Some(place::apart(pose.as_ref()?, other, drawn.size)))
             .fold(0.0, f64::max)
     };
     let nearest = modes

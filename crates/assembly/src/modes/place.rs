@@ -36,8 +36,16 @@ pub(super) fn apart(one: &Pose, other: &Pose, size: f64) -> f64 {
     turn.max(way / size)
 }
 
+/// Where a mechanism is drawn, closed.
+pub(super) struct Drawn {
+    /// `world_from_link`, by link.
+    pub(super) poses: Vec<Pose>,
+    /// Its size (m): the largest coordinate of a joint in its link, or of a link.
+    pub(super) size: f64,
+}
+
 /// The poses of the links where the mechanism is drawn, closed; `None` where it does not close from there.
-pub(super) fn drawn_poses(mechanism: &Mechanism) -> Option<Vec<Pose>> {
+pub(super) fn drawn_poses(mechanism: &Mechanism) -> Option<Drawn> {
     let options = AnalysisOptions {
         depth: Depth::Rank,
         ..AnalysisOptions::default()
@@ -48,7 +56,10 @@ pub(super) fn drawn_poses(mechanism: &Mechanism) -> Option<Vec<Pose>> {
     }
     let geometry = Geometry::new(mechanism, None, &Arithmetic::double());
     let states = &analysis.assembly.states;
-    Some(kutzbach_closure::spanning_poses(mechanism, &geometry, states).0)
+    let poses = kutzbach_closure::spanning_poses(mechanism, &geometry, states).0;
+    let far = poses.iter().flat_map(|pose| pose.translation);
+    let size = far.fold(geometry.size.max(1e-12), |m: f64, x| m.max(x.abs()));
+    Some(Drawn { poses, size })
 }
 
 /// The place of a body by three of its points: `a_from_b` of a frame on them.

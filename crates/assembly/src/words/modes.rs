@@ -1,5 +1,6 @@
-//! The answers as text and as data.
+//! Configurations as text and as data.
 
+use super::count;
 use crate::modes::{Complete, Configuration, Modes, Pose, Way};
 use kutzbach_model::mechanism::Mechanism;
 use serde_json::{Map, Value, json};
@@ -115,6 +116,7 @@ pub fn data(mechanism: &Mechanism, modes: &Modes) -> Value {
     json!({
         "schema": SCHEMA,
         "mechanism": mechanism.name(),
+        "freedom": modes.freedom,
         "held": held,
         "solutions": modes.configurations.iter().map(|c| solution(mechanism, c)).collect::<Vec<_>>(),
         "complete": complete,
@@ -125,13 +127,6 @@ pub fn data(mechanism: &Mechanism, modes: &Modes) -> Value {
         "open": modes.open,
         "system": system,
     })
-}
-
-fn count(number: usize, one: &str) -> String {
-    match number {
-        1 => format!("1 {one}"),
-        _ => format!("{number} {one}s"),
-    }
 }
 
 /// Lines for a person.
@@ -161,6 +156,18 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
             )
         }
     };
+    if let Some(freedom) = modes.freedom.filter(|f| *f > 0 && !modes.held.is_empty()) {
+        let held = modes.held.iter();
+        let names: Vec<&str> = held
+            .map(|(j, _)| mechanism.joint(*j).name.as_str())
+            .collect();
+        let _ = writeln!(
+            text,
+            "It moves with {}. With {} held:",
+            count(freedom, "freedom"),
+            names.join(", ")
+        );
+    }
     let _ = writeln!(text, "{first}");
     if let Some(contradiction) = &modes.contradiction {
         let _ = writeln!(text, "  • {contradiction}.");
@@ -209,7 +216,10 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
             if values.len() > 4 {
                 continue;
             }
-            let shown: Vec<String> = values.iter().map(|v| format!("{:9.5}", v + 0.0)).collect();
+            let shown: Vec<String> = values
+                .iter()
+                .map(|v| format!("{:9.5}", (v * 1e5).round() / 1e5 + 0.0))
+                .collect();
             let _ = writeln!(
                 text,
                 "  {:<20} {}",
