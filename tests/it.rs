@@ -7,6 +7,7 @@
 mod accuracy_cli;
 mod accuracy_page;
 mod advice;
+mod assemble_cli;
 mod assembly_starts;
 mod assembly_told;
 mod bench_records;

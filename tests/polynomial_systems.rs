@@ -441,8 +441,17 @@ mod corpus {
             "tensegrity_prism_shaky",
             "upu3_snu_home_equal__moved",
         ];
+        // Drawn open, since their configurations are no numbers that a file can state.
+        const OPEN: [&str; 5] = [
+            "quad_16_17_18_19",
+            "tetra_20_10_4",
+            "tetra_6_7_8",
+            "tetra_ii",
+            "tetra_iii",
+        ];
         let mut all = own_mechanisms();
         all.extend(zoo());
+        all.retain(|(name, _)| !OPEN.contains(&name.as_str()));
         let wrong = in_parallel(&all, |(name, mechanism)| {
             let rounded = ROUNDED.contains(&name.as_str());
             let mut wrong = Vec::new();

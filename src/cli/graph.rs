@@ -3,9 +3,11 @@
 use super::failure::Failure;
 use super::{DONE, load, output};
 use clap::{Args, ValueEnum};
+use kutzbach::assembly::words;
 use kutzbach::graph::{
     ConstraintGraph, CycleBasis, FoldedGraph, GraphSummary, SpanningTree, to_dot, to_svg,
 };
+use kutzbach::mechanism::Mechanism;
 use kutzbach::report::text::visible;
 
 /// Show links, joints, spanning tree and cycles
@@ -18,6 +20,9 @@ pub struct Arguments {
     format: Format,
     #[command(flatten)]
     destination: output::Destination,
+    /// Show which bodies are best placed by which others: the incidence tree, as text, dot or svg
+    #[arg(long)]
+    incidence: bool,
     /// Show the links that are only fixed to others too; JSON always has them
     #[arg(long)]
     verbose: bool,
@@ -41,6 +46,9 @@ enum Format {
 /// Where the file cannot be read or the output cannot be written.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let reading = arguments.source.read()?;
+    if arguments.incidence {
+        return incidence(arguments, &reading.mechanism);
+    }
     let mut graph = ConstraintGraph::of(&reading.mechanism);
     let mut tree = SpanningTree::of_mechanism(&graph, &reading.mechanism);
     let mut folded = 0;
@@ -58,6 +66,30 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         Format::Json => output::json(&summary())?,
         Format::Dot => to_dot(&graph, &tree),
         Format::Svg => to_svg(&graph, &tree),
+    };
+    arguments.destination.put(&text)?;
+    Ok(DONE)
+}
+
+/// The incidence tree of the bodies that share points.
+fn incidence(arguments: &Arguments, mechanism: &Mechanism) -> Result<u8, Failure> {
+    let found = words::IncidenceWords::of(mechanism).map_err(|why| Failure::Plain {
+        message: format!("no incidence tree: {why}"),
+        help: Some("it is made of balls, hinges, universal joints and bars".to_owned()),
+    })?;
+    let text = match arguments.format {
+        Format::Text => harmless(&found.text()),
+        Format::Json => output::json(&found.data())?,
+        Format::Dot | Format::Svg => match found.graph() {
+            None => harmless(&found.text()),
+            Some(graph) => {
+                let tree = SpanningTree::root_at(&graph, found.root());
+                match arguments.format {
+                    Format::Dot => to_dot(&graph, &tree),
+                    _ => to_svg(&graph, &tree),
+                }
+            }
+        },
     };
     arguments.destination.put(&text)?;
     Ok(DONE)

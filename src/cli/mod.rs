@@ -3,6 +3,7 @@
 //! Exit codes: 0 done; 1 an expectation or a verification failed; 2 bad input; 3 undecided where `--strict` was given; 130 interrupted.
 
 mod accuracy;
+mod assemble;
 mod check;
 mod exact;
 mod excerpt;
@@ -52,6 +53,7 @@ enum Command {
     Simulate(Box<simulate::Arguments>),
     Graph(graph::Arguments),
     Exact(exact::Arguments),
+    Assemble(assemble::Arguments),
     Trace(trace::Arguments),
     Accuracy(accuracy::Arguments),
     Gallery(gallery::Arguments),
@@ -66,6 +68,7 @@ pub fn run() -> ExitCode {
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Graph(arguments) => graph::run(&arguments),
         Command::Exact(arguments) => exact::run(&arguments),
+        Command::Assemble(arguments) => assemble::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Accuracy(arguments) => accuracy::run(&arguments),
         Command::Gallery(arguments) => gallery::run(&arguments),

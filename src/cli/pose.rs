@@ -145,7 +145,7 @@ fn refused(joint: &Joint, word: &str, why: &str) -> Failure {
 }
 
 /// A value with or without a unit, in rad or m.
-fn measured(word: &str, part: FreedomPart) -> Result<Number, String> {
+pub(super) fn measured(word: &str, part: FreedomPart) -> Result<Number, String> {
     let slides = part == FreedomPart::Translation;
     let units = [
         ("deg", "*pi/180", false),

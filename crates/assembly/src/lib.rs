@@ -8,16 +8,20 @@
 //! | module | what it knows |
 //! |---|---|
 //! | [`collection`] | bodies that share points, which of them are implied, when a collection is standard |
+//! | [`modes`] | all configurations of a mechanism, with some joints held |
 //! | [`placed`] | the collection of a mechanism, with exact points |
 //! | [`real`] | all real solutions, with proof |
 //! | [`reduced`] | the equations that a tree leaves, exact |
 //! | [`tree`] | covering sets and the incidence tree with the fewest unknowns |
+//! | [`words`] | the answers as text and data |
 
 pub mod collection;
+pub mod modes;
 pub mod placed;
 pub mod real;
 pub mod reduced;
 pub mod tree;
+pub mod words;
 
 #[cfg(test)]
 mod samples;

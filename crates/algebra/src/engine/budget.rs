@@ -129,6 +129,19 @@ impl Budget {
         self.work.get()
     }
 
+    /// What was allowed at the start.
+    #[must_use]
+    pub fn limits(&self) -> &Limits {
+        &self.limits
+    }
+
+    /// The time that is left; `None` where there is no limit.
+    #[must_use]
+    pub fn left(&self) -> Option<Duration> {
+        let left = |time: Duration| time.saturating_sub(self.started.elapsed());
+        self.limits.time.map(left)
+    }
+
     /// Whether to go on.
     ///
     /// # Errors

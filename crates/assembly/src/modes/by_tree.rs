@@ -1,0 +1,178 @@
+//! Configurations by the equations of an incidence tree.
+
+use super::exact::{Exact, decide};
+use super::{Complete, Configuration, Modes, Way, place};
+use crate::placed::{Placed, Unsuited};
+use crate::real::real_solutions;
+use crate::reduced::ReducedSystem;
+use kutzbach_algebra::{Budget, Limits};
+use kutzbach_model::mechanism::Mechanism;
+
+/// What came of it.
+pub(super) enum Outcome {
+    Modes(Box<Modes>),
+    /// Why the tree cannot say.
+    NotByTree(String),
+}
+
+/// Boxes that a search may look at: a minute's work, so that there is an end without a clock as well.
+const MOST_BOXES: u64 = 4_000_000;
+
+/// Share of the time for subdivision, so that some is left for exact algebra.
+const SHARE: f64 = 0.5;
+
+/// Systems of more unknowns than this are not searched: every one more costs ten times as much.
+const MOST_UNKNOWNS: usize = 6;
+
+pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
+    let placed = match Placed::of(mechanism) {
+        Ok(placed) => placed,
+        Err(Unsuited::Contradiction(mismatch)) if mechanism.precision().is_exact() => {
+            return Outcome::Modes(Box::new(Modes {
+                held: Vec::new(),
+                freedom: None,
+                configurations: Vec::new(),
+                complete: Complete::Proven,
+                moves: Some(0),
+                proposed: Vec::new(),
+                contradiction: Some(mismatch.to_string()),
+                way: Way::Nothing,
+                open: 0,
+            }));
+        }
+        Err(why) => return Outcome::NotByTree(why.to_string()),
+    };
+    let system = match ReducedSystem::new(&placed) {
+        Ok(system) => system,
+        Err(why) => return Outcome::NotByTree(why.to_string()),
+    };
+    if system.freedom() > MOST_UNKNOWNS {
+        return Outcome::NotByTree(format!(
+            "the incidence tree leaves {} unknowns",
+            system.freedom()
+        ));
+    }
+    let mut modes = Modes {
+        held: Vec::new(),
+        freedom: None,
+        configurations: Vec::new(),
+        complete: Complete::Proven,
+        moves: Some(0),
+        proposed: Vec::new(),
+        contradiction: None,
+        way: way(&system),
+        open: 0,
+    };
+    if system.impossible.is_some() {
+        return Outcome::Modes(Box::new(modes));
+    }
+    if system.closures.len() < system.freedom() {
+        // Fewer equations than unknowns: wherever there is a solution, something moves.
+        modes.moves = None;
+        modes.complete = Complete::Unknown(format!(
+            "{} equations for {} unknowns: wherever it closes, at least {} moves",
+            system.closures.len(),
+            system.freedom(),
+            system.freedom() - system.closures.len()
+        ));
+        return Outcome::Modes(Box::new(modes));
+    }
+    let part = Budget::new(Limits {
+        time: budget.left().map(|t| t.mul_f64(SHARE)),
+        work: Some(MOST_BOXES),
+        ..budget.limits().clone()
+    });
+    let found = real_solutions(&system, &part);
+    if let Way::Tree { boxes, .. } = &mut modes.way {
+        *boxes = found.boxes;
+    }
+    modes.open = found.open.len();
+    let configuration = |unknowns: &[f64], multiplicity: usize, proven: bool| Configuration {
+        joints: Vec::new(),
+        poses: place::link_poses(mechanism, &placed, &system.points_at(unknowns)),
+        multiplicity,
+        proven,
+        finite: proven.then_some(0),
+        drawn: false,
+    };
+    modes.configurations = found
+        .roots
+        .iter()
+        .map(|root| configuration(&root.unknowns, 1, root.proven))
+        .collect();
+    let finite = |pose: &place::Pose| {
+        let numbers = pose
+            .translation
+            .iter()
+            .chain(pose.rotation.iter().flatten());
+        numbers.copied().all(f64::is_finite)
+    };
+    let poses = modes.configurations.iter().flat_map(|c| &c.poses);
+    if !poses.flatten().all(finite) {
+        return Outcome::NotByTree(
+            "some of a body's points are the same within rounding".to_owned(),
+        );
+    }
+    if found.is_complete() {
+        return Outcome::Modes(Box::new(modes));
+    }
+    match decide(&system, budget) {
+        Ok(Exact::Finite(all)) => {
+            modes.configurations = all
+                .iter()
+                .map(|(u, m)| configuration(u, *m, true))
+                .collect();
+            modes.open = 0;
+            if let Way::Tree { exact, .. } = &mut modes.way {
+                *exact = true;
+            }
+        }
+        Ok(Exact::Curve(dimension)) => {
+            modes.moves = Some(dimension);
+            modes.complete = Complete::Unknown(format!(
+                "infinitely many: the configurations form a set of dimension {dimension}"
+            ));
+            if let Way::Tree { exact, .. } = &mut modes.way {
+                *exact = true;
+            }
+        }
+        Ok(Exact::Unclear) => {
+            modes.moves = None;
+            modes.complete = Complete::Unknown(
+                "infinitely many complex solutions; which real ones there are is not known"
+                    .to_owned(),
+            );
+        }
+        Err(stop) => {
+            modes.moves = None;
+            modes.complete = Complete::Unknown(match found.open.len() {
+                0 => {
+                    "the equations that prove a configuration are more than its unknowns".to_owned()
+                }
+                open => format!("{open} boxes stayed open, and {stop} in exact algebra"),
+            });
+        }
+    }
+    Outcome::Modes(Box::new(modes))
+}
+
+fn way(system: &ReducedSystem) -> Way {
+    let name = |body: usize| system.collection.bodies()[body].name.clone();
+    let edges = system.tree.edges.iter();
+    Way::Tree {
+        weight: system.tree.weight,
+        root: name(system.tree.root),
+        edges: edges
+            .map(|e| (name(e.parent), name(e.child), e.weight))
+            .collect(),
+        equations: system.closures.len(),
+        degree: system
+            .closures
+            .iter()
+            .map(|c| c.polynomial.degree())
+            .max()
+            .unwrap_or(0),
+        boxes: 0,
+        exact: false,
+    }
+}

@@ -1,0 +1,223 @@
+//! In how many ways a mechanism closes, with some joints held.
+//!
+//! Two ways lead to all configurations. Where bodies share points, the incidence tree leaves few unknowns, which are
+//! searched with proof ([`crate::real`]); where that leaves something open (double solutions, curves), exact algebra decides on
+//! the same equations, as long as it takes no longer than it may. Where joints slide or the geometry is of another kind, the
+//! exact closure equations of the loops are solved as they are.
+//!
+//! An answer is *proven* only if every configuration is proven to be one and nothing else is left; if, besides, the drawn pose
+//! closes and is not among them, the answer contradicts a known fact and is withdrawn.
+
+mod by_polynomials;
+mod by_tree;
+mod exact;
+mod inputs;
+mod place;
+
+pub use place::Pose;
+
+use kutzbach_algebra::{Budget, Limits};
+use kutzbach_math::number::Number;
+use kutzbach_model::mechanism::{HoldError, JointId, Mechanism};
+use std::time::Instant;
+use thiserror::Error;
+
+/// What is asked.
+#[derive(Clone, Debug, Default)]
+pub struct Question {
+    /// Joints to hold, and where (rad, m). `None`: as many as the mechanism has freedoms, where they are drawn.
+    pub held: Option<Vec<(JointId, Number)>>,
+    /// What the answer may cost.
+    pub limits: Limits,
+}
+
+/// Why there is no answer to look for.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum ModesError {
+    /// A joint that cannot be held.
+    #[error(transparent)]
+    Hold(#[from] HoldError),
+}
+
+/// How the configurations were found.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// By the equations of an incidence tree.
+    Tree {
+        /// Weight of the tree: independent unknowns.
+        weight: usize,
+        /// The root's name, then parent and child of every edge with its weight.
+        root: String,
+        /// Parent, child, weight.
+        edges: Vec<(String, String, usize)>,
+        /// Number of closure equations.
+        equations: usize,
+        /// Largest total degree of one.
+        degree: usize,
+        /// Boxes that were looked at.
+        boxes: usize,
+        /// Whether exact algebra had to decide.
+        exact: bool,
+    },
+    /// By the closure equations of the loops.
+    Polynomials {
+        /// Number of unknowns.
+        variables: usize,
+        /// Number of equations.
+        equations: usize,
+        /// Largest total degree of one.
+        degree: usize,
+        /// Number of complex solutions, where they are finitely many and were counted.
+        complex: Option<usize>,
+    },
+    /// No loop closes, or everything is held: the tree of joints alone.
+    Nothing,
+}
+
+/// Whether these are all configurations.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Complete {
+    /// They are, proven.
+    Proven,
+    /// It is not known, because.
+    Unknown(String),
+}
+
+/// A configuration.
+#[derive(Clone, Debug)]
+pub struct Configuration {
+    /// Values of each joint with freedoms (rad, m), by joint; `None` where a link has no definite pose.
+    pub joints: Vec<(JointId, Option<Vec<f64>>)>,
+    /// `world_from_link`, by link; `None` for a rod that spins.
+    pub poses: Vec<Option<Pose>>,
+    /// How often it counts as a solution; more than once is a singular one.
+    pub multiplicity: usize,
+    /// Whether it is proven to be one.
+    pub proven: bool,
+    /// Freedoms that are left there with the joints held, where known.
+    pub finite: Option<usize>,
+    /// Whether it is the drawn one, as assembled.
+    pub drawn: bool,
+}
+
+/// All configurations, as far as they are known.
+#[derive(Clone, Debug)]
+pub struct Modes {
+    /// The joints held, and where.
+    pub held: Vec<(JointId, Number)>,
+    /// Finite freedoms of the mechanism with nothing held, at the drawn pose; `None` where that was not asked or is not known.
+    pub freedom: Option<usize>,
+    /// The configurations.
+    pub configurations: Vec<Configuration>,
+    /// Whether these are all.
+    pub complete: Complete,
+    /// Freedoms that are left with the joints held; `None` where that is not known.
+    pub moves: Option<usize>,
+    /// Freedoms to hold as well, where something moves.
+    pub proposed: Vec<String>,
+    /// Two things that the file says and that exclude each other, where that is why nothing closes.
+    pub contradiction: Option<String>,
+    /// How they were found.
+    pub way: Way,
+    /// Places left open: so many boxes may hold more.
+    pub open: usize,
+}
+
+/// All configurations of a mechanism.
+///
+/// # Errors
+/// [`ModesError`] for joints that cannot be held; everything else is an answer.
+pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Modes, ModesError> {
+    let began = Instant::now();
+    let (held, freedom) = match &question.held {
+        Some(held) => (held.clone(), None),
+        None => inputs::proposed(mechanism),
+    };
+    let fixed = mechanism.with_joints_held(&held)?;
+    let drawn = place::drawn_poses(&fixed);
+    // What finding the inputs took is part of the budget.
+    let mut limits = question.limits.clone();
+    limits.time = limits.time.map(|t| t.saturating_sub(began.elapsed()));
+    let budget = Budget::new(limits);
+    let mut modes = match by_tree::answer(&fixed, &budget) {
+        by_tree::Outcome::Modes(modes) => *modes,
+        by_tree::Outcome::NotByTree(why) => by_polynomials::answer(&fixed, &why, &budget),
+    };
+    modes.held = held;
+    modes.freedom = freedom;
+    mark_drawn(&mut modes, drawn.as_ref());
+    if modes.moves.is_some_and(|freedom| freedom > 0) {
+        modes.proposed = inputs::names(&fixed);
+    }
+    // Joints by the mechanism as it was asked about: those held have their values.
+    for configuration in &mut modes.configurations {
+        configuration.joints =
+            place::joint_values(mechanism, &fixed, &modes.held, &configuration.poses);
+    }
+    Ok(modes)
+}
+
+impl Modes {
+    /// The answer where there was no time for one.
+    #[must_use]
+    pub fn out_of_time(question: &Question) -> Self {
+        Self {
+            held: question.held.clone().unwrap_or_default(),
+            freedom: None,
+            configurations: Vec::new(),
+            complete: Complete::Unknown("the time limit was reached".to_owned()),
+            moves: None,
+            proposed: Vec::new(),
+            contradiction: None,
+            way: Way::Nothing,
+            open: 0,
+        }
+    }
+}
+
+/// Part of a mechanism's size that two poses of one configuration may differ: the drawn one is closed in doubles.
+const SAME: f64 = 1e-6;
+/// The same for singular ones: an error of e in the equations moves a double solution by √e.
+const SAME_SINGULAR: f64 = 1e-3;
+
+/// Marks the configuration that is drawn. Where the drawn pose closes and is none of those that are said to be all, they are
+/// not.
+fn mark_drawn(modes: &mut Modes, drawn: Option<&place::Drawn>) {
+    let Some(drawn) = drawn else { return };
+    let apart = |configuration: &Configuration| {
+        configuration
+            .poses
+            .iter()
+            .zip(&drawn.poses)
+            .filter_map(|(pose, other)| Some(place::apart(pose.as_ref()?, other, drawn.size)))
+            .fold(0.0, f64::max)
+    };
+    let nearest = modes
+        .configurations
+        .iter_mut()
+        .map(|c| (apart(c), c))
+        .min_by(|a, b| a.0.total_cmp(&b.0));
+    if let Some((distance, configuration)) = nearest {
+        let same = if configuration.multiplicity > 1 {
+            SAME_SINGULAR
+        } else {
+            SAME
+        };
+        if distance <= same {
+            configuration.drawn = true;
+            return;
+        }
+    }
+    if modes.complete == Complete::Proven && modes.moves.is_none_or(|freedom| freedom == 0) {
+        modes.complete = Complete::Unknown(
+            "the drawn pose closes within rounding and is none of the configurations found"
+                .to_owned(),
+        );
+        modes.moves = None;
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;

@@ -1,0 +1,275 @@
+//! Configurations as text and as data.
+
+use super::count;
+use crate::modes::{Complete, Configuration, Modes, Pose, Way};
+use kutzbach_model::mechanism::Mechanism;
+use serde_json::{Map, Value, json};
+use std::fmt::Write;
+
+/// Name of the data's form.
+pub const SCHEMA: &str = "kutzbach-assembly-1";
+
+/// Decimals that are shown of lengths (m) and angles (rad) in data: what differs beyond is rounding.
+const DECIMALS: f64 = 1e10;
+
+fn plain(x: f64) -> f64 {
+    // Adding zero turns −0 into 0.
+    (x * DECIMALS).round() / DECIMALS + 0.0
+}
+
+fn pose(pose: &Pose) -> Value {
+    json!({
+        "position": pose.translation.map(plain),
+        "rotation": pose.rotation.map(|row| row.map(plain)),
+    })
+}
+
+fn kind(configuration: &Configuration) -> &'static str {
+    match (configuration.multiplicity, configuration.finite) {
+        (_, None) => "unknown",
+        (1, _) => "regular",
+        _ => "singular",
+    }
+}
+
+fn solution(mechanism: &Mechanism, configuration: &Configuration) -> Value {
+    let mut joints = Map::new();
+    for (joint, values) in &configuration.joints {
+        let name = mechanism.joint(*joint).name.clone();
+        let value = match values.as_deref() {
+            None => Value::Null,
+            Some([one]) => json!(plain(*one)),
+            Some(more) => json!(more.iter().map(|x| plain(*x)).collect::<Vec<_>>()),
+        };
+        joints.insert(name, value);
+    }
+    let mut poses = Map::new();
+    for (link, at) in mechanism.links().iter().zip(&configuration.poses) {
+        poses.insert(link.name.clone(), at.as_ref().map_or(Value::Null, pose));
+    }
+    json!({
+        "joints": joints,
+        "poses": poses,
+        "kind": kind(configuration),
+        "multiplicity": configuration.multiplicity,
+        "finite": configuration.finite,
+        "proven": configuration.proven,
+        "drawn": configuration.drawn,
+    })
+}
+
+/// Everything, for a program.
+#[must_use]
+pub fn data(mechanism: &Mechanism, modes: &Modes) -> Value {
+    let held: Map<String, Value> = modes
+        .held
+        .iter()
+        .map(|(joint, value)| {
+            (
+                mechanism.joint(*joint).name.clone(),
+                json!(plain(value.value())),
+            )
+        })
+        .collect();
+    let (complete, why) = match &modes.complete {
+        Complete::Proven => ("proven", Value::Null),
+        Complete::Unknown(why) => ("unknown", json!(why)),
+    };
+    let system = match &modes.way {
+        Way::Tree {
+            weight,
+            root,
+            edges,
+            equations,
+            degree,
+            boxes,
+            exact,
+        } => json!({
+            "variables": weight,
+            "equations": equations,
+            "degree": degree,
+            "tree": {
+                "weight": weight,
+                "root": root,
+                "edges": edges.iter().map(|(parent, child, weight)| {
+                    json!({"parent": parent, "child": child, "weight": weight})
+                }).collect::<Vec<_>>(),
+            },
+            "boxes": boxes,
+            "exact": exact,
+        }),
+        Way::Polynomials {
+            variables,
+            equations,
+            degree,
+            complex,
+        } => json!({
+            "variables": variables,
+            "equations": equations,
+            "degree": degree,
+            "tree": Value::Null,
+            "complex": complex,
+            "exact": true,
+        }),
+        Way::Nothing => Value::Null,
+    };
+    json!({
+        "schema": SCHEMA,
+        "mechanism": mechanism.name(),
+        "freedom": modes.freedom,
+        "held": held,
+        "solutions": modes.configurations.iter().map(|c| solution(mechanism, c)).collect::<Vec<_>>(),
+        "complete": complete,
+        "why": why,
+        "moves": modes.moves,
+        "propose": modes.proposed,
+        "contradiction": modes.contradiction,
+        "open": modes.open,
+        "system": system,
+    })
+}
+
+/// Lines for a person.
+#[must_use]
+pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
+    let mut text = String::new();
+    let found = modes.configurations.len();
+    let first = match (&modes.complete, found) {
+        (Complete::Proven, 0) => {
+            "It cannot be put together: no configuration exists, which is proved.".to_owned()
+        }
+        (Complete::Proven, _) => format!(
+            "{}, and no other, which is proved.",
+            count(found, "configuration")
+        ),
+        (Complete::Unknown(_), _) if modes.moves.is_some_and(|m| m > 0) => {
+            format!(
+                "It moves: {} left.",
+                count(modes.moves.unwrap_or(0), "freedom")
+            )
+        }
+        (Complete::Unknown(_), 0) => "In how many ways it closes is not known.".to_owned(),
+        (Complete::Unknown(_), _) => {
+            format!(
+                "{} found; whether there are others is not known.",
+                count(found, "configuration")
+            )
+        }
+    };
+    if let Some(freedom) = modes.freedom.filter(|f| *f > 0 && !modes.held.is_empty()) {
+        let held = modes.held.iter();
+        let names: Vec<&str> = held
+            .map(|(j, _)| mechanism.joint(*j).name.as_str())
+            .collect();
+        let _ = writeln!(
+            text,
+            "It moves with {}. With {} held:",
+            count(freedom, "freedom"),
+            names.join(", ")
+        );
+    }
+    let _ = writeln!(text, "{first}");
+    if let Some(contradiction) = &modes.contradiction {
+        let _ = writeln!(text, "  • {contradiction}.");
+    }
+    if let Complete::Unknown(why) = &modes.complete {
+        let _ = writeln!(text, "  • {why}.");
+    }
+    if !modes.proposed.is_empty() {
+        let _ = writeln!(
+            text,
+            "  • To have finitely many, hold as well: {}.",
+            modes.proposed.join(", ")
+        );
+    }
+    if !modes.held.is_empty() {
+        let held = modes.held.iter();
+        let held: Vec<String> = held
+            .map(|(j, v)| format!("{} = {}", mechanism.joint(*j).name, plain(v.value())))
+            .collect();
+        let _ = writeln!(text, "\nHeld: {}", held.join(", "));
+    }
+    way(&mut text, &modes.way);
+    for (number, configuration) in modes.configurations.iter().enumerate() {
+        let mut marks = Vec::new();
+        if configuration.drawn {
+            marks.push("drawn".to_owned());
+        }
+        if configuration.multiplicity > 1 {
+            marks.push(format!(
+                "counts {} times: singular",
+                configuration.multiplicity
+            ));
+        }
+        if !configuration.proven {
+            marks.push("consistent, not proven".to_owned());
+        }
+        let marks = if marks.is_empty() {
+            String::new()
+        } else {
+            format!(" ({})", marks.join("; "))
+        };
+        let _ = writeln!(text, "\nConfiguration {}{marks}", number + 1);
+        for (joint, values) in &configuration.joints {
+            let Some(values) = values else { continue };
+            // A bar has no variables that anybody would set.
+            if values.len() > 4 {
+                continue;
+            }
+            let shown: Vec<String> = values
+                .iter()
+                .map(|v| format!("{:9.5}", (v * 1e5).round() / 1e5 + 0.0))
+                .collect();
+            let _ = writeln!(
+                text,
+                "  {:<20} {}",
+                mechanism.joint(*joint).name,
+                shown.join(" ")
+            );
+        }
+    }
+    text
+}
+
+fn way(text: &mut String, way: &Way) {
+    match way {
+        Way::Tree {
+            weight,
+            root,
+            edges,
+            equations,
+            degree,
+            boxes,
+            exact,
+        } => {
+            let hung: Vec<String> = edges
+                .iter()
+                .map(|(parent, child, weight)| format!("{parent} – {child} ({weight})"))
+                .collect();
+            let _ = writeln!(
+                text,
+                "\nHow: an incidence tree of weight {weight} from {root}: {}; {} of degree {degree} at most; {boxes} boxes{}",
+                hung.join(", "),
+                count(*equations, "equation"),
+                if *exact { ", then exact algebra" } else { "" }
+            );
+        }
+        Way::Polynomials {
+            variables,
+            equations,
+            degree,
+            complex,
+        } => {
+            let complex = complex.map_or(String::new(), |n| {
+                format!("; {} over the complex numbers", count(n, "solution"))
+            });
+            let _ = writeln!(
+                text,
+                "\nHow: exact algebra on the closure equations of the loops: {} in {} of degree {degree} at most{complex}",
+                count(*equations, "equation"),
+                count(*variables, "unknown"),
+            );
+        }
+        Way::Nothing => {}
+    }
+}

@@ -1,0 +1,190 @@
+//! `kutzbach assemble FILE`: every way in which it closes.
+
+use super::failure::Failure;
+use super::interrupt::{self, INTERRUPTED};
+use super::pose::measured;
+use super::{DONE, UNDECIDED, load, output};
+use clap::{Args, ValueEnum};
+use indicatif::{ProgressBar, ProgressDrawTarget};
+use kutzbach::algebra::Limits;
+use kutzbach::assembly::modes::{Complete, Modes, ModesError, Question, assembly_modes};
+use kutzbach::assembly::words;
+use kutzbach::mechanism::{JointId, JointKind, Mechanism};
+use kutzbach::number::Number;
+use kutzbach::report::text::visible;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, mpsc};
+use std::time::{Duration, Instant};
+
+/// Find every configuration in which the mechanism closes, with proof that there is no other
+#[derive(Debug, Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    source: load::Source,
+    /// Hold a joint at a value, such as `crank=30deg`; may be repeated [default: a set of inputs, where they are drawn]
+    #[arg(long, value_name = "JOINT=VALUE")]
+    hold: Vec<String>,
+    /// Hold no joint, and say what moves
+    #[arg(long, conflicts_with = "hold")]
+    free: bool,
+    /// Stop after so many seconds and say what is known
+    #[arg(long, value_name = "SECONDS", default_value_t = 10.0)]
+    budget: f64,
+    /// Exit with code 3 if it is not known whether these are all
+    #[arg(long)]
+    strict: bool,
+    /// Form of the answer
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+    #[command(flatten)]
+    destination: output::Destination,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// Lists for a person
+    Text,
+    /// Everything, for a program
+    Json,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Where the file cannot be read, a joint cannot be held, or the output cannot be written.
+pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let reading = arguments.source.read()?;
+    let mechanism = &reading.mechanism;
+    let held = match (arguments.hold.is_empty(), arguments.free) {
+        (true, false) => None,
+        _ => Some(
+            arguments
+                .hold
+                .iter()
+                .map(|item| held(mechanism, item))
+                .collect::<Result<Vec<_>, _>>()?,
+        ),
+    };
+    let cancelled = Arc::new(AtomicBool::new(false));
+    let question = Question {
+        held,
+        limits: Limits {
+            cancelled: Some(Arc::clone(&cancelled)),
+            ..Limits::seconds(arguments.budget)
+        },
+    };
+    let modes = watched(mechanism, question, &cancelled, arguments.budget).map_err(|error| {
+        Failure::Plain {
+            message: error.to_string(),
+            help: Some("`--hold joint=value` takes joints that turn or slide".to_owned()),
+        }
+    })?;
+    let text = match arguments.format {
+        Format::Text => words::text(mechanism, &modes)
+            .lines()
+            .map(|line| format!("{}\n", visible(line)))
+            .collect(),
+        Format::Json => output::json(&words::data(mechanism, &modes))?,
+    };
+    arguments.destination.put(&text)?;
+    Ok(match modes.complete {
+        _ if interrupt::asked() => INTERRUPTED,
+        Complete::Unknown(_) if arguments.strict => UNDECIDED,
+        _ => DONE,
+    })
+}
+
+/// Steps of the work that do not look at the clock may take this share of the budget, and so many seconds, more.
+const GRACE: (f64, f64) = (0.1, 1.0);
+
+/// Works while Ctrl-C, the budget and a sign of life are seen to. Work that does not end in time is left alone, and ends with
+/// the program.
+fn watched(
+    mechanism: &Mechanism,
+    question: Question,
+    cancelled: &AtomicBool,
+    budget: f64,
+) -> Result<Modes, ModesError> {
+    interrupt::listen();
+    let (send, receive) = mpsc::channel();
+    let (own, asked) = (mechanism.clone(), question.clone());
+    std::thread::spawn(move || {
+        // Nobody may be listening any more.
+        let _ = send.send(assembly_modes(&own, &asked));
+    });
+    let began = Instant::now();
+    let mut sign: Option<ProgressBar> = None;
+    loop {
+        match receive.recv_timeout(Duration::from_millis(50)) {
+            Ok(result) => {
+                if let Some(sign) = sign {
+                    sign.finish_and_clear();
+                }
+                return result;
+            }
+            Err(mpsc::RecvTimeoutError::Disconnected) => return Ok(Modes::out_of_time(&question)),
+            Err(mpsc::RecvTimeoutError::Timeout) => {}
+        }
+        if interrupt::asked() {
+            cancelled.store(true, Ordering::Relaxed);
+        }
+        let seconds = began.elapsed().as_secs_f64();
+        if seconds > budget * (1.0 + GRACE.0) + GRACE.1 {
+            if let Some(sign) = sign {
+                sign.finish_and_clear();
+            }
+            return Ok(Modes::out_of_time(&question));
+        }
+        if seconds > 1.0 {
+            let sign = sign.get_or_insert_with(|| {
+                ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr_with_hz(10))
+            });
+            sign.set_message("looking for configurations");
+            sign.tick();
+        }
+    }
+}
+
+/// Reads `joint=value`.
+fn held(mechanism: &Mechanism, item: &str) -> Result<(JointId, Number), Failure> {
+    let wrong = |message: String, help: &str| Failure::Plain {
+        message,
+        help: Some(help.to_owned()),
+    };
+    let Some((name, text)) = item.split_once('=') else {
+        return Err(wrong(
+            format!("`--hold {item}` states no value"),
+            "write it as joint=value, for example `crank=0.3` or `crank=30deg`",
+        ));
+    };
+    let Some(joint) = mechanism.joint_named(name.trim()) else {
+        return Err(wrong(
+            format!("`--hold`: there is no joint named `{}`", name.trim()),
+            "`kutzbach report FILE --verbose` lists the joints",
+        ));
+    };
+    let described = mechanism.joint(joint);
+    let (JointKind::Revolute | JointKind::Prismatic, [part]) =
+        (described.kind, described.kind.freedoms())
+    else {
+        return Err(wrong(
+            format!(
+                "`--hold`: joint `{}` is {}",
+                described.name,
+                described.kind.word()
+            ),
+            "only revolute and prismatic joints can be held at a value",
+        ));
+    };
+    let value = measured(text.trim(), *part).map_err(|why| {
+        wrong(
+            format!(
+                "`--hold`: `{}` is no value for joint `{}`: {why}",
+                text.trim(),
+                described.name
+            ),
+            "a number or an expression such as `pi/4`; with `deg` or `rad`, `mm` or `m` after it",
+        )
+    })?;
+    Ok((joint, value))
+}

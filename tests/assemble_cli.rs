@@ -1,0 +1,137 @@
+//! `kutzbach assemble` from outside: what it prints, and how it ends.
+
+use std::process::{Command, Output};
+
+fn kutzbach(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn json(arguments: &[&str]) -> serde_json::Value {
+    let mut all = vec!["assemble"];
+    all.extend(arguments);
+    all.extend(["--format", "json", "--budget", "60"]);
+    let output = kutzbach(&all);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn refused(arguments: &[&str]) -> String {
+    let output = kutzbach(arguments);
+    assert_eq!(output.status.code(), Some(2));
+    String::from_utf8(output.stderr).unwrap()
+}
+
+/// The problems of the paper: file, weight of the tree, configurations, how often each counts.
+#[test]
+fn all_configurations_of_the_papers_problems_are_found() {
+    for (name, weight, count, times) in [
+        ("tetra_i", 3, 1, 2),
+        ("tetra_ii", 3, 4, 1),
+        ("tetra_iii", 3, 10, 1),
+        ("tetra_20_10_4", 3, 6, 1),
+        ("tetra_6_7_8", 3, 8, 1),
+        ("pent", 4, 8, 1),
+        ("quad_16_17_18_19", 4, 8, 1),
+    ] {
+        let answer = json(&[&format!("mechanisms/{name}.urdf")]);
+        assert_eq!(answer["schema"], "kutzbach-assembly-1");
+        assert_eq!(answer["complete"], "proven", "{name}");
+        assert_eq!(answer["system"]["tree"]["weight"], weight, "{name}");
+        let solutions = answer["solutions"].as_array().unwrap();
+        assert_eq!(solutions.len(), count, "{name}");
+        assert!(
+            solutions.iter().all(|s| s["multiplicity"] == times),
+            "{name}"
+        );
+        assert_eq!(
+            solutions.iter().filter(|s| s["drawn"] == true).count(),
+            1,
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn what_moves_is_told_with_what_to_hold() {
+    let answer = json(&["mechanisms/quad.urdf", "--free"]);
+    assert_eq!(answer["complete"], "unknown");
+    assert_eq!(answer["moves"], 1);
+    assert_eq!(answer["propose"].as_array().unwrap().len(), 1);
+    let answer = json(&["mechanisms/quad.urdf"]);
+    assert_eq!(answer["freedom"], 1);
+    assert_eq!(answer["complete"], "proven");
+}
+
+#[test]
+fn held_joints_have_their_values() {
+    let answer = json(&[
+        "mechanisms/planar_four_bar.urdf",
+        "--hold",
+        "crank_pivot=30deg",
+    ]);
+    for solution in answer["solutions"].as_array().unwrap() {
+        let value = solution["joints"]["crank_pivot"].as_f64().unwrap();
+        assert!((value - std::f64::consts::FRAC_PI_6).abs() < 1e-9);
+    }
+    assert_eq!(answer["complete"], "proven");
+}
+
+#[test]
+fn the_same_question_has_the_same_bytes() {
+    let question = [
+        "assemble",
+        "mechanisms/tetra_6_7_8.urdf",
+        "--format",
+        "json",
+    ];
+    assert_eq!(kutzbach(&question).stdout, kutzbach(&question).stdout);
+}
+
+#[test]
+fn bad_input_has_its_own_words() {
+    let file = "mechanisms/planar_four_bar.urdf";
+    let said = refused(&["assemble", file, "--hold", "nobody=1"]);
+    assert!(said.contains("no joint named `nobody`"), "{said}");
+    let said = refused(&["assemble", file, "--hold", "crank_pivot"]);
+    assert!(said.contains("states no value"), "{said}");
+    let said = refused(&["assemble", file, "--hold", "crank_pivot=zwei"]);
+    assert!(said.contains("is no value"), "{said}");
+    let said = refused(&[
+        "assemble",
+        "mechanisms/tetra_i.urdf",
+        "--hold",
+        "corner_12=1",
+    ]);
+    assert!(said.contains("is spherical"), "{said}");
+}
+
+#[test]
+fn incidence_trees_are_shown_in_every_form() {
+    let show = |format: &str| {
+        let output = kutzbach(&[
+            "graph",
+            "mechanisms/tetra_i.urdf",
+            "--incidence",
+            "--format",
+            format,
+        ]);
+        assert!(output.status.success());
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let text = show("text");
+    assert!(
+        text.contains(
+            "Incidence tree of weight 3 (the least of 36 covering sets), sum of depths 3"
+        ),
+        "{text}"
+    );
+    assert!(show("dot").starts_with("graph constraints {"));
+    assert!(show("svg").contains("<svg"));
+    let said = refused(&["graph", "mechanisms/oldham.urdf", "--incidence"]);
+    assert!(said.contains("no incidence tree"), "{said}");
+}
