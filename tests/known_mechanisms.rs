@@ -103,11 +103,21 @@ fn every_file_agrees_with_its_own_expectation() {
 }
 
 /// Their numbers are exact and their loops close, so assembly has nothing to do and the answers need no reservation.
+/// Drawn open on purpose: their closed poses are what is asked for, and no number writes them down.
+const DRAWN_OPEN: [&str; 5] = [
+    "quad_16_17_18_19",
+    "tetra_20_10_4",
+    "tetra_6_7_8",
+    "tetra_ii",
+    "tetra_iii",
+];
+
 #[test]
 fn every_file_is_drawn_closed_and_exact() {
     let wrong = KNOWN_OWN.iter().map(|(name, _, analysis)| {
         let mut wrong = Vec::new();
-        if analysis.assembly.steps > 0 {
+        let drawn_open = DRAWN_OPEN.contains(&name.as_str());
+        if drawn_open != (analysis.assembly.steps > 0) {
             wrong.push(format!(
                 "{name}: {} steps, moved {:.1e}",
                 analysis.assembly.steps, analysis.assembly.moved
