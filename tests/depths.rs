@@ -26,7 +26,14 @@ fn differences(name: &str, mechanism: &Mechanism) -> Vec<String> {
         let m = &a.mobility;
         format!(
             "{:?}",
-            (m.verdict, m.bounds, m.pose, m.kind, m.class, m.nominal)
+            (
+                m.verdict,
+                m.bounds,
+                m.pose,
+                m.kind,
+                m.class,
+                m.nominal.clone()
+            )
         )
     };
     let branches = |a: &Analysis| {

@@ -203,7 +203,7 @@ fn what_moves_only_within_its_precision_is_called_nominal() {
         assert!(count > 100, "{count} with {literally}");
     }
     assert_none(&those(|r| {
-        let nominal = r.analysis.mobility.nominal;
+        let nominal = r.analysis.mobility.nominal.clone();
         nominal.is_some_and(|n| n.finite != r.finite || !(n.tolerance > 0.0 && n.tolerance < 1e-2))
     }));
 }

@@ -105,6 +105,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             Some("`kutzbach report FILE` tells more".to_owned()),
         )
     })?;
+    // Where rounded numbers mean another mechanism, it is that one that moves.
+    let mechanism = analysis.of(mechanism);
     if let Some(name) = &arguments.drive {
         kutzbach::motion::variable_named(mechanism, name)
             .map_err(|error| plain(error.to_string(), Some(error.help())))?;

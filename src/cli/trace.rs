@@ -112,6 +112,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             "`kutzbach report FILE` tells more".to_owned(),
         )
     })?;
+    // Where rounded numbers mean another mechanism, it is that one that moves.
+    let mechanism = analysis.of(mechanism);
     let options = TraceOptions {
         branch: arguments.branch.clone(),
         drive: arguments.drive.as_ref().map(|d| d.joint.clone()),

@@ -20,6 +20,7 @@ mod equations;
 mod geometry;
 mod guided;
 mod jacobian;
+mod joint_numbers;
 mod part_names;
 mod positional;
 #[doc(hidden)]
@@ -39,6 +40,7 @@ pub use geometry::{Arithmetic, Geometry, Uncertainty};
 pub use jacobian::stated_by;
 pub use jacobian::{CycleJacobian, Part, entry_accuracy, jacobian};
 pub use jacobian::{linearised, variable_unit};
+pub use joint_numbers::JointNumbers;
 pub use kutzbach_math::space::{
     PlacedScrew, Rigid, Vector, cross as cross_product, perpendicular as across,
 };

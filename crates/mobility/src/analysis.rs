@@ -9,6 +9,7 @@ use super::depth::Depth;
 use super::exact::{ExactAllowance, ExactBudget, ask_exact};
 use super::generic::{GenericCount, generic_count};
 use super::kutzbach::kutzbach_count;
+use super::meant::{Meant, completed};
 use super::more_digits::MoreDigits;
 use super::part_mobility::{PartFinding, part_mobility};
 use super::pose_rank::{PartRank, Pose, Trial, rank_part_with};
@@ -107,6 +108,8 @@ pub struct Analysis {
     pub branches: Option<Vec<Branch>>,
     /// The verdict.
     pub mobility: Mobility,
+    /// The mechanism that rounded numbers mean, where everything here is said of it instead of the file's own numbers.
+    pub meant: Option<Box<Meant>>,
 }
 
 /// Analyses a mechanism: counts, assembles, ranks, names what is locked and redundant.
@@ -114,6 +117,15 @@ pub struct Analysis {
 /// # Errors
 /// [`AnalysisError`]; see there.
 pub fn analyse(
+    mechanism: &Mechanism,
+    options: &AnalysisOptions,
+) -> Result<Analysis, AnalysisError> {
+    let stated = analyse_as_stated(mechanism, options)?;
+    completed(mechanism, options, stated)
+}
+
+/// [`analyse`] without a look at what rounded numbers may have been meant to be.
+pub(super) fn analyse_as_stated(
     mechanism: &Mechanism,
     options: &AnalysisOptions,
 ) -> Result<Analysis, AnalysisError> {
@@ -168,6 +180,7 @@ pub fn analyse(
         advice: Vec::new(),
         findings: Vec::new(),
         branches: None,
+        meant: None,
     };
     if analysis.assembly.closed {
         analysis.rank(mechanism, configuration, &geometry, options)?;
@@ -215,6 +228,12 @@ fn known_configurations(mechanism: &Mechanism) -> String {
 }
 
 impl Analysis {
+    /// The mechanism that everything here is said of: the one meant, or the one given.
+    #[must_use]
+    pub fn of<'a>(&'a self, given: &'a Mechanism) -> &'a Mechanism {
+        self.meant.as_ref().map_or(given, |meant| &meant.mechanism)
+    }
+
     /// The part of the analysis that needs a closed pose.
     fn rank(
         &mut self,

@@ -43,6 +43,7 @@ mod lifting;
 mod limbs;
 mod limit_facts;
 mod link_twists;
+mod meant;
 mod more_digits;
 mod near_singular;
 mod one_engine;
@@ -88,6 +89,7 @@ pub use kutzbach::kutzbach_count;
 pub use kutzbach_closure::{Structure, constraint_graph};
 pub use limbs::{Limb, Limbs, limbs};
 pub use limit_facts::{LimitFact, limit_facts};
+pub use meant::{AsWritten, Change, Meant};
 pub use more_digits::MoreDigits;
 pub use near_singular::{ClearerPose, NearSingular, dead_centres, near_singular, pose_of_branch};
 pub use one_engine::{

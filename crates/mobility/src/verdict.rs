@@ -4,6 +4,7 @@
 //! Parts do not influence one another, so that the configuration space near the pose is a product: freedoms add, a branch
 //! of the whole is one branch of every part, and the pose is singular where that of some part is.
 
+use super::meant::{AsWritten, Change};
 use super::part_mobility::{Evidence, PartFinding};
 use super::vocabulary::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
 use kutzbach_closure::Assembly;
@@ -12,12 +13,18 @@ use kutzbach_closure::with_owners;
 use kutzbach_model::mechanism::Mechanism;
 
 /// A mobile mechanism within the stated precision of a rigid file (D13).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Nominal {
     /// Its finite freedom.
     pub finite: usize,
     /// How far the file's numbers, taken literally, are from closing along the motion (m).
     pub tolerance: f64,
+    /// How far it is from the file's numbers (m; angles by the length of the part), where it was computed.
+    pub distance: Option<f64>,
+    /// Whether it lies within what the file's digits leave open.
+    pub within_digits: bool,
+    /// The numbers that it has otherwise, where it was computed.
+    pub changes: Vec<Change>,
 }
 
 /// The verdict with its bounds and reasons.
@@ -41,6 +48,8 @@ pub struct Mobility {
     pub certificate: String,
     /// A mobile mechanism within the stated precision, where the file is rigid as written, or less mobile.
     pub nominal: Option<Nominal>,
+    /// What the numbers taken literally leave, where the mechanism meant was computed.
+    pub as_written: Option<AsWritten>,
     /// Why not more, why not less, or what would decide.
     pub why: Vec<String>,
     /// What every engine found: part by part, in the order asked.
@@ -82,6 +91,7 @@ pub fn unassembled(assembly: &Assembly) -> Mobility {
             assembly.tolerance
         ),
         nominal: None,
+        as_written: None,
         why: vec!["a mechanism that does not close has no motions to count".to_owned()],
         evidence: Vec::new(),
     }
@@ -101,6 +111,7 @@ pub(super) fn not_asked(most: Option<usize>) -> Mobility {
         certificate: "the rank of the closure equations at this pose bounds the freedom from above"
             .to_owned(),
         nominal: None,
+        as_written: None,
         why: vec!["only the rank at this pose was asked for".to_owned()],
         evidence: Vec::new(),
     }
@@ -165,6 +176,9 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, parts: &[PartFinding]
         .map(|tolerance| Nominal {
             finite: high,
             tolerance,
+            distance: None,
+            within_digits: true,
+            changes: Vec::new(),
         });
     Mobility {
         verdict,
@@ -176,6 +190,7 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, parts: &[PartFinding]
         level,
         certificate,
         nominal,
+        as_written: None,
         why,
         evidence: parts
             .iter()

@@ -220,6 +220,8 @@ pub fn analysed_report_on(
         },
     )?;
     let mut report = counted(input, configuration);
+    // Where rounded numbers mean another mechanism, everything below is said of that one.
+    let mechanism = analysis.of(mechanism);
     super::findings::lay_over(&mut report, mechanism, &analysis);
     super::inputs::lay_over(&mut report, mechanism, &analysis, configuration, inputs);
     super::pose::warn(&mut report, mechanism, &analysis, configuration);
@@ -313,6 +315,7 @@ fn counted(input: &Input<'_>, configuration: &str) -> Report {
             class: None,
             certificate: None,
             nominal: None,
+            as_written: None,
             why: Vec::new(),
         },
         freedoms: None,

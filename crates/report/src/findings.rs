@@ -3,8 +3,8 @@
 use super::motions::motion_row;
 use super::natural::natural_order;
 use super::schema::{
-    Advice, Block, Branch, Certificate, Cycle, GenericCount, Home, Idle, JointRow, Mobility,
-    Motion, Nominal, Report, Tree, TreeLink,
+    Advice, AsWritten, Block, Branch, Certificate, Change, Cycle, GenericCount, Home, Idle,
+    JointRow, Mobility, Motion, Nominal, Report, Tree, TreeLink,
 };
 use super::text::words::counted;
 use kutzbach_closure::{owners, with_owners};
@@ -29,7 +29,7 @@ pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &An
     });
     report.assembly = super::assembly::assembly(mechanism, &analysis.assembly);
     fill_home(&mut report.home, analysis);
-    report.mobility = verdict(analysis);
+    report.mobility = verdict(mechanism, analysis);
     report.freedoms = super::inputs::freedoms(mechanism, analysis);
     report.joints = joint_rows(mechanism, analysis);
     report.branches = branch_rows(mechanism, analysis);
@@ -171,7 +171,29 @@ fn margin(part: &PartRank) -> f64 {
     above.min(below)
 }
 
-fn verdict(analysis: &Analysis) -> Mobility {
+/// A changed number by its joint and its place in the file.
+fn change_of(mechanism: &Mechanism, change: &kutzbach_mobility::Change) -> Change {
+    let place = change.place;
+    let number = match place {
+        0..12 => {
+            let side = ["origin", "successor"][place / 6];
+            let kind = ["xyz", "rpy"][place % 6 / 3];
+            format!("{side} {kind}[{}]", place % 3)
+        }
+        12..15 => format!("axis[{}]", place - 12),
+        15..18 => format!("axis2[{}]", place - 15),
+        18 => "lead".to_owned(),
+        _ => "distance".to_owned(),
+    };
+    Change {
+        joint: mechanism.joints()[change.joint].name.clone(),
+        number,
+        from: change.from,
+        to: change.to,
+    }
+}
+
+fn verdict(mechanism: &Mechanism, analysis: &Analysis) -> Mobility {
     let found = &analysis.mobility;
     Mobility {
         verdict: found.verdict,
@@ -183,9 +205,20 @@ fn verdict(analysis: &Analysis) -> Mobility {
             level: found.level,
             text: found.certificate.clone(),
         }),
-        nominal: found.nominal.map(|nominal| Nominal {
+        nominal: found.nominal.as_ref().map(|nominal| Nominal {
             finite: nominal.finite,
             tolerance: nominal.tolerance,
+            distance: nominal.distance,
+            within_digits: nominal.within_digits,
+            changes: nominal
+                .changes
+                .iter()
+                .map(|change| change_of(mechanism, change))
+                .collect(),
+        }),
+        as_written: found.as_written.map(|written| AsWritten {
+            verdict: written.verdict,
+            finite: written.finite,
         }),
         why: found.why.clone(),
     }

@@ -115,6 +115,7 @@ pub(crate) fn mobile() -> Report {
                 text: "the loop stays closed within 4e-13 m over a full turn of J1".to_owned(),
             }),
             nominal: None,
+            as_written: None,
             why: vec![
                 "opposite sides are equal and lengths are as the sines of the twists".to_owned(),
             ],
@@ -228,6 +229,7 @@ pub(crate) fn rigid() -> Report {
             text: "a self-stress is definite on the instantaneous freedom".to_owned(),
         }),
         nominal: None,
+        as_written: None,
         why: Vec::new(),
     };
     report.branches = Some(Vec::new());
@@ -256,6 +258,7 @@ pub(crate) fn undecided() -> Report {
         class: None,
         certificate: None,
         nominal: None,
+        as_written: None,
         why: vec!["the rank bounds the finite freedom from above only".to_owned()],
     };
     report.branches = None;

@@ -319,6 +319,9 @@ pub struct Mobility {
     pub certificate: Option<Certificate>,
     /// A mobile mechanism within the stated precision of a rigid file (D13).
     pub nominal: Option<Nominal>,
+    /// What the numbers taken literally leave, where the mechanism meant was computed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub as_written: Option<AsWritten>,
     /// The reasons, one sentence each, weightiest first.
     pub why: Vec<String>,
 }
@@ -431,8 +434,43 @@ pub struct Certificate {
 pub struct Nominal {
     /// Its finite mobility.
     pub finite: usize,
-    /// How far its geometry is from the file's, in metres.
+    /// How far the file's numbers, taken literally, are from closing along its motion, in metres.
     pub tolerance: f64,
+    /// How far its geometry is from the file's (m; angles by the length of the loops); `null` where it was not computed.
+    #[serde(default)]
+    pub distance: Option<f64>,
+    /// Whether it lies within what the file's digits leave open.
+    #[serde(default = "yes")]
+    pub within_digits: bool,
+    /// The numbers that it has otherwise, those that change most first; empty where it was not computed.
+    #[serde(default)]
+    pub changes: Vec<Change>,
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// A number of the file that the mechanism meant has otherwise.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Change {
+    /// The joint.
+    pub joint: String,
+    /// Which number: `origin xyz[0]`, `successor rpy[2]`, `axis[1]`, `lead`, `distance`.
+    pub number: String,
+    /// As written (m, rad).
+    pub from: f64,
+    /// As meant (m, rad).
+    pub to: f64,
+}
+
+/// What the file's numbers leave where they are taken literally.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct AsWritten {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// Finite mobility; `null` where it is not decided.
+    pub finite: Option<usize>,
 }
 
 /// What one engine found of one block (D20).

@@ -100,9 +100,11 @@ pub fn real_solutions(system: &ReducedSystem, budget: &Budget) -> RealSolutions 
         .iter()
         .map(|proven| {
             let unknowns = at(proven.chart, &proven.at);
+            let radius = proven.at.iter().fold(0.0, |m: f64, s| m.max(s.width()));
             RealRoot {
-                radius: proven.at.iter().fold(0.0, |m: f64, s| m.max(s.width())),
-                proven: others_follow(system, &proven.used, &unknowns),
+                radius,
+                // In a wide enclosure a mirrored solution of the equations used may hide.
+                proven: radius < NARROW && others_follow(system, &proven.used, &unknowns),
                 unknowns,
             }
         })
@@ -125,6 +127,9 @@ pub fn real_solutions(system: &ReducedSystem, budget: &Budget) -> RealSolutions 
         crowded: found.crowded,
     }
 }
+
+/// An enclosure narrower than this holds one solution at which the other equations can be told from far off.
+const NARROW: f64 = 1e-6;
 
 /// Least share of a direction along the coordinate that is left out: far above what rounding makes of it.
 const LEAST_SHARE: f64 = 1e-3;

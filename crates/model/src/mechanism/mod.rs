@@ -24,6 +24,7 @@ mod exact_pose;
 mod frame;
 mod held;
 mod joint;
+mod joint_numbers;
 mod kind;
 mod link;
 mod model;

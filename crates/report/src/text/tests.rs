@@ -82,6 +82,9 @@ fn rounded_numbers_are_named_as_the_reason() {
     report.mobility.nominal = Some(Nominal {
         finite: 1,
         tolerance: 3e-7,
+        distance: None,
+        within_digits: true,
+        changes: Vec::new(),
     });
     let page = page(&report);
     assert!(

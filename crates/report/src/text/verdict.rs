@@ -7,7 +7,7 @@ use super::cite;
 use super::page::Page;
 use super::style::Tint;
 use super::words::{capitalised, counted, figure, names};
-use crate::schema::{Branch, Report};
+use crate::schema::{Branch, Nominal, Report};
 use kutzbach_format::MAY_JOIN;
 use kutzbach_mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
 
@@ -247,9 +247,45 @@ fn undecided(report: &Report) -> String {
     text
 }
 
+/// The nearest mobile mechanism where it is not the one drawn.
+fn not_drawn(nominal: &Nominal) -> String {
+    let mut text = format!(
+        "The nearest mobile mechanism that was found is {} m away",
+        figure(nominal.distance.unwrap_or(nominal.tolerance))
+    );
+    if let Some(change) = nominal.changes.first() {
+        text.push_str(&format!(
+            " ({}, {}: {} instead of {})",
+            change.joint,
+            change.number,
+            figure(change.to),
+            figure(change.from)
+        ));
+    }
+    text.push_str(", beyond what the digits leave open: it is not what is drawn.");
+    text
+}
+
 /// A mechanism that moves only if its numbers are read as rounded.
 pub(super) fn nominal(report: &Report) -> Option<String> {
     let nominal = report.mobility.nominal.as_ref()?;
+    if !nominal.within_digits {
+        return Some(not_drawn(nominal));
+    }
+    if let (Some(distance), Some(written)) = (nominal.distance, &report.mobility.as_written) {
+        return Some(format!(
+            "These numbers round a mechanism that moves ({}): its nearest dimensions differ by up to {} m from them, within their \
+             digits; {}, as its loops miss by up to {} m along the motion.",
+            cite::NOMINAL,
+            figure(distance),
+            match (written.verdict, written.finite) {
+                (Verdict::Unassembled, _) => "as written it does not close".to_owned(),
+                (_, Some(0)) => "as written it binds".to_owned(),
+                _ => "as written it binds or moves less".to_owned(),
+            },
+            figure(nominal.tolerance),
+        ));
+    }
     let mut text = format!(
         "Mobile within {} m of the numbers written ({}): they are probably rounded",
         figure(nominal.tolerance),

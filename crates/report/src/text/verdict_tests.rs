@@ -216,6 +216,9 @@ fn rounded_numbers_are_told() {
     report.mobility.nominal = Some(Nominal {
         finite: 1,
         tolerance: 3e-7,
+        distance: None,
+        within_digits: true,
+        changes: Vec::new(),
     });
     report.home.as_written = Some(0);
     assert_eq!(

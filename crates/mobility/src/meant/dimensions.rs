@@ -1,0 +1,93 @@
+//! The numbers of a part that may be others than they are written, and a geometry that follows them.
+
+use kutzbach_closure::{Geometry, JointNumbers, JointState, Part};
+use kutzbach_math::number::Number;
+use kutzbach_model::mechanism::{Joint, Mechanism, Precision};
+
+/// One number that may change.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Dimension {
+    /// Joint index.
+    pub joint: usize,
+    /// Place in [`Joint::numbers`].
+    pub place: usize,
+    /// How far the number meant may be from the one written (m, rad).
+    pub unit: f64,
+}
+
+/// Whether the number at a place of [`Joint::numbers`] is an angle or a component of a direction, and no length.
+pub(super) fn turns(place: usize) -> bool {
+    (3..6).contains(&place) || (9..18).contains(&place)
+}
+
+/// The numbers of a part that are uncertain, in units of their uncertainty.
+pub(super) struct Dimensions<'a> {
+    mechanism: &'a Mechanism,
+    /// In the order of joints and places.
+    pub all: Vec<Dimension>,
+    written: Vec<JointNumbers>,
+}
+
+impl<'a> Dimensions<'a> {
+    /// Those of a part whose numbers are known to a precision.
+    pub fn of(mechanism: &'a Mechanism, part: &Part, precision: &Precision) -> Self {
+        let mut all = Vec::new();
+        for &joint in &part.joints {
+            for (place, number) in mechanism.joints()[joint].numbers().into_iter().enumerate() {
+                let unit = number.map_or(0.0, |number| precision.uncertainty(number));
+                if unit > 0.0 {
+                    all.push(Dimension { joint, place, unit });
+                }
+            }
+        }
+        let written = mechanism.joints().iter().map(JointNumbers::of).collect();
+        Self {
+            mechanism,
+            all,
+            written,
+        }
+    }
+
+    /// The numbers of one joint where the dimensions are changed by `z` of their units.
+    pub fn numbers(&self, joint: usize, z: &[f64]) -> JointNumbers {
+        let mut numbers = self.written[joint].clone();
+        for (dimension, z) in self.all.iter().zip(z) {
+            if dimension.joint == joint {
+                numbers.0[dimension.place] += z * dimension.unit;
+            }
+        }
+        numbers
+    }
+
+    /// Gives one joint its changed numbers; `states` are taken over where it stands.
+    pub fn set<'s>(
+        &self,
+        geometry: &mut Geometry<f64>,
+        joint: usize,
+        numbers: &JointNumbers,
+        states: impl IntoIterator<Item = &'s mut JointState<f64>>,
+    ) {
+        let before = geometry.displacements[joint].clone();
+        geometry.set_joint(joint, self.joint(joint), numbers);
+        for state in states {
+            *state = geometry.displacements[joint].adopt(&before, state);
+        }
+    }
+
+    fn joint(&self, joint: usize) -> &Joint {
+        &self.mechanism.joints()[joint]
+    }
+
+    /// The changed numbers as a file would have them: (joint, place, number).
+    pub fn changes(&self, z: &[f64]) -> Vec<(usize, usize, Number)> {
+        let mut changes = Vec::new();
+        for (dimension, z) in self.all.iter().zip(z) {
+            let Dimension { joint, place, unit } = *dimension;
+            let value = self.written[joint].0[place] + z * unit;
+            if let Ok(number) = Number::decimal(&value.to_string()) {
+                changes.push((joint, place, number));
+            }
+        }
+        changes
+    }
+}

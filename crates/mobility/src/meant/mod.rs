@@ -1,0 +1,371 @@
+//! What rounded numbers were meant to be: the mobile mechanism nearest to them, and whether it lies within their digits.
+//!
+//! A linkage that moves because of relations between its dimensions is, written with a few decimals, another one, which binds.
+//! Ranks within the stated precision tell such mechanisms from rigid ones while the precision is fine; coarse decimals leave
+//! them open, and where the loops do not close within them there is no pose to rank at all. Then the mechanism meant is
+//! computed: the dimensions nearest to those written for which the loops close along a finite motion (`nearest.rs`). It is
+//! analysed as any other mechanism is, so that whatever is said of it rests on that analysis and not on how it was found;
+//! and how far it is from what is written is said beside it.
+//!
+//! Where several numbers of freedoms are possible, that with the widest gap in the singular values is tried first.
+
+mod dimensions;
+mod nearest;
+mod poses;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;
+
+use super::analysis::{Analysis, AnalysisError, AnalysisOptions, analyse_as_stated};
+use super::depth::Depth;
+use super::tree_bound::most_by_joints;
+use super::verdict::Nominal;
+use super::vocabulary::Verdict;
+use dimensions::{Dimension, Dimensions, turns};
+use kutzbach_closure::{Arithmetic, Geometry, JointState, Metric, Part, linearised};
+use kutzbach_math::matrix::{DENSE_COLUMNS, MatrixError, SparseMatrix, relative_singular_values};
+use kutzbach_math::number::Number;
+use kutzbach_model::mechanism::{Configuration, Mechanism, Precision};
+use nearest::{Nearest, Search};
+use poses::Loops;
+
+/// So many numbers of freedoms are tried for a part.
+const TRIES: usize = 3;
+
+/// The mechanism meant is computed to so much (relative to its size, or rad).
+const COMPUTED_TO: f64 = 1e-11;
+
+/// Files of two decimals hold chosen numbers, unless they do not close: then they are rounded like others.
+const ROUNDED_DECIMALS: i32 = 2;
+
+/// Parts of more numbers than this are not searched.
+const MOST_DIMENSIONS: usize = 600;
+
+/// A number is within its digits up to one unit, and rounding.
+const WITHIN: f64 = 1.0 + 1e-6;
+
+/// A number that the mechanism meant has otherwise.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Change {
+    /// Joint index.
+    pub joint: usize,
+    /// Place in [`kutzbach_model::mechanism::Joint::numbers`].
+    pub place: usize,
+    /// The number as written (m, rad).
+    pub from: f64,
+    /// The number meant.
+    pub to: f64,
+    /// How far the digits allow it to be (m, rad).
+    pub within: f64,
+}
+
+/// The mobile mechanism nearest to a file's numbers.
+#[derive(Clone, Debug)]
+pub struct Meant {
+    /// The mechanism, its numbers known to rounding.
+    pub mechanism: Mechanism,
+    /// What differs, largest in units of its uncertainty first.
+    pub changes: Vec<Change>,
+}
+
+impl Change {
+    /// The change in units of what the digits leave open: up to 1 it lies within them.
+    #[must_use]
+    pub fn units(&self) -> f64 {
+        (self.to - self.from).abs() / self.within
+    }
+}
+
+impl Meant {
+    fn of(mechanism: &Mechanism, parts: &[&PartMeant]) -> Self {
+        let numbers = parts.iter().flat_map(|part| part.numbers.clone());
+        let size = parts.iter().map(|part| part.length).fold(0.0, f64::max);
+        Self {
+            mechanism: mechanism
+                .clone()
+                .with_joint_numbers(numbers)
+                .with_precision(COMPUTED_TO * size.min(1.0)),
+            changes: sorted(parts.iter().flat_map(|part| part.changes.clone()).collect()),
+        }
+    }
+}
+
+/// The numbers taken literally.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AsWritten {
+    /// What they leave.
+    pub verdict: Verdict,
+    /// Freedom, where it is decided.
+    pub finite: Option<usize>,
+}
+
+/// What was found of one part whose mobility hangs on how its numbers were rounded.
+struct PartMeant {
+    nearest: Option<Nearest>,
+    /// The part's length (m).
+    length: f64,
+    changes: Vec<Change>,
+    numbers: Vec<(usize, usize, Number)>,
+}
+
+impl PartMeant {
+    fn units(&self) -> f64 {
+        self.changes.iter().map(Change::units).fold(0.0, f64::max)
+    }
+}
+
+/// Completes an analysis that hangs on rounding by a look at the mechanism meant.
+///
+/// # Errors
+/// [`AnalysisError`] where numbers overflow.
+pub(super) fn completed(
+    mechanism: &Mechanism,
+    options: &AnalysisOptions,
+    mut stated: Analysis,
+) -> Result<Analysis, AnalysisError> {
+    let open = matches!(
+        stated.mobility.verdict,
+        Verdict::Undecided | Verdict::Unassembled
+    );
+    let asked = (open || stated.mobility.nominal.is_some()) && options.depth > Depth::Rank;
+    let Some(precision) = rounding(mechanism).filter(|_| asked) else {
+        return Ok(stated);
+    };
+    let configuration = options
+        .configuration
+        .as_ref()
+        .and_then(|name| mechanism.configuration(name));
+    let parts = parts_meant(mechanism, configuration, &precision, &stated)?;
+    let within = |part: &PartMeant| part.nearest.is_some() && part.units() <= WITHIN;
+    if parts.is_empty() || !parts.iter().all(within) {
+        return Ok(stated);
+    }
+    let all: Vec<&PartMeant> = parts.iter().collect();
+    let as_written = as_written(&stated);
+    if !open {
+        if let Some(finite) = stated.mobility.finite() {
+            let known = stated
+                .mobility
+                .nominal
+                .as_ref()
+                .map(|known| known.tolerance);
+            let mut nominal = nominal(&all, finite);
+            nominal.tolerance = known.unwrap_or(nominal.tolerance);
+            stated.mobility.nominal = Some(nominal);
+            stated.mobility.as_written = Some(as_written);
+        }
+        return Ok(stated);
+    }
+    let meant = Meant::of(mechanism, &all);
+    let mut analysis = analyse_as_stated(&meant.mechanism, options)?;
+    let Some(finite) = analysis.mobility.finite().filter(|finite| *finite > 0) else {
+        return Ok(stated);
+    };
+    analysis.mobility.nominal = Some(nominal(&all, finite));
+    analysis.mobility.as_written = Some(as_written);
+    analysis.meant = Some(Box::new(meant));
+    Ok(analysis)
+}
+
+fn nominal(parts: &[&PartMeant], finite: usize) -> Nominal {
+    let misfit = |part: &&PartMeant| {
+        let open = part.nearest.as_ref().map_or(0.0, |nearest| nearest.misfit);
+        open * part.length
+    };
+    let distance = |part: &&PartMeant| {
+        let (far, turn) = farthest(&part.changes);
+        far.max(turn * part.length)
+    };
+    Nominal {
+        finite,
+        tolerance: parts.iter().map(misfit).fold(0.0, f64::max),
+        distance: Some(parts.iter().map(distance).fold(0.0, f64::max)),
+        within_digits: parts.iter().all(|part| part.units() <= WITHIN),
+        changes: sorted(parts.iter().flat_map(|part| part.changes.clone()).collect()),
+    }
+}
+
+/// Largest change of a length (m), and of an angle or a direction (rad).
+fn farthest(changes: &[Change]) -> (f64, f64) {
+    let largest = |turning: bool| {
+        changes
+            .iter()
+            .filter(|change| turns(change.place) == turning)
+            .map(|change| (change.to - change.from).abs())
+            .fold(0.0, f64::max)
+    };
+    (largest(false), largest(true))
+}
+
+fn sorted(mut changes: Vec<Change>) -> Vec<Change> {
+    changes.retain(|change| change.to != change.from);
+    changes.sort_by(|a, b| b.units().total_cmp(&a.units()));
+    changes
+}
+
+/// The precision at which the file's numbers are rounded; `None` where they are exact, or printed doubles.
+fn rounding(mechanism: &Mechanism) -> Option<Precision> {
+    let precision = *mechanism.precision();
+    if precision.is_of_doubles() {
+        return None;
+    }
+    if !precision.is_exact() {
+        return Some(precision);
+    }
+    let decimals = precision.decimals.filter(|d| *d >= ROUNDED_DECIMALS)?;
+    let by_hand = precision.by_hand().is_some();
+    (!by_hand).then(|| precision.known_to(0.5 * 10f64.powi(-decimals)))
+}
+
+/// What the literal numbers leave, as far as it is known.
+fn as_written(stated: &Analysis) -> AsWritten {
+    let unassembled = stated.mobility.verdict == Verdict::Unassembled;
+    let home = stated.home.as_ref();
+    let rigid = home.is_some_and(|home| {
+        home.as_written == Some(0) || home.as_written.is_none() && home.instantaneous == Some(0)
+    });
+    match (unassembled, rigid) {
+        (true, _) => AsWritten {
+            verdict: Verdict::Unassembled,
+            finite: None,
+        },
+        (_, true) => AsWritten {
+            verdict: Verdict::Rigid,
+            finite: Some(0),
+        },
+        _ => AsWritten {
+            verdict: Verdict::Undecided,
+            finite: None,
+        },
+    }
+}
+
+/// The nearest dimensions of every part that hangs on rounding.
+fn parts_meant(
+    mechanism: &Mechanism,
+    configuration: Option<&Configuration>,
+    precision: &Precision,
+    stated: &Analysis,
+) -> Result<Vec<PartMeant>, MatrixError> {
+    let geometry = Geometry::new(mechanism, configuration, &Arithmetic::double());
+    let mut found = Vec::new();
+    for (index, part) in stated.structure.parts.iter().enumerate() {
+        let finding = stated.findings.get(index);
+        let open = finding.is_none_or(|finding| finding.open.is_some());
+        if !open && finding.is_none_or(|finding| finding.nominal.is_none()) {
+            continue;
+        }
+        let mut of_part = PartMeant {
+            nearest: None,
+            length: 0.0,
+            changes: Vec::new(),
+            numbers: Vec::new(),
+        };
+        let dimensions = Dimensions::of(mechanism, part, precision);
+        let states = &stated.assembly.states;
+        let freedom = finding
+            .filter(|finding| finding.open.is_none())
+            .map(|finding| finding.upper);
+        let literal = stated.parts.get(index).and_then(|rank| rank.as_written);
+        let freedoms = (freedom, literal.unwrap_or(0));
+        if (1..=MOST_DIMENSIONS).contains(&dimensions.all.len())
+            && let Some((nearest, length)) =
+                nearest_of_part(mechanism, &geometry, states, part, &dimensions, freedoms)?
+        {
+            of_part.changes = changes(&dimensions, &nearest.z);
+            of_part.numbers = dimensions.changes(&nearest.z);
+            of_part.nearest = Some(nearest);
+            of_part.length = length;
+        }
+        found.push(of_part);
+    }
+    Ok(found)
+}
+
+fn changes(dimensions: &Dimensions<'_>, z: &[f64]) -> Vec<Change> {
+    let change = |(dimension, z): (&Dimension, &f64)| {
+        let from = dimensions.numbers(dimension.joint, &[]).0[dimension.place];
+        Change {
+            joint: dimension.joint,
+            place: dimension.place,
+            from,
+            to: from + z * dimension.unit,
+            within: dimension.unit,
+        }
+    };
+    dimensions.all.iter().zip(z).map(change).collect()
+}
+
+/// The nearest dimensions of one part, and its length (m): those within the digits, if there are such.
+fn nearest_of_part(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    states: &[JointState<f64>],
+    part: &Part,
+    dimensions: &Dimensions<'_>,
+    (freedom, literal): (Option<usize>, usize),
+) -> Result<Option<(Nearest, f64)>, MatrixError> {
+    let here = linearised(geometry, states, part)?;
+    let mut matrix = here.matrix.clone();
+    let scales = matrix.scale_columns();
+    let columns = matrix.columns();
+    if columns > DENSE_COLUMNS {
+        return Ok(None);
+    }
+    let freedoms = match freedom {
+        Some(freedom) => vec![freedom],
+        None => by_gap(&matrix, literal + 1, most_by_joints(mechanism, part))?,
+    };
+    let metric = Metric::of(mechanism, &here, &scales);
+    let mut best: Option<(Nearest, f64)> = None;
+    for freedom in freedoms {
+        let mut search = Search {
+            loops: Loops {
+                mechanism,
+                part,
+                metric: &metric,
+                freedom,
+            },
+            dimensions,
+            geometry: geometry.clone(),
+            length: here.length,
+        };
+        let Some(nearest) = search.nearest(states)? else {
+            continue;
+        };
+        let units = |nearest: &Nearest| nearest.z.iter().fold(0.0f64, |m, z| z.abs().max(m));
+        let nearer = best
+            .as_ref()
+            .is_none_or(|(b, _)| units(&nearest) < units(b));
+        let within = units(&nearest) <= WITHIN;
+        if nearer {
+            best = Some((nearest, here.length));
+        }
+        if within {
+            break;
+        }
+    }
+    Ok(best)
+}
+
+/// Numbers of freedoms from `least` to `most`, those with the widest gap in the singular values first.
+fn by_gap(
+    matrix: &SparseMatrix<f64>,
+    least: usize,
+    most: usize,
+) -> Result<Vec<usize>, MatrixError> {
+    let columns = matrix.columns();
+    let values = relative_singular_values(matrix)?.unwrap_or_default();
+    let value = |k: usize| values.get(k).copied().unwrap_or(0.0);
+    let gap = |freedom: usize| -> f64 {
+        let rank = columns - freedom;
+        let kept = if rank == 0 { 1.0 } else { value(rank - 1) };
+        kept / value(rank).max(f64::EPSILON)
+    };
+    let mut freedoms: Vec<usize> = (least..=most.min(columns))
+        .filter(|f| columns - f <= values.len())
+        .collect();
+    freedoms.sort_by(|a, b| gap(*b).total_cmp(&gap(*a)));
+    freedoms.truncate(TRIES);
+    Ok(freedoms)
+}

@@ -1,0 +1,441 @@
+//! The mobile part whose dimensions are nearest to those written.
+//!
+//! Asked are dimensions for which the loops close all along a motion. A handful of poses on it stands for all of it: at each of
+//! them, what the joints cannot mend (`poses.rs`) has to vanish, which are equations for the dimensions alone. Gauss and
+//! Newton's step of least length solves them, damped while they disagree (Levenberg and Marquardt; with a damping that vanishes
+//! like the square of the misfit the steps converge quadratically although most of these equations repeat one another:
+//! Yamashita and Fukushima 2001). At the solution the rank of the equations is clear, and the dimensions are moved to the point
+//! of the solutions nearest to what is written: first by the sum of squares in units of each number's uncertainty, then, where
+//! some number leaves its uncertainty, with smaller and smaller weight on it.
+//!
+//! What comes out closes at these poses. That it moves is not said here: it is analysed like any other mechanism.
+//!
+//! Cost: a singular value decomposition for every pose and step.
+
+use super::dimensions::{Dimensions, turns};
+use super::poses::{Loops, OnMotion};
+use faer::Mat;
+use kutzbach_closure::{Geometry, JointState, Part, WalkedCycle};
+use kutzbach_math::matrix::MatrixError;
+
+/// How far, and in how many steps, poses are looked for from home in each direction, in the metric of the home pose (a step is
+/// about a sixth of a radian): at first, and then to see whether a solution closes elsewhere too. What does not closes at as many
+/// poses as it was asked to, and then those poses are asked for as well.
+const SAMPLINGS: [Sampling; 4] = [
+    Sampling {
+        step: 0.25,
+        of_one: 6,
+        of_many: 2,
+    },
+    Sampling {
+        step: 0.31,
+        of_one: 10,
+        of_many: 3,
+    },
+    Sampling {
+        step: 0.23,
+        of_one: 18,
+        of_many: 4,
+    },
+    Sampling {
+        step: 0.29,
+        of_one: 20,
+        of_many: 5,
+    },
+];
+
+/// Poses along a motion.
+struct Sampling {
+    step: f64,
+    /// Steps of one freedom, and of several in each direction.
+    of_one: usize,
+    of_many: usize,
+}
+
+/// Rounds of Gauss and Newton.
+const ROUNDS: usize = 40;
+
+/// A misfit (rad, cycle lengths) that is the rounding of doubles.
+const CLOSED: f64 = 2e-14;
+
+/// A misfit that does not get smaller any more below this is rounding too.
+const STALLED: f64 = 2e-12;
+
+/// Where a solution closes at poses that were not asked for, it closes up to this: rounding of more poses, farther away.
+const CLOSED_ELSEWHERE: f64 = 1e-10;
+
+/// Relative damping at the first misfit, and the least that keeps the noise of difference quotients out.
+const DAMPING: f64 = 1e-3;
+const LEAST_DAMPING: f64 = 1e-18;
+
+/// Singular values of the dimensions' equations below this share of the largest are zero at a solution: difference quotients
+/// leave less of them.
+const DEPENDENT: f64 = 1e-9;
+
+/// Rounds of drawing near.
+const DRAWN: usize = 8;
+
+/// Beyond so many units nothing is near.
+const FAR: f64 = 1e4;
+
+/// Difference quotients of the fourth order are taken over this (rad, part lengths): what they leave out, and rounding, are both below
+/// 1e-12 of the derivative.
+const QUOTIENT: f64 = 3e-4;
+
+/// Places and weights of these quotients.
+const STENCIL: [(f64, f64); 4] = [
+    (1.0, 8.0 / 12.0),
+    (-1.0, -8.0 / 12.0),
+    (2.0, -1.0 / 12.0),
+    (-2.0, 1.0 / 12.0),
+];
+
+/// Dimensions at which a part closes along a motion.
+#[derive(Clone, Debug)]
+pub(super) struct Nearest {
+    /// Changes of the dimensions, in units of their uncertainties.
+    pub z: Vec<f64>,
+    /// How far the loops of the numbers as written stay open along the motion (rad, cycle lengths).
+    pub misfit: f64,
+}
+
+/// The poses, and what the dimensions have to mend there.
+struct Sample {
+    states: Vec<JointState<f64>>,
+    here: OnMotion,
+}
+
+/// A search for one number of freedoms.
+pub(super) struct Search<'a> {
+    pub loops: Loops<'a>,
+    pub dimensions: &'a Dimensions<'a>,
+    pub geometry: Geometry<f64>,
+    /// The part's length (m).
+    pub length: f64,
+}
+
+impl Search<'_> {
+    fn part(&self) -> &Part {
+        self.loops.part
+    }
+
+    /// The nearest dimensions, from a pose; `None` where none are found.
+    ///
+    /// # Errors
+    /// [`MatrixError`] where numbers overflow.
+    pub fn nearest(&mut self, home: &[JointState<f64>]) -> Result<Option<Nearest>, MatrixError> {
+        let Some(mut samples) = self.along_the_motion(home, &SAMPLINGS[0])? else {
+            return Ok(None);
+        };
+        let misfit = samples.iter().map(|s| s.here.open).fold(0.0, f64::max);
+        let mut z = vec![0.0; self.dimensions.all.len()];
+        for sampling in &SAMPLINGS[1..] {
+            if self.solve(&mut samples, &mut z, misfit)?.is_none() {
+                return Ok(None);
+            }
+            let Some(elsewhere) = self.along_the_motion(&samples[0].states, sampling)? else {
+                return Ok(None);
+            };
+            let open = |sample: &Sample| largest(&sample.here.misfit);
+            let closed = elsewhere.iter().map(open).fold(0.0, f64::max) <= CLOSED_ELSEWHERE;
+            samples.extend(elsewhere);
+            if closed {
+                self.draw_near(&mut samples, &mut z, misfit)?;
+                return Ok(Some(Nearest { z, misfit }));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Poses on the motion through the one given.
+    fn along_the_motion(
+        &self,
+        home: &[JointState<f64>],
+        sampling: &Sampling,
+    ) -> Result<Option<Vec<Sample>>, MatrixError> {
+        let mut states = home.to_vec();
+        let Some(here) = self.loops.settle(&self.geometry, &mut states, 1.0)? else {
+            return Ok(None);
+        };
+        let freedom = here.tangents.len();
+        let steps = if freedom == 1 {
+            sampling.of_one
+        } else {
+            sampling.of_many
+        };
+        let mut samples = vec![Sample { states, here }];
+        for direction in directions(freedom) {
+            let first = &samples[0];
+            let mut states = first.states.clone();
+            let columns = first.here.tangents[0].len();
+            let mut along = vec![0.0; columns];
+            for (tangent, share) in first.here.tangents.iter().zip(&direction) {
+                along
+                    .iter_mut()
+                    .zip(tangent)
+                    .for_each(|(a, t)| *a += share * t);
+            }
+            for _ in 0..steps {
+                let step: Vec<f64> = along.iter().map(|a| sampling.step * a).collect();
+                self.loops.advance(&self.geometry, &mut states, &step);
+                let Some(here) = self
+                    .loops
+                    .settle(&self.geometry, &mut states, sampling.step)?
+                else {
+                    break;
+                };
+                along = projected(&here.tangents, &along);
+                samples.push(Sample {
+                    states: states.clone(),
+                    here,
+                });
+            }
+        }
+        Ok(Some(samples))
+    }
+
+    /// Moves the dimensions to a solution; `first` is the misfit at those written.
+    fn solve(
+        &mut self,
+        samples: &mut [Sample],
+        z: &mut [f64],
+        first: f64,
+    ) -> Result<Option<()>, MatrixError> {
+        let mut best = f64::INFINITY;
+        let mut stalled = 0;
+        for _ in 0..ROUNDS {
+            let (matrix, misfit) = self.equations(samples, z)?;
+            let left = largest(&misfit);
+            if left <= CLOSED {
+                return Ok(Some(()));
+            }
+            stalled = if left < 0.5 * best { 0 } else { stalled + 1 };
+            best = best.min(left);
+            if stalled > 2 && left <= STALLED {
+                return Ok(Some(()));
+            }
+            if stalled > 8 {
+                return Ok(None);
+            }
+            let relative = (DAMPING * (left / first).powi(2).min(1.0)).max(LEAST_DAMPING);
+            let Some(step) = least_step(&matrix, &misfit, |s, top| {
+                s / (s * s + relative * top * top)
+            }) else {
+                return Ok(None);
+            };
+            z.iter_mut().zip(&step).for_each(|(z, step)| *z -= step);
+            if !(largest(z) <= FAR) || !self.follow(samples, z)? {
+                return Ok(None);
+            }
+        }
+        Ok((best <= STALLED).then_some(()))
+    }
+
+    /// Moves the dimensions along the solutions so that none of them is farther from what is written than its uncertainty, if that
+    /// can be: those that are get smaller and smaller weights.
+    fn draw_near(
+        &mut self,
+        samples: &mut [Sample],
+        z: &mut Vec<f64>,
+        first: f64,
+    ) -> Result<(), MatrixError> {
+        let mut weights = vec![1.0; z.len()];
+        for _ in 0..DRAWN {
+            if largest(z) <= 1.0 {
+                break;
+            }
+            let kept = (z.clone(), states_of(samples));
+            let (mut matrix, misfit) = self.equations(samples, z)?;
+            // What the linear equations ask of z from zero on.
+            let wanted: Vec<f64> = (0..matrix.nrows())
+                .map(|i| (0..z.len()).map(|j| matrix[(i, j)] * z[j]).sum::<f64>() - misfit[i])
+                .collect();
+            for (j, weight) in weights.iter().enumerate() {
+                for i in 0..matrix.nrows() {
+                    matrix[(i, j)] *= weight;
+                }
+            }
+            let inverse = |s: f64, top: f64| if s > DEPENDENT * top { 1.0 / s } else { 0.0 };
+            let Some(scaled) = least_step(&matrix, &wanted, inverse) else {
+                break;
+            };
+            for ((z, x), weight) in z.iter_mut().zip(&scaled).zip(&weights) {
+                *z = x * weight;
+            }
+            let closed = largest(z) <= FAR
+                && self.follow(samples, z)?
+                && self.solve(samples, z, first)?.is_some();
+            if !closed || largest(z) >= largest(&kept.0) {
+                *z = kept.0;
+                for (sample, states) in samples.iter_mut().zip(kept.1) {
+                    sample.states = states;
+                }
+                self.follow(samples, z)?;
+                break;
+            }
+            for (weight, z) in weights.iter_mut().zip(z.iter()) {
+                *weight /= z.abs().max(1.0);
+            }
+        }
+        Ok(())
+    }
+
+    /// Gives the loops their changed dimensions and brings the poses onto the motion again.
+    fn follow(&mut self, samples: &mut [Sample], z: &[f64]) -> Result<bool, MatrixError> {
+        for &joint in &self.loops.part.joints {
+            let numbers = self.dimensions.numbers(joint, z);
+            let states = samples.iter_mut().map(|s| &mut s.states[joint]);
+            self.dimensions
+                .set(&mut self.geometry, joint, &numbers, states);
+        }
+        for sample in samples {
+            let Some(here) = self.loops.settle(&self.geometry, &mut sample.states, 1.0)? else {
+                return Ok(false);
+            };
+            sample.here = here;
+        }
+        Ok(true)
+    }
+
+    /// The equations for the dimensions: their derivative, and what is left of them.
+    fn equations(
+        &mut self,
+        samples: &mut [Sample],
+        z: &[f64],
+    ) -> Result<(Mat<f64>, Vec<f64>), MatrixError> {
+        let misfit: Vec<f64> = samples.iter().flat_map(|s| s.here.misfit.clone()).collect();
+        let mut matrix = Mat::<f64>::zeros(misfit.len(), z.len());
+        let dimensions = self.dimensions;
+        let cycles = self.part().cycles.clone();
+        for (column, dimension) in dimensions.all.iter().enumerate() {
+            let numbers = dimensions.numbers(dimension.joint, z);
+            let step = match turns(dimension.place) {
+                true => QUOTIENT,
+                false => QUOTIENT * self.length,
+            };
+            let concerned: Vec<usize> = (0..cycles.len())
+                .filter(|&c| cycles[c].iter().any(|(joint, _)| *joint == dimension.joint))
+                .collect();
+            let mut row = 0;
+            let mut ends: Vec<Vec<[f64; 6]>> = Vec::new();
+            for (place, _) in STENCIL {
+                let mut moved = numbers.clone();
+                moved.0[dimension.place] += place * step;
+                let mut values = Vec::new();
+                for sample in samples.iter_mut() {
+                    let kept = sample.states[dimension.joint].clone();
+                    let displacement = self.geometry.displacements[dimension.joint].clone();
+                    let sides = self.geometry.sides[dimension.joint].clone();
+                    dimensions.set(
+                        &mut self.geometry,
+                        dimension.joint,
+                        &moved,
+                        [&mut sample.states[dimension.joint]],
+                    );
+                    for &cycle in &concerned {
+                        let walk =
+                            WalkedCycle::walk(&self.geometry, &sample.states, &cycles[cycle]);
+                        values.push(walk.residual());
+                    }
+                    sample.states[dimension.joint] = kept;
+                    self.geometry.displacements[dimension.joint] = displacement;
+                    self.geometry.sides[dimension.joint] = sides;
+                }
+                ends.push(values);
+            }
+            let mut next = 0;
+            for sample in samples.iter() {
+                let here: Vec<(usize, [f64; 6])> = concerned
+                    .iter()
+                    .map(|&cycle| {
+                        let slope = |i: usize| {
+                            let all = STENCIL.iter().zip(&ends);
+                            let sum: f64 =
+                                all.map(|((_, weight), end)| weight * end[next][i]).sum();
+                            sum / step * dimension.unit
+                        };
+                        let slopes = std::array::from_fn(slope);
+                        next += 1;
+                        (cycle, slopes)
+                    })
+                    .collect();
+                for left in &sample.here.left {
+                    matrix[(row, column)] = here
+                        .iter()
+                        .map(|(cycle, slope)| {
+                            (0..6).map(|i| left[6 * cycle + i] * slope[i]).sum::<f64>()
+                        })
+                        .sum();
+                    row += 1;
+                }
+            }
+        }
+        Ok((matrix, misfit))
+    }
+}
+
+/// Σ filter(σ) v uᵀ b over the singular values; `filter` is told the largest as well. `None` where the decomposition fails.
+fn least_step(matrix: &Mat<f64>, b: &[f64], filter: impl Fn(f64, f64) -> f64) -> Option<Vec<f64>> {
+    let svd = matrix.thin_svd().ok()?;
+    let (u, s, v) = (svd.U(), svd.S().column_vector(), svd.V());
+    let mut step = vec![0.0; matrix.ncols()];
+    if s.nrows() == 0 || s[0] == 0.0 {
+        return Some(step);
+    }
+    for j in 0..s.nrows() {
+        let along: f64 = (0..b.len()).map(|i| u[(i, j)] * b[i]).sum();
+        let length = along * filter(s[j], s[0]);
+        for (i, x) in step.iter_mut().enumerate() {
+            *x += length * v[(i, j)];
+        }
+    }
+    Some(step)
+}
+
+fn states_of(samples: &[Sample]) -> Vec<Vec<JointState<f64>>> {
+    samples.iter().map(|sample| sample.states.clone()).collect()
+}
+
+/// Directions in which poses are looked for: both ways of one freedom; of several each alone, and their sums with signs.
+fn directions(freedom: usize) -> Vec<Vec<f64>> {
+    if freedom == 1 {
+        return vec![vec![1.0], vec![-1.0]];
+    }
+    let share = 1.0 / (freedom as f64).sqrt();
+    let alone = (0..freedom).map(|i| (0..freedom).map(|j| f64::from(i == j)).collect());
+    let sums = (0..freedom + 2).map(|i| {
+        (0..freedom)
+            .map(|j| {
+                // Signs of a fixed pattern without symmetry.
+                let odd = (i * i + 3 * i * j + j * j * j + (i >> 1)) % 3 == 0;
+                if odd { -share } else { share }
+            })
+            .collect()
+    });
+    alone.chain(sums).collect()
+}
+
+fn projected(tangents: &[Vec<f64>], along: &[f64]) -> Vec<f64> {
+    let mut next = vec![0.0; along.len()];
+    for tangent in tangents {
+        let share: f64 = tangent.iter().zip(along).map(|(t, a)| t * a).sum();
+        next.iter_mut()
+            .zip(tangent)
+            .for_each(|(n, t)| *n += share * t);
+    }
+    let length = next.iter().map(|x| x * x).sum::<f64>().sqrt();
+    if length > 0.0 {
+        next.iter_mut().for_each(|x| *x /= length);
+    }
+    next
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, x| {
+        if x.is_nan() {
+            f64::INFINITY
+        } else {
+            x.abs().max(most)
+        }
+    })
+}

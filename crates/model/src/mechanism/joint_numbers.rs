@@ -1,0 +1,105 @@
+//! The numbers of a joint's geometry, one by one, and a mechanism with some of them changed.
+
+use super::joint::Joint;
+use super::model::Mechanism;
+use super::precision::Precision;
+use kutzbach_math::number::Number;
+
+impl Joint {
+    /// How many numbers [`Joint::numbers`] lists.
+    pub const NUMBERS: usize = 20;
+
+    /// Position and roll, pitch, yaw of the predecessor's frame, then of the successor's (m, rad), `axis`, `axis2`, lead (m per
+    /// turn), distance (m); `None` for what the joint does not have or its kind does not use.
+    #[must_use]
+    pub fn numbers(&self) -> [Option<&Number>; Self::NUMBERS] {
+        let mut all = [None; Self::NUMBERS];
+        let frames = [&self.predecessor.frame, &self.successor.frame];
+        for (side, frame) in frames.into_iter().enumerate() {
+            for i in 0..3 {
+                all[6 * side + i] = Some(&frame.position[i]);
+                all[6 * side + 3 + i] = Some(&frame.roll_pitch_yaw[i]);
+            }
+        }
+        for i in 0..3 {
+            all[12 + i] = self.kind.uses_axis().then_some(&self.axis.0[i]);
+            all[15 + i] = self.kind.uses_second_axis().then_some(&self.axis2.0[i]);
+        }
+        all[18] = self.lead.as_ref();
+        all[19] = self.distance.as_ref();
+        all
+    }
+
+    fn number_mut(&mut self, index: usize) -> Option<&mut Number> {
+        let side = |index: usize| (index % 6 / 3, index % 3);
+        match index {
+            0..12 => {
+                let frame = match index < 6 {
+                    true => &mut self.predecessor.frame,
+                    false => &mut self.successor.frame,
+                };
+                let (kind, i) = side(index);
+                Some(match kind {
+                    0 => &mut frame.position[i],
+                    _ => &mut frame.roll_pitch_yaw[i],
+                })
+            }
+            12..15 => Some(&mut self.axis.0[index - 12]),
+            15..18 => Some(&mut self.axis2.0[index - 15]),
+            18 => self.lead.as_mut(),
+            19 => self.distance.as_mut(),
+            _ => None,
+        }
+    }
+}
+
+impl Mechanism {
+    /// The mechanism with other numbers in its joints: (joint, place in [`Joint::numbers`], value). What the digits of the others
+    /// state is read anew. Places that a joint does not have are passed over.
+    #[must_use]
+    pub fn with_joint_numbers(
+        mut self,
+        changes: impl IntoIterator<Item = (usize, usize, Number)>,
+    ) -> Self {
+        for (joint, place, value) in changes {
+            let number = self.joints.get_mut(joint).and_then(|j| j.number_mut(place));
+            if let Some(number) = number {
+                *number = value;
+            }
+        }
+        self.precision = Precision::of(&self.links, &self.joints);
+        self
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::{JointBuilder, JointKind, MechanismBuilder};
+    use super::*;
+
+    #[test]
+    fn every_number_of_a_joint_is_read_and_changed_at_its_place() {
+        let mut builder = MechanismBuilder::new("m");
+        builder.link("a").link("b").joint(
+            JointBuilder::tree("j", JointKind::Universal, "a", "b")
+                .lead(Number::integer(7))
+                .distance(Number::integer(8)),
+        );
+        let mechanism = builder.build().unwrap();
+        let places: Vec<usize> = (0..Joint::NUMBERS)
+            .filter(|&place| mechanism.joints()[0].numbers()[place].is_some())
+            .collect();
+        let changes = places
+            .iter()
+            .map(|&place| (0, place, Number::integer(100 + place as i64)));
+        let changed = mechanism.with_joint_numbers(changes);
+        for (place, number) in changed.joints()[0].numbers().into_iter().enumerate() {
+            let expected = places
+                .contains(&place)
+                .then(|| Number::integer(100 + place as i64));
+            assert_eq!(number, expected.as_ref(), "{place}");
+        }
+        assert!(places.len() >= 18);
+    }
+}
