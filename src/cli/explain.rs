@@ -54,7 +54,10 @@ fn list(layout: Layout) -> String {
 }
 
 fn explained(definition: &Definition, layout: Layout) -> String {
-    let mut page = Page::new(layout);
+    let mut page = Page::new(Layout {
+        verbose: true,
+        ..layout
+    });
     page.heading(&format!("{} {}", definition.number, definition.title));
     explanation::write(definition, &mut page);
     page.into_text()

@@ -12,7 +12,7 @@ use kutzbach::format::Reading;
 use kutzbach::mechanism::Mechanism;
 use kutzbach::mobility::{Analysis, ExactBudget};
 use kutzbach::report::html::{Assets, Facts, Prepared};
-use kutzbach::report::text::render;
+use kutzbach::report::text::{Layout, Units, render};
 use kutzbach::report::{Options, Report, Verdict, assembled_file};
 use kutzbach::simulate::verification::{
     Moment, Observer, Passage, Verification, VerificationOptions, verify,
@@ -39,17 +39,20 @@ pub struct Arguments {
     /// End with exit code 2 where anything unusual of the file is not read, and with 3 where the verdict is undecided
     #[arg(long)]
     strict: bool,
-    /// Show every row and every detail, and what of the file was skipped
+    /// Show every row and every detail: proofs, loops, independent sub-mechanisms, margins, and what of the file was skipped
     #[arg(long)]
     verbose: bool,
+    /// Units of ranges in the text
+    #[arg(long, value_enum, default_value_t = RangeUnits::DegMm)]
+    units: RangeUnits,
     /// Say how long the stages took
     #[arg(long)]
     timing: bool,
     /// Tell what every engine found, with its figures
     #[arg(long)]
     evidence: bool,
-    /// Give exact algebra about so many seconds for each block, counted in work so that the answer is the same on every
-    /// machine; 0 leaves it out [default: 0.2]
+    /// Work budget for exact proofs, per independent sub-mechanism, in seconds of a usual machine (deterministic); 0 leaves
+    /// them out [default: 0.2]
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     exact: Option<f64>,
     /// Let exact algebra, which takes most of it, fill at most so many gigabytes; what would not fit stays undecided
@@ -78,6 +81,24 @@ enum Format {
     Json,
     /// One page that shows how the mechanism moves, for any browser
     Html,
+}
+
+/// Units of ranges.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum RangeUnits {
+    /// Degrees and millimetres
+    DegMm,
+    /// Radians and metres
+    RadM,
+}
+
+impl From<RangeUnits> for Units {
+    fn from(units: RangeUnits) -> Self {
+        match units {
+            RangeUnits::DegMm => Self::Drawing,
+            RangeUnits::RadM => Self::Si,
+        }
+    }
 }
 
 /// A time that is none is a slip, not a wish for no limit.
@@ -109,6 +130,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             .collect(),
         closure_tolerance: arguments.closing.closure_tolerance,
         inputs: arguments.inputs.clone(),
+        ranges: arguments.format != Format::Html,
     };
     if arguments.verify && arguments.format != Format::Html {
         return Err(Failure::Plain {
@@ -129,10 +151,14 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     }
     let (report, analysis) = load::analysed(&reading, &arguments.source.file, &options)?;
     let text = match arguments.format {
-        Format::Text => render(
-            &report,
-            terminal::layout(arguments.destination.file().is_some(), arguments.verbose),
-        ),
+        Format::Text => {
+            let to_file = arguments.destination.file().is_some();
+            let layout = Layout {
+                units: arguments.units.into(),
+                ..terminal::layout(to_file, arguments.verbose)
+            };
+            render(&report, layout)
+        }
         Format::Json => output::json(&report)?,
         Format::Html => {
             let configuration = options.configuration.as_deref();

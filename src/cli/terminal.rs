@@ -13,6 +13,7 @@ pub fn layout(to_file: bool, verbose: bool) -> Layout {
         color: terminal && color_wanted(),
         width: if terminal { width() } else { USUAL_WIDTH },
         verbose,
+        ..Layout::default()
     }
 }
 
@@ -27,10 +28,10 @@ fn color_wanted() -> bool {
     !set("NO_COLOR") && std::env::var_os("TERM").is_none_or(|term| term != "dumb")
 }
 
-/// The width that the shell states; a page wider than 160 columns is hard to read.
+/// The width that the shell states. Running text is wrapped before it gets too wide to read, tables use all of it.
 fn width() -> usize {
     std::env::var("COLUMNS")
         .ok()
         .and_then(|columns| columns.parse().ok())
-        .map_or(USUAL_WIDTH, |columns: usize| columns.min(160))
+        .unwrap_or(USUAL_WIDTH)
 }

@@ -54,6 +54,8 @@ pub struct Options {
     /// Names of joints, or of single freedoms such as `slider.trans`, that are to count as the inputs; where there are none, those
     /// that the file names.
     pub inputs: Vec<String>,
+    /// Whether to follow branches that are curves, for the ranges of their joints.
+    pub ranges: bool,
 }
 
 /// Why there is no report.
@@ -226,6 +228,9 @@ pub fn analysed_report_on(
     super::inputs::lay_over(&mut report, mechanism, &analysis, configuration, inputs);
     super::pose::warn(&mut report, mechanism, &analysis, configuration);
     super::extras::ask_between(&mut report, mechanism, &analysis, configuration, &pairs);
+    if options.ranges {
+        super::ranges::lay_over(&mut report, mechanism, &analysis, configuration);
+    }
     if options.evidence {
         report.evidence = Some(super::extras::evidence(&report, &analysis));
     }
@@ -353,6 +358,7 @@ fn joint_rows(mechanism: &Mechanism) -> Vec<JointRow> {
             redundant_wrenches: None,
             closes_loop: joint.closes_loop,
             block: None,
+            ranges: Vec::new(),
         })
         .collect();
     rows.sort_by(|a, b| natural_order(&a.name, &b.name));

@@ -345,6 +345,7 @@ fn joint_rows(mechanism: &Mechanism, analysis: &Analysis) -> Vec<JointRow> {
             redundant_wrenches: *wrenches,
             closes_loop: joint.closes_loop,
             block: block_of[index].map(|part| analysis.structure.part_names[part].clone()),
+            ranges: Vec::new(),
         })
         .collect();
     rows.sort_by(|a, b| natural_order(&a.name, &b.name));

@@ -26,6 +26,7 @@
 //! | `extras` | what a report holds only where it was asked for: pairs of links, evidence |
 //! | `inputs` | useful and idle freedoms, inputs and limbs |
 //! | `pose` | limits, dead centres and singular poses nearby, for the warnings |
+//! | `ranges` | how far joints go, and pitches over a whole cycle |
 //! | `text` | how a report becomes a page |
 //! | `expectation`, `expected_file` | whether a report agrees with what is known |
 //! | `html` | how a report becomes a page that moves |
@@ -52,6 +53,7 @@ mod natural;
 #[cfg(feature = "simulate")]
 pub mod picture;
 mod pose;
+mod ranges;
 #[cfg(test)]
 #[allow(clippy::wildcard_imports)]
 pub(crate) mod samples;
@@ -69,6 +71,6 @@ pub use natural::natural_order;
 pub use schema::{
     Advice, Assembly, Block, Branch, Certificate, Constants, CouplingRow, Cycle, DependentInput,
     Evidence, Follower, Freedoms, Gap, GenericCount, Home, Idle, InputSource, Inputs, JointPlace,
-    JointRow, Limb, LiteralReading, Mobility, Motion, Nominal, OutsideLimit, Report, Reversal,
-    SCHEMA, Size, Source, Stage, Timing, Tree, TreeLink,
+    JointRange, JointRow, Limb, LiteralReading, Mobility, Motion, Nominal, OutsideLimit, Report,
+    Reversal, SCHEMA, Size, Source, Stage, Timing, Tree, TreeLink,
 };

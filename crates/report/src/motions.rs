@@ -25,6 +25,7 @@ pub(super) fn motion_row(mechanism: &Mechanism, branch: &str, motion: &RelativeM
         rotations: motion.rotations,
         translations: motion.translations,
         pitches: motion.pitches,
+        whole_branch: false,
         asked: false,
     }
 }
@@ -105,11 +106,12 @@ fn moving_axis(motion: &RelativeMotion) -> String {
             format!("rotates about a moving axis through the fixed {point}")
         }
         Some(within @ G::Cylindrical { .. }) => format!("{within}, both at once"),
-        _ => screwing(motion.pitches),
+        _ => screwing(motion.pitches, " at the poses looked at"),
     }
 }
 
-fn screwing(pitches: Option<[f64; 2]>) -> String {
+/// How a link screws about a moving axis; `over`: where its pitches were looked at.
+pub(super) fn screwing(pitches: Option<[f64; 2]>, over: &str) -> String {
     match pitches {
         Some([0.0, 0.0]) => "rotates about a moving axis".to_owned(),
         Some([least, greatest]) => {
@@ -118,7 +120,7 @@ fn screwing(pitches: Option<[f64; 2]>) -> String {
                 true => least,
                 false => format!("{least} … {greatest}"),
             };
-            format!("screws about a moving axis (pitch {pitch} m/rad seen)")
+            format!("screws about a moving axis, pitch {pitch} m/rad{over}")
         }
         None => "moves about a moving axis; whether it screws is not decided".to_owned(),
     }

@@ -14,7 +14,7 @@ use kutzbach_model::mechanism::{FreedomPart, Mechanism};
 
 /// How the sentences begin that are about the pose itself, not about the file.
 const OUTSIDE: &str = "this pose is outside joint limits: ";
-const DEAD: &str = "dead centre: ";
+const DEAD: &str = "extreme position: ";
 const SINGULAR: &str = "singular pose: ";
 const NEARLY: &str = "nearly singular: the smallest singular value kept";
 
@@ -66,7 +66,7 @@ pub(super) fn warn(
             .get(found.part)
             .filter(|_| report.home.blocks.len() > 1)
             .map_or(String::new(), |block| {
-                format!("the block of `{}` is ", block.name)
+                format!("the sub-mechanism of `{}` is ", block.name)
             });
         report.warnings.push(near_text(mechanism, &found, &block));
     }
@@ -164,9 +164,13 @@ fn dead(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis, geometr
     if !resting.is_empty() {
         let quoted: Vec<String> = resting.iter().map(|name| format!("`{name}`")).collect();
         report.warnings.push(format!(
-            "{DEAD}{} {} at this pose, for an instant; as inputs they cannot start the motion from here",
+            "{DEAD}{} at this pose; driving {} cannot start the motion",
             names(&quoted, NAMED),
-            if quoted.len() == 1 { "rests" } else { "rest" },
+            if quoted.len() == 1 {
+                "it"
+            } else {
+                "any of them"
+            },
         ));
     }
 }
@@ -197,8 +201,8 @@ fn near_text(mechanism: &Mechanism, found: &NearSingular, block: &str) -> String
                 figure(clearer.kept)
             )
         }
-        None if found.followed => format!("{start}; no clearer pose was found nearby"),
-        None => format!("{start}; in so large a part no clearer pose was looked for"),
+        None if found.followed => format!("{start}; no pose with a larger margin was found nearby"),
+        None => format!("{start}; in so large a sub-mechanism no other pose was tried"),
     }
 }
 

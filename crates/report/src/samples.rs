@@ -16,6 +16,7 @@ pub(crate) fn revolute(name: &str, links: [&str; 2], closes_loop: bool) -> Joint
         redundant_wrenches: Some(0),
         closes_loop,
         block: None,
+        ranges: Vec::new(),
     }
 }
 
@@ -165,6 +166,7 @@ pub(crate) fn mobile() -> Report {
             within: None,
             joint: None,
             pitches: None,
+            whole_branch: false,
             translations: Some(0),
             branch: "A".to_owned(),
             asked: false,

@@ -523,7 +523,7 @@ pub struct Idle {
 }
 
 /// One joint.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct JointRow {
     /// Its name.
     pub name: String,
@@ -546,6 +546,30 @@ pub struct JointRow {
     /// The label of its block ([`Block::label`]); `null` where it is in no loop and no coupling, and moves by itself.
     #[serde(default)]
     pub block: Option<String>,
+    /// How far it goes on each branch that is a curve, one entry for each of its freedoms that moves; empty where that was not
+    /// followed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ranges: Vec<JointRange>,
+}
+
+/// How far a joint goes along a branch that is a curve.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct JointRange {
+    /// The branch.
+    pub branch: String,
+    /// Which of its freedoms, such as `trans`; `null` for a joint of one.
+    pub part: Option<String>,
+    /// Least value (rad, m), counted through full turns.
+    pub min: f64,
+    /// Greatest value.
+    pub max: f64,
+    /// Full turns in one cycle; zero where it swings.
+    pub turns: i64,
+    /// Whether it is an angle.
+    pub angle: bool,
+    /// Whether the motion goes on beyond what was followed.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub at_least: bool,
 }
 
 /// One coupling.
@@ -635,6 +659,9 @@ pub struct Motion {
     /// were looked at; zeros where it turns without sliding.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pitches: Option<[f64; 2]>,
+    /// Whether [`pitches`](Self::pitches) are the extremes of the whole branch, which was followed from end to end.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub whole_branch: bool,
     /// Whether this pair of links was asked for by name.
     #[serde(default, skip_serializing_if = "is_false")]
     pub asked: bool,

@@ -2,6 +2,7 @@
 
 use super::words::mirrored_runs;
 use crate::schema::Advice;
+use kutzbach_model::mechanism::JointKind;
 
 /// Joints, or runs of them, that a line names.
 const NAMED: usize = 4;
@@ -13,24 +14,41 @@ pub(super) struct Alternatives<'a> {
     pub first: &'a Advice,
     /// All of them, by name.
     joints: Vec<String>,
+    /// The classes that each of them may become.
+    to: Vec<&'a str>,
 }
 
 impl<'a> Alternatives<'a> {
-    /// All pieces of advice, each change once, in the order of first mention.
+    /// All pieces of advice: joints that may all become the same and then do the same share a line, and so do the kinds that
+    /// the same joints may become.
     pub fn of(advice: &'a [Advice]) -> Vec<Self> {
-        let mut all: Vec<Self> = Vec::new();
+        let mut changes: Vec<Self> = Vec::new();
         for piece in advice {
             let same = |other: &&mut Self| {
-                change(other.first) == change(piece)
-                    && other.first.redundant_before == piece.redundant_before
-                    && other.first.redundant_after == piece.redundant_after
+                let first = other.first;
+                first.redundant_before == piece.redundant_before
+                    && (&first.from, &first.to, first.redundant_after)
+                        == (&piece.from, &piece.to, piece.redundant_after)
             };
-            match all.iter_mut().find(same) {
+            match changes.iter_mut().find(same) {
                 Some(known) => known.joints.push(piece.joint.clone()),
-                None => all.push(Self {
+                None => changes.push(Self {
                     first: piece,
                     joints: vec![piece.joint.clone()],
+                    to: vec![piece.to.as_str()],
                 }),
+            }
+        }
+        let mut all: Vec<Self> = Vec::new();
+        for change in changes {
+            let same = |other: &&mut Self| {
+                other.joints == change.joints
+                    && other.first.from == change.first.from
+                    && other.first.redundant_after == change.first.redundant_after
+            };
+            match all.iter_mut().find(same) {
+                Some(known) => known.to.extend(change.to),
+                None => all.push(change),
             }
         }
         all
@@ -38,29 +56,31 @@ impl<'a> Alternatives<'a> {
 
     /// So many pieces of advice are told by this.
     pub fn pieces(&self) -> usize {
-        self.joints.len()
+        self.joints.len() * self.to.len()
     }
 
-    /// `J1 … J6 (any one of these 6): R → S, make it a ball joint; …`.
+    /// `any one of J1 … J6: revolute → universal`.
     pub fn text(&self) -> String {
-        match self.joints.len() {
-            1 => self.first.text.clone(),
-            many => format!(
-                "{} (any one of these {many}): {}",
-                mirrored_runs(&self.joints, NAMED),
-                change(self.first)
-            ),
-        }
+        let joints = mirrored_runs(&self.joints, NAMED);
+        let of = match self.joints.len() {
+            1 => "",
+            2 => "one of ",
+            _ => "any one of ",
+        };
+        let to: Vec<&str> = self.to.iter().map(|class| word(class)).collect();
+        format!(
+            "{of}{joints}: {} → {}",
+            word(&self.first.from),
+            to.join(" or ")
+        )
     }
 }
 
-/// What a piece of advice says of its joint.
-fn change(advice: &Advice) -> &str {
-    advice
-        .text
-        .strip_prefix(advice.joint.as_str())
-        .and_then(|rest| rest.strip_prefix(": "))
-        .unwrap_or(&advice.text)
+/// The word of a kind of joint by its letter.
+fn word(class: &str) -> &str {
+    let kinds = JointKind::ALL.iter();
+    let mut known = kinds.filter(|kind| kind.class() == class);
+    known.next().map_or(class, |kind| kind.word())
 }
 
 #[cfg(test)]
@@ -72,7 +92,7 @@ mod tests {
             text: format!("{joint}: {change}"),
             joint: joint.to_owned(),
             from: "R".to_owned(),
-            to: "S".to_owned(),
+            to: if change.contains('S') { "S" } else { "C" }.to_owned(),
             redundant_before: 9,
             redundant_after,
         }
@@ -93,9 +113,9 @@ mod tests {
         assert_eq!(
             texts,
             [
-                "a1 … a3 (any one of these 3): R → S, make it a ball joint",
-                "b: R → C",
-                "c: R → S, make it a ball joint"
+                "any one of a1 … a3: revolute → spherical",
+                "b: revolute → cylindrical",
+                "c: revolute → spherical"
             ]
         );
         assert_eq!(

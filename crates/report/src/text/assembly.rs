@@ -34,8 +34,8 @@ pub(crate) fn section(report: &Report, page: &mut Page) {
         return;
     }
     page.heading("Assembly");
-    if let Some(moved) = moved {
-        let mut text = how_far(report, moved);
+    if moved.is_some() {
+        let mut text = how_far(report);
         let all = farthest_first(&assembly.joints).len();
         if !page.layout().verbose && all > ROWS {
             text.push_str(&format!(" All {all} that moved: `--verbose`."));
@@ -61,7 +61,7 @@ pub(crate) fn section(report: &Report, page: &mut Page) {
 }
 
 /// A closed pose that was not drawn.
-fn how_far(report: &Report, moved: f64) -> String {
+fn how_far(report: &Report) -> String {
     let assembly = &report.assembly;
     let drawn = match report.home.configuration.as_str() {
         HOME => "As the file draws it".to_owned(),
@@ -80,17 +80,20 @@ fn how_far(report: &Report, moved: f64) -> String {
         ),
         None => "The file's pose does not satisfy its couplings.".to_owned(),
     };
-    text.push_str(&format!(
-        " It was assembled by moving joints by up to {} m",
-        figure(moved)
-    ));
-    if let Some(residual) = assembly.residual {
-        text.push_str(&format!("; {} of a loop's size is left", figure(residual)));
+    text.push_str(" It was closed by moving joints");
+    let left = |of: fn(&Gap) -> f64| assembly.gaps.iter().map(of).fold(0.0, f64::max);
+    let (distance, angle) = (left(|gap| gap.left_position), left(|gap| gap.left_angle));
+    if distance > 0.0 || angle > 0.0 {
+        text.push_str(&format!(
+            "; remaining gap {}, {}°",
+            metres(distance),
+            figure(angle.to_degrees())
+        ));
     }
-    text.push_str(". Everything here holds at the assembled pose.");
+    text.push_str(". This report is on the closed pose.");
     if let Some(starts) = assembly.starts.filter(|starts| *starts > 1) {
         text.push_str(&format!(
-            " From that pose itself none was found, or none within the joint limits: this is the best closing of {}.",
+            " From the drawn pose no closing was found, or none within the joint limits: the nearest of {} was used.",
             counted(starts, "start")
         ));
     }
@@ -101,19 +104,13 @@ fn how_far(report: &Report, moved: f64) -> String {
             .max_by(|a, b| by(a).total_cmp(&by(b)))
             .filter(|place| by(place) > SHOWN)
     };
-    let turned = farthest(|place| place.turned).map(|place| {
-        format!(
-            "`{}` turned by {}° ({} rad)",
-            place.name,
-            figure(place.turned.to_degrees()),
-            figure(place.turned)
-        )
-    });
+    let turned = farthest(|place| place.turned)
+        .map(|place| format!("`{}` by {}°", place.name, figure(place.turned.to_degrees())));
     let shifted = farthest(|place| place.shifted)
-        .map(|place| format!("`{}` slid by {}", place.name, metres(place.shifted)));
+        .map(|place| format!("`{}` by {}", place.name, metres(place.shifted)));
     let corrections: Vec<String> = turned.into_iter().chain(shifted).collect();
     if !corrections.is_empty() {
-        text.push_str(&format!(" Farthest moved: {}.", corrections.join(", ")));
+        text.push_str(&format!(" Largest change: {}.", corrections.join(", ")));
     }
     text
 }

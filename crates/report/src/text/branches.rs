@@ -24,12 +24,15 @@ pub(crate) fn branches(report: &Report, page: &mut Page) {
     if !page.layout().verbose && says_nothing_more(report, branches) {
         return;
     }
-    page.heading(&format!("Branches through this pose ({})", cite::BRANCH));
+    page.heading(&format!(
+        "Motion branches through this pose ({})",
+        cite::BRANCH
+    ));
     let most = limit(page);
-    let halves = branches.iter().any(|b| b.half_branches.is_some());
+    let halves = page.layout().verbose && branches.iter().any(|b| b.half_branches.is_some());
     let mut table = Table::new()
         .column("branch", Column::Shrinking)
-        .column("freedom", Column::Numbers)
+        .column("DOF", Column::Numbers)
         .column("instantaneous", Column::Numbers)
         .column("redundant", Column::Numbers);
     if halves {
@@ -69,12 +72,25 @@ pub(super) fn idle_and_locked(report: &Report, page: &mut Page) {
         return;
     }
     if !only.idle.is_empty() {
-        let idle: Vec<String> = only.idle.iter().map(idle_link).collect();
-        let text = format!("Idle ({}): {}.", cite::IDLE, names(&idle, NAMED));
+        // Of links that are idle alike the number says enough.
+        let alike = only.idle.iter().all(|idle| idle.freedom == 1);
+        let idle: Vec<String> = match alike {
+            true => {
+                let links = only.idle.iter().filter_map(|idle| idle.links.first());
+                let links: Vec<String> = links.cloned().collect();
+                vec![format!("{}, 1 each", listed(&links))]
+            }
+            false => only.idle.iter().map(idle_link).collect(),
+        };
+        let text = format!(
+            "Idle degrees of freedom ({}): {}.",
+            cite::IDLE,
+            names(&idle, NAMED)
+        );
         page.paragraph(&text, Tint::Plain, "", "");
     }
     if !only.locked.is_empty() {
-        let text = format!("Locked all along the motion: {}.", listed(&only.locked));
+        let text = format!("Locked along the whole motion: {}.", listed(&only.locked));
         page.paragraph(&text, Tint::Notable, "", "");
     }
 }
@@ -110,7 +126,7 @@ pub(crate) fn motions(report: &Report, on_page: bool, page: &mut Page) {
     }
     let verbose = page.layout().verbose;
     if verbose && !on_page {
-        page.heading(&format!("Motions ({})", cite::MOTION));
+        page.heading(&title(&others));
         motion_table(&others, several, page);
         return;
     }
@@ -125,7 +141,7 @@ pub(crate) fn motions(report: &Report, on_page: bool, page: &mut Page) {
     if shown.is_empty() {
         return;
     }
-    page.heading(&format!("Motions ({})", cite::MOTION));
+    page.heading(&title(&shown));
     let told = shown.len();
     if !verbose && told > MOTIONS {
         shown = foremost(report, shown);
@@ -162,10 +178,7 @@ fn by_kind(motions: &[&Motion], page: &mut Page) {
     }
     let roots: BTreeSet<&str> = kinds.keys().map(|(_, _, root)| *root).collect();
     let one = roots.len() == 1;
-    page.heading(&match (one, roots.first()) {
-        (true, Some(root)) => format!("Motions ({}), seen from {root}", cite::MOTION),
-        _ => format!("Motions ({})", cite::MOTION),
-    });
+    page.heading(&title(motions));
     for ((Reverse(freedom), class, root), links) in kinds.iter().take(KINDS) {
         let from = match one {
             true => String::new(),
@@ -181,21 +194,58 @@ fn by_kind(motions: &[&Motion], page: &mut Page) {
     more(kinds.values().skip(KINDS).map(Vec::len).sum(), page);
 }
 
-/// `4 links move in 2 ways (2R)`.
+/// `4 links with 2 DOF each (2 rotations)`.
 fn how(freedom: Option<usize>, class: &str, links: usize) -> String {
-    let (move_, does) = match links {
-        1 => ("moves", "does"),
-        _ => ("move", "do"),
-    };
     let many = counted(links, "link");
-    let Some(freedom) = freedom else {
-        return format!("{many}: not decided");
-    };
+    let each = if links == 1 { "" } else { " each" };
     match freedom {
-        0 => format!("{many} {does} not move"),
-        6 => format!("{many} {move_} without restriction"),
-        1 => format!("{many} {move_} in 1 way ({class})"),
-        n => format!("{many} {move_} in {n} ways ({class})"),
+        None => format!("{many}, not decided"),
+        Some(0) => format!("{many} at rest"),
+        Some(6) => format!("{many} with all 6 DOF"),
+        Some(n) => format!("{many} with {n} DOF{each} ({})", kind_of_motion(class)),
+    }
+}
+
+/// A class of motions in words: `planar motion` for `G`, `1 rotation, 2 translations` for `1R 2T`.
+fn kind_of_motion(class: &str) -> String {
+    let known = match class {
+        "R" => "rotation about a fixed axis",
+        "T" => "translation along a line",
+        "H" => "screw motion about a fixed axis",
+        "T2" => "translation in a plane",
+        "C" => "cylindrical motion",
+        "T3" => "translation in every direction",
+        "G" => "planar motion",
+        "S" => "rotation about a fixed point",
+        "Y" => "screw motion and translation in a plane",
+        "X" => "Schoenflies motion",
+        _ => "",
+    };
+    if !known.is_empty() {
+        return known.to_owned();
+    }
+    let word = |part: &str| {
+        let (number, thing) = part.split_at_checked(part.len().checked_sub(1)?)?;
+        let number: usize = number.parse().ok()?;
+        match thing {
+            "R" => Some(counted(number, "rotation")),
+            "T" => Some(counted(number, "translation")),
+            _ => None,
+        }
+    };
+    let words: Option<Vec<String>> = class.split(' ').map(word).collect();
+    match words {
+        Some(words) => words.join(", "),
+        None => class.to_owned(),
+    }
+}
+
+/// `Motion, seen from base`, where that is one link.
+fn title(motions: &[&Motion]) -> String {
+    let roots: BTreeSet<&str> = motions.iter().map(|m| m.relative_to.as_str()).collect();
+    match (roots.len(), roots.first()) {
+        (1, Some(root)) => format!("Motion ({}), seen from {root}", cite::MOTION),
+        _ => format!("Motion ({})", cite::MOTION),
     }
 }
 
@@ -206,36 +256,74 @@ fn listed(links: &[String]) -> String {
 }
 
 fn motion_table(motions: &[&Motion], several: bool, page: &mut Page) {
+    let verbose = page.layout().verbose;
+    let roots: BTreeSet<&str> = motions.iter().map(|m| m.relative_to.as_str()).collect();
+    let seen_from = verbose || roots.len() > 1 || motions.iter().any(|m| m.asked);
     let mut table = Table::new();
+    table = table.column("link", Column::Shrinking);
     if several {
         table = table.column("branch", Column::Words);
     }
+    if seen_from {
+        table = table.column("seen from", Column::Shrinking);
+    }
     table = table
-        .column("link", Column::Shrinking)
-        .column("seen from", Column::Shrinking)
-        .column("freedom", Column::Numbers)
-        .column("moves by", Column::Shrinking);
-    for motion in motions {
+        .column("DOF", Column::Numbers)
+        .column("motion", Column::Shrinking);
+    if verbose {
+        table = table.column("class", Column::Words);
+    }
+    for (motion, branches) in on_branches(motions, verbose) {
         let mut cells = Vec::new();
+        cells.push(Cell::new(&motion.link).tint(Tint::Strong));
         if several {
-            cells.push(Cell::new(&motion.branch));
+            cells.push(Cell::new(branches.join(", ")));
         }
-        cells.extend([
-            Cell::new(&motion.link).tint(Tint::Strong),
-            Cell::new(&motion.relative_to),
-            Cell::new(unsure(motion.freedom)),
-            Cell::new(how_it_moves(motion)),
-        ]);
+        if seen_from {
+            cells.push(Cell::new(&motion.relative_to));
+        }
+        cells.push(Cell::new(unsure(motion.freedom)));
+        cells.push(Cell::new(how_it_moves(motion, verbose)));
+        if verbose {
+            cells.push(Cell::new(&motion.class));
+        }
         table.row_about(Subject::Link(motion.link.clone()), cells);
     }
     page.table(table, "motions");
 }
 
-/// `1R: screws about a moving axis`; where nothing is known of how it moves, that.
-fn how_it_moves(motion: &Motion) -> String {
-    match motion.class.as_str() {
-        "?" => motion.text.clone(),
-        class => format!("{class}: {}", motion.text),
+/// The rows with the branches they hold on: on a first screen what is the same on several is said once.
+fn on_branches<'a>(motions: &[&'a Motion], verbose: bool) -> Vec<(&'a Motion, Vec<&'a str>)> {
+    let mut rows: Vec<(&Motion, Vec<&str>)> = Vec::new();
+    for &motion in motions {
+        let same = |(row, _): &&mut (&Motion, Vec<&str>)| {
+            !verbose
+                && row.link == motion.link
+                && row.relative_to == motion.relative_to
+                && row.freedom == motion.freedom
+                && row.text == motion.text
+                && row.joint == motion.joint
+        };
+        match rows.iter_mut().find(same) {
+            Some((_, branches)) => branches.push(&motion.branch),
+            None => rows.push((motion, vec![&motion.branch])),
+        }
+    }
+    rows
+}
+
+/// `rotates about hinge_1`, and where that is where everything is asked for; otherwise what the analysis says in words.
+fn how_it_moves(motion: &Motion, verbose: bool) -> String {
+    let verb = match motion.class.as_str() {
+        "R" => "rotates about",
+        "T" => "translates along",
+        "H" => "screws along",
+        _ => return motion.text.clone(),
+    };
+    match (&motion.joint, verbose) {
+        (Some(joint), false) => format!("{verb} {joint}"),
+        (Some(joint), true) => format!("{verb} {joint}: {}", motion.text),
+        (None, _) => motion.text.clone(),
     }
 }
 
@@ -294,15 +382,15 @@ pub(crate) fn evidence(report: &Report, page: &mut Page) {
 
 fn finding(found: &Evidence, several: bool) -> String {
     let block = if several {
-        format!("block `{}`, ", found.block)
+        format!("sub-mechanism `{}`, ", found.block)
     } else {
         String::new()
     };
     let bounds = match found.bounds {
-        [Some(least), Some(most)] if least == most => format!("finite freedom {least}"),
-        [None | Some(0), Some(most)] => format!("finite freedom at most {most}"),
-        [Some(least), Some(most)] => format!("finite freedom between {least} and {most}"),
-        [Some(least), None] if least > 0 => format!("finite freedom at least {least}"),
+        [Some(least), Some(most)] if least == most => format!("finite mobility {least}"),
+        [None | Some(0), Some(most)] => format!("finite mobility at most {most}"),
+        [Some(least), Some(most)] => format!("finite mobility {least} to {most}"),
+        [Some(least), None] if least > 0 => format!("finite mobility at least {least}"),
         [_, None] => "no bound".to_owned(),
     };
     format!(

@@ -5,98 +5,57 @@ use super::page::Page;
 use super::style::Tint;
 use super::table::{Cell, Column, Table};
 use super::verdict;
-use super::words::{capitalised, counted, figure};
-use crate::schema::{GenericCount, Home, Report};
+use super::words::{capitalised, counted, degrees, figure};
+use crate::schema::{Home, Report};
 use kutzbach_mobility::{PoseKind, SingularKind, Verdict};
 
-/// Writes the counts.
+/// Writes the counts, in one row, with the margin of the rank.
 pub(crate) fn write(report: &Report, page: &mut Page) {
     let verbose = page.layout().verbose;
     // Of a tree the answer says it all.
     if !verbose && verdict::without_loops(report) && report.home.note.is_none() {
         return;
     }
-    page.heading("Freedoms");
-    let mut table = Table::new()
-        .column("", Column::Words)
-        .column("", Column::Numbers)
-        .column("", Column::Shrinking);
-    let mut row = |what: &str, number: String, how: String| {
-        table.row(count_row(what, &number, &how));
-    };
-    row(
-        "Kutzbach's count",
-        report.kutzbach.to_string(),
-        formula(report),
-    );
-    if let Some(generic) = &report.generic {
-        row(
-            "at random geometry",
-            generic.mobility.to_string(),
-            format!(
-                "same links and joints, other dimensions: {} redundant",
-                generic.redundant
-            ),
-        );
-    }
+    page.heading("Counts");
     let home = &report.home;
-    if report.mobility.verdict == Verdict::Unassembled {
-        page.table(table, "counts");
-        page.paragraph(
-            "No closed pose is known, so nothing but counting can be said.",
-            Tint::Plain,
-            "  ",
-            "  ",
-        );
-        return;
+    let known = report.mobility.verdict != Verdict::Unassembled;
+    let decided = home.instantaneous.is_some() && home.redundant.is_some();
+    let mut counts = vec![("Kutzbach", report.kutzbach.to_string())];
+    if let Some(generic) = &report.generic {
+        counts.push(("generic", generic.mobility.to_string()));
     }
-    let mut row = |what: &str, number: String, how: String| {
-        table.row(count_row(what, &number, &how));
-    };
-    row(
-        "at this pose",
-        optional(home.instantaneous),
-        match home.rank {
-            Some(rank) => format!(
-                "instantaneous: {} less rank {rank}, of {}",
-                counted(home.unknowns, "variable"),
-                counted(home.equations, "constraint equation")
-            ),
-            None => format!(
-                "instantaneous, between {} and {}",
-                home.candidates[0], home.candidates[1]
-            ),
-        },
-    );
-    row(
-        "in finite motion",
-        optional(report.mobility.finite),
-        match (report.mobility.finite, report.mobility.bounds) {
-            (None, [None, None]) => "not bounded yet".to_owned(),
-            (None, [Some(least), None]) => format!("at least {least}"),
-            (None, [None, Some(most)]) => format!("at most {most}"),
-            (None, [Some(least), Some(most)]) => format!("between {least} and {most}"),
-            (Some(_), _) => String::new(),
-        },
-    );
-    row(
-        "redundant",
-        home.redundant
-            .map_or_else(|| "?".to_owned(), |n| n.to_string()),
-        "constraint equations that repeat others at this pose".to_owned(),
+    if known {
+        counts.push(("at this pose", at_pose(home)));
+        counts.push(("finite", finite(report)));
+        counts.push(("redundant", redundant(home)));
+        counts.extend(
+            home.rank
+                .map(|rank| ("rank", format!("{rank} of {}", home.unknowns))),
+        );
+        counts.extend(home.pose.map(|pose| ("pose", pose_word(pose, home.kind))));
+        counts.extend(margin_figures(home).map(|text| ("margin", text)));
+    }
+    let mut table = Table::new().column("", Column::Words);
+    for (title, _) in &counts {
+        table = table.column(title, Column::Words);
+    }
+    let cell = |(_, number): &(&str, String)| Cell::new(number).tint(Tint::Strong);
+    table.row(
+        [Cell::new("")]
+            .into_iter()
+            .chain(counts.iter().map(cell))
+            .collect(),
     );
     page.table(table, "counts");
-    // A first screen leaves out what only repeats the table.
-    let decided = home.instantaneous.is_some() && home.redundant.is_some();
-    let adds = |generic: &GenericCount| Some(generic.mobility) != home.instantaneous;
+    if !known {
+        return;
+    }
+    let doubtful = home.rank.is_none() || home.as_written.is_some() || thin(home);
     let sentences = [
         (verbose || !decided).then(|| difference(report)),
-        geometry(report).filter(|_| verbose || report.generic.as_ref().is_some_and(adds)),
-        pose(home),
-        match verbose {
-            true => margin(report),
-            false => short_margin(report),
-        },
+        geometry(report).filter(|_| verbose),
+        pose(home).filter(|_| verbose),
+        margin(report).filter(|_| verbose || doubtful),
     ];
     for sentence in sentences.into_iter().flatten() {
         page.paragraph(&sentence, Tint::Plain, "  ", "  ");
@@ -106,16 +65,52 @@ pub(crate) fn write(report: &Report, page: &mut Page) {
     }
 }
 
-fn count_row(what: &str, number: &str, how: &str) -> Vec<Cell> {
-    vec![
-        Cell::new(what),
-        Cell::new(number).tint(Tint::Strong),
-        Cell::new(how).tint(Tint::Quiet),
-    ]
+/// The degrees of freedom at the pose, or the least and the most that the margins leave.
+fn at_pose(home: &Home) -> String {
+    match home.instantaneous {
+        Some(freedom) => freedom.to_string(),
+        None => format!("{} … {}", home.candidates[0], home.candidates[1]),
+    }
 }
 
-fn optional(count: Option<usize>) -> String {
-    count.map_or_else(|| "?".to_owned(), |n| n.to_string())
+/// The finite mobility, or its bounds.
+fn finite(report: &Report) -> String {
+    match (report.mobility.finite, report.mobility.bounds) {
+        (Some(finite), _) => finite.to_string(),
+        (None, [None, None]) => "?".to_owned(),
+        (None, [Some(least), None]) => format!("≥ {least}"),
+        (None, [None, Some(most)]) => format!("≤ {most}"),
+        (None, [Some(least), Some(most)]) => format!("{least} … {most}"),
+    }
+}
+
+/// `3 of 6`: of the constraint equations.
+fn redundant(home: &Home) -> String {
+    let redundant = home.redundant;
+    let redundant = redundant.map_or_else(|| "?".to_owned(), |n| n.to_string());
+    format!("{redundant} of {}", home.equations)
+}
+
+/// `regular`, `shaky`.
+fn pose_word(pose: PoseKind, kind: Option<SingularKind>) -> String {
+    match kind {
+        Some(kind) => kind.word().replace('_', " "),
+        None => pose.word().to_owned(),
+    }
+}
+
+/// `0.65, threshold 4.3e-14`: the smallest singular value that counts, relative to the largest, and what counts as zero.
+fn margin_figures(home: &Home) -> Option<String> {
+    home.rank?;
+    let (kept, tolerance) = (home.kept?, home.tolerance?);
+    Some(format!("{}, threshold {}", figure(kept), figure(tolerance)))
+}
+
+/// Whether a singular value lies near the threshold.
+fn thin(home: &Home) -> bool {
+    let clear = home.dropped.is_none_or(|dropped| dropped <= ROUNDING);
+    let kept = home.kept.zip(home.tolerance);
+    !clear || kept.is_some_and(|(kept, tolerance)| kept < CLEAR * tolerance)
 }
 
 /// Kutzbach's formula with the numbers of this mechanism.
@@ -136,23 +131,30 @@ fn difference(report: &Report) -> String {
     match (home.instantaneous, home.redundant) {
         (Some(freedom), Some(0)) if report.size.loops == 0 && report.size.couplings == 0 => {
             format!(
-                "Kutzbach counts {count}: there is no loop, so every joint is free and {} at this pose.",
+                "Kutzbach: {} = {count}; there is no loop, so every joint is free and {} at this pose.",
+                formula(report),
                 remain(freedom)
             )
         }
         (Some(freedom), Some(0)) => format!(
-            "Kutzbach counts {count}, and rightly at this pose: none of the {} repeats another, so {}.",
-            counted(home.equations, "constraint equation"),
+            "Kutzbach: {} = {count}, which holds at this pose: the {} independent, so {}.",
+            formula(report),
+            match home.equations {
+                1 => "constraint equation is".to_owned(),
+                n => format!("{n} constraint equations are"),
+            },
             remain(freedom)
         ),
         (Some(freedom), Some(redundant)) => format!(
-            "Kutzbach counts {count}; {redundant} of the {} {} what others say, so {} at this pose.",
+            "Kutzbach: {} = {count}; {redundant} of the {} {} redundant, so {} at this pose.",
+            formula(report),
             counted(home.equations, "constraint equation"),
-            if redundant == 1 { "repeats" } else { "repeat" },
+            if redundant == 1 { "is" } else { "are" },
             remain(freedom)
         ),
         _ => format!(
-            "Kutzbach counts {count}; how many of the {} are independent is not decided.",
+            "Kutzbach: {} = {count}; how many of the {} are independent is not decided.",
+            formula(report),
             counted(home.equations, "constraint equation")
         ),
     }
@@ -160,9 +162,9 @@ fn difference(report: &Report) -> String {
 
 fn remain(freedom: usize) -> String {
     match freedom {
-        0 => "no freedom remains".to_owned(),
-        1 => "1 freedom remains".to_owned(),
-        n => format!("{n} freedoms remain"),
+        0 => "no degree of freedom remains".to_owned(),
+        1 => "1 degree of freedom remains".to_owned(),
+        n => format!("{n} degrees of freedom remain"),
     }
 }
 
@@ -171,13 +173,13 @@ fn geometry(report: &Report) -> Option<String> {
     let generic = report.generic.as_ref()?;
     let freedom = report.home.instantaneous?;
     let text = match freedom.checked_sub(generic.mobility)? {
-        0 => format!(
-            "At almost any dimensions {}: those of this pose add nothing.",
-            remain(freedom)
-        ),
+        0 => format!("With generic dimensions {} too.", remain(freedom)),
         more => format!(
-            "At other dimensions {}: the geometry of this pose adds {more}.",
-            remain(generic.mobility)
+            "With generic dimensions {}; the dimensions at this pose add {more}.",
+            match generic.mobility {
+                0 => "it would be rigid".to_owned(),
+                left => remain(left),
+            }
         ),
     };
     Some(text)
@@ -193,13 +195,13 @@ fn pose(home: &Home) -> Option<String> {
         (PoseKind::Regular, _) if home.instantaneous == Some(0) => return None,
         (PoseKind::Regular, _) => {
             format!(
-                "Regular ({}): around {at} every instantaneous freedom can be followed.",
+                "Regular pose ({}): at {at} every infinitesimal motion can be continued.",
                 cite::REGULAR
             )
         }
         (PoseKind::Singular, None) => {
             format!(
-                "Singular ({}): around {at} the instantaneous freedoms are not all motions.",
+                "Singular pose ({}): at {at} not every infinitesimal motion can be continued.",
                 cite::REGULAR
             )
         }
@@ -209,12 +211,12 @@ fn pose(home: &Home) -> Option<String> {
                 SingularKind::Tangential => "branches with a common tangent meet",
                 SingularKind::Cusp => "the motion stops and turns back",
                 SingularKind::Kinematotropic => "branches of different mobility meet",
-                SingularKind::Shaky => "it gives way a little, but nothing moves",
+                SingularKind::Shaky => "there are infinitesimal motions, which cannot be continued",
                 SingularKind::PermanentlyShaky => {
-                    "it gives way in more directions than it moves, here and all along the motion"
+                    "it is infinitesimally more mobile than it moves, here and along the whole motion"
                 }
             };
-            format!("Singular ({}): at {at} {what}.", cite::kind(kind))
+            format!("Singular pose ({}): at {at} {what}.", cite::kind(kind))
         }
     };
     Some(text)
@@ -226,57 +228,35 @@ const ROUNDING: f64 = 1e-14;
 /// Where the smallest singular value kept is so many times the threshold, it does not matter in which block that is.
 const CLEAR: f64 = 1e3;
 
-/// How safe the rank is, in one line where that is beyond doubt.
-fn short_margin(report: &Report) -> Option<String> {
-    let home = &report.home;
-    let (kept, tolerance) = (home.kept?, home.tolerance?);
-    let clear = home.dropped.is_none_or(|dropped| dropped <= ROUNDING);
-    if home.rank.is_none() || home.as_written.is_some() || !clear || kept < CLEAR * tolerance {
-        return margin(report);
-    }
-    Some(format!(
-        "Rank margin: singular values kept ≥ {} of the largest; below {} counts as zero.",
-        figure(kept),
-        figure(tolerance)
-    ))
-}
-
 /// How safe the rank is.
 fn margin(report: &Report) -> Option<String> {
     let home = &report.home;
     home.rank?;
     let kept = figure(home.kept?);
     let tolerance = home.tolerance.unwrap_or(0.0);
-    // The weakest block speaks for all.
+    // The weakest sub-mechanism speaks for all.
     let whose = match &home.weakest {
-        Some(block) => format!(" (least in block `{block}`)"),
+        Some(block) => format!(" in `{block}`, the least certain"),
         None => String::new(),
     };
-    let mut text = format!(
-        "Margin of the rank{whose}: the smallest singular value kept is {kept} of the largest"
-    );
-    match home.dropped {
+    let dropped = match home.dropped {
         // Rounding differs from machine to machine, and its digits mean nothing to a person.
-        Some(dropped) if dropped <= ROUNDING => text.push_str(&format!(
-            ", those dropped are zero up to rounding; below {} counts as zero.",
-            figure(tolerance)
-        )),
-        Some(dropped) => text.push_str(&format!(
-            ", the largest dropped {}; below {} counts as zero.",
-            figure(dropped),
-            figure(tolerance)
-        )),
-        None => text.push_str(&format!(
-            ", none was dropped; below {} counts as zero.",
-            figure(tolerance)
-        )),
-    }
+        Some(dropped) if dropped <= ROUNDING => "those dropped are zero to rounding".to_owned(),
+        Some(dropped) => format!("the largest dropped {}", figure(dropped)),
+        None => "none was dropped".to_owned(),
+    };
+    let mut text = format!(
+        "Margin of the rank{whose}: relative to the largest singular value, the smallest kept is {kept}, {dropped}; the \
+         threshold is {}.",
+        figure(tolerance)
+    );
     // A note says this already, with its figures.
     if let (Some(literal), None) = (home.as_written, &home.note) {
         text.push_str(&format!(
-            " Taken literally, the numbers of the file give {}; within their stated precision it is {}.",
-            counted(literal, "instantaneous freedom"),
-            optional(home.instantaneous)
+            " As written the numbers leave {} at this pose; within their stated precision it is {}.",
+            degrees(literal),
+            home.instantaneous
+                .map_or_else(|| "?".to_owned(), |n| n.to_string())
         ));
     }
     Some(text)

@@ -20,7 +20,7 @@ const DEPENDENT: usize = 4;
 /// The paragraphs; left out where it would say nothing that is not plain.
 pub(crate) fn inputs(report: &Report, page: &mut Page) {
     let Some(inputs) = &report.inputs else { return };
-    let title = format!("Inputs ({}): ", cite::INPUT);
+    let title = format!("Motors ({}): ", cite::INPUT);
     for (index, (text, tint)) in sentences(report, inputs, limit(page)).iter().enumerate() {
         let lead = if index == 0 { title.as_str() } else { "" };
         page.paragraph(&format!("{lead}{text}"), *tint, "", "");
@@ -42,12 +42,12 @@ fn sentences(report: &Report, inputs: &Inputs, most: usize) -> Vec<(String, Tint
             }
             let text = if inputs.complete {
                 format!(
-                    "none is stated; enough would be {}.",
+                    "none in the file. Sufficient: {}.",
                     listed(&inputs.proposed, most)
                 )
             } else {
                 format!(
-                    "none is stated; to begin with: {}.",
+                    "none in the file. Needed among others: {}.",
                     listed(&inputs.proposed, most)
                 )
             };
@@ -82,8 +82,9 @@ fn sentences(report: &Report, inputs: &Inputs, most: usize) -> Vec<(String, Tint
 
 /// That inputs do less at the pose itself than elsewhere.
 fn dead_centre(number: &str) -> (String, Tint) {
-    let text =
-        format!("At this pose only {number} act independently: it is a dead centre of the inputs.");
+    let text = format!(
+        "Singular for these motors at this pose (parallel singularity): only {number} act independently; locked, they do not hold the mechanism."
+    );
     (text, Tint::Notable)
 }
 
@@ -101,8 +102,8 @@ fn dead_centre_together(inputs: &Inputs) -> Option<(String, Tint)> {
 
 fn verdict(report: &Report, inputs: &Inputs, source: InputSource, most: usize) -> (String, Tint) {
     let whose = match source {
-        InputSource::Asked => "asked for",
-        InputSource::File => "actuated in the file",
+        InputSource::Asked => "assumed",
+        InputSource::File => "in the file",
         InputSource::Independent => "marked as independent in the file",
     };
     let given = inputs.given.len();
@@ -119,19 +120,19 @@ fn verdict(report: &Report, inputs: &Inputs, source: InputSource, most: usize) -
             };
             let shares = report.freedoms.as_ref();
             let does = match (left, shares.map(|shares| (shares.useful, shares.idle))) {
-                (0, Some((1, 0))) => "enough for the only degree of freedom".to_owned(),
-                (0, Some((useful, 0))) => format!("enough for all {useful} degrees of freedom"),
+                (0, Some((1, 0))) => "sufficient for the only degree of freedom".to_owned(),
+                (0, Some((useful, 0))) => format!("sufficient for all {useful} degrees of freedom"),
                 // What the inputs hold beyond the useful degrees of freedom are idle ones.
                 (0, Some((useful, idle))) => match (useful + idle).saturating_sub(independent) {
                     0 => format!(
-                        "enough for all {} degrees of freedom, the idle ones included",
+                        "sufficient for all {} degrees of freedom, the idle ones included",
                         useful + idle
                     ),
                     idle => format!(
-                        "enough for the useful degrees of freedom ({useful}), with {idle} idle left"
+                        "sufficient for the useful degrees of freedom ({useful}), with {idle} idle left"
                     ),
                 },
-                (0, None) => "enough".to_owned(),
+                (0, None) => "sufficient".to_owned(),
                 (1, _) => "1 degree of freedom is left".to_owned(),
                 (left, _) => format!("{left} degrees of freedom are left"),
             };
@@ -141,7 +142,7 @@ fn verdict(report: &Report, inputs: &Inputs, source: InputSource, most: usize) -
         }
         _ => (
             format!(
-                "{list}; whether they are independent and enough is not decided: a margin is too thin."
+                "{list}; whether they are independent and sufficient is undecided: the margin is too thin."
             ),
             Tint::Doubtful,
         ),
@@ -209,7 +210,7 @@ fn limbs(inputs: &Inputs) -> Option<String> {
         _ => String::new(),
     };
     Some(format!(
-        "Freedoms by limb, seen from `{base}`: {}{trunk}.",
+        "Degrees of freedom by limb, seen from `{base}`: {}{trunk}.",
         parts.join("; ")
     ))
 }

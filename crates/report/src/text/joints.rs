@@ -93,7 +93,7 @@ fn summed_up(report: &Report, rows: &mut Vec<&JointRow>) -> Vec<String> {
     let plain = |joint: &JointRow| moving(joint) && loaded(joint) == 0 && !joint.closes_loop;
     let moves = match report.mobility.verdict {
         Verdict::Mobile => "move",
-        _ => "give way",
+        _ => "have infinitesimal motions",
     };
     let mut lines = Vec::new();
     let mut take =
@@ -120,7 +120,7 @@ fn summed_up(report: &Report, rows: &mut Vec<&JointRow>) -> Vec<String> {
     take(
         rows,
         &|joint| plain(joint) && joint.block.is_none(),
-        "move freely, in no loop and no coupling",
+        "move, in no loop and no coupling",
         least,
     );
     take(
@@ -131,31 +131,31 @@ fn summed_up(report: &Report, rows: &mut Vec<&JointRow>) -> Vec<String> {
     );
     let least = many(rows.len());
     if least == ALIKE {
-        // Those whose reactions are as undetermined as each other go together.
+        // Those whose reactions are as indeterminate as each other go together.
         let loads: BTreeSet<_> = report.joints.iter().map(loaded).collect();
         for load in loads {
             let same = |joint: &JointRow| loaded(joint) == load;
-            let undetermined = match load {
+            let indeterminate = match load {
                 0 => String::new(),
-                1 => " (reactions undetermined in 1 direction)".to_owned(),
-                n => format!(" (reactions undetermined in {n} directions each)"),
+                1 => " (1 indeterminate reaction component each)".to_owned(),
+                n => format!(" ({n} indeterminate reaction components each)"),
             };
             take(
                 rows,
                 &|joint| moving(joint) && in_loop(joint) && same(joint) && !joint.closes_loop,
-                &format!("in loops {moves}{undetermined}"),
+                &format!("in loops {moves}{indeterminate}"),
                 1,
             );
             take(
                 rows,
                 &|joint| (moving(joint) || joint.freedom == 0) && joint.closes_loop && same(joint),
-                &format!("close loops{undetermined}"),
+                &format!("close loops{indeterminate}"),
                 1,
             );
             take(
                 rows,
                 &|joint| joint.freedom > 0 && joint.locked == Some(true) && same(joint),
-                &format!("{rest}{undetermined}"),
+                &format!("{rest}{indeterminate}"),
                 least,
             );
             // Where nothing is known of any joint, the table says so.
@@ -163,7 +163,7 @@ fn summed_up(report: &Report, rows: &mut Vec<&JointRow>) -> Vec<String> {
                 take(
                     rows,
                     &|joint| joint.freedom > 0 && joint.locked.is_none() && same(joint),
-                    &format!("may move or not, which is not decided{undetermined}"),
+                    &format!("are undecided: they may move or not{indeterminate}"),
                     least,
                 );
             }
@@ -179,7 +179,7 @@ fn role(joint: &JointRow, branches: &[Branch], moves: &str) -> Cell {
         .map(|branch| branch.name.as_str())
         .collect();
     match (joint.freedom, joint.locked) {
-        (0, _) => Cell::new("rigid").tint(Tint::Quiet),
+        (0, _) => Cell::new("fixed").tint(Tint::Quiet),
         (_, None) => Cell::new("?").tint(Tint::Doubtful),
         (_, Some(true)) => Cell::new("locked").tint(Tint::Notable),
         (_, Some(false)) if !rests.is_empty() => {
@@ -214,39 +214,42 @@ fn joint_table(
         .any(|joint| joint.redundant_wrenches.is_some_and(|n| n > 0));
     // Two names cut short tell less than one that is whole.
     let between = page.layout().verbose || fits(rows, page.layout().width);
+    let verbose = page.layout().verbose;
     let mut table = Table::new()
         .column("joint", Column::Shrinking)
         .column("type", Column::Words);
     if between {
-        table = table.column("between", Column::Shrinking);
+        table = table.column("links", Column::Shrinking);
     }
-    table = table.column("freedom", Column::Numbers);
+    if verbose {
+        table = table.column("DOF", Column::Numbers);
+    }
     // Roles are those on the branches where there are any, and those at the pose otherwise.
     let branches = report.branches.as_deref().unwrap_or_default();
-    if roles {
-        let title = if branches.is_empty() {
-            "here"
-        } else {
-            "in motion"
+    let followed = !ranges.is_empty();
+    if roles || followed {
+        let title = match (followed, branches.is_empty()) {
+            (true, _) => "range",
+            (false, true) => "at this pose",
+            (false, false) => "in motion",
         };
         table = table.column(title, Column::Shrinking);
     }
     // A velocity that is not known to lead anywhere is no motion.
     let moves = match report.mobility.verdict {
         Verdict::Mobile => "moves",
-        _ => "gives way",
+        _ => "infinitesimal motion",
     };
-    if !ranges.is_empty() {
-        table = table.column("range", Column::Shrinking);
-    }
     if wrenches {
-        table = table.column("undetermined", Column::Numbers);
+        table = table.column("indeterminate reactions", Column::Words);
     }
-    table = table.column("", Column::Words);
+    if verbose {
+        table = table.column("", Column::Words);
+    }
     for joint in rows {
         let mut row = vec![
             Cell::new(&joint.name).tint(Tint::Strong),
-            Cell::new(format!("{} {}", joint.class, joint.kind.replace('_', " "))),
+            Cell::new(joint.kind.replace('_', " ")),
         ];
         if between {
             row.push(Cell::new(format!(
@@ -254,48 +257,52 @@ fn joint_table(
                 joint.links[0], joint.links[1]
             )));
         }
-        row.push(Cell::new(joint.freedom.to_string()));
-        if roles {
-            row.push(role(joint, branches, moves));
+        if verbose {
+            row.push(Cell::new(joint.freedom.to_string()));
         }
-        if !ranges.is_empty() {
-            row.push(Cell::new(
-                ranges.get(&joint.name).map_or("–", String::as_str),
-            ));
-        }
-        if wrenches {
-            row.push(match joint.redundant_wrenches {
-                Some(0) => Cell::new("·").tint(Tint::Quiet),
-                Some(n) => Cell::new(n.to_string()),
-                None => Cell::new("?").tint(Tint::Doubtful),
+        if roles || followed {
+            row.push(match ranges.get(&joint.name) {
+                Some(range) => Cell::new(with_locked(range, joint, branches)),
+                None => role(joint, branches, moves),
             });
         }
-        row.push(
-            Cell::new(if chords.contains(joint.name.as_str()) {
-                "closes a loop"
-            } else {
-                ""
-            })
-            .tint(Tint::Quiet),
-        );
+        if wrenches {
+            row.push(indeterminate(joint));
+        }
+        if verbose {
+            let closes = chords.contains(joint.name.as_str());
+            let note = if closes { "closes a loop" } else { "" };
+            row.push(Cell::new(note).tint(Tint::Quiet));
+        }
         table.row_about(Subject::Joint(joint.name.clone()), row);
     }
     page.table(table, "joints");
-    if wrenches {
-        page.paragraph(
-            match page.layout().verbose {
-                true => {
-                    "undetermined: directions of a joint's reaction that equilibrium alone does not fix, because \
-                     constraints repeat one another"
-                }
-                false => {
-                    "undetermined: directions of a joint's reaction that equilibrium alone does not fix"
-                }
-            },
-            Tint::Quiet,
-            "  ",
-            "  ",
-        );
+    if wrenches && verbose {
+        let text = "indeterminate: components of the reaction, of all that the joint has, that statics alone does not determine \
+                    (D5), because constraints are redundant";
+        page.paragraph(text, Tint::Quiet, "  ", "  ");
+    }
+}
+
+/// `3 of 5`: reaction components, of those that the joint has.
+fn indeterminate(joint: &JointRow) -> Cell {
+    match joint.redundant_wrenches {
+        Some(0) => Cell::new("·").tint(Tint::Quiet),
+        Some(n) => Cell::new(format!("{n} of {}", 6_usize.saturating_sub(joint.freedom))),
+        None => Cell::new("?").tint(Tint::Doubtful),
+    }
+}
+
+/// A range, and the branches on which the joint is locked.
+fn with_locked(range: &str, joint: &JointRow, branches: &[Branch]) -> String {
+    let locked: Vec<&str> = branches
+        .iter()
+        .filter(|branch| branch.locked.contains(&joint.name))
+        .map(|branch| branch.name.as_str())
+        .collect();
+    match locked.as_slice() {
+        [] => range.to_owned(),
+        on => format!("{range}; locked on {}", on.join(", ")),
     }
 }
 

@@ -1,9 +1,9 @@
 //! A person's first screen.
 //!
-//! The order is that of the questions: does it move, and in how many ways; are its motors enough, which limb has how many of
-//! the freedoms, what is wrong with the pose; why not as many as the count says; which joints take part; which loops hold it;
-//! what to change; what to beware of. A first screen of a robot of forty joints is a page: what is alike is told once with its
-//! number, and what only repeats is left to a verbose page. Everything shown stands in the [`Report`], nothing
+//! The order is that of the questions: does it move, and with how many degrees of freedom; are its motors enough, what is
+//! wrong with the pose; why not more and why not less; what does each link do; what does each joint do; what to change; what
+//! to beware of; and the counts last. The first screen of a robot of forty joints is one page: equal things share a line, and
+//! proofs, loops, independent parts and margins are left to a verbose page. Everything shown stands in the [`Report`], nothing
 //! is computed here but sums and words.
 
 mod alternatives;
@@ -18,6 +18,7 @@ mod folded;
 pub(super) mod inputs;
 pub(super) mod joints;
 mod page;
+mod ranges;
 pub(super) mod sections;
 mod style;
 mod table;
@@ -26,32 +27,42 @@ pub mod words;
 
 pub use escape::{clipped, columns, visible};
 pub use page::{Block, Page};
-pub use style::{Layout, NARROWEST_PAGE, Tint};
+pub use style::{Layout, NARROWEST_PAGE, Tint, Units};
 pub use table::{ABRIDGED_ROWS, Cell, Column, Row, Subject, Table};
 
 use super::schema::Report;
-use std::collections::BTreeMap;
 
 /// The report as a page of text, ending in a line break.
 #[must_use]
 pub fn render(report: &Report, layout: Layout) -> String {
-    let mut page = Page::new(layout);
+    let mut page = match layout.verbose {
+        true => Page::new(layout),
+        false => Page::new(layout).compact(),
+    };
     verdict::answer(report, &mut page);
     branches::idle_and_locked(report, &mut page);
     inputs::inputs(report, &mut page);
     sections::pose(report, &mut page);
     verdict::reasons(report, &mut page);
-    counts::write(report, &mut page);
-    assembly::section(report, &mut page);
     branches::branches(report, &mut page);
-    joints::joints(report, &BTreeMap::new(), false, &mut page);
-    sections::couplings(report, &mut page);
-    sections::cycles(report, &mut page);
     branches::motions(report, false, &mut page);
+    let ranges = ranges::texts(report, layout.units);
+    joints::joints(report, &ranges, false, &mut page);
+    sections::couplings(report, &mut page);
     sections::advice(report, &mut page);
+    assembly::section(report, &mut page);
     sections::other_warnings(report, &mut page);
-    branches::evidence(report, &mut page);
+    if layout.verbose {
+        sections::cycles(report, &mut page);
+        branches::evidence(report, &mut page);
+    }
+    counts::write(report, &mut page);
+    if !layout.verbose {
+        branches::evidence(report, &mut page);
+    }
     sections::details(report, &mut page);
+    verdict::source(report, &mut page);
+    verdict::further(report, &mut page);
     page.into_text()
 }
 

@@ -2,9 +2,11 @@
 //!
 //! What a page says is kept as blocks, so that text and HTML are made from the same words.
 
+use super::cite;
 use super::escape::{columns, visible};
 use super::style::{Layout, NARROWEST_PAGE, Tint};
 use super::table::Table;
+use std::borrow::Cow;
 
 /// One piece of a page. Texts are as the caller gave them; whoever renders them makes them harmless.
 #[derive(Clone, Debug)]
@@ -52,6 +54,8 @@ pub enum Block {
 pub struct Page {
     layout: Layout,
     blocks: Vec<Block>,
+    /// Whether a heading stands in the first line of the table below it.
+    compact: bool,
 }
 
 impl Page {
@@ -61,7 +65,15 @@ impl Page {
         Self {
             layout,
             blocks: Vec::new(),
+            compact: false,
         }
+    }
+
+    /// Lets headings stand in the first line of the table below them, in place of the title of its first column.
+    #[must_use]
+    pub fn compact(mut self) -> Self {
+        self.compact = true;
+        self
     }
 
     /// How it is laid out.
@@ -121,8 +133,18 @@ impl Page {
     #[must_use]
     pub fn into_text(self) -> String {
         let mut text = String::new();
-        for block in &self.blocks {
-            self.layout.write(block, &mut text);
+        let mut blocks = self.blocks.iter().peekable();
+        while let Some(block) = blocks.next() {
+            let below = blocks.peek();
+            match (block, below) {
+                (Block::Heading(title), Some(Block::Table { table, things })) if self.compact => {
+                    self.layout.write(&Block::Gap, &mut text);
+                    let title = self.layout.cited(title);
+                    table.render_under(Some(&title), &self.layout, things, &mut text);
+                    blocks.next();
+                }
+                _ => self.layout.write(block, &mut text),
+            }
         }
         text
     }
@@ -133,7 +155,8 @@ impl Layout {
         match block {
             Block::Heading(title) => {
                 self.write(&Block::Gap, out);
-                out.push_str(&Tint::Strong.paint(&visible(title), self.color));
+                let title = self.cited(title);
+                out.push_str(&Tint::Strong.paint(&visible(&title), self.color));
                 out.push('\n');
             }
             Block::Gap => {
@@ -157,8 +180,17 @@ impl Layout {
         }
     }
 
+    /// The text with the numbers of definitions where everything is asked for.
+    fn cited<'a>(&self, text: &'a str) -> Cow<'a, str> {
+        match self.verbose {
+            true => Cow::Borrowed(text),
+            false => Cow::Owned(cite::without(text)),
+        }
+    }
+
     fn write_lines(&self, text: &str, tint: Tint, [first, rest]: [&str; 2], out: &mut String) {
-        let text = visible(text);
+        let text = self.cited(text);
+        let text = visible(&text);
         let width = self.width.max(NARROWEST_PAGE);
         let mut lead = first;
         for line in wrapped(

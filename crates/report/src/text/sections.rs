@@ -9,7 +9,6 @@ use super::words::{capitalised, counted, figure, mirrored_runs, names, one_side,
 use crate::findings::{LOCKED_TOGETHER, LOOSE};
 use crate::pose::is_about_the_pose;
 use crate::schema::{Advice, CouplingRow, Cycle, Report};
-use kutzbach_mobility::CertificateLevel;
 use std::collections::BTreeSet;
 
 /// Lists of names in a table show this many.
@@ -25,7 +24,7 @@ const LOOPS: usize = 3;
 /// Says that a list goes on.
 pub(super) fn more(left: usize, page: &mut Page) {
     if left > 0 {
-        let text = format!("… and {left} more: `--verbose` or `--format json` shows all");
+        let text = format!("… and {left} more with `--verbose` or `--format json`");
         page.paragraph(&text, Tint::Quiet, "    ", "    ");
     }
 }
@@ -67,10 +66,7 @@ pub(crate) fn cycles(report: &Report, page: &mut Page) {
     if report.cycles.is_empty() {
         return;
     }
-    if !page.layout().verbose && says_nothing_more(report) {
-        return;
-    }
-    page.heading("Loops (basic cycles)");
+    page.heading("Loops (basic cycles, D14)");
     let most = limit(page);
     let folded = match page.layout().verbose {
         true => BTreeSet::new(),
@@ -79,11 +75,11 @@ pub(crate) fn cycles(report: &Report, page: &mut Page) {
     let mut table = Table::new()
         .column("loop", Column::Shrinking)
         .column("through", Column::Shrinking)
-        .column("displacements", Column::Shrinking)
+        .column("smallest displacement group", Column::Shrinking)
         .column("rank", Column::Numbers)
         .column("redundant", Column::Numbers)
-        .column("freedom alone", Column::Numbers)
-        .column("locks alone", Column::Shrinking);
+        .column("mobility if isolated", Column::Numbers)
+        .column("joints it locks", Column::Shrinking);
     let groups = match page.layout().verbose || report.cycles.len() <= LOOPS {
         true => report.cycles.iter().map(|cycle| vec![cycle]).collect(),
         false => equal_loops(&report.cycles),
@@ -125,16 +121,6 @@ pub(crate) fn cycles(report: &Report, page: &mut Page) {
     }
     page.table(table, "loops");
     more(groups[shown..].iter().map(Vec::len).sum(), page);
-}
-
-/// Whether the only loop is all of the mechanism, and what its motions have in common is said among the reasons, or nothing.
-fn says_nothing_more(report: &Report) -> bool {
-    let certificate = report.mobility.certificate.as_ref();
-    let said = certificate.is_some_and(|c| c.level == CertificateLevel::Subgroup);
-    matches!(report.cycles.as_slice(), [only]
-        if only.mobility.is_some() && only.mobility == report.home.instantaneous
-            && only.redundant == report.home.redundant
-            && (said || only.dimension == Some(6)))
 }
 
 /// Loops of which the table says the same but for their joints, in the order of first mention.
@@ -227,30 +213,27 @@ pub(crate) fn advice(report: &Report, page: &mut Page) {
     if report.advice.is_empty() {
         return;
     }
-    page.heading("Advice");
-    if page.layout().verbose || report.advice.len() <= ADVICE {
+    page.heading("To remove redundant constraints, adding no mobility");
+    let verbose = page.layout().verbose;
+    if verbose {
         for advice in &report.advice {
             page.item(&told(&advice.text, advice), Tint::Plain);
         }
         return;
     }
     let mut left = report.advice.len();
-    page.paragraph(
-        "Joints that could be given more freedom without adding any to the mechanism at this pose:",
-        Tint::Plain,
-        "  ",
-        "  ",
-    );
+    let mut table = Table::new()
+        .column("change", Column::Shrinking)
+        .column("redundant", Column::Words);
     for change in Alternatives::of(&report.advice).iter().take(CHANGES) {
-        let text = change.text();
-        // What all of them do stands above them and in the numbers.
-        let short = match text.split_once("; removes ") {
-            Some((short, rest)) if rest.ends_with("and adds no freedom at this pose") => short,
-            _ => &text,
-        };
-        page.item(&told(short, change.first), Tint::Plain);
+        let (before, after) = (change.first.redundant_before, change.first.redundant_after);
+        table.row(vec![
+            Cell::new(change.text()),
+            Cell::new(format!("{before} → {after}")),
+        ]);
         left -= change.pieces();
     }
+    page.table(table, "changes");
     more(left, page);
 }
 
@@ -263,8 +246,8 @@ fn told(text: &str, advice: &Advice) -> String {
     )
 }
 
-/// Changes shown on a first screen where there are more than [`ADVICE`] pieces of advice.
-const CHANGES: usize = 2;
+/// Changes shown on a first screen.
+const CHANGES: usize = 4;
 
 /// Pieces of advice and warnings shown on a first screen.
 const ADVICE: usize = 8;
@@ -456,7 +439,7 @@ pub(crate) fn details(report: &Report, page: &mut Page) {
         blocks(report, page);
         rank_details(report, page);
         if !report.skipped.is_empty() {
-            page.heading("Not read, because it says nothing about motion");
+            page.heading("Not read, because it does not affect the motion");
             for skipped in &report.skipped {
                 page.item(skipped, Tint::Quiet);
             }
@@ -471,7 +454,7 @@ pub(crate) fn details(report: &Report, page: &mut Page) {
             page.paragraph(&text, Tint::Plain, "  ", "  ");
             let mut table = Table::new()
                 .column("link", Column::Shrinking)
-                .column("hangs on", Column::Shrinking)
+                .column("parent", Column::Shrinking)
                 .column("by joint", Column::Shrinking)
                 .column("depth", Column::Numbers);
             for link in &tree.links {
@@ -508,13 +491,14 @@ fn blocks(report: &Report, page: &mut Page) {
     if report.home.blocks.is_empty() {
         return;
     }
-    page.heading("Blocks analysed apart");
+    page.heading("Independent sub-mechanisms");
     let mut table = Table::new()
-        .column("block", Column::Shrinking)
+        .column("sub-mechanism", Column::Shrinking)
         .column("joints", Column::Numbers)
         .column("variables", Column::Numbers)
         .column("rank", Column::Numbers)
-        .column("freedom", Column::Numbers);
+        .column("at this pose", Column::Numbers)
+        .column("finite", Column::Numbers);
     for block in &report.home.blocks {
         table.row(vec![
             Cell::new(&block.name),
@@ -522,9 +506,10 @@ fn blocks(report: &Report, page: &mut Page) {
             Cell::new(block.unknowns.to_string()),
             Cell::new(unsure(block.rank)),
             Cell::new(unsure(block.instantaneous)),
+            Cell::new(unsure(block.finite)),
         ]);
     }
-    page.table(table, "blocks");
+    page.table(table, "sub-mechanisms");
 }
 
 fn rank_details(report: &Report, page: &mut Page) {

@@ -12,6 +12,18 @@ pub struct Layout {
     pub width: usize,
     /// Whether to show every row and every detail.
     pub verbose: bool,
+    /// In which units ranges are shown.
+    pub units: Units,
+}
+
+/// The units of ranges in a text.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Units {
+    /// Degrees and millimetres, as a drawing has them.
+    #[default]
+    Drawing,
+    /// Radians and metres, as the file has them.
+    Si,
 }
 
 impl Default for Layout {
@@ -21,6 +33,7 @@ impl Default for Layout {
             color: false,
             width: 100,
             verbose: false,
+            units: Units::default(),
         }
     }
 }

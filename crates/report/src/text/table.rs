@@ -131,20 +131,50 @@ impl Table {
     /// Writes the table, abridged to [`ABRIDGED_ROWS`] rows unless the layout is verbose; then a line says how many more
     /// `things` there are.
     pub fn render(&self, layout: &Layout, things: &str, out: &mut String) {
+        self.render_under(None, layout, things, out);
+    }
+
+    /// The same under a heading, which takes the place of the first column's title where it fits there.
+    pub fn render_under(
+        &self,
+        heading: Option<&str>,
+        layout: &Layout,
+        things: &str,
+        out: &mut String,
+    ) {
         let shown = if layout.verbose || self.rows.len() <= ABRIDGED_ROWS {
             self.rows.len()
         } else {
             ABRIDGED_ROWS
         };
         let rows = &self.rows[..shown];
-        let widths = self.widths(rows, layout.width.max(NARROWEST_PAGE));
+        let page = layout.width.max(NARROWEST_PAGE);
+        let heading = heading.map(|text| visible(text).into_owned());
+        let widths = self.widths(rows, page, heading.as_deref().unwrap_or(""));
         let titles: Vec<Cell> = self
             .columns
             .iter()
             .map(|(title, _)| Cell::new(title).tint(Tint::Quiet))
             .collect();
-        if self.columns.iter().any(|(title, _)| !title.is_empty()) {
-            self.line(&titles, &widths, layout, out);
+        let first = INDENT + widths.first().copied().unwrap_or(0);
+        match heading {
+            Some(heading) if columns(&heading) <= first && widths.len() > 1 => {
+                let mut rest = String::new();
+                let mut titles = titles;
+                titles[0] = Cell::new("");
+                self.line(&titles, &widths, layout, &mut rest);
+                out.push_str(&Tint::Strong.paint(&heading, layout.color));
+                out.push_str(rest.get(columns(&heading)..).unwrap_or("\n"));
+            }
+            _ => {
+                if let Some(heading) = heading {
+                    out.push_str(&Tint::Strong.paint(&heading, layout.color));
+                    out.push('\n');
+                }
+                if self.columns.iter().any(|(title, _)| !title.is_empty()) {
+                    self.line(&titles, &widths, layout, out);
+                }
+            }
         }
         for row in rows {
             self.line(&row.cells, &widths, layout, out);
@@ -163,7 +193,7 @@ impl Table {
 
     /// Natural widths; where the page is too narrow, shrinking columns give way first, then headings wider than what
     /// stands below them, then everything.
-    fn widths(&self, rows: &[Row], page: usize) -> Vec<usize> {
+    fn widths(&self, rows: &[Row], page: usize, heading: &str) -> Vec<usize> {
         let content: Vec<usize> = (0..self.columns.len())
             .map(|index| {
                 rows.iter()
@@ -178,6 +208,9 @@ impl Table {
             .zip(&self.columns)
             .map(|(width, (title, _))| columns(title).max(*width))
             .collect();
+        if let Some(first) = widths.first_mut() {
+            *first = columns(heading).saturating_sub(INDENT).max(*first);
+        }
         let excess = (widths.iter().sum::<usize>() + INDENT * widths.len()).saturating_sub(page);
         let shrinking = |i: usize| match self.columns[i].1 {
             Column::Shrinking => NARROWEST,
@@ -271,6 +304,26 @@ mod tests {
             assert!(columns(line) <= 100, "{line}");
         }
         assert!(out.contains('…'));
+    }
+
+    #[test]
+    fn a_heading_takes_the_place_of_the_first_title_where_it_fits() {
+        let mut table = Table::new()
+            .column("name", Column::Shrinking)
+            .column("n", Column::Numbers);
+        table.row(vec![Cell::new("a"), Cell::new("1")]);
+        let shown = |heading: &str| {
+            let mut out = String::new();
+            table.render_under(Some(heading), &Layout::default(), "joints", &mut out);
+            out
+        };
+        assert_eq!(shown("Joints"), "Joints  n\n  a     1\n");
+        assert_eq!(
+            shown("Motion of all"),
+            "Motion of all  n\n  a            1\n"
+        );
+        let long = "x".repeat(200);
+        assert!(shown(&long).starts_with(&format!("{long}\n")));
     }
 
     #[test]

@@ -62,11 +62,11 @@ fn hostile() {
 #[test]
 fn the_verdict_stands_first() {
     for (report, start) in [
-        (samples::mobile(), "Mobile: 1 finite freedom"),
-        (samples::rigid(), "Rigid, but shaky"),
+        (samples::mobile(), "Mobile: 1 degree of freedom"),
+        (samples::rigid(), "Rigid, but infinitesimally mobile"),
         (
             samples::undecided(),
-            "Undecided: between 0 and 1 finite freedom (D4); 1 at this pose.",
+            "Undecided: 0 to 1 degrees of freedom; 1 at this pose.",
         ),
         (samples::unassembled(), "Does not assemble"),
     ] {
@@ -89,7 +89,7 @@ fn rounded_numbers_are_named_as_the_reason() {
     let page = page(&report);
     assert!(
         page.starts_with(
-            "Rigid: nothing can move, not even for an instant (D3).\nMobile within 3e-7 m of the numbers written (D13)"
+            "Rigid: 0 degrees of freedom, and no infinitesimal motion.\nMobile within 3e-7 m of the numbers written"
         ),
         "{page}"
     );

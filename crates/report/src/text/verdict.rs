@@ -6,7 +6,7 @@ use super::assembly;
 use super::cite;
 use super::page::Page;
 use super::style::Tint;
-use super::words::{capitalised, counted, figure, names};
+use super::words::{capitalised, counted, degrees, figure, names};
 use crate::schema::{Branch, Nominal, Report};
 use kutzbach_format::MAY_JOIN;
 use kutzbach_mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
@@ -16,6 +16,7 @@ use kutzbach_mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind,
 pub(crate) fn write(report: &Report, page: &mut Page) {
     answer(report, page);
     reasons(report, page);
+    source(report, page);
 }
 
 /// The verdict, and what is held.
@@ -30,18 +31,25 @@ pub(super) fn answer(report: &Report, page: &mut Page) {
     if let Some(text) = nominal(report) {
         page.paragraph(&text, Tint::Doubtful, "", "");
     }
+    if let Some(text) = redundant(report) {
+        page.paragraph(&text, Tint::Plain, "", "");
+    }
     for text in [nearly_idle(report), base(report)].into_iter().flatten() {
         page.paragraph(&text, Tint::Plain, "", "");
     }
 }
 
-/// Why it is not more and not less, and what was read.
+/// Why it is not more and not less: in a line each, with proofs where everything is asked for.
 pub(super) fn reasons(report: &Report, page: &mut Page) {
-    for reason in [not_more(report), not_less(report)].into_iter().flatten() {
+    let verbose = page.layout().verbose;
+    let open = report.mobility.verdict == Verdict::Undecided;
+    for reason in [not_more(report, verbose), not_less(report, verbose)]
+        .into_iter()
+        .flatten()
+    {
         page.item(&reason, Tint::Plain);
     }
-    let open = report.mobility.verdict == Verdict::Undecided;
-    for reason in &report.mobility.why {
+    for reason in report.mobility.why.iter().filter(|_| open || verbose) {
         let reason = if open {
             format!("Open: {reason}.")
         } else {
@@ -49,9 +57,52 @@ pub(super) fn reasons(report: &Report, page: &mut Page) {
         };
         page.item(&reason, Tint::Plain);
     }
+}
+
+/// What was read.
+pub(super) fn source(report: &Report, page: &mut Page) {
     page.gap();
     let verbose = page.layout().verbose;
-    page.paragraph(&identity(report, verbose), Tint::Plain, "", "");
+    page.paragraph(&identity(report, verbose), Tint::Quiet, "", "");
+}
+
+/// Where to go on from here: the details, the motion, and the word most likely to be new.
+pub(super) fn further(report: &Report, page: &mut Page) {
+    if page.layout().verbose {
+        return;
+    }
+    let mobility = &report.mobility;
+    let word = match (mobility.verdict, report.home.kind, mobility.class) {
+        (Verdict::Unassembled, ..) => "assembled",
+        (_, Some(kind), _) => kind.word(),
+        (_, _, Some(class @ (MobilityClass::Exceptional | MobilityClass::Paradoxical))) => {
+            class.word()
+        }
+        _ if report.home.redundant.is_some_and(|n| n > 0) => "redundant",
+        _ => "mobility",
+    };
+    let motion = match mobility.verdict {
+        Verdict::Mobile => " Motion: `kutzbach trace`.",
+        _ => "",
+    };
+    let text = format!("Details: `--verbose`.{motion} Words: `kutzbach explain {word}`.");
+    page.paragraph(&text, Tint::Quiet, "", "");
+}
+
+/// That constraints are redundant, where the mechanism moves all the same.
+fn redundant(report: &Report) -> Option<String> {
+    let redundant = report.home.redundant.filter(|&n| n > 0)?;
+    if report.mobility.verdict != Verdict::Mobile {
+        return None;
+    }
+    let count = report.kutzbach;
+    let many = match redundant {
+        1 => format!("1 constraint is redundant ({})", cite::REDUNDANT),
+        n => format!("{n} constraints are redundant ({})", cite::REDUNDANT),
+    };
+    Some(format!(
+        "Counting (Kutzbach) gives {count}; {many}: it binds unless made accurately."
+    ))
 }
 
 /// The answer in one sentence.
@@ -75,7 +126,7 @@ fn mobile(report: &Report) -> String {
         return text;
     }
     if report.warnings.iter().any(|w| w.contains(MAY_JOIN)) {
-        text.push_str(", by what of the file is read.");
+        text.push_str(", going by the part of the file that was read.");
         return text;
     }
     if without_loops(report) {
@@ -87,12 +138,11 @@ fn mobile(report: &Report) -> String {
     }
     if let Some(class) = report.mobility.class {
         let why = match class {
-            MobilityClass::Trivial if report.home.redundant == Some(0) => "as counting says",
-            MobilityClass::Trivial => {
-                "as counting says within the displacement subgroup of each loop"
-            }
+            MobilityClass::Trivial => counting(report),
             MobilityClass::Exceptional => "explained by the displacement subgroups of its chains",
-            MobilityClass::Paradoxical => "owed to its special dimensions",
+            MobilityClass::Paradoxical => {
+                "due to its dimensions; no displacement group explains it"
+            }
         };
         text.push_str(&format!(
             ", {why}{} ({})",
@@ -104,7 +154,24 @@ fn mobile(report: &Report) -> String {
     text
 }
 
-/// ` = 6 + 6 idle (rods that spin, D10) + 6 of the floating base`, where some freedoms are idle or nothing is held.
+/// Which count predicts a trivial mobility.
+fn counting(report: &Report) -> &'static str {
+    let all = |space: &str| {
+        let mut cycles = report.cycles.iter();
+        cycles.len() > 0 && cycles.all(|cycle| cycle.space.as_deref() == Some(space))
+    };
+    if report.home.redundant == Some(0) {
+        "as the count predicts"
+    } else if all("G") {
+        "as the planar (Grübler) count predicts"
+    } else if all("S") {
+        "as the spherical count predicts"
+    } else {
+        "as counting within the displacement subgroup of each loop predicts"
+    }
+}
+
+/// ` (6 + 6 idle: rods that spin + 6 of a floating body)`, where some degrees of freedom are idle or nothing is held.
 fn shares(report: &Report) -> String {
     let Some(found) = &report.freedoms else {
         return String::new();
@@ -112,19 +179,27 @@ fn shares(report: &Report) -> String {
     if found.idle + found.floating == 0 {
         return String::new();
     }
-    let mut text = format!(" = {}", found.useful);
+    let mut parts = vec![format!("{}", found.useful)];
     if found.idle > 0 {
         let rods = match (found.rods, found.idle) {
-            (true, 1) => "a rod that spins, ",
-            (true, _) => "rods that spin, ",
+            (true, 1) => ": a rod that spins",
+            (true, _) => ": rods that spin",
             (false, _) => "",
         };
-        text.push_str(&format!(" + {} idle ({rods}{})", found.idle, cite::IDLE));
+        parts.push(format!("{} idle{rods}", found.idle));
     }
     if found.floating > 0 {
-        text.push_str(&format!(" + {} of what floats", found.floating));
+        let bodies = match found.floating {
+            6 => "a body that floats",
+            _ => "bodies that float",
+        };
+        parts.push(format!("{} of {bodies}", found.floating));
     }
-    text
+    let cited = match found.idle {
+        0 => String::new(),
+        _ => format!(", {}", cite::IDLE),
+    };
+    format!(" ({}{cited})", parts.join(" + "))
 }
 
 /// Freedoms that are idle but for a hair.
@@ -138,7 +213,7 @@ fn nearly_idle(report: &Report) -> Option<String> {
     let freedom: usize = branch.nearly_idle.iter().map(|idle| idle.freedom).sum();
     (freedom > 0).then(|| {
         format!(
-            "{freedom} of the useful {} nearly idle ({}): {} a thousand times as much as anything else.",
+            "{freedom} of the useful degrees of freedom {} nearly idle ({}): {} a thousand times as much as anything else.",
             if freedom == 1 { "is" } else { "are" },
             cite::IDLE,
             match links.as_slice() {
@@ -152,7 +227,7 @@ fn nearly_idle(report: &Report) -> Option<String> {
 /// What is held, where that is a convention of the file only.
 fn base(report: &Report) -> Option<String> {
     let base = report.freedoms.as_ref()?.base.as_ref()?;
-    Some(format!("With `{base}` held; 6 more if it floats."))
+    Some(format!("6 more if the base `{base}` is not fixed."))
 }
 
 /// The blocks that a class is owed to, where others that move have another.
@@ -181,7 +256,7 @@ fn blocks_of(report: &Report, class: MobilityClass) -> String {
 fn singular(report: &Report) -> String {
     let Some(kind) = report.home.kind else {
         return format!(
-            "not every one of these can be followed (singular pose, {})",
+            "not every infinitesimal motion can be continued (singular pose, {})",
             cite::REGULAR
         );
     };
@@ -200,10 +275,9 @@ fn singular(report: &Report) -> String {
             format!("branches of dimensions {} meet here", dimensions(branches))
         }
         SingularKind::Kinematotropic => "branches of different dimensions meet here".to_owned(),
-        SingularKind::Shaky => "it gives way in directions that lead nowhere".to_owned(),
+        SingularKind::Shaky => "some infinitesimal motions cannot be continued".to_owned(),
         SingularKind::PermanentlyShaky => {
-            "it gives way in more directions than it moves, here and all along the motion"
-                .to_owned()
+            "infinitesimally more mobile than it moves, here and along the whole motion".to_owned()
         }
     };
     format!("{what} ({})", cite::kind(kind))
@@ -217,21 +291,22 @@ fn dimensions(branches: &[Branch]) -> String {
 
 fn rigid(report: &Report) -> String {
     if without_loops(report) {
-        return format!("Rigid: no joint has any freedom ({}).", cite::FREEDOM);
+        return format!("Rigid: no joint can move ({}).", cite::FREEDOM);
     }
     let shaky = cite::KIND;
     match report.home.instantaneous {
         Some(1) => format!(
-            "Rigid, but shaky ({shaky}): it gives way in 1 direction at this pose, which leads nowhere."
+            "Rigid, but infinitesimally mobile (shaky, {shaky}): one infinitesimal motion, which cannot be continued."
         ),
         Some(many) if many > 1 => format!(
-            "Rigid, but shaky ({shaky}): it gives way in {many} directions at this pose, none of which leads anywhere."
+            "Rigid, but infinitesimally mobile (shaky, {shaky}): {many} independent infinitesimal motions, none of which can \
+             be continued."
         ),
         Some(_) => format!(
-            "Rigid: nothing can move, not even for an instant ({}).",
+            "Rigid: 0 degrees of freedom, and no infinitesimal motion ({}).",
             cite::INSTANTANEOUS
         ),
-        None => format!("Rigid: nothing can move ({}).", cite::FINITE),
+        None => format!("Rigid: 0 degrees of freedom ({}).", cite::FINITE),
     }
 }
 
@@ -306,106 +381,110 @@ pub(super) fn nominal(report: &Report) -> Option<String> {
     Some(text)
 }
 
-/// Why the finite freedom is not larger.
-pub(super) fn not_more(report: &Report) -> Option<String> {
+/// Why the finite mobility is not larger.
+pub(super) fn not_more(report: &Report, verbose: bool) -> Option<String> {
     let mobility = &report.mobility;
-    let instantaneous = report.home.instantaneous;
-    let text = match (mobility.verdict, mobility.finite) {
-        (Verdict::Unassembled, _) => return None,
-        (Verdict::Undecided, _) => {
-            let most = mobility.bounds[1]?;
-            let definition = match report.home.pose {
-                Some(PoseKind::Singular) => cite::REGULAR,
-                _ => cite::INSTANTANEOUS,
-            };
-            match instantaneous {
-                Some(freedom) if most < freedom => format!(
-                    "Not more than {most}: of the {} at this pose not all can be followed, because the pose is singular \
-                     ({definition}).",
-                    counted(freedom, "freedom")
-                ),
-                _ => format!(
-                    "Not more than {most}: the closure equations at this pose and the joints by themselves leave no more, \
-                     and no motion has more freedoms than its poses ({definition})."
-                ),
-            }
-        }
-        _ if without_loops(report) => return None,
-        (Verdict::Rigid, _) => format!("Why not more: {}.", proof(report)?),
-        (Verdict::Mobile, finite) => match (finite, instantaneous) {
-            (Some(finite), Some(at_pose)) if finite < at_pose => {
-                let mut text = match report.home.kind {
-                    Some(SingularKind::PermanentlyShaky) => format!(
-                        "Why not more: the pose is singular ({}): {} of its {} lead nowhere, here and at \
-                         every pose of the motion",
-                        cite::REGULAR,
-                        at_pose - finite,
-                        counted(at_pose, "freedom")
-                    ),
-                    _ => format!(
-                        "Why not more: the pose is singular ({}): its {} exist together to first order only, and no branch \
-                         through it has more than {} ({})",
-                        cite::REGULAR,
-                        counted(at_pose, "freedom"),
-                        finite,
-                        cite::BRANCH
-                    ),
-                };
-                if mobility.complex_dimension == Some(finite) {
-                    text.push_str(&format!(
-                        "; over the complex numbers the dimension is {finite} too ({})",
-                        cite::EVIDENCE
-                    ));
-                }
-                text.push('.');
-                text
-            }
-            (Some(_), Some(at_pose)) => format!(
-                "Why not more: the rank of the closure equations leaves {} at this pose, and no motion has more freedoms \
-                 than its poses ({}).",
-                counted(at_pose, "freedom"),
+    let home = &report.home;
+    match (mobility.verdict, mobility.finite) {
+        (Verdict::Unassembled, _) => None,
+        (Verdict::Undecided, _) => Some(at_most(report, mobility.bounds[1]?)),
+        _ if without_loops(report) => None,
+        (Verdict::Rigid, _) => Some(format!("Why not more: {}.", proof(report, verbose)?)),
+        (Verdict::Mobile, finite) => match (finite?, home.instantaneous?) {
+            (finite, at_pose) if finite < at_pose => Some(singular_bound(report, finite, at_pose)),
+            (_, at_pose) => Some(format!(
+                "Why not more: rank {} of {} variables at this pose, which bounds the mobility from above ({}).",
+                home.rank.unwrap_or(home.unknowns.saturating_sub(at_pose)),
+                home.unknowns,
                 cite::INSTANTANEOUS
-            ),
-            _ => return None,
+            )),
         },
-    };
-    Some(text)
+    }
 }
 
-/// Why the finite freedom is not smaller.
-pub(super) fn not_less(report: &Report) -> Option<String> {
+/// The upper bound of what is not decided.
+fn at_most(report: &Report, most: usize) -> String {
+    let definition = match report.home.pose {
+        Some(PoseKind::Singular) => cite::REGULAR,
+        _ => cite::INSTANTANEOUS,
+    };
+    match report.home.instantaneous {
+        Some(freedom) if most < freedom => format!(
+            "Not more than {most}: the pose is singular, and no finite motion combines its {freedom} independent velocities \
+             ({definition})."
+        ),
+        _ => format!(
+            "Not more than {most}: the rank at a pose bounds the mobility from above ({definition})."
+        ),
+    }
+}
+
+/// Why fewer than the velocities at the pose suggest.
+fn singular_bound(report: &Report, finite: usize, at_pose: usize) -> String {
+    let mut text = match report.home.kind {
+        Some(SingularKind::PermanentlyShaky) => format!(
+            "Why not more: {} of the {at_pose} independent velocities cannot be continued, here and at every pose of the \
+             motion ({})",
+            at_pose - finite,
+            cite::REGULAR
+        ),
+        _ => format!(
+            "Why not more: {at_pose} independent velocities are possible at this singular pose, but no finite motion through \
+             it has more than {finite} ({})",
+            cite::BRANCH
+        ),
+    };
+    if report.mobility.complex_dimension == Some(finite) {
+        text.push_str(&format!(
+            "; over the complex numbers the dimension is {finite} too ({})",
+            cite::EVIDENCE
+        ));
+    }
+    text.push('.');
+    text
+}
+
+/// Why the finite mobility is not smaller.
+pub(super) fn not_less(report: &Report, verbose: bool) -> Option<String> {
     let mobility = &report.mobility;
     match mobility.verdict {
-        Verdict::Mobile => Some(format!("Why not less: {}.", proof(report)?)),
+        Verdict::Mobile if without_loops(report) && !verbose => None,
+        Verdict::Mobile => Some(format!("Why not less: {}.", proof(report, verbose)?)),
         Verdict::Undecided => Some(match mobility.bounds[0]? {
             0 => format!(
                 "Not less than 0: no motion has been proved ({}).",
                 cite::CERTIFICATE
             ),
             least => format!(
-                "Not less than {least}: so many remain by the joints outside loops, the blocks that are decided and the \
-                 displacement subgroups of the others ({}).",
+                "Not less than {least}: joints outside loops, the sub-mechanisms already decided and the displacement \
+                 subgroups of the others leave that many ({}).",
                 cite::CERTIFICATE
             ),
         }),
-        // Nothing has fewer freedoms than none.
+        // Nothing is less mobile than what is rigid.
         Verdict::Rigid | Verdict::Unassembled => None,
     }
 }
 
-/// What the answer rests on, with its strength.
-fn proof(report: &Report) -> Option<String> {
+/// Reasons by groups up to so many letters are explanations; longer ones are proofs, for those who ask.
+const SHORT_PROOF: usize = 160;
+
+/// What the answer rests on, with its strength; what exactly it proves where everything is asked for.
+fn proof(report: &Report, verbose: bool) -> Option<String> {
     let certificate = report.mobility.certificate.as_ref()?;
     let strength = match certificate.level {
-        CertificateLevel::Numeric => "computed with a margin",
+        CertificateLevel::Numeric => "computed numerically, with a margin",
         CertificateLevel::Subgroup => "proved by displacement subgroups",
-        CertificateLevel::Exact => "proved in exact arithmetic",
+        CertificateLevel::Exact => "proved by exact algebra",
     };
-    Some(format!(
-        "{strength} ({}): {}",
-        cite::level(certificate.level),
-        certificate.text.trim_end_matches('.')
-    ))
+    let text = certificate.text.trim_end_matches('.');
+    let cited = cite::level(certificate.level);
+    let explains =
+        certificate.level == CertificateLevel::Subgroup && text.chars().count() <= SHORT_PROOF;
+    Some(match verbose || explains {
+        true => format!("{strength} ({cited}): {text}"),
+        false => format!("{strength} ({cited})"),
+    })
 }
 
 pub(super) fn without_loops(report: &Report) -> bool {
@@ -414,20 +493,22 @@ pub(super) fn without_loops(report: &Report) -> bool {
 
 /// The finite mobility, or what is known of it.
 fn freedoms(report: &Report) -> String {
-    let finite = |n| counted(n, "finite freedom");
     match (report.mobility.finite, report.mobility.bounds) {
-        (Some(n), _) => finite(n),
+        (Some(n), _) => degrees(n),
         (None, [Some(least), Some(most)]) if least == most => {
-            format!("{}, as far as is known", finite(least))
+            format!("{}, as far as is known", degrees(least))
         }
         (None, [Some(least), Some(most)]) => {
-            format!("between {least} and {}", finite(most))
+            format!("{least} to {most} degrees of freedom")
         }
-        (None, [Some(least), None]) => format!("at least {}", finite(least)),
-        (None, [None, Some(most)]) => format!("at most {}", finite(most)),
-        (None, [None, None]) => "nothing is known of its finite freedoms yet".to_owned(),
+        (None, [Some(least), None]) => format!("at least {}", degrees(least)),
+        (None, [None, Some(most)]) => format!("at most {}", degrees(most)),
+        (None, [None, None]) => "its degrees of freedom are not known".to_owned(),
     }
 }
+
+/// Literals of so many decimals hold all that double precision holds.
+const DOUBLE_PRECISION: i32 = 15;
 
 fn optional(count: Option<usize>) -> String {
     count.map_or_else(|| "?".to_owned(), |n| n.to_string())
@@ -445,11 +526,14 @@ fn identity(report: &Report, verbose: bool) -> String {
     }
     let source = &report.source;
     let numbers = match (source.exact, source.digits) {
-        (true, _) => "numbers taken as exact".to_owned(),
+        (true, _) => "exact numbers".to_owned(),
         (false, _) if source.precision.is_some() => format!(
-            "numbers known to {:e} m or rad, as said by hand",
+            "numbers known to {:e} m or rad (`--precision`)",
             source.precision.unwrap_or_default()
         ),
+        (false, Some(digits)) if digits >= DOUBLE_PRECISION => {
+            "numbers in full double precision".to_owned()
+        }
         (false, Some(digits)) => format!(
             "numbers stated to {}",
             counted(usize::try_from(digits).unwrap_or(0), "decimal")

@@ -34,37 +34,37 @@ fn regular_mobile_mechanisms_name_their_class() {
         (
             Some(MobilityClass::Trivial),
             3,
-            "Mobile: 1 finite freedom, as counting says within the displacement subgroup of each loop (trivial, D11).",
+            "Mobile: 1 degree of freedom, as counting within the displacement subgroup of each loop predicts (trivial, D11).",
         ),
         (
             Some(MobilityClass::Trivial),
             0,
-            "Mobile: 1 finite freedom, as counting says (trivial, D11).",
+            "Mobile: 1 degree of freedom, as the count predicts (trivial, D11).",
         ),
         (
             Some(MobilityClass::Exceptional),
             3,
-            "Mobile: 1 finite freedom, explained by the displacement subgroups of its chains (exceptional, D11).",
+            "Mobile: 1 degree of freedom, explained by the displacement subgroups of its chains (exceptional, D11).",
         ),
         (
             Some(MobilityClass::Paradoxical),
             3,
-            "Mobile: 1 finite freedom, owed to its special dimensions (paradoxical, D11).",
+            "Mobile: 1 degree of freedom, due to its dimensions; no displacement group explains it (paradoxical, D11).",
         ),
-        (None, 3, "Mobile: 1 finite freedom."),
+        (None, 3, "Mobile: 1 degree of freedom."),
     ] {
         let mut report = mobile();
         report.mobility.class = class;
         report.home.redundant = Some(redundant);
         assert_eq!(super::sentence(&report), sentence);
     }
-    let more = not_more(&mobile()).unwrap();
-    assert!(more.starts_with("Why not more: the rank of the closure equations leaves 1 freedom"));
+    let more = not_more(&mobile(), true).unwrap();
+    assert!(more.starts_with("Why not more: rank 3 of 4 variables"));
     assert!(more.contains("(D3)"));
-    let less = not_less(&mobile()).unwrap();
-    assert!(
-        less.starts_with("Why not less: computed with a margin (numeric, D12): the loop stays")
-    );
+    let less = not_less(&mobile(), true).unwrap();
+    assert!(less.starts_with(
+        "Why not less: computed numerically, with a margin (numeric, D12): the loop stays"
+    ));
 }
 
 #[test]
@@ -74,44 +74,44 @@ fn singular_mobile_mechanisms_say_what_meets() {
             Some(SingularKind::Bifurcation),
             2,
             &[1, 1][..],
-            "Mobile: 1 finite freedom; 2 at this pose: two branches cross here (bifurcation, D7).",
+            "Mobile: 1 degree of freedom; 2 at this pose: two branches cross here (bifurcation, D7).",
         ),
         (
             Some(SingularKind::Bifurcation),
             3,
             &[1, 1, 1],
-            "Mobile: 1 finite freedom; 3 at this pose: three branches cross here (bifurcation, D7).",
+            "Mobile: 1 degree of freedom; 3 at this pose: three branches cross here (bifurcation, D7).",
         ),
         (
             Some(SingularKind::Tangential),
             2,
             &[1, 1],
-            "Mobile: 1 finite freedom; 2 at this pose: two branches touch here, with one tangent (tangential, D7).",
+            "Mobile: 1 degree of freedom; 2 at this pose: two branches touch here, with one tangent (tangential, D7).",
         ),
         (
             Some(SingularKind::Cusp),
             2,
             &[1],
-            "Mobile: 1 finite freedom; 2 at this pose: the motion stops here and turns back (cusp, D7).",
+            "Mobile: 1 degree of freedom; 2 at this pose: the motion stops here and turns back (cusp, D7).",
         ),
         (
             Some(SingularKind::Kinematotropic),
             3,
             &[2, 1, 1],
-            "Mobile: 2 finite freedoms; 3 at this pose: branches of dimensions 2, 1 and 1 meet here (kinematotropic, D7).",
+            "Mobile: 2 degrees of freedom; 3 at this pose: branches of dimensions 2, 1 and 1 meet here (kinematotropic, D7).",
         ),
         (
             Some(SingularKind::PermanentlyShaky),
             2,
             &[1],
-            "Mobile: 1 finite freedom; 2 at this pose: it gives way in more directions than it moves, here and all along \
-             the motion (permanently shaky, D7).",
+            "Mobile: 1 degree of freedom; 2 at this pose: infinitesimally more mobile than it moves, here and along the \
+             whole motion (permanently shaky, D7).",
         ),
         (
             None,
             2,
             &[1],
-            "Mobile: 1 finite freedom; 2 at this pose: not every one of these can be followed (singular pose, D6).",
+            "Mobile: 1 degree of freedom; 2 at this pose: not every infinitesimal motion can be continued (singular pose, D6).",
         ),
     ] {
         let report = at_singular(kind, at_pose, dimensions);
@@ -128,22 +128,22 @@ fn singular_mobile_mechanisms_say_what_meets() {
 fn singular_poses_say_why_not_more() {
     let mut report = at_singular(Some(SingularKind::Bifurcation), 2, &[1, 1]);
     assert_eq!(
-        not_more(&report).unwrap(),
-        "Why not more: the pose is singular (D6): its 2 freedoms exist together to first order only, and no branch through it has \
-         more than 1 (D8)."
+        not_more(&report, true).unwrap(),
+        "Why not more: 2 independent velocities are possible at this singular pose, but no finite motion through it has more \
+         than 1 (D8)."
     );
     report.mobility.complex_dimension = Some(1);
     assert!(
-        not_more(&report)
+        not_more(&report, true)
             .unwrap()
             .ends_with("the dimension is 1 too (D20).")
     );
     let report = at_singular(Some(SingularKind::PermanentlyShaky), 2, &[1]);
     assert_eq!(
-        not_more(&report).unwrap(),
-        "Why not more: the pose is singular (D6): 1 of its 2 freedoms lead nowhere, here and at every pose of the motion."
+        not_more(&report, true).unwrap(),
+        "Why not more: 1 of the 2 independent velocities cannot be continued, here and at every pose of the motion (D6)."
     );
-    assert!(not_less(&report).unwrap().contains("(numeric, D12)"));
+    assert!(not_less(&report, true).unwrap().contains("(numeric, D12)"));
 }
 
 #[test]
@@ -151,22 +151,27 @@ fn rigid_by_rank_and_shaky() {
     let mut report = rigid();
     assert_eq!(
         super::sentence(&report),
-        "Rigid, but shaky (D7): it gives way in 1 direction at this pose, which leads nowhere."
+        "Rigid, but infinitesimally mobile (shaky, D7): one infinitesimal motion, which cannot be continued."
     );
     assert_eq!(
-        not_more(&report).unwrap(),
-        "Why not more: proved in exact arithmetic (exact, D12): a self-stress is definite on the instantaneous freedom."
+        not_more(&report, true).unwrap(),
+        "Why not more: proved by exact algebra (exact, D12): a self-stress is definite on the instantaneous freedom."
     );
-    assert_eq!(not_less(&report), None);
+    assert_eq!(not_less(&report, true), None);
     report.home.instantaneous = Some(2);
-    assert!(super::sentence(&report).contains("in 2 directions at this pose, none of which"));
+    assert!(
+        super::sentence(&report).contains("2 independent infinitesimal motions, none of which")
+    );
     report.home.instantaneous = Some(0);
     assert_eq!(
         super::sentence(&report),
-        "Rigid: nothing can move, not even for an instant (D3)."
+        "Rigid: 0 degrees of freedom, and no infinitesimal motion (D3)."
     );
     report.home.instantaneous = None;
-    assert_eq!(super::sentence(&report), "Rigid: nothing can move (D4).");
+    assert_eq!(
+        super::sentence(&report),
+        "Rigid: 0 degrees of freedom (D4)."
+    );
 }
 
 #[test]
@@ -174,15 +179,15 @@ fn undecided_says_what_is_open() {
     let mut report = undecided();
     assert_eq!(
         super::sentence(&report),
-        "Undecided: between 0 and 1 finite freedom (D4); 1 at this pose."
+        "Undecided: 0 to 1 degrees of freedom (D4); 1 at this pose."
     );
     assert!(
-        not_more(&report)
+        not_more(&report, true)
             .unwrap()
-            .starts_with("Not more than 1: the closure equations")
+            .starts_with("Not more than 1: the rank at a pose")
     );
     assert_eq!(
-        not_less(&report).unwrap(),
+        not_less(&report, true).unwrap(),
         "Not less than 0: no motion has been proved (D12)."
     );
     report.home.pose = Some(PoseKind::Singular);
@@ -190,19 +195,19 @@ fn undecided_says_what_is_open() {
     report.mobility.bounds = [Some(1), Some(2)];
     assert_eq!(
         super::sentence(&report),
-        "Undecided: between 1 and 2 finite freedoms (D4); 3 at this pose, which is singular (D6)."
+        "Undecided: 1 to 2 degrees of freedom (D4); 3 at this pose, which is singular (D6)."
     );
     assert_eq!(
-        not_more(&report).unwrap(),
-        "Not more than 2: of the 3 freedoms at this pose not all can be followed, because the pose is singular (D6)."
+        not_more(&report, true).unwrap(),
+        "Not more than 2: the pose is singular, and no finite motion combines its 3 independent velocities (D6)."
     );
     assert!(
-        not_less(&report)
+        not_less(&report, true)
             .unwrap()
-            .starts_with("Not less than 1: so many remain")
+            .starts_with("Not less than 1: joints outside loops")
     );
     report.mobility.bounds = [Some(2), Some(2)];
-    assert!(super::sentence(&report).contains("2 finite freedoms, as far as is known (D4)"));
+    assert!(super::sentence(&report).contains("2 degrees of freedom, as far as is known (D4)"));
     let page = crate::text::render(&undecided(), crate::text::Layout::default());
     assert!(
         page.contains("Open: the rank bounds the finite freedom from above only."),
@@ -256,15 +261,12 @@ fn arms_without_loops_count_their_joints() {
     report.mobility.class = Some(MobilityClass::Trivial);
     assert_eq!(
         super::sentence(&report),
-        "Mobile: 6 finite freedoms, since there is no loop and every joint is free (D1)."
+        "Mobile: 6 degrees of freedom, since there is no loop and every joint is free (D1)."
     );
-    assert_eq!(not_more(&report), None);
+    assert_eq!(not_more(&report, true), None);
     report.mobility.verdict = Verdict::Rigid;
     report.mobility.finite = Some(0);
-    assert_eq!(
-        super::sentence(&report),
-        "Rigid: no joint has any freedom (D1)."
-    );
+    assert_eq!(super::sentence(&report), "Rigid: no joint can move (D1).");
 }
 
 #[test]
@@ -274,7 +276,10 @@ fn what_does_not_assemble_has_no_reasons() {
         super::sentence(&report)
             .starts_with("Does not assemble (D17): no closing found after 264 starts (nearest: 300 mm and 11.5° at loop `J3`)")
     );
-    assert_eq!((not_more(&report), not_less(&report)), (None, None));
+    assert_eq!(
+        (not_more(&report, true), not_less(&report, true)),
+        (None, None)
+    );
 }
 
 #[test]
@@ -284,8 +289,8 @@ fn every_number_cited_is_a_definition() {
     for kind in SingularKind::ALL {
         let report = at_singular(Some(*kind), 2, &[1, 1]);
         sentences.push(super::sentence(&report));
-        sentences.extend(not_more(&report));
-        sentences.extend(not_less(&report));
+        sentences.extend(not_more(&report, true));
+        sentences.extend(not_less(&report, true));
     }
     for text in sentences {
         for cited in text.split(|c: char| !c.is_alphanumeric()) {

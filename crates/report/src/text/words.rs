@@ -148,6 +148,15 @@ pub fn counted(count: usize, thing: &str) -> String {
     }
 }
 
+/// `1 degree of freedom`, `2 degrees of freedom`.
+#[must_use]
+pub fn degrees(count: usize) -> String {
+    match count {
+        1 => "1 degree of freedom".to_owned(),
+        n => format!("{n} degrees of freedom"),
+    }
+}
+
 /// A clause as a sentence of its own: a capital, and one full stop.
 #[must_use]
 pub fn capitalised(clause: &str) -> String {
