@@ -291,7 +291,7 @@ fn of_exact_files() {
     let found = in_parallel(&known, |(name, mechanism, analysis)| {
         checked(name, mechanism, analysis, [NONE[0], REACH[0]])
     });
-    // Measured: 30 of 1469.
+    // Measured: 30 of 1473.
     all(found, 0.021);
 }
 
@@ -302,10 +302,11 @@ fn of_files_with_four_decimals() {
         let draft = Draft::of(mechanism).each_number(&|number| decimal::rounded(number, 4));
         let rounded = draft.build();
         match analyse(&rounded, &Default::default()) {
-            Ok(analysis) => checked(name, &rounded, &analysis, [NONE[1], REACH[1]]),
+            // What is told of a mechanism that is meant is held against that one.
+            Ok(analysis) => checked(name, analysis.of(&rounded), &analysis, [NONE[1], REACH[1]]),
             Err(_) => (0, Vec::new(), Vec::new()),
         }
     });
-    // Measured: 228 of 847.
-    all(found, 0.3);
+    // Measured: 231 of 1018.
+    all(found, 0.24);
 }
