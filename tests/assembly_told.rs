@@ -82,7 +82,7 @@ fn gaps_of_every_size_are_told_with_what_they_took() {
             "{farthest:?}"
         );
         assert!(
-            text.contains(&format!("Farthest moved: `{}` turned by", farthest.name)),
+            text.contains(&format!("Largest change: `{}` by", farthest.name)),
             "{text}"
         );
     }

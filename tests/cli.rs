@@ -46,7 +46,7 @@ fn report_prints_a_page_without_colour_into_a_pipe() {
     let output = kutzbach(&folder, &["report", "bar.urdf"]);
     assert_eq!(output.status.code(), Some(0));
     let page = text(&output.stdout);
-    assert!(page.contains("Kutzbach's count"), "{page}");
+    assert!(page.contains("Counts  Kutzbach"), "{page}");
     assert!(page.contains("bar (bar.urdf): 4 links, 4 joints and 1 independent loop"));
     assert!(!page.contains('\u{1b}'));
     assert!(output.stderr.is_empty());
@@ -175,7 +175,7 @@ fn evidence_is_told_where_it_is_asked_for() {
     };
     assert!(!text(&page(&[]).stdout).contains("Evidence"));
     let told = text(&page(&["--evidence"]).stdout);
-    let (_, told) = told.split_once("Evidence (D20)").unwrap();
+    let (_, told) = told.split_once("Evidence").unwrap();
     for engine in ["rank", "subgroup", "chart", "germ"] {
         assert!(told.contains(&format!("• {engine} (")), "{engine}: {told}");
     }
@@ -205,10 +205,10 @@ fn motions_between_links_are_told_on_every_branch() {
     let arguments = ["report", TWO_BRANCHES, "--between", "coupler", "ground"];
     let page = text(&kutzbach(&folder, &arguments).stdout);
     let (_, asked) = page.split_once("Relative motions asked for").unwrap();
-    let (asked, others) = asked.split_once("Motions (").unwrap();
+    let (asked, others) = asked.split_once("Motion, seen from").unwrap();
     assert!(asked.contains("translates") && asked.contains("rotates about a moving axis"));
     assert!(
-        !others.split_once("Advice").unwrap().0.contains("coupler "),
+        !others.split_once("Joints").unwrap().0.contains("coupler "),
         "{others}"
     );
 

@@ -445,7 +445,7 @@ fn idle_freedoms_that_inputs_hold_are_not_left() {
     let text = include_str!("../mechanisms/rssr.urdf");
     assert!(told(text, &["crank_pivot"]).contains("(1), with 1 idle left."));
     let both = told(text, &["crank_pivot", "crank_ball.rot2"]);
-    assert!(both.contains("enough for all 2 degrees of freedom, the idle ones included."));
+    assert!(both.contains("sufficient for all 2 degrees of freedom, the idle ones included."));
 }
 
 #[test]
@@ -549,7 +549,7 @@ fn stretched_five_bar(mark: &str) -> String {
 
 #[test]
 fn inputs_are_proposed_that_do_their_work_at_the_pose_itself() {
-    const DEAD_CENTRE: &str = "act independently: it is a dead centre of the inputs.";
+    const DEAD_CENTRE: &str = "act independently; locked, they do not hold the mechanism.";
     let five_bar = stretched_five_bar("");
     let (report, text) = (reported(&five_bar), told(&five_bar, &[]));
     let found = inputs(&report);
@@ -561,7 +561,7 @@ fn inputs_are_proposed_that_do_their_work_at_the_pose_itself() {
     let cranks = ["A", "E"];
     let (report, text) = (reported_with(&five_bar, &cranks), told(&five_bar, &cranks));
     assert_eq!(inputs(&report).independent_here, Some(1));
-    let said = format!("At this pose only 1 {DEAD_CENTRE}");
+    let said = format!("only 1 {DEAD_CENTRE}");
     assert_eq!(text.matches(&said).count(), 1, "{text}");
     let marked = stretched_five_bar(r#"independent="false""#);
     let (report, text) = (reported_with(&marked, &["A"]), told(&marked, &["A"]));

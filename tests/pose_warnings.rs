@@ -95,7 +95,7 @@ fn dead_centres_are_told() {
     assert!(
         stretched
             .iter()
-            .any(|text| text.starts_with("dead centre: `slide` rests")),
+            .any(|text| text.starts_with("extreme position: `slide` at this pose")),
         "{stretched:?}"
     );
     assert!(warnings(&slider_crank("1")).is_empty());

@@ -25,3 +25,60 @@ fn the_report_in_the_readme_is_the_one_printed() {
         String::from_utf8(run.stdout).unwrap().trim_end()
     );
 }
+
+/// What the program prints of a mechanism of this repository.
+fn printed(arguments: &[&str]) -> String {
+    let run = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+        .args(arguments)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .env_remove("COLUMNS")
+        .output()
+        .unwrap();
+    assert!(run.status.success(), "{arguments:?}");
+    String::from_utf8(run.stdout).unwrap()
+}
+
+#[test]
+fn first_screens_are_short_and_whole() {
+    for (file, most) in [
+        ("mechanisms/bennett.urdf", 25),
+        ("tests/zoo/sarrus_6r.urdf", 30),
+        ("mechanisms/delta.urdf", 40),
+    ] {
+        let page = printed(&["report", file]);
+        assert!(page.lines().count() <= most, "{file}:\n{page}");
+        // Neither a cell that is cut nor the number of a definition.
+        assert!(page.lines().all(|line| !line.contains("…  ")), "{page}");
+        assert!(!page.contains("(D") && !page.contains(", D"), "{page}");
+    }
+}
+
+/// Bennett's coupler turns with its crank in a closed cycle; its pitch runs from -1 to -1/2 m/rad.
+#[test]
+fn pitches_and_ranges_are_those_of_the_whole_cycle() {
+    let json = printed(&["report", "mechanisms/bennett.urdf", "--format", "json"]);
+    let report: serde_json::Value = serde_json::from_str(&json).unwrap();
+    for joint in report["joints"].as_array().unwrap() {
+        let turns = joint["ranges"][0]["turns"].as_i64().unwrap();
+        assert_eq!(turns.abs(), 1, "{joint}");
+    }
+    let mut motions = report["motions"].as_array().unwrap().iter();
+    let coupler = motions.find(|row| row["link"] == "coupler").unwrap();
+    assert_eq!(coupler["whole_branch"], true);
+    for (pitch, expected) in coupler["pitches"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .zip([-1.0, -0.5])
+    {
+        assert!(
+            (pitch.as_f64().unwrap() - expected).abs() < 1e-8,
+            "{coupler}"
+        );
+    }
+    let metres = printed(&["report", "tests/zoo/sarrus_6r.urdf", "--units", "rad-m"]);
+    assert!(
+        metres.contains(" rad ") && !metres.contains('°'),
+        "{metres}"
+    );
+}

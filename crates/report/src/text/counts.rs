@@ -25,7 +25,7 @@ pub(crate) fn write(report: &Report, page: &mut Page) {
         counts.push(("generic", generic.mobility.to_string()));
     }
     if known {
-        counts.push(("at this pose", at_pose(home)));
+        counts.push(("this pose", at_pose(home)));
         counts.push(("finite", finite(report)));
         counts.push(("redundant", redundant(home)));
         counts.extend(
@@ -99,11 +99,11 @@ fn pose_word(pose: PoseKind, kind: Option<SingularKind>) -> String {
     }
 }
 
-/// `0.65, threshold 4.3e-14`: the smallest singular value that counts, relative to the largest, and what counts as zero.
+/// `0.65 > 4e-14`: the smallest singular value that counts, relative to the largest, and what counts as zero.
 fn margin_figures(home: &Home) -> Option<String> {
     home.rank?;
     let (kept, tolerance) = (home.kept?, home.tolerance?);
-    Some(format!("{}, threshold {}", figure(kept), figure(tolerance)))
+    Some(format!("{} > {:.0e}", figure(kept), tolerance))
 }
 
 /// Whether a singular value lies near the threshold.

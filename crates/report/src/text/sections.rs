@@ -222,18 +222,10 @@ pub(crate) fn advice(report: &Report, page: &mut Page) {
         return;
     }
     let mut left = report.advice.len();
-    let mut table = Table::new()
-        .column("change", Column::Shrinking)
-        .column("redundant", Column::Words);
     for change in Alternatives::of(&report.advice).iter().take(CHANGES) {
-        let (before, after) = (change.first.redundant_before, change.first.redundant_after);
-        table.row(vec![
-            Cell::new(change.text()),
-            Cell::new(format!("{before} → {after}")),
-        ]);
+        page.item(&told(&change.text(), change.first), Tint::Plain);
         left -= change.pieces();
     }
-    page.table(table, "changes");
     more(left, page);
 }
 

@@ -150,7 +150,11 @@ impl Table {
         let rows = &self.rows[..shown];
         let page = layout.width.max(NARROWEST_PAGE);
         let heading = heading.map(|text| visible(text).into_owned());
-        let widths = self.widths(rows, page, heading.as_deref().unwrap_or(""));
+        // A heading that would cut what stands beside it has a line of its own.
+        let alone = self.widths(rows, page, "");
+        let together = self.widths(rows, page, heading.as_deref().unwrap_or(""));
+        let cuts = together.iter().zip(&alone).any(|(a, b)| a < b);
+        let widths = if cuts { alone } else { together };
         let titles: Vec<Cell> = self
             .columns
             .iter()
