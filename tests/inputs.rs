@@ -549,7 +549,7 @@ fn stretched_five_bar(mark: &str) -> String {
 
 #[test]
 fn inputs_are_proposed_that_do_their_work_at_the_pose_itself() {
-    const DEAD_CENTRE: &str = "act independently; locked, they do not hold the mechanism.";
+    const DEAD_CENTRE: &str = "act independently; locked, they leave an infinitesimal motion.";
     let five_bar = stretched_five_bar("");
     let (report, text) = (reported(&five_bar), told(&five_bar, &[]));
     let found = inputs(&report);
@@ -570,7 +570,7 @@ fn inputs_are_proposed_that_do_their_work_at_the_pose_itself() {
         (&found.proposed[..], found.together_here),
         (&["E".to_owned()][..], Some(1))
     );
-    let said = format!("At this pose only 1 of them all {DEAD_CENTRE}");
+    let said = format!("only 1 of them all {DEAD_CENTRE}");
     assert_eq!(text.matches(&said).count(), 1, "{text}");
 }
 

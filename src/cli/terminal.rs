@@ -28,7 +28,7 @@ fn color_wanted() -> bool {
     !set("NO_COLOR") && std::env::var_os("TERM").is_none_or(|term| term != "dumb")
 }
 
-/// The width that the shell states. Running text is wrapped before it gets too wide to read, tables use all of it.
+/// The width that the shell states.
 fn width() -> usize {
     std::env::var("COLUMNS")
         .ok()

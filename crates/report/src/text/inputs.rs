@@ -83,7 +83,7 @@ fn sentences(report: &Report, inputs: &Inputs, most: usize) -> Vec<(String, Tint
 /// That inputs do less at the pose itself than elsewhere.
 fn dead_centre(number: &str) -> (String, Tint) {
     let text = format!(
-        "Singular for these motors at this pose (parallel singularity): only {number} act independently; locked, they do not hold the mechanism."
+        "Singular for these motors at this pose (parallel singularity): only {number} act independently; locked, they leave an infinitesimal motion."
     );
     (text, Tint::Notable)
 }
