@@ -207,7 +207,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn loops_of_the_reference_mechanisms_stay_closed() {
         let zoo = support::zoo();
         let wrong: Vec<String> = support::in_parallel(&zoo, |(name, mechanism)| {

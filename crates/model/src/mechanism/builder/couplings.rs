@@ -194,7 +194,7 @@ mod tests {
             builder
         };
         let ball = || chain(JointKind::Revolute, JointKind::Spherical);
-        let told = "joint `bc` is spherical with 3 freedoms; only a joint of one freedom has a single rate";
+        let told = "joint `bc` is spherical with 3 degrees of freedom; only a joint with one has a single rate";
         assert_eq!(
             fault(mimic(ball(), "ab", "bc")),
             format!("joint `ab`: {told}")
