@@ -185,8 +185,11 @@ pub fn characteristic_length<'a, R: Real + 'a>(
         right += across * (p - mean);
     }
     // Directions the axes leave open have an eigenvalue of zero; 1e-6 of the count is far above rounding and far below
-    // what two axes that differ visibly in direction contribute, and a small shift of the centre does no harm.
-    let damped = normal + Matrix3::identity() * (1e-6 * count);
+    // what two axes that differ visibly in direction contribute, and a small shift of the centre does no harm. Axes that are
+    // parallel but for a tilt e by their stated digits meet at about 1/e times their distance: damped by 4 e, the centre stays
+    // within a fraction of that distance.
+    let open = (4.0 * uncertainty.angles).clamp(1e-6, 1.0);
+    let damped = normal + Matrix3::identity() * (open * count);
     let centre = damped
         .try_inverse()
         .map_or(mean, |inverse| mean + inverse * right);

@@ -55,7 +55,7 @@ pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &An
         .filter(|&index| analysis.parts[index].taken_literally)
         .collect();
     if !literal.is_empty() {
-        let text = "the numbers are stated so coarsely, for a mechanism of this size, that rounding would leave every rank \
+        let text = "the numbers are stated so coarsely, for a mechanism of this size, that rounding would leave the rank \
                     open; they were taken literally";
         // Of all blocks or of the only one: then the whole mechanism is meant.
         report

@@ -48,6 +48,19 @@ impl<'a> Dimensions<'a> {
         }
     }
 
+    /// About how far the equations may be from those meant, relative to their own size.
+    pub fn noise(&self, length: f64) -> f64 {
+        let share = |d: &Dimension| {
+            if turns(d.place) {
+                d.unit
+            } else {
+                d.unit / length
+            }
+        };
+        let squares: f64 = self.all.iter().map(|d| share(d).powi(2)).sum();
+        squares.sqrt().max(f64::EPSILON)
+    }
+
     /// The numbers of one joint where the dimensions are changed by `z` of their units.
     pub fn numbers(&self, joint: usize, z: &[f64]) -> JointNumbers {
         let mut numbers = self.written[joint].clone();

@@ -161,6 +161,13 @@ pub(super) fn completed(
     let Some(finite) = analysis.mobility.finite().filter(|finite| *finite > 0) else {
         return Ok(stated);
     };
+    if meant.changes.is_empty() {
+        // The numbers as written close all along a motion.
+        for (now, before) in analysis.parts.iter_mut().zip(&stated.parts) {
+            now.taken_literally |= before.decision.rank != now.decision.rank;
+        }
+        return Ok(analysis);
+    }
     analysis.mobility.nominal = Some(nominal(&all, finite));
     analysis.mobility.as_written = Some(as_written);
     analysis.meant = Some(Box::new(meant));
@@ -314,7 +321,12 @@ fn nearest_of_part(
     }
     let freedoms = match freedom {
         Some(freedom) => vec![freedom],
-        None => by_gap(&matrix, literal + 1, most_by_joints(mechanism, part))?,
+        None => by_gap(
+            &matrix,
+            dimensions.noise(here.length),
+            literal.max(1),
+            most_by_joints(mechanism, part),
+        )?,
     };
     let metric = Metric::of(mechanism, &here, &scales);
     let mut best: Option<(Nearest, f64)> = None;
@@ -351,6 +363,7 @@ fn nearest_of_part(
 /// Numbers of freedoms from `least` to `most`, those with the widest gap in the singular values first.
 fn by_gap(
     matrix: &SparseMatrix<f64>,
+    noise: f64,
     least: usize,
     most: usize,
 ) -> Result<Vec<usize>, MatrixError> {
@@ -360,7 +373,7 @@ fn by_gap(
     let gap = |freedom: usize| -> f64 {
         let rank = columns - freedom;
         let kept = if rank == 0 { 1.0 } else { value(rank - 1) };
-        kept / value(rank).max(f64::EPSILON)
+        kept / value(rank).max(noise)
     };
     let mut freedoms: Vec<usize> = (least..=most.min(columns))
         .filter(|f| columns - f <= values.len())

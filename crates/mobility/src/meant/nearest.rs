@@ -64,13 +64,24 @@ const STALLED: f64 = 2e-12;
 /// Where a solution closes at poses that were not asked for, it closes up to this: rounding of more poses, farther away.
 const CLOSED_ELSEWHERE: f64 = 1e-10;
 
-/// Relative damping at the first misfit, and the least that keeps the noise of difference quotients out.
+/// Relative damping at the first misfit.
 const DAMPING: f64 = 1e-3;
-const LEAST_DAMPING: f64 = 1e-18;
+
+/// After so many steps that did not leave less than this share of the best, they are taken back and damped so much more.
+const WATCHED: usize = 3;
+const HALVED: f64 = 0.5;
+const STIFFENED: f64 = 30.0;
+const STIFFEST: f64 = 1e2;
+
+/// A step that does half of what it promised lets the next be damped so much less.
+const RELAXED: f64 = 0.1;
 
 /// Singular values of the dimensions' equations below this share of the largest are zero at a solution: difference quotients
 /// leave less of them.
 const DEPENDENT: f64 = 1e-9;
+
+/// Numbers farther from what is written than this share of their uncertainty are drawn nearer, where one is beyond it.
+const DRAWN_TO: f64 = 0.9;
 
 /// Rounds of drawing near.
 const DRAWN: usize = 8;
@@ -136,8 +147,7 @@ impl Search<'_> {
             let Some(elsewhere) = self.along_the_motion(&samples[0].states, sampling)? else {
                 return Ok(None);
             };
-            let open = |sample: &Sample| largest(&sample.here.misfit);
-            let closed = elsewhere.iter().map(open).fold(0.0, f64::max) <= CLOSED_ELSEWHERE;
+            let closed = open(&elsewhere) <= CLOSED_ELSEWHERE;
             samples.extend(elsewhere);
             if closed {
                 self.draw_near(&mut samples, &mut z, misfit)?;
@@ -194,41 +204,76 @@ impl Search<'_> {
         Ok(Some(samples))
     }
 
-    /// Moves the dimensions to a solution; `first` is the misfit at those written.
+    /// Moves the dimensions to a solution; `first` is the misfit at those written. Where a few steps together leave no less than there
+    /// was, they are taken back, and damped more: single ones may, as the best ways to solutions at which the equations are
+    /// dependent do.
     fn solve(
         &mut self,
         samples: &mut [Sample],
-        z: &mut [f64],
+        z: &mut Vec<f64>,
         first: f64,
     ) -> Result<Option<()>, MatrixError> {
-        let mut best = f64::INFINITY;
-        let mut stalled = 0;
+        let mut damping = DAMPING;
+        let mut best = (open(samples), (z.clone(), states_of(samples)));
+        if best.0 <= STALLED {
+            return Ok(Some(()));
+        }
+        let mut since = 0;
         for _ in 0..ROUNDS {
             let (matrix, misfit) = self.equations(samples, z)?;
-            let left = largest(&misfit);
+            let left = norm(&misfit);
             if left <= CLOSED {
                 return Ok(Some(()));
             }
-            stalled = if left < 0.5 * best { 0 } else { stalled + 1 };
-            best = best.min(left);
-            if stalled > 2 && left <= STALLED {
-                return Ok(Some(()));
-            }
-            if stalled > 8 {
-                return Ok(None);
-            }
-            let relative = (DAMPING * (left / first).powi(2).min(1.0)).max(LEAST_DAMPING);
-            let Some(step) = least_step(&matrix, &misfit, |s, top| {
-                s / (s * s + relative * top * top)
-            }) else {
+            let relative = damping * (left / first).powi(2).min(1.0);
+            let Some(svd) = Steps::of(&matrix) else {
                 return Ok(None);
             };
+            let step = svd.least(&misfit, |s, top| s / (s * s + relative * top * top));
             z.iter_mut().zip(&step).for_each(|(z, step)| *z -= step);
-            if !(largest(z) <= FAR) || !self.follow(samples, z)? {
-                return Ok(None);
+            let followed = largest(z) <= FAR && self.follow(samples, z)?;
+            let now = if followed {
+                open(samples)
+            } else {
+                f64::INFINITY
+            };
+            let before = norm(&misfit);
+            let promised = before - norm(&difference(&misfit, &matrix, &step));
+            if before - now > 0.5 * promised {
+                damping *= RELAXED;
+            }
+            since = if now < HALVED * best.0 { 0 } else { since + 1 };
+            if now < best.0 {
+                best = (now, (z.clone(), states_of(samples)));
+            }
+            if !followed || since > WATCHED {
+                self.restore(samples, z, &best.1)?;
+                if best.0 <= STALLED {
+                    return Ok(Some(()));
+                }
+                damping *= STIFFENED;
+                since = 0;
+                if damping > STIFFEST {
+                    break;
+                }
             }
         }
-        Ok((best <= STALLED).then_some(()))
+        self.restore(samples, z, &best.1)?;
+        Ok((best.0 <= STALLED).then_some(()))
+    }
+
+    /// Takes the dimensions and poses back.
+    fn restore(
+        &mut self,
+        samples: &mut [Sample],
+        z: &mut Vec<f64>,
+        kept: &(Vec<f64>, Vec<Vec<JointState<f64>>>),
+    ) -> Result<(), MatrixError> {
+        z.clone_from(&kept.0);
+        for (sample, states) in samples.iter_mut().zip(&kept.1) {
+            sample.states.clone_from(states);
+        }
+        self.follow(samples, z).map(|_| ())
     }
 
     /// Moves the dimensions along the solutions so that none of them is farther from what is written than its uncertainty, if that
@@ -256,9 +301,10 @@ impl Search<'_> {
                 }
             }
             let inverse = |s: f64, top: f64| if s > DEPENDENT * top { 1.0 / s } else { 0.0 };
-            let Some(scaled) = least_step(&matrix, &wanted, inverse) else {
+            let Some(svd) = Steps::of(&matrix) else {
                 break;
             };
+            let scaled = svd.least(&wanted, inverse);
             for ((z, x), weight) in z.iter_mut().zip(&scaled).zip(&weights) {
                 *z = x * weight;
             }
@@ -266,15 +312,11 @@ impl Search<'_> {
                 && self.follow(samples, z)?
                 && self.solve(samples, z, first)?.is_some();
             if !closed || largest(z) >= largest(&kept.0) {
-                *z = kept.0;
-                for (sample, states) in samples.iter_mut().zip(kept.1) {
-                    sample.states = states;
-                }
-                self.follow(samples, z)?;
+                self.restore(samples, z, &kept)?;
                 break;
             }
             for (weight, z) in weights.iter_mut().zip(z.iter()) {
-                *weight /= z.abs().max(1.0);
+                *weight *= (DRAWN_TO / z.abs()).min(1.0);
             }
         }
         Ok(())
@@ -374,22 +416,47 @@ impl Search<'_> {
     }
 }
 
-/// Σ filter(σ) v uᵀ b over the singular values; `filter` is told the largest as well. `None` where the decomposition fails.
-fn least_step(matrix: &Mat<f64>, b: &[f64], filter: impl Fn(f64, f64) -> f64) -> Option<Vec<f64>> {
-    let svd = matrix.thin_svd().ok()?;
-    let (u, s, v) = (svd.U(), svd.S().column_vector(), svd.V());
-    let mut step = vec![0.0; matrix.ncols()];
-    if s.nrows() == 0 || s[0] == 0.0 {
-        return Some(step);
+/// A singular value decomposition of equations, for steps of least length.
+struct Steps(faer::linalg::solvers::Svd<f64>);
+
+impl Steps {
+    /// `None` where the decomposition fails.
+    fn of(matrix: &Mat<f64>) -> Option<Self> {
+        matrix.thin_svd().ok().map(Self)
     }
-    for j in 0..s.nrows() {
-        let along: f64 = (0..b.len()).map(|i| u[(i, j)] * b[i]).sum();
-        let length = along * filter(s[j], s[0]);
-        for (i, x) in step.iter_mut().enumerate() {
-            *x += length * v[(i, j)];
+
+    /// Σ filter(σ) v uᵀ b over the singular values; `filter` is told the largest as well.
+    fn least(&self, b: &[f64], filter: impl Fn(f64, f64) -> f64) -> Vec<f64> {
+        let (u, s, v) = (self.0.U(), self.0.S().column_vector(), self.0.V());
+        let mut step = vec![0.0; v.nrows()];
+        if s.nrows() == 0 || s[0] == 0.0 {
+            return step;
         }
+        for j in 0..s.nrows() {
+            let along: f64 = (0..b.len()).map(|i| u[(i, j)] * b[i]).sum();
+            let length = along * filter(s[j], s[0]);
+            for (i, x) in step.iter_mut().enumerate() {
+                *x += length * v[(i, j)];
+            }
+        }
+        step
     }
-    Some(step)
+}
+
+/// What is left of the equations, as a root of the sum of squares.
+fn open(samples: &[Sample]) -> f64 {
+    let all: Vec<f64> = samples.iter().flat_map(|s| s.here.misfit.clone()).collect();
+    norm(&all)
+}
+
+fn norm(values: &[f64]) -> f64 {
+    values.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// b − A x.
+fn difference(b: &[f64], a: &Mat<f64>, x: &[f64]) -> Vec<f64> {
+    let row = |i: usize| -> f64 { x.iter().enumerate().map(|(j, x)| a[(i, j)] * x).sum() };
+    b.iter().enumerate().map(|(i, b)| b - row(i)).collect()
 }
 
 fn states_of(samples: &[Sample]) -> Vec<Vec<JointState<f64>>> {
