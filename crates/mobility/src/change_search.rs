@@ -32,6 +32,9 @@ const WORK: usize = 60_000_000;
 /// Sets listed.
 const MOST_SETS: usize = 256;
 
+/// Beyond so many dimensions a set that a bound shows to be the least is enough.
+const MOST_LISTED: usize = 40;
+
 /// Orders in which the greedy search is tried.
 const ORDERS: usize = 12;
 
@@ -41,13 +44,11 @@ pub(super) fn least_sets(
     dimension: usize,
     threshold: f64,
 ) -> Option<Found> {
-    let mut all = RowSpace::new(threshold);
-    for row in candidates.iter().flat_map(|candidate| &candidate.rows) {
-        all.add(row);
-    }
-    if all.dimension() < dimension {
+    let all = candidates.iter().flat_map(|candidate| &candidate.rows);
+    if rank_up_to(dimension, all, threshold) < dimension {
         return None;
     }
+    let bound = lower_bound(candidates, dimension, threshold);
     let mut search = Search {
         candidates,
         dimension,
@@ -57,10 +58,21 @@ pub(super) fn least_sets(
         work: WORK,
         most_rows: most_rows(candidates),
     };
-    let greedy = search.greedy();
+    let greedy = search.greedy(bound);
+    // Where one set takes long to check, others are not sought.
+    if let Some(set) = greedy
+        .as_ref()
+        .filter(|set| set.len() == bound && dimension > MOST_LISTED)
+    {
+        return Some(Found {
+            sets: vec![set.clone()],
+            least: true,
+            complete: false,
+        });
+    }
     let most = greedy.as_ref().map_or(dimension, Vec::len);
     let mut least = true;
-    for size in lower_bound(candidates, dimension, threshold)..=most {
+    for size in bound..=most {
         let complete = search.look_through(size);
         if !search.sets.is_empty() {
             return Some(Found {
@@ -87,14 +99,21 @@ pub(super) fn least_sets(
 /// have together.
 fn lower_bound(candidates: &[Candidate], dimension: usize, threshold: f64) -> usize {
     let most = most_rows(candidates);
-    let mut many = RowSpace::new(threshold);
-    for candidate in candidates.iter().filter(|c| c.rows.len() > 1) {
-        for row in &candidate.rows {
-            many.add(row);
+    let many = candidates.iter().filter(|c| c.rows.len() > 1);
+    let rank = rank_up_to(dimension, many.flat_map(|c| &c.rows), threshold);
+    dimension - rank * (most - 1) / most
+}
+
+/// The rank of some rows, counted up to a limit.
+fn rank_up_to<'a>(limit: usize, rows: impl Iterator<Item = &'a Vec<f64>>, threshold: f64) -> usize {
+    let mut space = RowSpace::new(threshold);
+    for row in rows {
+        space.add(row);
+        if space.dimension() >= limit {
+            break;
         }
     }
-    let rank = many.dimension().min(dimension);
-    dimension - rank * (most - 1) / most
+    space.dimension()
 }
 
 fn most_rows(candidates: &[Candidate]) -> usize {
@@ -113,8 +132,8 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// A small set, not always the least.
-    fn greedy(&mut self) -> Option<Vec<usize>> {
+    /// A small set, not always the least; no order is tried after one that gives a set as small as the bound.
+    fn greedy(&mut self, bound: usize) -> Option<Vec<usize>> {
         let many = self.candidates.len();
         let mut best: Option<Vec<usize>> = None;
         for order in 0..ORDERS.min(many) {
@@ -137,6 +156,9 @@ impl Search<'_> {
             if complete && best.as_ref().is_none_or(|known| set.len() < known.len()) {
                 set.sort_unstable();
                 best = Some(set);
+            }
+            if best.as_ref().is_some_and(|set| set.len() == bound) {
+                break;
             }
         }
         self.space.cut(0);

@@ -23,7 +23,8 @@ impl RowSpace {
     /// Adds a row; whether it was independent of those before.
     pub fn add(&mut self, row: &[f64]) -> bool {
         let mut rest = row.to_vec();
-        // Twice is enough (Kahan, Parlett).
+        let mut length = norm(&rest);
+        // Twice is enough (Kahan, Parlett), and once where little is taken away.
         for _ in 0..2 {
             for known in &self.basis {
                 let along: f64 = rest.iter().zip(known).map(|(x, y)| x * y).sum();
@@ -31,8 +32,11 @@ impl RowSpace {
                     *x -= along * y;
                 }
             }
+            let before = std::mem::replace(&mut length, norm(&rest));
+            if length > 0.5 * before {
+                break;
+            }
         }
-        let length = rest.iter().map(|x| x * x).sum::<f64>().sqrt();
         if !(length > self.threshold) {
             return false;
         }
@@ -54,6 +58,10 @@ impl RowSpace {
     pub fn cut(&mut self, dimension: usize) {
         self.basis.truncate(dimension);
     }
+}
+
+fn norm(row: &[f64]) -> f64 {
+    row.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 #[cfg(test)]
