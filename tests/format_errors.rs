@@ -320,9 +320,8 @@ fn settings() {
 #[test]
 fn words_of_other_languages_are_translated() {
     let joint = |kind: &str, inside: &str| {
-        robot(&format!(
-            "<joint name='j' type='{kind}'>{inside}</joint>"
-        ))
+        let joint = format!("<joint name='j' type='{kind}'>{inside}</joint>");
+        format!("<robot name='r'><link name='a'/><link name='b'/>{joint}</robot>")
     };
     let links = "<parent link='a'/><child link='b'/>";
     let placed = |origin: &str| format!("{links}<origin {origin}/>");
