@@ -63,7 +63,12 @@ fn deep_wide_and_long_texts_end_in_an_error_soon() {
         "<xacro:property name='a0' value='1.5'/>\n{squares}"
     )));
     let roots: String = (1..2000)
-        .map(|i| format!("<xacro:property name='a{i}' value='sqrt(1 + a{})'/>\n", i - 1))
+        .map(|i| {
+            format!(
+                "<xacro:property name='a{i}' value='sqrt(1 + a{})'/>\n",
+                i - 1
+            )
+        })
         .collect();
     fault(&robot(&format!(
         "<xacro:property name='a0' value='2'/>\n{roots}"

@@ -445,6 +445,14 @@ fn what_bears_on_a_loop_and_is_not_read_is_refused() {
             "in the world",
         ),
         (
+            "<loop name='l' type='revolute'><predecessor link='d' xyz='0 1 0'/><successor link='c'/></loop>".to_owned(),
+            "`xyz` is not read in <predecessor>",
+        ),
+        (
+            "<loop name='l' type='revolute'><predecessor link='d'/><successor link='c' rpy='0 0 1'/></loop>".to_owned(),
+            "`rpy` is not read in <successor>",
+        ),
+        (
             "<mujoco><equality><weld site1='x' site2='y'/></equality></mujoco>".to_owned(),
             "joins two links",
         ),

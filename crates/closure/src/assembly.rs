@@ -21,8 +21,8 @@ use descent::{Effort, Kept, PartOutcome, Task, advance, descend, largest, movabl
 use kutzbach_math::matrix::{LeastSquares, MatrixError, Real};
 use kutzbach_math::space::{Rigid, length, subtract};
 use kutzbach_model::mechanism::{FreedomPart, Mechanism};
-use petgraph::unionfind::UnionFind;
 pub use limits::{OutsideLimit, coupled_joints, nearest_turn};
+use petgraph::unionfind::UnionFind;
 pub use proof::{Obstacle, ProvenOpen};
 pub use reversal::Reversal;
 use std::collections::{BTreeMap, BTreeSet};

@@ -204,7 +204,7 @@ mod tests {
             format!("joint `bc`: {told}")
         );
         let fixed = chain(JointKind::Revolute, JointKind::Fixed);
-        assert!(fault(mimic(fixed, "ab", "bc")).contains("fixed with 0 freedoms"));
+        assert!(fault(mimic(fixed, "ab", "bc")).contains("fixed with 0 degrees of freedom"));
         assert_eq!(
             fault(mimic(hinges(), "ab", "cb")),
             "joint `ab`: mimic names joint `cb`, which does not exist"
