@@ -38,6 +38,7 @@ mod format_reading;
 mod format_round_trip;
 mod format_support;
 mod formulations;
+mod four_bars;
 mod fuzz_format;
 mod gallery;
 mod growth;
