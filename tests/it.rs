@@ -29,6 +29,7 @@ mod exact_tables;
 mod exact_verdict;
 mod exact_words;
 mod exact_zoo;
+mod explained;
 mod families;
 mod format_errors;
 mod format_files;
