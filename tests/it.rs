@@ -62,6 +62,7 @@ mod readme;
 mod record;
 mod record_files;
 mod record_support;
+mod robot_page;
 mod rounding;
 mod same_bytes;
 mod simulate_cli;
