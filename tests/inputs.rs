@@ -126,6 +126,12 @@ fn a_rod_between_balls_of_hinges_spins() {
 }
 
 #[test]
+fn bodies_are_called_by_no_frame() {
+    let report = reported(&rssr(BALL_END).replace("\"tip\"", "\"a_frame\""));
+    assert_eq!(idle(&report), [("rod".to_owned(), 1)]);
+}
+
+#[test]
 fn a_rod_that_carries_a_tool_by_a_joint_is_not_idle() {
     let tool = r#"<link name="tool"/><joint name="wrist" type="revolute"><parent link="rod"/><child link="tool"/></joint>"#;
     let report = reported(&rssr(&(BALL_END.to_owned() + tool)));

@@ -40,6 +40,7 @@ mod format_round_trip;
 mod format_support;
 mod formulations;
 mod four_bars;
+mod frames;
 mod fuzz_format;
 mod gallery;
 mod growth;

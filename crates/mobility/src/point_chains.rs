@@ -44,7 +44,8 @@ pub(super) struct Bodies {
     pub mass: Vec<f64>,
 }
 
-/// Links with the heaviest first; of equally heavy ones the first by name.
+/// Links with the heaviest first; of equally heavy ones those that no fixed joint carries, since such a link is often a mere
+/// frame, and of these the first by name.
 pub(super) fn heaviest_first(
     mechanism: &Mechanism,
     structure: &Structure,
@@ -54,7 +55,14 @@ pub(super) fn heaviest_first(
         let inertial = mechanism.links()[link].inertial.as_ref();
         inertial.map_or(0.0, |inertial| inertial.mass.value())
     };
-    let rank = |link: usize| structure.graph.node_rank(link);
+    let carried = |link: usize| {
+        let mut joints = structure.graph.incident(link).iter();
+        joints.any(|incidence| {
+            let joint = &mechanism.joints()[incidence.edge];
+            joint.freedom() == 0 && joint.successor.link.0 == link
+        })
+    };
+    let rank = |link: usize| (carried(link), structure.graph.node_rank(link));
     links.sort_by(|&a, &b| {
         mass(b)
             .total_cmp(&mass(a))
