@@ -18,9 +18,12 @@ mod tests;
 
 use super::analysis::{Analysis, AnalysisError, AnalysisOptions, analyse_as_stated};
 use super::depth::Depth;
+use super::pose_rank::BEYOND_FIRST_ORDER;
+use super::roles::JointRole;
 use super::tree_bound::most_by_joints;
-use super::verdict::Nominal;
-use super::vocabulary::Verdict;
+use super::verdict::{Nominal, judge};
+use super::vocabulary::{CertificateLevel, Verdict};
+use super::whole_branches::whole_branches;
 use dimensions::{Dimension, Dimensions, turns};
 use kutzbach_closure::{Arithmetic, Geometry, JointState, Metric, Part, linearised};
 use kutzbach_math::matrix::{DENSE_COLUMNS, MatrixError, SparseMatrix, relative_singular_values};
@@ -40,6 +43,10 @@ const ROUNDED_DECIMALS: i32 = 2;
 
 /// Parts of more numbers than this are not searched.
 const MOST_DIMENSIONS: usize = 600;
+
+/// Where all dimensions that close along a motion change some number by more than so many units, to first order, none is within
+/// the digits: room for the second order.
+const EXCLUDED: f64 = 1.5;
 
 /// A number is within its digits up to one unit, and rounding.
 const WITHIN: f64 = 1.0 + 1e-6;
@@ -101,7 +108,11 @@ pub struct AsWritten {
 
 /// What was found of one part whose mobility hangs on how its numbers were rounded.
 struct PartMeant {
+    /// Which part.
+    index: usize,
     nearest: Option<Nearest>,
+    /// Whether no numbers within the digits let it move.
+    excluded: bool,
     /// The part's length (m).
     length: f64,
     changes: Vec<Change>,
@@ -137,7 +148,13 @@ pub(super) fn completed(
         .and_then(|name| mechanism.configuration(name));
     let parts = parts_meant(mechanism, configuration, &precision, &stated)?;
     let within = |part: &PartMeant| part.nearest.is_some() && part.units() <= WITHIN;
-    if parts.is_empty() || !parts.iter().all(within) {
+    if parts.is_empty() {
+        return Ok(stated);
+    }
+    if open && parts.iter().all(|part| part.excluded) {
+        return Ok(held_fast(mechanism, configuration, stated, &parts));
+    }
+    if !parts.iter().all(within) {
         return Ok(stated);
     }
     let all: Vec<&PartMeant> = parts.iter().collect();
@@ -172,6 +189,62 @@ pub(super) fn completed(
     analysis.mobility.as_written = Some(as_written);
     analysis.meant = Some(Box::new(meant));
     Ok(analysis)
+}
+
+/// The analysis where no numbers within the digits let an open part move, and how far away the nearest mechanism is that moves.
+fn held_fast(
+    mechanism: &Mechanism,
+    configuration: Option<&Configuration>,
+    mut stated: Analysis,
+    parts: &[PartMeant],
+) -> Analysis {
+    let all: Vec<&PartMeant> = parts.iter().collect();
+    let mut nominal = nominal(&all, 0);
+    if stated.mobility.verdict == Verdict::Undecided {
+        for part in parts {
+            let finding = &mut stated.findings[part.index];
+            finding.lower = 0;
+            finding.upper = 0;
+            finding.at_rest = 0;
+            finding.open = None;
+            finding.level = CertificateLevel::Numeric;
+            finding.certificate = certificate(part);
+            for &joint in &stated.structure.parts[part.index].joints {
+                stated.roles[joint] = JointRole {
+                    locked: (mechanism.joints()[joint].freedom() > 0).then_some(true),
+                    ..JointRole::default()
+                };
+            }
+        }
+        stated.mobility = judge(mechanism, &stated.structure, &stated.findings);
+        stated.branches = whole_branches(
+            mechanism,
+            &Geometry::new(mechanism, configuration, &Arithmetic::double()),
+            &stated.structure,
+            &stated.assembly.states,
+            stated.kutzbach,
+            &stated.findings,
+        );
+        if let Some(home) = &mut stated.home {
+            // Of equations that hold within the digits only, the rank is not known.
+            home.instantaneous = None;
+            home.redundant = None;
+        }
+        nominal.finite = stated.mobility.finite().unwrap_or(0);
+    }
+    stated.mobility.nominal = Some(nominal);
+    stated
+}
+
+/// Why a part does not move whatever its digits stand for.
+fn certificate(part: &PartMeant) -> String {
+    let (open, least) = part.nearest.as_ref().map_or((0.0, 0.0), |nearest| {
+        (nearest.misfit * part.length, nearest.at_least)
+    });
+    format!(
+        "along the motion that the pose allows to first order the loops stay open by up to {open:.1e} m, and to close them some \
+         number has to change by at least {least:.1} times what its digits leave open"
+    )
 }
 
 fn nominal(parts: &[&PartMeant], finite: usize) -> Nominal {
@@ -263,7 +336,9 @@ fn parts_meant(
             continue;
         }
         let mut of_part = PartMeant {
+            index,
             nearest: None,
+            excluded: false,
             length: 0.0,
             changes: Vec::new(),
             numbers: Vec::new(),
@@ -274,11 +349,24 @@ fn parts_meant(
             .filter(|finding| finding.open.is_none())
             .map(|finding| finding.upper);
         let literal = stated.parts.get(index).and_then(|rank| rank.as_written);
-        let freedoms = (freedom, literal.unwrap_or(0));
+        let open_to = stated.parts.get(index).map_or(0.0, |rank| rank.stated);
+        let freedoms = Freedoms {
+            known: freedom,
+            literal: literal.unwrap_or(0),
+            open_to: if open_to > 0.0 {
+                BEYOND_FIRST_ORDER * open_to
+            } else {
+                1.0
+            },
+        };
         if (1..=MOST_DIMENSIONS).contains(&dimensions.all.len())
-            && let Some((nearest, length)) =
-                nearest_of_part(mechanism, &geometry, states, part, &dimensions, freedoms)?
+            && let Some(Found {
+                nearest,
+                length,
+                excluded,
+            }) = nearest_of_part(mechanism, &geometry, states, part, &dimensions, freedoms)?
         {
+            of_part.excluded = excluded;
             of_part.changes = changes(&dimensions, &nearest.z);
             of_part.numbers = dimensions.changes(&nearest.z);
             of_part.nearest = Some(nearest);
@@ -303,34 +391,51 @@ fn changes(dimensions: &Dimensions<'_>, z: &[f64]) -> Vec<Change> {
     dimensions.all.iter().zip(z).map(change).collect()
 }
 
-/// The nearest dimensions of one part, and its length (m): those within the digits, if there are such.
+/// What is known of a part's freedoms beforehand.
+struct Freedoms {
+    /// How many it has within the digits, where that is decided.
+    known: Option<usize>,
+    /// How many the numbers leave at the pose where they are taken literally.
+    literal: usize,
+    /// Singular values above this share of the largest are no rounded zeros.
+    open_to: f64,
+}
+
+/// The nearest dimensions found of one part.
+struct Found {
+    nearest: Nearest,
+    /// The part's length (m).
+    length: f64,
+    /// Whether all numbers of freedoms that are possible were searched, and none of them is within the digits.
+    excluded: bool,
+}
+
+/// The nearest dimensions of one part: those within the digits, if there are such.
 fn nearest_of_part(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
     states: &[JointState<f64>],
     part: &Part,
     dimensions: &Dimensions<'_>,
-    (freedom, literal): (Option<usize>, usize),
-) -> Result<Option<(Nearest, f64)>, MatrixError> {
+    known: Freedoms,
+) -> Result<Option<Found>, MatrixError> {
     let here = linearised(geometry, states, part)?;
     let mut matrix = here.matrix.clone();
     let scales = matrix.scale_columns();
-    let columns = matrix.columns();
-    if columns > DENSE_COLUMNS {
+    if matrix.columns() > DENSE_COLUMNS {
         return Ok(None);
     }
-    let freedoms = match freedom {
+    let freedoms = match known.known {
         Some(freedom) => vec![freedom],
-        None => by_gap(
-            &matrix,
-            dimensions.noise(here.length),
-            literal.max(1),
-            most_by_joints(mechanism, part),
-        )?,
+        None => {
+            let most = most_by_joints(mechanism, part);
+            by_gap(&matrix, dimensions.noise(here.length), &known, most)?
+        }
     };
     let metric = Metric::of(mechanism, &here, &scales);
-    let mut best: Option<(Nearest, f64)> = None;
-    for freedom in freedoms {
+    let mut best: Option<Nearest> = None;
+    let mut excluded = freedoms.len() <= TRIES;
+    for freedom in freedoms.into_iter().take(TRIES) {
         let mut search = Search {
             loops: Loops {
                 mechanism,
@@ -343,28 +448,35 @@ fn nearest_of_part(
             length: here.length,
         };
         let Some(nearest) = search.nearest(states)? else {
+            excluded = false;
             continue;
         };
+        excluded &= nearest.at_least > EXCLUDED;
         let units = |nearest: &Nearest| nearest.z.iter().fold(0.0f64, |m, z| z.abs().max(m));
-        let nearer = best
-            .as_ref()
-            .is_none_or(|(b, _)| units(&nearest) < units(b));
         let within = units(&nearest) <= WITHIN;
-        if nearer {
-            best = Some((nearest, here.length));
+        if best
+            .as_ref()
+            .is_none_or(|best| units(&nearest) < units(best))
+        {
+            best = Some(nearest);
         }
         if within {
             break;
         }
     }
-    Ok(best)
+    Ok(best.map(|nearest| Found {
+        nearest,
+        length: here.length,
+        excluded,
+    }))
 }
 
-/// Numbers of freedoms from `least` to `most`, those with the widest gap in the singular values first.
+/// The possible numbers of freedoms, from the literal one up to `most`; those with the widest gap in the singular values first.
+/// `noise` is about what rounding leaves of a zero.
 fn by_gap(
     matrix: &SparseMatrix<f64>,
     noise: f64,
-    least: usize,
+    known: &Freedoms,
     most: usize,
 ) -> Result<Vec<usize>, MatrixError> {
     let columns = matrix.columns();
@@ -375,10 +487,9 @@ fn by_gap(
         let kept = if rank == 0 { 1.0 } else { value(rank - 1) };
         kept / value(rank).max(noise)
     };
-    let mut freedoms: Vec<usize> = (least..=most.min(columns))
-        .filter(|f| columns - f <= values.len())
+    let mut freedoms: Vec<usize> = (known.literal.max(1)..=most.min(columns))
+        .filter(|f| columns - f <= values.len() && value(columns - f) <= known.open_to)
         .collect();
     freedoms.sort_by(|a, b| gap(*b).total_cmp(&gap(*a)));
-    freedoms.truncate(TRIES);
     Ok(freedoms)
 }

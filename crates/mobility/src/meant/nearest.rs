@@ -108,6 +108,8 @@ pub(super) struct Nearest {
     pub z: Vec<f64>,
     /// How far the loops of the numbers as written stay open along the motion (rad, cycle lengths).
     pub misfit: f64,
+    /// No dimensions that close along a motion near this one change every number by less (units; to first order).
+    pub at_least: f64,
 }
 
 /// The poses, and what the dimensions have to mend there.
@@ -150,8 +152,12 @@ impl Search<'_> {
             let closed = open(&elsewhere) <= CLOSED_ELSEWHERE;
             samples.extend(elsewhere);
             if closed {
-                self.draw_near(&mut samples, &mut z, misfit)?;
-                return Ok(Some(Nearest { z, misfit }));
+                let at_least = self.draw_near(&mut samples, &mut z, misfit)?;
+                return Ok(Some(Nearest {
+                    z,
+                    misfit,
+                    at_least,
+                }));
             }
         }
         Ok(None)
@@ -277,14 +283,15 @@ impl Search<'_> {
     }
 
     /// Moves the dimensions along the solutions so that none of them is farther from what is written than its uncertainty, if that
-    /// can be: those that are get smaller and smaller weights.
+    /// can be: those that are get smaller and smaller weights. What comes out is a bound of what that takes ([`Nearest::at_least`]).
     fn draw_near(
         &mut self,
         samples: &mut [Sample],
         z: &mut Vec<f64>,
         first: f64,
-    ) -> Result<(), MatrixError> {
+    ) -> Result<f64, MatrixError> {
         let mut weights = vec![1.0; z.len()];
+        let mut at_least = 0.0f64;
         for _ in 0..DRAWN {
             if largest(z) <= 1.0 {
                 break;
@@ -308,6 +315,7 @@ impl Search<'_> {
             for ((z, x), weight) in z.iter_mut().zip(&scaled).zip(&weights) {
                 *z = x * weight;
             }
+            at_least = at_least.max(least_change(z, &weights));
             let closed = largest(z) <= FAR
                 && self.follow(samples, z)?
                 && self.solve(samples, z, first)?.is_some();
@@ -319,7 +327,7 @@ impl Search<'_> {
                 *weight *= (DRAWN_TO / z.abs()).min(1.0);
             }
         }
-        Ok(())
+        Ok(at_least)
     }
 
     /// Gives the loops their changed dimensions and brings the poses onto the motion again.
@@ -441,6 +449,19 @@ impl Steps {
         }
         step
     }
+}
+
+/// What the largest of the numbers has to be at least, where `z` solves linear equations with the least Σ (z/w)².
+///
+/// By duality, min ‖z‖∞ over A z = b is max yᵀb / ‖Aᵀy‖₁. The multipliers y of the weighted solution have Aᵀy = z/w² and yᵀb =
+/// Σ (z/w)², so that every choice of weights gives a bound, and those of a solution with all its larger numbers alike the best.
+fn least_change(z: &[f64], weights: &[f64]) -> f64 {
+    let of = |power: i32| -> f64 {
+        let terms = z.iter().zip(weights);
+        terms.map(|(z, w)| z.abs().powi(power) / (w * w)).sum()
+    };
+    let sum = of(1);
+    if sum > 0.0 { of(2) / sum } else { 0.0 }
 }
 
 /// What is left of the equations, as a root of the sum of squares.

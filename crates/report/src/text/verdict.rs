@@ -330,11 +330,11 @@ fn not_drawn(nominal: &Nominal) -> String {
     );
     if let Some(change) = nominal.changes.first() {
         text.push_str(&format!(
-            " ({}, {}: {} instead of {})",
+            " ({}, {}: {} changed by {})",
             change.joint,
             change.number,
-            figure(change.to),
-            figure(change.from)
+            figure(change.from),
+            figure(change.to - change.from)
         ));
     }
     text.push_str(", beyond what the digits leave open: it is not what is drawn.");
