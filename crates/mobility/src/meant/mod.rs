@@ -18,7 +18,7 @@ mod tests;
 
 use super::analysis::{Analysis, AnalysisError, AnalysisOptions, analyse_as_stated};
 use super::depth::Depth;
-use super::pose_rank::BEYOND_FIRST_ORDER;
+use super::pose_rank::{BEYOND_FIRST_ORDER, PartRank};
 use super::roles::JointRole;
 use super::tree_bound::most_by_joints;
 use super::verdict::{Nominal, judge};
@@ -47,6 +47,9 @@ const MOST_DIMENSIONS: usize = 600;
 /// Where all dimensions that close along a motion change some number by more than so many units, to first order, none is within
 /// the digits: room for the second order.
 const EXCLUDED: f64 = 1.5;
+
+/// Numbers that may well have been chosen are searched where there are no more of them.
+const MOST_CHOSEN: usize = 200;
 
 /// A number is within its digits up to one unit, and rounding.
 const WITHIN: f64 = 1.0 + 1e-6;
@@ -111,6 +114,8 @@ struct PartMeant {
     /// Which part.
     index: usize,
     nearest: Option<Nearest>,
+    /// How many freedoms it has where it moves.
+    freedom: usize,
     /// Whether no numbers within the digits let it move.
     excluded: bool,
     /// The part's length (m).
@@ -138,8 +143,10 @@ pub(super) fn completed(
         stated.mobility.verdict,
         Verdict::Undecided | Verdict::Unassembled
     );
-    let asked = (open || stated.mobility.nominal.is_some()) && options.depth > Depth::Rank;
-    let Some(precision) = rounding(mechanism).filter(|_| asked) else {
+    let rigid = stated.mobility.verdict == Verdict::Rigid && mechanism.precision().is_exact();
+    let asked = open || rigid || stated.mobility.nominal.is_some();
+    let Some(precision) = rounding(mechanism).filter(|_| asked && options.depth > Depth::Rank)
+    else {
         return Ok(stated);
     };
     let configuration = options
@@ -161,6 +168,10 @@ pub(super) fn completed(
     let as_written = as_written(&stated);
     if !open {
         if let Some(finite) = stated.mobility.finite() {
+            let finite = match rigid {
+                true => parts.iter().map(|part| part.freedom).sum(),
+                false => finite,
+            };
             let known = stated
                 .mobility
                 .nominal
@@ -331,25 +342,30 @@ fn parts_meant(
     let mut found = Vec::new();
     for (index, part) in stated.structure.parts.iter().enumerate() {
         let finding = stated.findings.get(index);
-        let open = finding.is_none_or(|finding| finding.open.is_some());
-        if !open && finding.is_none_or(|finding| finding.nominal.is_none()) {
+        let rank = stated.parts.get(index);
+        let dimensions = Dimensions::of(mechanism, part, precision);
+        let asked = finding.is_none_or(|finding| {
+            let nearly = rank.is_some_and(|rank| nearly_moves(&dimensions, rank));
+            finding.open.is_some() || finding.nominal.is_some() || finding.upper == 0 && nearly
+        });
+        if !asked {
             continue;
         }
         let mut of_part = PartMeant {
             index,
             nearest: None,
+            freedom: 0,
             excluded: false,
             length: 0.0,
             changes: Vec::new(),
             numbers: Vec::new(),
         };
-        let dimensions = Dimensions::of(mechanism, part, precision);
         let states = &stated.assembly.states;
         let freedom = finding
-            .filter(|finding| finding.open.is_none())
+            .filter(|finding| finding.open.is_none() && finding.upper > 0)
             .map(|finding| finding.upper);
-        let literal = stated.parts.get(index).and_then(|rank| rank.as_written);
-        let open_to = stated.parts.get(index).map_or(0.0, |rank| rank.stated);
+        let literal = rank.and_then(|rank| rank.as_written);
+        let open_to = rank.map_or(0.0, |rank| rank.stated);
         let freedoms = Freedoms {
             known: freedom,
             literal: literal.unwrap_or(0),
@@ -362,11 +378,13 @@ fn parts_meant(
         if (1..=MOST_DIMENSIONS).contains(&dimensions.all.len())
             && let Some(Found {
                 nearest,
+                freedom,
                 length,
                 excluded,
             }) = nearest_of_part(mechanism, &geometry, states, part, &dimensions, freedoms)?
         {
             of_part.excluded = excluded;
+            of_part.freedom = freedom;
             of_part.changes = changes(&dimensions, &nearest.z);
             of_part.numbers = dimensions.changes(&nearest.z);
             of_part.nearest = Some(nearest);
@@ -375,6 +393,15 @@ fn parts_meant(
         found.push(of_part);
     }
     Ok(found)
+}
+
+/// Whether a part of exact numbers that holds fast would be open if they were rounded.
+fn nearly_moves(dimensions: &Dimensions<'_>, rank: &PartRank) -> bool {
+    let decision = &rank.decision;
+    rank.stated == 0.0
+        && rank.instantaneous == Some(0)
+        && dimensions.all.len() <= MOST_CHOSEN
+        && decision.kept <= BEYOND_FIRST_ORDER * dimensions.noise(rank.jacobian.length)
 }
 
 fn changes(dimensions: &Dimensions<'_>, z: &[f64]) -> Vec<Change> {
@@ -404,6 +431,8 @@ struct Freedoms {
 /// The nearest dimensions found of one part.
 struct Found {
     nearest: Nearest,
+    /// How many freedoms it has.
+    freedom: usize,
     /// The part's length (m).
     length: f64,
     /// Whether all numbers of freedoms that are possible were searched, and none of them is within the digits.
@@ -433,7 +462,7 @@ fn nearest_of_part(
         }
     };
     let metric = Metric::of(mechanism, &here, &scales);
-    let mut best: Option<Nearest> = None;
+    let mut best: Option<(Nearest, usize)> = None;
     let mut excluded = freedoms.len() <= TRIES;
     for freedom in freedoms.into_iter().take(TRIES) {
         let mut search = Search {
@@ -456,16 +485,17 @@ fn nearest_of_part(
         let within = units(&nearest) <= WITHIN;
         if best
             .as_ref()
-            .is_none_or(|best| units(&nearest) < units(best))
+            .is_none_or(|(best, _)| units(&nearest) < units(best))
         {
-            best = Some(nearest);
+            best = Some((nearest, freedom));
         }
         if within {
             break;
         }
     }
-    Ok(best.map(|nearest| Found {
+    Ok(best.map(|(nearest, freedom)| Found {
         nearest,
+        freedom,
         length: here.length,
         excluded,
     }))

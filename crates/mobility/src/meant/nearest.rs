@@ -71,7 +71,10 @@ const DAMPING: f64 = 1e-3;
 const WATCHED: usize = 3;
 const HALVED: f64 = 0.5;
 const STIFFENED: f64 = 30.0;
-const STIFFEST: f64 = 1e2;
+
+/// So much at least then, relative to the largest singular value squared, and at most.
+const STIFF: f64 = 1e-13;
+const STIFFEST: f64 = 1e-3;
 
 /// A step that does half of what it promised lets the next be damped so much less.
 const RELAXED: f64 = 0.1;
@@ -257,9 +260,10 @@ impl Search<'_> {
                 if best.0 <= STALLED {
                     return Ok(Some(()));
                 }
-                damping *= STIFFENED;
+                let share = (best.0 / first).powi(2).min(1.0);
+                damping = (damping * STIFFENED).max(STIFF / share);
                 since = 0;
-                if damping > STIFFEST {
+                if damping * share > STIFFEST {
                     break;
                 }
             }
@@ -292,11 +296,11 @@ impl Search<'_> {
     ) -> Result<f64, MatrixError> {
         let mut weights = vec![1.0; z.len()];
         let mut at_least = 0.0f64;
+        let mut nearest = (z.clone(), states_of(samples));
         for _ in 0..DRAWN {
             if largest(z) <= 1.0 {
                 break;
             }
-            let kept = (z.clone(), states_of(samples));
             let (mut matrix, misfit) = self.equations(samples, z)?;
             // What the linear equations ask of z from zero on.
             let wanted: Vec<f64> = (0..matrix.nrows())
@@ -319,13 +323,18 @@ impl Search<'_> {
             let closed = largest(z) <= FAR
                 && self.follow(samples, z)?
                 && self.solve(samples, z, first)?.is_some();
-            if !closed || largest(z) >= largest(&kept.0) {
-                self.restore(samples, z, &kept)?;
+            if !closed {
                 break;
+            }
+            if largest(z) < largest(&nearest.0) {
+                nearest = (z.clone(), states_of(samples));
             }
             for (weight, z) in weights.iter_mut().zip(z.iter()) {
                 *weight *= (DRAWN_TO / z.abs()).min(1.0);
             }
+        }
+        if *z != nearest.0 {
+            self.restore(samples, z, &nearest)?;
         }
         Ok(at_least)
     }
