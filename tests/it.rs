@@ -15,6 +15,7 @@ mod book;
 mod branch_facts;
 mod browser;
 mod brute_force;
+mod change_sets;
 mod cli;
 mod cli_docs;
 mod components;

@@ -2,9 +2,11 @@
 
 use super::pose_rank::PartRank;
 use super::redundancy::SelfStresses;
-use kutzbach_closure::{Geometry, JointDisplacement, JointState, Part, Vector, linearised};
-use kutzbach_math::matrix::{MatrixError, decide, decide_by_qr};
+use super::relaxation::{Relaxation, mobility_stays, relaxations};
+use kutzbach_closure::{Geometry, JointState, Part, Vector};
+use kutzbach_math::matrix::MatrixError;
 use kutzbach_model::mechanism::{JointKind, Mechanism};
+use std::collections::BTreeSet;
 
 /// One piece of advice.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,8 +25,6 @@ pub struct Advice {
 
 /// Parts with more unknowns than this get the advice of their first joints only, each still verified.
 const THOROUGH_UNKNOWNS: usize = 120;
-/// Above this many unknowns a sparse factorisation verifies sooner than singular values do.
-const DENSE_UNKNOWNS: usize = 40;
 const ADVICE_OF_LARGE_PARTS: usize = 3;
 /// Every verification decides the rank of the whole part.
 const VERIFICATIONS_OF_LARGE_PARTS: usize = 12;
@@ -46,16 +46,7 @@ pub fn advice_for_part(
 ) -> Result<Vec<Advice>, MatrixError> {
     let mut advice = Vec::new();
     let mut verifications = 0;
-    let coupled: std::collections::BTreeSet<usize> = part
-        .couplings
-        .iter()
-        .flat_map(|&c| {
-            mechanism.couplings()[c]
-                .terms
-                .iter()
-                .map(|term| term.joint.0)
-        })
-        .collect();
+    let coupled = coupled_joints(mechanism, part);
     let large = rank.unknowns() > THOROUGH_UNKNOWNS;
     for &joint in &part.joints {
         if large
@@ -64,7 +55,6 @@ pub fn advice_for_part(
         {
             break;
         }
-        // A coupling speaks of a joint's one variable; relaxing such a joint would change what the coupling means.
         if coupled.contains(&joint) {
             continue;
         }
@@ -85,7 +75,8 @@ pub fn advice_for_part(
                 relaxation.apply(&geometry.displacements[joint], &states[joint], &second_axis);
             let axis2 = *relaxed.displacement.second_axis();
             verifications += 1;
-            if !relaxed.verified(geometry, states, part, rank, joint, freed)? {
+            let mut changes = [(joint, relaxed)];
+            if !mobility_stays(&mut changes, geometry, states, part, rank, freed)? {
                 continue;
             }
             advice.push(Advice {
@@ -101,86 +92,14 @@ pub fn advice_for_part(
     Ok(advice)
 }
 
-/// A way to relax a joint: the kind it becomes and the screws it gains, in its own frame.
-struct Relaxation {
-    to: JointKind,
-    axis: Vector<f64>,
-    gained: Vec<(Vector<f64>, Vector<f64>)>,
-    /// The gained screw is a rotation about a direction still to be chosen, perpendicular to the axis.
-    second_axis_open: bool,
-}
-
-impl Relaxation {
-    fn screws(&self, second_axis: &Vector<f64>) -> Vec<(Vector<f64>, Vector<f64>)> {
-        if self.second_axis_open {
-            vec![(*second_axis, [0.0; 3])]
-        } else {
-            self.gained.clone()
-        }
-    }
-}
-
-fn relaxations(
-    kind: JointKind,
-    displacement: &JointDisplacement<f64>,
-    state: &JointState<f64>,
-) -> Vec<Relaxation> {
-    let axis = *displacement.axis();
-    let zero = [0.0; 3];
-    let base = |i: usize| {
-        let mut v = zero;
-        v[i] = 1.0;
-        v
-    };
-    let (e1, e2) = if kind.uses_axis() {
-        displacement.across()
-    } else {
-        (base(1), base(2))
-    };
-    let to = |to, gained: &[(Vector<f64>, Vector<f64>)]| Relaxation {
-        to,
-        axis,
-        gained: gained.to_vec(),
-        second_axis_open: false,
-    };
-    let universal = || Relaxation {
-        to: JointKind::Universal,
-        axis,
-        gained: Vec::new(),
-        second_axis_open: true,
-    };
-    match kind {
-        JointKind::Revolute => vec![
-            to(JointKind::Cylindrical, &[(zero, axis)]),
-            universal(),
-            to(JointKind::Spherical, &[(e1, zero), (e2, zero)]),
-        ],
-        JointKind::Prismatic => vec![
-            to(JointKind::Cylindrical, &[(axis, zero)]),
-            to(JointKind::Translational, &[(zero, e1), (zero, e2)]),
-        ],
-        JointKind::Screw => vec![to(JointKind::Cylindrical, &[(zero, axis)])],
-        JointKind::PlanarTranslation => vec![
-            to(JointKind::Planar, &[(axis, zero)]),
-            to(JointKind::Translational, &[(zero, axis)]),
-        ],
-        JointKind::Universal => {
-            // Where the second axis points now, seen from the predecessor.
-            let screws = displacement.screws(state);
-            let Some(second) = screws.get(1) else {
-                return Vec::new();
-            };
-            let third = kutzbach_closure::cross_product(&axis, &second.angular);
-            if third.iter().all(|x| x.abs() < 1e-12) {
-                return Vec::new();
-            }
-            vec![to(JointKind::Spherical, &[(third, zero)])]
-        }
-        JointKind::Planar | JointKind::TranslatingScrew => {
-            vec![to(JointKind::Schoenflies, &[(zero, axis)])]
-        }
-        _ => vec![],
-    }
+/// Joints in a coupling of the part. A coupling speaks of a joint's one variable: relaxing such a joint would change what the
+/// coupling means.
+pub(super) fn coupled_joints(mechanism: &Mechanism, part: &Part) -> BTreeSet<usize> {
+    let terms = part
+        .couplings
+        .iter()
+        .flat_map(|&coupling| &mechanism.couplings()[coupling].terms);
+    terms.map(|term| term.joint.0).collect()
 }
 
 /// A second axis across the first that the self-stresses load: of the two directions across it that the joint frame
@@ -204,66 +123,6 @@ fn pick_second_axis(
     }
     // A third more is no matter of rounding.
     Some(if second > 4.0 / 3.0 * first { e2 } else { e1 })
-}
-
-impl Relaxation {
-    /// The relaxed joint standing where the joint stands. The second axis is in the predecessor's frame.
-    fn apply(
-        &self,
-        joint: &JointDisplacement<f64>,
-        state: &JointState<f64>,
-        second_axis: &Vector<f64>,
-    ) -> Relaxed {
-        let reached = joint.displacement(state);
-        let axis2 = if self.second_axis_open {
-            reached.rotate_back(second_axis)
-        } else {
-            *joint.second_axis()
-        };
-        let displacement = JointDisplacement::new(self.to, &self.axis, &axis2, &0.0, &0.0);
-        let state = displacement.fit(&reached);
-        Relaxed {
-            displacement,
-            state,
-        }
-    }
-}
-
-/// A relaxed joint and where it stands.
-struct Relaxed {
-    displacement: JointDisplacement<f64>,
-    state: JointState<f64>,
-}
-
-impl Relaxed {
-    /// Whether with this in the place of a joint the rank rises by as much as is freed: the freedom stays.
-    fn verified(
-        self,
-        geometry: &mut Geometry<f64>,
-        states: &mut [JointState<f64>],
-        part: &Part,
-        rank: &PartRank,
-        joint: usize,
-        freed: usize,
-    ) -> Result<bool, MatrixError> {
-        let Some(freedom) = rank.instantaneous else {
-            return Ok(false);
-        };
-        let displacement = std::mem::replace(&mut geometry.displacements[joint], self.displacement);
-        let state = std::mem::replace(&mut states[joint], self.state);
-        let changed = linearised(geometry, states, part);
-        geometry.displacements[joint] = displacement;
-        states[joint] = state;
-        let mut matrix = changed?.matrix;
-        matrix.scale_columns();
-        let accuracy = rank.decision.accuracy.max(rank.accuracy);
-        let decision = if matrix.columns() > DENSE_UNKNOWNS {
-            decide_by_qr(&matrix, accuracy)?.0
-        } else {
-            decide(&matrix, accuracy)?
-        };
-        Ok(decision.rank == Some(rank.unknowns() - freedom + freed))
-    }
 }
 
 #[cfg(test)]

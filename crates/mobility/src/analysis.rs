@@ -7,6 +7,7 @@ use super::chart::moving_far;
 use super::cycles::{CycleFacts, cycle_facts};
 use super::depth::Depth;
 use super::exact::{ExactAllowance, ExactBudget, ask_exact};
+use super::exact_constraint::{ChangeSets, NoChangeSet, change_sets};
 use super::generic::{GenericCount, generic_count};
 use super::kutzbach::kutzbach_count;
 use super::meant::{Meant, completed};
@@ -14,13 +15,15 @@ use super::more_digits::MoreDigits;
 use super::part_mobility::{PartFinding, part_mobility};
 use super::pose_rank::{PartRank, Pose, Trial, rank_part_with};
 use super::redundancy::SelfStresses;
+use super::redundant_directions::{JointDirections, redundant_directions};
 use super::roles::{JointRole, Seen, roles_seen_closer};
 use super::verdict::{Mobility, judge, not_asked, unassembled};
 use super::vocabulary::PoseKind;
 use super::whole_branches::whole_branches;
 use kutzbach_closure::Structure;
 use kutzbach_closure::{
-    Arithmetic, Assembly, AssemblyOptions, Geometry, assemble_with, spanning_poses,
+    Arithmetic, Assembly, AssemblyOptions, Geometry, JointState, Part, assemble_with,
+    spanning_poses,
 };
 use kutzbach_math::matrix::MatrixError;
 use kutzbach_model::mechanism::{Configuration, Mechanism, Precision};
@@ -101,6 +104,12 @@ pub struct Analysis {
     pub cycles: Vec<CycleFacts>,
     /// Repair advice, best first; none unless [`Depth::Everything`] is asked for.
     pub advice: Vec<Advice>,
+    /// Sets of joints to relax after which no constraint is redundant and the finite mobility is what it was: an entry for each
+    /// part with redundant constraints, of which one set each is to be taken; or why there are none.
+    pub change_sets: Result<Vec<ChangeSets>, NoChangeSet>,
+    /// Where redundant constraints act, by joint index; empty for joints without any, and unless [`Depth::Everything`] is
+    /// asked for.
+    pub directions: Vec<JointDirections>,
     /// What the engines found of every part, in the order of [`Structure::parts`]; none at [`Depth::Rank`].
     pub findings: Vec<PartFinding>,
     /// The branches through the pose; `None` while not decided, where there are too many to list, or below
@@ -178,6 +187,8 @@ pub(super) fn analyse_as_stated(
         redundant_wrenches: vec![None; mechanism.joints().len()],
         cycles: Vec::new(),
         advice: Vec::new(),
+        change_sets: Err(NoChangeSet::Undecided),
+        directions: vec![JointDirections::default(); mechanism.joints().len()],
         findings: Vec::new(),
         branches: None,
         meant: None,
@@ -349,6 +360,15 @@ impl Analysis {
             for &joint in &part.joints {
                 self.redundant_wrenches[joint] = Some(stresses.indeterminate_wrenches(rank, joint));
             }
+            for (joint, found) in redundant_directions(
+                self.in_order(part)
+                    .into_iter()
+                    .map(|joint| (joint, &trial.displacements[joint])),
+                rank,
+                &stresses,
+            ) {
+                self.directions[joint] = found;
+            }
             if let Some(redundant) = home.redundant.filter(|r| *r > 0) {
                 self.advice.extend(advice_for_part(
                     mechanism,
@@ -361,6 +381,8 @@ impl Analysis {
                 )?);
             }
         }
+        self.change_sets =
+            self.sets_of_changes(mechanism, &mut trial, &mut trial_states, parts, home)?;
         let graph = &self.structure.graph;
         self.advice
             .sort_by_key(|a| (a.redundant_after, graph.edge_rank(a.joint), a.to));
@@ -370,6 +392,42 @@ impl Analysis {
                 .push(cycle_facts(mechanism, geometry, states, &poses, cycle)?);
         }
         Ok(())
+    }
+
+    /// The joints of a part in an order that is not the file's.
+    fn in_order(&self, part: &Part) -> Vec<usize> {
+        let mut joints = part.joints.clone();
+        joints.sort_by_key(|&joint| self.structure.graph.edge_rank(joint));
+        joints
+    }
+
+    /// Sets of changes that leave no redundant constraint, part by part.
+    fn sets_of_changes(
+        &self,
+        mechanism: &Mechanism,
+        geometry: &mut Geometry<f64>,
+        states: &mut [JointState<f64>],
+        parts: &[PartRank],
+        home: &HomeFreedom,
+    ) -> Result<Result<Vec<ChangeSets>, NoChangeSet>, MatrixError> {
+        match (home.redundant, self.mobility.finite(), home.instantaneous) {
+            (Some(redundant), _, _) if redundant <= 0 => {
+                return Ok(Err(NoChangeSet::NothingRedundant));
+            }
+            (Some(_), Some(finite), Some(here)) if finite == here => {}
+            (Some(_), Some(_), Some(_)) => return Ok(Err(NoChangeSet::Singular)),
+            _ => return Ok(Err(NoChangeSet::Undecided)),
+        }
+        let mut all = Vec::new();
+        for (part, rank) in self.structure.parts.iter().zip(parts) {
+            let joints = self.in_order(part);
+            match change_sets(mechanism, geometry, states, (part, rank), &joints)? {
+                Ok(sets) => all.push(sets),
+                Err(NoChangeSet::NothingRedundant) => {}
+                Err(why) => return Ok(Err(why)),
+            }
+        }
+        Ok(Ok(all))
     }
 
     fn home_freedom(&self, mechanism: &Mechanism, parts: &[PartRank]) -> HomeFreedom {

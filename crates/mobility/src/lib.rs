@@ -26,11 +26,13 @@ mod branch_roles;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod branch_samples;
+mod change_search;
 mod chart;
 mod coupling_locks;
 mod cycles;
 mod depth;
 mod exact;
+mod exact_constraint;
 pub mod families;
 mod generic;
 mod germ;
@@ -55,9 +57,12 @@ mod part_samples;
 mod point_chains;
 mod pose_rank;
 mod redundancy;
+mod redundant_directions;
 mod relative_motion;
+mod relaxation;
 mod roles;
 mod rounded;
+mod row_space;
 mod singular;
 mod subgroup;
 mod tangent_space;
@@ -79,6 +84,7 @@ pub use coupling_locks::freedom_locked_by_couplings;
 pub use cycles::{CycleFacts, cycle_facts};
 pub use depth::Depth;
 pub use exact::ExactBudget;
+pub use exact_constraint::{ChangeSets, JointChange, NoChangeSet};
 pub use generic::{GenericCount, generic_count};
 pub use germ::{
     ComplexDimension, Germ, PrestressCertificate, complex_dimension, prestress_certificate,
@@ -98,6 +104,7 @@ pub use one_engine::{
 pub use part_mobility::{Evidence, PartBranch, PartFinding, part_mobility};
 pub use pose_rank::{Doubt, LADDER, PartRank, Pose, Trial, rank_part};
 pub use redundancy::SelfStresses;
+pub use redundant_directions::{JointDirections, ReactionDirection};
 pub use relative_motion::{motions_to_ground, relative_motions};
 pub use roles::{JointRole, freedom_groups, roles_of_part};
 pub use subgroup::{SubgroupFinding, subgroup_finding};

@@ -35,6 +35,18 @@ impl SelfStresses {
     /// # Errors
     /// [`MatrixError`] where the null vectors cannot be computed.
     pub fn new(part: &Part, rank: &PartRank) -> Result<Option<Self>, MatrixError> {
+        Self::up_to(part, rank, SELF_STRESSES)
+    }
+
+    /// [`Self::new`] with a basis, however many there are. Its memory grows with the square of their number.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn all(part: &Part, rank: &PartRank) -> Result<Option<Self>, MatrixError> {
+        Self::up_to(part, rank, usize::MAX)
+    }
+
+    fn up_to(part: &Part, rank: &PartRank, most: usize) -> Result<Option<Self>, MatrixError> {
         let Some(decision) = rank.settled() else {
             return Ok(None);
         };
@@ -43,8 +55,7 @@ impl SelfStresses {
             return Ok(None);
         }
         let decided = decision.transposed();
-        let Some(vectors) = null_vectors_in_doubles(&transposed, &decided, SELF_STRESSES, 2)?
-        else {
+        let Some(vectors) = null_vectors_in_doubles(&transposed, &decided, most, 2)? else {
             return Ok(None);
         };
         let kept = decision.kept.max(f64::MIN_POSITIVE);
@@ -66,6 +77,18 @@ impl SelfStresses {
             threshold,
             met,
         }))
+    }
+
+    /// How many there are in a basis: the redundant constraints of the part.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.vectors.nullity
+    }
+
+    /// Length below which a row of loads is taken for zero.
+    #[must_use]
+    pub fn threshold(&self) -> f64 {
+        self.threshold
     }
 
     /// What the self-stresses do to a screw in a joint: one number per self-stress, `Σ_l ± ⟨λ_l, T⟩`.
@@ -98,20 +121,29 @@ impl SelfStresses {
         screws: &[(Vector<f64>, Vector<f64>)],
     ) -> DMatrix<f64> {
         let length = rank.jacobian.length;
-        let rows: Vec<Vec<f64>> = screws
+        let placed: Vec<_> = screws
             .iter()
-            .map(|(angular, linear)| {
-                self.load(rank, joint, &|walked| {
-                    PlacedScrew {
-                        angular: *angular,
-                        point: [0.0; 3],
-                        linear: linear.map(|x| x * length),
-                    }
-                    .moved(&walked.frame)
-                })
+            .map(|(angular, linear)| PlacedScrew {
+                angular: *angular,
+                point: [0.0; 3],
+                linear: linear.map(|x| x * length),
             })
             .collect();
+        let rows = self.loads_of(rank, joint, &placed);
         DMatrix::from_fn(screws.len(), self.vectors.vectors.len(), |i, j| rows[i][j])
+    }
+
+    /// [`Self::loads`] of screws in metres, one row each.
+    pub fn loads_of(
+        &self,
+        rank: &PartRank,
+        joint: usize,
+        screws: &[PlacedScrew<f64>],
+    ) -> Vec<Vec<f64>> {
+        screws
+            .iter()
+            .map(|screw| self.load(rank, joint, &|walked| screw.clone().moved(&walked.frame)))
+            .collect()
     }
 
     /// The number of indeterminate reaction directions of a joint: the rank of its wrench matrix.

@@ -1,5 +1,6 @@
 //! Lays what an analysis found over a report that holds counts only.
 
+use super::change_sets::{change_sets, directions};
 use super::motions::motion_row;
 use super::natural::natural_order;
 use super::schema::{
@@ -12,7 +13,8 @@ use kutzbach_math::matrix::Method;
 use kutzbach_mobility::{
     Analysis, IdleLink, JointRole, PartFinding, PartRank, freedom_locked_by_couplings,
 };
-use kutzbach_model::mechanism::{JointKind, Mechanism};
+use kutzbach_model::mechanism::{Joint, JointKind, Mechanism};
+use std::collections::BTreeSet;
 
 /// The end of the warning of pieces that nothing holds; what they count for stands in [`Report::freedoms`] too.
 pub(super) const LOOSE: &str = "of the links are connected to the ground by no joint at all; each such piece counts with six freedoms";
@@ -40,7 +42,10 @@ pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &An
         .advice
         .iter()
         .map(|a| advice(mechanism, a))
+        .chain(removals(mechanism, analysis))
         .collect();
+    report.advice.sort_by_key(|a| a.redundant_after);
+    report.change_sets = change_sets(mechanism, analysis);
     if !analysis.structure.cycles_are_fundamental {
         report.warnings.push(
             "the fundamental cycles of the spanning tree are too long to list; the cycles shown are a shortest basis".to_owned(),
@@ -343,6 +348,7 @@ fn joint_rows(mechanism: &Mechanism, analysis: &Analysis) -> Vec<JointRow> {
             locked: role.locked,
             locked_parts: role.locked_parts,
             redundant_wrenches: *wrenches,
+            redundant_directions: directions(analysis, index),
             closes_loop: joint.closes_loop,
             block: block_of[index].map(|part| analysis.structure.part_names[part].clone()),
             ranges: Vec::new(),
@@ -468,6 +474,36 @@ fn advice(mechanism: &Mechanism, advice: &kutzbach_mobility::Advice) -> Advice {
         redundant_before: advice.redundant_before,
         redundant_after: advice.redundant_after,
     }
+}
+
+/// Joints all of whose constraints are redundant: without them everything moves as before. A coupling would go with its joint.
+fn removals(mechanism: &Mechanism, analysis: &Analysis) -> Vec<Advice> {
+    let Some(redundant) = analysis.home.as_ref().and_then(|home| home.redundant) else {
+        return Vec::new();
+    };
+    let couplings = mechanism.couplings().iter();
+    let coupled: BTreeSet<usize> = couplings
+        .flat_map(|coupling| coupling.terms.iter().map(|term| term.joint.0))
+        .collect();
+    let joints = mechanism.joints().iter().enumerate();
+    let removal = |(index, joint): (usize, &Joint)| {
+        let constraints = 6_usize.checked_sub(joint.freedom()).filter(|n| *n > 0)?;
+        let all = analysis.redundant_wrenches[index] == Some(constraints);
+        (all && !coupled.contains(&index)).then(|| Advice {
+            text: format!(
+                "{}: remove it; all of its {constraints} constraints are redundant at this pose",
+                joint.name
+            ),
+            joint: joint.name.clone(),
+            from: joint.kind.class().to_owned(),
+            to: "none".to_owned(),
+            redundant_before: redundant,
+            redundant_after: redundant - constraints as i64,
+        })
+    };
+    let mut all: Vec<Advice> = joints.filter_map(removal).collect();
+    all.sort_by(|a, b| natural_order(&a.joint, &b.joint));
+    all
 }
 
 /// Four decimals, without a sign on zero.

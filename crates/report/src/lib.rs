@@ -39,6 +39,7 @@
 pub mod accuracy;
 mod assemble;
 mod assembly;
+mod change_sets;
 pub mod definitions;
 pub mod exact;
 mod expectation;
@@ -64,6 +65,7 @@ pub use assemble::{
     Input, Options, ReportError, analysed_report, analysed_report_on, report, report_on,
 };
 pub use assembly::{ASSEMBLED, assembled_file};
+pub use change_sets::{ChangeSets, Component, JointReplacement, PartChanges, RedundantDirection};
 pub use expectation::{Comparison, Disagreement, compare};
 pub use expected_file::{ExpectedFile, ExpectedFileError};
 pub use kutzbach_mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};

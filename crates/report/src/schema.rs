@@ -4,6 +4,7 @@
 //! Units: metres and radians. Dimensions, ranks and freedoms are plain counts. `null` means "not decided" or "does not
 //! apply", as the field says; it never means zero. Every number is finite.
 
+use super::change_sets::{ChangeSets, RedundantDirection};
 use kutzbach_mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
 use serde::{Deserialize, Serialize};
 
@@ -51,6 +52,10 @@ pub struct Report {
     pub motions: Vec<Motion>,
     /// Single joints whose relaxation removes redundancy without adding freedom.
     pub advice: Vec<Advice>,
+    /// Sets of joints whose relaxation, all at once, leaves no constraint redundant and the finite mobility as it is; `null` where
+    /// nothing is redundant or the counts are not decided.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub change_sets: Option<ChangeSets>,
     /// What a careful reader should know: oddities of the file, short margins.
     pub warnings: Vec<String>,
     /// What of the file was not read, because it says nothing about motion.
@@ -541,6 +546,9 @@ pub struct JointRow {
     pub locked_parts: Vec<String>,
     /// Directions in which its reaction is statically undetermined.
     pub redundant_wrenches: Option<usize>,
+    /// The directions of these.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub redundant_directions: Vec<RedundantDirection>,
     /// Whether the file writes it as the closure of a loop.
     pub closes_loop: bool,
     /// The label of its block ([`Block::label`]); `null` where it is in no loop and no coupling, and moves by itself.
@@ -682,7 +690,7 @@ pub struct Advice {
     pub joint: String,
     /// Its class now.
     pub from: String,
-    /// The class it should get.
+    /// The class it should get; `none` where it may be removed.
     pub to: String,
     /// Redundant equations now.
     pub redundant_before: i64,

@@ -59,6 +59,11 @@ impl<'a> Alternatives<'a> {
         self.joints.len() * self.to.len()
     }
 
+    /// Whether the joints are to be removed.
+    pub fn removes(&self) -> bool {
+        self.to == ["none"]
+    }
+
     /// `any one of J1 … J6: revolute → universal`.
     pub fn text(&self) -> String {
         let joints = mirrored_runs(&self.joints, NAMED);
@@ -67,6 +72,9 @@ impl<'a> Alternatives<'a> {
             2 => "one of ",
             _ => "any one of ",
         };
+        if self.removes() {
+            return format!("remove {of}{joints}");
+        }
         let to: Vec<&str> = self.to.iter().map(|class| word(class)).collect();
         format!(
             "{of}{joints}: {} → {}",

@@ -9,6 +9,7 @@
 mod alternatives;
 pub(super) mod assembly;
 pub(super) mod branches;
+mod change_sets;
 mod cite;
 mod constants;
 pub(super) mod counts;

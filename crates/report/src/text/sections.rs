@@ -1,11 +1,13 @@
 //! The parts of the page below the counts. A part about which nothing is known is left out.
 
 use super::alternatives::Alternatives;
+use super::change_sets;
 use super::folded::Folded;
 use super::page::Page;
 use super::style::Tint;
 use super::table::{Cell, Column, Subject, Table};
 use super::words::{capitalised, counted, figure, mirrored_runs, names, one_side, runs};
+use crate::change_sets::ChangeSets;
 use crate::findings::{LOCKED_TOGETHER, LOOSE};
 use crate::pose::is_about_the_pose;
 use crate::schema::{Advice, CouplingRow, Cycle, Report};
@@ -208,26 +210,81 @@ pub(super) fn unsure(count: Option<impl ToString>) -> String {
     count.map_or_else(|| "?".to_owned(), |n| n.to_string())
 }
 
-/// What to change.
+/// What is redundant, by direction, and what to change.
 pub(crate) fn advice(report: &Report, page: &mut Page) {
-    if report.advice.is_empty() {
+    let verbose = page.layout().verbose;
+    let sets = report.change_sets.as_ref();
+    if report.advice.is_empty() && sets.is_none() {
         return;
     }
     page.heading("To remove redundant constraints, adding no mobility");
-    let verbose = page.layout().verbose;
+    if let Some(directions) = change_sets::independent(report, verbose) {
+        let text = format!("redundant: {directions}");
+        page.paragraph(&text, Tint::Plain, "  ", "    ");
+    }
+    let told_whole = sets.is_some_and(|sets| whole_sets(sets, page));
     if verbose {
         for advice in &report.advice {
             page.item(&told(&advice.text, advice), Tint::Plain);
         }
         return;
     }
+    // Where sets remove everything, single changes that do less are left to a verbose page; a joint to remove is not.
+    let all = Alternatives::of(&report.advice);
+    let single = all.iter().filter(|change| !told_whole || change.removes());
     let mut left = report.advice.len();
-    for change in Alternatives::of(&report.advice).iter().take(CHANGES) {
+    for change in single.take(CHANGES) {
         page.item(&told(&change.text(), change.first), Tint::Plain);
         left -= change.pieces();
     }
-    more(left, page);
+    if !told_whole {
+        more(left, page);
+    }
 }
+
+/// Sets of changes that remove every redundancy; whether there are any.
+fn whole_sets(sets: &ChangeSets, page: &mut Page) -> bool {
+    let verbose = page.layout().verbose;
+    if let Some(obstacle) = &sets.obstacle {
+        page.paragraph(obstacle, Tint::Quiet, "  ", "    ");
+    }
+    let parts = sets.parts.len();
+    let (most_parts, most_lines) = match (verbose, parts) {
+        (true, _) => (parts, usize::MAX),
+        (false, 1) => (1, SETS),
+        (false, _) => (SETS, 1),
+    };
+    for part in sets.parts.iter().take(most_parts) {
+        let removed = match parts {
+            1 => format!("{} → 0", part.redundant),
+            _ => format!(
+                "removes {}",
+                counted(part.redundant, "redundant constraint")
+            ),
+        };
+        let least = match (part.least, part.sets.first().map_or(0, Vec::len)) {
+            (true, 2..) if verbose => "; fewest changes",
+            (true, _) => "",
+            (false, _) => "; fewer may do",
+        };
+        for (index, (text, _)) in change_sets::lines(part).iter().take(most_lines).enumerate() {
+            let text = match index {
+                0 => format!("{text} ({removed}{least})"),
+                _ => format!("or {text}"),
+            };
+            page.item(&text, Tint::Plain);
+        }
+    }
+    if parts > most_parts {
+        let others = counted(parts - most_parts, "more independent sub-mechanism");
+        let text = format!("… and likewise in {others}: `--verbose`");
+        page.paragraph(&text, Tint::Quiet, "    ", "    ");
+    }
+    parts > 0
+}
+
+/// Lines on a first screen: for the only part, or of as many parts.
+const SETS: usize = 2;
 
 fn told(text: &str, advice: &Advice) -> String {
     format!(

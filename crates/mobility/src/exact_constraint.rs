@@ -1,0 +1,218 @@
+//! Sets of joints to relax, all at once, after which no constraint is redundant and the mobility is what it was.
+//!
+//! Let the rows of N span the left kernel of the closure Jacobian, one for each of r redundant constraints. A joint that gains
+//! the screws T adds the columns T to the Jacobian; the kernel stays, and r falls by the rank of N·T, where these columns are
+//! independent there. A set of changes works if the columns of all of them together are independent and r in number. Then
+//! the Jacobian has full rank: the pose is regular and the finite mobility is the instantaneous one. Where it was less before,
+//! at a singular pose, no set can leave it as it was.
+
+use super::advice::coupled_joints;
+use super::change_search::{Candidate, least_sets};
+use super::pose_rank::PartRank;
+use super::redundancy::SelfStresses;
+use super::relaxation::{Relaxed, contacts, mobility_stays, relaxations, standing_there};
+use super::row_space::RowSpace;
+use kutzbach_closure::{Geometry, JointState, Part, Vector};
+use kutzbach_math::matrix::MatrixError;
+use kutzbach_model::mechanism::{JointKind, Mechanism};
+
+/// A joint of another kind than it has.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointChange {
+    /// Index of the joint.
+    pub joint: usize,
+    /// The kind it would become.
+    pub to: JointKind,
+    /// The axis where it is another than the joint's, in the predecessor's joint frame, as a file writes `axis`.
+    pub axis: Option<Vector<f64>>,
+    /// The second axis of a kind that has one, in the successor's joint frame, as a file writes `axis2`.
+    pub second_axis: Option<Vector<f64>>,
+}
+
+/// Sets of changes for one part of a mechanism, any one of which leaves it without a redundant constraint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChangeSets {
+    /// Redundant constraints that each set removes.
+    pub redundant: usize,
+    /// At least one, all of the same size; in the order of the part's joints. Each has been applied and its rank decided.
+    pub sets: Vec<Vec<JointChange>>,
+    /// Whether it has been shown that no smaller set of such changes does as much.
+    pub least: bool,
+    /// Whether these are all sets of this size.
+    pub complete: bool,
+}
+
+/// Why there is no set of changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoChangeSet {
+    /// No constraint is redundant.
+    NothingRedundant,
+    /// It was not asked for, or the mobility or a rank is not decided.
+    Undecided,
+    /// The instantaneous mobility exceeds the finite one: without a redundant constraint the two are equal.
+    Singular,
+    /// A part has too many unknowns.
+    TooLarge,
+    /// The kinds that joints may become do not reach every redundant constraint.
+    OutOfReach,
+}
+
+/// Parts with more unknowns are not looked at: their left kernel is dense.
+pub(super) const MOST_UNKNOWNS: usize = 900;
+
+/// What is left of a unit load below this is no help to speak of.
+const WEAK: f64 = 1e-6;
+
+/// Sets that are applied and ranked, where a rank takes microseconds, and where it takes milliseconds.
+const VERIFIED: usize = 256;
+const VERIFIED_OF_LARGE_PARTS: usize = 4;
+const LARGE: usize = 40;
+
+/// The sets of one part, its joints in a given order. Geometry and states are as they were afterwards.
+///
+/// # Errors
+/// [`MatrixError`] where numbers overflow.
+pub(super) fn change_sets(
+    mechanism: &Mechanism,
+    geometry: &mut Geometry<f64>,
+    states: &mut [JointState<f64>],
+    (part, rank): (&Part, &PartRank),
+    joints: &[usize],
+) -> Result<Result<ChangeSets, NoChangeSet>, MatrixError> {
+    if rank.unknowns() > MOST_UNKNOWNS {
+        return Ok(Err(NoChangeSet::TooLarge));
+    }
+    let Some(stresses) = SelfStresses::all(part, rank)? else {
+        return Ok(Err(NoChangeSet::Undecided));
+    };
+    let redundant = stresses.count();
+    if redundant == 0 {
+        return Ok(Err(NoChangeSet::NothingRedundant));
+    }
+    let coupled = coupled_joints(mechanism, part);
+    let joints: Vec<usize> = joints
+        .iter()
+        .copied()
+        .filter(|j| !coupled.contains(j))
+        .collect();
+    let threshold = stresses.threshold().max(WEAK);
+    let length = rank.jacobian.length;
+    let search = |contacts: bool| {
+        let ways: Vec<Way> = joints
+            .iter()
+            .flat_map(|&joint| ways(mechanism, geometry, states, joint, contacts))
+            .filter_map(|way| way.loaded(rank, &stresses, threshold, length))
+            .collect();
+        let candidates: Vec<Candidate> = ways.iter().map(Way::candidate).collect();
+        let found = least_sets(&candidates, redundant, threshold)?;
+        Some((ways, found))
+    };
+    let Some((ways, found)) = search(false).or_else(|| search(true)) else {
+        return Ok(Err(NoChangeSet::OutOfReach));
+    };
+    let verified = match rank.unknowns() > LARGE {
+        true => VERIFIED_OF_LARGE_PARTS,
+        false => VERIFIED,
+    };
+    let mut sets = Vec::new();
+    let mut complete = found.complete && found.sets.len() <= verified;
+    for set in found.sets.iter().take(verified) {
+        let mut relaxed: Vec<(usize, Relaxed)> = set
+            .iter()
+            .map(|&way| (ways[way].change.joint, ways[way].relaxed.clone()))
+            .collect();
+        let changes = set.iter().map(|&way| ways[way].change.clone()).collect();
+        if mobility_stays(&mut relaxed, geometry, states, part, rank, redundant)? {
+            sets.push(changes);
+        } else {
+            complete = false;
+        }
+    }
+    if sets.is_empty() {
+        return Ok(Err(NoChangeSet::Undecided));
+    }
+    Ok(Ok(ChangeSets {
+        redundant,
+        sets,
+        least: found.least,
+        complete,
+    }))
+}
+
+/// A way to change a joint.
+struct Way {
+    change: JointChange,
+    relaxed: Relaxed,
+    /// Rows that it frees.
+    rows: Vec<Vec<f64>>,
+    gained: usize,
+}
+
+/// All ways to change a joint, with contacts or without.
+fn ways(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    states: &[JointState<f64>],
+    joint: usize,
+    with_contacts: bool,
+) -> Vec<Way> {
+    let kind = mechanism.joints()[joint].kind;
+    let (displacement, state) = (&geometry.displacements[joint], &states[joint]);
+    let mut targets: Vec<(JointKind, Vector<f64>, Vector<f64>)> = Vec::new();
+    for relaxation in relaxations(kind, displacement, state) {
+        for second_axis in relaxation.second_axes() {
+            targets.push((relaxation.to, relaxation.axis, second_axis));
+        }
+    }
+    if with_contacts {
+        targets.extend(contacts(kind, displacement, state));
+    }
+    let of = |(to, axis, second_axis): (JointKind, Vector<f64>, Vector<f64>)| {
+        let relaxed = standing_there(displacement, state, (to, &axis, &second_axis));
+        let second = *relaxed.displacement.second_axis();
+        let change = JointChange {
+            joint,
+            to,
+            axis: (to.uses_axis() && axis != *displacement.axis()).then_some(axis),
+            second_axis: to.uses_second_axis().then_some(second),
+        };
+        Way {
+            change,
+            relaxed,
+            rows: Vec::new(),
+            gained: to.freedom() - kind.freedom(),
+        }
+    };
+    targets.into_iter().map(of).collect()
+}
+
+impl Way {
+    /// With the rows that it frees; `None` if it would add mobility by itself.
+    fn loaded(
+        mut self,
+        rank: &PartRank,
+        stresses: &SelfStresses,
+        threshold: f64,
+        length: f64,
+    ) -> Option<Self> {
+        // Translations count in units of the part's length, as in its Jacobian.
+        let mut screws = self.relaxed.screws();
+        for screw in &mut screws {
+            if screw.angular == [0.0; 3] {
+                screw.linear = screw.linear.map(|x| x * length);
+            }
+        }
+        // What the joint can do already is not loaded.
+        let mut space = RowSpace::new(threshold);
+        self.rows = stresses.loads_of(rank, self.change.joint, &screws);
+        self.rows.retain(|row| space.add(row));
+        (self.rows.len() == self.gained).then_some(self)
+    }
+
+    fn candidate(&self) -> Candidate {
+        Candidate {
+            joint: self.change.joint,
+            rows: self.rows.clone(),
+        }
+    }
+}
