@@ -187,3 +187,44 @@ fn no_smaller_set_is_found_by_trying_all() {
     println!("{tried} smaller sets");
     assert!(tried >= 400, "{tried}");
 }
+
+/// A door on two hinges of one axis.
+const DOOR: &str = "<robot name='door'><link name='frame'/><link name='door'/>
+<joint name='lower' type='continuous'><parent link='frame'/><child link='door'/><axis xyz='0 0 1'/></joint>
+<loop name='upper' type='continuous'><predecessor link='frame'><origin xyz='0 0 1'/></predecessor>
+<successor link='door'><origin xyz='0 0 1'/></successor><axis xyz='0 0 1'/></loop></robot>";
+
+#[test]
+fn a_joint_all_of_whose_constraints_are_redundant_can_be_removed() {
+    let report = |text: &str| {
+        let reading = kutzbach::format::read(text, "door", &[]).unwrap();
+        kutzbach::report::analysed_report(&reading, "door", &kutzbach::report::Options::default())
+            .unwrap()
+            .0
+    };
+    let door = report(DOOR);
+    assert_eq!(door.home.redundant, Some(5));
+    let removed: Vec<(&str, i64)> = door
+        .advice
+        .iter()
+        .filter(|advice| advice.to == "none")
+        .map(|advice| (advice.joint.as_str(), advice.redundant_after))
+        .collect();
+    assert_eq!(removed, [("lower", 0), ("upper", 0)]);
+    let start = DOOR.find("<loop").unwrap();
+    let end = DOOR.find("</loop>").unwrap() + "</loop>".len();
+    let alone = report(&[&DOOR[..start], &DOOR[end..]].concat());
+    assert_eq!(
+        (alone.home.redundant, alone.mobility.finite),
+        (Some(0), door.mobility.finite)
+    );
+    // As many independent directions as there are redundant constraints.
+    let directions = door
+        .joints
+        .iter()
+        .flat_map(|joint| &joint.redundant_directions);
+    assert_eq!(
+        directions.filter(|direction| direction.independent).count(),
+        5
+    );
+}

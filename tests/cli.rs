@@ -313,6 +313,62 @@ fn check_compares_both_sources_and_exits_with_1_on_a_disagreement() {
     assert_eq!(json["right"], 1);
 }
 
+/// Nothing known, nothing read, nothing compared: no success where one asks for strictness.
+#[test]
+fn a_strict_check_fails_where_anything_is_missing_and_an_update_mends_it() {
+    let folder = folder("strict");
+    let unknown = BAR.replace("<expect kutzbach=\"-2\"/>", "");
+    fs::write(folder.join("bar.urdf"), unknown).unwrap();
+    let code = |more: &[&str]| {
+        let arguments = [&["check", "."], more].concat();
+        kutzbach(&folder, &arguments).status.code()
+    };
+    assert_eq!((code(&[]), code(&["--strict"])), (Some(0), Some(1)));
+    assert_eq!(code(&["--update"]), Some(0));
+    assert_eq!(code(&["--strict"]), Some(0), "everything is known now");
+    let path = folder.join("expected.json");
+    let mut known: serde_json::Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
+    assert_eq!(known["bar"]["kutzbach"], -2);
+    // What is wrong is put right; what nothing reads is kept, and no success.
+    known["bar"]["kutzbach"] = 7.into();
+    known["bar"]["colour"] = "red".into();
+    fs::write(&path, known.to_string()).unwrap();
+    assert_eq!(code(&["--update"]), Some(1), "it was wrong");
+    assert_eq!((code(&[]), code(&["--strict"])), (Some(0), Some(1)));
+    let known: serde_json::Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
+    assert_eq!(
+        (&known["bar"]["kutzbach"], &known["bar"]["colour"]),
+        (&(-2).into(), &"red".into())
+    );
+}
+
+#[test]
+fn a_dash_reads_standard_input() {
+    let run = |text: &str| {
+        let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+            .args(["report", "-", "--format", "json"])
+            .stdin(std::process::Stdio::piped())
+            .stdout(std::process::Stdio::piped())
+            .stderr(std::process::Stdio::piped())
+            .spawn()
+            .unwrap();
+        use std::io::Write;
+        child
+            .stdin
+            .take()
+            .unwrap()
+            .write_all(text.as_bytes())
+            .unwrap();
+        child.wait_with_output().unwrap()
+    };
+    let output = run(BAR);
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(report["kutzbach"], -2);
+    let output = run("<robot");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("standard input:1:"));
+}
+
 #[test]
 fn check_tells_unreadable_files_after_all_others() {
     let folder = folder("unreadable");

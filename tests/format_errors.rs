@@ -315,3 +315,45 @@ fn settings() {
         "{error}"
     );
 }
+
+/// What a writer of another language would write is answered in the words of this one.
+#[test]
+fn words_of_other_languages_are_translated() {
+    let joint = |kind: &str, inside: &str| {
+        let joint = format!("<joint name='j' type='{kind}'>{inside}</joint>");
+        format!("<robot name='r'><link name='a'/><link name='b'/>{joint}</robot>")
+    };
+    let links = "<parent link='a'/><child link='b'/>";
+    let placed = |origin: &str| format!("{links}<origin {origin}/>");
+    for (text, help) in [
+        (joint("hinge", links), "`revolute`"),
+        (joint("ball", links), "`spherical`"),
+        (joint("slider", links), "`prismatic`"),
+        (joint("helical", links), "`screw`"),
+        (joint("revolute", &placed("xyz='2mm 0 0'")), "${2/1000}"),
+        (
+            joint("revolute", &placed("rpy='90deg 0 0'")),
+            "${90*pi/180}",
+        ),
+        (
+            joint("revolute", "<predecessor link='a'/><child link='b'/>"),
+            "<parent>",
+        ),
+    ] {
+        let told = fault(&text).help.unwrap_or_default();
+        assert!(told.contains(help), "{text}: {told}");
+    }
+    let warnings = |text: &str| {
+        let reading = read(text, "file", &[]).unwrap();
+        let all = reading.warnings.iter().map(|w| w.message.clone());
+        all.collect::<Vec<_>>().join("; ")
+    };
+    let degrees = joint("revolute", &placed("rpy='90 0 -45'"));
+    assert!(
+        warnings(&degrees).contains("looks like degrees"),
+        "{}",
+        warnings(&degrees)
+    );
+    let radians = joint("revolute", &placed("rpy='3 0 6.5'"));
+    assert!(!warnings(&radians).contains("degrees"));
+}

@@ -370,8 +370,8 @@ proptest! {
             Err(error) => return Err(TestCaseError::fail(format!("{error} {:?}\n{text}", error.help))),
         };
         prop_assert_eq!(difference(&mechanism, &reading.mechanism), None, "{}", text);
-        // What is left out is told.
-        let left_out = ["without `lower` and `upper`", "x is taken"];
+        // What is left out, or odd, is told.
+        let left_out = ["without `lower` and `upper`", "x is taken", "looks like degrees"];
         let told = |message: &str| left_out.iter().any(|part| message.contains(part));
         prop_assert!(
             reading.warnings.iter().all(|w| told(&w.message)),

@@ -155,6 +155,26 @@ fn a_value_out_of_reach_is_an_answer() {
 }
 
 #[test]
+fn driven_values_are_expressions_and_have_units() {
+    let folder = folder("units", ROCKER);
+    let poses = |range: &str| {
+        let drive = format!("O={range}");
+        let output = traced(
+            &folder,
+            &["--drive", &drive, "--samples", "3", "--format", "csv"],
+        );
+        (output.status.code(), text(&output.stdout))
+    };
+    let (code, in_degrees) = poses("0deg..9deg");
+    assert_eq!(code, Some(0));
+    assert_eq!(in_degrees, poses("0..pi/20").1);
+    // A hinge does not slide.
+    let refused = traced(&folder, &["--drive", "O=0..5mm"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(text(&refused.stderr).contains("this freedom turns"));
+}
+
+#[test]
 fn what_is_rigid_is_told() {
     let folder = folder("rigid", &zoo_text("triangle_3r_rigid"));
     let output = traced(&folder, &[]);

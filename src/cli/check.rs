@@ -6,13 +6,14 @@
 
 mod known;
 mod table;
+mod update;
 
 use super::failure::Failure;
 use super::{BAD_INPUT, DISAGREEMENT, DONE, files, load, output, terminal};
 use clap::{Args, ValueEnum};
 use known::Known;
 use kutzbach::mechanism::Expectation;
-use kutzbach::report::{Disagreement, Options, compare};
+use kutzbach::report::{Comparison, Disagreement, Options, Report, compare};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -26,9 +27,14 @@ pub struct Arguments {
     /// Form of the answer
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-    /// Count files of which anything unusual is not read as unreadable
+    /// Count files of which anything unusual is not read as unreadable, and as failures what is open, files of which nothing is
+    /// known, entries of files that are not there, and fields that nothing reads
     #[arg(long)]
     strict: bool,
+    /// Write what the reports found into the `expected.json` of each folder: fields stated there that are decided, and an entry
+    /// for each file that has none. `locked` and `idle`, and what files say themselves in `<expect>`, stay as they are
+    #[arg(long)]
+    update: bool,
     #[command(flatten)]
     closing: load::Closing,
 }
@@ -82,8 +88,8 @@ struct Row {
 /// What came of one file.
 enum Outcome {
     Unreadable(Failure),
-    NothingKnown,
-    Compared(Vec<kutzbach::report::Comparison>),
+    NothingKnown(Option<Box<Report>>),
+    Compared(Vec<Comparison>, Box<Report>),
 }
 
 /// Runs the command.
@@ -93,10 +99,9 @@ enum Outcome {
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let files = files::mechanism_files(&arguments.paths)?;
     let known = Known::beside(&files)?;
-    let outcomes = files::each(&files, |file| {
-        outcome(file, &known, arguments.strict, arguments.closing)
-    });
+    let outcomes = files::each(&files, |file| outcome(file, &known, arguments));
     let mut failures = Vec::new();
+    let mut found = Vec::new();
     let mut checked = Checked {
         schema: "kutzbach-check-1",
         files: files.len(),
@@ -106,7 +111,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     for (file, outcome) in files.iter().zip(outcomes) {
         let name = file.display().to_string();
         match outcome {
-            Outcome::NothingKnown => checked.without_expectation.push(name),
+            Outcome::NothingKnown(report) => {
+                checked.without_expectation.push(name);
+                found.extend(report.map(|report| (file.as_path(), report)));
+            }
             Outcome::Unreadable(failure) => {
                 checked.unreadable.push(Unreadable {
                     file: name,
@@ -114,7 +122,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
                 });
                 failures.push(failure);
             }
-            Outcome::Compared(comparisons) => checked.add(&name, comparisons),
+            Outcome::Compared(comparisons, report) => {
+                checked.add(&name, comparisons);
+                found.push((file.as_path(), report));
+            }
         }
     }
     let text = match arguments.format {
@@ -123,9 +134,12 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     };
     output::put(&text, None)?;
     failures.iter().for_each(Failure::tell);
+    if arguments.update {
+        update::write(&found)?;
+    }
     Ok(if !failures.is_empty() {
         BAD_INPUT
-    } else if checked.wrong > 0 {
+    } else if checked.wrong > 0 || arguments.strict && checked.is_incomplete() {
         DISAGREEMENT
     } else {
         DONE
@@ -133,8 +147,14 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
 }
 
 impl Checked {
+    /// Whether anything was left open, is not known, or is misspelt, or nothing was compared at all.
+    fn is_incomplete(&self) -> bool {
+        let nothing_known = !self.without_expectation.is_empty() || !self.notes.is_empty();
+        self.open > 0 || nothing_known || self.right + self.wrong == 0
+    }
+
     /// Adds the comparisons of one file. What its two sources agree on counts once.
-    fn add(&mut self, file: &str, comparisons: Vec<kutzbach::report::Comparison>) {
+    fn add(&mut self, file: &str, comparisons: Vec<Comparison>) {
         let (mut right, mut open) = (BTreeSet::new(), BTreeSet::new());
         let mut wrong: Vec<Disagreement> = Vec::new();
         for comparison in comparisons {
@@ -165,9 +185,9 @@ impl Checked {
     }
 }
 
-/// Reads, analyses and compares one file.
-fn outcome(file: &Path, known: &Known, strict: bool, closing: load::Closing) -> Outcome {
-    let reading = match load::mechanism(file, &[], strict) {
+/// Reads, analyses and compares one file. Where nothing is known of it, it is analysed only to be written down.
+fn outcome(file: &Path, known: &Known, arguments: &Arguments) -> Outcome {
+    let reading = match load::mechanism(file, &[], arguments.strict) {
         Ok(reading) => reading,
         Err(failure) => return Outcome::Unreadable(failure),
     };
@@ -178,20 +198,22 @@ fn outcome(file: &Path, known: &Known, strict: bool, closing: load::Closing) -> 
         .into_iter()
         .chain(known.of(file))
         .collect();
-    if expectations.is_empty() {
-        return Outcome::NothingKnown;
+    if expectations.is_empty() && !arguments.update {
+        return Outcome::NothingKnown(None);
     }
     let options = Options {
-        closure_tolerance: closing.closure_tolerance,
+        closure_tolerance: arguments.closing.closure_tolerance,
         ..Options::default()
     };
-    match load::report_on(&reading, file, &options) {
-        Ok(report) => Outcome::Compared(
-            expectations
-                .iter()
-                .map(|expectation| compare(&report, expectation))
-                .collect(),
-        ),
-        Err(failure) => Outcome::Unreadable(failure),
+    let report = match load::report_on(&reading, file, &options) {
+        Ok(report) => Box::new(report),
+        Err(failure) => return Outcome::Unreadable(failure),
+    };
+    if expectations.is_empty() {
+        return Outcome::NothingKnown(Some(report));
     }
+    let comparisons = expectations
+        .iter()
+        .map(|expectation| compare(&report, expectation));
+    Outcome::Compared(comparisons.collect(), report)
 }

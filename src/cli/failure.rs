@@ -1,6 +1,7 @@
 //! What went wrong, told with the place, what was needed, and how to mend it.
 
 use super::excerpt::Excerpt;
+use super::load::STANDARD_INPUT;
 use super::terminal;
 use kutzbach::format::FormatError;
 use kutzbach::report::text::visible;
@@ -110,6 +111,10 @@ impl Fault {
 /// The text of a file, for an excerpt; none where it cannot be read, is endless like a device, or too large to look at.
 fn source_of(file: &str) -> Option<String> {
     const LARGEST: u64 = 1 << 28;
+    // Its lines are gone; the place is told without them.
+    if file == STANDARD_INPUT {
+        return Some(String::new());
+    }
     let known = std::fs::metadata(file).ok()?;
     if !known.is_file() || known.len() > LARGEST {
         return None;

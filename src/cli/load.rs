@@ -2,16 +2,17 @@
 
 use super::failure::Failure;
 use clap::Args;
-use kutzbach::format::{ReadOptions, Reading, read_file_with};
+use kutzbach::format::{ReadOptions, Reading, read_file_with, read_with};
 use kutzbach::mobility::Analysis;
 use kutzbach::report::html::Prepared;
 use kutzbach::report::{Options, Report, analysed_report};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// Which mechanism: a file, and properties of it that are to differ.
 #[derive(Clone, Debug, Args)]
 pub struct Source {
-    /// Mechanism file
+    /// Mechanism file; `-` for standard input
     pub file: PathBuf,
     /// Give a property of the file another value, a number or an expression; may be repeated
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = setting)]
@@ -61,8 +62,26 @@ impl Source {
             strict,
             packages: self.packages.clone(),
         };
+        if self.file == Path::new("-") {
+            return Ok(read_with(&standard_input()?, STANDARD_INPUT, &options)?);
+        }
         Ok(read_file_with(&self.file, &options)?)
     }
+}
+
+/// The name of a file that is read from standard input.
+pub const STANDARD_INPUT: &str = "standard input";
+
+/// All of standard input; more than a file may hold is cut off, and refused as too large.
+fn standard_input() -> Result<String, Failure> {
+    const MOST: u64 = 1 << 28;
+    let mut text = String::new();
+    let read = std::io::stdin().lock().take(MOST).read_to_string(&mut text);
+    read.map_err(|error| Failure::Plain {
+        message: format!("{STANDARD_INPUT} cannot be read: {error}"),
+        help: None,
+    })?;
+    Ok(text)
 }
 
 /// What counts as closed.

@@ -3,9 +3,10 @@
 mod table;
 
 use super::failure::Failure;
-use super::pose::Pose;
+use super::pose::{Pose, measured};
 use super::{DONE, load, output};
 use clap::{Args, ValueEnum};
+use kutzbach::mechanism::{FreedomPart, Mechanism};
 use kutzbach::mobility::{AnalysisOptions, Depth, analyse};
 use kutzbach::motion::{TraceOptions, trace};
 
@@ -19,7 +20,8 @@ pub struct Arguments {
     /// Name of the branch; the first if not given
     #[arg(long)]
     branch: Option<String>,
-    /// Joint that is driven, and the values wanted (rad, m), such as `crank=0..6.283`
+    /// Joint that is driven, and the values wanted (rad and m without a unit), such as `crank=0..2*pi`, `crank=-90deg..90deg`
+    /// or `slide=0..5mm`
     #[arg(long, value_name = "JOINT[=FROM..TO]", value_parser = drive, allow_hyphen_values = true)]
     drive: Option<Drive>,
     /// Joint that is held, where the branch has more than one freedom; may be repeated
@@ -59,30 +61,58 @@ enum Format {
 #[derive(Clone, Debug)]
 struct Drive {
     joint: String,
-    range: Option<(f64, f64)>,
+    /// From and to, as written.
+    range: Option<[String; 2]>,
 }
 
 /// Reads `joint` or `joint=from..to`.
 fn drive(text: &str) -> Result<Drive, String> {
-    let wrong = || "write it as joint=from..to, for example `crank=0..6.283`".to_owned();
     let Some((joint, range)) = text.split_once('=') else {
         return Ok(Drive {
             joint: text.to_owned(),
             range: None,
         });
     };
-    let (from, to) = range.split_once("..").ok_or_else(wrong)?;
-    let number = |part: &str| {
-        part.trim()
-            .parse::<f64>()
-            .ok()
-            .filter(|x| x.is_finite())
-            .ok_or_else(wrong)
-    };
+    let (from, to) = range.split_once("..").ok_or_else(|| DRIVEN.to_owned())?;
     Ok(Drive {
         joint: joint.trim().to_owned(),
-        range: Some((number(from)?, number(to)?)),
+        range: Some([from, to].map(|end| end.trim().to_owned())),
     })
+}
+
+/// How a driven joint is written.
+const DRIVEN: &str =
+    "write it as joint=from..to, for example `crank=0..2*pi`, `crank=0..90deg` or `slide=0..5mm`";
+
+impl Drive {
+    /// The values wanted (rad, m); of a joint that is not known, or has several freedoms, those that units say.
+    fn values(&self, mechanism: &Mechanism) -> Result<Option<(f64, f64)>, Failure> {
+        let Some(range) = &self.range else {
+            return Ok(None);
+        };
+        let joint = mechanism.joint_named(&self.joint);
+        let part = match joint.map(|joint| mechanism.joint(joint).kind.freedoms()) {
+            Some([part]) => *part,
+            _ if self.joint.contains(".trans") => FreedomPart::Translation,
+            _ => FreedomPart::Rotation,
+        };
+        let value = |text: &String| {
+            let number = measured(text, part).map(|number| number.value());
+            let number = number.and_then(|x| match x.is_finite() {
+                true => Ok(x),
+                false => Err("it is not finite".to_owned()),
+            });
+            number.map_err(|why| Failure::Plain {
+                message: format!(
+                    "`--drive`: `{text}` is no value for `{}`: {why}",
+                    self.joint
+                ),
+                help: Some(DRIVEN.to_owned()),
+            })
+        };
+        let [from, to] = range;
+        Ok(Some((value(from)?, value(to)?)))
+    }
 }
 
 /// Runs the command.
@@ -117,7 +147,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let options = TraceOptions {
         branch: arguments.branch.clone(),
         drive: arguments.drive.as_ref().map(|d| d.joint.clone()),
-        range: arguments.drive.as_ref().and_then(|d| d.range),
+        range: match &arguments.drive {
+            Some(drive) => drive.values(mechanism)?,
+            None => None,
+        },
         hold: arguments.hold.clone(),
         samples: arguments.samples,
         tolerance: arguments.tolerance,

@@ -3,6 +3,7 @@
 //! - A joint without `<axis>` moves along or about x, as URDF says; a direction `axis2` that is left out is x too.
 //! - `1.57` in `rpy` is 1.57 rad, two decimals being what a designer writes; where loops have to close, π/2 may have been meant. Told of
 //!   two and three decimals, which no reading of constants recognises, and only where the file closes a loop.
+//! - `90` in `rpy` is 90 rad: a whole number beyond a full turn was meant in degrees.
 //! - A `<limit>` without bounds is 0…0 in URDF, by which the joint could not move.
 //! - A joint that is named as if it closed a loop, in a file that closes none: some exporters leave the loop to other tools.
 
@@ -12,7 +13,7 @@ use super::told::{IS_TREE, LOOKS_LIKE, TAKEN_AS_X};
 use super::words::listed;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Direction, JointKind};
-use std::f64::consts::FRAC_PI_4;
+use std::f64::consts::{FRAC_PI_4, TAU};
 
 /// What joints are without, and which ones.
 #[derive(Default)]
@@ -22,6 +23,8 @@ pub(super) struct Assumed<'a> {
     no_bounds: Vec<(usize, &'a str)>,
     /// Angles that look like others: where they stand, what is written, and what it looks like.
     angles: Vec<(usize, String, &'static str)>,
+    /// Angles that look like degrees.
+    degrees: Vec<(usize, String)>,
 }
 
 /// Multiples of a quarter of π by number.
@@ -65,6 +68,9 @@ impl<'a> Reader<'a> {
             if let Some((written, meant)) = looks_like(token) {
                 let angle = (rpy.range().start, written.to_owned(), meant);
                 self.assumed.angles.push(angle);
+            } else if looks_like_degrees(token) {
+                let degrees = (rpy.range().start, token.to_owned());
+                self.assumed.degrees.push(degrees);
             }
         }
     }
@@ -85,6 +91,12 @@ impl<'a> Reader<'a> {
         for (at, written, meant) in assumed.angles.into_iter().filter(|_| closes && !literal) {
             let message = format!(
                 "`{written}` {LOOKS_LIKE} ${{{meant}}} and is read as {written} rad; write what is meant, or more digits"
+            );
+            self.warn(at, message);
+        }
+        for (at, written) in assumed.degrees {
+            let message = format!(
+                "`{written}` {LOOKS_LIKE} degrees and is read as {written} rad; for degrees write ${{{written}*pi/180}}"
             );
             self.warn(at, message);
         }
@@ -128,6 +140,13 @@ fn looks_like(token: &str) -> Option<(&str, &'static str)> {
         .get(quarters as usize)
         .filter(|_| quarters >= 1.0)?;
     near.then_some((bare, *meant))
+}
+
+/// A whole number in plain digits, beyond a full turn in radians.
+fn looks_like_degrees(token: &str) -> bool {
+    let plain = token.trim_start_matches(['-', '+']);
+    let value: u32 = plain.parse().unwrap_or(0);
+    f64::from(value) > TAU && value <= 360
 }
 
 fn announces_a_loop(name: &str) -> bool {

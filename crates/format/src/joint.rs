@@ -3,6 +3,7 @@
 use super::element::Element;
 use super::error::Outcome;
 use super::gazebo::ordered;
+use super::hints;
 use super::names::Named;
 use super::reader::{Dialect, Reader};
 use super::told::AT_ORIGIN;
@@ -214,7 +215,12 @@ impl<'a> Reader<'a> {
                     word,
                     known.into_iter().chain(SYNONYMS),
                     ("`", "`"),
-                )));
+                ))
+                .maybe_help(
+                    hints::joint_type(word).map(|meant| {
+                        format!("what others call {} is `{meant}` here", quoted(word))
+                    }),
+                ));
         }
         Ok(Type { word, kind })
     }

@@ -48,6 +48,7 @@ mod element;
 mod error;
 mod gazebo;
 mod guard;
+mod hints;
 mod joint;
 mod link;
 mod loop_joint;

@@ -5,6 +5,7 @@ use super::assumed::Assumed;
 use super::definitions::Definitions;
 use super::element::{Element, Owner};
 use super::error::{Fault, MOST_FAULTS, Outcome, lines_and_columns};
+use super::hints;
 use super::loop_joint::SecondPoint;
 use super::mimic::{Follows, joint_names};
 use super::names::{Directory, Named};
@@ -555,4 +556,5 @@ fn unknown_element(element: Element<'_>, parent: &str, known: &[&str]) -> Fault 
             known.iter().copied(),
             ("<", ">"),
         ))
+        .maybe_help(hints::side_of_joint(element.name(), parent))
 }

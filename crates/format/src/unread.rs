@@ -10,6 +10,7 @@
 
 use super::element::{Attribute, Element, Owner};
 use super::error::{Fault, Outcome};
+use super::hints;
 use super::reader::Reader;
 use super::words::{alternatives, cut, quoted};
 use std::collections::HashMap;
@@ -319,7 +320,8 @@ impl<'a> Reader<'a> {
             let help = slip.filter(|slip| words.contains(slip));
             return Err(child
                 .fault(message)
-                .maybe_help(help.map(|meant| format!("did you mean <{meant}>?"))));
+                .maybe_help(help.map(|meant| format!("did you mean <{meant}>?")))
+                .maybe_help(hints::side_of_joint(name, parent.name())));
         }
         self.skip_unless_joining(child)
     }

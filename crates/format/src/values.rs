@@ -2,6 +2,7 @@
 
 use super::element::{Attribute, Element};
 use super::error::{Fault, Outcome};
+use super::hints;
 use super::number_text;
 use super::quaternion::roll_pitch_yaw;
 use super::reader::{Dialect, Reader};
@@ -121,7 +122,7 @@ impl<'a> Reader<'a> {
         let place =
             |range: Range<usize>| attribute.part(part.start + range.start..part.start + range.end);
         let number = number_text::number(token, &mut self.definitions)
-            .map_err(|trouble| trouble.placed(place))?;
+            .map_err(|trouble| trouble.placed(place).maybe_help(hints::without_unit(token)))?;
         if number.value().abs() > LARGEST {
             let message = "the number is too large; the largest accepted is 1e100";
             return Err(Fault::new(place(0..token.len()), message));

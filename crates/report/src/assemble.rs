@@ -225,6 +225,8 @@ pub fn analysed_report_on(
     // Where rounded numbers mean another mechanism, everything below is said of that one.
     let mechanism = analysis.of(mechanism);
     super::findings::lay_over(&mut report, mechanism, &analysis);
+    let pose = mechanism.configuration(configuration);
+    report.four_bars = super::four_bar::four_bars(mechanism, &analysis, pose);
     super::inputs::lay_over(&mut report, mechanism, &analysis, configuration, inputs);
     super::pose::warn(&mut report, mechanism, &analysis, configuration);
     super::extras::ask_between(&mut report, mechanism, &analysis, configuration, &pairs);
@@ -327,6 +329,7 @@ fn counted(input: &Input<'_>, configuration: &str) -> Report {
         inputs: None,
         branches: None,
         joints: joint_rows(mechanism),
+        four_bars: Vec::new(),
         couplings: coupling_rows(mechanism),
         cycles: Vec::new(),
         tree: None,

@@ -46,6 +46,7 @@ mod expectation;
 mod expected_file;
 mod extras;
 mod findings;
+mod four_bar;
 #[cfg(feature = "html")]
 pub mod html;
 mod inputs;
@@ -68,6 +69,7 @@ pub use assembly::{ASSEMBLED, assembled_file};
 pub use change_sets::{ChangeSets, Component, JointReplacement, PartChanges, RedundantDirection};
 pub use expectation::{Comparison, Disagreement, compare};
 pub use expected_file::{ExpectedFile, ExpectedFileError};
+pub use four_bar::{FourBar, FourBarKind, GrashofClass, Swing};
 pub use kutzbach_mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
 pub use natural::natural_order;
 pub use schema::{

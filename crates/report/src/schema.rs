@@ -5,6 +5,7 @@
 //! apply", as the field says; it never means zero. Every number is finite.
 
 use super::change_sets::{ChangeSets, RedundantDirection};
+use super::four_bar::FourBar;
 use kutzbach_mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
 use serde::{Deserialize, Serialize};
 
@@ -42,6 +43,9 @@ pub struct Report {
     pub branches: Option<Vec<Branch>>,
     /// One row per joint, loops included, in natural order of names.
     pub joints: Vec<JointRow>,
+    /// Four-bar linkages on the ground that are a part of their own.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub four_bars: Vec<FourBar>,
     /// One row per coupling, in natural order of names.
     pub couplings: Vec<CouplingRow>,
     /// The basic cycles of the spanning tree (D14).

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// The name of the file that holds what is known of a folder.
-const EXPECTED: &str = "expected.json";
+pub(super) const EXPECTED: &str = "expected.json";
 
 /// The `expected.json` of every folder that holds a file to check.
 #[derive(Debug, Default)]
@@ -79,6 +79,6 @@ impl Known {
     }
 }
 
-fn folder(file: &Path) -> PathBuf {
+pub(super) fn folder(file: &Path) -> PathBuf {
     file.parent().map_or_else(PathBuf::new, Path::to_owned)
 }

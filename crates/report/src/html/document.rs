@@ -13,7 +13,8 @@ use crate::picture::plot;
 use crate::picture::sketch::{self, Sketch};
 use crate::schema::{Cycle, Report};
 use crate::text::{
-    Block, Layout, Page, assembly, branches, counts, explanation, joints, sections, verdict,
+    Block, Layout, Page, Units, assembly, branches, counts, explanation, four_bars, joints,
+    sections, verdict,
 };
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -148,7 +149,10 @@ fn body(facts: &Facts<'_>, stage: &Stage, names: &Names, out: &mut String) {
     let ranges = ranges(facts.mechanism, stage);
     section(
         "joints",
-        &|page| joints::joints(report, &ranges, true, page),
+        &|page| {
+            joints::joints(report, &ranges, true, page);
+            four_bars::four_bars(report, Units::Drawing, page);
+        },
         out,
     );
     section("couplings", &|page| sections::couplings(report, page), out);

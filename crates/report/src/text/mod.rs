@@ -16,6 +16,7 @@ pub(super) mod counts;
 mod escape;
 pub mod explanation;
 mod folded;
+pub(super) mod four_bars;
 pub(super) mod inputs;
 pub(super) mod joints;
 mod page;
@@ -49,6 +50,7 @@ pub fn render(report: &Report, layout: Layout) -> String {
     branches::motions(report, false, &mut page);
     let ranges = ranges::texts(report, layout.units);
     joints::joints(report, &ranges, false, &mut page);
+    four_bars::four_bars(report, layout.units, &mut page);
     sections::couplings(report, &mut page);
     sections::advice(report, &mut page);
     assembly::section(report, &mut page);

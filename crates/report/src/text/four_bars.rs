@@ -1,0 +1,68 @@
+//! Four-bar linkages, a line each.
+
+use super::page::Page;
+use super::style::{Tint, Units};
+use super::words::figure;
+use crate::four_bar::{FourBar, GrashofClass, Swing};
+use crate::schema::Report;
+
+/// Linkages of a first screen.
+const SHOWN: usize = 3;
+
+/// What each of them is, how far its links go, and how well it transmits.
+pub(crate) fn four_bars(report: &Report, units: Units, page: &mut Page) {
+    let shown = match page.layout().verbose {
+        true => report.four_bars.len(),
+        false => SHOWN,
+    };
+    for bar in report.four_bars.iter().take(shown) {
+        page.paragraph(&told(bar, units), Tint::Plain, "  ", "    ");
+    }
+}
+
+fn told(bar: &FourBar, units: Units) -> String {
+    let class = match bar.class {
+        GrashofClass::Grashof => "Grashof",
+        GrashofClass::ChangePoint => "change point: all links can be in line",
+        GrashofClass::NonGrashof => "not Grashof",
+    };
+    let swings: Vec<String> = bar.swings.iter().map(|one| swing(one, units)).collect();
+    let [least, greatest] = bar.transmission;
+    format!(
+        "four-bar: {} ({class}); {}; transmission angle {}, driven at {}",
+        bar.kind.word(),
+        swings.join(", "),
+        between([least, greatest], units),
+        bar.swings[0].joint
+    )
+}
+
+/// `crank turns fully`, `rocker swings 66.3° (41.4 … 108°)`.
+fn swing(one: &Swing, units: Units) -> String {
+    match one.extremes {
+        None => format!("{} turns fully", one.link),
+        Some([from, to]) => format!(
+            "{} swings by {} ({} from the ground line)",
+            one.link,
+            angle(to - from, units),
+            between([from, to], units)
+        ),
+    }
+}
+
+fn between([from, to]: [f64; 2], units: Units) -> String {
+    let (factor, _) = scale(units);
+    format!("{} … {}", figure(factor * from), angle(to, units))
+}
+
+fn angle(angle: f64, units: Units) -> String {
+    let (factor, unit) = scale(units);
+    format!("{}{unit}", figure(factor * angle))
+}
+
+fn scale(units: Units) -> (f64, &'static str) {
+    match units {
+        Units::Drawing => (180.0 / std::f64::consts::PI, "°"),
+        Units::Si => (1.0, " rad"),
+    }
+}

@@ -1,0 +1,112 @@
+//! Whoever does not know a word of a table asks `kutzbach explain`: it knows the head of every column.
+
+use crate::support::folder;
+use kutzbach::report::definitions::find;
+use std::path::Path;
+
+/// Heads that mean what they mean anywhere.
+const PLAIN: [&str; 15] = [
+    "",
+    "name",
+    "n",
+    "file",
+    "field",
+    "expected",
+    "found",
+    "right",
+    "wrong",
+    "open",
+    "stage",
+    "ms",
+    "work",
+    "definition",
+    "also explains",
+];
+
+/// Tables whose heads tell what was measured; their page of the book explains them.
+const MEASUREMENTS: [&str; 2] = ["accuracy", "simulate"];
+
+fn sources(folder: &Path, found: &mut Vec<String>) {
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_stem().unwrap().to_str().unwrap();
+        if MEASUREMENTS.contains(&name) {
+            continue;
+        }
+        if path.is_dir() {
+            sources(&path, found);
+        } else if path.extension().is_some_and(|e| e == "rs") {
+            found.push(std::fs::read_to_string(&path).unwrap());
+        }
+    }
+}
+
+#[test]
+fn every_head_of_a_column_is_explained() {
+    let mut texts = Vec::new();
+    for under in [
+        "crates/report/src/text",
+        "crates/report/src/exact",
+        "src/cli",
+    ] {
+        sources(&folder(under), &mut texts);
+    }
+    let mut heads: Vec<String> = texts
+        .iter()
+        .flat_map(|text| text.split(".column(\"").skip(1))
+        .map(|rest| rest.split('"').next().unwrap().to_owned())
+        .collect();
+    assert!(heads.len() > 50, "{} heads", heads.len());
+    // Heads that are computed.
+    let counts = [
+        "Kutzbach",
+        "generic",
+        "this pose",
+        "finite",
+        "redundant",
+        "rank",
+        "pose",
+        "margin",
+    ];
+    let joints = ["range", "in motion", "at this pose"];
+    heads.extend(counts.iter().chain(&joints).map(|head| (*head).to_owned()));
+    let unknown: Vec<&String> = heads
+        .iter()
+        .filter(|head| {
+            let word = head.split(" (").next().unwrap();
+            !PLAIN.contains(&word) && find(word).is_none()
+        })
+        .collect();
+    assert!(unknown.is_empty(), "nothing explains {unknown:?}");
+}
+
+/// What a reader brings along from elsewhere.
+#[test]
+fn synonyms_of_other_books_are_explained() {
+    for word in [
+        "DOF",
+        "degrees of freedom",
+        "motor",
+        "actuator",
+        "wrench",
+        "dead centre",
+        "mobility",
+        "margin",
+        "extreme position",
+        "statically indeterminate",
+        "overconstrained",
+        "infinitesimally mobile",
+        "motion branch",
+        "Grübler",
+        "parallel singularity",
+        "independent sub-mechanism",
+        "irreducible component",
+        "crank",
+        "rocker",
+        "transmission angle",
+        "pitch",
+        "range",
+    ] {
+        assert!(find(word).is_some(), "nothing explains `{word}`");
+    }
+}

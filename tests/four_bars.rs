@@ -1,0 +1,148 @@
+//! Four-bar linkages: closed formulas of the report against the motion that is traced through the closure equations.
+
+use crate::support;
+
+use kutzbach::matrix::SplitMix64;
+use kutzbach::report::{FourBarKind, GrashofClass, JointRow, Options, Report, analysed_report};
+use std::f64::consts::TAU;
+use support::{assert_none, in_parallel};
+
+/// A number between 1 and 5 of three decimals.
+fn length(random: &mut SplitMix64) -> f64 {
+    (1000 + random.next_u64() % 4000) as f64 / 1000.0
+}
+
+/// The file of a four-bar drawn with its crank at an angle where the loop closes; `None` where it does not there.
+fn drawn([g, a, c, b]: [f64; 4], crank: f64) -> Option<String> {
+    let (x, y) = (a * crank.cos(), a * crank.sin());
+    // From the crank's pin to the rocker's foot, and the triangle on it.
+    let (dx, dy) = (g - x, -y);
+    let d = dx.hypot(dy);
+    let along = (c * c - b * b + d * d) / (2.0 * d);
+    let across = (c * c - along * along).sqrt();
+    if !(across > 0.1) {
+        return None;
+    }
+    let (px, py) = (
+        x + (along * dx - across * dy) / d,
+        y + (along * dy + across * dx) / d,
+    );
+    let joint = |name: &str, parent: &str, child: &str, [x, y]: [f64; 2]| {
+        format!(
+            "<joint name='{name}' type='continuous'><parent link='{parent}'/><child link='{child}'/>\
+             <origin xyz='{x:.17} {y:.17} 0'/><axis xyz='0 0 1'/></joint>"
+        )
+    };
+    Some(format!(
+        "<robot name='four_bar'><link name='g'/><link name='a'/><link name='c'/><link name='b'/>{}{}{}\
+         <loop name='C' type='continuous'><predecessor link='c'><origin xyz='{:.17} {:.17} 0'/></predecessor>\
+         <successor link='b'><origin xyz='{:.17} {:.17} 0'/></successor><axis xyz='0 0 1'/></loop></robot>",
+        joint("A", "g", "a", [0.0, 0.0]),
+        joint("B", "a", "c", [x, y]),
+        joint("D", "g", "b", [g, 0.0]),
+        px - x,
+        py - y,
+        px - g,
+        py
+    ))
+}
+
+fn report_on(text: &str) -> Report {
+    let reading = kutzbach::format::read(text, "four_bar", &[]).unwrap();
+    let options = Options {
+        ranges: true,
+        ..Options::default()
+    };
+    analysed_report(&reading, "four_bar", &options).unwrap().0
+}
+
+/// What a trace says of a joint, against what the formulas say: whether it turns fully, and how far it goes.
+fn differs(joint: &JointRow, extremes: Option<[f64; 2]>) -> Option<String> {
+    let [range] = joint.ranges.as_slice() else {
+        return Some(format!("{} has {} ranges", joint.name, joint.ranges.len()));
+    };
+    let wrong = match extremes {
+        None => range.turns == 0,
+        Some([from, to]) => {
+            range.turns != 0 || ((range.max - range.min) - (to - from)).abs() > 1e-6
+        }
+    };
+    wrong.then(|| format!("{}: {extremes:?}, traced {range:?}", joint.name))
+}
+
+fn wrong(lengths: &[f64; 4], text: &str) -> Vec<String> {
+    let report = report_on(text);
+    let Some(bar) = report.four_bars.first() else {
+        return vec![format!("{lengths:?}: no four-bar")];
+    };
+    let joint = |name: &str| report.joints.iter().find(|row| row.name == name).unwrap();
+    let mut all = Vec::new();
+    let written = bar.links.each_ref().map(|link| {
+        ["g", "a", "c", "b"]
+            .iter()
+            .position(|name| name == link)
+            .unwrap()
+    });
+    for (length, link) in bar.lengths.iter().zip(written) {
+        if (length - lengths[link]).abs() > 1e-12 {
+            all.push(format!("length {length} of {}", lengths[link]));
+        }
+    }
+    for swing in &bar.swings {
+        all.extend(differs(joint(&swing.joint), swing.extremes));
+    }
+    // Driven by a crank, the transmission angle is how far the joint between coupler and output goes.
+    if bar.swings[0].extremes.is_none() {
+        let between = if bar.links[1] == "a" { "C" } else { "B" };
+        all.extend(differs(joint(between), Some(bar.transmission)));
+    }
+    all.iter()
+        .map(|what| format!("{lengths:?}: {what}"))
+        .collect()
+}
+
+/// Four kinds by the place of the shortest link, and the linkages in which no link turns: fifty of each.
+#[test]
+fn two_hundred_random_four_bars_go_as_far_as_the_formulas_say() {
+    const EACH: usize = 50;
+    let mut random = SplitMix64::new(34);
+    let mut kinds: Vec<(usize, [f64; 4], String)> = Vec::new();
+    while kinds.len() < 4 * EACH {
+        let lengths = [0; 4].map(|_| length(&mut random));
+        let mut sorted = lengths;
+        sorted.sort_by(f64::total_cmp);
+        let spare = sorted[1] + sorted[2] - sorted[0] - sorted[3];
+        // Next to a change point a trace slows down.
+        if spare.abs() < 0.05 {
+            continue;
+        }
+        let shortest = lengths.iter().position(|l| *l == sorted[0]).unwrap();
+        // The crank may be either of the two links on the ground.
+        let kind = match (spare > 0.0, shortest) {
+            (false, _) => 3,
+            (true, 3) => 1,
+            (true, place) => place,
+        };
+        let crank = length(&mut random) * TAU;
+        if kinds.iter().filter(|(known, ..)| *known == kind).count() < EACH
+            && let Some(text) = drawn(lengths, crank)
+        {
+            kinds.push((kind, lengths, text));
+        }
+    }
+    let results = in_parallel(&kinds, |(kind, lengths, text)| {
+        let bar = report_on(text).four_bars.remove(0);
+        let expected = [
+            (GrashofClass::Grashof, FourBarKind::DoubleCrank),
+            (GrashofClass::Grashof, FourBarKind::CrankRocker),
+            (GrashofClass::Grashof, FourBarKind::DoubleRocker),
+            (GrashofClass::NonGrashof, FourBarKind::DoubleRocker),
+        ][*kind];
+        let mut all = wrong(lengths, text);
+        if (bar.class, bar.kind) != expected {
+            all.push(format!("{lengths:?}: {:?}, {:?}", bar.class, bar.kind));
+        }
+        all
+    });
+    assert_none(&results.concat());
+}
