@@ -150,7 +150,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn a_simulation_takes_the_cheapest_setting_that_serves() {
         let arguments = [
             "simulate",
@@ -176,7 +176,7 @@ mod corpus {
     }
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn a_scene_has_its_own_rows_and_its_effects_their_cost() {
         let output = short(
             "mechanisms/gripper_holding_block.urdf",
@@ -203,7 +203,7 @@ mod corpus {
     }
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn the_page_names_the_cheapest_setting_and_what_was_left_out() {
         let text = said(&short(BENNETT, &["--want", "1e-4"]));
         for wanted in [
@@ -223,7 +223,7 @@ mod corpus {
     }
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn the_figure_is_xml_and_stands_in_the_page() {
         let svg = said(&short(BENNETT, &["--format", "svg"]));
         let document = roxmltree::Document::parse(&svg).unwrap();
@@ -253,7 +253,7 @@ mod corpus {
     }
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn two_runs_differ_in_times_only() {
         let [first, second] = [0, 1].map(|_| {
             let output = short(BENNETT, &["--format", "json", "--want", "1e-4"]);

@@ -153,7 +153,7 @@ mod corpus {
 
     /// The small ones: what the record says of them is what is found now.
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn the_record_s_errors_are_found_now() {
         let record = kept();
         for name in ["four_bar", "bennett", "gripper"] {

@@ -137,7 +137,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn every_advice_for_the_reference_mechanisms_holds() {
         let results = in_parallel(&zoo(), |(name, mechanism)| {
             broken_promises(name, mechanism, None)

@@ -294,7 +294,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn every_field_that_a_definition_names_is_in_a_report() {
         let arguments = [
             "report",

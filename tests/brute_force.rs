@@ -260,7 +260,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn branches_of_small_singular_poses_are_those_of_a_blind_search() {
         let mut all = zoo();
         all.extend(own_mechanisms());

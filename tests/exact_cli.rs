@@ -189,7 +189,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn methods_agree_on_the_basis() {
         let ask = |method: &str| {
             json(&[

@@ -226,7 +226,7 @@ mod corpus {
 
     /// All loops of four hinges without offsets whose opposite links have equal twists and in which a hinge turns for ever.
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn families_of_four_hinges() {
         let open = ["a", "b", "a2", "b2", "alpha", "beta"];
         let found = families("bennett_measures", &open, "hinge_1");

@@ -110,7 +110,7 @@ mod corpus {
 
     /// The whole answer, solutions and cycles included, comes to its end.
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn six_hinges_are_answered_in_full() {
         let found = answer(
             "tests/rings/six_hinges_no_offsets.urdf",
@@ -127,7 +127,7 @@ mod corpus {
     }
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn six_hinges_have_sixteen_shapes() {
         for file in [
             "mechanisms/six_hinge_rigid.urdf",
@@ -142,7 +142,7 @@ mod corpus {
 
     /// Rings that are one curve, irreducible over the rationals, of this degree, with the drawn pose on it.
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn rings_that_move() {
         let rings = [
             ("mechanisms/planar_four_bar.urdf", 6),

@@ -46,7 +46,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn the_tables_are_computed_again() {
         let fresh = measure::tables(1, |_| ()).unwrap();
         assert_eq!(sizes(&fresh), sizes(&kept().tables));
@@ -54,7 +54,7 @@ mod corpus {
 
     /// All ways find the same dimension (which the measurement refuses to go on without), and the sizes are those kept.
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn small_families_are_computed_again() {
         let kept = kept();
         for (family, scene) in scenes::FAMILIES.iter().zip(&kept.scenes) {

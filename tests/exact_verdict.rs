@@ -177,7 +177,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn in_our_own_files_it_changes_certificates_and_no_facts() {
         let own = own_mechanisms();
         let exact = compare_all(&own);
@@ -187,7 +187,7 @@ mod corpus {
 
     /// Most files of the zoo hold sixty-digit decimals, about which exact algebra is not asked, or have certificates by subgroups.
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn in_the_zoo_it_changes_certificates_and_no_facts() {
         let zoo = zoo();
         let exact = compare_all(&zoo);

@@ -316,7 +316,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn bars_on_faces_reduce_to_planar_motion() {
         let table = asked("cartesian_table");
         assert_eq!(

@@ -106,7 +106,7 @@ mod corpus {
 
     /// The mobility is compared with what the numeric engines say.
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn our_own_files() {
         let questions: Vec<_> = own_mechanisms()
             .into_iter()
@@ -120,7 +120,7 @@ mod corpus {
     }
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn the_zoo() {
         let text = fs::read_to_string(folder("tests/zoo/expected.json")).unwrap();
         let expected: Value = serde_json::from_str(&text).unwrap();

@@ -264,7 +264,7 @@ fn connections() {
         (with("<coupling name='g'><predecessor link='a'/><successor link='a'/><ratio value='1'/></coupling>"), 5, 1, "no joint moves", ""),
         (with("<coupling name='g'><predecessor link='a'/><successor link='b'/></coupling>"), 5, 1, "needs <ratio>", ""),
         (with("<configuration name='p'><position joint='g' value='1'/></configuration>"), 5, 42, "no joint named `g`", ""),
-        (with("<configuration name='p'><position joint='j' value='1 2'/></configuration>"), 5, 1, "1 freedoms but 2 values", ""),
+        (with("<configuration name='p'><position joint='j' value='1 2'/></configuration>"), 5, 1, "1 in all, found 2", ""),
         (with("<configuration name='p'/><configuration name='p'/>"), 5, 47, "`p` is taken by another configuration", ""),
         (with("<scene><drive joint='j'/></scene>"), 5, 8, "needs the attribute `velocity`", ""),
         (with("<scene><drive joint='jj' velocity='1'/></scene>"), 5, 22, "no joint named `jj`", "`j`"),

@@ -62,6 +62,17 @@ fn deep_wide_and_long_texts_end_in_an_error_soon() {
     fault(&robot(&format!(
         "<xacro:property name='a0' value='1.5'/>\n{squares}"
     )));
+    let roots: String = (1..2000)
+        .map(|i| {
+            format!(
+                "<xacro:property name='a{i}' value='sqrt(1 + a{})'/>\n",
+                i - 1
+            )
+        })
+        .collect();
+    fault(&robot(&format!(
+        "<xacro:property name='a0' value='2'/>\n{roots}"
+    )));
     let later: String = (0..10_000)
         .map(|i| format!("<xacro:property name='a{i}' value='a{} + 1'/>\n", i + 1))
         .collect();
@@ -171,7 +182,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn reading_takes_time_in_proportion_to_the_text() {
         for between in ["\n", ""] {
             let small = long_chain(3_000, between);

@@ -9,7 +9,7 @@
 use crate::format_support;
 
 use format_support::difference;
-use kutzbach::format::{ReadOptions, Reading, read, read_with, write};
+use kutzbach::format::{ReadOptions, Reading, is_told_first, read, read_with, write};
 use kutzbach::mechanism::{Joint, JointKind};
 use kutzbach::number::Number;
 
@@ -445,6 +445,14 @@ fn what_bears_on_a_loop_and_is_not_read_is_refused() {
             "in the world",
         ),
         (
+            "<loop name='l' type='revolute'><predecessor link='d' xyz='0 1 0'/><successor link='c'/></loop>".to_owned(),
+            "`xyz` is not read in <predecessor>",
+        ),
+        (
+            "<loop name='l' type='revolute'><predecessor link='d'/><successor link='c' rpy='0 0 1'/></loop>".to_owned(),
+            "`rpy` is not read in <successor>",
+        ),
+        (
             "<mujoco><equality><weld site1='x' site2='y'/></equality></mujoco>".to_owned(),
             "joins two links",
         ),
@@ -537,7 +545,7 @@ fn told_first(text: &str) -> Vec<String> {
     let warnings = reading(text).warnings.into_iter();
     warnings
         .map(|warning| warning.message)
-        .filter(|message| kutzbach::format::is_told_first(message))
+        .filter(|message| is_told_first(message))
         .collect()
 }
 
@@ -919,11 +927,9 @@ fn a_limit_without_bounds_is_told() {
     };
     for kind in ["revolute", "prismatic"] {
         let warnings = with(kind, "<limit effort='1' velocity='1'/>");
-        assert!(
-            warnings[0]
-                .message
-                .contains("`ab` has a <limit> without `lower` and `upper`, which is 0…0 in URDF")
-        );
+        let told = "`ab` has a <limit> without `lower` and `upper`, which is 0…0 in URDF";
+        assert!(warnings[0].message.contains(told));
+        assert!(is_told_first(&warnings[0].message));
     }
     for (kind, limit) in [
         ("continuous", "<limit effort='1' velocity='1'/>"),

@@ -145,7 +145,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn own_files() {
         assert_agreement(&own_mechanisms());
     }

@@ -348,7 +348,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn mutated_files_are_read_or_refused_with_a_place() {
         let cases = setting("KUTZBACH_FUZZ_CASES", 20_000);
         let seed = setting("KUTZBACH_FUZZ_SEED", 1);

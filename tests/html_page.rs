@@ -258,7 +258,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn every_own_mechanism_has_a_page() {
         let to = scratch("gallery_of_all");
         let from = folder("mechanisms").to_string_lossy().into_owned();

@@ -407,7 +407,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn e_which_joints_are_loops_does_not_matter() {
         let kept_agrees =
             |mechanism: &Mechanism| has_one_loop(mechanism) && has_axes_only(mechanism);
@@ -424,7 +424,7 @@ mod corpus {
     }
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn f_digits_beyond_a_double_do_not_matter() {
         let cut =
             |draft: &Draft, change: &dyn Fn(&Number) -> Number| draft.clone().each_number(change);
@@ -443,7 +443,7 @@ mod corpus {
     }
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn a_the_unit_of_length_does_not_matter() {
         compare(&as_drawn, &|_| true, &|draft| {
             [-6, -3, 3, 6]
@@ -453,7 +453,7 @@ mod corpus {
     }
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn b_how_the_mechanism_is_turned_does_not_matter() {
         compare(&exact, &has_axes_only, &|draft| {
             vec![
@@ -464,7 +464,7 @@ mod corpus {
     }
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn c_where_the_mechanism_stands_does_not_matter() {
         // The mechanisms are some 1 to 10 m large: three thousand metres is a thousand lengths and more.
         let by = [1500, -2600, 777].map(Number::integer);
@@ -477,7 +477,7 @@ mod corpus {
     }
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn d_order_and_names_do_not_matter() {
         let kept_agrees =
             |mechanism: &Mechanism| has_one_loop(mechanism) && has_axes_only(mechanism);

@@ -397,7 +397,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn equations_vanish_where_mechanisms_stand() {
         let mut all = own_mechanisms();
         all.extend(zoo());
@@ -428,7 +428,7 @@ mod corpus {
 
     /// Drawn poses are exact solutions, except those of files that round them to sixty digits.
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn drawn_poses_are_exact_solutions() {
         const ROUNDED: [&str; 9] = [
             "bennett_chain_2",
@@ -477,7 +477,7 @@ mod corpus {
     }
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn names_are_unique_and_cycles_have_their_equations() {
         let mut all = own_mechanisms();
         all.extend(zoo());

@@ -91,7 +91,7 @@ fn poses_that_cannot_be_meant_are_refused_with_a_hint() {
     for (pose, problem, hint) in [
         (
             "A=5mm",
-            "`5mm` is no value for joint `A`: this freedom turns",
+            "`5mm` is no value for joint `A`: this degree of freedom turns",
             "`deg` or `rad`",
         ),
         (
@@ -103,7 +103,7 @@ fn poses_that_cannot_be_meant_are_refused_with_a_hint() {
         ("Z=1", "no joint named `Z`", "lists the joints"),
         (
             "A=1 2",
-            "has 1 freedoms, given are 2 values",
+            "joint `A` has 1 degree of freedom, given: 2 values",
             "one value for each",
         ),
     ] {

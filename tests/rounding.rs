@@ -293,7 +293,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn exported_files_are_decided_and_never_wrong() {
         let each = in_parallel(&SPECIAL, |&(name, finite)| {
             let meant = special(name);
@@ -320,7 +320,7 @@ mod corpus {
     }
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn a_verdict_at_a_rounded_singular_pose_is_the_known_one_or_none() {
         let wrong = in_parallel(&SINGULAR, |&(name, finite)| {
             let meant = special(name);
@@ -343,7 +343,7 @@ mod corpus {
     /// However many decimals are written: numbers with a last digit are not exact, and no proof about exact numbers is theirs.
     /// Numbers of which nothing but zeros was written beyond a few decimals are those meant, and move as they do.
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn no_rounded_file_is_exactly_mobile() {
         assert_none(&those(|r| r.taken_as_exact && !r.literally_mobile));
         assert_none(&those(|r| {

@@ -31,7 +31,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn reports_do_not_depend_on_the_run_or_the_threads() {
         let mut all = files("tests/zoo");
         all.extend(files("mechanisms"));

@@ -147,7 +147,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn dimensions_and_sizes_in_degrevlex() {
         for system in systems() {
             let basis = system.basis(&MonomialOrder::Degrevlex);

@@ -563,7 +563,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn every_branch_of_the_reference_mechanisms_is_followed() {
         let zoo = zoo();
         let wrong = in_parallel(&zoo, |(name, mechanism)| {

@@ -231,7 +231,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn relatives_of_the_reference_mechanisms() {
         let drawn: Vec<Drawn> = drawn::read(include_str!("variations/families.txt"));
         assert!(drawn.len() >= 160, "found {}", drawn.len());
@@ -245,7 +245,7 @@ mod corpus {
     }
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn a_second_hinge_on_the_same_line_changes_nothing() {
         check_change(
             |base| {
@@ -260,7 +260,7 @@ mod corpus {
     /// One joint a little way along the motion, the others following to where they close: a regular pose goes over into regular
     /// poses of the same freedom. The numbers of the pose are no exact ones.
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn another_pose_of_the_same_branch_has_the_same_freedom() {
         let bases = bases();
         let outcomes = in_parallel(bases, |base| {
@@ -299,7 +299,7 @@ mod corpus {
 
     /// Two mechanisms that share one link: freedoms add, and every branch of one goes with every branch of the other.
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn two_mechanisms_on_one_link_multiply_their_branches() {
         let bases = bases();
         let pairs: Vec<(&Base, &Base, bool)> = (0..bases.len())
@@ -323,7 +323,7 @@ mod corpus {
     }
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn a_pendulum_adds_one_freedom() {
         check_change(
             |base| {
@@ -336,7 +336,7 @@ mod corpus {
     }
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn a_rod_between_two_balls_in_one_link_spins() {
         check_change(
             |base| {

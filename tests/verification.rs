@@ -193,7 +193,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn every_prediction_for_the_reference_mechanisms_is_confirmed_or_listed() {
         let wrong = in_parallel(&zoo(), |(name, mechanism)| {
             let analysis = analysis(mechanism);
@@ -213,7 +213,7 @@ mod corpus {
     }
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn families_of_overconstrained_mechanisms_are_confirmed() {
         const FAMILIES: [&str; 6] = [
             "bennett", "bricard_", "goldberg", "oldham", "delta", "wohlhart",
@@ -237,7 +237,7 @@ mod corpus {
 
     /// A wrong prediction: the genuine loop's motion claimed of the spoiled loop's links.
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn the_motion_of_a_genuine_loop_is_contradicted_by_a_spoiled_one() {
         let genuine = own("bennett");
         let geometry =

@@ -170,7 +170,7 @@ fn compare(count: usize) {
 /// Too long for every commit.
 mod corpus {
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn five_hundred_rewritings_contradict_nothing() {
         super::compare(500);
     }

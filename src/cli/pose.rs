@@ -5,6 +5,7 @@ use clap::Args;
 use kutzbach::format::Reading;
 use kutzbach::mechanism::{Configuration, FreedomPart, Joint, JointId, Mechanism};
 use kutzbach::number::Number;
+use kutzbach::report::text::words::{counted, degrees};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The configuration of the file as it is drawn.
@@ -116,10 +117,10 @@ fn place(mechanism: &Mechanism, item: &str) -> Result<(JointId, Vec<Number>), Fa
     let words: Vec<&str> = text.split_whitespace().collect();
     if words.len() != parts.len() {
         let message = format!(
-            "`--pose`: joint `{}` has {} freedoms, given are {} values",
+            "`--pose`: joint `{}` has {}, given: {}",
             described.name,
-            parts.len(),
-            words.len()
+            degrees(parts.len()),
+            counted(words.len(), "value"),
         );
         return Err(wrong(message, "one value for each, `\"ball=0.1 0 0\"`"));
     }
@@ -158,7 +159,7 @@ pub(super) fn measured(word: &str, part: FreedomPart) -> Result<Number, String> 
     let (value, factor) = match unit {
         Some((_, _, length)) if *length != slides => {
             let moves = if slides { "slides" } else { "turns" };
-            return Err(format!("this freedom {moves}"));
+            return Err(format!("this degree of freedom {moves}"));
         }
         Some((unit, factor, _)) => (word.trim_end_matches(unit), *factor),
         None => (word, ""),

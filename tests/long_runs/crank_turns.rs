@@ -82,7 +82,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn a_million_steps_end_as_they_began() {
         let setting = setting(Subject::Bennett, Solver::Multibody);
         assert_eq!((setting.steps, setting.substeps), (1_000_000, 1));
@@ -93,7 +93,7 @@ mod corpus {
     /// A linkage with a twist off by a thousandth comes open by what it is off: its closure error is as even as that of one that
     /// fits, but many times as large, and substeps do not help.
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn a_spoiled_linkage_is_found_out() {
         for solver in SOLVERS {
             let level = |epsilon: &Number| {
@@ -111,7 +111,7 @@ mod corpus {
     }
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn impulses_begin_as_the_record_does() {
         the_record_begins_like_that(Subject::Bennett, Solver::Impulse, 10);
     }

@@ -47,7 +47,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn both_solvers_begin_as_the_record_does() {
         for solver in SOLVERS {
             the_record_begins_like_that(Subject::Stewart, solver, 3);
@@ -55,7 +55,7 @@ mod corpus {
     }
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn velocities_alone_begin_as_the_record_does() {
         for solver in SOLVERS {
             the_record_begins_like_that(Subject::StewartUncorrected, solver, 2);

@@ -93,7 +93,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn both_solvers_begin_as_the_record_does() {
         for solver in SOLVERS {
             the_record_begins_like_that(Subject::Scissor, solver, 8);

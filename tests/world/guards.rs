@@ -206,7 +206,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn a_million_steps_need_no_more_memory_than_a_thousand() {
         let placed = pendulum("");
         let mut world = placed.world(&options(Solver::Impulse, gravity(), 1e-3, 1));

@@ -151,7 +151,7 @@ mod corpus {
     use super::*;
 
     #[test]
-    #[ignore = "corpus: too long for every commit"]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn a_screw_keeps_its_lead_in_the_tree_and_in_a_loop() {
         let text = |closing: bool| {
             let screw = |frame: &str, a: &str, b: &str, name: &str| {

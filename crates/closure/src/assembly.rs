@@ -22,6 +22,7 @@ use kutzbach_math::matrix::{LeastSquares, MatrixError, Real};
 use kutzbach_math::space::{Rigid, length, subtract};
 use kutzbach_model::mechanism::{FreedomPart, Mechanism};
 pub use limits::{OutsideLimit, coupled_joints, nearest_turn};
+use petgraph::unionfind::UnionFind;
 pub use proof::{Obstacle, ProvenOpen};
 pub use reversal::Reversal;
 use std::collections::{BTreeMap, BTreeSet};
@@ -579,28 +580,14 @@ pub fn spanning_poses<R: Real>(
     states: &[JointState<R>],
 ) -> (Vec<Rigid<R>>, Vec<bool>) {
     let joints = mechanism.joints();
-    let mut piece: Vec<usize> = (0..mechanism.links().len()).collect();
-    fn root(piece: &mut [usize], mut link: usize) -> usize {
-        while piece[link] != link {
-            piece[link] = piece[piece[link]];
-            link = piece[link];
-        }
-        link
-    }
+    let mut pieces = UnionFind::<usize>::new(mechanism.links().len());
     let mut in_tree = vec![false; joints.len()];
     // By name, so that the order in the file changes nothing.
     let mut order: Vec<usize> = (0..joints.len()).collect();
     order.sort_by_key(|&index| (joints[index].closes_loop, &joints[index].name));
     for index in order {
         let joint = &joints[index];
-        let (a, b) = (
-            root(&mut piece, joint.predecessor.link.0),
-            root(&mut piece, joint.successor.link.0),
-        );
-        if a != b {
-            piece[a] = b;
-            in_tree[index] = true;
-        }
+        in_tree[index] = pieces.union(joint.predecessor.link.0, joint.successor.link.0);
     }
     let mut incident = vec![Vec::new(); mechanism.links().len()];
     for (index, joint) in joints

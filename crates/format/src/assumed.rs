@@ -9,7 +9,7 @@
 
 use super::element::Attribute;
 use super::reader::Reader;
-use super::told::{IS_TREE, LOOKS_LIKE, TAKEN_AS_X};
+use super::told::{IS_TREE, LOOKS_LIKE, NO_BOUNDS, TAKEN_AS_X};
 use super::words::listed;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Direction, JointKind};
@@ -86,7 +86,7 @@ impl<'a> Reader<'a> {
             format!("{names} {has} no <axis2>: {TAKEN_AS_X}")
         });
         self.tell_of(&assumed.no_bounds, |names, has| {
-            format!("{names} {has} a <limit> without `lower` and `upper`, which is 0…0 in URDF: by that no joint can move, here each counts as free")
+            format!("{names} {has} a <limit> without `lower` and `upper`, {NO_BOUNDS}: by that no joint can move, here each counts as free")
         });
         for (at, written, meant) in assumed.angles.into_iter().filter(|_| closes && !literal) {
             let message = format!(

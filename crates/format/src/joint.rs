@@ -1,7 +1,7 @@
 //! `<joint>` and `<loop>`: the same kinds of joint, placed by their child or closing a loop.
 
 use super::element::Element;
-use super::error::Outcome;
+use super::error::{Fault, Outcome};
 use super::gazebo::ordered;
 use super::hints;
 use super::names::Named;
@@ -60,6 +60,9 @@ struct Type<'a> {
     /// `None` for `floating`, which constrains nothing.
     kind: Option<JointKind>,
 }
+
+/// Attributes that would place a frame.
+const PLACING: [&str; 3] = ["xyz", "rpy", "quat_xyzw"];
 
 impl<'a> Reader<'a> {
     /// `<joint name type>` of the file's tree.
@@ -233,6 +236,14 @@ impl<'a> Reader<'a> {
 
     /// `<predecessor link>`, `<successor link>` or `<child link>` with an optional `<origin>` inside: the joint's frame there.
     fn side(&mut self, element: Element<'a>) -> Outcome<(&'a str, Frame)> {
+        let placed = element
+            .other_attributes(&["link"])
+            .find(|(name, _)| PLACING.contains(name));
+        // Other programs write it in <child>, and ROS skips it there.
+        if let Some((name, range)) = placed.filter(|_| element.name() != "child") {
+            let message = format!("`{name}` is not read in <{}>", element.written_name());
+            return Err(Fault::new(range, message).help(format!("<origin {name}=\"...\"/> inside")));
+        }
         self.attributes_of(element, &["link"], true)?;
         let link = self.directory.refer(Named::Link, element, "link")?;
         let kinds = Parts {

@@ -31,8 +31,11 @@ pub(super) const LIKE_SIDES: &str =
 /// Says where two joints hold the child that both have.
 pub(super) const AT_ORIGIN: &str = "both hold it at its origin";
 
+/// Says that a limit without bounds would let nothing move.
+pub(super) const NO_BOUNDS: &str = "which is 0…0 in URDF";
+
 /// Parts of the warnings that are told first.
-const FIRST: [&str; 10] = [
+const FIRST: [&str; 11] = [
     MAY_JOIN,
     IS_GROUND,
     FLOATS,
@@ -43,6 +46,7 @@ const FIRST: [&str; 10] = [
     IS_TREE,
     LIKE_SIDES,
     AT_ORIGIN,
+    NO_BOUNDS,
 ];
 
 /// Whether a warning of a reading is to be told before everything else.

@@ -8,34 +8,22 @@
 
 use kutzbach_closure::Part;
 use kutzbach_model::mechanism::Mechanism;
+use petgraph::unionfind::UnionFind;
 
 /// The freedoms of the spanning tree that has fewest.
 pub(super) fn most_by_joints(mechanism: &Mechanism, part: &Part) -> usize {
     let joints = mechanism.joints();
-    let mut body: Vec<usize> = (0..mechanism.links().len()).collect();
+    let mut bodies = UnionFind::<usize>::new(mechanism.links().len());
     let mut order: Vec<usize> = part.joints.clone();
     let fixed = (0..joints.len()).filter(|&joint| joints[joint].freedom() == 0);
     order.extend(fixed);
     order.sort_by_key(|&joint| joints[joint].freedom());
-    let mut freedom = 0;
-    for joint in order {
-        let joint = &joints[joint];
-        let a = root(&mut body, joint.predecessor.link.0);
-        let b = root(&mut body, joint.successor.link.0);
-        if a != b {
-            body[a] = b;
-            freedom += joint.freedom();
-        }
-    }
-    freedom
-}
-
-fn root(body: &mut [usize], mut link: usize) -> usize {
-    while body[link] != link {
-        body[link] = body[body[link]];
-        link = body[link];
-    }
-    link
+    order
+        .into_iter()
+        .map(|joint| &joints[joint])
+        .filter(|joint| bodies.union(joint.predecessor.link.0, joint.successor.link.0))
+        .map(|joint| joint.freedom())
+        .sum()
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@ use kutzbach_mobility::{
     Analysis, AnalysisError, AnalysisOptions, Depth, ExactBudget, analyse, kutzbach_count,
 };
 use kutzbach_model::mechanism::{Coupling, Mechanism};
+use petgraph::unionfind::UnionFind;
 use std::time::Instant;
 use thiserror::Error;
 
@@ -421,26 +422,13 @@ fn plain(number: &Number) -> String {
 
 /// The number of connected parts of the links under the joints.
 fn connected_parts(mechanism: &Mechanism) -> usize {
-    let mut parent: Vec<usize> = (0..mechanism.links().len()).collect();
-    let mut parts = parent.len();
-    for joint in mechanism.joints() {
-        let a = root(&mut parent, joint.predecessor.link.0);
-        let b = root(&mut parent, joint.successor.link.0);
-        if a != b {
-            parent[a] = b;
-            parts -= 1;
-        }
-    }
-    parts
-}
-
-/// The representative of a link's part; halves the path on the way, so that all look-ups together are near linear.
-fn root(parent: &mut [usize], mut node: usize) -> usize {
-    while parent[node] != node {
-        parent[node] = parent[parent[node]];
-        node = parent[node];
-    }
-    node
+    let mut parts = UnionFind::<usize>::new(mechanism.links().len());
+    let joins = mechanism
+        .joints()
+        .iter()
+        .filter(|joint| parts.union(joint.predecessor.link.0, joint.successor.link.0))
+        .count();
+    mechanism.links().len() - joins
 }
 
 #[cfg(test)]

@@ -156,6 +156,12 @@ pub(super) fn build(
         mechanism.links().len(),
         &apart.joints,
         &joint_names,
+        |joint| {
+            geometry
+                .couplings
+                .iter()
+                .any(|(terms, _)| terms.iter().any(|(of, _)| *of == joint))
+        },
     )?;
     weld_chord_screws(&mut apart, &mut forest, &poses);
     built.handles = std::mem::take(&mut apart.handles);

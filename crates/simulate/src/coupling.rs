@@ -63,7 +63,7 @@ pub(super) fn add(
             None => {
                 built.note(
                     &coupling.name,
-                    "it couples a joint that closes a loop, joints of separate pieces, or one joint alone, which the engine cannot; it is left out",
+                    "it couples joints that close a loop together, joints of separate pieces, or one joint alone, which the engine cannot; it is left out",
                 );
                 built.not_simulated.push(coupling.name.clone());
             }

@@ -1,8 +1,8 @@
 //! Which joints hold the tree and which close loops.
 //!
-//! Screws have to be in the tree, where the engine can tie travel to turn; so bodies joined by screws count as one node
-//! when the low-depth tree ([`SpanningTree`]) is grown from the ground. Joints that no multibody can hold are left out:
-//! what hangs on those alone floats, and they hold it like loops.
+//! Screws have to be in the tree, where the engine can tie travel to turn, and so have coupled joints, whose coordinates it
+//! ties to one another; so bodies joined by these count as one node when the low-depth tree ([`SpanningTree`]) is grown from
+//! the ground. Joints that no multibody can hold are left out: what hangs on those alone floats, and they hold it like loops.
 
 use super::WorldError;
 use super::elementary::{Elementary, Intermediate, TakenApart};
@@ -28,23 +28,28 @@ pub(super) struct Forest {
 }
 
 impl Forest {
-    /// Grows the forest over bodies named `names`, of which the first `links` are links.
+    /// Grows the forest over bodies named `names`, of which the first `links` are links; `coupled` tells of the joints of the
+    /// mechanism.
     pub fn grow(
         ground: usize,
         names: &[String],
         links: usize,
         joints: &[Elementary],
         joint_names: &[String],
+        coupled: impl Fn(usize) -> bool,
     ) -> Result<Self, WorldError> {
         let mut clusters = Clusters((0..names.len()).collect());
         let mut in_tree = vec![false; joints.len()];
         let mut by_name: Vec<usize> = (0..joints.len()).collect();
         by_name.sort_by(|&a, &b| joint_names[a].cmp(&joint_names[b]));
-        for &index in &by_name {
-            let joint = &joints[index];
-            if joint.pitch.is_some() {
-                in_tree[index] = clusters.merge(joint.bodies[0], joint.bodies[1]);
-            }
+        let is_screw = |joint: &Elementary| joint.pitch.is_some();
+        let is_coupled =
+            |joint: &Elementary| joint.reducible && joint.pitch.is_none() && coupled(joint.joint);
+        let screws = by_name.iter().filter(|&&index| is_screw(&joints[index]));
+        let others = by_name.iter().filter(|&&index| is_coupled(&joints[index]));
+        for &index in screws.chain(others) {
+            let [a, b] = joints[index].bodies;
+            in_tree[index] = clusters.merge(a, b);
         }
         let cluster: Vec<usize> = (0..names.len()).map(|body| clusters.find(body)).collect();
         let mut node_of = vec![usize::MAX; names.len()];
@@ -221,6 +226,15 @@ mod tests {
     }
 
     fn grown(ground: usize, bodies: usize, joints: &[Elementary]) -> Forest {
+        grown_with(ground, bodies, joints, &[])
+    }
+
+    fn grown_with(
+        ground: usize,
+        bodies: usize,
+        joints: &[Elementary],
+        coupled: &[usize],
+    ) -> Forest {
         let names_of_joints = names("j", joints.len());
         Forest::grow(
             ground,
@@ -228,6 +242,7 @@ mod tests {
             bodies,
             joints,
             &names_of_joints,
+            |joint| coupled.contains(&joint),
         )
         .unwrap()
     }
@@ -253,6 +268,19 @@ mod tests {
                 reached.push(branch.child);
             }
         }
+    }
+
+    #[test]
+    fn coupled_joints_are_in_the_tree_where_they_close_no_loop_together() {
+        let ring: Vec<Elementary> = (0..4).map(|i| joint(i, [i, (i + 1) % 4], None)).collect();
+        for closing in 0..4 {
+            let coupled: Vec<usize> = (0..4).filter(|joint| *joint != closing).collect();
+            assert_eq!(grown_with(0, 4, &ring, &coupled).chords, [closing]);
+        }
+        assert_eq!(grown_with(0, 4, &ring, &[0, 1, 2, 3]).chords.len(), 1);
+        let mut held = joint(0, [0, 1], None);
+        held.reducible = false;
+        assert_eq!(grown_with(0, 2, &[held], &[0]).chords, [0]);
     }
 
     #[test]

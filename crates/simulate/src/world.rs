@@ -178,9 +178,8 @@ impl World {
         })?;
         handles.get(freedom).cloned().ok_or_else(|| {
             WorldError::Command(format!(
-                "joint `{}` has {} freedoms, and none with number {freedom}",
-                self.joint_names[joint],
-                handles.len()
+                "joint `{}` has no degree of freedom with number {freedom}",
+                self.joint_names[joint]
             ))
         })
     }

@@ -120,9 +120,8 @@ impl Bits {
                 radius: a.above().plus(a.radius).sqrt(),
             });
         }
-        // |√a − √A| = |a − A| / (√a + √A) ≤ δ/√a; the lower bound of √a needs rounding down, hence the factor two.
-        let below = Magnitude::of(&a.middle).0.sqrt();
-        let error = a.radius.over(below).scaled(1);
+        // |√a − √A| = |a − A| / (√a + √A) ≤ δ / 2√l with l below both: nested roots that shrink errors keep doing so.
+        let error = a.radius.over(a.least().sqrt_down()).scaled(-1);
         self.finish(self.context().sqrt(a.middle.repr()), error)
     }
 

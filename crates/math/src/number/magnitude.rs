@@ -116,13 +116,23 @@ impl Magnitude {
     }
 
     pub(super) fn sqrt(self) -> Self {
+        self.sqrt_times(UP)
+    }
+
+    /// A lower bound of the square root of a lower bound.
+    pub(super) fn sqrt_down(self) -> Self {
+        self.sqrt_times(1.0 / UP)
+    }
+
+    /// The root within a rounding, times a factor that is nearly one.
+    fn sqrt_times(self, factor: f64) -> Self {
         let odd = self.exponent.rem_euclid(2);
         let mantissa = if odd == 1 {
             self.mantissa * 2.0
         } else {
             self.mantissa
         };
-        Self::new(mantissa.sqrt() * UP, (self.exponent - odd) / 2)
+        Self::new(mantissa.sqrt() * factor, (self.exponent - odd) / 2)
     }
 
     pub(super) fn cmp(self, other: Self) -> Ordering {
@@ -168,6 +178,8 @@ mod tests {
             ] {
                 assert!(value(got) >= want && value(got) <= want * (1.0 + 1e-14));
             }
+            let root = value(x.sqrt_down());
+            assert!(root <= a.sqrt() && root >= a.sqrt() * (1.0 - 1e-14));
             let difference = value(x.minus_down(y));
             assert!(difference <= (a - b).max(0.0));
         }

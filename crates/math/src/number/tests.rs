@@ -487,3 +487,12 @@ fn surds() -> impl Strategy<Value = Number> {
         })
     })
 }
+
+#[test]
+fn nested_roots_are_known_as_well_as_one() {
+    let roots = format!("{}2{}", "sqrt(1 + ".repeat(500), ")".repeat(500));
+    let limit = read(&roots);
+    let ball = limit.ball(evaluate::COARSE).unwrap();
+    assert!(ball.is_accurate(evaluate::COARSE - 4));
+    assert!((limit.value() - (1.0 + 5f64.sqrt()) / 2.0).abs() < 1e-15);
+}

@@ -52,7 +52,7 @@ pub(super) fn check_one_freedom(entity: &Entity, joint: &Joint) -> Result<(), Me
     Err(MechanismError::new(
         entity.clone(),
         format!(
-            "joint `{}` is {} with {} freedoms; only a joint of one freedom has a single rate",
+            "joint `{}` is {} with {} degrees of freedom; only a joint with one has a single rate",
             joint.name,
             joint.kind,
             joint.freedom()

@@ -54,7 +54,7 @@ fn resolve(
         let freedom = joints[id.0].freedom();
         if values.len() != freedom {
             return fault(format!(
-                "joint `{joint}` has {freedom} freedoms but {} values",
+                "joint `{joint}` needs one value for each degree of freedom, {freedom} in all, found {}",
                 values.len()
             ));
         }
@@ -100,11 +100,11 @@ mod tests {
         );
         assert_eq!(
             fault(posed(mixed(), &[("ab", &["1", "2"])])),
-            "configuration `open`: joint `ab` has 3 freedoms but 2 values"
+            "configuration `open`: joint `ab` needs one value for each degree of freedom, 3 in all, found 2"
         );
         assert_eq!(
             fault(posed(mixed(), &[("bc", &["1"])])),
-            "configuration `open`: joint `bc` has 0 freedoms but 1 values"
+            "configuration `open`: joint `bc` needs one value for each degree of freedom, 0 in all, found 1"
         );
     }
 

@@ -194,7 +194,7 @@ mod tests {
             builder
         };
         let ball = || chain(JointKind::Revolute, JointKind::Spherical);
-        let told = "joint `bc` is spherical with 3 freedoms; only a joint of one freedom has a single rate";
+        let told = "joint `bc` is spherical with 3 degrees of freedom; only a joint with one has a single rate";
         assert_eq!(
             fault(mimic(ball(), "ab", "bc")),
             format!("joint `ab`: {told}")
@@ -204,7 +204,7 @@ mod tests {
             format!("joint `bc`: {told}")
         );
         let fixed = chain(JointKind::Revolute, JointKind::Fixed);
-        assert!(fault(mimic(fixed, "ab", "bc")).contains("fixed with 0 freedoms"));
+        assert!(fault(mimic(fixed, "ab", "bc")).contains("fixed with 0 degrees of freedom"));
         assert_eq!(
             fault(mimic(hinges(), "ab", "cb")),
             "joint `ab`: mimic names joint `cb`, which does not exist"

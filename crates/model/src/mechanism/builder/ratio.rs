@@ -172,7 +172,7 @@ mod tests {
         let ball = chain(JointKind::Revolute, JointKind::Spherical);
         assert_eq!(
             fault(ratio(ball.clone(), ["a", "c"], "1")),
-            "coupling `gears`: joint `bc` is spherical with 3 freedoms; only a joint of one freedom has a single rate"
+            "coupling `gears`: joint `bc` is spherical with 3 degrees of freedom; only a joint with one has a single rate"
         );
         assert!(ratio(ball, ["a", "b"], "1").build().is_ok());
     }

@@ -90,7 +90,7 @@ mod tests {
         assert_eq!(help(driven("ax", "1", "1")), "did you mean `ab`?");
         assert_eq!(
             fault(driven("bc", "1", "1")),
-            "the scene: joint `bc` is cylindrical with 2 freedoms; only a joint of one freedom has a single rate"
+            "the scene: joint `bc` is cylindrical with 2 degrees of freedom; only a joint with one has a single rate"
         );
         assert!(fault(driven("ab", "1e101", "1")).contains("velocity is 1e101"));
         assert!(fault(driven("ab", "1", "1e101")).contains("torque is 1e101"));
