@@ -15,6 +15,7 @@ use kutzbach::matrix::null_basis;
 use kutzbach::mechanism::Mechanism;
 use kutzbach::mobility::{Analysis, CertificateLevel, Verdict};
 use std::sync::OnceLock;
+use support::exported::exported;
 use support::rewrite::Draft;
 use support::{analysis, assert_none, decimal, folder, in_parallel, zoo_mechanism};
 
@@ -216,6 +217,51 @@ fn what_rounding_left_as_it_was_is_not_called_nominal() {
     }));
 }
 
+/// What drawing programs write of special mechanisms: (which, decimals).
+const EXPORTED: [(&str, usize); 8] = [
+    ("sarrus_6r", 3),
+    ("bennett_generic", 3),
+    ("schatz_turbula_6r", 3),
+    ("oldham_rppr", 3),
+    ("delassus_4h_parallelogram", 4),
+    ("bricard_line_symmetric", 4),
+    ("/goldberg_five_bar", 3),
+    ("/waldron_six_bar", 5),
+];
+
+/// The finite mobility that is told of an exported mechanism.
+fn told(written: &Mechanism) -> Option<usize> {
+    analysis(written).mobility.finite()
+}
+
+#[test]
+fn what_drawing_programs_write_is_what_was_drawn() {
+    let wrong = in_parallel(&EXPORTED, |&(name, decimals)| {
+        let said = told(&exported(&special(name), decimals, 1));
+        (said != Some(1)).then(|| format!("{name}, {decimals} decimals: {said:?}"))
+    });
+    assert_none(&wrong.into_iter().flatten().collect::<Vec<_>>());
+}
+
+#[test]
+fn what_is_ten_digits_off_is_not_what_was_drawn() {
+    // One length of Bennett's linkage, and one axis of Sarrus'.
+    let spoiled = [("bennett_generic", 0), ("/bennett", 0), ("sarrus_6r", 3)];
+    for (name, place) in spoiled {
+        let mut draft = Draft::of(&exported(&special(name), 4, 1));
+        let frame = &mut draft.joints[1].ends[0].frame;
+        let numbers = frame.position.iter_mut().chain(&mut frame.roll_pitch_yaw);
+        let number = numbers.into_iter().nth(place).unwrap();
+        *number = decimal::sum(
+            number,
+            &kutzbach::number::Number::decimal("0.0010").unwrap(),
+        );
+        let found = analysis(&draft.build()).mobility;
+        assert_eq!(found.finite(), Some(0), "{name}");
+        assert!(found.nominal.is_some_and(|n| !n.within_digits), "{name}");
+    }
+}
+
 /// Mechanisms at singular poses, with their finite mobility: rigid ones that give way to some order, and branches that
 /// meet.
 const SINGULAR: [(&str, usize); 21] = [
@@ -245,6 +291,33 @@ const SINGULAR: [(&str, usize); 21] = [
 /// Too long for every commit.
 mod corpus {
     use super::*;
+
+    #[test]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
+    fn exported_files_are_decided_and_never_wrong() {
+        let each = in_parallel(&SPECIAL, |&(name, finite)| {
+            let meant = special(name);
+            let cases = (3..=6).map(|decimals| (decimals, told(&exported(&meant, decimals, 2))));
+            cases
+                .map(|(d, said)| (format!("{name}, {d} decimals: {said:?}"), said, finite))
+                .collect::<Vec<_>>()
+        });
+        let all: Vec<_> = each.into_iter().flatten().collect();
+        let wrong = |(_, said, finite): &&(String, Option<usize>, usize)| {
+            said.is_some_and(|s| s != *finite)
+        };
+        let text = |cases: Vec<&(String, Option<usize>, usize)>| -> Vec<String> {
+            cases.into_iter().map(|(text, ..)| text.clone()).collect()
+        };
+        assert_none(&text(all.iter().filter(wrong).collect()));
+        let open = text(all.iter().filter(|(_, said, _)| said.is_none()).collect());
+        assert!(
+            50 * open.len() <= all.len(),
+            "{} of {} are open: {open:?}",
+            open.len(),
+            all.len()
+        );
+    }
 
     #[test]
     #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]

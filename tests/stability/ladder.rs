@@ -140,6 +140,8 @@ pub struct Seen {
     pub steps: usize,
     /// Whether the verdict is said to hold within the stated precision only.
     pub nominal: bool,
+    /// Whether that no mechanism within the digits moves was found from the nearest one that does, and not from a rank.
+    pub excluded: bool,
 }
 
 impl Seen {
@@ -207,7 +209,16 @@ fn look(rung: &Rung) -> Seen {
         rank_bits: analysis.parts.iter().map(|p| p.bits).max().unwrap_or(53),
         bits: most_bits(&analysis),
         steps: analysis.assembly.steps,
-        nominal: analysis.mobility.nominal.is_some(),
+        nominal: analysis
+            .mobility
+            .nominal
+            .as_ref()
+            .is_some_and(|n| n.within_digits),
+        excluded: analysis
+            .mobility
+            .nominal
+            .as_ref()
+            .is_some_and(|n| !n.within_digits),
     }
 }
 

@@ -200,7 +200,11 @@ fn decimals_are_worth_their_tolerance() {
         for pair in family.seen.windows(2).filter(|_| written) {
             let [a, b] = [&pair[0], &pair[1]];
             let [before, after] = [a, b].map(|s| s.decades.unwrap());
-            if !(-12.0..=-6.0).contains(&before) || after < -12.0 || a.outcome != Outcome::Right {
+            if !(-12.0..=-6.0).contains(&before)
+                || after < -12.0
+                || a.outcome != Outcome::Right
+                || a.excluded
+            {
                 continue;
             }
             let gained = (a.tolerance / b.tolerance).log10();

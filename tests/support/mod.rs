@@ -3,6 +3,7 @@
 pub mod combine;
 pub mod decimal;
 pub mod drawn;
+pub mod exported;
 pub mod rewrite;
 
 use kutzbach::mechanism::Mechanism;

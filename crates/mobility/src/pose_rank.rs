@@ -45,7 +45,7 @@ const COARSEST_STATED: f64 = 0.05;
 
 /// The stated precision bounds a Jacobian's uncertainty to first order. At 5 %, the coarsest that is used, the second order
 /// is a twentieth of that; half as much again leaves room for it and for the estimate in the bound itself.
-const BEYOND_FIRST_ORDER: f64 = 1.5;
+pub(super) const BEYOND_FIRST_ORDER: f64 = 1.5;
 
 /// Parts of at most so many unknowns are ranked in more digits though double precision is content with them, where their
 /// numbers call for it.

@@ -18,9 +18,12 @@ mod tests;
 
 use super::analysis::{Analysis, AnalysisError, AnalysisOptions, analyse_as_stated};
 use super::depth::Depth;
+use super::pose_rank::{BEYOND_FIRST_ORDER, PartRank};
+use super::roles::JointRole;
 use super::tree_bound::most_by_joints;
-use super::verdict::Nominal;
-use super::vocabulary::Verdict;
+use super::verdict::{Nominal, judge};
+use super::vocabulary::{CertificateLevel, Verdict};
+use super::whole_branches::whole_branches;
 use dimensions::{Dimension, Dimensions, turns};
 use kutzbach_closure::{Arithmetic, Geometry, JointState, Metric, Part, linearised};
 use kutzbach_math::matrix::{DENSE_COLUMNS, MatrixError, SparseMatrix, relative_singular_values};
@@ -40,6 +43,13 @@ const ROUNDED_DECIMALS: i32 = 2;
 
 /// Parts of more numbers than this are not searched.
 const MOST_DIMENSIONS: usize = 600;
+
+/// Where all dimensions that close along a motion change some number by more than so many units, to first order, none is within
+/// the digits: room for the second order.
+const EXCLUDED: f64 = 1.5;
+
+/// Numbers that may well have been chosen are searched where there are no more of them.
+const MOST_CHOSEN: usize = 200;
 
 /// A number is within its digits up to one unit, and rounding.
 const WITHIN: f64 = 1.0 + 1e-6;
@@ -101,7 +111,13 @@ pub struct AsWritten {
 
 /// What was found of one part whose mobility hangs on how its numbers were rounded.
 struct PartMeant {
+    /// Which part.
+    index: usize,
     nearest: Option<Nearest>,
+    /// How many freedoms it has where it moves.
+    freedom: usize,
+    /// Whether no numbers within the digits let it move.
+    excluded: bool,
     /// The part's length (m).
     length: f64,
     changes: Vec<Change>,
@@ -127,8 +143,10 @@ pub(super) fn completed(
         stated.mobility.verdict,
         Verdict::Undecided | Verdict::Unassembled
     );
-    let asked = (open || stated.mobility.nominal.is_some()) && options.depth > Depth::Rank;
-    let Some(precision) = rounding(mechanism).filter(|_| asked) else {
+    let rigid = stated.mobility.verdict == Verdict::Rigid && mechanism.precision().is_exact();
+    let asked = open || rigid || stated.mobility.nominal.is_some();
+    let Some(precision) = rounding(mechanism).filter(|_| asked && options.depth > Depth::Rank)
+    else {
         return Ok(stated);
     };
     let configuration = options
@@ -137,13 +155,23 @@ pub(super) fn completed(
         .and_then(|name| mechanism.configuration(name));
     let parts = parts_meant(mechanism, configuration, &precision, &stated)?;
     let within = |part: &PartMeant| part.nearest.is_some() && part.units() <= WITHIN;
-    if parts.is_empty() || !parts.iter().all(within) {
+    if parts.is_empty() {
+        return Ok(stated);
+    }
+    if open && parts.iter().all(|part| part.excluded) {
+        return Ok(held_fast(mechanism, configuration, stated, &parts));
+    }
+    if !parts.iter().all(within) {
         return Ok(stated);
     }
     let all: Vec<&PartMeant> = parts.iter().collect();
     let as_written = as_written(&stated);
     if !open {
         if let Some(finite) = stated.mobility.finite() {
+            let finite = match rigid {
+                true => parts.iter().map(|part| part.freedom).sum(),
+                false => finite,
+            };
             let known = stated
                 .mobility
                 .nominal
@@ -172,6 +200,62 @@ pub(super) fn completed(
     analysis.mobility.as_written = Some(as_written);
     analysis.meant = Some(Box::new(meant));
     Ok(analysis)
+}
+
+/// The analysis where no numbers within the digits let an open part move, and how far away the nearest mechanism is that moves.
+fn held_fast(
+    mechanism: &Mechanism,
+    configuration: Option<&Configuration>,
+    mut stated: Analysis,
+    parts: &[PartMeant],
+) -> Analysis {
+    let all: Vec<&PartMeant> = parts.iter().collect();
+    let mut nominal = nominal(&all, 0);
+    if stated.mobility.verdict == Verdict::Undecided {
+        for part in parts {
+            let finding = &mut stated.findings[part.index];
+            finding.lower = 0;
+            finding.upper = 0;
+            finding.at_rest = 0;
+            finding.open = None;
+            finding.level = CertificateLevel::Numeric;
+            finding.certificate = certificate(part);
+            for &joint in &stated.structure.parts[part.index].joints {
+                stated.roles[joint] = JointRole {
+                    locked: (mechanism.joints()[joint].freedom() > 0).then_some(true),
+                    ..JointRole::default()
+                };
+            }
+        }
+        stated.mobility = judge(mechanism, &stated.structure, &stated.findings);
+        stated.branches = whole_branches(
+            mechanism,
+            &Geometry::new(mechanism, configuration, &Arithmetic::double()),
+            &stated.structure,
+            &stated.assembly.states,
+            stated.kutzbach,
+            &stated.findings,
+        );
+        if let Some(home) = &mut stated.home {
+            // Of equations that hold within the digits only, the rank is not known.
+            home.instantaneous = None;
+            home.redundant = None;
+        }
+        nominal.finite = stated.mobility.finite().unwrap_or(0);
+    }
+    stated.mobility.nominal = Some(nominal);
+    stated
+}
+
+/// Why a part does not move whatever its digits stand for.
+fn certificate(part: &PartMeant) -> String {
+    let (open, least) = part.nearest.as_ref().map_or((0.0, 0.0), |nearest| {
+        (nearest.misfit * part.length, nearest.at_least)
+    });
+    format!(
+        "along the motion that the pose allows to first order the loops stay open by up to {open:.1e} m, and to close them some \
+         number has to change by at least {least:.1} times what its digits leave open"
+    )
 }
 
 fn nominal(parts: &[&PartMeant], finite: usize) -> Nominal {
@@ -258,27 +342,49 @@ fn parts_meant(
     let mut found = Vec::new();
     for (index, part) in stated.structure.parts.iter().enumerate() {
         let finding = stated.findings.get(index);
-        let open = finding.is_none_or(|finding| finding.open.is_some());
-        if !open && finding.is_none_or(|finding| finding.nominal.is_none()) {
+        let rank = stated.parts.get(index);
+        let dimensions = Dimensions::of(mechanism, part, precision);
+        let asked = finding.is_none_or(|finding| {
+            let nearly = rank.is_some_and(|rank| nearly_moves(&dimensions, rank));
+            finding.open.is_some() || finding.nominal.is_some() || finding.upper == 0 && nearly
+        });
+        if !asked {
             continue;
         }
         let mut of_part = PartMeant {
+            index,
             nearest: None,
+            freedom: 0,
+            excluded: false,
             length: 0.0,
             changes: Vec::new(),
             numbers: Vec::new(),
         };
-        let dimensions = Dimensions::of(mechanism, part, precision);
         let states = &stated.assembly.states;
         let freedom = finding
-            .filter(|finding| finding.open.is_none())
+            .filter(|finding| finding.open.is_none() && finding.upper > 0)
             .map(|finding| finding.upper);
-        let literal = stated.parts.get(index).and_then(|rank| rank.as_written);
-        let freedoms = (freedom, literal.unwrap_or(0));
+        let literal = rank.and_then(|rank| rank.as_written);
+        let open_to = rank.map_or(0.0, |rank| rank.stated);
+        let freedoms = Freedoms {
+            known: freedom,
+            literal: literal.unwrap_or(0),
+            open_to: if open_to > 0.0 {
+                BEYOND_FIRST_ORDER * open_to
+            } else {
+                1.0
+            },
+        };
         if (1..=MOST_DIMENSIONS).contains(&dimensions.all.len())
-            && let Some((nearest, length)) =
-                nearest_of_part(mechanism, &geometry, states, part, &dimensions, freedoms)?
+            && let Some(Found {
+                nearest,
+                freedom,
+                length,
+                excluded,
+            }) = nearest_of_part(mechanism, &geometry, states, part, &dimensions, freedoms)?
         {
+            of_part.excluded = excluded;
+            of_part.freedom = freedom;
             of_part.changes = changes(&dimensions, &nearest.z);
             of_part.numbers = dimensions.changes(&nearest.z);
             of_part.nearest = Some(nearest);
@@ -287,6 +393,15 @@ fn parts_meant(
         found.push(of_part);
     }
     Ok(found)
+}
+
+/// Whether a part of exact numbers that holds fast would be open if they were rounded.
+fn nearly_moves(dimensions: &Dimensions<'_>, rank: &PartRank) -> bool {
+    let decision = &rank.decision;
+    rank.stated == 0.0
+        && rank.instantaneous == Some(0)
+        && dimensions.all.len() <= MOST_CHOSEN
+        && decision.kept <= BEYOND_FIRST_ORDER * dimensions.noise(rank.jacobian.length)
 }
 
 fn changes(dimensions: &Dimensions<'_>, z: &[f64]) -> Vec<Change> {
@@ -303,34 +418,53 @@ fn changes(dimensions: &Dimensions<'_>, z: &[f64]) -> Vec<Change> {
     dimensions.all.iter().zip(z).map(change).collect()
 }
 
-/// The nearest dimensions of one part, and its length (m): those within the digits, if there are such.
+/// What is known of a part's freedoms beforehand.
+struct Freedoms {
+    /// How many it has within the digits, where that is decided.
+    known: Option<usize>,
+    /// How many the numbers leave at the pose where they are taken literally.
+    literal: usize,
+    /// Singular values above this share of the largest are no rounded zeros.
+    open_to: f64,
+}
+
+/// The nearest dimensions found of one part.
+struct Found {
+    nearest: Nearest,
+    /// How many freedoms it has.
+    freedom: usize,
+    /// The part's length (m).
+    length: f64,
+    /// Whether all numbers of freedoms that are possible were searched, and none of them is within the digits.
+    excluded: bool,
+}
+
+/// The nearest dimensions of one part: those within the digits, if there are such.
 fn nearest_of_part(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
     states: &[JointState<f64>],
     part: &Part,
     dimensions: &Dimensions<'_>,
-    (freedom, literal): (Option<usize>, usize),
-) -> Result<Option<(Nearest, f64)>, MatrixError> {
+    known: Freedoms,
+) -> Result<Option<Found>, MatrixError> {
     let here = linearised(geometry, states, part)?;
     let mut matrix = here.matrix.clone();
     let scales = matrix.scale_columns();
-    let columns = matrix.columns();
-    if columns > DENSE_COLUMNS {
+    if matrix.columns() > DENSE_COLUMNS {
         return Ok(None);
     }
-    let freedoms = match freedom {
+    let freedoms = match known.known {
         Some(freedom) => vec![freedom],
-        None => by_gap(
-            &matrix,
-            dimensions.noise(here.length),
-            literal.max(1),
-            most_by_joints(mechanism, part),
-        )?,
+        None => {
+            let most = most_by_joints(mechanism, part);
+            by_gap(&matrix, dimensions.noise(here.length), &known, most)?
+        }
     };
     let metric = Metric::of(mechanism, &here, &scales);
-    let mut best: Option<(Nearest, f64)> = None;
-    for freedom in freedoms {
+    let mut best: Option<(Nearest, usize)> = None;
+    let mut excluded = freedoms.len() <= TRIES;
+    for freedom in freedoms.into_iter().take(TRIES) {
         let mut search = Search {
             loops: Loops {
                 mechanism,
@@ -343,28 +477,36 @@ fn nearest_of_part(
             length: here.length,
         };
         let Some(nearest) = search.nearest(states)? else {
+            excluded = false;
             continue;
         };
+        excluded &= nearest.at_least > EXCLUDED;
         let units = |nearest: &Nearest| nearest.z.iter().fold(0.0f64, |m, z| z.abs().max(m));
-        let nearer = best
-            .as_ref()
-            .is_none_or(|(b, _)| units(&nearest) < units(b));
         let within = units(&nearest) <= WITHIN;
-        if nearer {
-            best = Some((nearest, here.length));
+        if best
+            .as_ref()
+            .is_none_or(|(best, _)| units(&nearest) < units(best))
+        {
+            best = Some((nearest, freedom));
         }
         if within {
             break;
         }
     }
-    Ok(best)
+    Ok(best.map(|(nearest, freedom)| Found {
+        nearest,
+        freedom,
+        length: here.length,
+        excluded,
+    }))
 }
 
-/// Numbers of freedoms from `least` to `most`, those with the widest gap in the singular values first.
+/// The possible numbers of freedoms, from the literal one up to `most`; those with the widest gap in the singular values first.
+/// `noise` is about what rounding leaves of a zero.
 fn by_gap(
     matrix: &SparseMatrix<f64>,
     noise: f64,
-    least: usize,
+    known: &Freedoms,
     most: usize,
 ) -> Result<Vec<usize>, MatrixError> {
     let columns = matrix.columns();
@@ -375,10 +517,9 @@ fn by_gap(
         let kept = if rank == 0 { 1.0 } else { value(rank - 1) };
         kept / value(rank).max(noise)
     };
-    let mut freedoms: Vec<usize> = (least..=most.min(columns))
-        .filter(|f| columns - f <= values.len())
+    let mut freedoms: Vec<usize> = (known.literal.max(1)..=most.min(columns))
+        .filter(|f| columns - f <= values.len() && value(columns - f) <= known.open_to)
         .collect();
     freedoms.sort_by(|a, b| gap(*b).total_cmp(&gap(*a)));
-    freedoms.truncate(TRIES);
     Ok(freedoms)
 }

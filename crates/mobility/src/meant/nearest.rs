@@ -71,7 +71,10 @@ const DAMPING: f64 = 1e-3;
 const WATCHED: usize = 3;
 const HALVED: f64 = 0.5;
 const STIFFENED: f64 = 30.0;
-const STIFFEST: f64 = 1e2;
+
+/// So much at least then, relative to the largest singular value squared, and at most.
+const STIFF: f64 = 1e-13;
+const STIFFEST: f64 = 1e-3;
 
 /// A step that does half of what it promised lets the next be damped so much less.
 const RELAXED: f64 = 0.1;
@@ -108,6 +111,8 @@ pub(super) struct Nearest {
     pub z: Vec<f64>,
     /// How far the loops of the numbers as written stay open along the motion (rad, cycle lengths).
     pub misfit: f64,
+    /// No dimensions that close along a motion near this one change every number by less (units; to first order).
+    pub at_least: f64,
 }
 
 /// The poses, and what the dimensions have to mend there.
@@ -150,8 +155,12 @@ impl Search<'_> {
             let closed = open(&elsewhere) <= CLOSED_ELSEWHERE;
             samples.extend(elsewhere);
             if closed {
-                self.draw_near(&mut samples, &mut z, misfit)?;
-                return Ok(Some(Nearest { z, misfit }));
+                let at_least = self.draw_near(&mut samples, &mut z, misfit)?;
+                return Ok(Some(Nearest {
+                    z,
+                    misfit,
+                    at_least,
+                }));
             }
         }
         Ok(None)
@@ -251,9 +260,10 @@ impl Search<'_> {
                 if best.0 <= STALLED {
                     return Ok(Some(()));
                 }
-                damping *= STIFFENED;
+                let share = (best.0 / first).powi(2).min(1.0);
+                damping = (damping * STIFFENED).max(STIFF / share);
                 since = 0;
-                if damping > STIFFEST {
+                if damping * share > STIFFEST {
                     break;
                 }
             }
@@ -277,19 +287,20 @@ impl Search<'_> {
     }
 
     /// Moves the dimensions along the solutions so that none of them is farther from what is written than its uncertainty, if that
-    /// can be: those that are get smaller and smaller weights.
+    /// can be: those that are get smaller and smaller weights. What comes out is a bound of what that takes ([`Nearest::at_least`]).
     fn draw_near(
         &mut self,
         samples: &mut [Sample],
         z: &mut Vec<f64>,
         first: f64,
-    ) -> Result<(), MatrixError> {
+    ) -> Result<f64, MatrixError> {
         let mut weights = vec![1.0; z.len()];
+        let mut at_least = 0.0f64;
+        let mut nearest = (z.clone(), states_of(samples));
         for _ in 0..DRAWN {
             if largest(z) <= 1.0 {
                 break;
             }
-            let kept = (z.clone(), states_of(samples));
             let (mut matrix, misfit) = self.equations(samples, z)?;
             // What the linear equations ask of z from zero on.
             let wanted: Vec<f64> = (0..matrix.nrows())
@@ -308,18 +319,24 @@ impl Search<'_> {
             for ((z, x), weight) in z.iter_mut().zip(&scaled).zip(&weights) {
                 *z = x * weight;
             }
+            at_least = at_least.max(least_change(z, &weights));
             let closed = largest(z) <= FAR
                 && self.follow(samples, z)?
                 && self.solve(samples, z, first)?.is_some();
-            if !closed || largest(z) >= largest(&kept.0) {
-                self.restore(samples, z, &kept)?;
+            if !closed {
                 break;
+            }
+            if largest(z) < largest(&nearest.0) {
+                nearest = (z.clone(), states_of(samples));
             }
             for (weight, z) in weights.iter_mut().zip(z.iter()) {
                 *weight *= (DRAWN_TO / z.abs()).min(1.0);
             }
         }
-        Ok(())
+        if *z != nearest.0 {
+            self.restore(samples, z, &nearest)?;
+        }
+        Ok(at_least)
     }
 
     /// Gives the loops their changed dimensions and brings the poses onto the motion again.
@@ -441,6 +458,19 @@ impl Steps {
         }
         step
     }
+}
+
+/// What the largest of the numbers has to be at least, where `z` solves linear equations with the least Σ (z/w)².
+///
+/// By duality, min ‖z‖∞ over A z = b is max yᵀb / ‖Aᵀy‖₁. The multipliers y of the weighted solution have Aᵀy = z/w² and yᵀb =
+/// Σ (z/w)², so that every choice of weights gives a bound, and those of a solution with all its larger numbers alike the best.
+fn least_change(z: &[f64], weights: &[f64]) -> f64 {
+    let of = |power: i32| -> f64 {
+        let terms = z.iter().zip(weights);
+        terms.map(|(z, w)| z.abs().powi(power) / (w * w)).sum()
+    };
+    let sum = of(1);
+    if sum > 0.0 { of(2) / sum } else { 0.0 }
 }
 
 /// What is left of the equations, as a root of the sum of squares.

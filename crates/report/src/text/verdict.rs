@@ -6,8 +6,8 @@ use super::assembly;
 use super::cite;
 use super::page::Page;
 use super::style::Tint;
-use super::words::{capitalised, counted, degrees, figure, names};
-use crate::schema::{Branch, Nominal, Report};
+use super::words::{capitalised, counted, degrees, figure, metres, names};
+use crate::schema::{AsWritten, Branch, Nominal, Report};
 use kutzbach_format::MAY_JOIN;
 use kutzbach_mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
 
@@ -325,20 +325,49 @@ fn undecided(report: &Report) -> String {
 /// The nearest mobile mechanism where it is not the one drawn.
 fn not_drawn(nominal: &Nominal) -> String {
     let mut text = format!(
-        "The nearest mobile mechanism that was found is {} m away",
-        figure(nominal.distance.unwrap_or(nominal.tolerance))
+        "The nearest mechanism found that moves is {} away",
+        metres(nominal.distance.unwrap_or(nominal.tolerance))
     );
     if let Some(change) = nominal.changes.first() {
         text.push_str(&format!(
-            " ({}, {}: {} instead of {})",
+            " ({}, {}: {} changed by {})",
             change.joint,
             change.number,
-            figure(change.to),
-            figure(change.from)
+            figure(change.from),
+            figure(change.to - change.from)
         ));
     }
-    text.push_str(", beyond what the digits leave open: it is not what is drawn.");
+    text.push_str(&format!(
+        ", beyond the digits of these numbers ({}): it is not what is drawn.",
+        cite::NOMINAL
+    ));
     text
+}
+
+/// How far the numbers are from those of the mechanism meant, and what they leave as written.
+fn meant(nominal: &Nominal, distance: f64, written: &AsWritten, finite: Option<usize>) -> String {
+    let away = format!(
+        "dimensions that move differ from them by up to {}, within their digits ({})",
+        metres(distance),
+        cite::NOMINAL
+    );
+    let misfit = metres(nominal.tolerance);
+    match (written.verdict, written.finite) {
+        (Verdict::Rigid, _) if finite == Some(0) => format!(
+            "The numbers are taken as exact. If they are rounded, it is meant to move with {}: the nearest {away}; as written its \
+             loops miss by up to {misfit} along that motion.",
+            degrees(nominal.finite),
+        ),
+        (Verdict::Unassembled, _) => format!(
+            "As written it does not close: its loops miss by up to {misfit}. The nearest {away}."
+        ),
+        (_, Some(0)) => format!(
+            "As written it binds: its loops miss by up to {misfit} along the motion. The nearest {away}."
+        ),
+        _ => format!(
+            "As written it binds or moves less: its loops miss by up to {misfit} along the motion. The nearest {away}."
+        ),
+    }
 }
 
 /// A mechanism that moves only if its numbers are read as rounded.
@@ -348,34 +377,23 @@ pub(super) fn nominal(report: &Report) -> Option<String> {
         return Some(not_drawn(nominal));
     }
     if let (Some(distance), Some(written)) = (nominal.distance, &report.mobility.as_written) {
-        return Some(format!(
-            "These numbers round a mechanism that moves ({}): its nearest dimensions differ by up to {} m from them, within their \
-             digits; {}, as its loops miss by up to {} m along the motion.",
-            cite::NOMINAL,
-            figure(distance),
-            match (written.verdict, written.finite) {
-                (Verdict::Unassembled, _) => "as written it does not close".to_owned(),
-                (_, Some(0)) => "as written it binds".to_owned(),
-                _ => "as written it binds or moves less".to_owned(),
-            },
-            figure(nominal.tolerance),
-        ));
+        return Some(meant(nominal, distance, written, report.mobility.finite));
     }
     let mut text = format!(
-        "Mobile within {} m of the numbers written ({}): they are probably rounded",
-        figure(nominal.tolerance),
+        "It moves within {} of the numbers written ({}): they are probably rounded",
+        metres(nominal.tolerance),
         cite::NOMINAL
     );
     match report.home.as_written {
-        Some(0) => text.push_str("; taken literally 0 freedoms: rigid."),
+        Some(0) => text.push_str("; taken literally they leave it rigid."),
         Some(literal) => text.push_str(&format!(
-            "; taken literally at most {}.",
-            counted(literal, "freedom")
+            "; taken literally they leave at most {}.",
+            degrees(literal)
         )),
         None if report.mobility.finite == Some(nominal.finite) => text.push('.'),
         None => text.push_str(&format!(
             "; what they stand for has {}.",
-            counted(nominal.finite, "finite freedom")
+            degrees(nominal.finite)
         )),
     }
     Some(text)

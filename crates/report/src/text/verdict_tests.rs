@@ -228,13 +228,13 @@ fn rounded_numbers_are_told() {
     report.home.as_written = Some(0);
     assert_eq!(
         super::nominal(&report).unwrap(),
-        "Mobile within 3e-7 m of the numbers written (D13): they are probably rounded; taken literally 0 freedoms: rigid."
+        "It moves within 300 nm of the numbers written (D13): they are probably rounded; taken literally they leave it rigid."
     );
     report.home.as_written = Some(1);
     assert!(
         super::nominal(&report)
             .unwrap()
-            .ends_with("taken literally at most 1 freedom.")
+            .ends_with("taken literally they leave at most 1 degree of freedom.")
     );
     report.home.as_written = None;
     assert!(
@@ -246,7 +246,7 @@ fn rounded_numbers_are_told() {
     assert!(
         super::nominal(&report)
             .unwrap()
-            .ends_with("stand for has 1 finite freedom.")
+            .ends_with("stand for has 1 degree of freedom.")
     );
     report.mobility.nominal = None;
     assert_eq!(super::nominal(&report), None);
