@@ -43,6 +43,7 @@ mod four_bars;
 mod frames;
 mod fuzz_format;
 mod gallery;
+mod grippers;
 mod growth;
 mod house;
 mod html_page;
