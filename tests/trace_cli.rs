@@ -171,7 +171,7 @@ fn driven_values_are_expressions_and_have_units() {
     // A hinge does not slide.
     let refused = traced(&folder, &["--drive", "O=0..5mm"]);
     assert_eq!(refused.status.code(), Some(2));
-    assert!(text(&refused.stderr).contains("this freedom turns"));
+    assert!(text(&refused.stderr).contains("this degree of freedom turns"));
 }
 
 #[test]
