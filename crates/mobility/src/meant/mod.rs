@@ -26,7 +26,7 @@ use super::vocabulary::{CertificateLevel, Verdict};
 use super::whole_branches::whole_branches;
 use dimensions::{Dimension, Dimensions, turns};
 use kutzbach_closure::{Arithmetic, Geometry, JointState, Metric, Part, linearised};
-use kutzbach_math::matrix::{DENSE_COLUMNS, MatrixError, SparseMatrix, relative_singular_values};
+use kutzbach_math::matrix::{DENSE_COLUMNS, MatrixError, relative_singular_values};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Configuration, Mechanism, Precision};
 use nearest::{Nearest, Search};
@@ -220,9 +220,12 @@ fn held_fast(
             finding.open = None;
             finding.level = CertificateLevel::Numeric;
             finding.certificate = certificate(part);
+            // Of equations whose rank is open, joints that move to first order are not known to be locked.
+            let holds = stated.parts[part.index].as_written == Some(0);
             for &joint in &stated.structure.parts[part.index].joints {
+                let moves = mechanism.joints()[joint].freedom() > 0;
                 stated.roles[joint] = JointRole {
-                    locked: (mechanism.joints()[joint].freedom() > 0).then_some(true),
+                    locked: (holds && moves).then_some(true),
                     ..JointRole::default()
                 };
             }
@@ -253,8 +256,8 @@ fn certificate(part: &PartMeant) -> String {
         (nearest.misfit * part.length, nearest.at_least)
     });
     format!(
-        "along the motion that the pose allows to first order the loops stay open by up to {open:.1e} m, and to close them some \
-         number has to change by at least {least:.1} times what its digits leave open"
+        "the pose allows one motion at most, and along it the loops stay open by up to {open:.1e} m; to close them along a \
+         motion near it some number has to change, to first order, by at least {least:.1} times what its digits leave open"
     )
 }
 
@@ -369,11 +372,7 @@ fn parts_meant(
         let freedoms = Freedoms {
             known: freedom,
             literal: literal.unwrap_or(0),
-            open_to: if open_to > 0.0 {
-                BEYOND_FIRST_ORDER * open_to
-            } else {
-                1.0
-            },
+            open_to: (open_to > 0.0).then_some(BEYOND_FIRST_ORDER * open_to),
         };
         if (1..=MOST_DIMENSIONS).contains(&dimensions.all.len())
             && let Some(Found {
@@ -424,8 +423,8 @@ struct Freedoms {
     known: Option<usize>,
     /// How many the numbers leave at the pose where they are taken literally.
     literal: usize,
-    /// Singular values above this share of the largest are no rounded zeros.
-    open_to: f64,
+    /// Singular values above this share of the largest are no rounded zeros, where a pose was ranked.
+    open_to: Option<f64>,
 }
 
 /// The nearest dimensions found of one part.
@@ -435,7 +434,7 @@ struct Found {
     freedom: usize,
     /// The part's length (m).
     length: f64,
-    /// Whether all numbers of freedoms that are possible were searched, and none of them is within the digits.
+    /// Whether the pose allows one motion at most, and no numbers within the digits let it go through.
     excluded: bool,
 }
 
@@ -454,16 +453,19 @@ fn nearest_of_part(
     if matrix.columns() > DENSE_COLUMNS {
         return Ok(None);
     }
+    let values = relative_singular_values(&matrix)?.unwrap_or_default();
+    let noise = dimensions.noise(here.length);
     let freedoms = match known.known {
         Some(freedom) => vec![freedom],
         None => {
             let most = most_by_joints(mechanism, part);
-            by_gap(&matrix, dimensions.noise(here.length), &known, most)?
+            by_gap(&values, matrix.columns(), noise, &known, most)
         }
     };
+    let regular = has_one_direction(&values, matrix.columns(), noise, &known);
     let metric = Metric::of(mechanism, &here, &scales);
     let mut best: Option<(Nearest, usize)> = None;
-    let mut excluded = freedoms.len() <= TRIES;
+    let mut excluded = regular && freedoms == [1];
     for freedom in freedoms.into_iter().take(TRIES) {
         let mut search = Search {
             loops: Loops {
@@ -501,25 +503,28 @@ fn nearest_of_part(
     }))
 }
 
+/// Whether the equations leave one direction at most, whatever the digits stand for: then each mechanism within them that moves
+/// does so along this one, and passes the pose regularly. Where there are several, a motion may leave the pose along any curve
+/// among them, and that none of the dimensions searched closes says nothing of it.
+fn has_one_direction(values: &[f64], columns: usize, noise: f64, known: &Freedoms) -> bool {
+    let open_to = known.open_to.unwrap_or(BEYOND_FIRST_ORDER * noise);
+    let clear = values.iter().filter(|value| **value > open_to).count();
+    clear + 1 >= columns
+}
+
 /// The possible numbers of freedoms, from the literal one up to `most`; those with the widest gap in the singular values first.
 /// `noise` is about what rounding leaves of a zero.
-fn by_gap(
-    matrix: &SparseMatrix<f64>,
-    noise: f64,
-    known: &Freedoms,
-    most: usize,
-) -> Result<Vec<usize>, MatrixError> {
-    let columns = matrix.columns();
-    let values = relative_singular_values(matrix)?.unwrap_or_default();
+fn by_gap(values: &[f64], columns: usize, noise: f64, known: &Freedoms, most: usize) -> Vec<usize> {
     let value = |k: usize| values.get(k).copied().unwrap_or(0.0);
     let gap = |freedom: usize| -> f64 {
         let rank = columns - freedom;
         let kept = if rank == 0 { 1.0 } else { value(rank - 1) };
         kept / value(rank).max(noise)
     };
+    let open = |freedom: &usize| value(columns - freedom) <= known.open_to.unwrap_or(1.0);
     let mut freedoms: Vec<usize> = (known.literal.max(1)..=most.min(columns))
-        .filter(|f| columns - f <= values.len() && value(columns - f) <= known.open_to)
+        .filter(|f| columns - f <= values.len() && open(f))
         .collect();
     freedoms.sort_by(|a, b| gap(*b).total_cmp(&gap(*a)));
-    Ok(freedoms)
+    freedoms
 }
