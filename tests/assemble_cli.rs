@@ -67,6 +67,63 @@ fn what_moves_is_told_with_what_to_hold() {
     assert_eq!(answer["complete"], "proven");
 }
 
+/// The configuration that is drawn.
+fn drawn(answer: &serde_json::Value) -> &serde_json::Value {
+    let solutions = answer["solutions"].as_array().unwrap();
+    solutions.iter().find(|s| s["drawn"] == true).unwrap()
+}
+
+/// Fewer equations than unknowns, and yet a real solution that is isolated.
+#[test]
+fn stretched_linkages_are_not_said_to_move() {
+    for file in [
+        "mechanisms/four_bar_stretched.urdf",
+        "mechanisms/five_bar_stretched.urdf",
+        "mechanisms/spherical_four_bar_stretched.urdf",
+        "mechanisms/four_creases_in_a_corner.urdf",
+        "tests/zoo/planar_4r_stretched_isolated.urdf",
+    ] {
+        let answer = json(&[file]);
+        assert_eq!(answer["complete"], "unknown", "{file}");
+        assert!(answer["moves"].is_null(), "{file}");
+        let why = answer["why"].as_str().unwrap();
+        assert!(why.contains("may be isolated"), "{file}: {why}");
+        let drawn = drawn(&answer);
+        assert_eq!(drawn["finite"], 0, "{file}");
+        assert_eq!(drawn["kind"], "unknown", "{file}");
+    }
+    // The same count of equations where something does move.
+    let answer = json(&["mechanisms/planar_four_bar.urdf", "--free"]);
+    assert_eq!(
+        (&answer["moves"], &drawn(&answer)["finite"]),
+        (&1.into(), &1.into())
+    );
+    assert_eq!(answer["propose"].as_array().unwrap().len(), 1);
+}
+
+/// Some configurations form a curve; the drawn one does not lie on it.
+#[test]
+fn what_moves_elsewhere_is_not_said_of_the_drawn_configuration() {
+    for name in [
+        "sarrus",
+        "miura",
+        "torus_in_tube_isolated",
+        "peaucellier_tilted_slot",
+    ] {
+        let file = format!("mechanisms/{name}.urdf");
+        let answer = json(&[&file]);
+        assert_eq!(answer["moves"], 1, "{name}");
+        assert_eq!(drawn(&answer)["finite"], 0, "{name}");
+        assert!(answer["propose"].as_array().unwrap().is_empty(), "{name}");
+        let output = kutzbach(&["assemble", &file, "--budget", "60"]);
+        let text = String::from_utf8(output.stdout).unwrap();
+        assert!(
+            text.contains("The drawn configuration does not move; others do, with 1 freedom."),
+            "{text}"
+        );
+    }
+}
+
 #[test]
 fn held_joints_have_their_values() {
     let answer = json(&[

@@ -50,7 +50,7 @@ pub(super) fn answer(mechanism: &Mechanism, why_no_tree: &str, budget: &Budget) 
         modes.configurations.push(Configuration {
             joints: Vec::new(),
             poses: geometry.home.into_iter().map(Some).collect(),
-            multiplicity: 1,
+            multiplicity: (moves == 0).then_some(1),
             proven: true,
             finite: Some(moves),
             drawn: true,
@@ -154,7 +154,7 @@ pub(super) fn answer(mechanism: &Mechanism, why_no_tree: &str, budget: &Budget) 
         modes.configurations.push(Configuration {
             joints: Vec::new(),
             poses: poses.into_iter().map(Some).collect(),
-            multiplicity: solution.multiplicity as usize,
+            multiplicity: Some(solution.multiplicity as usize),
             proven: true,
             finite: Some(0),
             drawn: false,

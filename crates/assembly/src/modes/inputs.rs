@@ -44,8 +44,10 @@ pub(super) fn proposed(mechanism: &Mechanism) -> (Vec<(JointId, Number)>, Option
     )
 }
 
-/// Names of freedoms that would have to be held.
-pub(super) fn names(mechanism: &Mechanism) -> Vec<String> {
+/// Names of the freedoms that would have to be held as well, and how many freedoms are left where the mechanism is drawn;
+/// `None` where that is not decided.
+pub(super) fn freedoms_left(mechanism: &Mechanism) -> (Vec<String>, Option<usize>) {
     let name = |(joint, variable): (usize, usize)| mechanism.joints()[joint].freedom_name(variable);
-    freedoms(mechanism).0.into_iter().map(name).collect()
+    let (proposed, finite) = freedoms(mechanism);
+    (proposed.into_iter().map(name).collect(), finite)
 }

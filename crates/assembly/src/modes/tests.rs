@@ -36,7 +36,7 @@ fn double_solutions_and_curves_are_told_as_such() {
     let double = modes_of("tetra_i");
     assert_eq!(double.complete, Complete::Proven);
     assert_eq!(double.configurations.len(), 1);
-    assert_eq!(double.configurations[0].multiplicity, 2);
+    assert_eq!(double.configurations[0].multiplicity, Some(2));
     assert!(double.configurations[0].drawn);
     let question = Question {
         held: Some(Vec::new()),

@@ -26,8 +26,8 @@ fn pose(pose: &Pose) -> Value {
 
 fn kind(configuration: &Configuration) -> &'static str {
     match (configuration.multiplicity, configuration.finite) {
-        (_, None) => "unknown",
-        (1, _) => "regular",
+        (None, _) | (_, None) => "unknown",
+        (Some(1), _) => "regular",
         _ => "singular",
     }
 }
@@ -142,12 +142,7 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
             "{}, and no other, which is proved.",
             count(found, "configuration")
         ),
-        (Complete::Unknown(_), _) if modes.moves.is_some_and(|m| m > 0) => {
-            format!(
-                "It moves: {} left.",
-                count(modes.moves.unwrap_or(0), "freedom")
-            )
-        }
+        (Complete::Unknown(_), _) if modes.moves.is_some_and(|m| m > 0) => moving(modes),
         (Complete::Unknown(_), 0) => "In how many ways it closes is not known.".to_owned(),
         (Complete::Unknown(_), _) => {
             format!(
@@ -191,24 +186,7 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
     }
     way(&mut text, &modes.way);
     for (number, configuration) in modes.configurations.iter().enumerate() {
-        let mut marks = Vec::new();
-        if configuration.drawn {
-            marks.push("drawn".to_owned());
-        }
-        if configuration.multiplicity > 1 {
-            marks.push(format!(
-                "counts {} times: singular",
-                configuration.multiplicity
-            ));
-        }
-        if !configuration.proven {
-            marks.push("consistent, not proven".to_owned());
-        }
-        let marks = if marks.is_empty() {
-            String::new()
-        } else {
-            format!(" ({})", marks.join("; "))
-        };
+        let marks = marks(configuration);
         let _ = writeln!(text, "\nConfiguration {}{marks}", number + 1);
         for (joint, values) in &configuration.joints {
             let Some(values) = values else { continue };
@@ -229,6 +207,50 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
         }
     }
     text
+}
+
+/// The first line where configurations form a set of some dimension, in which the drawn one need not lie.
+fn moving(modes: &Modes) -> String {
+    let most = modes.moves.unwrap_or(0);
+    let drawn = modes.configurations.iter().find(|c| c.drawn);
+    match drawn.map(|c| c.finite) {
+        Some(Some(0)) => format!(
+            "The drawn configuration does not move; others do, with {}.",
+            count(most, "freedom")
+        ),
+        Some(Some(freedom)) => format!("It moves: {} left.", count(freedom, "freedom")),
+        _ => format!(
+            "Some configurations move, with {}; whether the drawn one does is not known.",
+            count(most, "freedom")
+        ),
+    }
+}
+
+/// What is to be said of a configuration in brackets.
+fn marks(configuration: &Configuration) -> String {
+    let mut marks = Vec::new();
+    if configuration.drawn {
+        marks.push("drawn".to_owned());
+    }
+    match configuration.multiplicity {
+        Some(times) if times > 1 => marks.push(format!("counts {times} times: singular")),
+        Some(_) if !configuration.proven => marks.push("consistent, not proven".to_owned()),
+        Some(_) => {}
+        None => {
+            if !configuration.proven {
+                marks.push("closes within rounding".to_owned());
+            }
+            match configuration.finite {
+                Some(0) => marks.push("does not move".to_owned()),
+                Some(freedom) => marks.push(format!("moves with {}", count(freedom, "freedom"))),
+                None => {}
+            }
+        }
+    }
+    match marks.is_empty() {
+        true => String::new(),
+        false => format!(" ({})", marks.join("; ")),
+    }
 }
 
 fn way(text: &mut String, way: &Way) {
