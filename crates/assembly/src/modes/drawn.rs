@@ -6,7 +6,8 @@ use kutzbach_model::mechanism::Mechanism;
 
 /// Part of a mechanism's size that two poses of one configuration may differ: the drawn one is closed in doubles.
 const SAME: f64 = 1e-6;
-/// The same for singular ones: an error of e in the equations moves a double solution by √e.
+/// The same for singular ones, since an error of e in the equations moves a double solution by √e, and for unproven ones, which
+/// may be those of rounded numbers.
 const SAME_SINGULAR: f64 = 1e-3;
 
 /// Says of an answer what is known of the drawn configuration. An answer that is not complete lists it where it closes, with
@@ -63,10 +64,10 @@ fn mark(modes: &mut Modes, drawn: Option<&Drawn>) {
         .map(|c| (apart(c), c))
         .min_by(|a, b| a.0.total_cmp(&b.0));
     if let Some((distance, configuration)) = nearest {
-        let same = if configuration.multiplicity.is_some_and(|times| times > 1) {
-            SAME_SINGULAR
-        } else {
-            SAME
+        let singular = configuration.multiplicity.is_some_and(|times| times > 1);
+        let same = match singular || !configuration.proven {
+            true => SAME_SINGULAR,
+            false => SAME,
         };
         if distance <= same {
             configuration.drawn = true;

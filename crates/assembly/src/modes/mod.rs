@@ -14,6 +14,7 @@ mod drawn;
 mod exact;
 mod inputs;
 mod place;
+mod rounded;
 
 pub use place::Pose;
 
@@ -138,7 +139,10 @@ pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Mode
         None => inputs::proposed(mechanism),
     };
     let fixed = mechanism.with_joints_held(&held)?;
-    let drawn = place::drawn_poses(&fixed);
+    let place::Start {
+        drawn,
+        never_closes,
+    } = place::start(&fixed);
     // What finding the inputs took is part of the budget.
     let mut limits = question.limits.clone();
     limits.time = limits.time.map(|t| t.saturating_sub(began.elapsed()));
@@ -147,6 +151,8 @@ pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Mode
         by_tree::Outcome::Modes(modes) => *modes,
         by_tree::Outcome::NotByTree(why) => by_polynomials::answer(&fixed, &why, &budget),
     };
+    let square = is_square(&modes.way);
+    rounded::doubt(&mut modes, &fixed, square, never_closes);
     modes.held = held;
     modes.freedom = freedom;
     let in_time = budget.left().is_none_or(|left| !left.is_zero());
@@ -157,6 +163,20 @@ pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Mode
             place::joint_values(mechanism, &fixed, &modes.held, &configuration.poses);
     }
     Ok(modes)
+}
+
+/// Whether proven configurations are simple solutions of as many equations as unknowns: what subdivision alone proves. Exact algebra
+/// is asked where that fails.
+fn is_square(way: &Way) -> bool {
+    match way {
+        Way::Tree { exact, .. } => !exact,
+        Way::Polynomials {
+            variables,
+            equations,
+            ..
+        } => equations <= variables,
+        Way::Nothing => true,
+    }
 }
 
 impl Modes {
