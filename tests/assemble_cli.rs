@@ -192,3 +192,18 @@ fn incidence_trees_are_shown_in_every_form() {
     let said = refused(&["graph", "mechanisms/oldham.urdf", "--incidence"]);
     assert!(said.contains("no incidence tree"), "{said}");
 }
+
+/// A planar four-bar and Bennett's loop would be rigid with generic dimensions; nothing is implied of what they are.
+#[test]
+fn incidence_trees_imply_no_bodies_that_move() {
+    for name in ["planar_four_bar", "bennett"] {
+        let file = format!("mechanisms/{name}.urdf");
+        let output = kutzbach(&["graph", &file, "--incidence", "--format", "json"]);
+        let answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(answer["standard"], false, "{name}");
+        let bodies = answer["bodies"].as_array().unwrap();
+        assert_eq!(bodies.len(), 4, "{name}");
+        assert!(bodies.iter().all(|b| b["implied"] == false), "{name}");
+        assert_eq!(answer["tree"]["weight"], 2, "{name}");
+    }
+}
