@@ -138,6 +138,34 @@ fn held_joints_have_their_values() {
     assert_eq!(answer["complete"], "proven");
 }
 
+/// The cosine of 0.5 is not algebraic: a joint is held beside it, and it is said where.
+#[test]
+fn any_angle_can_be_held() {
+    for (name, joint, count) in [
+        ("planar_four_bar", "crank_pivot", 2),
+        ("rssr", "crank_pivot", 2),
+        ("bennett", "hinge_1", 1),
+    ] {
+        let answer = json(&[
+            &format!("mechanisms/{name}.urdf"),
+            "--hold",
+            &format!("{joint}=0.5"),
+        ]);
+        assert_eq!(answer["complete"], "proven", "{name}: {}", answer["why"]);
+        let solutions = answer["solutions"].as_array().unwrap();
+        assert_eq!(solutions.len(), count, "{name}");
+        let [p, q] = answer["held_near"][joint]["half_tangent"]
+            .as_str()
+            .and_then(|fraction| fraction.split_once('/'))
+            .map(|(p, q)| [p, q].map(|x| x.parse::<f64>().unwrap()))
+            .unwrap();
+        assert!((2.0 * (p / q).atan() - 0.5).abs() < 1e-12);
+    }
+    // What has an algebraic cosine is held as it is.
+    let answer = json(&["mechanisms/bennett.urdf", "--hold", "hinge_1=30deg"]);
+    assert!(answer["held_near"].as_object().unwrap().is_empty());
+}
+
 #[test]
 fn the_same_question_has_the_same_bytes() {
     let question = [

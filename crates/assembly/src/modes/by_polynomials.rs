@@ -17,6 +17,7 @@ const SAME: f64 = 1e-12;
 pub(super) fn answer(mechanism: &Mechanism, why_no_tree: &str, budget: &Budget) -> Modes {
     let mut modes = Modes {
         held: Vec::new(),
+        held_near: Vec::new(),
         freedom: None,
         configurations: Vec::new(),
         complete: Complete::Unknown(String::new()),

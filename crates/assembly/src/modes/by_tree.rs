@@ -31,6 +31,7 @@ pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
         Err(Unsuited::Contradiction(mismatch)) if mechanism.precision().is_exact() => {
             return Outcome::Modes(Box::new(Modes {
                 held: Vec::new(),
+                held_near: Vec::new(),
                 freedom: None,
                 configurations: Vec::new(),
                 complete: Complete::Proven,
@@ -55,6 +56,7 @@ pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
     }
     let mut modes = Modes {
         held: Vec::new(),
+        held_near: Vec::new(),
         freedom: None,
         configurations: Vec::new(),
         complete: Complete::Proven,

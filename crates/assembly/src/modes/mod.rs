@@ -12,10 +12,12 @@ mod by_polynomials;
 mod by_tree;
 mod drawn;
 mod exact;
+mod half_turn;
 mod inputs;
 mod place;
 mod rounded;
 
+pub use half_turn::{HalfTurn, WITHIN};
 pub use place::Pose;
 
 use kutzbach_algebra::{Budget, Limits};
@@ -109,6 +111,8 @@ pub struct Configuration {
 pub struct Modes {
     /// The joints held, and where.
     pub held: Vec<(JointId, Number)>,
+    /// Joints that are held within [`WITHIN`] of that value instead: its cosine is not algebraic.
+    pub held_near: Vec<(JointId, HalfTurn)>,
     /// Finite freedoms of the mechanism with nothing held, at the drawn pose; `None` where that was not asked or is not known.
     pub freedom: Option<usize>,
     /// The configurations.
@@ -138,7 +142,8 @@ pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Mode
         Some(held) => (held.clone(), None),
         None => inputs::proposed(mechanism),
     };
-    let fixed = mechanism.with_joints_held(&held)?;
+    let held_near = inputs::held_near(mechanism, &held);
+    let fixed = mechanism.with_joints_held(&inputs::replaced(&held, &held_near))?;
     let place::Start {
         drawn,
         never_closes,
@@ -154,6 +159,7 @@ pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Mode
     let square = is_square(&modes.way);
     rounded::doubt(&mut modes, &fixed, square, never_closes);
     modes.held = held;
+    modes.held_near = held_near;
     modes.freedom = freedom;
     let in_time = budget.left().is_none_or(|left| !left.is_zero());
     drawn::tell(&mut modes, &fixed, drawn.as_ref(), in_time);
@@ -185,6 +191,7 @@ impl Modes {
     pub fn out_of_time(question: &Question) -> Self {
         Self {
             held: question.held.clone().unwrap_or_default(),
+            held_near: Vec::new(),
             freedom: None,
             configurations: Vec::new(),
             complete: Complete::Unknown("the time limit was reached".to_owned()),

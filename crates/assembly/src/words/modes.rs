@@ -1,7 +1,7 @@
 //! Configurations as text and as data.
 
 use super::count;
-use crate::modes::{Complete, Configuration, Modes, Pose, Way};
+use crate::modes::{Complete, Configuration, Modes, Pose, WITHIN, Way};
 use kutzbach_model::mechanism::Mechanism;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
@@ -71,6 +71,15 @@ pub fn data(mechanism: &Mechanism, modes: &Modes) -> Value {
             )
         })
         .collect();
+    let held_near: Map<String, Value> = modes
+        .held_near
+        .iter()
+        .map(|(joint, half)| {
+            let [p, q] = half.tangent;
+            let at = json!({"half_tangent": format!("{p}/{q}"), "within": WITHIN});
+            (mechanism.joint(*joint).name.clone(), at)
+        })
+        .collect();
     let (complete, why) = match &modes.complete {
         Complete::Proven => ("proven", Value::Null),
         Complete::Unknown(why) => ("unknown", json!(why)),
@@ -118,6 +127,7 @@ pub fn data(mechanism: &Mechanism, modes: &Modes) -> Value {
         "mechanism": mechanism.name(),
         "freedom": modes.freedom,
         "held": held,
+        "held_near": held_near,
         "solutions": modes.configurations.iter().map(|c| solution(mechanism, c)).collect::<Vec<_>>(),
         "complete": complete,
         "why": why,
@@ -136,7 +146,12 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
     let found = modes.configurations.len();
     let first = match (&modes.complete, found) {
         (Complete::Proven, 0) => {
-            "It cannot be put together: no configuration exists, which is proved.".to_owned()
+            let held = if modes.held.is_empty() {
+                ""
+            } else {
+                ", held so"
+            };
+            format!("It cannot be put together{held}: no configuration exists, which is proved.")
         }
         (Complete::Proven, _) => format!(
             "{}, and no other, which is proved.",
@@ -183,6 +198,7 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
             .map(|(j, v)| format!("{} = {}", mechanism.joint(*j).name, plain(v.value())))
             .collect();
         let _ = writeln!(text, "\nHeld: {}", held.join(", "));
+        held_near(&mut text, mechanism, modes);
     }
     way(&mut text, &modes.way);
     for (number, configuration) in modes.configurations.iter().enumerate() {
@@ -207,6 +223,18 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
         }
     }
     text
+}
+
+/// Which joints are held beside the angle asked for.
+fn held_near(text: &mut String, mechanism: &Mechanism, modes: &Modes) {
+    for (joint, half) in &modes.held_near {
+        let [p, q] = half.tangent;
+        let _ = writeln!(
+            text,
+            "  {} at 2 atan({p}/{q}), which is within {WITHIN:e} rad of it: cosine and sine are then fractions",
+            mechanism.joint(*joint).name
+        );
+    }
 }
 
 /// The first line where configurations form a set of some dimension, in which the drawn one need not lie.
