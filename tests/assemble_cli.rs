@@ -235,3 +235,22 @@ fn incidence_trees_imply_no_bodies_that_move() {
         assert_eq!(answer["tree"]["weight"], 2, "{name}");
     }
 }
+
+/// The equations of the loops hold √√2 as a variable: solutions with −√√2 belong to no pose.
+#[test]
+fn the_loops_have_as_many_solutions_as_the_tree() {
+    let output = kutzbach(&[
+        "exact",
+        "mechanisms/quad_16_17_18_19.urdf",
+        "--time",
+        "60",
+        "--format",
+        "json",
+    ]);
+    let answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let solutions = &answer["solutions"];
+    assert_eq!(solutions["complex"], 64);
+    assert_eq!(solutions["conjugates_of"].as_array().unwrap().len(), 2);
+    assert_eq!(solutions["real"].as_array().unwrap().len(), 8);
+    assert_eq!(answer["pieces"][0]["real_points"], 8);
+}
