@@ -254,3 +254,36 @@ fn the_loops_have_as_many_solutions_as_the_tree() {
     assert_eq!(solutions["real"].as_array().unwrap().len(), 8);
     assert_eq!(answer["pieces"][0]["real_points"], 8);
 }
+
+fn text(file: &str) -> String {
+    let output = kutzbach(&["assemble", file, "--budget", "60"]);
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// A platform on six bars has no joint values to show; where it is tells the configurations apart.
+#[test]
+fn links_on_bars_alone_are_shown_by_their_place() {
+    let text = text("mechanisms/hexapod_quarter_turn.urdf");
+    let places: Vec<&str> = text.lines().filter(|l| l.contains("turned by")).collect();
+    assert_eq!(places.len(), 2, "{text}");
+    assert!(
+        places.iter().all(|l| l.trim().starts_with("platform")),
+        "{text}"
+    );
+    assert_ne!(places[0], places[1], "{text}");
+}
+
+#[test]
+fn rods_that_spin_are_named() {
+    let answer = json(&["mechanisms/rssr.urdf"]);
+    assert_eq!(answer["spinning"][0], "rod");
+    let text = text("mechanisms/rssr.urdf");
+    assert!(
+        text.contains(
+            "At any angle about the line through its two balls, in every configuration: rod."
+        ),
+        "{text}"
+    );
+    let answer = json(&["mechanisms/planar_four_bar.urdf"]);
+    assert!(answer["spinning"].as_array().unwrap().is_empty());
+}

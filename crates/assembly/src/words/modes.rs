@@ -2,7 +2,7 @@
 
 use super::count;
 use crate::modes::{Complete, Configuration, Modes, Pose, WITHIN, Way};
-use kutzbach_model::mechanism::Mechanism;
+use kutzbach_model::mechanism::{Joint, JointKind, Mechanism};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
@@ -56,6 +56,19 @@ fn solution(mechanism: &Mechanism, configuration: &Configuration) -> Value {
         "proven": configuration.proven,
         "drawn": configuration.drawn,
     })
+}
+
+/// Links that have no definite pose: rods that spin about themselves between two balls, one freedom each.
+fn spinning<'a>(mechanism: &'a Mechanism, modes: &Modes) -> Vec<&'a str> {
+    let spins = |index: usize| {
+        let poses = modes.configurations.iter().map(|c| c.poses.get(index));
+        poses.flatten().any(Option::is_none)
+    };
+    let links = mechanism.links().iter().enumerate();
+    links
+        .filter(|(index, _)| spins(*index))
+        .map(|(_, link)| link.name.as_str())
+        .collect()
 }
 
 /// Everything, for a program.
@@ -133,6 +146,7 @@ pub fn data(mechanism: &Mechanism, modes: &Modes) -> Value {
         "why": why,
         "moves": modes.moves,
         "propose": modes.proposed,
+        "spinning": spinning(mechanism, modes),
         "contradiction": modes.contradiction,
         "open": modes.open,
         "system": system,
@@ -192,6 +206,14 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
             modes.proposed.join(", ")
         );
     }
+    let spinning = spinning(mechanism, modes);
+    if !spinning.is_empty() {
+        let _ = writeln!(
+            text,
+            "  • At any angle about the line through its two balls, in every configuration: {}.",
+            spinning.join(", ")
+        );
+    }
     if !modes.held.is_empty() {
         let held = modes.held.iter();
         let held: Vec<String> = held
@@ -204,23 +226,8 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
     for (number, configuration) in modes.configurations.iter().enumerate() {
         let marks = marks(configuration);
         let _ = writeln!(text, "\nConfiguration {}{marks}", number + 1);
-        for (joint, values) in &configuration.joints {
-            let Some(values) = values else { continue };
-            // A bar has no variables that anybody would set.
-            if values.len() > 4 {
-                continue;
-            }
-            let shown: Vec<String> = values
-                .iter()
-                .map(|v| format!("{:9.5}", (v * 1e5).round() / 1e5 + 0.0))
-                .collect();
-            let _ = writeln!(
-                text,
-                "  {:<20} {}",
-                mechanism.joint(*joint).name,
-                shown.join(" ")
-            );
-        }
+        joint_lines(&mut text, mechanism, configuration);
+        link_lines(&mut text, mechanism, configuration);
     }
     text
 }
@@ -251,6 +258,56 @@ fn moving(modes: &Modes) -> String {
             "Some configurations move, with {}; whether the drawn one does is not known.",
             count(most, "freedom")
         ),
+    }
+}
+
+/// A bar has no variables that anybody would set.
+fn is_shown(joint: &Joint) -> bool {
+    joint.freedom() > 0 && joint.kind != JointKind::Distance
+}
+
+/// Numbers (m, rad) in columns.
+fn columns(values: &[f64]) -> String {
+    let shown: Vec<String> = values
+        .iter()
+        .map(|v| format!("{:9.5}", (v * 1e5).round() / 1e5 + 0.0))
+        .collect();
+    shown.join(" ")
+}
+
+fn joint_lines(text: &mut String, mechanism: &Mechanism, configuration: &Configuration) {
+    for (joint, values) in &configuration.joints {
+        let joint = mechanism.joint(*joint);
+        if let Some(values) = values.as_ref().filter(|_| is_shown(joint)) {
+            let _ = writeln!(text, "  {:<20} {}", joint.name, columns(values));
+        }
+    }
+}
+
+/// Links that bars alone hold have no joint values that would tell where they are.
+fn link_lines(text: &mut String, mechanism: &Mechanism, configuration: &Configuration) {
+    for (index, (link, pose)) in mechanism
+        .links()
+        .iter()
+        .zip(&configuration.poses)
+        .enumerate()
+    {
+        let touches = |joint: &&Joint| {
+            [&joint.predecessor, &joint.successor]
+                .iter()
+                .any(|side| side.link.0 == index)
+        };
+        let mut own = mechanism.joints().iter().filter(touches).peekable();
+        let by_bars = own.peek().is_some() && own.all(|j| j.kind == JointKind::Distance);
+        if let (Some(pose), true) = (pose, by_bars && index != mechanism.ground().0) {
+            let _ = writeln!(
+                text,
+                "  {:<20} at {}, turned by {}",
+                link.name,
+                columns(&pose.translation),
+                columns(&pose.rotation_vector())
+            );
+        }
     }
 }
 
