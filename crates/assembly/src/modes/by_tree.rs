@@ -1,9 +1,9 @@
 //! Configurations by the equations of an incidence tree.
 
 use super::exact::{Exact, decide};
-use super::{Complete, Configuration, Modes, Way, place};
+use super::{Complete, Configuration, Modes, Way, place, rounded};
 use crate::placed::{Placed, Unsuited};
-use crate::real::real_solutions;
+use crate::real::{real_solutions, stays};
 use crate::reduced::ReducedSystem;
 use crate::words::count;
 use kutzbach_algebra::{Budget, Limits};
@@ -11,7 +11,8 @@ use kutzbach_model::mechanism::Mechanism;
 
 /// What came of it.
 pub(super) enum Outcome {
-    Modes(Box<Modes>),
+    /// An answer, and whether it stays what it is with all digits that rounding left out.
+    Modes(Box<Modes>, bool),
     /// Why the tree cannot say.
     NotByTree(String),
 }
@@ -29,18 +30,21 @@ pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
     let placed = match Placed::of(mechanism) {
         Ok(placed) => placed,
         Err(Unsuited::Contradiction(mismatch)) if mechanism.precision().is_exact() => {
-            return Outcome::Modes(Box::new(Modes {
-                held: Vec::new(),
-                held_near: Vec::new(),
-                freedom: None,
-                configurations: Vec::new(),
-                complete: Complete::Proven,
-                moves: Some(0),
-                proposed: Vec::new(),
-                contradiction: Some(mismatch.to_string()),
-                way: Way::Nothing,
-                open: 0,
-            }));
+            return Outcome::Modes(
+                Box::new(Modes {
+                    held: Vec::new(),
+                    held_near: Vec::new(),
+                    freedom: None,
+                    configurations: Vec::new(),
+                    complete: Complete::Proven,
+                    moves: Some(0),
+                    proposed: Vec::new(),
+                    contradiction: Some(mismatch.to_string()),
+                    way: Way::Nothing,
+                    open: 0,
+                }),
+                false,
+            );
         }
         Err(why) => return Outcome::NotByTree(why.to_string()),
     };
@@ -67,13 +71,13 @@ pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
         open: 0,
     };
     if system.impossible.is_some() {
-        return Outcome::Modes(Box::new(modes));
+        return Outcome::Modes(Box::new(modes), false);
     }
     if system.closures.len() < system.freedom() {
         modes.moves = None;
         modes.complete =
             Complete::Unknown(too_few_equations(system.closures.len(), system.freedom()));
-        return Outcome::Modes(Box::new(modes));
+        return Outcome::Modes(Box::new(modes), false);
     }
     let part = Budget::new(Limits {
         time: budget.left().map(|t| t.mul_f64(SHARE)),
@@ -112,7 +116,9 @@ pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
         );
     }
     if found.is_complete() {
-        return Outcome::Modes(Box::new(modes));
+        let exact = mechanism.precision().is_exact();
+        let stays = !exact && stays(&system, &found, rounded::share(mechanism), &part);
+        return Outcome::Modes(Box::new(modes), stays);
     }
     match decide(&system, budget) {
         Ok(Exact::Finite(all)) => {
@@ -151,7 +157,7 @@ pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
             });
         }
     }
-    Outcome::Modes(Box::new(modes))
+    Outcome::Modes(Box::new(modes), false)
 }
 
 /// A real solution lies on a motion where the equations have independent derivatives. Only over the complex numbers does every

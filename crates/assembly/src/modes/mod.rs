@@ -152,12 +152,11 @@ pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Mode
     let mut limits = question.limits.clone();
     limits.time = limits.time.map(|t| t.saturating_sub(began.elapsed()));
     let budget = Budget::new(limits);
-    let mut modes = match by_tree::answer(&fixed, &budget) {
-        by_tree::Outcome::Modes(modes) => *modes,
-        by_tree::Outcome::NotByTree(why) => by_polynomials::answer(&fixed, &why, &budget),
+    let (mut modes, stays) = match by_tree::answer(&fixed, &budget) {
+        by_tree::Outcome::Modes(modes, stays) => (*modes, stays),
+        by_tree::Outcome::NotByTree(why) => (by_polynomials::answer(&fixed, &why, &budget), false),
     };
-    let square = is_square(&modes.way);
-    rounded::doubt(&mut modes, &fixed, square, never_closes);
+    rounded::doubt(&mut modes, &fixed, stays, never_closes);
     modes.held = held;
     modes.held_near = held_near;
     modes.freedom = freedom;
@@ -169,20 +168,6 @@ pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Mode
             place::joint_values(mechanism, &fixed, &modes.held, &configuration.poses);
     }
     Ok(modes)
-}
-
-/// Whether proven configurations are simple solutions of as many equations as unknowns: what subdivision alone proves. Exact algebra
-/// is asked where that fails.
-fn is_square(way: &Way) -> bool {
-    match way {
-        Way::Tree { exact, .. } => !exact,
-        Way::Polynomials {
-            variables,
-            equations,
-            ..
-        } => equations <= variables,
-        Way::Nothing => true,
-    }
 }
 
 impl Modes {

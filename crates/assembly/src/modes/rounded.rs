@@ -1,35 +1,42 @@
 //! What rounded numbers leave of a proof.
 //!
 //! A proof holds for the numbers as written. Simple solutions of as many equations as unknowns stay when these move a little, and so
-//! does their number. Solutions that count several times, and those of more equations than unknowns, need not: the mechanism
-//! meant, whose numbers differ from those written by what was rounded, may close in more ways, or in fewer.
+//! does their number, which is asked by a second search for all coefficients within what rounding left out. Solutions that count
+//! several times, and those of more equations than unknowns, need not stay: the mechanism meant may close in more ways, or in fewer.
 
-use super::{Complete, Modes};
+use super::{Complete, Modes, Way};
+use kutzbach_closure::{Arithmetic, Geometry};
 use kutzbach_model::mechanism::Mechanism;
 
-/// Withdraws the proof of an answer to rounded numbers that other digits may change. `square`: all configurations are known to
-/// be simple solutions of as many equations as unknowns. `never_closes`: the usual assembly has shown, with the digits in mind,
-/// that nothing closes.
-pub(super) fn doubt(modes: &mut Modes, mechanism: &Mechanism, square: bool, never_closes: bool) {
-    if mechanism.precision().is_exact() || modes.complete != Complete::Proven {
+/// The share of a coefficient by which rounding may have moved it: what is unknown of all lengths, in parts of the mechanism's
+/// size, and of all angles. To first order, and without the levers of points close together; the search for it takes every
+/// coefficient to be off by that share of the largest, and all in the worst direction.
+pub(super) fn share(mechanism: &Mechanism) -> f64 {
+    let geometry = Geometry::new(mechanism, None, &Arithmetic::double());
+    let all = geometry.uncertainties.iter();
+    all.map(|u| u.lengths / geometry.size + u.angles).sum()
+}
+
+/// Withdraws the proof of an answer to rounded numbers that other digits may change. `stays`: it is known to be the same with
+/// these. `never_closes`: the usual assembly has shown, with the digits in mind, that nothing closes.
+pub(super) fn doubt(modes: &mut Modes, mechanism: &Mechanism, stays: bool, never_closes: bool) {
+    let exact = mechanism.precision().is_exact();
+    if exact || stays || modes.complete != Complete::Proven {
         return;
     }
     let singular = |times: usize| times > 1;
+    let mut multiplicities = modes.configurations.iter().map(|c| c.multiplicity);
     let why = if modes.configurations.is_empty() {
         if never_closes {
             return;
         }
         "nothing closes as they are written"
-    } else if modes
-        .configurations
-        .iter()
-        .any(|c| c.multiplicity.is_some_and(singular))
-    {
-        "a configuration counts several times"
-    } else if square {
+    } else if modes.way == Way::Nothing {
         return;
+    } else if multiplicities.any(|times| times.is_some_and(singular)) {
+        "a configuration counts several times"
     } else {
-        "there are more equations than unknowns, or configurations hardly apart"
+        "there are more equations than unknowns, or a configuration is too nearly singular for these digits"
     };
     modes.complete = Complete::Unknown(format!(
         "the numbers are rounded, and with the digits that are not written there may be more configurations or fewer: {why}"

@@ -90,7 +90,7 @@ pub fn real_solutions(system: &ReducedSystem, budget: &Budget) -> RealSolutions 
     }
     let charts = chart::charts(system);
     let scales = chart::scales(system);
-    let found = search::search(system, &charts, budget);
+    let found = search::search(system, &charts, 0.0, budget);
     let middle = |sides: &[Interval]| sides.iter().map(|s| s.middle()).collect::<Vec<f64>>();
     let at = |index: usize, sides: &[Interval]| {
         chart::unknowns_at(system, &scales, &charts[index], &middle(sides))
@@ -126,6 +126,17 @@ pub fn real_solutions(system: &ReducedSystem, budget: &Budget) -> RealSolutions 
         stopped: found.stopped,
         crowded: found.crowded,
     }
+}
+
+/// Whether a complete answer has as many solutions, near those, for all equations of which every coefficient is within a share of
+/// the largest one.
+#[must_use]
+pub fn stays(system: &ReducedSystem, answer: &RealSolutions, share: f64, budget: &Budget) -> bool {
+    if !answer.is_complete() || system.freedom() == 0 || !share.is_finite() {
+        return false;
+    }
+    let found = search::search(system, &chart::charts(system), share, budget);
+    found.open.is_empty() && found.stopped.is_none() && found.proven.len() == answer.roots.len()
 }
 
 /// An enclosure narrower than this holds one solution at which the other equations can be told from far off.

@@ -55,16 +55,24 @@ pub(super) struct Found {
 /// Boxes left open after which a search ends: isolated solutions leave a few each, curves thousands.
 const MOST_OPEN: usize = 600;
 
-/// Searches all boxes of all charts.
-pub(super) fn search(system: &ReducedSystem, charts: &[Chart], budget: &Budget) -> Found {
+/// Searches all boxes of all charts. What is found holds for all equations whose coefficients are within a share of the largest
+/// one of those given.
+pub(super) fn search(
+    system: &ReducedSystem,
+    charts: &[Chart],
+    share: f64,
+    budget: &Budget,
+) -> Found {
     let scales = chart::scales(system);
     let count = system.freedom();
     let mut found = Found::default();
     for (index, chart) in charts.iter().enumerate() {
+        let mut tensors = chart::tensors(system, &scales, chart);
+        tensors.iter_mut().for_each(|tensor| tensor.widen(share));
         let mut waiting = vec![Cell {
             chart: index,
             sides: vec![Interval::new(-REACH, REACH); count],
-            tensors: chart::tensors(system, &scales, chart),
+            tensors,
         }];
         while let Some(cell) = waiting.pop() {
             found.boxes += 1;

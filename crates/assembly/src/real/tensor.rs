@@ -35,6 +35,11 @@ impl Tensor {
         )
     }
 
+    /// Lets every coefficient be off by a share of the largest one.
+    pub(super) fn widen(&mut self, share: f64) {
+        self.radius = (self.radius + share * self.largest()).next_up();
+    }
+
     fn largest(&self) -> f64 {
         self.coefficients.iter().fold(0.0, |m, c| c.abs().max(m))
     }

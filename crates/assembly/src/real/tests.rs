@@ -98,3 +98,12 @@ fn a_budget_that_ends_claims_nothing() {
     let found = real_solutions(&system, &budget);
     assert!(!found.is_complete() && found.stopped.is_some() && !found.open.is_empty());
 }
+
+/// An answer holds for coefficients a little off, and is given up where these might make solutions meet.
+#[test]
+fn simple_solutions_stay_when_coefficients_change_a_little() {
+    let (system, found) = solved("tetra_iii");
+    let budget = Budget::unlimited();
+    assert!(stays(&system, &found, 1e-6, &budget));
+    assert!(!stays(&system, &found, 1e-2, &budget));
+}
