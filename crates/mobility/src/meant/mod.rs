@@ -158,6 +158,11 @@ pub(super) fn completed(
     if parts.is_empty() {
         return Ok(stated);
     }
+    if parts.iter().all(|part| part.nearest.is_some()) {
+        let all: Vec<&PartMeant> = parts.iter().collect();
+        let nearest = Meant::of(mechanism, &all);
+        stated.nearest = (!nearest.changes.is_empty()).then(|| Box::new(nearest));
+    }
     if open && parts.iter().all(|part| part.excluded) {
         return Ok(held_fast(mechanism, configuration, stated, &parts));
     }
@@ -198,6 +203,7 @@ pub(super) fn completed(
     }
     analysis.mobility.nominal = Some(nominal(&all, finite));
     analysis.mobility.as_written = Some(as_written);
+    analysis.nearest = Some(Box::new(meant.clone()));
     analysis.meant = Some(Box::new(meant));
     Ok(analysis)
 }
