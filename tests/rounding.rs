@@ -13,7 +13,7 @@ use crate::support;
 use kutzbach::closure::{Arithmetic, Geometry, Metric, Section};
 use kutzbach::matrix::null_basis;
 use kutzbach::mechanism::Mechanism;
-use kutzbach::mobility::{Analysis, CertificateLevel, Verdict};
+use kutzbach::mobility::{Analysis, CertificateLevel, RelativeMotion, Verdict};
 use std::sync::OnceLock;
 use support::exported::exported;
 use support::rewrite::Draft;
@@ -415,6 +415,19 @@ fn the_nearest_mechanism_moves_when_it_is_read_again() {
             .mechanism;
         let mobility = analysis(&again).mobility;
         assert_eq!((mobility.finite(), mobility.nominal), (Some(1), None));
+    }
+}
+
+/// A plate that was drawn to translate does so in the mechanism meant, exactly, and does not screw with an enormous pitch.
+#[test]
+fn relations_that_were_drawn_are_kept() {
+    for decimals in [2, 3, 4] {
+        let found = analysis(&exported(&special("/sarrus"), decimals, 2));
+        let branch = &found.branches.as_ref().expect("it moves")[0];
+        let translates =
+            |motion: &&RelativeMotion| motion.rotations == Some(0) && motion.freedom == Some(1);
+        let translating = branch.motions.iter().filter(translates).count();
+        assert_eq!(translating, 1, "{decimals} decimals");
     }
 }
 
