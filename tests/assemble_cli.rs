@@ -67,6 +67,63 @@ fn what_moves_is_told_with_what_to_hold() {
     assert_eq!(answer["complete"], "proven");
 }
 
+/// The configuration that is drawn.
+fn drawn(answer: &serde_json::Value) -> &serde_json::Value {
+    let solutions = answer["solutions"].as_array().unwrap();
+    solutions.iter().find(|s| s["drawn"] == true).unwrap()
+}
+
+/// Fewer equations than unknowns, and yet a real solution that is isolated.
+#[test]
+fn stretched_linkages_are_not_said_to_move() {
+    for file in [
+        "mechanisms/four_bar_stretched.urdf",
+        "mechanisms/five_bar_stretched.urdf",
+        "mechanisms/spherical_four_bar_stretched.urdf",
+        "mechanisms/four_creases_in_a_corner.urdf",
+        "tests/zoo/planar_4r_stretched_isolated.urdf",
+    ] {
+        let answer = json(&[file]);
+        assert_eq!(answer["complete"], "unknown", "{file}");
+        assert!(answer["moves"].is_null(), "{file}");
+        let why = answer["why"].as_str().unwrap();
+        assert!(why.contains("may be isolated"), "{file}: {why}");
+        let drawn = drawn(&answer);
+        assert_eq!(drawn["finite"], 0, "{file}");
+        assert_eq!(drawn["kind"], "unknown", "{file}");
+    }
+    // The same count of equations where something does move.
+    let answer = json(&["mechanisms/planar_four_bar.urdf", "--free"]);
+    assert_eq!(
+        (&answer["moves"], &drawn(&answer)["finite"]),
+        (&1.into(), &1.into())
+    );
+    assert_eq!(answer["propose"].as_array().unwrap().len(), 1);
+}
+
+/// Some configurations form a curve; the drawn one does not lie on it.
+#[test]
+fn what_moves_elsewhere_is_not_said_of_the_drawn_configuration() {
+    for name in [
+        "sarrus",
+        "miura",
+        "torus_in_tube_isolated",
+        "peaucellier_tilted_slot",
+    ] {
+        let file = format!("mechanisms/{name}.urdf");
+        let answer = json(&[&file]);
+        assert_eq!(answer["moves"], 1, "{name}");
+        assert_eq!(drawn(&answer)["finite"], 0, "{name}");
+        assert!(answer["propose"].as_array().unwrap().is_empty(), "{name}");
+        let output = kutzbach(&["assemble", &file, "--budget", "60"]);
+        let text = String::from_utf8(output.stdout).unwrap();
+        assert!(
+            text.contains("The drawn configuration does not move; others do, with 1 freedom."),
+            "{text}"
+        );
+    }
+}
+
 #[test]
 fn held_joints_have_their_values() {
     let answer = json(&[
@@ -79,6 +136,34 @@ fn held_joints_have_their_values() {
         assert!((value - std::f64::consts::FRAC_PI_6).abs() < 1e-9);
     }
     assert_eq!(answer["complete"], "proven");
+}
+
+/// The cosine of 0.5 is not algebraic: a joint is held beside it, and it is said where.
+#[test]
+fn any_angle_can_be_held() {
+    for (name, joint, count) in [
+        ("planar_four_bar", "crank_pivot", 2),
+        ("rssr", "crank_pivot", 2),
+        ("bennett", "hinge_1", 1),
+    ] {
+        let answer = json(&[
+            &format!("mechanisms/{name}.urdf"),
+            "--hold",
+            &format!("{joint}=0.5"),
+        ]);
+        assert_eq!(answer["complete"], "proven", "{name}: {}", answer["why"]);
+        let solutions = answer["solutions"].as_array().unwrap();
+        assert_eq!(solutions.len(), count, "{name}");
+        let [p, q] = answer["held_near"][joint]["half_tangent"]
+            .as_str()
+            .and_then(|fraction| fraction.split_once('/'))
+            .map(|(p, q)| [p, q].map(|x| x.parse::<f64>().unwrap()))
+            .unwrap();
+        assert!((2.0 * (p / q).atan() - 0.5).abs() < 1e-12);
+    }
+    // What has an algebraic cosine is held as it is.
+    let answer = json(&["mechanisms/bennett.urdf", "--hold", "hinge_1=30deg"]);
+    assert!(answer["held_near"].as_object().unwrap().is_empty());
 }
 
 #[test]
@@ -134,4 +219,71 @@ fn incidence_trees_are_shown_in_every_form() {
     assert!(show("svg").contains("<svg"));
     let said = refused(&["graph", "mechanisms/oldham.urdf", "--incidence"]);
     assert!(said.contains("no incidence tree"), "{said}");
+}
+
+/// A planar four-bar and Bennett's loop would be rigid with generic dimensions; nothing is implied of what they are.
+#[test]
+fn incidence_trees_imply_no_bodies_that_move() {
+    for name in ["planar_four_bar", "bennett"] {
+        let file = format!("mechanisms/{name}.urdf");
+        let output = kutzbach(&["graph", &file, "--incidence", "--format", "json"]);
+        let answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(answer["standard"], false, "{name}");
+        let bodies = answer["bodies"].as_array().unwrap();
+        assert_eq!(bodies.len(), 4, "{name}");
+        assert!(bodies.iter().all(|b| b["implied"] == false), "{name}");
+        assert_eq!(answer["tree"]["weight"], 2, "{name}");
+    }
+}
+
+/// The equations of the loops hold √√2 as a variable: solutions with −√√2 belong to no pose.
+#[test]
+fn the_loops_have_as_many_solutions_as_the_tree() {
+    let output = kutzbach(&[
+        "exact",
+        "mechanisms/quad_16_17_18_19.urdf",
+        "--time",
+        "60",
+        "--format",
+        "json",
+    ]);
+    let answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let solutions = &answer["solutions"];
+    assert_eq!(solutions["complex"], 64);
+    assert_eq!(solutions["conjugates_of"].as_array().unwrap().len(), 2);
+    assert_eq!(solutions["real"].as_array().unwrap().len(), 8);
+    assert_eq!(answer["pieces"][0]["real_points"], 8);
+}
+
+fn text(file: &str) -> String {
+    let output = kutzbach(&["assemble", file, "--budget", "60"]);
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// A platform on six bars has no joint values to show; where it is tells the configurations apart.
+#[test]
+fn links_on_bars_alone_are_shown_by_their_place() {
+    let text = text("mechanisms/hexapod_quarter_turn.urdf");
+    let places: Vec<&str> = text.lines().filter(|l| l.contains("turned by")).collect();
+    assert_eq!(places.len(), 2, "{text}");
+    assert!(
+        places.iter().all(|l| l.trim().starts_with("platform")),
+        "{text}"
+    );
+    assert_ne!(places[0], places[1], "{text}");
+}
+
+#[test]
+fn rods_that_spin_are_named() {
+    let answer = json(&["mechanisms/rssr.urdf"]);
+    assert_eq!(answer["spinning"][0], "rod");
+    let text = text("mechanisms/rssr.urdf");
+    assert!(
+        text.contains(
+            "At any angle about the line through its two balls, in every configuration: rod."
+        ),
+        "{text}"
+    );
+    let answer = json(&["mechanisms/planar_four_bar.urdf"]);
+    assert!(answer["spinning"].as_array().unwrap().is_empty());
 }

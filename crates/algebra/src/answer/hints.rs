@@ -1,7 +1,8 @@
 //! What the meaning of variables tells the decomposition of a solution set.
 
 use crate::{
-    AlgebraicNumber, Budget, Hints, Meaning, PolynomialSystem, Rational, Stop, Univariate,
+    AlgebraicNumber, Budget, Hints, Meaning, Polynomial, PolynomialSystem, Rational, Stop,
+    Univariate,
 };
 use kutzbach_math::number::Number;
 
@@ -27,7 +28,7 @@ pub(super) fn hints(system: &PolynomialSystem, budget: &Budget) -> Result<Hints,
                 }
             }
             Meaning::Algebraic { value } => {
-                if let Some(number) = isolated(system, index, value, budget)? {
+                if let Some(number) = isolated(system, index, value, &hints.numbers, budget)? {
                     hints.numbers.push(number);
                 }
             }
@@ -37,20 +38,23 @@ pub(super) fn hints(system: &PolynomialSystem, budget: &Budget) -> Result<Hints,
     Ok(hints)
 }
 
-/// The interval of an algebraic number that no conjugate shares; `None` where its equation holds other variables too.
+/// The interval of an algebraic number that no conjugate shares; `None` where its equation holds variables that may have several
+/// values, such as parameters.
 fn isolated(
     system: &PolynomialSystem,
     variable: usize,
     value: &Number,
+    known: &[AlgebraicNumber],
     budget: &Budget,
 ) -> Result<Option<AlgebraicNumber>, Stop> {
     let equation = system.equations.iter().find(
         |e| matches!(e.origin, crate::Origin::MinimalPolynomial { variable: v } if v == variable),
     );
-    let Some(univariate) =
-        equation.and_then(|e| Univariate::from_polynomial(&e.polynomial, variable))
-    else {
+    let Some(equation) = equation.map(|e| &e.polynomial) else {
         return Ok(None);
+    };
+    let Some(univariate) = Univariate::from_polynomial(equation, variable) else {
+        return Ok(above(equation, variable, value, known));
     };
     let Some(near) = Rational::from_float(value.value()) else {
         return Ok(None);
@@ -72,4 +76,27 @@ fn isolated(
         low: root.low,
         high: root.high,
     }))
+}
+
+/// The interval of a root of other algebraic numbers, such as √√2. With these in their intervals its equation says what a power
+/// of it is, so that only its opposite is real besides.
+fn above(
+    equation: &Polynomial,
+    variable: usize,
+    value: &Number,
+    known: &[AlgebraicNumber],
+) -> Option<AlgebraicNumber> {
+    /// Far above the rounding of a double, far below the number itself.
+    const MARGIN: f64 = 1.0 / (1u64 << 40) as f64;
+    let settled = |v: usize| v == variable || known.iter().any(|number| number.variable == v);
+    if (0..equation.variables()).any(|v| equation.mentions(v) && !settled(v)) {
+        return None;
+    }
+    let value = value.value();
+    let margin = value.abs() * MARGIN;
+    Some(AlgebraicNumber {
+        variable,
+        low: Rational::from_float(value - margin)?,
+        high: Rational::from_float(value + margin)?,
+    })
 }

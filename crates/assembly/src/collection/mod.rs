@@ -15,7 +15,7 @@ pub(crate) mod samples;
 mod standard;
 
 pub use rigid::rigid_sets;
-pub use standard::{Origin, Standard, standard};
+pub use standard::{Origin, Standard, standard, with_triangles};
 
 use thiserror::Error;
 

@@ -33,6 +33,20 @@ impl Standard {
         self.swallowed.is_empty() && self.origins.iter().all(|o| matches!(o, Origin::Given(_)))
     }
 
+    /// Whether rigidity at generic dimensions can be that of the bodies given. It is not where two of the sets share three points,
+    /// and so would be one, or where more distances than it takes hold a set together: what closes all the same has special
+    /// dimensions, and may move.
+    #[must_use]
+    pub fn holds(&self, given: &Collection) -> bool {
+        let bodies = self.collection.bodies();
+        let apart = |i: usize| (0..i).all(|j| self.collection.shared(i, j).len() < 3);
+        let implied = self.implied();
+        (0..bodies.len()).all(apart)
+            && implied
+                .iter()
+                .all(|&i| !is_overdetermined(given, &bodies[i].points))
+    }
+
     /// Indices of the bodies that the given ones imply.
     #[must_use]
     pub fn implied(&self) -> Vec<usize> {
@@ -110,6 +124,51 @@ pub fn standard(given: &Collection) -> Standard {
     }
 }
 
+/// The bodies given, and of what they imply the triangles: their sides are known, so that they are no riddle of their own, and
+/// they are rigid at any dimensions.
+#[must_use]
+pub fn with_triangles(given: &Collection) -> Collection {
+    let whole = standard(given);
+    let mut bodies: Vec<Body> = given.bodies().to_vec();
+    let origins = whole.collection.bodies().iter().zip(&whole.origins);
+    for (body, origin) in origins {
+        if matches!(origin, Origin::Implied(_)) && body.points.len() == 3 {
+            bodies.push(body.clone());
+        }
+    }
+    given.with_bodies(bodies)
+}
+
+/// Whether the bodies and bars given state more distances among some points than a rigid set of so many needs. A body of m
+/// points states 3 m − 6 of them; one that several bodies state counts once.
+fn is_overdetermined(given: &Collection, points: &[usize]) -> bool {
+    let within = |p: &usize| points.contains(p);
+    let bodies = given.bodies().iter();
+    let parts: Vec<Vec<usize>> = bodies
+        .map(|body| body.points.iter().copied().filter(within).collect())
+        .filter(|part: &Vec<usize>| part.len() > 1)
+        .collect();
+    let own = |part: &Vec<usize>| match part.len() {
+        2 => 1,
+        m => 3 * m - 6,
+    };
+    let bars = given
+        .bars()
+        .iter()
+        .filter(|bar| bar.ends.iter().all(within));
+    let stated = parts.iter().map(own).sum::<usize>() + bars.count();
+    let mut twice = 0;
+    for (i, p) in points.iter().enumerate() {
+        for q in &points[..i] {
+            let holders = parts
+                .iter()
+                .filter(|part| part.contains(p) && part.contains(q));
+            twice += holders.count().saturating_sub(1);
+        }
+    }
+    stated > 3 * points.len() - 6 + twice
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::samples::{self, names};
@@ -152,6 +211,29 @@ mod tests {
         let mut expected = samples::tetra();
         expected.sort();
         assert_eq!(found, expected);
+    }
+
+    /// A ring of four hinges: with generic dimensions it would be rigid twice over.
+    #[test]
+    fn what_moves_by_special_dimensions_has_no_standard_collection() {
+        let ring = samples::collection(
+            &[
+                ("a", "A B C D"),
+                ("b", "C D E F"),
+                ("c", "E F G H"),
+                ("d", "G H A B"),
+            ],
+            &[],
+        );
+        assert!(!standard(&ring).holds(&ring));
+        for given in [
+            samples::tetra_as_drawn(),
+            samples::tetra_in_parts(),
+            samples::pent_as_drawn(),
+            samples::quad_as_drawn(),
+        ] {
+            assert!(standard(&given).holds(&given));
+        }
     }
 
     #[test]

@@ -17,6 +17,7 @@ const SAME: f64 = 1e-12;
 pub(super) fn answer(mechanism: &Mechanism, why_no_tree: &str, budget: &Budget) -> Modes {
     let mut modes = Modes {
         held: Vec::new(),
+        held_near: Vec::new(),
         freedom: None,
         configurations: Vec::new(),
         complete: Complete::Unknown(String::new()),
@@ -50,7 +51,7 @@ pub(super) fn answer(mechanism: &Mechanism, why_no_tree: &str, budget: &Budget) 
         modes.configurations.push(Configuration {
             joints: Vec::new(),
             poses: geometry.home.into_iter().map(Some).collect(),
-            multiplicity: 1,
+            multiplicity: (moves == 0).then_some(1),
             proven: true,
             finite: Some(moves),
             drawn: true,
@@ -154,7 +155,7 @@ pub(super) fn answer(mechanism: &Mechanism, why_no_tree: &str, budget: &Budget) 
         modes.configurations.push(Configuration {
             joints: Vec::new(),
             poses: poses.into_iter().map(Some).collect(),
-            multiplicity: solution.multiplicity as usize,
+            multiplicity: Some(solution.multiplicity as usize),
             proven: true,
             finite: Some(0),
             drawn: false,

@@ -5,6 +5,7 @@ use super::{Complete, Configuration, Modes, Way, place};
 use crate::placed::{Placed, Unsuited};
 use crate::real::real_solutions;
 use crate::reduced::ReducedSystem;
+use crate::words::count;
 use kutzbach_algebra::{Budget, Limits};
 use kutzbach_model::mechanism::Mechanism;
 
@@ -30,6 +31,7 @@ pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
         Err(Unsuited::Contradiction(mismatch)) if mechanism.precision().is_exact() => {
             return Outcome::Modes(Box::new(Modes {
                 held: Vec::new(),
+                held_near: Vec::new(),
                 freedom: None,
                 configurations: Vec::new(),
                 complete: Complete::Proven,
@@ -54,6 +56,7 @@ pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
     }
     let mut modes = Modes {
         held: Vec::new(),
+        held_near: Vec::new(),
         freedom: None,
         configurations: Vec::new(),
         complete: Complete::Proven,
@@ -67,14 +70,9 @@ pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
         return Outcome::Modes(Box::new(modes));
     }
     if system.closures.len() < system.freedom() {
-        // Fewer equations than unknowns: wherever there is a solution, something moves.
         modes.moves = None;
-        modes.complete = Complete::Unknown(format!(
-            "{} equations for {} unknowns: wherever it closes, at least {} moves",
-            system.closures.len(),
-            system.freedom(),
-            system.freedom() - system.closures.len()
-        ));
+        modes.complete =
+            Complete::Unknown(too_few_equations(system.closures.len(), system.freedom()));
         return Outcome::Modes(Box::new(modes));
     }
     let part = Budget::new(Limits {
@@ -90,7 +88,7 @@ pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
     let configuration = |unknowns: &[f64], multiplicity: usize, proven: bool| Configuration {
         joints: Vec::new(),
         poses: place::link_poses(mechanism, &placed, &system.points_at(unknowns)),
-        multiplicity,
+        multiplicity: Some(multiplicity),
         proven,
         finite: proven.then_some(0),
         drawn: false,
@@ -154,6 +152,21 @@ pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
         }
     }
     Outcome::Modes(Box::new(modes))
+}
+
+/// A real solution lies on a motion where the equations have independent derivatives. Only over the complex numbers does every
+/// solution: a sum of squares is a single equation, and a stretched linkage does not move.
+fn too_few_equations(equations: usize, unknowns: usize) -> String {
+    format!(
+        "{} for {}: where the equations are independent to first order, at least {} left; where they are not, as in a \
+         stretched pose, a configuration may be isolated",
+        count(equations, "equation"),
+        count(unknowns, "unknown"),
+        match unknowns - equations {
+            1 => "1 freedom is".to_owned(),
+            more => format!("{more} freedoms are"),
+        }
+    )
 }
 
 fn way(system: &ReducedSystem) -> Way {

@@ -1,5 +1,6 @@
 //! Which joints to hold where nobody says so.
 
+use super::half_turn::HalfTurn;
 use kutzbach_closure::{Arithmetic, Geometry};
 use kutzbach_math::number::Number;
 use kutzbach_mobility::{AnalysisOptions, Depth, actuation, analyse};
@@ -44,8 +45,35 @@ pub(super) fn proposed(mechanism: &Mechanism) -> (Vec<(JointId, Number)>, Option
     )
 }
 
-/// Names of freedoms that would have to be held.
-pub(super) fn names(mechanism: &Mechanism) -> Vec<String> {
+/// Names of the freedoms that would have to be held as well, and how many freedoms are left where the mechanism is drawn;
+/// `None` where that is not decided.
+pub(super) fn freedoms_left(mechanism: &Mechanism) -> (Vec<String>, Option<usize>) {
     let name = |(joint, variable): (usize, usize)| mechanism.joints()[joint].freedom_name(variable);
-    freedoms(mechanism).0.into_iter().map(name).collect()
+    let (proposed, finite) = freedoms(mechanism);
+    (proposed.into_iter().map(name).collect(), finite)
+}
+
+/// Turning joints that are held at an angle without an algebraic cosine, and the angle near it.
+pub(super) fn held_near(
+    mechanism: &Mechanism,
+    held: &[(JointId, Number)],
+) -> Vec<(JointId, HalfTurn)> {
+    let turns = |joint: JointId| mechanism.joint(joint).kind == JointKind::Revolute;
+    held.iter()
+        .filter(|(joint, _)| turns(*joint))
+        .filter_map(|(joint, value)| Some((*joint, HalfTurn::near(value)?)))
+        .collect()
+}
+
+/// Where joints are held, with the angles that stand for others.
+pub(super) fn replaced(
+    held: &[(JointId, Number)],
+    near: &[(JointId, HalfTurn)],
+) -> Vec<(JointId, Number)> {
+    let value = |(joint, asked): &(JointId, Number)| {
+        let near = near.iter().find(|(other, _)| other == joint);
+        let angle = near.and_then(|(_, half)| half.angle());
+        (*joint, angle.unwrap_or_else(|| asked.clone()))
+    };
+    held.iter().map(value).collect()
 }

@@ -10,10 +10,14 @@
 
 mod by_polynomials;
 mod by_tree;
+mod drawn;
 mod exact;
+mod half_turn;
 mod inputs;
 mod place;
+mod rounded;
 
+pub use half_turn::{HalfTurn, WITHIN};
 pub use place::Pose;
 
 use kutzbach_algebra::{Budget, Limits};
@@ -91,8 +95,9 @@ pub struct Configuration {
     pub joints: Vec<(JointId, Option<Vec<f64>>)>,
     /// `world_from_link`, by link; `None` for a rod that spins.
     pub poses: Vec<Option<Pose>>,
-    /// How often it counts as a solution; more than once is a singular one.
-    pub multiplicity: usize,
+    /// How often it counts as a solution; more than once is a singular one. `None` where it was not counted: a configuration
+    /// on a curve, or the drawn one where the equations were not solved.
+    pub multiplicity: Option<usize>,
     /// Whether it is proven to be one.
     pub proven: bool,
     /// Freedoms that are left there with the joints held, where known.
@@ -106,13 +111,16 @@ pub struct Configuration {
 pub struct Modes {
     /// The joints held, and where.
     pub held: Vec<(JointId, Number)>,
+    /// Joints that are held within [`WITHIN`] of that value instead: its cosine is not algebraic.
+    pub held_near: Vec<(JointId, HalfTurn)>,
     /// Finite freedoms of the mechanism with nothing held, at the drawn pose; `None` where that was not asked or is not known.
     pub freedom: Option<usize>,
     /// The configurations.
     pub configurations: Vec<Configuration>,
     /// Whether these are all.
     pub complete: Complete,
-    /// Freedoms that are left with the joints held; `None` where that is not known.
+    /// The most freedoms that are known to be left at some configurations with the joints held, not at all of them; `None` where
+    /// that is not known.
     pub moves: Option<usize>,
     /// Freedoms to hold as well, where something moves.
     pub proposed: Vec<String>,
@@ -134,8 +142,12 @@ pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Mode
         Some(held) => (held.clone(), None),
         None => inputs::proposed(mechanism),
     };
-    let fixed = mechanism.with_joints_held(&held)?;
-    let drawn = place::drawn_poses(&fixed);
+    let held_near = inputs::held_near(mechanism, &held);
+    let fixed = mechanism.with_joints_held(&inputs::replaced(&held, &held_near))?;
+    let place::Start {
+        drawn,
+        never_closes,
+    } = place::start(&fixed);
     // What finding the inputs took is part of the budget.
     let mut limits = question.limits.clone();
     limits.time = limits.time.map(|t| t.saturating_sub(began.elapsed()));
@@ -144,12 +156,13 @@ pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Mode
         by_tree::Outcome::Modes(modes) => *modes,
         by_tree::Outcome::NotByTree(why) => by_polynomials::answer(&fixed, &why, &budget),
     };
+    let square = is_square(&modes.way);
+    rounded::doubt(&mut modes, &fixed, square, never_closes);
     modes.held = held;
+    modes.held_near = held_near;
     modes.freedom = freedom;
-    mark_drawn(&mut modes, drawn.as_ref());
-    if modes.moves.is_some_and(|freedom| freedom > 0) {
-        modes.proposed = inputs::names(&fixed);
-    }
+    let in_time = budget.left().is_none_or(|left| !left.is_zero());
+    drawn::tell(&mut modes, &fixed, drawn.as_ref(), in_time);
     // Joints by the mechanism as it was asked about: those held have their values.
     for configuration in &mut modes.configurations {
         configuration.joints =
@@ -158,12 +171,27 @@ pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Mode
     Ok(modes)
 }
 
+/// Whether proven configurations are simple solutions of as many equations as unknowns: what subdivision alone proves. Exact algebra
+/// is asked where that fails.
+fn is_square(way: &Way) -> bool {
+    match way {
+        Way::Tree { exact, .. } => !exact,
+        Way::Polynomials {
+            variables,
+            equations,
+            ..
+        } => equations <= variables,
+        Way::Nothing => true,
+    }
+}
+
 impl Modes {
     /// The answer where there was no time for one.
     #[must_use]
     pub fn out_of_time(question: &Question) -> Self {
         Self {
             held: question.held.clone().unwrap_or_default(),
+            held_near: Vec::new(),
             freedom: None,
             configurations: Vec::new(),
             complete: Complete::Unknown("the time limit was reached".to_owned()),
@@ -173,48 +201,6 @@ impl Modes {
             way: Way::Nothing,
             open: 0,
         }
-    }
-}
-
-/// Part of a mechanism's size that two poses of one configuration may differ: the drawn one is closed in doubles.
-const SAME: f64 = 1e-6;
-/// The same for singular ones: an error of e in the equations moves a double solution by √e.
-const SAME_SINGULAR: f64 = 1e-3;
-
-/// Marks the configuration that is drawn. Where the drawn pose closes and is none of those that are said to be all, they are
-/// not.
-fn mark_drawn(modes: &mut Modes, drawn: Option<&place::Drawn>) {
-    let Some(drawn) = drawn else { return };
-    let apart = |configuration: &Configuration| {
-        configuration
-            .poses
-            .iter()
-            .zip(&drawn.poses)
-            .filter_map(|(pose, other)| Some(place::apart(pose.as_ref()?, other, drawn.size)))
-            .fold(0.0, f64::max)
-    };
-    let nearest = modes
-        .configurations
-        .iter_mut()
-        .map(|c| (apart(c), c))
-        .min_by(|a, b| a.0.total_cmp(&b.0));
-    if let Some((distance, configuration)) = nearest {
-        let same = if configuration.multiplicity > 1 {
-            SAME_SINGULAR
-        } else {
-            SAME
-        };
-        if distance <= same {
-            configuration.drawn = true;
-            return;
-        }
-    }
-    if modes.complete == Complete::Proven && modes.moves.is_none_or(|freedom| freedom == 0) {
-        modes.complete = Complete::Unknown(
-            "the drawn pose closes within rounding and is none of the configurations found"
-                .to_owned(),
-        );
-        modes.moves = None;
     }
 }
 

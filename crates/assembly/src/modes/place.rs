@@ -1,7 +1,7 @@
 //! Poses of links.
 
 use crate::placed::Placed;
-use kutzbach_closure::{Arithmetic, Geometry};
+use kutzbach_closure::{Arithmetic, Geometry, JointState};
 use kutzbach_math::number::Number;
 use kutzbach_math::space::{Rigid, cross, dot, scale, subtract, unit};
 use kutzbach_mobility::{AnalysisOptions, Depth, analyse};
@@ -44,22 +44,39 @@ pub(super) struct Drawn {
     pub(super) size: f64,
 }
 
-/// The poses of the links where the mechanism is drawn, closed; `None` where it does not close from there.
-pub(super) fn drawn_poses(mechanism: &Mechanism) -> Option<Drawn> {
+/// What the usual assembly says of the pose drawn.
+#[derive(Default)]
+pub(super) struct Start {
+    /// The poses of the links where the mechanism is drawn, closed; `None` where it does not close from there.
+    pub(super) drawn: Option<Drawn>,
+    /// Whether it is shown to close nowhere, whatever the digits that rounding left out.
+    pub(super) never_closes: bool,
+}
+
+/// Closes a mechanism from where it is drawn.
+pub(super) fn start(mechanism: &Mechanism) -> Start {
     let options = AnalysisOptions {
         depth: Depth::Rank,
         ..AnalysisOptions::default()
     };
-    let analysis = analyse(mechanism, &options).ok()?;
-    if !analysis.assembly.closed {
-        return None;
+    let Ok(analysis) = analyse(mechanism, &options) else {
+        return Start::default();
+    };
+    Start {
+        never_closes: analysis.assembly.proven_open.is_some(),
+        drawn: analysis
+            .assembly
+            .closed
+            .then(|| drawn_poses(mechanism, &analysis.assembly.states)),
     }
+}
+
+fn drawn_poses(mechanism: &Mechanism, states: &[JointState<f64>]) -> Drawn {
     let geometry = Geometry::new(mechanism, None, &Arithmetic::double());
-    let states = &analysis.assembly.states;
     let poses = kutzbach_closure::spanning_poses(mechanism, &geometry, states).0;
     let far = poses.iter().flat_map(|pose| pose.translation);
     let size = far.fold(geometry.size.max(1e-12), |m: f64, x| m.max(x.abs()));
-    Some(Drawn { poses, size })
+    Drawn { poses, size }
 }
 
 /// The place of a body by three of its points: `a_from_b` of a frame on them.

@@ -21,7 +21,7 @@ pub use export::Exported;
 pub use poly::Poly;
 pub use turn::Unknowns;
 
-use crate::collection::{Body, Collection, Origin, standard};
+use crate::collection::{Collection, with_triangles};
 use crate::placed::Placed;
 use crate::tree::{IncidenceTree, optimal_incidence_tree};
 use closures::closures;
@@ -277,20 +277,6 @@ impl ReducedSystem {
         };
         polynomial.terms().map(term).sum()
     }
-}
-
-/// The bodies given, and of what they imply the triangles: their sides are known, so that they are no riddle of their own.
-#[must_use]
-pub fn with_triangles(given: &Collection) -> Collection {
-    let whole = standard(given);
-    let mut bodies: Vec<Body> = given.bodies().to_vec();
-    let origins = whole.collection.bodies().iter().zip(&whole.origins);
-    for (body, origin) in origins {
-        if matches!(origin, Origin::Implied(_)) && body.points.len() == 3 {
-            bodies.push(body.clone());
-        }
-    }
-    given.with_bodies(bodies)
 }
 
 /// The field of all coordinates and lengths.

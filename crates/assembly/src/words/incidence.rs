@@ -1,7 +1,7 @@
 //! An incidence tree as text, data and graph.
 
 use super::count;
-use crate::collection::{Collection, Origin, Standard, standard};
+use crate::collection::{Collection, standard, with_triangles};
 use crate::placed::{Placed, Unsuited};
 use crate::tree::{IncidenceTree, covering_sets, optimal_incidence_tree};
 use kutzbach_model::graph::{ConstraintGraph, EdgeSpec, NodeSpec};
@@ -9,11 +9,14 @@ use kutzbach_model::mechanism::Mechanism;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// The best incidence tree of a mechanism's standard collection.
+/// The best incidence tree of a mechanism's standard collection, or of the bodies given where it has none.
 #[derive(Clone, Debug)]
 pub struct IncidenceWords {
     given: usize,
-    standard: Standard,
+    collection: Collection,
+    /// Whether each body is implied, by body.
+    implied: Vec<bool>,
+    is_standard: bool,
     tree: Option<IncidenceTree>,
     covers: Option<usize>,
 }
@@ -24,18 +27,51 @@ impl IncidenceWords {
     /// # Errors
     /// [`Unsuited`] where the mechanism is no collection of bodies that share points.
     pub fn of(mechanism: &Mechanism) -> Result<Self, Unsuited> {
-        let placed = Placed::of(mechanism)?;
-        let standard = standard(&placed.collection);
+        let given = Placed::of(mechanism)?.collection;
+        let standard = standard(&given);
+        let is_standard = standard.holds(&given);
+        let (collection, implied) = if is_standard {
+            let implied = standard.implied();
+            let all = 0..standard.origins.len();
+            let implied = all.map(|body| implied.contains(&body)).collect();
+            (standard.collection, implied)
+        } else {
+            let collection = with_triangles(&given);
+            let implied = (0..collection.bodies().len()).map(|body| body >= given.bodies().len());
+            let implied = implied.collect();
+            (collection, implied)
+        };
         Ok(Self {
-            given: placed.collection.bodies().len(),
-            tree: optimal_incidence_tree(&standard.collection, &[], |_| true),
-            covers: covering_sets(&standard.collection).map(|sets| sets.len()),
-            standard,
+            given: given.bodies().len(),
+            tree: optimal_incidence_tree(&collection, &[], |_| true),
+            covers: covering_sets(&collection).map(|sets| sets.len()),
+            collection,
+            implied,
+            is_standard,
         })
     }
 
     fn collection(&self) -> &Collection {
-        &self.standard.collection
+        &self.collection
+    }
+
+    /// How many bodies there are, and where they come from.
+    fn heading(&self) -> String {
+        let given = bodies(self.given);
+        if self.is_standard {
+            let all = self.collection.bodies().len();
+            return format!(
+                "{given} given, {all} as large as they can be in the standard collection"
+            );
+        }
+        let triangles = match self.collection.bodies().len() - self.given {
+            0 => String::new(),
+            more => format!(", {} implied", count(more, "triangle")),
+        };
+        format!(
+            "{given} given{triangles}; there is no standard collection, since with generic dimensions they would not close: \
+             what would be rigid then may move here"
+        )
     }
 
     fn name(&self, body: usize) -> &str {
@@ -53,19 +89,9 @@ impl IncidenceWords {
     #[must_use]
     pub fn text(&self) -> String {
         let mut text = String::new();
-        let bodies = self.collection().bodies();
-        let _ = writeln!(
-            text,
-            "{} given, {} as large as they can be in the standard collection",
-            count(self.given, "body").replace("bodys", "bodies"),
-            bodies.len()
-        );
-        for (body, origin) in bodies.iter().zip(&self.standard.origins) {
-            let implied = if matches!(origin, Origin::Implied(_)) {
-                ", implied"
-            } else {
-                ""
-            };
+        let _ = writeln!(text, "{}", self.heading());
+        for (body, implied) in self.collection.bodies().iter().zip(&self.implied) {
+            let implied = if *implied { ", implied" } else { "" };
             let _ = writeln!(
                 text,
                 "  {}: {}{implied}",
@@ -109,17 +135,13 @@ impl IncidenceWords {
     /// Everything, for a program.
     #[must_use]
     pub fn data(&self) -> Value {
-        let bodies = self
-            .collection()
-            .bodies()
-            .iter()
-            .zip(&self.standard.origins);
+        let bodies = self.collection.bodies().iter().zip(&self.implied);
         let bodies: Vec<Value> = bodies
-            .map(|(body, origin)| {
+            .map(|(body, implied)| {
                 json!({
                     "name": body.name,
                     "points": self.points(&body.points),
-                    "implied": matches!(origin, Origin::Implied(_)),
+                    "implied": implied,
                 })
             })
             .collect();
@@ -145,7 +167,7 @@ impl IncidenceWords {
                 "edges": edges,
             })
         });
-        json!({ "bodies": bodies, "covering_sets": self.covers, "tree": tree })
+        json!({ "bodies": bodies, "standard": self.is_standard, "covering_sets": self.covers, "tree": tree })
     }
 
     /// The bodies of the covering set and the edges of the tree, for pictures; `None` where there is no tree.
@@ -177,5 +199,12 @@ impl IncidenceWords {
         self.tree.as_ref().map_or(0, |tree| {
             tree.cover.iter().position(|&b| b == tree.root).unwrap_or(0)
         })
+    }
+}
+
+fn bodies(number: usize) -> String {
+    match number {
+        1 => "1 body".to_owned(),
+        _ => format!("{number} bodies"),
     }
 }

@@ -7,7 +7,7 @@ pub use incidence::IncidenceWords;
 pub use modes::{SCHEMA, data, text};
 
 /// A number with its word.
-fn count(number: usize, one: &str) -> String {
+pub(crate) fn count(number: usize, one: &str) -> String {
     match number {
         1 => format!("1 {one}"),
         _ => format!("{number} {one}s"),

@@ -1,8 +1,8 @@
 //! Configurations as text and as data.
 
 use super::count;
-use crate::modes::{Complete, Configuration, Modes, Pose, Way};
-use kutzbach_model::mechanism::Mechanism;
+use crate::modes::{Complete, Configuration, Modes, Pose, WITHIN, Way};
+use kutzbach_model::mechanism::{Joint, JointKind, Mechanism};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
@@ -26,8 +26,8 @@ fn pose(pose: &Pose) -> Value {
 
 fn kind(configuration: &Configuration) -> &'static str {
     match (configuration.multiplicity, configuration.finite) {
-        (_, None) => "unknown",
-        (1, _) => "regular",
+        (None, _) | (_, None) => "unknown",
+        (Some(1), _) => "regular",
         _ => "singular",
     }
 }
@@ -58,6 +58,19 @@ fn solution(mechanism: &Mechanism, configuration: &Configuration) -> Value {
     })
 }
 
+/// Links that have no definite pose: rods that spin about themselves between two balls, one freedom each.
+fn spinning<'a>(mechanism: &'a Mechanism, modes: &Modes) -> Vec<&'a str> {
+    let spins = |index: usize| {
+        let poses = modes.configurations.iter().map(|c| c.poses.get(index));
+        poses.flatten().any(Option::is_none)
+    };
+    let links = mechanism.links().iter().enumerate();
+    links
+        .filter(|(index, _)| spins(*index))
+        .map(|(_, link)| link.name.as_str())
+        .collect()
+}
+
 /// Everything, for a program.
 #[must_use]
 pub fn data(mechanism: &Mechanism, modes: &Modes) -> Value {
@@ -69,6 +82,15 @@ pub fn data(mechanism: &Mechanism, modes: &Modes) -> Value {
                 mechanism.joint(*joint).name.clone(),
                 json!(plain(value.value())),
             )
+        })
+        .collect();
+    let held_near: Map<String, Value> = modes
+        .held_near
+        .iter()
+        .map(|(joint, half)| {
+            let [p, q] = half.tangent;
+            let at = json!({"half_tangent": format!("{p}/{q}"), "within": WITHIN});
+            (mechanism.joint(*joint).name.clone(), at)
         })
         .collect();
     let (complete, why) = match &modes.complete {
@@ -118,11 +140,13 @@ pub fn data(mechanism: &Mechanism, modes: &Modes) -> Value {
         "mechanism": mechanism.name(),
         "freedom": modes.freedom,
         "held": held,
+        "held_near": held_near,
         "solutions": modes.configurations.iter().map(|c| solution(mechanism, c)).collect::<Vec<_>>(),
         "complete": complete,
         "why": why,
         "moves": modes.moves,
         "propose": modes.proposed,
+        "spinning": spinning(mechanism, modes),
         "contradiction": modes.contradiction,
         "open": modes.open,
         "system": system,
@@ -136,18 +160,18 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
     let found = modes.configurations.len();
     let first = match (&modes.complete, found) {
         (Complete::Proven, 0) => {
-            "It cannot be put together: no configuration exists, which is proved.".to_owned()
+            let held = if modes.held.is_empty() {
+                ""
+            } else {
+                ", held so"
+            };
+            format!("It cannot be put together{held}: no configuration exists, which is proved.")
         }
         (Complete::Proven, _) => format!(
             "{}, and no other, which is proved.",
             count(found, "configuration")
         ),
-        (Complete::Unknown(_), _) if modes.moves.is_some_and(|m| m > 0) => {
-            format!(
-                "It moves: {} left.",
-                count(modes.moves.unwrap_or(0), "freedom")
-            )
-        }
+        (Complete::Unknown(_), _) if modes.moves.is_some_and(|m| m > 0) => moving(modes),
         (Complete::Unknown(_), 0) => "In how many ways it closes is not known.".to_owned(),
         (Complete::Unknown(_), _) => {
             format!(
@@ -182,53 +206,136 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
             modes.proposed.join(", ")
         );
     }
+    let spinning = spinning(mechanism, modes);
+    if !spinning.is_empty() {
+        let _ = writeln!(
+            text,
+            "  • At any angle about the line through its two balls, in every configuration: {}.",
+            spinning.join(", ")
+        );
+    }
     if !modes.held.is_empty() {
         let held = modes.held.iter();
         let held: Vec<String> = held
             .map(|(j, v)| format!("{} = {}", mechanism.joint(*j).name, plain(v.value())))
             .collect();
         let _ = writeln!(text, "\nHeld: {}", held.join(", "));
+        held_near(&mut text, mechanism, modes);
     }
     way(&mut text, &modes.way);
     for (number, configuration) in modes.configurations.iter().enumerate() {
-        let mut marks = Vec::new();
-        if configuration.drawn {
-            marks.push("drawn".to_owned());
-        }
-        if configuration.multiplicity > 1 {
-            marks.push(format!(
-                "counts {} times: singular",
-                configuration.multiplicity
-            ));
-        }
-        if !configuration.proven {
-            marks.push("consistent, not proven".to_owned());
-        }
-        let marks = if marks.is_empty() {
-            String::new()
-        } else {
-            format!(" ({})", marks.join("; "))
-        };
+        let marks = marks(configuration);
         let _ = writeln!(text, "\nConfiguration {}{marks}", number + 1);
-        for (joint, values) in &configuration.joints {
-            let Some(values) = values else { continue };
-            // A bar has no variables that anybody would set.
-            if values.len() > 4 {
-                continue;
-            }
-            let shown: Vec<String> = values
+        joint_lines(&mut text, mechanism, configuration);
+        link_lines(&mut text, mechanism, configuration);
+    }
+    text
+}
+
+/// Which joints are held beside the angle asked for.
+fn held_near(text: &mut String, mechanism: &Mechanism, modes: &Modes) {
+    for (joint, half) in &modes.held_near {
+        let [p, q] = half.tangent;
+        let _ = writeln!(
+            text,
+            "  {} at 2 atan({p}/{q}), which is within {WITHIN:e} rad of it: cosine and sine are then fractions",
+            mechanism.joint(*joint).name
+        );
+    }
+}
+
+/// The first line where configurations form a set of some dimension, in which the drawn one need not lie.
+fn moving(modes: &Modes) -> String {
+    let most = modes.moves.unwrap_or(0);
+    let drawn = modes.configurations.iter().find(|c| c.drawn);
+    match drawn.map(|c| c.finite) {
+        Some(Some(0)) => format!(
+            "The drawn configuration does not move; others do, with {}.",
+            count(most, "freedom")
+        ),
+        Some(Some(freedom)) => format!("It moves: {} left.", count(freedom, "freedom")),
+        _ => format!(
+            "Some configurations move, with {}; whether the drawn one does is not known.",
+            count(most, "freedom")
+        ),
+    }
+}
+
+/// A bar has no variables that anybody would set.
+fn is_shown(joint: &Joint) -> bool {
+    joint.freedom() > 0 && joint.kind != JointKind::Distance
+}
+
+/// Numbers (m, rad) in columns.
+fn columns(values: &[f64]) -> String {
+    let shown: Vec<String> = values
+        .iter()
+        .map(|v| format!("{:9.5}", (v * 1e5).round() / 1e5 + 0.0))
+        .collect();
+    shown.join(" ")
+}
+
+fn joint_lines(text: &mut String, mechanism: &Mechanism, configuration: &Configuration) {
+    for (joint, values) in &configuration.joints {
+        let joint = mechanism.joint(*joint);
+        if let Some(values) = values.as_ref().filter(|_| is_shown(joint)) {
+            let _ = writeln!(text, "  {:<20} {}", joint.name, columns(values));
+        }
+    }
+}
+
+/// Links that bars alone hold have no joint values that would tell where they are.
+fn link_lines(text: &mut String, mechanism: &Mechanism, configuration: &Configuration) {
+    for (index, (link, pose)) in mechanism
+        .links()
+        .iter()
+        .zip(&configuration.poses)
+        .enumerate()
+    {
+        let touches = |joint: &&Joint| {
+            [&joint.predecessor, &joint.successor]
                 .iter()
-                .map(|v| format!("{:9.5}", (v * 1e5).round() / 1e5 + 0.0))
-                .collect();
+                .any(|side| side.link.0 == index)
+        };
+        let mut own = mechanism.joints().iter().filter(touches).peekable();
+        let by_bars = own.peek().is_some() && own.all(|j| j.kind == JointKind::Distance);
+        if let (Some(pose), true) = (pose, by_bars && index != mechanism.ground().0) {
             let _ = writeln!(
                 text,
-                "  {:<20} {}",
-                mechanism.joint(*joint).name,
-                shown.join(" ")
+                "  {:<20} at {}, turned by {}",
+                link.name,
+                columns(&pose.translation),
+                columns(&pose.rotation_vector())
             );
         }
     }
-    text
+}
+
+/// What is to be said of a configuration in brackets.
+fn marks(configuration: &Configuration) -> String {
+    let mut marks = Vec::new();
+    if configuration.drawn {
+        marks.push("drawn".to_owned());
+    }
+    match configuration.multiplicity {
+        Some(times) if times > 1 => marks.push(format!("counts {times} times: singular")),
+        Some(_) if !configuration.proven => marks.push("consistent, not proven".to_owned()),
+        Some(_) => {}
+        None => {
+            if !configuration.proven {
+                marks.push("closes within rounding".to_owned());
+            }
+            match configuration.finite {
+                Some(0) => marks.push("does not move".to_owned()),
+                Some(freedom) => marks.push(format!("moves with {}", count(freedom, "freedom"))),
+                None => {}
+            }
+        }
+    }
+    match marks.is_empty() {
+        true => String::new(),
+        false => format!(" ({})", marks.join("; ")),
+    }
 }
 
 fn way(text: &mut String, way: &Way) {

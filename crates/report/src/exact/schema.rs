@@ -3,8 +3,8 @@
 use super::motions::{Motion, motions, unsettled};
 use super::values::{FixedJoint, doubles, fixed_freedoms, fixed_joints};
 use kutzbach_algebra::{
-    Case, ExactAnswer, ExactOptions, Formulation, Irreducible, Method, MonomialOrder, RealPoints,
-    Stop,
+    Case, ExactAnswer, ExactOptions, Formulation, Irreducible, Meaning, Method, MonomialOrder,
+    PolynomialSystem, RealPoints, Stop,
 };
 use kutzbach_model::mechanism::{LinkId, Mechanism};
 use serde::Serialize;
@@ -84,9 +84,11 @@ pub struct Piece {
 /// Isolated solutions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Solutions {
-    /// Distinct complex ones.
+    /// Distinct complex ones, with all conjugates of the algebraic numbers among the variables.
     pub complex: usize,
-    /// The real ones: the values of all variables, in their order.
+    /// Algebraic numbers among the variables, of which `complex` counts all conjugates.
+    pub conjugates_of: Vec<String>,
+    /// The real ones with the numbers of the file: the values of all variables, in their order.
     pub real: Vec<Vec<f64>>,
 }
 
@@ -262,6 +264,7 @@ pub fn exact_report(mechanism: &Mechanism, answer: &ExactAnswer, request: &Reque
         fully_split: answer.decomposed,
         solutions: answer.solutions.as_ref().map(|solutions| Solutions {
             complex: solutions.complex,
+            conjugates_of: algebraic_numbers(system),
             real: solutions.real.iter().map(|s| s.values()).collect(),
         }),
         cycles: cycles(mechanism, answer),
@@ -287,6 +290,14 @@ pub fn exact_report(mechanism: &Mechanism, answer: &ExactAnswer, request: &Reque
             .map(|b| b.polynomials().iter().map(|p| p.text(&names)).collect()),
         variables: names,
     }
+}
+
+fn algebraic_numbers(system: &PolynomialSystem) -> Vec<String> {
+    let variables = system.variables.iter();
+    variables
+        .filter(|variable| matches!(variable.meaning, Meaning::Algebraic { .. }))
+        .map(|variable| variable.name.clone())
+        .collect()
 }
 
 pub(super) fn formulation_word(formulation: Formulation) -> &'static str {

@@ -252,14 +252,15 @@ fn solutions(report: &ExactReport, page: &mut Page) {
         return;
     };
     page.heading("Solutions");
-    page.item(
-        &format!(
-            "{} complex, of which {} real",
-            solutions.complex,
-            solutions.real.len()
+    let (complex, real) = (solutions.complex, solutions.real.len());
+    let counts = match solutions.conjugates_of.as_slice() {
+        [] => format!("{complex} complex, of which {real} real"),
+        numbers => format!(
+            "{real} real, of {complex} complex ones with every conjugate of {}",
+            numbers.join(", ")
         ),
-        Tint::Plain,
-    );
+    };
+    page.item(&counts, Tint::Plain);
     let shown = if page.layout().verbose {
         solutions.real.len()
     } else {
