@@ -13,7 +13,7 @@ use crate::support;
 use kutzbach::closure::{Arithmetic, Geometry, Metric, Section};
 use kutzbach::matrix::null_basis;
 use kutzbach::mechanism::Mechanism;
-use kutzbach::mobility::{Analysis, CertificateLevel, Verdict};
+use kutzbach::mobility::{Analysis, CertificateLevel, RelativeMotion, Verdict};
 use std::sync::OnceLock;
 use support::exported::exported;
 use support::rewrite::Draft;
@@ -394,6 +394,59 @@ fn zeros_with_decimals_are_zeros() {
             (padded.verdict, padded.finite()),
             (Verdict::Mobile, Some(1)),
             "{turn}"
+        );
+    }
+}
+
+/// The nearest mechanism that moves, written to a file and read again, moves; what is far from what is drawn too.
+#[test]
+fn the_nearest_mechanism_moves_when_it_is_read_again() {
+    let drawn = [
+        exported(&special("/sarrus"), 3, 2),
+        exported(&special("/bennett"), 3, 2),
+        exported(&special("/bennett"), 2, 2),
+    ];
+    for written in drawn {
+        let found = analysis(&written);
+        let nearest = found.nearest.expect("rounded numbers decide it");
+        let again = kutzbach::format::write(&nearest.mechanism);
+        let again = kutzbach::format::read(&again, "nearest.urdf", &[])
+            .unwrap()
+            .mechanism;
+        let mobility = analysis(&again).mobility;
+        assert_eq!((mobility.finite(), mobility.nominal), (Some(1), None));
+    }
+}
+
+/// A plate that was drawn to translate does so in the mechanism meant, exactly, and does not screw with an enormous pitch.
+#[test]
+fn relations_that_were_drawn_are_kept() {
+    for decimals in [2, 3, 4] {
+        let found = analysis(&exported(&special("/sarrus"), decimals, 2));
+        let branch = &found.branches.as_ref().expect("it moves")[0];
+        let translates =
+            |motion: &&RelativeMotion| motion.rotations == Some(0) && motion.freedom == Some(1);
+        let translating = branch.motions.iter().filter(translates).count();
+        assert_eq!(translating, 1, "{decimals} decimals");
+    }
+}
+
+/// What spins between two balls does so whatever its dimensions are, and the freedoms of a regular pose are those nearby.
+#[test]
+fn rods_between_balls_spin_however_coarse_the_numbers_are() {
+    let legs = [("delta_3R_SS2", 4), ("stewart_6SPS", 3)];
+    for (name, decimals) in legs {
+        let found = analysis(&exported(&special(name), decimals, 2));
+        let branches = found.branches.expect("it moves");
+        let [branch] = &branches[..] else {
+            panic!("{name}: {} branches", branches.len());
+        };
+        let idle: usize = branch.idle.iter().map(|idle| idle.freedom).sum();
+        let freedoms = (found.mobility.finite(), branch.instantaneous, idle);
+        assert_eq!(
+            freedoms,
+            (Some(branch.dimension), Some(branch.dimension), 6),
+            "{name}"
         );
     }
 }

@@ -36,6 +36,9 @@ pub struct Arguments {
     /// Write the mechanism to a file too, with a configuration `assembled` that holds the joint values at the pose analysed
     #[arg(long, value_name = "OUT")]
     write_assembled: Option<std::path::PathBuf>,
+    /// Where the verdict hangs on how the file's numbers were rounded, write the nearest mechanism found that moves to a file too
+    #[arg(long, value_name = "OUT")]
+    nearest: Option<std::path::PathBuf>,
     /// End with exit code 2 where anything unusual of the file is not read, and with 3 where the verdict is undecided
     #[arg(long)]
     strict: bool,
@@ -177,6 +180,19 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             }
         })?;
         output::put(&file, Some(out))?;
+    }
+    if let Some(out) = &arguments.nearest {
+        let nearest = analysis.nearest.as_ref().ok_or_else(|| Failure::Plain {
+            message: format!(
+                "{}: no nearest mechanism to write",
+                arguments.source.file.display()
+            ),
+            help: Some(
+                "one is looked for where rounded numbers decide whether it moves, and it may not be found"
+                    .to_owned(),
+            ),
+        })?;
+        output::put(&kutzbach::format::write(&nearest.mechanism), Some(out))?;
     }
     let undecided = report.mobility.verdict == Verdict::Undecided;
     Ok(if arguments.strict && undecided {

@@ -119,6 +119,9 @@ pub struct Analysis {
     pub mobility: Mobility,
     /// The mechanism that rounded numbers mean, where everything here is said of it instead of the file's own numbers.
     pub meant: Option<Box<Meant>>,
+    /// The mechanism nearest to rounded numbers that closes along a motion, where the verdict hangs on how they were rounded and one
+    /// was found: within their digits or not.
+    pub nearest: Option<Box<Meant>>,
 }
 
 /// Analyses a mechanism: counts, assembles, ranks, names what is locked and redundant.
@@ -192,6 +195,7 @@ pub(super) fn analyse_as_stated(
         findings: Vec::new(),
         branches: None,
         meant: None,
+        nearest: None,
     };
     if analysis.assembly.closed {
         analysis.rank(mechanism, configuration, &geometry, options)?;

@@ -20,7 +20,7 @@ use super::link_twists::LinkTwists;
 use super::one_sided::{OneSided, dot};
 use super::point_chains::{Bodies, Connection, Connections, heaviest_first};
 use super::relative_motion::link_twists;
-use super::tangent_space::{Blocks, TangentSpace};
+use super::tangent_space::{Blocks, Limits, TangentSpace};
 use super::without_body::standing_without;
 use kutzbach_closure::Geometry;
 use kutzbach_closure::Structure;
@@ -32,6 +32,10 @@ const NEARLY_ALL: f64 = 0.99;
 
 /// A unit tangent that moves everything else by less is nearly idle: a tenth of a millimetre on a decimetre.
 const NEARLY_AT_REST: f64 = 1e-3;
+
+/// The line through the centres of two balls is an axis of both, whatever the file's numbers: that what hangs between them spins is
+/// seen to rounding, of poses that are closed to rounding.
+const COMPUTED_TO: f64 = 1e-9;
 
 /// Bodies of loops that can move alone at all of the poses, with the smallest freedom they have there, by link index.
 ///
@@ -322,6 +326,8 @@ struct Cluster {
     beyond: Option<Beyond>,
     /// Whether it hangs between balls only.
     rod: bool,
+    /// Whether these are two, and each a single joint.
+    spins: bool,
     /// Of a chain: the clusters of its bodies.
     singles: Vec<usize>,
 }
@@ -348,6 +354,7 @@ impl Cluster {
             neighbours,
             beyond: None,
             rod: ends.iter().all(|end| end.ball),
+            spins: ends.len() == 2 && ends.iter().all(|end| end.ball && end.joints.len() == 1),
             singles: Vec::new(),
         }
     }
@@ -534,6 +541,10 @@ fn idle_tangents(there: &LinkTwists, cluster: &Cluster, nearly: bool) -> Option<
             moves
         })
         .collect();
+    let limits = match cluster.spins {
+        true => &Limits::new(COMPUTED_TO, tangents.length()),
+        false => &there.limits,
+    };
     let outside = OneSided::of(others_move)?;
     let moving = match nearly {
         true => outside
@@ -541,7 +552,7 @@ fn idle_tangents(there: &LinkTwists, cluster: &Cluster, nearly: bool) -> Option<
             .iter()
             .filter(|value| **value > NEARLY_AT_REST)
             .count(),
-        false => there.limits.rank(&outside.values)?,
+        false => limits.rank(&outside.values)?,
     };
     // What is left moves nothing else; some of it may not even move the core, where a joint's own screws are dependent.
     let alone: Vec<Vec<f64>> = outside.combinations[moving..]
@@ -552,7 +563,7 @@ fn idle_tangents(there: &LinkTwists, cluster: &Cluster, nearly: bool) -> Option<
         .iter()
         .map(|sum| there.along(cluster.link, &vectors, sum).to_vec());
     let own_motion = OneSided::of(own_motion.collect())?;
-    let freedom = there.limits.rank(&own_motion.values)?;
+    let freedom = limits.rank(&own_motion.values)?;
     let weights = own_motion.combinations[..freedom]
         .iter()
         .map(|combination| combined(&alone, combination))

@@ -3,6 +3,7 @@
 use super::branch::{Branch, BranchPose, Tangent};
 use super::branch_facts::branch_facts;
 use super::part_mobility::{PartBranch, PartFinding};
+use super::vocabulary::PoseKind;
 use kutzbach_closure::Structure;
 use kutzbach_closure::{Geometry, JointState};
 use kutzbach_math::matrix::SplitMix64;
@@ -73,7 +74,10 @@ pub(super) fn whole_branches(
                 .iter()
                 .zip(findings)
                 .map(|(branch, finding)| match branch {
-                    Some(branch) => branch.poses.first().and_then(|p| p.instantaneous),
+                    Some(branch) => branch.poses.first().and_then(|p| p.instantaneous).or(
+                        // Near a regular pose all poses are regular.
+                        (finding.pose == Some(PoseKind::Regular)).then_some(branch.dimension),
+                    ),
                     None => Some(finding.at_rest),
                 })
                 .sum::<Option<usize>>()

@@ -12,6 +12,7 @@
 mod dimensions;
 mod nearest;
 mod poses;
+mod relations;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests;
@@ -31,6 +32,7 @@ use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Configuration, Mechanism, Precision};
 use nearest::{Nearest, Search};
 use poses::Loops;
+use relations::Relations;
 
 /// So many numbers of freedoms are tried for a part.
 const TRIES: usize = 3;
@@ -158,6 +160,11 @@ pub(super) fn completed(
     if parts.is_empty() {
         return Ok(stated);
     }
+    if parts.iter().all(|part| part.nearest.is_some()) {
+        let all: Vec<&PartMeant> = parts.iter().collect();
+        let nearest = Meant::of(mechanism, &all);
+        stated.nearest = (!nearest.changes.is_empty()).then(|| Box::new(nearest));
+    }
     if open && parts.iter().all(|part| part.excluded) {
         return Ok(held_fast(mechanism, configuration, stated, &parts));
     }
@@ -198,6 +205,7 @@ pub(super) fn completed(
     }
     analysis.mobility.nominal = Some(nominal(&all, finite));
     analysis.mobility.as_written = Some(as_written);
+    analysis.nearest = Some(Box::new(meant.clone()));
     analysis.meant = Some(Box::new(meant));
     Ok(analysis)
 }
@@ -464,9 +472,7 @@ fn nearest_of_part(
     };
     let regular = has_one_direction(&values, matrix.columns(), noise, &known);
     let metric = Metric::of(mechanism, &here, &scales);
-    let mut best: Option<(Nearest, usize)> = None;
-    let mut excluded = regular && freedoms == [1];
-    for freedom in freedoms.into_iter().take(TRIES) {
+    let search = |freedom: usize, relations: &Relations| {
         let mut search = Search {
             loops: Loops {
                 mechanism,
@@ -475,15 +481,41 @@ fn nearest_of_part(
                 freedom,
             },
             dimensions,
+            relations,
             geometry: geometry.clone(),
             length: here.length,
+            work: 0,
         };
-        let Some(nearest) = search.nearest(states)? else {
+        // What closes as it is written is not made to follow relations.
+        if !relations.is_empty() && search.closes_as_written(states)? {
+            return Ok(None);
+        }
+        search.nearest(states)
+    };
+    let units = |nearest: &Nearest| nearest.z.iter().fold(0.0f64, |m, z| z.abs().max(m));
+    let found = |(nearest, freedom): (Nearest, usize), excluded: bool| Found {
+        nearest,
+        freedom,
+        length: here.length,
+        excluded,
+    };
+    let relations = Relations::of(mechanism, part, dimensions, geometry, here.length);
+    if !relations.is_empty() {
+        for &freedom in freedoms.iter().take(TRIES) {
+            let nearest = search(freedom, &relations)?;
+            if let Some(nearest) = nearest.filter(|nearest| units(nearest) <= WITHIN) {
+                return Ok(Some(found((nearest, freedom), false)));
+            }
+        }
+    }
+    let mut best: Option<(Nearest, usize)> = None;
+    let mut excluded = regular && freedoms == [1];
+    for freedom in freedoms.into_iter().take(TRIES) {
+        let Some(nearest) = search(freedom, &Relations::default())? else {
             excluded = false;
             continue;
         };
         excluded &= nearest.at_least > EXCLUDED;
-        let units = |nearest: &Nearest| nearest.z.iter().fold(0.0f64, |m, z| z.abs().max(m));
         let within = units(&nearest) <= WITHIN;
         if best
             .as_ref()
@@ -495,12 +527,7 @@ fn nearest_of_part(
             break;
         }
     }
-    Ok(best.map(|(nearest, freedom)| Found {
-        nearest,
-        freedom,
-        length: here.length,
-        excluded,
-    }))
+    Ok(best.map(|best| found(best, excluded)))
 }
 
 /// Whether the equations leave one direction at most, whatever the digits stand for: then each mechanism within them that moves

@@ -8,14 +8,18 @@
 //! of the solutions nearest to what is written: first by the sum of squares in units of each number's uncertainty, then, where
 //! some number leaves its uncertainty, with smaller and smaller weight on it.
 //!
+//! Relations that the numbers nearly satisfy (`relations.rs`) are further equations: the dimensions are moved to where these hold before
+//! a pose is looked at, so that loops that close because of them close from the start.
+//!
 //! What comes out closes at these poses. That it moves is not said here: it is analysed like any other mechanism.
 //!
 //! Cost: a singular value decomposition for every pose and step.
 
 use super::dimensions::{Dimensions, turns};
 use super::poses::{Loops, OnMotion};
+use super::relations::Relations;
 use faer::Mat;
-use kutzbach_closure::{Geometry, JointState, Part, WalkedCycle};
+use kutzbach_closure::{Geometry, JointNumbers, JointState, Part, WalkedCycle};
 use kutzbach_math::matrix::MatrixError;
 
 /// How far, and in how many steps, poses are looked for from home in each direction, in the metric of the home pose (a step is
@@ -51,6 +55,9 @@ struct Sampling {
     of_one: usize,
     of_many: usize,
 }
+
+/// A search that takes more operations than this is given up.
+const MOST_WORK: usize = 1_500_000_000;
 
 /// Rounds of Gauss and Newton.
 const ROUNDS: usize = 40;
@@ -125,9 +132,14 @@ struct Sample {
 pub(super) struct Search<'a> {
     pub loops: Loops<'a>,
     pub dimensions: &'a Dimensions<'a>,
+    /// What has to hold besides.
+    pub relations: &'a Relations,
+    /// That of the numbers as written, at first.
     pub geometry: Geometry<f64>,
     /// The part's length (m).
     pub length: f64,
+    /// Operations that decompositions took so far, but for a factor.
+    pub work: usize,
 }
 
 impl Search<'_> {
@@ -135,27 +147,42 @@ impl Search<'_> {
         self.loops.part
     }
 
+    /// Whether the loops of the numbers as written close along the motion through a pose.
+    ///
+    /// # Errors
+    /// [`MatrixError`] where numbers overflow.
+    pub fn closes_as_written(&self, home: &[JointState<f64>]) -> Result<bool, MatrixError> {
+        let samples = self.along_the_motion(home, &SAMPLINGS[0])?;
+        Ok(samples.is_some_and(|samples| norm(&misfits(&samples)) <= STALLED))
+    }
+
     /// The nearest dimensions, from a pose; `None` where none are found.
     ///
     /// # Errors
     /// [`MatrixError`] where numbers overflow.
     pub fn nearest(&mut self, home: &[JointState<f64>]) -> Result<Option<Nearest>, MatrixError> {
-        let Some(mut samples) = self.along_the_motion(home, &SAMPLINGS[0])? else {
+        let written = self.geometry.clone();
+        let mut z = vec![0.0; self.dimensions.all.len()];
+        let mut home = home.to_vec();
+        if !self.related(&mut z, &mut home)? {
+            return Ok(None);
+        }
+        let Some(mut samples) = self.along_the_motion(&home, &SAMPLINGS[0])? else {
             return Ok(None);
         };
-        let misfit = samples.iter().map(|s| s.here.open).fold(0.0, f64::max);
-        let mut z = vec![0.0; self.dimensions.all.len()];
+        let first = self.open(&samples);
         for sampling in &SAMPLINGS[1..] {
-            if self.solve(&mut samples, &mut z, misfit)?.is_none() {
+            if self.solve(&mut samples, &mut z, first)?.is_none() {
                 return Ok(None);
             }
             let Some(elsewhere) = self.along_the_motion(&samples[0].states, sampling)? else {
                 return Ok(None);
             };
-            let closed = open(&elsewhere) <= CLOSED_ELSEWHERE;
+            let closed = norm(&misfits(&elsewhere)) <= CLOSED_ELSEWHERE;
             samples.extend(elsewhere);
             if closed {
-                let at_least = self.draw_near(&mut samples, &mut z, misfit)?;
+                let at_least = self.draw_near(&mut samples, &mut z, first)?;
+                let misfit = self.misfit_of(written, &samples)?;
                 return Ok(Some(Nearest {
                     z,
                     misfit,
@@ -164,6 +191,63 @@ impl Search<'_> {
             }
         }
         Ok(None)
+    }
+
+    /// Moves the dimensions to where the relations hold, and a pose with them; whether that can be.
+    fn related(
+        &mut self,
+        z: &mut Vec<f64>,
+        home: &mut [JointState<f64>],
+    ) -> Result<bool, MatrixError> {
+        if self.relations.is_empty() {
+            return Ok(true);
+        }
+        let written = self.geometry.clone();
+        let first = self.open(&[]);
+        if self.solve(&mut [], z, first)?.is_none() {
+            return Ok(false);
+        }
+        self.geometry = written;
+        for &joint in &self.loops.part.joints {
+            let numbers = self.dimensions.numbers(joint, z);
+            self.dimensions
+                .set(&mut self.geometry, joint, &numbers, [&mut home[joint]]);
+        }
+        Ok(true)
+    }
+
+    /// How far the loops of the numbers as written stay open along the motion, where poses of it can be told.
+    fn misfit_of(
+        &mut self,
+        written: Geometry<f64>,
+        samples: &[Sample],
+    ) -> Result<f64, MatrixError> {
+        let meant = std::mem::replace(&mut self.geometry, written);
+        let mut most = 0.0f64;
+        for sample in samples {
+            let mut states = sample.states.clone();
+            for &joint in &self.loops.part.joints {
+                states[joint] = self.geometry.displacements[joint]
+                    .adopt(&meant.displacements[joint], &states[joint]);
+            }
+            if let Some(here) = self.loops.settle(&self.geometry, &mut states, 1.0)? {
+                most = most.max(here.open);
+            }
+        }
+        self.geometry = meant;
+        Ok(most)
+    }
+
+    /// What is left of all equations.
+    fn left(&self, samples: &[Sample]) -> Vec<f64> {
+        let mut left = misfits(samples);
+        left.extend(self.relations.rows(&self.geometry, self.length));
+        left
+    }
+
+    /// What is left of the equations, as a root of the sum of squares.
+    fn open(&self, samples: &[Sample]) -> f64 {
+        norm(&self.left(samples))
     }
 
     /// Poses on the motion through the one given.
@@ -223,7 +307,7 @@ impl Search<'_> {
         first: f64,
     ) -> Result<Option<()>, MatrixError> {
         let mut damping = DAMPING;
-        let mut best = (open(samples), (z.clone(), states_of(samples)));
+        let mut best = (self.open(samples), (z.clone(), states_of(samples)));
         if best.0 <= STALLED {
             return Ok(Some(()));
         }
@@ -235,6 +319,10 @@ impl Search<'_> {
                 return Ok(Some(()));
             }
             let relative = damping * (left / first).powi(2).min(1.0);
+            self.work += matrix.nrows() * matrix.ncols() * matrix.nrows().min(matrix.ncols());
+            if self.work > MOST_WORK {
+                return Ok(None);
+            }
             let Some(svd) = Steps::of(&matrix) else {
                 return Ok(None);
             };
@@ -242,7 +330,7 @@ impl Search<'_> {
             z.iter_mut().zip(&step).for_each(|(z, step)| *z -= step);
             let followed = largest(z) <= FAR && self.follow(samples, z)?;
             let now = if followed {
-                open(samples)
+                self.open(samples)
             } else {
                 f64::INFINITY
             };
@@ -362,7 +450,8 @@ impl Search<'_> {
         samples: &mut [Sample],
         z: &[f64],
     ) -> Result<(Mat<f64>, Vec<f64>), MatrixError> {
-        let misfit: Vec<f64> = samples.iter().flat_map(|s| s.here.misfit.clone()).collect();
+        let misfit = self.left(samples);
+        let of_loops: usize = samples.iter().map(|s| s.here.misfit.len()).sum();
         let mut matrix = Mat::<f64>::zeros(misfit.len(), z.len());
         let dimensions = self.dimensions;
         let cycles = self.part().cycles.clone();
@@ -377,7 +466,7 @@ impl Search<'_> {
                 .collect();
             let mut row = 0;
             let mut ends: Vec<Vec<[f64; 6]>> = Vec::new();
-            for (place, _) in STENCIL {
+            for (place, weight) in STENCIL {
                 let mut moved = numbers.clone();
                 moved.0[dimension.place] += place * step;
                 let mut values = Vec::new();
@@ -401,6 +490,9 @@ impl Search<'_> {
                     self.geometry.sides[dimension.joint] = sides;
                 }
                 ends.push(values);
+                for (row, value) in self.related_rows(dimension.joint, &moved) {
+                    matrix[(of_loops + row, column)] += weight * value / step * dimension.unit;
+                }
             }
             let mut next = 0;
             for sample in samples.iter() {
@@ -430,6 +522,22 @@ impl Search<'_> {
             }
         }
         Ok((matrix, misfit))
+    }
+}
+
+impl Search<'_> {
+    /// The relations' rows that a joint changes, with other numbers of it.
+    fn related_rows(&mut self, joint: usize, numbers: &JointNumbers) -> Vec<(usize, f64)> {
+        if self.relations.is_empty() {
+            return Vec::new();
+        }
+        let displacement = self.geometry.displacements[joint].clone();
+        let sides = self.geometry.sides[joint].clone();
+        self.dimensions.set(&mut self.geometry, joint, numbers, []);
+        let rows = self.relations.rows_of(joint, &self.geometry, self.length);
+        self.geometry.displacements[joint] = displacement;
+        self.geometry.sides[joint] = sides;
+        rows
     }
 }
 
@@ -473,10 +581,10 @@ fn least_change(z: &[f64], weights: &[f64]) -> f64 {
     if sum > 0.0 { of(2) / sum } else { 0.0 }
 }
 
-/// What is left of the equations, as a root of the sum of squares.
-fn open(samples: &[Sample]) -> f64 {
-    let all: Vec<f64> = samples.iter().flat_map(|s| s.here.misfit.clone()).collect();
-    norm(&all)
+/// What the dimensions have to mend at some poses.
+fn misfits(samples: &[Sample]) -> Vec<f64> {
+    let each = samples.iter().flat_map(|s| &s.here.misfit);
+    each.copied().collect()
 }
 
 fn norm(values: &[f64]) -> f64 {

@@ -23,3 +23,30 @@ fn a_linkage_of_coarse_decimals_is_the_one_that_it_rounds() {
         assert_eq!(found.mobility.finite(), Some(1), "{decimals}");
     }
 }
+
+/// The relations that the numbers of a loop as written nearly satisfy.
+fn related(mechanism: &Mechanism) -> Relations {
+    let geometry = Geometry::new(mechanism, None, &Arithmetic::double());
+    let found = analyse(mechanism, &AnalysisOptions::default()).unwrap();
+    let part = &found.structure.parts[0];
+    let dimensions = Dimensions::of(mechanism, part, mechanism.precision());
+    Relations::of(mechanism, part, &dimensions, &geometry, 1.0)
+}
+
+#[test]
+fn relations_seen_in_rounded_numbers_hold_of_what_was_drawn() {
+    // Two links of each leg; the other four pairs of axes are none.
+    let related = related(&sarrus(3));
+    assert_eq!(related.parallel_pairs(), 4);
+    let off = |decimals: usize| {
+        let drawn = Geometry::new(&sarrus(decimals), None, &Arithmetic::double());
+        let rows = related.rows(&drawn, 1.0);
+        rows.iter().fold(0.0f64, |most, row| row.abs().max(most))
+    };
+    assert!(off(13) < 1e-12 && off(3) > 1e-5, "{} {}", off(13), off(3));
+}
+
+#[test]
+fn with_one_decimal_anything_would_be_related_by_chance() {
+    assert!(related(&sarrus(1)).is_empty());
+}
