@@ -95,7 +95,7 @@ pub use kutzbach::kutzbach_count;
 pub use kutzbach_closure::{Structure, constraint_graph};
 pub use limbs::{Limb, Limbs, limbs};
 pub use limit_facts::{LimitFact, limit_facts};
-pub use meant::{AsWritten, Change, Meant};
+pub use meant::{AsWritten, Change, Kept, Meant};
 pub use more_digits::MoreDigits;
 pub use near_singular::{ClearerPose, NearSingular, dead_centres, near_singular, pose_of_branch};
 pub use one_engine::{
@@ -111,4 +111,6 @@ pub use subgroup::{SubgroupFinding, subgroup_finding};
 pub use tracing::tangents_at;
 pub use tracing::{PartPose, poses_of_regular_part};
 pub use verdict::{Mobility, Nominal, judge, unassembled};
-pub use vocabulary::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
+pub use vocabulary::{
+    CertificateLevel, MobilityClass, PoseKind, RelationKind, SingularKind, Verdict,
+};

@@ -4,7 +4,7 @@
 //! Parts do not influence one another, so that the configuration space near the pose is a product: freedoms add, a branch
 //! of the whole is one branch of every part, and the pose is singular where that of some part is.
 
-use super::meant::{AsWritten, Change};
+use super::meant::{AsWritten, Change, Kept};
 use super::part_mobility::{Evidence, PartFinding};
 use super::vocabulary::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
 use kutzbach_closure::Assembly;
@@ -25,6 +25,8 @@ pub struct Nominal {
     pub within_digits: bool,
     /// The numbers that it has otherwise, where it was computed.
     pub changes: Vec<Change>,
+    /// What it was found by: relations that the numbers nearly satisfy, and that it satisfies exactly.
+    pub kept: Vec<Kept>,
 }
 
 /// The verdict with its bounds and reasons.
@@ -179,6 +181,7 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, parts: &[PartFinding]
             distance: None,
             within_digits: true,
             changes: Vec::new(),
+            kept: Vec::new(),
         });
     Mobility {
         verdict,

@@ -61,6 +61,26 @@ words! {
 }
 
 words! {
+    /// What is exact between axes and points of links.
+    RelationKind {
+        /// Axes of one link are parallel.
+        Parallel => "parallel",
+        /// Axes of one link make an angle that is a whole multiple of 15°.
+        Angle => "angle",
+        /// Axes of one link coincide, or a point lies on an axis, or points coincide.
+        Coincide => "coincide",
+        /// Axes of one link meet.
+        Meet => "meet",
+        /// Angles between axes are alike, or supplementary.
+        EqualAngles => "equal_angles",
+        /// Distances between axes or points are alike.
+        EqualDistances => "equal_distances",
+        /// The common normals of a hinge with its neighbours meet on its axis.
+        NormalsMeet => "normals_meet",
+    }
+}
+
+words! {
     /// In which way a pose is singular (D7).
     SingularKind {
         /// Branches with different tangents meet.

@@ -5,7 +5,7 @@ use super::motions::motion_row;
 use super::natural::natural_order;
 use super::schema::{
     Advice, AsWritten, Block, Branch, Certificate, Change, Cycle, GenericCount, Home, Idle,
-    JointRow, Mobility, Motion, Nominal, Report, Tree, TreeLink,
+    JointRow, Mobility, Motion, Nominal, Relation, Report, Tree, TreeLink,
 };
 use super::text::words::counted;
 use kutzbach_closure::{owners, with_owners};
@@ -219,6 +219,19 @@ fn verdict(mechanism: &Mechanism, analysis: &Analysis) -> Mobility {
                 .changes
                 .iter()
                 .map(|change| change_of(mechanism, change))
+                .collect(),
+            relations: nominal
+                .kept
+                .iter()
+                .map(|kept| Relation {
+                    kind: kept.kind,
+                    joints: kept
+                        .joints
+                        .iter()
+                        .map(|&joint| mechanism.joints()[joint].name.clone())
+                        .collect(),
+                    degrees: kept.angle.map(|angle| angle.to_degrees().round()),
+                })
                 .collect(),
         }),
         as_written: found.as_written.map(|written| AsWritten {

@@ -70,11 +70,13 @@ pub use change_sets::{ChangeSets, Component, JointReplacement, PartChanges, Redu
 pub use expectation::{Comparison, Disagreement, compare};
 pub use expected_file::{ExpectedFile, ExpectedFileError};
 pub use four_bar::{FourBar, FourBarKind, GrashofClass, Swing};
-pub use kutzbach_mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
+pub use kutzbach_mobility::{
+    CertificateLevel, MobilityClass, PoseKind, RelationKind, SingularKind, Verdict,
+};
 pub use natural::natural_order;
 pub use schema::{
     Advice, Assembly, Block, Branch, Certificate, Constants, CouplingRow, Cycle, DependentInput,
     Evidence, Follower, Freedoms, Gap, GenericCount, Home, Idle, InputSource, Inputs, JointPlace,
-    JointRange, JointRow, Limb, LiteralReading, Mobility, Motion, Nominal, OutsideLimit, Report,
-    Reversal, SCHEMA, Size, Source, Stage, Timing, Tree, TreeLink,
+    JointRange, JointRow, Limb, LiteralReading, Mobility, Motion, Nominal, OutsideLimit, Relation,
+    Report, Reversal, SCHEMA, Size, Source, Stage, Timing, Tree, TreeLink,
 };

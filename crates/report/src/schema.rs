@@ -6,7 +6,9 @@
 
 use super::change_sets::{ChangeSets, RedundantDirection};
 use super::four_bar::FourBar;
-use kutzbach_mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
+use kutzbach_mobility::{
+    CertificateLevel, MobilityClass, PoseKind, RelationKind, SingularKind, Verdict,
+};
 use serde::{Deserialize, Serialize};
 
 /// The value of [`Report::schema`].
@@ -454,6 +456,21 @@ pub struct Nominal {
     /// The numbers that it has otherwise, those that change most first; empty where it was not computed.
     #[serde(default)]
     pub changes: Vec<Change>,
+    /// Relations that the file's numbers nearly satisfy and that it satisfies exactly, by which it was found.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub relations: Vec<Relation>,
+}
+
+/// A relation between axes or points of links.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Relation {
+    /// What is exact.
+    pub kind: RelationKind,
+    /// The joints whose axes or points are related: two of one link, or two of each of two links.
+    pub joints: Vec<String>,
+    /// The angle between them in degrees, where it is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub degrees: Option<f64>,
 }
 
 fn yes() -> bool {

@@ -32,6 +32,7 @@ use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Configuration, Mechanism, Precision};
 use nearest::{Nearest, Search};
 use poses::Loops;
+pub use relations::Kept;
 use relations::Relations;
 
 /// So many numbers of freedoms are tried for a part.
@@ -124,6 +125,7 @@ struct PartMeant {
     length: f64,
     changes: Vec<Change>,
     numbers: Vec<(usize, usize, Number)>,
+    kept: Vec<Kept>,
 }
 
 impl PartMeant {
@@ -284,6 +286,7 @@ fn nominal(parts: &[&PartMeant], finite: usize) -> Nominal {
         distance: Some(parts.iter().map(distance).fold(0.0, f64::max)),
         within_digits: parts.iter().all(|part| part.units() <= WITHIN),
         changes: sorted(parts.iter().flat_map(|part| part.changes.clone()).collect()),
+        kept: parts.iter().flat_map(|part| part.kept.clone()).collect(),
     }
 }
 
@@ -370,6 +373,7 @@ fn parts_meant(
             length: 0.0,
             changes: Vec::new(),
             numbers: Vec::new(),
+            kept: Vec::new(),
         };
         let states = &stated.assembly.states;
         let freedom = finding
@@ -388,6 +392,7 @@ fn parts_meant(
                 freedom,
                 length,
                 excluded,
+                kept,
             }) = nearest_of_part(mechanism, &geometry, states, part, &dimensions, freedoms)?
         {
             of_part.excluded = excluded;
@@ -396,6 +401,7 @@ fn parts_meant(
             of_part.numbers = dimensions.changes(&nearest.z);
             of_part.nearest = Some(nearest);
             of_part.length = length;
+            of_part.kept = kept;
         }
         found.push(of_part);
     }
@@ -444,6 +450,8 @@ struct Found {
     length: f64,
     /// Whether the pose allows one motion at most, and no numbers within the digits let it go through.
     excluded: bool,
+    /// The relations that it was found by.
+    kept: Vec<Kept>,
 }
 
 /// The nearest dimensions of one part: those within the digits, if there are such.
@@ -493,18 +501,19 @@ fn nearest_of_part(
         search.nearest(states)
     };
     let units = |nearest: &Nearest| nearest.z.iter().fold(0.0f64, |m, z| z.abs().max(m));
-    let found = |(nearest, freedom): (Nearest, usize), excluded: bool| Found {
+    let found = |(nearest, freedom): (Nearest, usize), excluded: bool, kept: Vec<Kept>| Found {
         nearest,
         freedom,
         length: here.length,
         excluded,
+        kept,
     };
     let relations = Relations::of(mechanism, part, dimensions, geometry, here.length);
     if !relations.is_empty() {
         for &freedom in freedoms.iter().take(TRIES) {
             let nearest = search(freedom, &relations)?;
             if let Some(nearest) = nearest.filter(|nearest| units(nearest) <= WITHIN) {
-                return Ok(Some(found((nearest, freedom), false)));
+                return Ok(Some(found((nearest, freedom), false, relations.kept())));
             }
         }
     }
@@ -527,7 +536,7 @@ fn nearest_of_part(
             break;
         }
     }
-    Ok(best.map(|best| found(best, excluded)))
+    Ok(best.map(|best| found(best, excluded, Vec::new())))
 }
 
 /// Whether the equations leave one direction at most, whatever the digits stand for: then each mechanism within them that moves

@@ -10,7 +10,8 @@
 //! A relation is taken where what the digits leave open is enough for it, and where it would be rare by chance: twenty times rarer
 //! than the relations of its kind that were asked for.
 
-use super::dimensions::Dimensions;
+use super::dimensions::{Dimensions, turns};
+use crate::vocabulary::RelationKind;
 use kutzbach_closure::{Geometry, Part};
 use kutzbach_math::space::{Vector, cross, dot, length, subtract};
 use kutzbach_model::mechanism::{JointKind, Mechanism};
@@ -200,7 +201,41 @@ impl Relation {
     }
 }
 
+/// A relation that rounded numbers nearly satisfy, and that the mechanism meant satisfies exactly.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Kept {
+    /// What is exact.
+    pub kind: RelationKind,
+    /// The joints whose axes or points are related: two of one link, or two of each of two.
+    pub joints: Vec<usize>,
+    /// The angle (rad), where it is one.
+    pub angle: Option<f64>,
+}
+
 impl Relations {
+    /// The relations in words.
+    pub fn kept(&self) -> Vec<Kept> {
+        let each = self.all.iter().map(|relation| {
+            let (kind, angle) = match relation {
+                Relation::Parallel(_) => (RelationKind::Parallel, None),
+                Relation::Angle(_, angle) => (RelationKind::Angle, Some(*angle)),
+                Relation::Coincide(_) => (RelationKind::Coincide, None),
+                Relation::Meet(_) => (RelationKind::Meet, None),
+                Relation::AnglesAlike(..) => (RelationKind::EqualAngles, None),
+                Relation::DistancesAlike(_) => (RelationKind::EqualDistances, None),
+                Relation::NormalsMeet(_) => (RelationKind::NormalsMeet, None),
+            };
+            let pairs = relation.pairs();
+            let ends = pairs.iter().flat_map(|pair| &pair.ends);
+            Kept {
+                kind,
+                joints: ends.map(|end| end.joint).collect(),
+                angle,
+            }
+        });
+        each.collect()
+    }
+
     /// Those that a part's numbers nearly satisfy; `size` is the part's length (m).
     pub fn of(
         mechanism: &Mechanism,
@@ -311,7 +346,7 @@ impl Finder<'_> {
             }
             let joint = dimension.joint;
             let mut numbers = self.dimensions.numbers(joint, &[]);
-            let step = match super::dimensions::turns(dimension.place) {
+            let step = match turns(dimension.place) {
                 true => QUOTIENT,
                 false => QUOTIENT * self.size,
             };

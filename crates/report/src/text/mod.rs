@@ -21,6 +21,7 @@ pub(super) mod inputs;
 pub(super) mod joints;
 mod page;
 mod ranges;
+mod relations;
 pub(super) mod sections;
 mod style;
 mod table;
@@ -56,6 +57,7 @@ pub fn render(report: &Report, layout: Layout) -> String {
     assembly::section(report, &mut page);
     sections::other_warnings(report, &mut page);
     if layout.verbose {
+        relations::relations(report, &mut page);
         sections::cycles(report, &mut page);
         branches::evidence(report, &mut page);
     }

@@ -85,6 +85,7 @@ fn rounded_numbers_are_named_as_the_reason() {
         distance: None,
         within_digits: true,
         changes: Vec::new(),
+        relations: Vec::new(),
     });
     let page = page(&report);
     assert!(

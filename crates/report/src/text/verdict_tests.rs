@@ -224,6 +224,7 @@ fn rounded_numbers_are_told() {
         distance: None,
         within_digits: true,
         changes: Vec::new(),
+        relations: Vec::new(),
     });
     report.home.as_written = Some(0);
     assert_eq!(
