@@ -1,6 +1,9 @@
+use super::dimensions::Dimensions;
+use super::relations::Relations;
 use super::*;
 use crate::analyse;
 use kutzbach_closure::samples::{Place, Written, ring, sarrus_places};
+use kutzbach_closure::{Arithmetic, Geometry};
 
 /// Sarrus' linkage in a general place, so that no coordinate is short.
 fn sarrus(decimals: usize) -> Mechanism {
