@@ -3,6 +3,7 @@
 
 use crate::support;
 
+use kutzbach::families::scissor_lift;
 use kutzbach::mechanism::{Direction, JointKind, Mechanism};
 use kutzbach::mobility::{Analysis, AnalysisOptions, Depth, JointChange, NoChangeSet, analyse};
 use kutzbach::number::Number;
@@ -227,4 +228,13 @@ fn a_joint_all_of_whose_constraints_are_redundant_can_be_removed() {
         directions.filter(|direction| direction.independent).count(),
         5
     );
+}
+
+/// The left kernel of a long mechanism is dense: sets are sought up to a stated amount of work, and the report says so beyond.
+#[test]
+fn long_mechanisms_get_no_sets_and_are_told_why() {
+    let short = scissor_lift(10).unwrap();
+    assert!(analysed(&short, Depth::Everything).change_sets.is_ok());
+    let long = analysed(&scissor_lift(100).unwrap(), Depth::Everything);
+    assert_eq!(long.change_sets, Err(NoChangeSet::TooLarge));
 }

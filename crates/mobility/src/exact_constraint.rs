@@ -51,14 +51,15 @@ pub enum NoChangeSet {
     Undecided,
     /// The instantaneous mobility exceeds the finite one: without a redundant constraint the two are equal.
     Singular,
-    /// A part has too many unknowns.
+    /// A part has too many redundant constraints and equations.
     TooLarge,
     /// The kinds that joints may become do not reach every redundant constraint.
     OutOfReach,
 }
 
-/// Parts with more unknowns are not looked at: their left kernel is dense.
-pub(super) const MOST_UNKNOWNS: usize = 900;
+/// Parts whose redundant constraints, squared, times the equations exceed this are not looked at: their left kernel is dense, and that
+/// many multiplications, some hundred times over, take a second.
+const MOST_WORK: usize = 30_000_000;
 
 /// What is left of a unit load below this is no help to speak of.
 const WEAK: f64 = 1e-6;
@@ -79,7 +80,9 @@ pub(super) fn change_sets(
     (part, rank): (&Part, &PartRank),
     joints: &[usize],
 ) -> Result<Result<ChangeSets, NoChangeSet>, MatrixError> {
-    if rank.unknowns() > MOST_UNKNOWNS {
+    let independent = rank.settled().and_then(|decision| decision.rank);
+    let redundant = independent.map_or(0, |independent| rank.equations() - independent);
+    if redundant.saturating_pow(2).saturating_mul(rank.equations()) > MOST_WORK {
         return Ok(Err(NoChangeSet::TooLarge));
     }
     let Some(stresses) = SelfStresses::all(part, rank)? else {

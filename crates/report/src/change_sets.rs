@@ -123,7 +123,9 @@ fn obstacle(why: NoChangeSet) -> Option<&'static str> {
         NoChangeSet::Singular => Some(
             "at this singular pose no change removes every redundancy without adding mobility: the equations stay dependent",
         ),
-        NoChangeSet::TooLarge => Some("sets of changes are sought up to 900 joint variables"),
+        NoChangeSet::TooLarge => Some(
+            "sets of changes are not sought in a part of this size: the square of its redundant constraints times its equations exceeds 30 million",
+        ),
         NoChangeSet::OutOfReach => {
             Some("no change of joint kinds removes every redundancy without adding mobility")
         }
