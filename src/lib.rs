@@ -12,12 +12,13 @@
 //! 8. [`algebra`]: the same equations as polynomials; Groebner bases.
 //! 9. [`mobility`]: engines and the verdict.
 //! 10. [`assembly`]: all configurations: collections of bodies, incidence trees.
-//! 11. [`motion`]: a branch followed as a curve: predicted motion.
-//! 12. [`simulate`]: a world of rigid bodies for a mechanism, and what it says about a prediction.
-//! 13. [`accuracy`]: what every way to an answer costs, and how far off it is.
-//! 14. [`record`]: logs of both for viewers.
-//! 15. [`families`]: mechanisms of any size for examples, benches and tests.
-//! 16. [`report`]: what a person or a program reads.
+//! 11. [`constructive`]: planar sketches: over- and under-constrained parts, constructions by ruler and compass.
+//! 12. [`motion`]: a branch followed as a curve: predicted motion.
+//! 13. [`simulate`]: a world of rigid bodies for a mechanism, and what it says about a prediction.
+//! 14. [`accuracy`]: what every way to an answer costs, and how far off it is.
+//! 15. [`record`]: logs of both for viewers.
+//! 16. [`families`]: mechanisms of any size for examples, benches and tests.
+//! 17. [`report`]: what a person or a program reads.
 
 #[doc(inline)]
 pub use kutzbach_algebra as algebra;
@@ -25,6 +26,8 @@ pub use kutzbach_algebra as algebra;
 pub use kutzbach_assembly as assembly;
 #[doc(inline)]
 pub use kutzbach_closure as closure;
+#[doc(inline)]
+pub use kutzbach_constructive as constructive;
 #[doc(inline)]
 pub use kutzbach_format as format;
 #[doc(inline)]

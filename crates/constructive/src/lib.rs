@@ -1,0 +1,20 @@
+//! Planar constructions: constraint graphs of two freedoms a vertex, and what ruler and compass can do with them.
+//!
+//! A vertex is a point or a line of the plane, an edge a constraint that takes one freedom. Such a graph is *well-constrained*
+//! where a count over all its subgraphs is right, and *constructive* where it falls apart into triangles: then every solution is
+//! found by intersecting two circles, a circle and a line, or two lines, one after the other.
+//!
+//! | module | what it knows |
+//! |---|---|
+//! | [`graph`] | constraint graphs and their deficit |
+//! | [`pebbles`] | what is over- and under-constrained, and why |
+//! | [`analysis`] | three ways to find out whether a graph is constructive: reduction, decomposition, s-tree |
+//! | [`samples`] | graphs by name, by Henneberg moves, and all small ones |
+//!
+//! Sources: Laman (1970); Owen (1991); Jacobs and Hendrickson (1997); Soto i Riera, *Constructive Geometric Constraint Solving*
+//! (2002).
+
+pub mod analysis;
+pub mod graph;
+pub mod pebbles;
+pub mod samples;
