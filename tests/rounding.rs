@@ -11,7 +11,7 @@
 use crate::support;
 
 use kutzbach::closure::{Arithmetic, Geometry, Metric, Section};
-use kutzbach::matrix::null_basis;
+use kutzbach::matrix::{SplitMix64, null_basis};
 use kutzbach::mechanism::Mechanism;
 use kutzbach::mobility::{Analysis, CertificateLevel, RelativeMotion, Verdict};
 use std::sync::OnceLock;
@@ -448,5 +448,73 @@ fn rods_between_balls_spin_however_coarse_the_numbers_are() {
             (Some(branch.dimension), Some(branch.dimension), 6),
             "{name}"
         );
+    }
+}
+
+/// A loop of joints that stand anywhere and point anywhere, the last of them closing it.
+fn loop_anywhere(kinds: &[&str], random: &mut SplitMix64) -> Mechanism {
+    let mut triple = || [0; 3].map(|_| (1000.0 * random.symmetric()).round() / 1000.0);
+    let places: Vec<[f64; 3]> = kinds.iter().map(|_| triple()).collect();
+    let words = |v: [f64; 3]| format!("{} {} {}", v[0], v[1], v[2]);
+    let to = |from: [f64; 3], to: [f64; 3]| words([0, 1, 2].map(|i| to[i] - from[i]));
+    let mut axes = |kind: &str| match kind {
+        "spherical" => String::new(),
+        "universal" => {
+            let [x, y, _] = triple();
+            format!(r#"<axis xyz="{x} {y} 0"/><axis2 xyz="0 0 1"/>"#)
+        }
+        _ => format!(r#"<axis xyz="{}"/>"#, words(triple())),
+    };
+    let last = kinds.len() - 1;
+    let mut text = r#"<robot name="anywhere"><link name="l0"/>"#.to_owned();
+    for (i, kind) in kinds[..last].iter().enumerate() {
+        let from = if i == 0 { [0.0; 3] } else { places[i - 1] };
+        text += &format!(
+            r#"<link name="l{next}"/><joint name="j{next}" type="{kind}"><parent link="l{i}"/><child link="l{next}"/>
+            <origin xyz="{}"/>{}</joint>"#,
+            to(from, places[i]),
+            axes(kind),
+            next = i + 1
+        );
+    }
+    text += &format!(
+        r#"<loop name="last" type="{}"><predecessor link="l{last}"><origin xyz="{}"/></predecessor><successor link="l0">
+        <origin xyz="{}"/></successor>{}</loop></robot>"#,
+        kinds[last],
+        to(places[last - 1], places[last]),
+        words(places[last]),
+        axes(kinds[last])
+    );
+    kutzbach::format::read(&text, "anywhere", &[])
+        .unwrap_or_else(|error| panic!("{error}\n{text}"))
+        .mechanism
+}
+
+/// Loops whose equations are independent, with their mobility.
+const INDEPENDENT: [(&[&str], usize); 7] = [
+    (&["revolute"; 7], 1),
+    (&["revolute"; 8], 2),
+    (&["spherical", "spherical", "revolute", "revolute"], 2),
+    (
+        &["cylindrical", "cylindrical", "cylindrical", "revolute"],
+        1,
+    ),
+    (&["universal", "spherical", "revolute", "revolute"], 1),
+    (&["spherical", "spherical", "revolute", "prismatic"], 2),
+    (&["spherical", "revolute", "cylindrical", "revolute"], 1),
+];
+
+/// Where equations are independent with a margin, no rounding of millimetres leaves them open.
+#[test]
+fn independent_loops_are_decided_with_millimetres() {
+    let mut random = SplitMix64::new(33);
+    for round in 0..2 {
+        for (kinds, finite) in INDEPENDENT {
+            let drawn = loop_anywhere(kinds, &mut random);
+            for decimals in [3, 4] {
+                let said = told(&exported(&drawn, decimals, round));
+                assert_eq!(said, Some(finite), "{kinds:?}, {decimals} decimals");
+            }
+        }
     }
 }
