@@ -9,12 +9,16 @@
 //! | [`graph`] | constraint graphs and their deficit |
 //! | [`pebbles`] | what is over- and under-constrained, and why |
 //! | [`analysis`] | three ways to find out whether a graph is constructive: reduction, decomposition, s-tree |
+//! | [`sketch`] | points, lines, and what holds between them |
+//! | [`construction`] | every solution, step by step |
 //! | [`samples`] | graphs by name, by Henneberg moves, and all small ones |
 //!
 //! Sources: Laman (1970); Owen (1991); Jacobs and Hendrickson (1997); Soto i Riera, *Constructive Geometric Constraint Solving*
 //! (2002).
 
 pub mod analysis;
+pub mod construction;
 pub mod graph;
 pub mod pebbles;
 pub mod samples;
+pub mod sketch;
