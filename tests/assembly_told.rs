@@ -279,18 +279,54 @@ fn a_tolerance_of_ones_own_takes_a_gap_as_closed() {
     let (report, _, text) = at_home(&reading);
     assert_eq!(report.mobility.verdict, Verdict::Unassembled);
     assert!(text.contains("--closure-tolerance"), "{text}");
-    let coarse = |tolerance: f64| {
+    let within = |reading: &Reading, tolerance: f64| {
         let options = Options {
             closure_tolerance: Some(tolerance),
             ..Options::default()
         };
-        analysed(&reading, &options)
+        analysed(reading, &options)
     };
+    let coarse = |tolerance: f64| within(&reading, tolerance);
     let (report, _, text) = coarse(1e-5);
     assert_eq!(report.assembly.closed, Some(true), "{text}");
-    assert_ne!(report.mobility.verdict, Verdict::Rigid, "{text}");
+    assert_eq!(report.mobility.finite, Some(1), "{text}");
+    assert!(text.contains("stays open by 4.12 µm and 0°"), "{text}");
     let (report, _, _) = coarse(1e-6);
     assert_eq!(report.assembly.closed, Some(false));
+    // A millimetre drowns what happens near the pose: then the dimensions are taken to be known to within the tolerance.
+    let wide = four_bar(OPEN, [0.0, 0.0, 1.001234567891e-3], "", "");
+    let (report, _, text) = within(&wide, 2e-3);
+    assert_eq!(report.mobility.finite, Some(1), "{text}");
+    let nominal = report.mobility.nominal.as_ref().unwrap();
+    assert!(nominal.distance.unwrap() < 1e-3, "{text}");
+    // The gap told is that of the file, not that of the mechanism meant.
+    assert!(report.assembly.dimensions_changed);
+    assert!(text.contains("is open by 1 mm and 0°"), "{text}");
+}
+
+#[test]
+fn a_gap_that_coarse_numbers_leave_is_told_at_its_joint() {
+    // A door whose middle hinge stands half a millimetre beside the others, in numbers of one decimal but for that one.
+    let hinge = |name: &str, x: &str, z: [&str; 2]| {
+        format!(
+            r#"<loop name="{name}" type="revolute"><predecessor link="frame"><origin xyz="{x} 0 {}"/></predecessor>
+            <successor link="door"><origin xyz="0 0 {}"/></successor><axis xyz="0 0 1"/></loop>"#,
+            z[0], z[1]
+        )
+    };
+    let file = format!(
+        r#"<robot name="door"><link name="frame"/><link name="door"/><joint name="lower" type="revolute"><parent link="frame"/>
+        <child link="door"/><origin xyz="0 0 0.2"/><axis xyz="0 0 1"/></joint>{}{}</robot>"#,
+        hinge("middle", "0.0005", ["1.0", "0.8"]),
+        hinge("upper", "0", ["1.8", "1.6"])
+    );
+    let (report, _, text) = at_home(&read(&file, "door.urdf", &[]).unwrap());
+    assert_eq!(report.mobility.finite, Some(1), "{text}");
+    assert!(
+        text.contains("Loop `middle` stays open by 500 µm"),
+        "{text}"
+    );
+    assert!(text.contains("--precision 5e-5"), "{text}");
 }
 
 #[test]

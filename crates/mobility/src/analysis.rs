@@ -19,6 +19,7 @@ use super::redundant_directions::{JointDirections, redundant_directions};
 use super::roles::{JointRole, Seen, roles_seen_closer};
 use super::verdict::{Mobility, judge, not_asked, unassembled};
 use super::vocabulary::PoseKind;
+use super::vocabulary::Verdict;
 use super::whole_branches::whole_branches;
 use kutzbach_closure::Structure;
 use kutzbach_closure::{
@@ -133,7 +134,23 @@ pub fn analyse(
     options: &AnalysisOptions,
 ) -> Result<Analysis, AnalysisError> {
     let stated = analyse_as_stated(mechanism, options)?;
-    completed(mechanism, options, stated)
+    let analysis = completed(mechanism, options, stated)?;
+    let undecided = analysis.mobility.verdict == Verdict::Undecided && analysis.assembly.closed;
+    let Some(tolerance) = options.closure_tolerance.filter(|_| undecided) else {
+        return Ok(analysis);
+    };
+    // What stays open at the pose drowns what happens near it. Loops that count as closed within a gap have dimensions that are known
+    // to within that gap: read like this, the file may say what was meant.
+    let coarse = mechanism.clone().with_precision(tolerance);
+    let options = AnalysisOptions {
+        closure_tolerance: None,
+        ..options.clone()
+    };
+    let meant = completed(&coarse, &options, analyse_as_stated(&coarse, &options)?)?;
+    Ok(match meant.mobility.finite() {
+        Some(_) => meant,
+        None => analysis,
+    })
 }
 
 /// [`analyse`] without a look at what rounded numbers may have been meant to be.

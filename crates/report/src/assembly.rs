@@ -77,6 +77,7 @@ pub(super) fn assembly(mechanism: &Mechanism, found: &closure::Assembly) -> Asse
             cycle: name(reversal.joint),
             about: reversal.about.map(plain_zero),
         }),
+        dimensions_changed: false,
     }
 }
 

@@ -30,6 +30,7 @@ pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &An
         redundant: generic.redundant,
     });
     report.assembly = super::assembly::assembly(mechanism, &analysis.assembly);
+    report.assembly.dimensions_changed = analysis.meant.is_some();
     fill_home(&mut report.home, analysis);
     report.mobility = verdict(mechanism, analysis);
     report.freedoms = super::inputs::freedoms(mechanism, analysis);
@@ -57,6 +58,7 @@ pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &An
     if !literal.is_empty() {
         let text = "the numbers are stated so coarsely, for a mechanism of this size, that rounding would leave the rank \
                     open; they were taken literally";
+        let text = &format!("{text}{}", known_better(mechanism));
         // Of all blocks or of the only one: then the whole mechanism is meant.
         report
             .warnings
@@ -74,6 +76,18 @@ pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &An
         report
             .warnings
             .push(format!("{} {LOOSE}", analysis.structure.loose_pieces));
+    }
+}
+
+/// What to say of numbers that are better known than the coarsest of them looks: half a unit of the finest decimal, as most are.
+fn known_better(mechanism: &Mechanism) -> String {
+    let precision = mechanism.precision();
+    match (precision.decimals, precision.by_hand()) {
+        (Some(decimals), None) if decimals > 0 => format!(
+            " (`--precision 5e-{}` says that all are known to half a unit of the finest decimal)",
+            decimals + 1
+        ),
+        _ => String::new(),
     }
 }
 

@@ -180,6 +180,9 @@ pub struct Assembly {
     /// A loop with which everything closes once one of its frames is turned over.
     #[serde(default)]
     pub reversal: Option<Reversal>,
+    /// Whether dimensions were changed too, to those that rounded numbers mean.
+    #[serde(default)]
+    pub dimensions_changed: bool,
 }
 
 /// Where assembly took a joint.

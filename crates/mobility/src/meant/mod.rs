@@ -166,6 +166,10 @@ pub(super) fn completed(
     }
     analysis.mobility.nominal = Some(nominal(&all, finite));
     analysis.mobility.as_written = Some(as_written);
+    // How far the file's own numbers leave the loops open is what its reader asks.
+    for (now, drawn) in analysis.assembly.gaps.iter_mut().zip(&stated.assembly.gaps) {
+        (now.position, now.angle) = (drawn.position, drawn.angle);
+    }
     analysis.nearest = Some(Box::new(meant.clone()));
     analysis.meant = Some(Box::new(meant));
     Ok(analysis)

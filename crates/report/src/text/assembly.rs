@@ -30,7 +30,12 @@ pub(crate) fn section(report: &Report, page: &mut Page) {
         return;
     }
     let moved = assembly.moved.filter(|moved| *moved > 0.0);
-    if moved.is_none() && assembly.held.is_empty() && assembly.corrected.is_empty() {
+    let left = left_open(assembly);
+    if moved.is_none()
+        && assembly.held.is_empty()
+        && assembly.corrected.is_empty()
+        && left.is_none()
+    {
         return;
     }
     page.heading("Assembly");
@@ -41,6 +46,9 @@ pub(crate) fn section(report: &Report, page: &mut Page) {
             text.push_str(&format!(" All {all} that moved: `--verbose`."));
         }
         page.paragraph(&text, Tint::Plain, "  ", "  ");
+    }
+    if let Some(text) = left {
+        page.paragraph(&text, Tint::Doubtful, "  ", "  ");
     }
     if let Some(text) = held(assembly) {
         page.paragraph(&text, Tint::Plain, "  ", "  ");
@@ -73,24 +81,18 @@ fn how_far(report: &Report) -> String {
         .max_by(|a, b| a.position.total_cmp(&b.position));
     let mut text = match worst {
         Some(gap) => format!(
-            "{drawn}, loop `{}` is open by {} m and {}°.",
+            "{drawn}, loop `{}` is open by {} and {}°.",
             gap.cycle,
-            figure(gap.position),
+            metres(gap.position),
             figure(gap.angle.to_degrees())
         ),
         None => "The file's pose does not satisfy its couplings.".to_owned(),
     };
-    text.push_str(" It was closed by moving joints");
-    let left = |of: fn(&Gap) -> f64| assembly.gaps.iter().map(of).fold(0.0, f64::max);
-    let (distance, angle) = (left(|gap| gap.left_position), left(|gap| gap.left_angle));
-    if distance > 0.0 || angle > 0.0 {
-        text.push_str(&format!(
-            "; remaining gap {}, {}°",
-            metres(distance),
-            figure(angle.to_degrees())
-        ));
-    }
-    text.push_str(". This report is on the closed pose.");
+    text.push_str(match assembly.dimensions_changed {
+        true => " It was closed by moving joints, with the nearest dimensions that move.",
+        false => " It was closed by moving joints.",
+    });
+    text.push_str(" This report is on the closed pose.");
     if let Some(starts) = assembly.starts.filter(|starts| *starts > 1) {
         text.push_str(&format!(
             " From the drawn pose no closing was found, or none within the joint limits: the nearest of {} was used.",
@@ -113,6 +115,30 @@ fn how_far(report: &Report) -> String {
         text.push_str(&format!(" Largest change: {}.", corrections.join(", ")));
     }
     text
+}
+
+/// Loops that count as closed and are not, quite.
+fn left_open(assembly: &Assembly) -> Option<String> {
+    let visible = |gap: &&Gap| gap.left_position.max(gap.left_angle) > SHOWN;
+    let worst = nearest(assembly).filter(visible)?;
+    let others = assembly.gaps.iter().filter(visible).count() - 1;
+    let others = match others {
+        0 => String::new(),
+        1 => " (another one by less)".to_owned(),
+        _ => format!(" ({others} others by less)"),
+    };
+    let tolerance = assembly.tolerance.map_or(String::new(), |tolerance| {
+        format!(
+            "; up to {} does, by the precision of the numbers",
+            metres(tolerance)
+        )
+    });
+    Some(format!(
+        "Loop `{}` stays open by {} and {}°{others} and counts as closed{tolerance}.",
+        worst.cycle,
+        metres(worst.left_position),
+        figure(worst.left_angle.to_degrees()),
+    ))
 }
 
 fn joints_are(list: &[String]) -> String {

@@ -338,7 +338,7 @@ fn not_drawn(nominal: &Nominal) -> String {
         ));
     }
     text.push_str(&format!(
-        ", beyond the digits of these numbers ({}): it is not what is drawn.",
+        ", beyond the precision of these numbers ({}): it is not what is drawn.",
         cite::NOMINAL
     ));
     text
@@ -347,7 +347,7 @@ fn not_drawn(nominal: &Nominal) -> String {
 /// How far the numbers are from those of the mechanism meant, and what they leave as written.
 fn meant(nominal: &Nominal, distance: f64, written: &AsWritten, finite: Option<usize>) -> String {
     let away = format!(
-        "dimensions that move differ from them by up to {}, within their digits ({})",
+        "dimensions that move differ from them by up to {}, within their precision ({})",
         metres(distance),
         cite::NOMINAL
     );
