@@ -73,7 +73,7 @@ impl Source {
 pub const STANDARD_INPUT: &str = "standard input";
 
 /// All of standard input; more than a file may hold is cut off, and refused as too large.
-fn standard_input() -> Result<String, Failure> {
+pub fn standard_input() -> Result<String, Failure> {
     const MOST: u64 = 1 << 28;
     let mut text = String::new();
     let read = std::io::stdin().lock().take(MOST).read_to_string(&mut text);

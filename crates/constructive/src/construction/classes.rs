@@ -5,6 +5,8 @@ use std::collections::BTreeSet;
 
 /// Classes with more ways to try than this are not tried to the end.
 const MOST_TRIES: usize = 4096;
+/// Nor are those of large sketches, where one try is long: all tries together take so many steps, a second or two.
+const MOST_STEPS: usize = 1 << 20;
 
 /// Steps that hang together, and the choices that lead to solutions.
 #[derive(Clone, Debug)]
@@ -45,52 +47,72 @@ fn top(parent: &mut [usize], mut at: usize) -> usize {
     at
 }
 
-impl Class {
-    /// A step that depends on nothing, by how it turns out.
-    pub(super) fn single(step: usize, outcome: Outcome) -> Self {
-        let ways: &[bool] = match outcome {
-            Outcome::Two { .. } => &[false, true],
-            Outcome::Touching { .. } | Outcome::One => &[false],
-            Outcome::Apart { .. } | Outcome::Degenerate => &[],
-        };
-        Self {
-            steps: vec![step],
-            ways: ways.iter().map(|&w| vec![w]).collect(),
-            complete: true,
-        }
-    }
+/// A class while its choices are tried.
+struct Trial {
+    class: Class,
+    other: Vec<bool>,
+}
 
-    /// Tries all choices, the drawn ones first. `outcomes` says how the steps of the class turn out by a choice for them.
-    pub(super) fn tried(
-        steps: Vec<usize>,
-        mut outcomes: impl FnMut(&[bool]) -> Vec<Outcome>,
-    ) -> Self {
-        let mut ways = Vec::new();
-        let mut other = vec![false; steps.len()];
-        let mut complete = false;
-        for _ in 0..MOST_TRIES {
-            let found = outcomes(&other);
-            // Choices after a step that is impossible change nothing; nor do those of a step with one place only.
-            let dead = found.iter().position(|o| !o.is_possible());
-            if dead.is_none() {
-                ways.push(other.clone());
-            }
-            let until = dead.unwrap_or(steps.len());
-            let next = (0..until)
-                .rev()
-                .find(|&k| !other[k] && matches!(found[k], Outcome::Two { .. }));
-            let Some(k) = next else {
-                complete = true;
-                break;
-            };
-            other[k] = true;
-            other[k + 1..].fill(false);
+impl Trial {
+    /// Takes note of how the steps turned out, and makes the next choice; false where there is none.
+    fn next(&mut self, all: &[Outcome]) -> bool {
+        let steps = &self.class.steps;
+        let found: Vec<Outcome> = steps.iter().map(|&s| all[s]).collect();
+        // Choices after a step that is impossible change nothing; nor do those of a step with one place only.
+        let dead = found.iter().position(|o| !o.is_possible());
+        if dead.is_none() {
+            self.class.ways.push(self.other.clone());
         }
-        ways.sort_by_key(|w| w.iter().filter(|&&o| o).count());
-        Self {
+        let next = (0..dead.unwrap_or(steps.len()))
+            .rev()
+            .find(|&k| !self.other[k] && matches!(found[k], Outcome::Two { .. }));
+        if let Some(k) = next {
+            self.other[k] = true;
+            self.other[k + 1..].fill(false);
+        }
+        next.is_some()
+    }
+}
+
+/// Tries the choices of all classes at once, as they do not change each other's steps: the drawn ones first. `outcomes` says how
+/// all steps turn out where these take the other side than drawn.
+pub(super) fn tried(
+    classes: Vec<Vec<usize>>,
+    steps: usize,
+    mut outcomes: impl FnMut(&[bool]) -> Vec<Outcome>,
+) -> Vec<Class> {
+    let trial = |steps: Vec<usize>| Trial {
+        other: vec![false; steps.len()],
+        class: Class {
             steps,
-            ways,
-            complete,
+            ways: Vec::new(),
+            complete: false,
+        },
+    };
+    let mut trials: Vec<Trial> = classes.into_iter().map(trial).collect();
+    let mut other = vec![false; steps];
+    for _ in 0..MOST_TRIES.min(1 + MOST_STEPS / steps.max(1)) {
+        for trial in &trials {
+            for (&step, &o) in trial.class.steps.iter().zip(&trial.other) {
+                other[step] = o;
+            }
+        }
+        let all = outcomes(&other);
+        let mut open = false;
+        for trial in trials.iter_mut().filter(|t| !t.class.complete) {
+            trial.class.complete = !trial.next(&all);
+            open |= !trial.class.complete;
+        }
+        if !open {
+            break;
         }
     }
+    trials
+        .into_iter()
+        .map(|mut trial| {
+            let others = |way: &Vec<bool>| way.iter().filter(|&&o| o).count();
+            trial.class.ways.sort_by_key(others);
+            trial.class
+        })
+        .collect()
 }

@@ -172,6 +172,12 @@ impl<'a> Construction<'a> {
         self.with_sides(&self.drawn_left)
     }
 
+    /// How many times an element is moved for one solution: what a solution costs.
+    #[must_use]
+    pub const fn moved(&self) -> u64 {
+        self.plan.moved
+    }
+
     /// How many solutions there are, without listing them.
     #[must_use]
     pub fn count(&self) -> Count {
@@ -215,25 +221,14 @@ impl<'a> Construction<'a> {
     fn classes(&self) -> Vec<classes::Class> {
         let steps = self.plan.moves.len();
         let depends = depend::dependence(self.sketch, &self.reduction.merges);
-        let drawn = self.outcomes(&self.drawn_left);
-        classes::classes(depends.as_deref(), steps)
-            .into_iter()
-            .map(|class| match class[..] {
-                [step] => classes::Class::single(step, drawn[step]),
-                _ => self.class_tried(class),
-            })
-            .collect()
-    }
-
-    fn class_tried(&self, steps: Vec<usize>) -> classes::Class {
-        let mut left = self.drawn_left.clone();
-        let of = steps.clone();
-        classes::Class::tried(steps, |other| {
-            for (&step, other) in of.iter().zip(other) {
-                left[step] = self.drawn_left[step] != *other;
-            }
-            let all = self.outcomes(&left);
-            of.iter().map(|&step| all[step]).collect()
+        let classes = classes::classes(depends.as_deref(), steps);
+        classes::tried(classes, steps, |other| {
+            let sides = self.drawn_left.iter().zip(other);
+            self.outcomes(
+                &sides
+                    .map(|(left, other)| left ^ other)
+                    .collect::<Vec<bool>>(),
+            )
         })
     }
 }

@@ -26,6 +26,8 @@ pub(super) struct Plan {
     pub(super) root: usize,
     /// Its elements.
     pub(super) order: Vec<usize>,
+    /// How many times an element is moved.
+    pub(super) moved: u64,
 }
 
 /// The elements of a cluster in their order, and back.
@@ -54,6 +56,7 @@ impl Plan {
         }
         // The place of a cluster is that of the first edge in its largest part.
         let mut place: Vec<usize> = (0..edges.len()).collect();
+        let mut moved = 0;
         let mut moves = Vec::with_capacity(reduction.merges.len());
         for merge in &reduction.merges {
             let places = merge.parts.map(|p| place[p]);
@@ -73,9 +76,11 @@ impl Plan {
             let gone = [1, 2].map(|k| std::mem::take(&mut orders[places[k]].elements));
             let kept = &mut orders[places[0]];
             kept.push(y);
+            moved += 1;
             let others = gone.into_iter().flatten();
             for v in others.filter(|v| !shared.contains(v)) {
                 kept.push(v);
+                moved += 1;
             }
             place.push(places[0]);
         }
@@ -84,6 +89,7 @@ impl Plan {
             order: std::mem::take(&mut orders[root].elements),
             moves,
             root,
+            moved,
         }
     }
 }
