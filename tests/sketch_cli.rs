@@ -111,3 +111,46 @@ fn a_sketch_is_no_mechanism_and_settings_change_it() {
             .contains("circles do not meet, they are 1.000e0 apart")
     );
 }
+
+fn said(arguments: &[&str]) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(arguments)
+        .output()
+        .unwrap();
+    String::from_utf8([output.stdout, output.stderr].concat()).unwrap()
+}
+
+#[test]
+fn planar_mechanisms_have_as_many_solutions_as_configurations() {
+    for (name, hold) in [
+        ("slider_crank", "main_bearing=0.3"),
+        ("planar_four_bar", "crank_pivot=0.3"),
+        ("parallelogram", "left_pivot=0.3"),
+    ] {
+        let file = format!("mechanisms/{name}.urdf");
+        let sketch = said(&["graph", &file, "--constructive", "--hold", hold]);
+        let modes = said(&["assemble", &file, "--hold", hold]);
+        assert!(sketch.contains("solutions: 2\n"), "{sketch}");
+        assert!(modes.contains("2 configurations, and no other"), "{modes}");
+    }
+}
+
+#[test]
+fn what_is_known_of_mechanisms_shows_in_their_sketches() {
+    let shown = |name: &str| {
+        let file = format!("mechanisms/{name}.urdf");
+        said(&["graph", &file, "--constructive"])
+    };
+    for (name, words) in [
+        ("k33_dixon", "triconnected: "),
+        ("planar_four_bar", "freedoms left: 1"),
+        ("k44_dixon", "over-constrained"),
+        ("double_pendulum", "it is free there"),
+        ("bennett", "does not move in the plane of the others"),
+        ("delta", "planar parts have hinges and sliders"),
+    ] {
+        let text = shown(name);
+        assert!(text.contains(words), "{name}: {text}");
+    }
+}

@@ -24,10 +24,13 @@ pub struct Arguments {
     /// Show which bodies are best placed by which others: the incidence tree, as text, dot or svg
     #[arg(long)]
     incidence: bool,
-    /// Show what of a sketch is over- or under-constrained, how circles and lines construct it, and how many solutions
+    /// Show what of a sketch or planar mechanism is over- or under-constrained, how circles and lines construct it, and how many solutions
     /// there are; the s-tree as dot or svg
     #[arg(long, conflicts_with = "incidence")]
     constructive: bool,
+    /// Hold a joint of a planar mechanism for `--constructive`, as `joint=value`; may be repeated
+    #[arg(long, value_name = "JOINT=VALUE", requires = "constructive")]
+    hold: Vec<String>,
     /// Show the links that are only fixed to others too; JSON always has them
     #[arg(long)]
     verbose: bool,
@@ -105,7 +108,7 @@ fn incidence(arguments: &Arguments, mechanism: &Mechanism) -> Result<u8, Failure
 
 /// What ruler and compass can do with a sketch.
 fn constructive(arguments: &Arguments) -> Result<u8, Failure> {
-    let named = sketch::read(&arguments.source)?;
+    let named = sketch::read(&arguments.source, &arguments.hold)?;
     let found = SketchWords::of(&named);
     let text = match (arguments.format, found.graph()) {
         (Format::Json, _) => output::json(&found.data())?,

@@ -53,15 +53,20 @@ impl Source {
         self.read_with(symbolic, false)
     }
 
-    fn read_with(&self, symbolic: &[String], strict: bool) -> Result<Reading, Failure> {
-        let options = ReadOptions {
+    /// How to read it.
+    pub fn options(&self, symbolic: &[String], strict: bool) -> ReadOptions {
+        ReadOptions {
             settings: self.settings.clone(),
             symbolic: symbolic.to_vec(),
             literal: self.literal,
             precision: self.precision,
             strict,
             packages: self.packages.clone(),
-        };
+        }
+    }
+
+    fn read_with(&self, symbolic: &[String], strict: bool) -> Result<Reading, Failure> {
+        let options = self.options(symbolic, strict);
         if self.file == Path::new("-") {
             return Ok(read_with(&standard_input()?, STANDARD_INPUT, &options)?);
         }

@@ -11,6 +11,7 @@
 //! | [`analysis`] | three ways to find out whether a graph is constructive: reduction, decomposition, s-tree |
 //! | [`sketch`] | points, lines, and what holds between them |
 //! | [`construction`] | every solution, step by step |
+//! | [`planar`] | planar mechanisms as sketches |
 //! | [`words`], [`picture`] | the answers as text, data, graph and picture |
 //! | [`samples`] | graphs by name, by Henneberg moves, and all small ones |
 //!
@@ -22,6 +23,7 @@ pub mod construction;
 pub mod graph;
 pub mod pebbles;
 pub mod picture;
+pub mod planar;
 pub mod samples;
 pub mod sketch;
 pub mod words;

@@ -78,7 +78,12 @@ pub struct Sketch {
     elements: Vec<Element>,
     constraints: Vec<Constraint>,
     graph: Graph,
+    /// Three elements, ascending, with a kept order and how they lie to each other.
+    rigid: HashMap<[usize; 3], Triangle>,
 }
+
+/// Three elements and how they lie to each other.
+type Triangle = ([usize; 3], [Element; 3]);
 
 impl Sketch {
     /// The sketch.
@@ -118,7 +123,30 @@ impl Sketch {
             elements,
             constraints,
             graph,
+            rigid: HashMap::new(),
         })
+    }
+
+    /// The same sketch where three elements each, all tied to each other, lie as they are given here and are never turned over: those
+    /// of a rigid body.
+    #[must_use]
+    pub fn with_rigid(mut self, triangles: Vec<([usize; 3], [Element; 3])>) -> Self {
+        for (elements, places) in triangles {
+            let mut sorted = elements;
+            sorted.sort_unstable();
+            self.rigid.insert(sorted, (elements, places));
+        }
+        self
+    }
+
+    /// How three elements lie to each other in a body that has them, in the order asked for.
+    pub(crate) fn rigid(&self, elements: [usize; 3]) -> Option<[Element; 3]> {
+        let mut sorted = elements;
+        sorted.sort_unstable();
+        let (order, places) = self.rigid.get(&sorted)?;
+        let place = |e: usize| order.iter().position(|&o| o == e).map(|k| places[k]);
+        let [a, b, c] = elements.map(place);
+        Some([a?, b?, c?])
     }
 
     /// The elements.

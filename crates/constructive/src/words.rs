@@ -116,6 +116,11 @@ impl<'a> SketchWords<'a> {
             format!("steps: {}", construction.drawn_left().len()),
             format!("solutions: {count}"),
         ];
+        if count.degenerate {
+            lines.push(
+                "other choices end where nothing fixes an element; they are not counted".to_owned(),
+            );
+        }
         let outcomes = construction.outcomes(construction.drawn_left());
         for (step, outcome) in outcomes.iter().enumerate().take(MOST_LISTED) {
             lines.push(self.step(construction, step, outcome));
@@ -133,6 +138,7 @@ impl<'a> SketchWords<'a> {
     fn step(&self, construction: &Construction<'_>, step: usize, outcome: &Outcome) -> String {
         let (by, element) = construction.elements_of(step);
         let what = match outcome {
+            _ if construction.is_rigid(step) => "one place, on the same body".to_owned(),
             Outcome::Two { .. } if construction.drawn_left()[step] => {
                 "two places, drawn on the left".to_owned()
             }
@@ -170,6 +176,7 @@ impl<'a> SketchWords<'a> {
             _ => self.game.rigid_parts().iter().map(|p| names(p)).collect(),
         };
         let construction = self.construction.as_ref().ok();
+        let count = construction.map(Construction::count);
         let steps = construction.map(|c| {
             let outcomes = c.outcomes(c.drawn_left());
             let step = |(i, o): (usize, &Outcome)| {
@@ -190,8 +197,9 @@ impl<'a> SketchWords<'a> {
             "rigid_parts": parts,
             "constructive": self.tree.solved,
             "triconnected": self.tree.leaves(LeafKind::Triconnected),
-            "solutions": construction.map(|c| c.count().to_string()),
-            "solutions_complete": construction.map(|c| c.count().complete),
+            "solutions": count.as_ref().map(ToString::to_string),
+            "solutions_complete": count.as_ref().map(|c| c.complete),
+            "solutions_degenerate": count.as_ref().map(|c| c.degenerate),
             "steps": steps,
         })
     }

@@ -73,7 +73,7 @@ mod xml;
 
 pub use error::FormatError;
 pub use mentions::MAY_JOIN;
-pub use sketch::{read_sketch, read_sketch_file};
+pub use sketch::{is_sketch, read_sketch, read_sketch_file};
 pub use told::is_told_first;
 pub use writer::write;
 

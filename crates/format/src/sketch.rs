@@ -11,6 +11,12 @@ use kutzbach_math::number::Number;
 use std::collections::HashMap;
 use std::path::Path;
 
+/// Whether a text is a sketch rather than a mechanism: its first element is `<sketch>`. What is no XML is none.
+#[must_use]
+pub fn is_sketch(text: &str) -> bool {
+    xml::parse(text).is_ok_and(|document| document.root_element().has_tag_name("sketch"))
+}
+
 /// Reads a sketch; `file` names the text in errors, `settings` are as for [`read`](crate::read).
 ///
 /// # Errors

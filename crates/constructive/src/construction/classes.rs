@@ -17,6 +17,8 @@ pub(super) struct Class {
     pub(super) ways: Vec<Vec<bool>>,
     /// Whether these are all.
     pub(super) complete: bool,
+    /// Whether some choices leave an element without a place of its own: infinitely many solutions, or none.
+    pub(super) degenerate: bool,
 }
 
 /// The classes: a step together with all steps that it depends on.
@@ -55,17 +57,18 @@ struct Trial {
 
 impl Trial {
     /// Takes note of how the steps turned out, and makes the next choice; false where there is none.
-    fn next(&mut self, all: &[Outcome]) -> bool {
+    fn next(&mut self, all: &[Outcome], rigid: &[bool]) -> bool {
         let steps = &self.class.steps;
         let found: Vec<Outcome> = steps.iter().map(|&s| all[s]).collect();
         // Choices after a step that is impossible change nothing; nor do those of a step with one place only.
         let dead = found.iter().position(|o| !o.is_possible());
+        self.class.degenerate |= dead.is_some_and(|k| found[k] == Outcome::Degenerate);
         if dead.is_none() {
             self.class.ways.push(self.other.clone());
         }
-        let next = (0..dead.unwrap_or(steps.len()))
-            .rev()
-            .find(|&k| !self.other[k] && matches!(found[k], Outcome::Two { .. }));
+        let next = (0..dead.unwrap_or(steps.len())).rev().find(|&k| {
+            !self.other[k] && !rigid[steps[k]] && matches!(found[k], Outcome::Two { .. })
+        });
         if let Some(k) = next {
             self.other[k] = true;
             self.other[k + 1..].fill(false);
@@ -75,10 +78,11 @@ impl Trial {
 }
 
 /// Tries the choices of all classes at once, as they do not change each other's steps: the drawn ones first. `outcomes` says how
-/// all steps turn out where these take the other side than drawn.
+/// all steps turn out where these take the other side than drawn; what is
+/// rigid never does.
 pub(super) fn tried(
     classes: Vec<Vec<usize>>,
-    steps: usize,
+    rigid: &[bool],
     mut outcomes: impl FnMut(&[bool]) -> Vec<Outcome>,
 ) -> Vec<Class> {
     let trial = |steps: Vec<usize>| Trial {
@@ -87,9 +91,11 @@ pub(super) fn tried(
             steps,
             ways: Vec::new(),
             complete: false,
+            degenerate: false,
         },
     };
     let mut trials: Vec<Trial> = classes.into_iter().map(trial).collect();
+    let steps = rigid.len();
     let mut other = vec![false; steps];
     for _ in 0..MOST_TRIES.min(1 + MOST_STEPS / steps.max(1)) {
         for trial in &trials {
@@ -100,7 +106,7 @@ pub(super) fn tried(
         let all = outcomes(&other);
         let mut open = false;
         for trial in trials.iter_mut().filter(|t| !t.class.complete) {
-            trial.class.complete = !trial.next(&all);
+            trial.class.complete = !trial.next(&all, rigid);
             open |= !trial.class.complete;
         }
         if !open {

@@ -12,6 +12,8 @@ pub struct Count {
     pub factors: Vec<usize>,
     /// Whether all choices were tried: otherwise there are at least so many.
     pub complete: bool,
+    /// Whether some choices come to a step that nothing fixes: these are infinitely many solutions or none, and not counted.
+    pub degenerate: bool,
 }
 
 impl Count {
@@ -20,9 +22,11 @@ impl Count {
             twos: 0,
             factors: Vec::new(),
             complete: true,
+            degenerate: false,
         };
         for class in classes {
             count.complete &= class.complete;
+            count.degenerate |= class.degenerate;
             match class.ways.len() {
                 1 => {}
                 0 => count.factors.push(0),

@@ -90,6 +90,8 @@ pub struct Construction<'a> {
     frames: Vec<Vec<Shape>>,
     drawn: Vec<Shape>,
     drawn_left: Vec<bool>,
+    /// Whether a step places what a rigid body has: on the side drawn only.
+    rigid: Vec<bool>,
 }
 
 impl<'a> Construction<'a> {
@@ -104,12 +106,15 @@ impl<'a> Construction<'a> {
         }
         let plan = Plan::new(sketch, &reduction);
         let drawn: Vec<Shape> = sketch.elements().iter().map(Shape::drawn).collect();
+        let rigid = |m: &plan::Move| sketch.rigid(m.shared);
         let side = |m: &plan::Move| {
-            let [x, y, z] = m.shared;
-            third::drawn_side([&drawn[x], &drawn[z]], &drawn[y]) >= 0.0
+            let three = rigid(m).map(|r| r.map(|e| Shape::drawn(&e)));
+            let [x, y, z] = three.unwrap_or_else(|| m.shared.map(|e| drawn[e]));
+            third::drawn_side([&x, &z], &y) >= 0.0
         };
         Ok(Self {
             drawn_left: plan.moves.iter().map(side).collect(),
+            rigid: plan.moves.iter().map(|m| rigid(m).is_some()).collect(),
             frames: frame::of_edges(sketch),
             sketch,
             reduction,
@@ -128,6 +133,12 @@ impl<'a> Construction<'a> {
     #[must_use]
     pub fn drawn_left(&self) -> &[bool] {
         &self.drawn_left
+    }
+
+    /// Whether the three elements of a step belong to one rigid body, so that it has one place only.
+    #[must_use]
+    pub fn is_rigid(&self, step: usize) -> bool {
+        self.rigid[step]
     }
 
     /// The elements of a step: the two that are placed, and the one that is placed by them.
@@ -222,7 +233,7 @@ impl<'a> Construction<'a> {
         let steps = self.plan.moves.len();
         let depends = depend::dependence(self.sketch, &self.reduction.merges);
         let classes = classes::classes(depends.as_deref(), steps);
-        classes::tried(classes, steps, |other| {
+        classes::tried(classes, &self.rigid, |other| {
             let sides = self.drawn_left.iter().zip(other);
             self.outcomes(
                 &sides

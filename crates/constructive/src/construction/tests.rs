@@ -54,6 +54,22 @@ fn a_triangle_has_two_solutions_and_the_drawn_one_comes_first() {
 }
 
 #[test]
+fn what_a_rigid_body_has_is_not_turned_over() {
+    let sides = [(0, 1, "4"), (1, 2, "3"), (2, 0, "5")];
+    // The body has it on the other side than the drawing.
+    let elements = points(&[[0.0; 2], [4.0, 0.0], [4.0, 3.0]]);
+    let body = [[4.0, 0.0], [0.0, 0.0], [4.0, -3.0]].map(Element::Point);
+    let sketch = sketch(elements, &sides).with_rigid(vec![([1, 0, 2], body)]);
+    let construction = Construction::new(&sketch).unwrap();
+    assert_eq!(construction.count().value(), Some(1));
+    let only: Vec<Solution> = construction.solutions().collect();
+    let [Shape::Point(a), Shape::Point(b), Shape::Point(c)] = only[0].shapes[..] else {
+        panic!("three points");
+    };
+    assert!(shape::cross(shape::minus(b, a), shape::minus(c, a)) < 0.0);
+}
+
+#[test]
 fn flat_triangles_are_double_and_too_long_sides_are_told() {
     let outcome = |side: &str| {
         let sides = [(0, 1, "sqrt(2)"), (1, 2, "sqrt(8)"), (2, 0, side)];
@@ -241,6 +257,7 @@ fn degenerate_steps_are_told() {
         let why = construction.as_drawn().unwrap_err();
         assert_eq!((why.step, why.outcome), (0, Outcome::Degenerate));
         assert_eq!(construction.count().value(), Some(0));
+        assert!(construction.count().degenerate);
     }
 }
 
