@@ -51,6 +51,14 @@ pub enum NotPlanar {
         /// A link of the body.
         link: String,
     },
+    /// Joints that are in one place on some links and in two on another.
+    #[error("link `{link}` has `{}` and `{}` in two places, other links in one", joints[0], joints[1])]
+    Apart {
+        /// A link of the body.
+        link: String,
+        /// The joints.
+        joints: [String; 2],
+    },
     /// A body with one hinge or slider: it turns or slides there whatever the others do.
     #[error("link `{link}` is held in `{joint}` only: it is free there")]
     Open {
