@@ -68,6 +68,7 @@ mod robot_page;
 mod rounding;
 mod same_bytes;
 mod simulate_cli;
+mod sketch_cli;
 #[path = "stability/main.rs"]
 mod stability;
 mod subgroups;

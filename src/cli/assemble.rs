@@ -146,7 +146,7 @@ fn watched(
 }
 
 /// Reads `joint=value`.
-fn held(mechanism: &Mechanism, item: &str) -> Result<(JointId, Number), Failure> {
+pub fn held(mechanism: &Mechanism, item: &str) -> Result<(JointId, Number), Failure> {
     let wrong = |message: String, help: &str| Failure::Plain {
         message,
         help: Some(help.to_owned()),

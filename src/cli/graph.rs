@@ -1,9 +1,10 @@
 //! `kutzbach graph FILE`: links, joints, the spanning tree and both sets of cycles.
 
 use super::failure::Failure;
-use super::{DONE, load, output};
+use super::{DONE, load, output, sketch};
 use clap::{Args, ValueEnum};
 use kutzbach::assembly::words;
+use kutzbach::constructive::words::SketchWords;
 use kutzbach::graph::{
     ConstraintGraph, CycleBasis, FoldedGraph, GraphSummary, SpanningTree, to_dot, to_svg,
 };
@@ -23,6 +24,13 @@ pub struct Arguments {
     /// Show which bodies are best placed by which others: the incidence tree, as text, dot or svg
     #[arg(long)]
     incidence: bool,
+    /// Show what of a sketch or planar mechanism is over- or under-constrained, how circles and lines construct it, and how many solutions
+    /// there are; the s-tree as dot or svg
+    #[arg(long, conflicts_with = "incidence")]
+    constructive: bool,
+    /// Hold a joint of a planar mechanism for `--constructive`, as `joint=value`; may be repeated
+    #[arg(long, value_name = "JOINT=VALUE", requires = "constructive")]
+    hold: Vec<String>,
     /// Show the links that are only fixed to others too; JSON always has them
     #[arg(long)]
     verbose: bool,
@@ -45,6 +53,9 @@ enum Format {
 /// # Errors
 /// Where the file cannot be read or the output cannot be written.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    if arguments.constructive {
+        return constructive(arguments);
+    }
     let reading = arguments.source.read()?;
     if arguments.incidence {
         return incidence(arguments, &reading.mechanism);
@@ -90,6 +101,20 @@ fn incidence(arguments: &Arguments, mechanism: &Mechanism) -> Result<u8, Failure
                 }
             }
         },
+    };
+    arguments.destination.put(&text)?;
+    Ok(DONE)
+}
+
+/// What ruler and compass can do with a sketch.
+fn constructive(arguments: &Arguments) -> Result<u8, Failure> {
+    let named = sketch::read(&arguments.source, &arguments.hold)?;
+    let found = SketchWords::of(&named);
+    let text = match (arguments.format, found.graph()) {
+        (Format::Json, _) => output::json(&found.data())?,
+        (Format::Dot, Some(graph)) => to_dot(&graph, &SpanningTree::root_at(&graph, 0)),
+        (Format::Svg, Some(graph)) => to_svg(&graph, &SpanningTree::root_at(&graph, 0)),
+        _ => harmless(&found.text()),
     };
     arguments.destination.put(&text)?;
     Ok(DONE)

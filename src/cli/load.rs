@@ -53,15 +53,20 @@ impl Source {
         self.read_with(symbolic, false)
     }
 
-    fn read_with(&self, symbolic: &[String], strict: bool) -> Result<Reading, Failure> {
-        let options = ReadOptions {
+    /// How to read it.
+    pub fn options(&self, symbolic: &[String], strict: bool) -> ReadOptions {
+        ReadOptions {
             settings: self.settings.clone(),
             symbolic: symbolic.to_vec(),
             literal: self.literal,
             precision: self.precision,
             strict,
             packages: self.packages.clone(),
-        };
+        }
+    }
+
+    fn read_with(&self, symbolic: &[String], strict: bool) -> Result<Reading, Failure> {
+        let options = self.options(symbolic, strict);
         if self.file == Path::new("-") {
             return Ok(read_with(&standard_input()?, STANDARD_INPUT, &options)?);
         }
@@ -73,7 +78,7 @@ impl Source {
 pub const STANDARD_INPUT: &str = "standard input";
 
 /// All of standard input; more than a file may hold is cut off, and refused as too large.
-fn standard_input() -> Result<String, Failure> {
+pub fn standard_input() -> Result<String, Failure> {
     const MOST: u64 = 1 << 28;
     let mut text = String::new();
     let read = std::io::stdin().lock().take(MOST).read_to_string(&mut text);

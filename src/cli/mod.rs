@@ -19,6 +19,7 @@ mod pose;
 mod progress;
 mod report;
 mod simulate;
+mod sketch;
 mod terminal;
 mod trace;
 

@@ -9,12 +9,21 @@
 //! | [`graph`] | constraint graphs and their deficit |
 //! | [`pebbles`] | what is over- and under-constrained, and why |
 //! | [`analysis`] | three ways to find out whether a graph is constructive: reduction, decomposition, s-tree |
+//! | [`sketch`] | points, lines, and what holds between them |
+//! | [`construction`] | every solution, step by step |
+//! | [`planar`] | planar mechanisms as sketches |
+//! | [`words`], [`picture`] | the answers as text, data, graph and picture |
 //! | [`samples`] | graphs by name, by Henneberg moves, and all small ones |
 //!
 //! Sources: Laman (1970); Owen (1991); Jacobs and Hendrickson (1997); Soto i Riera, *Constructive Geometric Constraint Solving*
 //! (2002).
 
 pub mod analysis;
+pub mod construction;
 pub mod graph;
 pub mod pebbles;
+pub mod picture;
+pub mod planar;
 pub mod samples;
+pub mod sketch;
+pub mod words;

@@ -61,6 +61,7 @@ mod quaternion;
 mod reader;
 mod relax;
 mod restated;
+mod sketch;
 mod told;
 mod unread;
 mod values;
@@ -72,6 +73,7 @@ mod xml;
 
 pub use error::FormatError;
 pub use mentions::MAY_JOIN;
+pub use sketch::{is_sketch, read_sketch, read_sketch_file};
 pub use told::is_told_first;
 pub use writer::write;
 

@@ -174,6 +174,7 @@ fn check_root(root: Element<'_>) -> Outcome<()> {
         "sdf" | "mujoco" | "mjcf" | "model" => {
             fault.help("this is another format; only URDF and its extensions are read")
         }
+        "sketch" => fault.help("a sketch is shown by `kutzbach graph FILE --constructive`"),
         name => fault
             .help("a mechanism file is one <robot name=\"...\"> element")
             .maybe_help(did_you_mean(name, ["robot"], ("<", ">"))),
@@ -181,7 +182,7 @@ fn check_root(root: Element<'_>) -> Outcome<()> {
 }
 
 impl<'a> Reader<'a> {
-    fn new(root: Element<'a>) -> Self {
+    pub(super) fn new(root: Element<'a>) -> Self {
         // The name is a label; nothing refers to it.
         let name = root.attribute("name").map_or("unnamed", |name| name.value);
         Self {
@@ -228,7 +229,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn read_definitions(
+    pub(super) fn read_definitions(
         &mut self,
         root: Element<'a>,
         children: &[Element<'a>],

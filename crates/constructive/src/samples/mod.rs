@@ -1,10 +1,12 @@
-//! Graphs for examples, benches and tests: by name, by Henneberg moves, and all small well-constrained ones.
+//! Graphs and sketches for examples, benches and tests: by name, by Henneberg moves, and all small well-constrained ones.
 
 mod laman;
 mod random;
+mod sketches;
 
 pub use laman::laman_graphs;
 pub use random::Random;
+pub use sketches::{strip_sketch, tied_sketch};
 
 use crate::graph::Graph;
 use std::collections::HashSet;

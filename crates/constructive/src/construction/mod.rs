@@ -1,0 +1,259 @@
+//! Construction: every solution of a sketch by two circles, a circle and a line, or two lines, step by step.
+//!
+//! # The problem
+//! Reduction gives the order. A merge of three clusters places one element by its measures from two that are placed already:
+//! at most two places, told apart by a side. So k steps have up to 2ᵏ solutions: they are never listed unless asked for.
+//!
+//! # What is counted, and how
+//! Whether circles meet hangs on earlier choices only through measures that are no constraints themselves. Steps fall into
+//! classes that hang together; the solutions are a product over the classes, and only within a class choices are tried, up to a
+//! stated number. Solutions that differ by a motion of the plane are one, mirror images are two.
+//!
+//! # Signs
+//! The side is that of the third element, seen from the first to the second of the two that are placed: left or right of the way
+//! between two points; ahead or behind along a line; for a line by two points, on which side its own left lies. The drawing
+//! has a side for every step, and the first solution takes it wherever it leads to one.
+//!
+//! # Cost
+//! An element moves with the smaller clusters only: V log V in all, and V in a chain.
+
+mod classes;
+mod count;
+mod depend;
+mod exact;
+mod frame;
+mod plan;
+mod shape;
+mod solutions;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;
+mod third;
+
+pub use count::Count;
+pub use shape::Shape;
+pub use solutions::Solutions;
+pub use third::Outcome;
+
+use crate::analysis::{Reduction, reduce};
+use crate::pebbles::{Circuit, PebbleGame};
+use crate::sketch::Sketch;
+use plan::Plan;
+use thiserror::Error;
+
+/// Why a sketch is not constructed.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum NotConstructive {
+    /// Some constraints follow from others, or contradict them.
+    #[error("{} constraints too many: constraint {} follows from those before it among {} elements",
+        .0.len(), .0[0].edge, .0[0].vertices.len())]
+    Over(Vec<Circuit>),
+    /// Freedoms are left.
+    #[error("{freedoms} freedoms are left between {} rigid parts", parts.len())]
+    Under {
+        /// How many.
+        freedoms: usize,
+        /// The largest rigid parts.
+        parts: Vec<Vec<usize>>,
+    },
+    /// Well-constrained, but not by ruler and compass: clusters that no three of which share three elements.
+    #[error("not by ruler and compass: {} clusters are left that do not merge", .0.len())]
+    Clusters(Vec<Vec<usize>>),
+}
+
+/// A step that cannot be done.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[error("step {step} cannot be done: {outcome:?}")]
+pub struct Impossible {
+    /// The step: an index of [`Reduction::merges`].
+    pub step: usize,
+    /// Why.
+    pub outcome: Outcome,
+}
+
+/// Where everything is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solution {
+    /// By element; turned and shifted as a whole to the drawing.
+    pub shapes: Vec<Shape>,
+    /// Whether a step takes the left one of two places.
+    pub left: Vec<bool>,
+}
+
+/// A sketch that ruler and compass construct.
+#[derive(Clone, Debug)]
+pub struct Construction<'a> {
+    sketch: &'a Sketch,
+    reduction: Reduction,
+    plan: Plan,
+    frames: Vec<Vec<Shape>>,
+    drawn: Vec<Shape>,
+    drawn_left: Vec<bool>,
+    /// Whether a step places what a rigid body has: on the side drawn only.
+    rigid: Vec<bool>,
+}
+
+impl<'a> Construction<'a> {
+    /// The order of construction.
+    ///
+    /// # Errors
+    /// Where the sketch is over- or under-constrained, or does not reduce to one cluster; with the reason.
+    pub fn new(sketch: &'a Sketch) -> Result<Self, NotConstructive> {
+        let reduction = reduce(sketch.graph());
+        if !reduction.solved {
+            return Err(why_not(sketch, &reduction));
+        }
+        let plan = Plan::new(sketch, &reduction);
+        let drawn: Vec<Shape> = sketch.elements().iter().map(Shape::drawn).collect();
+        let rigid = |m: &plan::Move| sketch.rigid(m.shared);
+        let side = |m: &plan::Move| {
+            let three = rigid(m).map(|r| r.map(|e| Shape::drawn(&e)));
+            let [x, y, z] = three.unwrap_or_else(|| m.shared.map(|e| drawn[e]));
+            third::drawn_side([&x, &z], &y) >= 0.0
+        };
+        Ok(Self {
+            drawn_left: plan.moves.iter().map(side).collect(),
+            rigid: plan.moves.iter().map(|m| rigid(m).is_some()).collect(),
+            frames: frame::of_edges(sketch),
+            sketch,
+            reduction,
+            plan,
+            drawn,
+        })
+    }
+
+    /// The merges that are the steps, in their order.
+    #[must_use]
+    pub const fn reduction(&self) -> &Reduction {
+        &self.reduction
+    }
+
+    /// Whether the drawing has the third element of each step on the left.
+    #[must_use]
+    pub fn drawn_left(&self) -> &[bool] {
+        &self.drawn_left
+    }
+
+    /// Whether the three elements of a step belong to one rigid body, so that it has one place only.
+    #[must_use]
+    pub fn is_rigid(&self, step: usize) -> bool {
+        self.rigid[step]
+    }
+
+    /// The elements of a step: the two that are placed, and the one that is placed by them.
+    #[must_use]
+    pub fn elements_of(&self, step: usize) -> ([usize; 2], usize) {
+        let [x, y, z] = self.plan.moves[step].shared;
+        ([x, z], y)
+    }
+
+    /// How every step turns out for the sides chosen. Where a step is impossible the nearest thing stands in, so that later steps
+    /// are told too; what they say then hangs on that.
+    #[must_use]
+    pub fn outcomes(&self, left: &[bool]) -> Vec<Outcome> {
+        self.carried(left).outcomes
+    }
+
+    /// The solution with these sides.
+    ///
+    /// # Errors
+    /// At the first step that cannot be done.
+    pub fn with_sides(&self, left: &[bool]) -> Result<Solution, Impossible> {
+        let carried = self.carried(left);
+        let impossible = carried.outcomes.iter().position(|o| !o.is_possible());
+        if let Some(step) = impossible {
+            let outcome = carried.outcomes[step];
+            return Err(Impossible { step, outcome });
+        }
+        let mut shapes = self.drawn.clone();
+        for (&element, shape) in self.plan.order.iter().zip(carried.shapes) {
+            shapes[element] = shape;
+        }
+        frame::as_drawn(&mut shapes, &self.drawn);
+        let left = left.to_vec();
+        Ok(Solution { shapes, left })
+    }
+
+    /// The solution with the sides of the drawing.
+    ///
+    /// # Errors
+    /// At the first step that cannot be done.
+    pub fn as_drawn(&self) -> Result<Solution, Impossible> {
+        self.with_sides(&self.drawn_left)
+    }
+
+    /// How many times an element is moved for one solution: what a solution costs.
+    #[must_use]
+    pub const fn moved(&self) -> u64 {
+        self.plan.moved
+    }
+
+    /// How many solutions there are, without listing them.
+    #[must_use]
+    pub fn count(&self) -> Count {
+        Count::of(&self.classes())
+    }
+
+    /// The solutions one by one, that with the sides of the drawing first if there is one.
+    #[must_use]
+    pub fn solutions(&self) -> Solutions<'_> {
+        Solutions::new(self, self.classes())
+    }
+
+    /// The largest difference between what a constraint asks for and what a solution has, lengths and radians alike.
+    #[must_use]
+    pub fn residual(&self, solution: &Solution) -> f64 {
+        let off = |c: &crate::sketch::Constraint| {
+            let [u, v] = c.ends.map(|e| &solution.shapes[e]);
+            let off = frame::value_between(u, v) - c.value.value();
+            match u.is_line() && v.is_line() {
+                true => off.sin().abs().max(1.0 - off.cos()),
+                false => off.abs(),
+            }
+        };
+        let constraints = self.sketch.constraints().iter();
+        constraints.map(off).fold(0.0, f64::max)
+    }
+
+    /// Steps that rounded numbers leave open: circles that meet, touch or stay apart with other digits after those stated. Looked
+    /// at are steps all of whose measures are constraints.
+    #[must_use]
+    pub fn left_open_by_rounding(&self) -> Vec<usize> {
+        exact::left_open(self.sketch, &self.plan)
+    }
+
+    fn carried(&self, left: &[bool]) -> frame::Carried {
+        let mut carried = frame::carry_out(&self.plan, self.frames.clone(), |step| left[step]);
+        exact::settle(self.sketch, &self.plan, &mut carried.outcomes);
+        carried
+    }
+
+    fn classes(&self) -> Vec<classes::Class> {
+        let steps = self.plan.moves.len();
+        let depends = depend::dependence(self.sketch, &self.reduction.merges);
+        let classes = classes::classes(depends.as_deref(), steps);
+        classes::tried(classes, &self.rigid, |other| {
+            let sides = self.drawn_left.iter().zip(other);
+            self.outcomes(
+                &sides
+                    .map(|(left, other)| left ^ other)
+                    .collect::<Vec<bool>>(),
+            )
+        })
+    }
+}
+
+fn why_not(sketch: &Sketch, reduction: &Reduction) -> NotConstructive {
+    let game = PebbleGame::play(sketch.graph());
+    if !game.circuits().is_empty() {
+        NotConstructive::Over(game.circuits().to_vec())
+    } else if game.freedoms() > 0 {
+        NotConstructive::Under {
+            freedoms: game.freedoms(),
+            parts: game.rigid_parts(),
+        }
+    } else {
+        NotConstructive::Clusters(reduction.left.iter().map(|l| l.1.clone()).collect())
+    }
+}

@@ -1,0 +1,139 @@
+//! A planar mechanism as a sketch: hinges are points, sliders are lines, links hold them against each other.
+//!
+//! A hinge is a point that two bodies share, a slider a directed line that two bodies share. What one body has of these it keeps as
+//! drawn: enough constraints for that are stated, and its triangles are never turned over
+//! ([`Sketch::with_rigid`](crate::sketch::Sketch::with_rigid)). Links that are fixed to each other are one body, and so are those of
+//! a joint that is held. Everything is seen along the hinges; how far apart bodies lie along them does not matter.
+//!
+//! Values are exact: lengths are square roots, angles inverse circular functions of what the file states.
+
+mod bodies;
+mod body;
+mod places;
+
+use crate::sketch::{Element, NamedSketch, Sketch, SketchError};
+use bodies::Bodies;
+use body::Exact;
+use kutzbach_model::mechanism::{JointKind, Mechanism};
+use places::View;
+use thiserror::Error;
+
+/// Why a mechanism is no sketch.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum NotPlanar {
+    /// No joint turns, so that nothing says in which plane it moves.
+    #[error("no joint turns: nothing says from where to look")]
+    NoHinge,
+    /// A joint of another kind.
+    #[error("joint `{joint}` is {kind}: planar parts have hinges and sliders")]
+    Kind {
+        /// The joint.
+        joint: String,
+        /// Its kind.
+        kind: &'static str,
+    },
+    /// A hinge that is not parallel to the others, or a slider that is not normal to them.
+    #[error("joint `{joint}` does not move in the plane of the others")]
+    Axis {
+        /// The joint.
+        joint: String,
+    },
+    /// A coupling says nothing of points and lines.
+    #[error("coupling `{name}` says nothing of points and lines")]
+    Coupling {
+        /// The coupling.
+        name: String,
+    },
+    /// A body with nothing but parallel or more than two lines, which angles alone do not hold.
+    #[error("the sliders of link `{link}` leave it without a point")]
+    LinesOnly {
+        /// A link of the body.
+        link: String,
+    },
+    /// Joints that are in one place on some links and in two on another.
+    #[error("link `{link}` has `{}` and `{}` in two places, other links in one", joints[0], joints[1])]
+    Apart {
+        /// A link of the body.
+        link: String,
+        /// The joints.
+        joints: [String; 2],
+    },
+    /// A body with one hinge or slider: it turns or slides there whatever the others do.
+    #[error("link `{link}` is held in `{joint}` only: it is free there")]
+    Open {
+        /// A link of the body.
+        link: String,
+        /// The hinge or slider.
+        joint: String,
+    },
+    /// Fixed joints that are not closed as drawn.
+    #[error("fixed joint `{joint}` is not closed as drawn")]
+    Fixed {
+        /// The joint.
+        joint: String,
+    },
+    /// The sketch is none; the two joints named are its elements.
+    #[error("joints {between}: {why}")]
+    Sketch {
+        /// The joints.
+        between: String,
+        /// Why.
+        why: SketchError,
+    },
+}
+
+/// The sketch of a planar mechanism as drawn at home; its elements are named as its joints.
+///
+/// # Errors
+/// [`NotPlanar`], at the first joint that does not fit.
+pub fn sketch(mechanism: &Mechanism) -> Result<NamedSketch, NotPlanar> {
+    if let Some(coupling) = mechanism.couplings().first() {
+        let name = coupling.name.clone();
+        return Err(NotPlanar::Coupling { name });
+    }
+    let homes = bodies::homes(mechanism);
+    let view = View::of(mechanism, &homes)?;
+    let bodies = Bodies::of(mechanism, &homes, &view)?;
+    let mut constraints = Vec::new();
+    let mut rigid = Vec::new();
+    for (name, held) in bodies.held() {
+        if let [(joint, _)] = held {
+            return Err(NotPlanar::Open {
+                link: name.to_owned(),
+                joint: bodies.names[*joint].clone(),
+            });
+        }
+        let of_body = body::hold(held).ok_or_else(|| NotPlanar::LinesOnly {
+            link: name.to_owned(),
+        })?;
+        constraints.extend(of_body.constraints);
+        rigid.extend(of_body.triangles);
+    }
+    let elements: Vec<Element> = bodies.elements.iter().map(Exact::drawn).collect();
+    let ends: Vec<[usize; 2]> = constraints.iter().map(|c| c.ends).collect();
+    let sketch = Sketch::new(elements, constraints).map_err(|why| {
+        let pair = match why {
+            SketchError::Doubled { second, .. } | SketchError::Contradictory { second, .. } => {
+                Some(ends[second])
+            }
+            SketchError::ZeroLength(i) | SketchError::Negative(i) => Some(ends[i]),
+            _ => None,
+        };
+        let named = |[u, v]: [usize; 2]| format!("`{}` and `{}`", bodies.names[u], bodies.names[v]);
+        NotPlanar::Sketch {
+            between: pair.map_or_else(String::new, named),
+            why,
+        }
+    })?;
+    Ok(NamedSketch {
+        name: mechanism.name().to_owned(),
+        names: bodies.names,
+        sketch: sketch.with_rigid(rigid),
+    })
+}
+
+/// Whether a joint of this kind is an element.
+const fn is_element(kind: JointKind) -> bool {
+    matches!(kind, JointKind::Revolute | JointKind::Prismatic)
+}

@@ -1,0 +1,238 @@
+//! A planar sketch: `<sketch>` instead of `<robot>`.
+
+use super::element::{Element, Owner};
+use super::error::{Fault, FormatError, MOST_FAULTS, Outcome, located};
+use super::reader::Reader;
+use super::words::{did_you_mean, quoted};
+use super::{bytes_of, guard, xml};
+use kutzbach_constructive::sketch::{Constraint, NamedSketch, Sketch, SketchError};
+use kutzbach_constructive::{graph::GraphError, sketch};
+use kutzbach_math::number::Number;
+use std::collections::HashMap;
+use std::path::Path;
+
+/// Whether a text is a sketch rather than a mechanism: its first element is `<sketch>`. What is no XML is none.
+#[must_use]
+pub fn is_sketch(text: &str) -> bool {
+    xml::parse(text).is_ok_and(|document| document.root_element().has_tag_name("sketch"))
+}
+
+/// Reads a sketch; `file` names the text in errors, `settings` are as for [`read`](crate::read).
+///
+/// # Errors
+/// Up to twenty faults of the text, each with its place: XML, unknown elements, attributes and names, numbers that are none, and
+/// whatever [`SketchError`] knows.
+pub fn read_sketch(
+    text: &str,
+    file: &str,
+    settings: &[(String, String)],
+) -> Result<NamedSketch, FormatError> {
+    read(text, settings).map_err(|faults| located(file, text, faults))
+}
+
+/// Reads a sketch from a file.
+///
+/// # Errors
+/// As [`read_sketch`]; also a file that cannot be read.
+pub fn read_sketch_file(
+    path: impl AsRef<Path>,
+    settings: &[(String, String)],
+) -> Result<NamedSketch, FormatError> {
+    let path = path.as_ref();
+    let file = path.display().to_string();
+    let bytes = bytes_of(path).map_err(|fault| located(&file, "", vec![fault]))?;
+    let text = guard::text_of(&bytes);
+    match text {
+        Ok(text) => read_sketch(text, &file, settings),
+        Err((valid, fault)) => Err(located(&file, valid, vec![fault])),
+    }
+}
+
+/// What was read so far, with the elements of the file for later faults.
+#[derive(Default)]
+struct Parts<'a> {
+    names: Vec<String>,
+    by_name: HashMap<&'a str, usize>,
+    elements: Vec<sketch::Element>,
+    drawn_at: Vec<Element<'a>>,
+    constraints: Vec<Constraint>,
+    stated_at: Vec<Element<'a>>,
+}
+
+fn read(text: &str, settings: &[(String, String)]) -> Result<NamedSketch, Vec<Fault>> {
+    let one = |fault| vec![fault];
+    let document = xml::parse(text).map_err(one)?;
+    let root = Element::root(&document, text);
+    if root.name() != "sketch" {
+        let message = format!("needed <sketch>, found <{}>", root.written_name());
+        return Err(one(root
+            .fault(message)
+            .help("a sketch is one <sketch name=\"...\"> element")));
+    }
+    root.only_attributes(&["name"]).map_err(one)?;
+    let children = root.children().map_err(one)?;
+    let mut reader = Reader::new(root);
+    reader.read_definitions(root, &children, settings, &[])?;
+    let mut parts = Parts::default();
+    // Constraints may stand before what they name.
+    let (drawn, stated): (Vec<Element<'_>>, Vec<Element<'_>>) = children
+        .into_iter()
+        .filter(|c| c.owner(root.namespace()) == Owner::Format)
+        .partition(|c| ["point", "line"].contains(&c.name()));
+    let mut faults: Vec<Fault> = drawn
+        .into_iter()
+        .filter_map(|c| parts.draw(&mut reader, c).err())
+        .collect();
+    faults.extend(
+        stated
+            .into_iter()
+            .filter_map(|c| parts.state(&mut reader, c).err()),
+    );
+    if !faults.is_empty() {
+        faults.truncate(MOST_FAULTS);
+        return Err(faults);
+    }
+    parts.finish(root).map_err(one)
+}
+
+impl<'a> Parts<'a> {
+    /// A point or a line.
+    fn draw(&mut self, reader: &mut Reader<'a>, element: Element<'a>) -> Outcome<()> {
+        let mut pair = |name: &str| -> Outcome<[f64; 2]> {
+            let numbers: [Number; 2] = reader.numbers(element.required(name)?)?;
+            Ok(numbers.map(|n| n.value()))
+        };
+        let drawn = if element.name() == "point" {
+            element.only_attributes(&["name", "xy"])?;
+            sketch::Element::Point(pair("xy")?)
+        } else {
+            element.only_attributes(&["name", "through", "direction"])?;
+            let (through, direction) = (pair("through")?, pair("direction")?);
+            sketch::Element::Line { through, direction }
+        };
+        let name = element.required("name")?;
+        if self.by_name.contains_key(name.value) {
+            let message = format!("two elements are named {}", quoted(name.value));
+            return Err(name.fault(message));
+        }
+        self.by_name.insert(name.value, self.names.len());
+        self.names.push(name.value.to_owned());
+        self.elements.push(drawn);
+        self.drawn_at.push(element);
+        Ok(())
+    }
+
+    /// A distance, an angle or an incidence.
+    fn state(&mut self, reader: &mut Reader<'a>, element: Element<'a>) -> Outcome<()> {
+        const KNOWN: [&str; 5] = ["point", "line", "distance", "angle", "incidence"];
+        let ends = match element.name() {
+            "distance" | "angle" => {
+                element.only_attributes(&["between", "value"])?;
+                self.ends(element)?
+            }
+            "incidence" => {
+                element.only_attributes(&["between"])?;
+                self.ends(element)?
+            }
+            name => {
+                let message = format!("a <sketch> has no <{}>", element.written_name());
+                return Err(element.fault(message).maybe_help(did_you_mean(
+                    name,
+                    KNOWN,
+                    ("<", ">"),
+                )));
+            }
+        };
+        let lines = ends
+            .iter()
+            .filter(|&&e| matches!(self.elements[e], sketch::Element::Line { .. }))
+            .count();
+        let needed = match (element.name(), lines) {
+            ("angle", 2) | ("distance", 0 | 1) | ("incidence", 1) => None,
+            ("angle", _) => Some("an angle is between two lines"),
+            ("distance", _) => Some("a distance is between two points, or a point and a line"),
+            _ => Some("an incidence is between a point and a line"),
+        };
+        if let Some(needed) = needed {
+            return Err(element.required("between")?.fault(needed));
+        }
+        let value = match element.name() {
+            "incidence" => Number::zero(),
+            _ => reader.number(element.required("value")?)?,
+        };
+        self.constraints.push(Constraint { ends, value });
+        self.stated_at.push(element);
+        Ok(())
+    }
+
+    /// The two elements that a constraint names.
+    fn ends(&self, element: Element<'a>) -> Outcome<[usize; 2]> {
+        let between = element.required("between")?;
+        let names: Vec<&str> = between.value.split_ascii_whitespace().collect();
+        let [one, other] = names[..] else {
+            let message = format!("needed two names, found {}", names.len());
+            return Err(between.fault(message).help("between=\"a b\""));
+        };
+        let find = |name: &str| {
+            self.by_name.get(name).copied().ok_or_else(|| {
+                let known = self.names.iter().map(String::as_str);
+                between
+                    .fault(format!("no point or line is named {}", quoted(name)))
+                    .maybe_help(did_you_mean(name, known, ("`", "`")))
+            })
+        };
+        Ok([find(one)?, find(other)?])
+    }
+
+    fn finish(self, root: Element<'_>) -> Outcome<NamedSketch> {
+        let Self {
+            names,
+            elements,
+            drawn_at,
+            constraints,
+            stated_at,
+            ..
+        } = self;
+        let sketch = Sketch::new(elements, constraints)
+            .map_err(|why| placed(&why, root, &drawn_at, &stated_at))?;
+        let name = root.attribute("name").map_or("unnamed", |name| name.value);
+        Ok(NamedSketch {
+            name: name.to_owned(),
+            names,
+            sketch,
+        })
+    }
+}
+
+/// What is wrong with a sketch, in the words of the file and at its place.
+fn placed(
+    why: &SketchError,
+    root: Element<'_>,
+    drawn: &[Element<'_>],
+    stated: &[Element<'_>],
+) -> Fault {
+    let stated = |i: usize, message: &str| {
+        let between = stated[i].attribute("between").map_or("", |b| b.value);
+        stated[i].fault(format!("{message} (`{between}`)"))
+    };
+    match *why {
+        SketchError::Place(i) => drawn[i].fault("the direction of a line cannot be zero"),
+        SketchError::ZeroLength(i) => stated(i, "two points at distance zero are one point")
+            .help("draw one point, or leave the constraint out"),
+        SketchError::Negative(i) => stated(i, "the distance of two points is above zero"),
+        SketchError::Doubled { second, .. } => {
+            stated(second, "this was said of the same two elements before")
+        }
+        SketchError::Contradictory { second, .. } => stated(
+            second,
+            "another value was stated for the same two elements before",
+        ),
+        SketchError::Graph(GraphError::Loop { edge, .. }) => {
+            stated(edge, "a constraint is between two different elements")
+        }
+        SketchError::Graph(GraphError::TooSmall(count)) => root.fault(format!(
+            "a sketch has two points or lines at least, this one has {count}"
+        )),
+        ref other => root.fault(other.to_string()),
+    }
+}

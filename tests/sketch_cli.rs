@@ -1,0 +1,156 @@
+//! `kutzbach graph --constructive` from outside, and what is wrong with sketches.
+
+use kutzbach::format::read_sketch;
+use std::process::Command;
+
+const TRUSS: &str = include_str!("../examples/draw_sketch/truss.xml");
+const PAGE: &str = include_str!("../docs/src/constructive.md");
+
+fn shown(format: &str) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(["graph", "examples/draw_sketch/truss.xml", "--constructive"])
+        .args(["--format", format])
+        .output()
+        .unwrap();
+    assert!(output.status.success());
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn the_page_shows_what_the_program_says() {
+    let text = shown("text");
+    assert!(PAGE.contains(&text), "{text}");
+}
+
+#[test]
+fn data_and_pictures_say_the_same() {
+    let data: serde_json::Value = serde_json::from_str(&shown("json")).unwrap();
+    assert_eq!(data["schema"], "kutzbach-sketch-1");
+    assert_eq!(data["solutions"], "8");
+    assert_eq!(data["steps"][2]["element"], "d");
+    assert_eq!(data["constructive"], true);
+    let dot = shown("dot");
+    assert_eq!(dot.matches("split at").count(), 3);
+    assert_eq!(dot.matches(": without").count(), 3);
+    let svg = shown("svg");
+    assert!(roxmltree::Document::parse(&svg).is_ok());
+}
+
+/// Where a change of the example is refused, and how.
+fn told(from: &str, to: &str) -> String {
+    assert!(TRUSS.contains(from));
+    let text = TRUSS.replacen(from, to, 1);
+    read_sketch(&text, "f", &[]).unwrap_err().to_string()
+}
+
+#[test]
+fn every_mistake_is_told_at_its_place() {
+    let extra = |more: &str| told("</sketch>", &format!("{more}</sketch>"));
+    assert_eq!(
+        told("between=\"a b\"", "between=\"a bb\""),
+        "f:12:22: no point or line is named `bb`"
+    );
+    assert_eq!(
+        told("between=\"a b\"", "between=\"a\""),
+        "f:12:22: needed two names, found 1"
+    );
+    assert_eq!(
+        told("name=\"b\"", "name=\"a\""),
+        "f:6:16: two elements are named `a`"
+    );
+    assert_eq!(
+        told("value=\"5\"", "value=\"0\""),
+        "f:13:3: two points at distance zero are one point (`a c`)"
+    );
+    assert_eq!(
+        told("value=\"5\"", "value=\"-5\""),
+        "f:13:3: the distance of two points is above zero (`a c`)"
+    );
+    assert_eq!(
+        told("direction=\"1 0\"", "direction=\"0 0\""),
+        "f:4:3: the direction of a line cannot be zero"
+    );
+    assert_eq!(
+        told(
+            "<incidence between=\"a base\"/>",
+            "<incidence between=\"a b\"/>"
+        ),
+        "f:10:23: an incidence is between a point and a line"
+    );
+    assert_eq!(
+        told("<distance between=\"a b\"", "<distance between=\"a a\""),
+        "f:12:3: a constraint is between two different elements (`a a`)"
+    );
+    assert_eq!(
+        extra("<distance between=\"c a\" value=\"5\"/>"),
+        "f:19:1: this was said of the same two elements before (`c a`)"
+    );
+    assert_eq!(
+        extra("<distance between=\"c a\" value=\"6\"/>"),
+        "f:19:1: another value was stated for the same two elements before (`c a`)"
+    );
+    assert_eq!(
+        extra("<angle between=\"base a\" value=\"1\"/>"),
+        "f:19:17: an angle is between two lines"
+    );
+    assert_eq!(extra("<circle/>"), "f:19:1: a <sketch> has no <circle>");
+}
+
+#[test]
+fn a_sketch_is_no_mechanism_and_settings_change_it() {
+    let error = kutzbach::format::read(TRUSS, "f", &[]).unwrap_err();
+    assert!(error.help.unwrap().contains("--constructive"));
+    let wider = [("span".to_owned(), "9".to_owned())];
+    let named = read_sketch(TRUSS, "f", &wider).unwrap();
+    let words = kutzbach::constructive::words::SketchWords::of(&named);
+    assert_eq!(words.construction().unwrap().count().value(), Some(0));
+    assert!(
+        words
+            .text()
+            .contains("circles do not meet, they are 1.000e0 apart")
+    );
+}
+
+fn said(arguments: &[&str]) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(arguments)
+        .output()
+        .unwrap();
+    String::from_utf8([output.stdout, output.stderr].concat()).unwrap()
+}
+
+#[test]
+fn planar_mechanisms_have_as_many_solutions_as_configurations() {
+    for (name, hold) in [
+        ("slider_crank", "main_bearing=0.3"),
+        ("planar_four_bar", "crank_pivot=0.3"),
+        ("parallelogram", "left_pivot=0.3"),
+    ] {
+        let file = format!("mechanisms/{name}.urdf");
+        let sketch = said(&["graph", &file, "--constructive", "--hold", hold]);
+        let modes = said(&["assemble", &file, "--hold", hold]);
+        assert!(sketch.contains("solutions: 2\n"), "{sketch}");
+        assert!(modes.contains("2 configurations, and no other"), "{modes}");
+    }
+}
+
+#[test]
+fn what_is_known_of_mechanisms_shows_in_their_sketches() {
+    let shown = |name: &str| {
+        let file = format!("mechanisms/{name}.urdf");
+        said(&["graph", &file, "--constructive"])
+    };
+    for (name, words) in [
+        ("k33_dixon", "triconnected: "),
+        ("planar_four_bar", "freedoms left: 1"),
+        ("k44_dixon", "over-constrained"),
+        ("double_pendulum", "it is free there"),
+        ("bennett", "does not move in the plane of the others"),
+        ("delta", "planar parts have hinges and sliders"),
+    ] {
+        let text = shown(name);
+        assert!(text.contains(words), "{name}: {text}");
+    }
+}
