@@ -226,6 +226,7 @@ pub fn analysed_report_on(
     // Where rounded numbers mean another mechanism, everything below is said of that one.
     let mechanism = analysis.of(mechanism);
     super::findings::lay_over(&mut report, mechanism, &analysis);
+    report.assembly.tolerance_asked = options.closure_tolerance.is_some();
     let pose = mechanism.configuration(configuration);
     report.four_bars = super::four_bar::four_bars(mechanism, &analysis, pose);
     super::inputs::lay_over(&mut report, mechanism, &analysis, configuration, inputs);

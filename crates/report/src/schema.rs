@@ -147,6 +147,9 @@ pub struct Assembly {
     pub moved: Option<f64>,
     /// What the residual is held against: rounding and the numbers' stated precision, or what was given.
     pub tolerance: Option<f64>,
+    /// Whether [`tolerance`](Self::tolerance) is the one asked for, instead of what the numbers' precision allows.
+    #[serde(default)]
+    pub tolerance_asked: bool,
     /// The gap of each loop of the file.
     pub gaps: Vec<Gap>,
     /// The most poses that any part was closed from: 1 where the drawn one sufficed; `null` where it was not tried.
@@ -453,7 +456,10 @@ pub struct Nominal {
     /// How far its geometry is from the file's (m; angles by the length of the loops); `null` where it was not computed.
     #[serde(default)]
     pub distance: Option<f64>,
-    /// Whether it lies within what the file's digits leave open.
+    /// The tolerance asked for that stood in for the precision of the digits (m, rad), where these left the mobility open.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub known_to: Option<f64>,
+    /// Whether it lies within what the file's digits, or [`known_to`](Self::known_to), leave open.
     #[serde(default = "yes")]
     pub within_digits: bool,
     /// The numbers that it has otherwise, those that change most first; empty where it was not computed.
