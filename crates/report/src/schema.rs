@@ -62,6 +62,9 @@ pub struct Report {
     /// nothing is redundant or the counts are not decided.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub change_sets: Option<ChangeSets>,
+    /// The play that joints need for the motion to go through with the numbers as written; only where asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub play: Option<super::play::Play>,
     /// What a careful reader should know: oddities of the file, short margins.
     pub warnings: Vec<String>,
     /// What of the file was not read, because it says nothing about motion.
