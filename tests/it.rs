@@ -57,6 +57,7 @@ mod margins;
 mod mechanism_table;
 mod models;
 mod near_singular;
+mod play;
 mod polynomial_systems;
 mod pose_warnings;
 mod poses;

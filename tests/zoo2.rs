@@ -29,6 +29,33 @@ fn no_known_fact_is_contradicted() {
     assert!(count("right") > count("open"), "{told:#}");
 }
 
+/// Germs in the plane whose branches show at high order, at a billionth, or not at all.
+#[test]
+fn plane_germs_of_exact_numbers_are_decided() {
+    use kutzbach::mobility::SingularKind::{Bifurcation, Cusp, Shaky, Tangential};
+    for (name, finite, kind) in [
+        ("a6_cusp", 1, Some(Cusp)),
+        ("a7_tacnode", 1, Some(Tangential)),
+        ("isolated_1e-6", 0, Some(Shaky)),
+        ("puiseux_3_7", 1, None),
+        ("x8_minus_y8", 1, Some(Bifurcation)),
+        ("unfolded_cusp_1e-2", 1, None),
+    ] {
+        let file = folder(&format!("tests/zoo2/{name}.urdf"));
+        let mechanism = kutzbach::format::read_file(file, &[]).unwrap().mechanism;
+        let analysis = support::analysis(&mechanism);
+        let found = &analysis.mobility;
+        assert_eq!(found.finite(), Some(finite), "{name}: {:?}", found.why);
+        assert!(
+            kind.is_none() || found.kind == kind,
+            "{name}: {:?}",
+            found.kind
+        );
+        let polygon = |e: &kutzbach::mobility::Evidence| e.engine == "Newton polygon";
+        assert!(analysis.findings[0].evidence.iter().any(polygon), "{name}");
+    }
+}
+
 #[test]
 fn where_only_idle_links_move_all_other_joints_are_locked() {
     for (name, locked) in [

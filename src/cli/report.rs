@@ -2,18 +2,18 @@
 
 use super::accuracy::measured;
 use super::failure::Failure;
-use super::pose::Pose;
+use super::pose::{self, Pose};
 use super::progress::Progress;
 use super::{DONE, UNDECIDED, load, output, terminal};
 use clap::{Args, ValueEnum};
 use kutzbach::accuracy::AccuracyOptions;
 use kutzbach::closure::{Arithmetic, Geometry};
 use kutzbach::format::Reading;
-use kutzbach::mechanism::Mechanism;
+use kutzbach::mechanism::{FreedomPart, Mechanism};
 use kutzbach::mobility::{Analysis, ExactBudget};
 use kutzbach::report::html::{Assets, Facts, Prepared};
 use kutzbach::report::text::{Layout, Units, render};
-use kutzbach::report::{Options, Report, Verdict, assembled_file};
+use kutzbach::report::{Options, PlayAsked, Report, Verdict, assembled_file};
 use kutzbach::simulate::verification::{
     Moment, Observer, Passage, Verification, VerificationOptions, verify,
 };
@@ -68,6 +68,16 @@ pub struct Arguments {
     /// that the file names]
     #[arg(long, value_name = "JOINT,...", value_delimiter = ',')]
     inputs: Vec<String>,
+    /// Say what play the joints need for the motion to go through with the numbers as written
+    #[arg(long)]
+    play: bool,
+    /// Say whether a clearance of the joints suffices for that (`0.1mm`; metres without a unit)
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    clearance: Option<f64>,
+    /// Distance of the two ends of every joint's bearing, by half of which tilts count as play [default: the length of the
+    /// loops for half of it]
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    bearing: Option<f64>,
     /// Let the physics engine put the prediction to the test too, and show what it says (with `--format html`)
     #[arg(long)]
     verify: bool,
@@ -104,6 +114,25 @@ impl From<RangeUnits> for Units {
     }
 }
 
+impl Arguments {
+    fn play_asked(&self) -> Option<PlayAsked> {
+        let asked = self.play || self.clearance.is_some() || self.bearing.is_some();
+        asked.then_some(PlayAsked {
+            clearance: self.clearance,
+            bearing: self.bearing,
+        })
+    }
+}
+
+/// A length that is none is a slip.
+fn length(text: &str) -> Result<f64, String> {
+    let wanted = "a length above 0, such as `0.1mm` (metres without a unit)";
+    let number = pose::measured(text, FreedomPart::Translation).map_err(|_| wanted.to_owned())?;
+    Some(number.value())
+        .filter(|length| *length > 0.0 && length.is_finite())
+        .ok_or_else(|| wanted.to_owned())
+}
+
 /// A time that is none is a slip, not a wish for no limit.
 fn seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
@@ -134,6 +163,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         closure_tolerance: arguments.closing.closure_tolerance,
         inputs: arguments.inputs.clone(),
         ranges: arguments.format != Format::Html,
+        play: arguments.play_asked(),
     };
     if arguments.verify && arguments.format != Format::Html {
         return Err(Failure::Plain {

@@ -107,6 +107,20 @@ impl<R: Real> WalkedCycle<R> {
         }
     }
 
+    /// What is left after going round a cycle, without anything else that a walk finds.
+    pub fn around(geometry: &Geometry<R>, states: &[JointState<R>], cycle: &Walk) -> Rigid<R> {
+        let mut pose = Rigid::identity(&geometry.one);
+        for &(joint, forward) in cycle {
+            let [predecessor, successor] = &geometry.sides[joint];
+            let displacement = geometry.displacements[joint].displacement(&states[joint]);
+            let passed = predecessor
+                .compose(&displacement)
+                .compose(&successor.inverse());
+            pose = pose.compose(&if forward { passed } else { passed.inverse() });
+        }
+        pose
+    }
+
     /// Number of screws, of all joints together.
     pub fn screw_count(&self) -> usize {
         self.joints.iter().map(|joint| joint.screws.len()).sum()

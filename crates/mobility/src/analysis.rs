@@ -146,7 +146,10 @@ pub fn analyse(
         closure_tolerance: None,
         ..options.clone()
     };
-    let meant = completed(&coarse, &options, analyse_as_stated(&coarse, &options)?)?;
+    let mut meant = completed(&coarse, &options, analyse_as_stated(&coarse, &options)?)?;
+    if let Some(nominal) = &mut meant.mobility.nominal {
+        nominal.known_to = Some(tolerance);
+    }
     Ok(match meant.mobility.finite() {
         Some(_) => meant,
         None => analysis,

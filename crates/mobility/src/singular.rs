@@ -9,8 +9,10 @@
 //! What is idle at every pose is taken out first ([`idle_directions`]). One variable left needs no search: an analytic
 //! function of one variable that does not vanish identically has an isolated zero, so that only what is idle moves.
 
+mod by_polygon;
 mod resolution;
 
+use self::by_polygon::by_polygon;
 use self::resolution::Resolution;
 use super::chart::{ChartTest, Kernel};
 use super::germ::{
@@ -318,7 +320,14 @@ pub(super) fn singular_finding(
             Err(reason) => why = refused(&mut evidence, reason),
         }
     }
-    if found.branches.is_none() {
+    let mut decided = found.branches.is_some();
+    if !decided && !rounded && freedom == 2 + idle.len() {
+        match by_polygon(&mut found, &mut evidence, &start, &doubtful)? {
+            None => decided = true,
+            Some(reason) => why = reason,
+        }
+    }
+    if !decided {
         found.certificate =
             "the pose is singular, so that the finite freedom is below the instantaneous one"
                 .to_owned();

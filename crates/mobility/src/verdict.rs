@@ -21,7 +21,9 @@ pub struct Nominal {
     pub tolerance: f64,
     /// How far it is from the file's numbers (m; angles by the length of the part), where it was computed.
     pub distance: Option<f64>,
-    /// Whether it lies within what the file's digits leave open.
+    /// The closure tolerance that stood in for the precision of the digits (m, rad), where these left the mobility open.
+    pub known_to: Option<f64>,
+    /// Whether it lies within what the file's digits, or [`known_to`](Self::known_to), leave open.
     pub within_digits: bool,
     /// The numbers that it has otherwise, where it was computed.
     pub changes: Vec<Change>,
@@ -179,6 +181,7 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, parts: &[PartFinding]
             finite: high,
             tolerance,
             distance: None,
+            known_to: None,
             within_digits: true,
             changes: Vec::new(),
             kept: Vec::new(),

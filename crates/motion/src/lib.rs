@@ -21,6 +21,7 @@
 //! | `curve` | poses by arclength and by drive value ([`Curve`]) |
 //! | `dead_centres`, `ranges`, `sampling` | what is read off a curve |
 //! | `inputs`, `wishes` | what is driven and held |
+//! | `play`, `play/…` | the play that joints need where dimensions as written bind ([`play()`]) |
 //! | `words` | what is met and where it ends, for people |
 //! | `trace`, `trace/…` | from an analysis to a [`Trace`]: where a part starts, which curve serves, what is told of it |
 //!
@@ -37,6 +38,7 @@ mod follow;
 mod inputs;
 mod node;
 mod pieces;
+mod play;
 mod ranges;
 mod result;
 mod rows;
@@ -56,6 +58,7 @@ mod words;
 
 pub use curve::{Curve, CurvePose};
 pub use inputs::Variable;
+pub use play::{Deviation, NoPlay, Play, PlayOptions, play};
 pub use result::{
     End, EndReason, Event, EventKind, Held, Motion, Range, Sample, Spacing, Still, Trace,
     TraceError, TraceOptions, Unreached,

@@ -4,6 +4,7 @@
 //! is laid over them; what it does not reach stays `null`.
 
 use super::natural::natural_order;
+use super::play::PlayAsked;
 use super::schema::{
     Assembly, Constants, CouplingRow, Home, JointRow, LiteralReading, Mobility, Report, SCHEMA,
     Size, Source, Timing,
@@ -57,6 +58,8 @@ pub struct Options {
     pub inputs: Vec<String>,
     /// Whether to follow branches that are curves, for the ranges of their joints.
     pub ranges: bool,
+    /// Whether to say what play the joints need, and for what clearance.
+    pub play: Option<PlayAsked>,
 }
 
 /// Why there is no report.
@@ -215,8 +218,7 @@ pub fn analysed_report_on(
     let analysis = analyse(
         mechanism,
         &AnalysisOptions {
-            configuration: (configuration != HOME || mechanism.configuration(HOME).is_some())
-                .then(|| configuration.to_owned()),
+            configuration: configuration_of(mechanism, configuration).map(str::to_owned),
             exact: options.exact,
             depth: Depth::Everything,
             closure_tolerance: options.closure_tolerance,
@@ -224,8 +226,10 @@ pub fn analysed_report_on(
     )?;
     let mut report = counted(input, configuration);
     // Where rounded numbers mean another mechanism, everything below is said of that one.
+    let given = mechanism;
     let mechanism = analysis.of(mechanism);
     super::findings::lay_over(&mut report, mechanism, &analysis);
+    report.assembly.tolerance_asked = options.closure_tolerance.is_some();
     let pose = mechanism.configuration(configuration);
     report.four_bars = super::four_bar::four_bars(mechanism, &analysis, pose);
     super::inputs::lay_over(&mut report, mechanism, &analysis, configuration, inputs);
@@ -234,6 +238,13 @@ pub fn analysed_report_on(
     if options.ranges {
         super::ranges::lay_over(&mut report, mechanism, &analysis, configuration);
     }
+    super::play::lay_over(
+        &mut report,
+        given,
+        &analysis,
+        configuration_of(given, configuration),
+        options,
+    );
     if options.evidence {
         report.evidence = Some(super::extras::evidence(&report, &analysis));
     }
@@ -245,6 +256,11 @@ pub fn analysed_report_on(
         });
     }
     Ok((report, analysis))
+}
+
+/// The configuration to look up: none for the home pose, unless the file gives it values.
+fn configuration_of<'a>(mechanism: &Mechanism, name: &'a str) -> Option<&'a str> {
+    (name != HOME || mechanism.configuration(HOME).is_some()).then_some(name)
 }
 
 fn constants(mechanism: &Mechanism) -> Option<Constants> {
@@ -337,6 +353,7 @@ fn counted(input: &Input<'_>, configuration: &str) -> Report {
         motions: Vec::new(),
         advice: Vec::new(),
         change_sets: None,
+        play: None,
         warnings: input.warnings.to_vec(),
         skipped: input.skipped.to_vec(),
         evidence: None,

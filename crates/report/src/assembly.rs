@@ -52,6 +52,7 @@ pub(super) fn assembly(mechanism: &Mechanism, found: &closure::Assembly) -> Asse
         residual: Some(found.residual),
         moved: Some(found.moved),
         tolerance: Some(found.tolerance),
+        tolerance_asked: false,
         gaps,
         starts: Some(found.starts),
         work_limited: found.work_ended,

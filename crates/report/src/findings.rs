@@ -4,8 +4,8 @@ use super::change_sets::{change_sets, directions};
 use super::motions::motion_row;
 use super::natural::natural_order;
 use super::schema::{
-    Advice, AsWritten, Block, Branch, Certificate, Change, Cycle, GenericCount, Home, Idle,
-    JointRow, Mobility, Motion, Nominal, Relation, Report, Tree, TreeLink,
+    Advice, AsWritten, Assembly, Block, Branch, Certificate, Change, Cycle, Gap, GenericCount,
+    Home, Idle, JointRow, Mobility, Motion, Nominal, Relation, Report, Tree, TreeLink,
 };
 use super::text::words::counted;
 use kutzbach_closure::{owners, with_owners};
@@ -58,7 +58,7 @@ pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &An
     if !literal.is_empty() {
         let text = "the numbers are stated so coarsely, for a mechanism of this size, that rounding would leave the rank \
                     open; they were taken literally";
-        let text = &format!("{text}{}", known_better(mechanism));
+        let text = &format!("{text}{}", known_better(mechanism, &report.assembly));
         // Of all blocks or of the only one: then the whole mechanism is meant.
         report
             .warnings
@@ -79,13 +79,26 @@ pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &An
     }
 }
 
-/// What to say of numbers that are better known than the coarsest of them looks: half a unit of the finest decimal, as most are.
-fn known_better(mechanism: &Mechanism) -> String {
+/// What to say of numbers that are better known than the coarsest of them looks: half a unit of the finest decimal, as most are, or
+/// what the gaps of the loops leave possible.
+fn known_better(mechanism: &Mechanism, assembly: &Assembly) -> String {
     let precision = mechanism.precision();
-    match (precision.decimals, precision.by_hand()) {
-        (Some(decimals), None) if decimals > 0 => format!(
-            " (`--precision 5e-{}` says that all are known to half a unit of the finest decimal)",
-            decimals + 1
+    let (Some(decimals), None) = (precision.decimals, precision.by_hand()) else {
+        return String::new();
+    };
+    let left = |gap: &Gap| gap.left_position.max(gap.left_angle);
+    let open = assembly.gaps.iter().map(left).fold(0.0, f64::max);
+    let gap = match open > 0.0 {
+        true => -(open / 5.0).log10().ceil() as i32,
+        false => i32::MAX,
+    };
+    let place = gap.min(decimals + 1);
+    match (place <= decimals, place >= 1) {
+        (false, true) => format!(
+            " (`--precision 5e-{place}` says that all are known to half a unit of the finest decimal)"
+        ),
+        (true, true) => format!(
+            " (`--precision 5e-{place}` says that all are known to so much (m, rad), which the gaps need)"
         ),
         _ => String::new(),
     }
@@ -228,6 +241,7 @@ fn verdict(mechanism: &Mechanism, analysis: &Analysis) -> Mobility {
             finite: nominal.finite,
             tolerance: nominal.tolerance,
             distance: nominal.distance,
+            known_to: nominal.known_to,
             within_digits: nominal.within_digits,
             changes: nominal
                 .changes

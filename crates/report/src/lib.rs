@@ -25,6 +25,7 @@
 //! | `assemble` | how a mechanism and its analysis become a report |
 //! | `extras` | what a report holds only where it was asked for: pairs of links, evidence |
 //! | `inputs` | useful and idle freedoms, inputs and limbs |
+//! | `play` | the play that joints need where dimensions as written bind |
 //! | `pose` | limits, dead centres and singular poses nearby, for the warnings |
 //! | `ranges` | how far joints go, and pitches over a whole cycle |
 //! | `text` | how a report becomes a page |
@@ -54,6 +55,7 @@ mod motions;
 mod natural;
 #[cfg(feature = "simulate")]
 pub mod picture;
+mod play;
 mod pose;
 mod ranges;
 #[cfg(test)]
@@ -74,6 +76,7 @@ pub use kutzbach_mobility::{
     CertificateLevel, MobilityClass, PoseKind, RelationKind, SingularKind, Verdict,
 };
 pub use natural::natural_order;
+pub use play::{JointPlay, Play, PlayAsked};
 pub use schema::{
     Advice, Assembly, Block, Branch, Certificate, Constants, CouplingRow, Cycle, DependentInput,
     Evidence, Follower, Freedoms, Gap, GenericCount, Home, Idle, InputSource, Inputs, JointPlace,

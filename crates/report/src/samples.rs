@@ -181,6 +181,7 @@ pub(crate) fn mobile() -> Report {
             redundant_after: 2,
         }],
         change_sets: None,
+        play: None,
         four_bars: Vec::new(),
         warnings: Vec::new(),
         skipped: vec!["line 3, column 5: <gazebo>".to_owned()],

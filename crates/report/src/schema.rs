@@ -62,6 +62,9 @@ pub struct Report {
     /// nothing is redundant or the counts are not decided.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub change_sets: Option<ChangeSets>,
+    /// The play that joints need for the motion to go through with the numbers as written; only where asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub play: Option<super::play::Play>,
     /// What a careful reader should know: oddities of the file, short margins.
     pub warnings: Vec<String>,
     /// What of the file was not read, because it says nothing about motion.
@@ -147,6 +150,9 @@ pub struct Assembly {
     pub moved: Option<f64>,
     /// What the residual is held against: rounding and the numbers' stated precision, or what was given.
     pub tolerance: Option<f64>,
+    /// Whether [`tolerance`](Self::tolerance) is the one asked for, instead of what the numbers' precision allows.
+    #[serde(default)]
+    pub tolerance_asked: bool,
     /// The gap of each loop of the file.
     pub gaps: Vec<Gap>,
     /// The most poses that any part was closed from: 1 where the drawn one sufficed; `null` where it was not tried.
@@ -453,7 +459,10 @@ pub struct Nominal {
     /// How far its geometry is from the file's (m; angles by the length of the loops); `null` where it was not computed.
     #[serde(default)]
     pub distance: Option<f64>,
-    /// Whether it lies within what the file's digits leave open.
+    /// The tolerance asked for that stood in for the precision of the digits (m, rad), where these left the mobility open.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub known_to: Option<f64>,
+    /// Whether it lies within what the file's digits, or [`known_to`](Self::known_to), leave open.
     #[serde(default = "yes")]
     pub within_digits: bool,
     /// The numbers that it has otherwise, those that change most first; empty where it was not computed.

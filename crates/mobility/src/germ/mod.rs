@@ -35,7 +35,7 @@ mod noise;
 mod reduction;
 mod second_order;
 mod slices;
-mod splitting;
+pub(crate) mod splitting;
 
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]

@@ -10,7 +10,7 @@ pub(super) const LARGEST_SIDE: usize = 600;
 const EQUALLY_LONG: f64 = 1e-6;
 
 /// Kernel, left kernel and pseudo-inverse of a matrix of given rank.
-pub(super) struct Splitting {
+pub(crate) struct Splitting {
     /// An orthonormal basis of the kernel.
     pub kernel: Vec<Vec<f64>>,
     /// An orthonormal basis of the left kernel.
@@ -25,7 +25,7 @@ impl Splitting {
     /// Decomposes a matrix; the rank must not exceed either side.
     ///
     /// The check that the factors reproduce the matrix is the one of [`kutzbach_math::matrix`]: a few roundings per entry.
-    pub(super) fn of(matrix: &SparseMatrix<f64>, rank: usize) -> Result<Self, MatrixError> {
+    pub(crate) fn of(matrix: &SparseMatrix<f64>, rank: usize) -> Result<Self, MatrixError> {
         let (rows, columns) = (matrix.rows(), matrix.columns());
         let failure = |reason| MatrixError::Decomposition {
             rows,
@@ -81,7 +81,7 @@ impl Splitting {
     }
 
     /// Shrinks the kernel to what is across some orthonormal vectors in it.
-    pub(super) fn leave_out(&mut self, directions: &[Vec<f64>]) {
+    pub(crate) fn leave_out(&mut self, directions: &[Vec<f64>]) {
         if directions.is_empty() {
             return;
         }
@@ -111,6 +111,11 @@ impl Splitting {
             across.push(vector);
         }
         self.kernel = canonical(across);
+    }
+
+    /// (left vector, right vector, singular value) of what the matrix reaches.
+    pub(crate) fn reached(&self) -> impl Iterator<Item = (&[f64], &[f64], f64)> {
+        self.kept.iter().map(|(u, v, s)| (&u[..], &v[..], *s))
     }
 
     /// The rank.

@@ -188,6 +188,7 @@ fn nominal(parts: &[&PartMeant], finite: usize) -> Nominal {
         finite,
         tolerance: parts.iter().map(misfit).fold(0.0, f64::max),
         distance: Some(parts.iter().map(distance).fold(0.0, f64::max)),
+        known_to: None,
         within_digits: parts.iter().all(|part| part.units() <= WITHIN),
         changes: sorted(parts.iter().flat_map(|part| part.changes.clone()).collect()),
         kept: parts.iter().flat_map(|part| part.kept.clone()).collect(),

@@ -30,12 +30,7 @@ pub(crate) fn section(report: &Report, page: &mut Page) {
         return;
     }
     let moved = assembly.moved.filter(|moved| *moved > 0.0);
-    let left = left_open(assembly);
-    if moved.is_none()
-        && assembly.held.is_empty()
-        && assembly.corrected.is_empty()
-        && left.is_none()
-    {
+    if moved.is_none() && assembly.held.is_empty() && assembly.corrected.is_empty() {
         return;
     }
     page.heading("Assembly");
@@ -46,9 +41,6 @@ pub(crate) fn section(report: &Report, page: &mut Page) {
             text.push_str(&format!(" All {all} that moved: `--verbose`."));
         }
         page.paragraph(&text, Tint::Plain, "  ", "  ");
-    }
-    if let Some(text) = left {
-        page.paragraph(&text, Tint::Doubtful, "  ", "  ");
     }
     if let Some(text) = held(assembly) {
         page.paragraph(&text, Tint::Plain, "  ", "  ");
@@ -117,8 +109,11 @@ fn how_far(report: &Report) -> String {
     text
 }
 
-/// Loops that count as closed and are not, quite.
-fn left_open(assembly: &Assembly) -> Option<String> {
+/// Loops that count as closed and are not, quite: what is said of the mechanism is said of another one.
+pub(super) fn left_open(assembly: &Assembly) -> Option<String> {
+    if assembly.closed != Some(true) {
+        return None;
+    }
     let visible = |gap: &&Gap| gap.left_position.max(gap.left_angle) > SHOWN;
     let worst = nearest(assembly).filter(visible)?;
     let others = assembly.gaps.iter().filter(visible).count() - 1;
@@ -127,14 +122,15 @@ fn left_open(assembly: &Assembly) -> Option<String> {
         1 => " (another one by less)".to_owned(),
         _ => format!(" ({others} others by less)"),
     };
+    let source = match assembly.tolerance_asked {
+        true => "as `--closure-tolerance` allows",
+        false => "since the numbers are stated so coarsely",
+    };
     let tolerance = assembly.tolerance.map_or(String::new(), |tolerance| {
-        format!(
-            "; up to {} does, by the precision of the numbers",
-            metres(tolerance)
-        )
+        format!(": up to {} does, {source}", metres(tolerance))
     });
     Some(format!(
-        "Loop `{}` stays open by {} and {}°{others} and counts as closed{tolerance}.",
+        "As written it does not close: loop `{}` stays open by {} and {}°{others}. This counts as closed{tolerance}.",
         worst.cycle,
         metres(worst.left_position),
         figure(worst.left_angle.to_degrees()),

@@ -20,6 +20,7 @@ pub(super) mod four_bars;
 pub(super) mod inputs;
 pub(super) mod joints;
 mod page;
+mod play;
 mod ranges;
 mod relations;
 pub(super) mod sections;
@@ -55,6 +56,7 @@ pub fn render(report: &Report, layout: Layout) -> String {
     sections::couplings(report, &mut page);
     sections::advice(report, &mut page);
     assembly::section(report, &mut page);
+    play::play(report, &mut page);
     sections::other_warnings(report, &mut page);
     if layout.verbose {
         relations::relations(report, &mut page);

@@ -83,6 +83,7 @@ fn rounded_numbers_are_named_as_the_reason() {
         finite: 1,
         tolerance: 3e-7,
         distance: None,
+        known_to: None,
         within_digits: true,
         changes: Vec::new(),
         relations: Vec::new(),

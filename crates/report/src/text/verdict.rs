@@ -28,6 +28,9 @@ pub(super) fn answer(report: &Report, page: &mut Page) {
         Verdict::Unassembled => Tint::Bad,
     };
     page.paragraph(&sentence(report), tint, "", "");
+    if let Some(text) = assembly::left_open(&report.assembly) {
+        page.paragraph(&text, Tint::Doubtful, "", "");
+    }
     if let Some(text) = nominal(report) {
         page.paragraph(&text, Tint::Doubtful, "", "");
     }
@@ -337,8 +340,12 @@ fn not_drawn(nominal: &Nominal) -> String {
             figure(change.to - change.from)
         ));
     }
+    let beyond = match nominal.known_to {
+        Some(known_to) => format!("the {} asked for", metres(known_to)),
+        None => "the precision of these numbers".to_owned(),
+    };
     text.push_str(&format!(
-        ", beyond the precision of these numbers ({}): it is not what is drawn.",
+        ", beyond {beyond} ({}): it is not what is drawn.",
         cite::NOMINAL
     ));
     text
@@ -346,8 +353,12 @@ fn not_drawn(nominal: &Nominal) -> String {
 
 /// How far the numbers are from those of the mechanism meant, and what they leave as written.
 fn meant(nominal: &Nominal, distance: f64, written: &AsWritten, finite: Option<usize>) -> String {
+    let within = match nominal.known_to {
+        Some(known_to) => format!("the {} asked for", metres(known_to)),
+        None => "their precision".to_owned(),
+    };
     let away = format!(
-        "dimensions that move differ from them by up to {}, within their precision ({})",
+        "dimensions that move differ from them by up to {}, within {within} ({})",
         metres(distance),
         cite::NOMINAL
     );

@@ -1,0 +1,121 @@
+//! Singular poses where two coordinates are free to first order, by Newton's polygon.
+
+use super::super::germ::Germ;
+use super::super::lifting::{Start, lift_all};
+use super::super::part_mobility::{Evidence, PartFinding};
+use super::super::plane_germ::{Doubt, PlaneCurve, plane_curve};
+use super::super::pose_rank::PartRank;
+use super::super::vocabulary::SingularKind;
+use super::isolated;
+use kutzbach_math::matrix::MatrixError;
+
+/// Degree of the series by which points of branches are brought to the mechanism.
+const DEGREE: usize = 8;
+
+/// Fills a finding where the numbers are exact and the branches are told apart; gives the reason where they are not.
+///
+/// # Errors
+/// [`MatrixError`] where numbers overflow.
+pub(super) fn by_polygon(
+    found: &mut PartFinding,
+    evidence: &mut Vec<Evidence>,
+    start: &Start<'_>,
+    rank: &PartRank,
+) -> Result<Option<String>, MatrixError> {
+    let idle = start.idle.len();
+    let curve = match plane_curve(start) {
+        Ok(curve) => curve,
+        Err(doubt) => return Ok(Some(reason(doubt).to_owned())),
+    };
+    evidence.push(Evidence {
+        engine: "Newton polygon",
+        scope: "a neighbourhood, real",
+        bounds: (0, Some(idle + usize::from(!curve.branches.is_empty()))),
+        text: text(&curve),
+    });
+    if curve.branches.is_empty() {
+        "near this pose the closure equations have no other real solution: Newton's polygon leaves no half-branch"
+            .clone_into(&mut found.certificate);
+        isolated(found, start)?;
+        return Ok(None);
+    }
+    let Some(germ) = Germ::of_part_across(start.pose.mechanism, rank, DEGREE, start.idle)? else {
+        return Ok(Some("its power series are too many to follow".to_owned()));
+    };
+    let lifted = match lift_all(start, &germ, &curve.branches)? {
+        Ok(lifted) => lifted,
+        Err(why) if !curve.sole => return Ok(Some(why)),
+        Err(why) => {
+            // That they exist is proved; where they lead was not found.
+            found.lower = 1 + idle;
+            found.upper = 1 + idle;
+            found.certificate = certificate(curve.branches.len());
+            if let Some(last) = evidence.last_mut() {
+                last.text.push_str(&format!("; {why}"));
+            }
+            return Ok(None);
+        }
+    };
+    if lifted.iter().any(|lifted| lifted.shaky) {
+        return Ok(Some(
+            "a branch is simple by Newton's polygon and multiple farther away".to_owned(),
+        ));
+    }
+    found.lower = 1 + idle;
+    found.upper = 1 + idle;
+    found.kind = kind(&curve);
+    found.certificate = certificate(curve.branches.len());
+    found.branches = Some(lifted.into_iter().map(|l| l.branch).collect());
+    Ok(None)
+}
+
+fn certificate(branches: usize) -> String {
+    let many = match branches {
+        1 => "one real branch".to_owned(),
+        many => format!("{many} real branches"),
+    };
+    format!(
+        "Newton's polygon gives {many} of the equations' power series, each of which is simple from some order on"
+    )
+}
+
+fn kind(curve: &PlaneCurve) -> Option<SingularKind> {
+    match curve.branches.as_slice() {
+        [branch] => branch
+            .ramification
+            .filter(|exponent| exponent % 2 == 0)
+            .map(|_| SingularKind::Cusp),
+        _ if curve.tangential => Some(SingularKind::Tangential),
+        _ => Some(SingularKind::Bifurcation),
+    }
+}
+
+fn text(curve: &PlaneCurve) -> String {
+    let branches: Vec<String> = curve
+        .branches
+        .iter()
+        .filter_map(|branch| branch.ramification)
+        .map(|exponent| format!("x = t^{exponent}"))
+        .collect();
+    let found = match branches.len() {
+        0 => "no real half-branch".to_owned(),
+        1 => format!("one real branch, {}", branches[0]),
+        many => format!("{many} real branches, {}", branches.join(", ")),
+    };
+    format!(
+        "order {} in 2 variables, series to degree {} in {} bits: {found}",
+        curve.order, curve.degree, curve.bits
+    )
+}
+
+fn reason(doubt: Doubt) -> &'static str {
+    match doubt {
+        Doubt::Precision => {
+            "a coefficient of its power series is neither zero nor clearly different from it"
+        }
+        Doubt::Multiple => {
+            "branches agree in all terms of the power series computed, or one is multiple"
+        }
+        Doubt::Arithmetic => "its power series cannot be computed in many digits",
+    }
+}
