@@ -383,7 +383,7 @@ fn ctrl_c_in_a_simulation_leaves_a_log_that_says_how_far_it_came() {
     let (output, told) = interrupted("ctrl_c", &words, std::time::Duration::from_millis(1500));
     assert_eq!(output.status.code(), Some(130), "{}", text(&output.stderr));
     let page = text(&output.stdout);
-    assert!(page.contains("broken off"), "{page}");
+    assert!(page.contains("interrupted"), "{page}");
     assert!(told[0].contains("predicted motion of branch A"), "{told:?}");
     let last = told.last().unwrap();
     assert!(last.contains("stopped early: interrupted"), "{told:?}");

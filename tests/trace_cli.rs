@@ -307,3 +307,41 @@ fn plots_stand_below_one_another_and_show_where_the_motion_ends() {
         assert!(flat.contains(told), "{flat}");
     }
 }
+
+/// A pantograph of two cranks, with two degrees of freedom.
+const FIVE_BAR: &str = r#"<robot name="five"><link name="g"/><link name="a"/><link name="b"/><link name="c"/><link name="d"/>
+  <joint name="A" type="revolute"><parent link="g"/><child link="a"/><axis xyz="0 0 1"/></joint>
+  <joint name="B" type="revolute"><parent link="a"/><child link="b"/><origin xyz="0 2 0"/><axis xyz="0 0 1"/></joint>
+  <joint name="D" type="revolute"><parent link="g"/><child link="d"/><origin xyz="3 0 0"/><axis xyz="0 0 1"/></joint>
+  <joint name="C" type="revolute"><parent link="d"/><child link="c"/><origin xyz="0 2 0"/><axis xyz="0 0 1"/></joint>
+  <loop name="E" type="revolute"><predecessor link="b"><origin xyz="1.5 2 0"/></predecessor>
+  <successor link="c"><origin xyz="-1.5 2 0"/></successor><axis xyz="0 0 1"/></loop></robot>"#;
+
+#[test]
+fn what_is_held_is_told_by_what_it_leaves() {
+    let folder = folder("held", FIVE_BAR);
+    // One degree of freedom is left, and followed.
+    for joint in ["A", "B", "C", "D", "E"] {
+        let found = json(&traced(&folder, &["--hold", joint, "--format", "json"]));
+        assert_eq!(found["moves"], true, "{joint}: {}", found["reason"]);
+        assert_eq!(found["held"][0]["joint"], joint);
+    }
+    let told = |more: &[&str]| {
+        let output = traced(&folder, more);
+        assert_ne!(output.status.code(), Some(0));
+        text(&output.stderr)
+    };
+    assert!(
+        told(&["--hold", "A", "--hold", "D"])
+            .contains("holding `D` too leaves no degree of freedom")
+    );
+    assert!(
+        told(&["--hold", "A", "--hold", "D", "--drive", "B"]).contains("holding `D` too leaves")
+    );
+    // What rests on the branch takes nothing away by being held.
+    let cranks =
+        fs::read_to_string(support::folder("mechanisms").join("kite_equal_bars.urdf")).unwrap();
+    fs::write(folder.join("m.urdf"), cranks).unwrap();
+    let found = json(&traced(&folder, &["--hold", "elbow_0", "--format", "json"]));
+    assert_eq!(found["moves"], true, "{}", found["reason"]);
+}

@@ -197,7 +197,7 @@ fn one(row: &Row) -> String {
 }
 
 fn analysis(text: &mut String, accuracy: &Accuracy) {
-    say(text, "| way | says | worth | clear by | time |");
+    say(text, "| method | result | verdict | margin | time |");
     say(text, "|---|---|---|---|---|");
     for (name, precision) in SHOWN {
         let way = accuracy

@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use super::pose::Pose;
 use super::progress::Progress;
-use super::simulate::aside::{Listener, Teller, aside};
+use super::simulate::aside::{Listener, Sender, aside};
 use super::{DONE, interrupt, load, output, terminal};
 use clap::{Args, ValueEnum};
 use kutzbach::accuracy::{Accuracy, AccuracyOptions, Grid, measure};
@@ -173,9 +173,9 @@ pub fn watched<T: Send>(
     work: impl FnOnce(&mut dyn FnMut(f64) -> ControlFlow<()>) -> T + Send,
 ) -> Result<T, String> {
     let mut bar = Bar(Progress::new(what));
-    let done = aside(&mut bar, |teller: &Teller<'_, f64>| {
+    let done = aside(&mut bar, |sender: &Sender<'_, f64>| {
         work(&mut |done| {
-            if teller.tell(done) && !interrupt::asked() {
+            if sender.tell(done) && !interrupt::asked() {
                 ControlFlow::Continue(())
             } else {
                 ControlFlow::Break(())
@@ -198,7 +198,7 @@ impl Listener<f64> for Bar {
 
     fn abandon(&mut self) -> ! {
         Failure::Plain {
-            message: "broken off".to_owned(),
+            message: "interrupted".to_owned(),
             help: None,
         }
         .tell();

@@ -11,7 +11,7 @@ use kutzbach::mechanism::{FreedomPart, Mechanism};
 use kutzbach::mobility::{AnalysisOptions, Depth, analyse};
 use kutzbach::motion::{TraceOptions, trace};
 
-/// Follow a branch: poses, ranges of the joints, dead centres, singular poses
+/// Follow a branch: poses, ranges and extreme positions of the joints, singular poses
 #[derive(Debug, Args)]
 pub struct Arguments {
     #[command(flatten)]

@@ -1,7 +1,7 @@
 //! The equations of the cycles.
 //!
-//! A mechanism stands right when, going once around every basic cycle of its graph, the product of the joint
-//! displacements is the identity. This module evaluates that product and its derivative in any arithmetic, and moves the
+//! The loops close when, once around every basic cycle of the graph, the product of the joint displacements is the
+//! identity. This module evaluates that product and its derivative in any arithmetic, and moves the
 //! joints until the cycles close:
 //!
 //! - [`Geometry`] evaluates a mechanism's exact numbers into frames, joint by joint;

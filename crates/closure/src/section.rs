@@ -45,7 +45,7 @@ pub struct Closing {
     pub residual: f64,
     /// Rounding in the equations at the pose reached, same units.
     pub rounding: f64,
-    /// Length of the way gone while closing, in the metric.
+    /// Length of the path taken while closing, in the metric.
     pub way: f64,
     /// Length of the last step, in the metric.
     pub last_step: f64,
@@ -53,7 +53,7 @@ pub struct Closing {
     pub steps: usize,
 }
 
-/// A part that is moved about, in an arithmetic.
+/// A part whose loops are closed under constraints, in a given arithmetic.
 pub struct Section<'a, R> {
     /// The mechanism.
     pub mechanism: &'a Mechanism,

@@ -1,4 +1,4 @@
-//! Checks before any parsing: that bytes are text of a bearable size, and that the text is not built to exhaust a parser.
+//! Checks before any parsing: size limits, and that the text is not built to exhaust a parser.
 //!
 //! One walk over the text, linear in its size. It knows just enough XML (comments, CDATA, processing instructions, quotes)
 //! to count nesting and attributes. Where the text is malformed the walk stops without judging: the parser proper says what

@@ -1,4 +1,4 @@
-//! Everything the first engines say about a mechanism at one pose.
+//! Top-level analysis of a mechanism at one pose.
 
 use super::advice::{Advice, advice_for_part};
 use super::alike::treat_alike;

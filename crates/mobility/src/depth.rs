@@ -1,4 +1,4 @@
-//! How much of an analysis is wanted: whoever asks for less waits less.
+//! Analysis depth; the cost grows with it.
 
 /// What an analysis is to find out. Each depth includes what the ones before it say, with the same answers.
 ///

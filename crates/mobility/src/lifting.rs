@@ -5,7 +5,7 @@
 //! the branch's dimension; and the branch is followed to generic poses.
 //!
 //! Where the equations have a multiple zero along the branch, as they do on a permanently shaky one, the kernel is larger
-//! than the branch, and tangents are found by going: see [`secant_poses`].
+//! than the branch, and tangents are secants between computed poses: see [`secant_poses`].
 
 use super::chart::Kernel;
 use super::germ::Germ;

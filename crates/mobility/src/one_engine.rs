@@ -1,4 +1,4 @@
-//! One engine asked by itself, with a precision or an order of one's choice: what it says then, and how clearly.
+//! Runs one engine in isolation, at a given precision or order: its result and its margin.
 //!
 //! The verdict asks engines in turn and gives each the digits it needs. Here nothing is chosen for the caller, so that what
 //! digits and orders buy can be measured. No decision rests on any of this.

@@ -1,4 +1,4 @@
-//! The finite mobility of one part: engines from cheap to dear, until their bounds meet.
+//! The finite mobility of one part: engines in order of cost, until their bounds meet.
 //!
 //! | engine | says | costs |
 //! |---|---|---|
@@ -375,8 +375,8 @@ pub fn part_mobility(
         }
         ChartOutcome::Thin => {
             let why = format!(
-                "whether this pose is regular hangs on a margin that is too thin: at a distance of {:.1e} the equations leave \
-                 {:.1e} over, and {:.1e} of that may be noise; {}",
+                "whether this pose is regular is open, since the margin is too thin: at a distance of {:.1e} the misfit is {:.1e}, \
+                 and the noise may be {:.1e}; {}",
                 chart.radius,
                 chart.leftover,
                 chart.noise,

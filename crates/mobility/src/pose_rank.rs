@@ -478,8 +478,8 @@ pub(super) fn rank_part_with(
         }
         (Some(answer), _) if coarse && candidates.0 < candidates.1 => {
             let note = format!(
-                "the numbers are stated too coarsely to decide anything; taken literally they leave {answer}, within their \
-                 stated precision anything from {} to {} is possible",
+                "{answer} as written, but the numbers are too coarse to decide: within their stated precision anything \
+                 from {} to {} is possible",
                 candidates.0, candidates.1
             );
             (Some(answer), nominal, Some(note))

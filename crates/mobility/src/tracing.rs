@@ -142,7 +142,7 @@ fn onward(random: &mut SplitMix64, basis: &[Vec<f64>], before: Option<&[f64]>) -
     }
     let mut length = 0.0.norm(&direction);
     if let Some(before) = before {
-        // Straight on, not back, whatever the dice say.
+        // Straight on, not back, regardless of the random draw.
         let along: f64 = direction.iter().zip(before).map(|(a, b)| a * b).sum();
         if along < 0.0 {
             length = -length;

@@ -1,4 +1,4 @@
-//! Branches that are shaky all along: at every pose the loops give way in more directions than lead anywhere.
+//! Branches that are infinitesimally mobile all along (shaky): dim ker J exceeds the branch's dimension at every pose.
 //!
 //! There the Jacobian A of the equations has rank r everywhere on the branch and more beside it, so that its kernel does not
 //! tell the tangent and Newton's method slows down: the equations are satisfied to second order by what is wrong to first.

@@ -20,7 +20,7 @@
 //! | `cusp`, `singular`, `bridge`, `pieces`, `walk` | cusps and singular poses, how they are passed, the whole curve |
 //! | `curve` | poses by arclength and by drive value ([`Curve`]) |
 //! | `dead_centres`, `ranges`, `sampling` | what is read off a curve |
-//! | `inputs`, `wishes` | what is driven and held |
+//! | `inputs`, `requested` | what is driven and held |
 //! | `play`, `play/…` | the play that joints need where dimensions as written bind ([`play()`]) |
 //! | `words` | what is met and where it ends, for people |
 //! | `trace`, `trace/…` | from an analysis to a [`Trace`]: where a part starts, which curve serves, what is told of it |
@@ -40,6 +40,7 @@ mod node;
 mod pieces;
 mod play;
 mod ranges;
+mod requested;
 mod result;
 mod rows;
 #[cfg(test)]
@@ -53,17 +54,16 @@ mod system;
 mod trace;
 mod vectors;
 mod walk;
-mod wishes;
 mod words;
 
 pub use curve::{Curve, CurvePose};
 pub use inputs::Variable;
 pub use play::{Deviation, NoPlay, Play, PlayOptions, play};
+pub use requested::variable_named;
 pub use result::{
     End, EndReason, Event, EventKind, Held, Motion, Range, Sample, Spacing, Still, Trace,
     TraceError, TraceOptions, Unreached,
 };
 pub use system::{Evaluation, LoopSystem, SystemPose};
 pub use trace::trace;
-pub use wishes::variable_named;
 pub use words::value_text;

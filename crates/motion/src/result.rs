@@ -74,17 +74,25 @@ pub enum TraceError {
         several: Vec<String>,
     },
     /// What is held leaves nothing for the driven variable to do.
-    #[error("`{drive}` cannot move while {held} are held")]
+    #[error("`{drive}` cannot move with {held} held")]
     NothingLeft {
         /// The variable that was to be driven.
         drive: String,
         /// What was held.
         held: String,
     },
-    /// More variables held than there are freedoms to spare.
-    #[error("holding `{name}` takes away a freedom that is not there")]
+    /// As many independent variables held as there are degrees of freedom.
+    #[error("holding `{name}` too leaves no degree of freedom")]
     HoldsTooMuch {
         /// The first variable too many.
+        name: String,
+    },
+    /// A held variable that is at an extreme position at the start, or depends on the other ones held.
+    #[error(
+        "holding `{name}` fixes nothing at the start: its rate is zero there, or follows from the others held"
+    )]
+    HoldsNothing {
+        /// The variable.
         name: String,
     },
     /// The wanted range is no range.
@@ -135,8 +143,8 @@ impl TraceError {
                 "`kutzbach report FILE` lists the joints; joints of several freedoms are driven by a part, such as `slider.rot`".to_owned()
             }
             Self::NothingLeft { .. } => "hold other joints, or fewer".to_owned(),
-            Self::HoldsTooMuch { .. } => {
-                "on a branch of d freedoms, d − 1 independent variables can be held".to_owned()
+            Self::HoldsTooMuch { .. } | Self::HoldsNothing { .. } => {
+                "on a branch of d degrees of freedom, d − 1 independent variables can be held".to_owned()
             }
             Self::Range { .. } => "write it as --drive joint=from..to".to_owned(),
             Self::Reach { .. } => "a positive number of radians".to_owned(),

@@ -9,10 +9,10 @@ use super::curve::Curve;
 use super::dead_centres::DeadCentre;
 use super::follow::Stop;
 use super::inputs::Variable;
+use super::requested::{RequestedVariables, requested_variables};
 use super::result::{Still, Trace, TraceError, TraceOptions};
 use super::singular::Singular;
 use super::system::SystemPose;
-use super::wishes::{Wishes, read_wishes};
 use kutzbach_closure::{Arithmetic, Geometry, Part};
 use kutzbach_mobility::{Analysis, Branch, Tangent, Verdict};
 use kutzbach_model::mechanism::Mechanism;
@@ -55,7 +55,7 @@ pub fn trace(
     {
         return Err(TraceError::Range { from, to });
     }
-    let wishes = read_wishes(mechanism, options)?;
+    let requested = requested_variables(mechanism, options)?;
     let still = |reason: &str| {
         Ok(Trace::Still(Still {
             reason: reason.to_owned(),
@@ -84,7 +84,7 @@ pub fn trace(
         return still("nothing moves: no branch through this pose has a freedom");
     };
     let tracer = Tracer::new(mechanism, analysis, branch, options);
-    tracer.run(branches, &wishes, options)
+    tracer.run(branches, &requested, options)
 }
 
 /// One part with its branch, ready to be followed.
@@ -183,7 +183,7 @@ impl<'a> Tracer<'a> {
     fn run(
         &self,
         branches: &[Branch],
-        wishes: &Wishes,
+        requested: &RequestedVariables,
         options: &TraceOptions,
     ) -> Result<Trace, TraceError> {
         let mut notes = Vec::new();
@@ -208,9 +208,9 @@ impl<'a> Tracer<'a> {
             .scene()
             .and_then(|s| s.drives.first())
             .map(|d| Variable::of(self.mechanism, d.joint.0, 0));
-        let asked = wishes.drive.clone().or_else(|| {
+        let asked = requested.drive.clone().or_else(|| {
             scene.filter(|v| {
-                !wishes.hold.contains(v)
+                !requested.hold.contains(v)
                     && self.locked(v) == Some(false)
                     && self.stage_of(v.joint).is_some()
             })
@@ -224,12 +224,12 @@ impl<'a> Tracer<'a> {
             ));
         }
         let found = match &asked {
-            Some(drive) => self.curve_driven_by(drive, &wishes.hold)?,
-            None => self.best_curve(&wishes.hold)?,
+            Some(drive) => self.curve_driven_by(drive, &requested.hold)?,
+            None => self.best_curve(&requested.hold)?,
         };
         let Some((found, drive)) = found else {
             return still(format!(
-                "branch {} cannot be followed: its equations leave more than one direction open at the start",
+                "branch {} cannot be followed: what is held and driven does not determine the motion at the start",
                 self.branch.name
             ));
         };

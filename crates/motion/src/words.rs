@@ -90,9 +90,9 @@ impl Display for EventKind {
                 greatest,
             } => write!(
                 out,
-                "dead centre of {}: {} {}",
+                "{} at its {}, {}",
                 variable.name,
-                if *greatest { "greatest" } else { "least" },
+                if *greatest { "maximum" } else { "minimum" },
                 value_text(*value)
             )?,
             Self::JointLimit { variable, value } => write!(
@@ -105,7 +105,7 @@ impl Display for EventKind {
                 freedom, excess: 0, ..
             } => write!(
                 out,
-                "what is held leaves the motion open here (freedom {freedom})"
+                "input singularity: the joints held do not determine the motion here (freedom {freedom})"
             )?,
             Self::Singular {
                 freedom, crosses, ..

@@ -1,4 +1,4 @@
-//! Lays what an analysis found over a report that holds counts only.
+//! Fills the analysis fields of a [`Report`] that holds counts only.
 
 use super::change_sets::{change_sets, directions};
 use super::motions::motion_row;

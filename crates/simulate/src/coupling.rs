@@ -63,7 +63,7 @@ pub(super) fn add(
             None => {
                 built.note(
                     &coupling.name,
-                    "it couples joints that close a loop together, joints of separate pieces, or one joint alone, which the engine cannot; it is left out",
+                    "the engine does not support this coupling, of joints that close a loop together, joints of separate parts, or one joint alone: it is left out",
                 );
                 built.not_simulated.push(coupling.name.clone());
             }

@@ -36,9 +36,9 @@ enum Heard<M, T> {
 }
 
 /// Tells the listener; `false` where nobody listens any more.
-pub struct Teller<'t, M>(&'t dyn Fn(M) -> bool);
+pub struct Sender<'t, M>(&'t dyn Fn(M) -> bool);
 
-impl<M> Teller<'_, M> {
+impl<M> Sender<'_, M> {
     pub fn tell(&self, message: M) -> bool {
         (self.0)(message)
     }
@@ -50,7 +50,7 @@ impl<M> Teller<'_, M> {
 /// What the system says where it has no thread to give.
 pub fn aside<M: Send, T: Send>(
     listener: &mut dyn Listener<M>,
-    work: impl FnOnce(&Teller<'_, M>) -> T + Send,
+    work: impl FnOnce(&Sender<'_, M>) -> T + Send,
 ) -> std::io::Result<T> {
     interrupt::listen();
     let (sender, receiver) = sync_channel(BACKLOG);
@@ -61,7 +61,7 @@ pub fn aside<M: Send, T: Send>(
                 .spawn_scoped(scope, move || {
                     let sender: SyncSender<Heard<M, T>> = sender;
                     let tell = |message| sender.send(Heard::Message(message)).is_ok();
-                    let result = work(&Teller(&tell));
+                    let result = work(&Sender(&tell));
                     // A listener that is gone has no use for it.
                     let _ = sender.send(Heard::Done(result));
                 })?;
@@ -106,7 +106,7 @@ mod tests {
     fn everything_is_heard_in_order_and_before_the_result() {
         let mut kept = Kept(Vec::new());
         let count = 10 * BACKLOG;
-        let result = aside(&mut kept, |teller| (0..count).all(|i| teller.tell(i)));
+        let result = aside(&mut kept, |sender| (0..count).all(|i| sender.tell(i)));
         assert!(result.unwrap());
         assert!(kept.0.iter().copied().eq(0..count));
     }
@@ -114,7 +114,7 @@ mod tests {
     #[test]
     #[should_panic(expected = "as it is")]
     fn a_panic_is_passed_on() {
-        let _ = aside(&mut Kept(Vec::new()), |_: &Teller<'_, usize>| {
+        let _ = aside(&mut Kept(Vec::new()), |_: &Sender<'_, usize>| {
             panic!("as it is")
         });
     }

@@ -1,7 +1,7 @@
 //! The log of a simulation: opened before anything is simulated, finished whatever happens.
 
 use super::Arguments;
-use super::aside::{Listener, Teller, aside};
+use super::aside::{Listener, Sender, aside};
 use crate::cli::failure::Failure;
 use crate::cli::progress::Progress;
 use crate::cli::{BAD_INPUT, interrupt, load, output};
@@ -15,6 +15,7 @@ use kutzbach::record::{
 };
 use kutzbach::report::Options;
 use kutzbach::report::text::visible;
+use kutzbach::report::text::words::degrees;
 use kutzbach::simulate::JointGap;
 use kutzbach::simulate::verification::{Finding, Moment, Observer, Passage, VerificationOptions};
 use std::collections::BTreeMap;
@@ -222,9 +223,9 @@ impl<'a> Log<'a> {
             begun: Instant::now(),
             sign: Some(self.sign()),
         };
-        let done = aside(&mut watcher, |teller| {
+        let done = aside(&mut watcher, |sender| {
             work(&mut Relay {
-                teller,
+                sender,
                 broken: &broken,
             })
         })
@@ -245,7 +246,7 @@ impl<'a> Log<'a> {
     fn sign(&self) -> String {
         let mobility = &self.analysis.mobility;
         let finite = mobility.finite();
-        let freedom = finite.map_or(String::new(), |n| format!(" with {n} finite freedoms"));
+        let freedom = finite.map_or(String::new(), |n| format!(" with {}", degrees(n)));
         format!(
             "{}: predicted {}{freedom}; simulating",
             self.mechanism.name(),
@@ -295,7 +296,7 @@ fn end_early(path: &Path, recorder: Option<Recorder<'_, LogFile>>) -> ! {
         Some(Ok(summary)) => (
             Failure::Plain {
                 message: format!(
-                    "broken off; {}: {} moments in {:.1} s",
+                    "interrupted; {}: {} moments in {:.1} s",
                     path.display(),
                     summary.moments,
                     summary.until
@@ -306,7 +307,7 @@ fn end_early(path: &Path, recorder: Option<Recorder<'_, LogFile>>) -> ! {
         ),
         None => (
             Failure::Plain {
-                message: "broken off".to_owned(),
+                message: "interrupted".to_owned(),
                 help: None,
             },
             i32::from(interrupt::INTERRUPTED),
@@ -353,13 +354,13 @@ struct Copied {
 
 /// Stands by the simulation and tells everything on.
 struct Relay<'t, 'b> {
-    teller: &'t Teller<'t, Told>,
+    sender: &'t Sender<'t, Told>,
     broken: &'b AtomicBool,
 }
 
 impl Relay<'_, '_> {
     fn tell(&self, told: Told) -> ControlFlow<()> {
-        let heard = self.teller.tell(told);
+        let heard = self.sender.tell(told);
         if heard && !self.broken.load(Ordering::SeqCst) && !interrupt::asked() {
             ControlFlow::Continue(())
         } else {

@@ -44,7 +44,7 @@ pub fn chosen(
         measure_settings(mechanism, analysis, &wishes, wanted, watch)
     })?
     .map_err(|error| error.to_string())?;
-    choice.ok_or_else(|| "broken off before a setting was found".to_owned())
+    choice.ok_or_else(|| "interrupted before a setting was found".to_owned())
 }
 
 /// The setting to use: the one that serves, or the best there is.

@@ -4,7 +4,7 @@ use kutzbach::accuracy::Choice;
 use kutzbach::mechanism::Mechanism;
 use kutzbach::record::Summary;
 use kutzbach::report::accuracy::choice_text;
-use kutzbach::report::text::words::{counted, names, runs};
+use kutzbach::report::text::words::{counted, degrees, names, runs};
 use kutzbach::report::text::{Cell, Column, Layout, Page, Table, Tint};
 use kutzbach::simulate::verification::{
     BranchVerification, Finding, Outcome, Pushing, Verification,
@@ -125,7 +125,7 @@ pub fn text(simulated: &Simulated<'_>, layout: Layout) -> String {
         cost_page(rows, &mut page);
     }
     if !verification.notes.is_empty() {
-        page.heading("How the world was made");
+        page.heading("Assumptions of the simulation");
         let shown = if page.layout().verbose { usize::MAX } else { 3 };
         for note in verification.notes.iter().take(shown) {
             page.item(note, Tint::Quiet);
@@ -149,7 +149,7 @@ pub fn text(simulated: &Simulated<'_>, layout: Layout) -> String {
                 counted(summary.moments as usize, "moment"),
                 summary.until,
                 if simulated.stopped {
-                    ", up to where it was broken off"
+                    ", up to where it was interrupted"
                 } else {
                     ""
                 }
@@ -181,7 +181,7 @@ fn branch_page(branch: &BranchVerification, page: &mut Page) {
     page.heading(&format!(
         "Branch {}, {}",
         branch.branch,
-        counted(branch.dimension, "freedom")
+        degrees(branch.dimension)
     ));
     if branch.ladders.is_empty() {
         page.paragraph(
@@ -222,7 +222,7 @@ fn branch_page(branch: &BranchVerification, page: &mut Page) {
             .column("closure error", Column::Numbers)
             .column("order", Column::Numbers)
             .column("off the prediction", Column::Numbers)
-            .column("came", Column::Numbers)
+            .column("travel reached", Column::Numbers)
             .column("wall time", Column::Numbers);
         for rung in &ladder.rungs {
             table.row(vec![
@@ -252,7 +252,10 @@ fn branch_page(branch: &BranchVerification, page: &mut Page) {
     }
     if let Some(count) = &branch.freedoms {
         page.paragraph(
-            &format!("Freedoms {}", lowercase(&sentence(&count.finding))),
+            &format!(
+                "Degrees of freedom {}",
+                lowercase(&sentence(&count.finding))
+            ),
             tint(count.finding.outcome),
             "  ",
             "  ",

@@ -15,7 +15,7 @@ const SCHEMA: &str = "kutzbach-trace-1";
 
 fn extent(motion: &Motion) -> String {
     match motion.closed {
-        Some(length) => format!("closed, arclength {} once around", short(length)),
+        Some(length) => format!("closed curve, one cycle of arclength {}", short(length)),
         None => {
             let ends: Vec<String> = motion
                 .ends
@@ -29,7 +29,7 @@ fn extent(motion: &Motion) -> String {
                     )
                 })
                 .collect();
-            format!("with two ends; {}", ends.join("; "))
+            format!("two ends; {}", ends.join("; "))
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Polynomial equations of a mechanism, exact.
 //!
 //! # The problem
-//! A mechanism stands right where its loops close. With a point (c, s) of the circle for every angle and a unit quaternion
+//! A pose is valid if and only if its loops close. With a point (c, s) of the circle for every angle and a unit quaternion
 //! for every ball the closure is polynomial, and if the mechanism's numbers are algebraic so are its coefficients. Then
 //! algebra can speak of the whole configuration space.
 //!

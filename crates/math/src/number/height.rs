@@ -1,4 +1,4 @@
-//! How long a number is, in bits: the smallest offset that it can have been written to hold.
+//! Bit length of a number: the smallest offset that it can have been written to hold.
 
 use super::{Exact, Form, Number};
 use dashu_base::{BitTest, PowerOfTwo};

@@ -1,4 +1,4 @@
-//! Words of an expression.
+//! Tokens of an expression.
 
 use super::decimal;
 use super::error::{NumberError, Reason};

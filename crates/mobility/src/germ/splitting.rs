@@ -1,4 +1,4 @@
-//! What a Jacobian leaves free, what it fixes, and what it says twice: one singular value decomposition.
+//! Kernel, cokernel and pseudo-inverse of a Jacobian, from one singular value decomposition.
 
 use faer::Mat;
 use kutzbach_math::matrix::{MatrixError, SparseMatrix};

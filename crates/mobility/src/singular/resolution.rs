@@ -1,4 +1,4 @@
-//! Which angles between branches can be told from none.
+//! Smallest resolvable angle between branches.
 //!
 //! Lines that share a direction are a multiple root of the leading form: yᵐ. An error of η in its coefficients, relative to the
 //! form, makes it yᵐ = η xᵐ, whose lines go up to η^{1/m} to either side. So an angle below 2 η^{1/m} may be none, and none may

@@ -29,36 +29,36 @@ impl Tracer<'_> {
         };
         let mut first = Vec::new();
         for variable in hold {
-            // Other parts stand still anyway.
-            if let Some(u) = unknown(variable) {
+            // Other parts stand still anyway, and so does what rests on the branch.
+            if let Some(u) = unknown(variable).filter(|_| self.locked(variable) != Some(true)) {
                 first.push(u);
             }
         }
         let pose = system.pose(&states);
         let tangents = self.tangents(stage, &system, &pose);
+        let name = |u: usize| {
+            let (joint, freedom) = system.variables()[u];
+            Variable::of(self.mechanism, joint, freedom).name
+        };
+        let (chosen, idle) = choose_inputs(self.mechanism, &system, &tangents, &first);
+        if let Some(last) = first.last()
+            && chosen.iter().all(|u| first.contains(u))
+        {
+            return Err(TraceError::HoldsTooMuch { name: name(*last) });
+        }
+        if let Some(&out) = idle.first() {
+            return Err(TraceError::HoldsNothing { name: name(out) });
+        }
         let held_first: Vec<usize> = std::iter::once(driven)
             .chain(first.iter().copied())
             .collect();
         let (chosen, left_out) = choose_inputs(self.mechanism, &system, &tangents, &held_first);
-        if let Some(&out) = left_out.first() {
-            let (joint, freedom) = system.variables()[out];
-            let variable = Variable::of(self.mechanism, joint, freedom);
-            if out != driven {
-                return Err(if first.len() >= stage.dimension {
-                    TraceError::HoldsTooMuch {
-                        name: variable.name,
-                    }
-                } else {
-                    TraceError::NothingLeft {
-                        drive: drive.name.clone(),
-                        held: hold
-                            .iter()
-                            .map(|v| v.name.as_str())
-                            .collect::<Vec<_>>()
-                            .join(", "),
-                    }
-                });
-            }
+        if left_out.first().is_some_and(|&out| out != driven) {
+            let held: Vec<&str> = hold.iter().map(|v| v.name.as_str()).collect();
+            return Err(TraceError::NothingLeft {
+                drive: drive.name.clone(),
+                held: held.join(", "),
+            });
         }
         let holds: Vec<usize> = if chosen.first() == Some(&driven) {
             chosen[1..].to_vec()
@@ -88,6 +88,7 @@ impl Tracer<'_> {
             let tangents = self.tangents(stage, &system, &pose);
             let held: Vec<usize> = hold
                 .iter()
+                .filter(|v| self.locked(v) != Some(true))
                 .filter_map(|v| Some(system.unknowns_of(v.joint)?.start + v.freedom))
                 .collect();
             let (chosen, _) = choose_inputs(self.mechanism, &system, &tangents, &held);
@@ -96,6 +97,11 @@ impl Tracer<'_> {
                 let (joint, freedom) = variables[u];
                 Variable::of(self.mechanism, joint, freedom)
             }));
+        }
+        if let (true, Some(last)) = (candidates.is_empty(), hold.last()) {
+            return Err(TraceError::HoldsTooMuch {
+                name: last.name.clone(),
+            });
         }
         // What the file says is driven is driven.
         let rank = |variable: &Variable| variable.rank(self.mechanism);

@@ -153,7 +153,7 @@ impl Tracer<'_> {
             let value = start.values[unknown];
             if value < own.lower - SAME || value > own.upper + SAME || own.lower > own.upper {
                 notes.push(format!(
-                    "joint `{}` starts outside its limits, which are left aside",
+                    "joint `{}` starts outside its limits; they are ignored",
                     known.name
                 ));
             } else {

@@ -117,15 +117,15 @@ fn tint_of(claim: Claim) -> Tint {
 }
 
 fn analysis(accuracy: &Accuracy, page: &mut Page) {
-    page.heading("How can it move: every way to the answer");
+    page.heading("How can it move: every method");
     let mut table = Table::new()
-        .column("way", Column::Words)
-        .column("with", Column::Words)
-        .column("says", Column::Words)
-        .column("worth", Column::Words)
-        .column("clear by", Column::Numbers)
-        .column("takes", Column::Numbers)
-        .column("rests on", Column::Shrinking);
+        .column("method", Column::Words)
+        .column("setting", Column::Words)
+        .column("result", Column::Words)
+        .column("verdict", Column::Words)
+        .column("margin", Column::Numbers)
+        .column("time", Column::Numbers)
+        .column("basis", Column::Shrinking);
     for way in &accuracy.analysis {
         table.row(vec![
             Cell::new(&way.name),
@@ -243,7 +243,7 @@ fn settings(rows: &[Setting], predicted: bool, page: &mut Page) {
     if predicted {
         table = table
             .column("off the prediction", Column::Numbers)
-            .column("came", Column::Numbers);
+            .column("travel reached", Column::Numbers);
     }
     table = table
         .column("per simulated second", Column::Numbers)

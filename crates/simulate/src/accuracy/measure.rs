@@ -1,4 +1,4 @@
-//! All of it, one after the other.
+//! Runs all measurements.
 
 use super::analysis::Subject;
 use super::choose::{Choice, choose};

@@ -1,4 +1,4 @@
-//! Which of several ways no other one beats.
+//! Pareto front.
 
 /// For every (cost, error), whether no other has both no greater and one of them less: the Pareto front (Pareto 1906;
 /// the word for it is later). What has no cost or error, or one that is no number, is not on it; of equals the first is.

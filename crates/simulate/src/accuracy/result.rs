@@ -22,7 +22,7 @@ pub struct Accuracy {
     pub finite: Option<usize>,
     /// Links, joints and independent loops.
     pub size: [usize; 3],
-    /// The ways to know how it can move, from cheap to dear.
+    /// The ways to know how it can move, in order of cost.
     pub analysis: Vec<Way>,
     /// Tracing the motion.
     pub motion: Motion,
@@ -210,7 +210,7 @@ impl State {
             Self::Stalled => "stalled",
             Self::CameApart => "came apart",
             Self::LeftOut => "left out",
-            Self::BrokenOff => "broken off",
+            Self::BrokenOff => "interrupted",
         }
     }
 }

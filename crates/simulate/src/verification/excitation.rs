@@ -1,7 +1,7 @@
-//! Counting freedoms by shaking.
+//! Degrees of freedom as the rank of the response to random impulses.
 //!
-//! At a generic pose of a branch the mechanism is struck at random, all links at once, many times over, and each time the
-//! velocities that its joints leave it with are noted. Those velocities are all the velocities it can have: their span is
+//! At a generic pose of a branch all links receive random impulses at once, many times over, and each time the velocities
+//! that the joints leave them are noted. Those velocities are all the velocities it can have: their span is
 //! the tangent space of the configuration space there, and its rank the number of freedoms. Nothing of the prediction goes
 //! into the count but the pose.
 //!
@@ -157,8 +157,9 @@ fn count_with(
             Finding::new(
                 Outcome::Confirmed,
                 format!(
-                    "blows at random leave velocities of rank {steady}, as predicted; in {} more the \
-                     response dies away slowly: the joints hardly hold it back",
+                    "random impulses excite {}, as predicted; in {} more the response dies away slowly: \
+                     the joints hardly resist it",
+                    excited(steady),
                     counted_directions(second.found - steady)
                 ),
             )
@@ -171,6 +172,14 @@ fn count_with(
         second.found = steady;
     }
     Ok(second)
+}
+
+/// `1 degree of freedom`.
+fn excited(count: usize) -> String {
+    match count {
+        1 => "1 degree of freedom".to_owned(),
+        _ => format!("{count} degrees of freedom"),
+    }
 }
 
 fn counted_directions(count: usize) -> String {
@@ -425,7 +434,7 @@ fn counted(
         Finding::new(
             Outcome::Inconclusive,
             format!(
-                "the velocities after a blow did not settle: joints are off by {unsettled:.1e} of them"
+                "the velocities after an impulse did not settle: joints are off by {unsettled:.1e} of them"
             ),
         )
     } else if largest > 0.0 && !(gap >= LEAST_GAP) {
@@ -436,20 +445,25 @@ fn counted(
     } else if found == expected {
         Finding::new(
             Outcome::Confirmed,
-            format!("blows at random leave velocities of rank {found}, as predicted"),
+            format!("random impulses excite {}, as predicted", excited(found)),
         )
     } else if agrees {
         Finding::new(
             Outcome::Confirmed,
             format!(
-                "blows at random leave velocities of rank {found}: the finite freedoms are {finite}, and \
-                 what gives way to first order only, {expected} in all, is blocked as it moves"
+                "random impulses excite {}, the finite mobility: of {} possible to first order, the others are \
+                 blocked as the mechanism moves",
+                excited(found),
+                excited(expected)
             ),
         )
     } else {
         Finding::new(
             Outcome::Contradicted,
-            format!("blows at random leave velocities of rank {found}; {expected} were predicted"),
+            format!(
+                "random impulses excite {}; {expected} were predicted",
+                excited(found)
+            ),
         )
     };
     FreedomCount {

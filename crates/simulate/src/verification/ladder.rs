@@ -117,6 +117,17 @@ pub fn defect(coarse: (usize, f64), fine: (usize, f64)) -> f64 {
     ((ratio * fine.1 - coarse.1) / (ratio - 1.0)).max(0.0)
 }
 
+/// What is said of a run that has no error but a small one: rounding is below 1e-12 of the characteristic length.
+fn reached_the_end(last: &Rung) -> String {
+    const TO_ROUNDING: f64 = 1e-12;
+    let error = last.closure_error.max(last.distance);
+    let how_well = match error <= TO_ROUNDING {
+        true => "to rounding".to_owned(),
+        false => format!("with an error of {error:.0e} of the characteristic length"),
+    };
+    format!("the simulated mechanism reached the end of the predicted motion, {how_well}")
+}
+
 /// Where the drive has to have come to count as having gone its way.
 pub const ARRIVED: f64 = 0.9;
 
@@ -138,12 +149,7 @@ pub fn judge_motion(rungs: &[Rung]) -> Option<Finding> {
         return (last.closure_error <= ROUNDING
             && last.distance <= ROUNDING
             && last.progress >= ARRIVED)
-            .then(|| {
-                Finding::new(
-                    Outcome::Confirmed,
-                    "the simulated mechanism went the whole way on the predicted motion, to rounding",
-                )
-            });
+            .then(|| Finding::new(Outcome::Confirmed, reached_the_end(last)));
     };
     if !(last.closure_error < APART) {
         return None;
@@ -186,7 +192,7 @@ pub fn judge_motion(rungs: &[Rung]) -> Option<Finding> {
                 last.distance
             )
         } else if rounded {
-            "the simulated mechanism went the whole way on the predicted motion, to rounding".into()
+            reached_the_end(last)
         } else {
             format!(
                 "the closure error falls with the power {:.1} of the substeps, to {:.1e} of the \
@@ -203,7 +209,7 @@ pub fn judge_motion(rungs: &[Rung]) -> Option<Finding> {
         return Some(Finding::new(
             Outcome::Inconclusive,
             format!(
-                "the joints hold together to rounding, yet the simulated mechanism is {distance:.1e} off the predicted motion \
+                "the joints stay closed to {ROUNDING:.0e}, yet the simulated mechanism is {distance:.1e} off the predicted motion \
                  at every number of substeps: finer ones change nothing"
             ),
         ));
@@ -339,6 +345,17 @@ mod tests {
         );
         assert_eq!(off(&[2.3e-2, 1.2e-2, 6e-3]), None);
         assert_eq!(off(&[1e-6, 1e-6, 1e-6]), Some(Outcome::Confirmed));
+    }
+
+    #[test]
+    fn only_what_is_rounding_is_called_so() {
+        let why = |distance: f64| {
+            let mut all = rungs(&[1e-14; 3]);
+            all.iter_mut().for_each(|rung| rung.distance = distance);
+            judge_motion(&all).unwrap().why
+        };
+        assert!(why(3e-13).ends_with("to rounding"));
+        assert!(why(2e-5).ends_with("with an error of 2e-5 of the characteristic length"));
     }
 
     fn outcome(errors: &[f64]) -> Option<Outcome> {

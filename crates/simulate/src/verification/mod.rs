@@ -20,7 +20,7 @@
 //! - [`Prediction`]: the pose of the branch next to a simulated one.
 //! - [`judge_motion`]: what a ladder of errors says.
 //! - [`judge_pushing`]: what pushes of a rigid mechanism say.
-//! - [`count_freedoms`]: the rank of the response to blows at random.
+//! - [`count_freedoms`]: the rank of the response to random impulses.
 //! - `budget`: what may be simulated, counted in work.
 //! - [`Observer`]: logs and progress bars look on.
 

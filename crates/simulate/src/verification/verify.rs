@@ -3,7 +3,7 @@
 //! A prediction that something moves is put to the test branch by branch. The world starts at rest at a pose of the branch
 //! that is not singular, one joint is driven along it by a motor of limited torque, the other inputs are held, and the
 //! same is done over with finer and finer substeps until the ladder of errors decides ([`super::judge_motion`]). At a
-//! generic pose blows at random count the freedoms ([`super::count_freedoms`]). A prediction that nothing moves is put to
+//! generic pose random impulses count the degrees of freedom ([`super::count_freedoms`]). A prediction that nothing moves is put to
 //! the test by pushing every joint ([`super::Pushing`]). What is undecided or does not assemble is not simulated.
 //!
 //! None of it is a proof: it is evidence from physics that knows nothing of the analysis, and it is stated with the size
@@ -224,8 +224,8 @@ fn notes(mechanism: &Mechanism, home: &World) -> Vec<String> {
         notes.insert(
             0,
             format!(
-                "{}: every link has the same mass and moments of inertia here, since those stated or derived lie a factor of \
-                 {:.0e} apart, which the engine's solver does not bear; how a mechanism can move does not depend on them",
+                "{}: every link has the same mass and moments of inertia here, since those stated or derived are \
+                 too far apart ({:.0e} : 1) for the engine's solver; how a mechanism can move does not depend on them",
                 mechanism.name(),
                 home.inertia_spread()
             ),

@@ -1,4 +1,4 @@
-//! The data.
+//! Renders data series.
 
 use super::axis::Place;
 use super::frame::{Frame, named};

@@ -7,15 +7,15 @@ use strsim::levenshtein;
 
 /// What was asked for, found in the mechanism.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Wishes {
+pub(super) struct RequestedVariables {
     pub drive: Option<Variable>,
     pub hold: Vec<Variable>,
 }
 
-pub(super) fn read_wishes(
+pub(super) fn requested_variables(
     mechanism: &Mechanism,
     options: &TraceOptions,
-) -> Result<Wishes, TraceError> {
+) -> Result<RequestedVariables, TraceError> {
     let drive = options
         .drive
         .as_deref()
@@ -34,7 +34,7 @@ pub(super) fn read_wishes(
             hold.push(variable);
         }
     }
-    Ok(Wishes { drive, hold })
+    Ok(RequestedVariables { drive, hold })
 }
 
 /// The variable of a name: a joint of one freedom, or a part of a joint such as `slider.rot`.
