@@ -196,3 +196,114 @@ fn output_goes_to_a_file() {
     let missing = traced(&folder, &["--output", "no/such/folder/poses.csv"]);
     assert_ne!(missing.status.code(), Some(0));
 }
+
+/// Where the coupler point (2 3 0) of `planar_four_bar` is at a crank angle: the pin between coupler and rocker lies on two
+/// circles, to the left of the line from the crank's pin to the rocker's pivot.
+fn coupler_point(crank: f64) -> [f64; 2] {
+    let pin = [-2.0 * crank.sin(), 2.0 * crank.cos()];
+    let (dx, dy) = (4.0 - pin[0], -pin[1]);
+    let distance = dx.hypot(dy);
+    let height = (25.0 - 0.25 * distance * distance).sqrt();
+    let far = [
+        0.5 * dx - height * dy / distance,
+        0.5 * dy + height * dx / distance,
+    ];
+    let (s, c) = (far[1].atan2(far[0]) - 3f64.atan2(4.0)).sin_cos();
+    [pin[0] + 2.0 * c - 3.0 * s, pin[1] + 2.0 * s + 3.0 * c]
+}
+
+/// What is between `before` and the next quotation mark, wherever it stands.
+fn quoted<'a>(page: &'a str, before: &str) -> Vec<&'a str> {
+    let parts = page.split(before).skip(1);
+    parts.map(|rest| rest.split('"').next().unwrap()).collect()
+}
+
+#[test]
+fn the_path_of_a_coupler_point_is_the_one_of_the_closed_formula() {
+    let file = support::folder("mechanisms").join("planar_four_bar.urdf");
+    let folder = folder("curve", &fs::read_to_string(file).unwrap());
+    let more = ["--samples", "61", "--curve", "coupler:2,3000mm"];
+    let page = text(&traced(&folder, &[&more[..], &["--format", "csv"]].concat()).stdout);
+    assert!(
+        page.lines()
+            .next()
+            .unwrap()
+            .ends_with(",coupler(2 3 0).x,coupler(2 3 0).y,coupler(2 3 0).z")
+    );
+    let mut expected = Vec::new();
+    for row in page.lines().skip(1) {
+        let row: Vec<f64> = row.split(',').map(|x| x.parse().unwrap()).collect();
+        let [x, y] = coupler_point(row[0]);
+        let found = &row[row.len() - 3..];
+        assert!((found[0] - x).hypot(found[1] - y) < 1e-11, "{row:?}");
+        assert_eq!(found[2], 0.0);
+        expected.push([1e3 * x, 1e3 * y]);
+    }
+    let listed = json(&traced(
+        &folder,
+        &[&more[..], &["--format", "json"]].concat(),
+    ));
+    assert_eq!(listed["curves"][0]["path"].as_array().unwrap().len(), 61);
+
+    // The picture holds the same numbers, with as many pixels to a millimetre both ways, and the line is closed.
+    let page = text(&traced(&folder, &[&more[..], &["--format", "svg"]].concat()).stdout);
+    let ruler = |name: &str| -> [f64; 4] {
+        let text = quoted(&page, name)[0];
+        let numbers: Vec<f64> = text.split(' ').filter_map(|x| x.parse().ok()).collect();
+        numbers.try_into().unwrap()
+    };
+    let (across, up) = (ruler("data-x=\""), ruler("data-y=\""));
+    let scale = |[low, high, from, to]: [f64; 4]| (to - from) / (high - low);
+    let ratio = -scale(across) / scale(up);
+    assert!((ratio - 1.0).abs() < 1e-3, "{ratio}");
+    let points: Vec<[f64; 2]> = quoted(&page, "points=\"")[0]
+        .split(' ')
+        .map(|point| {
+            let (x, y) = point.split_once(',').unwrap();
+            [x.parse().unwrap(), y.parse().unwrap()]
+        })
+        .collect();
+    assert_eq!(points.len(), 61);
+    assert_eq!(points.first(), points.last());
+    for (point, wanted) in points.iter().zip(&expected) {
+        for (axis, ruler) in [across, up].into_iter().enumerate() {
+            let pixel = ruler[2] + scale(ruler) * (wanted[axis] - ruler[0]);
+            assert!((point[axis] - pixel).abs() < 0.2, "{point:?} {wanted:?}");
+        }
+    }
+    assert!(page.contains(">start</text>") && page.contains("x (mm)"));
+}
+
+#[test]
+fn plots_stand_below_one_another_and_show_where_the_motion_ends() {
+    let limited = ROCKER.replace(
+        r#"<axis xyz="0 0 1"/></joint>
+  <joint name="C""#,
+        r#"<axis xyz="0 0 1"/><limit lower="-0.5" upper="0.5"/></joint>
+  <joint name="C""#,
+    );
+    let folder = folder("plots", &limited);
+    let more = ["--format", "svg", "--plot", "C:O", "--plot", "O:A"];
+    let page = text(&traced(&folder, &more).stdout);
+    for words in ["C over O", "O over A", "C (°)", "joint limit of A"] {
+        assert!(page.contains(words), "{words}");
+    }
+    assert_eq!(page.matches("<polyline").count(), 2);
+    assert_eq!(page.matches("<svg").count(), 1);
+    for (wrong, told) in [
+        (&["--plot", "C:OO"][..], "no joint variable `OO`"),
+        (&["--plot", "C"], "two joints are needed"),
+        (&["--curve", "couplr:1,2"], "did you mean `coupler`?"),
+        (&["--curve", "coupler:1"], "2 or 3 coordinates"),
+        (&["--curve", "coupler:1,2deg"], "`2deg` is no length"),
+        (&[], "not told what to draw"),
+    ] {
+        let output = traced(&folder, &[&["--format", "svg"], wrong].concat());
+        assert_ne!(output.status.code(), Some(0), "{wrong:?}");
+        let flat = text(&output.stderr)
+            .split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" ");
+        assert!(flat.contains(told), "{flat}");
+    }
+}

@@ -1,5 +1,6 @@
 //! `kutzbach trace FILE`: the predicted motion along a branch.
 
+mod drawn;
 mod table;
 
 use super::failure::Failure;
@@ -38,6 +39,8 @@ pub struct Arguments {
         hide_default_value = true
     )]
     tolerance: f64,
+    #[command(flatten)]
+    drawn: drawn::Drawn,
     /// Form of the answer
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -55,6 +58,8 @@ enum Format {
     Csv,
     /// Everything, for a program
     Json,
+    /// The pictures that `--plot` and `--curve` ask for
+    Svg,
 }
 
 /// What `--drive` says.
@@ -157,12 +162,16 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         configuration,
         ..TraceOptions::default()
     };
+    let drawn = arguments
+        .drawn
+        .find(mechanism, arguments.format == Format::Svg)?;
     let traced = trace(mechanism, &analysis, &options)
         .map_err(|error| plain(error.to_string(), error.help()))?;
     let text = match arguments.format {
-        Format::Text => table::text(mechanism, &traced),
-        Format::Csv => table::csv(mechanism, &traced),
-        Format::Json => output::json(&table::json(mechanism, &traced))?,
+        Format::Text => table::text(mechanism, &traced, &drawn.points),
+        Format::Csv => table::csv(mechanism, &traced, &drawn.points),
+        Format::Json => output::json(&table::json(mechanism, &traced, &drawn.points))?,
+        Format::Svg => drawn.svg(mechanism, &traced)?,
     };
     arguments.destination.put(&text)?;
     Ok(DONE)

@@ -67,7 +67,8 @@ pub fn nearest(word: &str) -> Option<&'static str> {
 }
 
 /// The name closest to a misspelt one, if one is close: at most a third of its letters differ.
-pub(super) fn closest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+#[must_use]
+pub fn closest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let wanted: String = normal(word).chars().take(64).collect();
     known
         .map(|known| (levenshtein(&wanted, &normal(known)), known))

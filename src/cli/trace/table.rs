@@ -5,6 +5,7 @@ use kutzbach::mechanism::Mechanism;
 use kutzbach::motion::{
     EndReason, EventKind, Motion, Spacing, Trace, Variable, value_text as short,
 };
+use kutzbach::report::picture::traced::LinkPoint;
 use kutzbach::report::text::visible;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -34,7 +35,7 @@ fn extent(motion: &Motion) -> String {
 }
 
 /// A page for a person.
-pub fn text(mechanism: &Mechanism, trace: &Trace) -> String {
+pub fn text(mechanism: &Mechanism, trace: &Trace, points: &[LinkPoint]) -> String {
     let mut page = String::new();
     // Writing into a string does not fail.
     let mut line = |text: String| {
@@ -148,7 +149,32 @@ pub fn text(mechanism: &Mechanism, trace: &Trace) -> String {
     aligned(&rows, &[false, false, true, true, true, true, true])
         .into_iter()
         .for_each(&mut line);
+    if !points.is_empty() {
+        line(String::new());
+        line("Paths of points (m)".to_owned());
+        aligned(&extents(motion, points), &[false, false, true, true])
+            .into_iter()
+            .for_each(&mut line);
+    }
     page
+}
+
+/// How far the paths of points reach along the axes of the world.
+fn extents(motion: &Motion, points: &[LinkPoint]) -> Vec<Vec<String>> {
+    let mut rows = vec![["point", "axis", "from", "to"].map(str::to_owned).to_vec()];
+    for point in points {
+        let path = point.path(motion);
+        for (index, axis) in ["x", "y", "z"].into_iter().enumerate() {
+            let values = || path.iter().map(|at| at[index]);
+            rows.push(vec![
+                point.name.clone(),
+                axis.to_owned(),
+                short(values().fold(f64::INFINITY, f64::min)),
+                short(values().fold(f64::NEG_INFINITY, f64::max)),
+            ]);
+        }
+    }
+    rows
 }
 
 /// One digit, never below the value: what rounding does to the last bits of a closure is nobody's concern.
@@ -198,9 +224,10 @@ fn field(text: &str) -> String {
     }
 }
 
-/// One row per pose: drive value, arclength, closure, joint variables by name, then x y z and qw qx qy qz of every link.
+/// One row per pose: drive value, arclength, closure, joint variables by name, then x y z and qw qx qy qz of every link, then x y z of
+/// every point asked for.
 /// Nothing but the header where nothing moves.
-pub fn csv(mechanism: &Mechanism, trace: &Trace) -> String {
+pub fn csv(mechanism: &Mechanism, trace: &Trace, points: &[LinkPoint]) -> String {
     let mut header = vec![
         "drive".to_owned(),
         "arclength".to_owned(),
@@ -212,6 +239,11 @@ pub fn csv(mechanism: &Mechanism, trace: &Trace) -> String {
             header.push(field(&format!("{}.{part}", link.name)));
         }
     }
+    for point in points {
+        for part in ["x", "y", "z"] {
+            header.push(field(&format!("{}.{part}", point.name)));
+        }
+    }
     let mut text = header.join(",");
     text.push('\n');
     for sample in trace.motion().iter().flat_map(|m| &m.samples) {
@@ -221,6 +253,8 @@ pub fn csv(mechanism: &Mechanism, trace: &Trace) -> String {
             row.extend(pose.translation);
             row.extend(quaternion(pose));
         }
+        let places = points.iter().filter_map(|point| point.place(&sample.links));
+        row.extend(places.flatten());
         // The shortest digits that give the same number back.
         let row: Vec<String> = row.iter().map(|x| format!("{x:?}")).collect();
         text.push_str(&row.join(","));
@@ -259,7 +293,7 @@ fn reason_json(reason: &EndReason) -> Value {
 }
 
 /// Everything, with the names of columns once.
-pub fn json(mechanism: &Mechanism, trace: &Trace) -> Value {
+pub fn json(mechanism: &Mechanism, trace: &Trace, points: &[LinkPoint]) -> Value {
     let motion = match trace {
         Trace::Still(still) => {
             return json!({
@@ -325,5 +359,8 @@ pub fn json(mechanism: &Mechanism, trace: &Trace) -> Value {
         "columns": variables.iter().map(|v| json!({"joint": v.name, "unit": v.unit(mechanism)})).collect::<Vec<_>>(),
         "links": mechanism.links().iter().map(|l| l.name.as_str()).collect::<Vec<_>>(),
         "samples": samples,
+        "curves": points.iter().map(|point| json!({
+            "link": mechanism.links()[point.link].name, "at": point.at, "path": point.path(motion),
+        })).collect::<Vec<_>>(),
     })
 }

@@ -27,6 +27,7 @@
 //! | `plot`, `plot/…` | curves, points and bars over axes |
 //! | `view` | from which side a mechanism is looked at |
 //! | `sketch`, `sketch/…` | what a mechanism looks like |
+//! | `traced`, `traced/…` | one joint over another along a motion, and the paths of points |
 //! | `pictogram` | which sign stands for which answer |
 //! | `markup` | how text and numbers are written |
 
@@ -36,6 +37,8 @@ pub mod pictogram;
 pub mod plot;
 #[cfg(feature = "html")]
 pub mod sketch;
+#[cfg(feature = "html")]
+pub mod traced;
 #[cfg(feature = "html")]
 mod vector;
 #[cfg(feature = "html")]

@@ -7,9 +7,11 @@
 mod axis;
 mod frame;
 mod series;
+mod sheet;
 mod ticks;
 
 pub use axis::{Axis, Scale};
+pub use sheet::sheet;
 
 use super::markup::{escaped, put, px};
 use frame::Frame;
@@ -148,6 +150,30 @@ impl Plot {
             follows_arclength: false,
             size: [640.0, 300.0],
         }
+    }
+
+    /// With as many pixels to a unit along both axes, which have to be linear: one of the ranges grows about its middle.
+    #[must_use]
+    pub fn with_equal_scales(mut self) -> Self {
+        // Numbers beside a longer vertical axis may take more room, which shrinks the horizontal one: a little is left for it.
+        const ROOM: f64 = 1.02;
+        let grown = |range: [f64; 2], length: f64| {
+            let middle = 0.5 * (range[0] + range[1]);
+            [middle - 0.5 * length, middle + 0.5 * length]
+        };
+        for _ in 0..8 {
+            let frame = Frame::new(&self);
+            let ([left, right], [low, high]) = (self.x.drawn_range(), self.y.drawn_range());
+            let pixels = [frame.right - frame.left, frame.bottom - frame.top];
+            let wide = (high - low) * pixels[0] / pixels[1];
+            if wide >= right - left {
+                // The last step, since the horizontal range changes no room.
+                self.x.range = grown([left, right], wide);
+                break;
+            }
+            self.y.range = grown([low, high], ROOM * (right - left) * pixels[1] / pixels[0]);
+        }
+        self
     }
 
     /// The plot as an element `svg.plot` for a page that includes [`STYLE`].

@@ -160,7 +160,7 @@ fn common_direction(axes: &[Vector]) -> Option<Vector> {
 }
 
 /// The normal with the sign that points to the eye: up where it is steep, otherwise to the usual side.
-fn facing(normal: Vector) -> Vector {
+pub(super) fn facing(normal: Vector) -> Vector {
     let side = if normal[2].abs() > 0.5 {
         normal[2]
     } else {
