@@ -56,6 +56,21 @@ fn plane_germs_of_exact_numbers_are_decided() {
     }
 }
 
+/// One quadratic form of full rank in ten and eighteen variables: one branch, by Morse's lemma.
+#[test]
+fn quadratic_cones_of_many_variables_are_one_branch() {
+    for (name, finite) in [("flat_vertex_12", 9), ("folded_polygon_10_10", 17)] {
+        let file = folder(&format!("tests/zoo2/{name}.urdf"));
+        let mechanism = kutzbach::format::read_file(file, &[]).unwrap().mechanism;
+        let analysis = support::analysis(&mechanism);
+        assert_eq!(analysis.mobility.finite(), Some(finite), "{name}");
+        let [branch] = &analysis.branches.unwrap()[..] else {
+            panic!("{name}: one branch")
+        };
+        assert_eq!(branch.dimension, finite, "{name}");
+    }
+}
+
 #[test]
 fn where_only_idle_links_move_all_other_joints_are_locked() {
     for (name, locked) in [

@@ -9,9 +9,11 @@
 //! What is idle at every pose is taken out first ([`idle_directions`]). One variable left needs no search: an analytic
 //! function of one variable that does not vanish identically has an isolated zero, so that only what is idle moves.
 
+mod by_form;
 mod by_polygon;
 mod resolution;
 
+use self::by_form::by_form;
 use self::by_polygon::by_polygon;
 use self::resolution::Resolution;
 use super::chart::{ChartTest, Kernel};
@@ -321,11 +323,19 @@ pub(super) fn singular_finding(
         }
     }
     let mut decided = found.branches.is_some();
-    if !decided && !rounded && freedom == 2 + idle.len() {
+    if !decided && !rounded && rank.instantaneous == Some(2 + idle.len()) {
         match by_polygon(&mut found, &mut evidence, &start, &doubtful)? {
             None => decided = true,
             Some(reason) => why = reason,
         }
+    }
+    if !decided
+        && !rounded
+        && rank
+            .instantaneous
+            .is_some_and(|freedom| freedom > 2 + idle.len())
+    {
+        decided = by_form(&mut found, &mut evidence, &start, &doubtful)?;
     }
     if !decided {
         found.certificate =

@@ -272,7 +272,7 @@ pub fn signature(series: &Series, noise: f64) -> Option<(usize, usize)> {
 }
 
 /// The symmetric matrix of the degree-two part of a series.
-pub(super) fn quadratic_form(series: &Series) -> DMatrix<f64> {
+pub fn quadratic_form(series: &Series) -> DMatrix<f64> {
     let monomials = series.monomials();
     let mut form = DMatrix::zeros(monomials.variables(), monomials.variables());
     for slot in monomials.of_degree(2) {

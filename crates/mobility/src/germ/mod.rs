@@ -41,7 +41,7 @@ pub(crate) mod splitting;
 #[allow(clippy::unwrap_used)]
 mod tests;
 
-pub use definite::{isolated_by_leading_terms, signature};
+pub use definite::{isolated_by_leading_terms, quadratic_form, signature};
 pub use dual_space::{ComplexDimension, complex_dimension};
 pub use reduction::Germ;
 pub use second_order::{PrestressCertificate, prestress_certificate};
