@@ -71,6 +71,42 @@ fn quadratic_cones_of_many_variables_are_one_branch() {
     }
 }
 
+/// Parts with loops that stand still by themselves, on whose branches the equations vanish to second order.
+#[test]
+fn loops_at_rest_are_fixed() {
+    use kutzbach::mobility::SingularKind::PermanentlyShaky;
+    for (name, finite, instantaneous) in [
+        ("stretched_rod_spins_a", 1, 3),
+        ("stretched_rod_spins_b", 1, 3),
+        ("stretched_rod_spins_c", 1, 4),
+        ("hexagon_with_triangle_a", 3, 4),
+        ("spherical_spin_a", 1, 3),
+    ] {
+        let file = folder(&format!("tests/zoo2/{name}.urdf"));
+        let mechanism = kutzbach::format::read_file(file, &[]).unwrap().mechanism;
+        let analysis = support::analysis(&mechanism);
+        assert_eq!(analysis.mobility.finite(), Some(finite), "{name}");
+        assert_eq!(analysis.mobility.kind, Some(PermanentlyShaky), "{name}");
+        let [branch] = &analysis.branches.unwrap()[..] else {
+            panic!("{name}: one branch")
+        };
+        assert_eq!(branch.dimension, finite, "{name}");
+        assert_eq!(branch.instantaneous, Some(instantaneous), "{name}");
+    }
+}
+
+/// Surfaces with an isolated critical point: one branch, however many pieces meet there.
+#[test]
+fn normal_surfaces_are_one_branch() {
+    for name in ["d4_surface", "two_bowls"] {
+        let file = folder(&format!("tests/zoo2/{name}.urdf"));
+        let mechanism = kutzbach::format::read_file(file, &[]).unwrap().mechanism;
+        let analysis = support::analysis(&mechanism);
+        assert_eq!(analysis.mobility.finite(), Some(2), "{name}");
+        assert_eq!(analysis.branches.unwrap().len(), 1, "{name}");
+    }
+}
+
 #[test]
 fn where_only_idle_links_move_all_other_joints_are_locked() {
     for (name, locked) in [

@@ -77,7 +77,7 @@ fn runs(seen: &[Seen], flags: &[bool]) -> String {
 fn reason(seen: &Seen) -> String {
     let why = seen.why.as_deref().unwrap_or("no reason told");
     let short = [
-        ("margin that is too thin", "chart too small"),
+        ("the margin is too thin", "chart too small"),
         ("the loops stay open", "not closed to the last digit"),
         ("which branches pass", "branches not settled"),
         ("could have another rank", "digits left out"),

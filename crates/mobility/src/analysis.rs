@@ -10,6 +10,7 @@ use super::exact::{ExactAllowance, ExactBudget, ask_exact};
 use super::exact_constraint::{ChangeSets, NoChangeSet, change_sets};
 use super::generic::{GenericCount, generic_count};
 use super::kutzbach::kutzbach_count;
+use super::loops_at_rest::with_loops_at_rest;
 use super::meant::{Meant, completed};
 use super::more_digits::MoreDigits;
 use super::part_mobility::{PartFinding, part_mobility};
@@ -276,7 +277,7 @@ impl Analysis {
         configuration: Option<&Configuration>,
         geometry: &Geometry<f64>,
         options: &AnalysisOptions,
-    ) -> Result<(), MatrixError> {
+    ) -> Result<(), AnalysisError> {
         let known = std::mem::take(&mut self.assembly.jacobians);
         let states = &self.assembly.states;
         let pose = Pose {
@@ -304,6 +305,14 @@ impl Analysis {
             for (part, rank) in self.structure.parts.iter().zip(&parts) {
                 let mut found =
                     part_mobility(&pose, &mut more, &self.structure, part, rank, options.depth)?;
+                with_loops_at_rest(
+                    &pose,
+                    &mut more,
+                    &self.structure,
+                    (part, rank),
+                    options,
+                    &mut found,
+                )?;
                 if found.open.is_some() || options.depth == Depth::Everything {
                     ask_exact(&pose, part, rank, &mut found, &mut allowance);
                 }

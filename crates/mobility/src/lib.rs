@@ -45,6 +45,7 @@ mod lifting;
 mod limbs;
 mod limit_facts;
 mod link_twists;
+mod loops_at_rest;
 mod meant;
 mod more_digits;
 mod near_singular;

@@ -18,8 +18,8 @@ use self::by_polygon::by_polygon;
 use self::resolution::Resolution;
 use super::chart::{ChartTest, Kernel};
 use super::germ::{
-    ComplexDimension, Germ, complex_dimension, isolated_by_leading_terms, prestress_certificate,
-    signature,
+    ComplexDimension, Germ, complex_dimension, is_irreducible_hypersurface,
+    isolated_by_leading_terms, prestress_certificate, signature,
 };
 use super::germ_zeros::{GermBranch, GermZeroOptions, GermZeros, germ_zeros};
 use super::idle_directions::idle_directions;
@@ -408,7 +408,7 @@ fn zeros_within(
             },
         );
         *allowance = allowance.saturating_sub(zeros.work);
-        join_quadric(germ, &mut zeros);
+        join_pieces(germ, &mut zeros);
         zeros
     };
     let mut zeros = search(*outermost, allowance);
@@ -511,13 +511,14 @@ fn directions(a: &GermBranch, b: &GermBranch) -> usize {
         .count()
 }
 
-/// The pieces of an irreducible cone as one branch: they are joined through small parts of it that walking may miss.
-fn join_quadric(germ: &Germ, zeros: &mut GermZeros) {
+/// The pieces of an irreducible hypersurface as one branch: they are joined through small parts of it that walking may miss, or touch in
+/// the pose only.
+fn join_pieces(germ: &Germ, zeros: &mut GermZeros) {
     let whole = zeros
         .branches
         .iter()
         .all(|branch| branch.dimension + 1 == germ.freedom());
-    if !whole || germ.freedom() < 3 || zeros.branches.len() < 2 || quadric(germ).is_none() {
+    if !whole || germ.freedom() < 3 || zeros.branches.len() < 2 || !irreducible(germ) {
         return;
     }
     let mut pieces = std::mem::take(&mut zeros.branches).into_iter();
@@ -529,6 +530,16 @@ fn join_quadric(germ: &Germ, zeros: &mut GermZeros) {
         one.hits += piece.hits;
     }
     zeros.branches.push(one);
+}
+
+/// Whether a germ is one equation that is no product.
+fn irreducible(germ: &Germ) -> bool {
+    match germ.equations() {
+        [equation] => {
+            quadric(germ).is_some() || is_irreducible_hypersurface(equation, germ.noise_by_degree())
+        }
+        _ => false,
+    }
 }
 
 /// The signature of the quadratic form of a germ of one equation, where it has full rank.

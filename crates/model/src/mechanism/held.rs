@@ -40,6 +40,21 @@ impl Mechanism {
         }
         Ok(result)
     }
+
+    /// The mechanism with joints of any kind fixed as they are drawn: where all their variables are zero. A distance joint, whose
+    /// two points are apart, would be drawn together and is left as it is.
+    #[must_use]
+    pub fn with_joints_fixed_as_drawn(&self, fixed: &[JointId]) -> Self {
+        let mut result = self.clone();
+        for id in fixed {
+            let joint = &mut result.joints[id.0];
+            if joint.kind != JointKind::Distance {
+                joint.kind = JointKind::Fixed;
+                joint.limit = None;
+            }
+        }
+        result
+    }
 }
 
 fn hold(joint: &mut Joint, value: &Number) -> Result<(), HoldError> {
@@ -78,4 +93,30 @@ fn hold(joint: &mut Joint, value: &Number) -> Result<(), HoldError> {
     joint.kind = JointKind::Fixed;
     joint.limit = None;
     Ok(())
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::{JointBuilder, MechanismBuilder};
+    use super::*;
+
+    #[test]
+    fn joints_of_any_kind_are_fixed_where_they_are_drawn() {
+        let mut builder = MechanismBuilder::new("arm");
+        builder.link("ground").link("arm").link("rod").link("end");
+        for (name, kind, ends) in [
+            ("ball", JointKind::Spherical, ["ground", "arm"]),
+            ("reach", JointKind::Distance, ["arm", "rod"]),
+            ("pin", JointKind::Revolute, ["rod", "end"]),
+        ] {
+            builder.joint(JointBuilder::tree(name, kind, ends[0], ends[1]));
+        }
+        let mechanism = builder.build().unwrap();
+        let named = |name| mechanism.joint_named(name).unwrap();
+        let fixed = mechanism.with_joints_fixed_as_drawn(&[named("ball"), named("reach")]);
+        let kinds: Vec<JointKind> = fixed.joints().iter().map(|joint| joint.kind).collect();
+        let expected = [JointKind::Fixed, JointKind::Distance, JointKind::Revolute];
+        assert_eq!(kinds, expected);
+    }
 }

@@ -1,0 +1,247 @@
+//! Singular parts with loops that stand still by themselves: the joints of such a loop are fixed, and the part is asked again.
+//!
+//! A triangle whose sides lie on one line stands still, though to first order its corner gives way; so does a rod of several links
+//! that is pulled straight. Where such a loop belongs to a larger part, the part's equations vanish on its branches to second order
+//! and more, and power series tell little. But every motion of the part closes each of its loops. A joint that one loop alone keeps
+//! where it is near the pose is kept there in the part as well, so that fixing it takes away no motion, and what it gives to first
+//! order only is gone.
+//!
+//! A loop serves if its finite mobility is decided and is no more than what is idle in it: then its joints have the values drawn
+//! near the pose, but for those that idle motions turn. This holds for real poses only, and says nothing of complex ones.
+//!
+//! Cost: the engines once for every loop, and once for what is left. Asked only of exact numbers where all other engines leave a
+//! singular pose open.
+
+use super::analysis::{AnalysisError, AnalysisOptions, analyse_as_stated};
+use super::branch::{Branch, BranchPose, Tangent};
+use super::chart::Kernel;
+use super::depth::Depth;
+use super::idle_directions::{AT_REST, idle_directions};
+use super::more_digits::MoreDigits;
+use super::part_mobility::{Evidence, PartBranch, PartFinding, part_mobility};
+use super::pose_rank::{PartRank, Pose, TALL, height_at, rank_part_with};
+use super::tracing::{KERNEL_LIMIT, PartPose, tangents_at};
+use super::vocabulary::{PoseKind, SingularKind};
+use kutzbach_closure::{JointState, Part, Section, Structure};
+use kutzbach_math::matrix::MatrixError;
+use kutzbach_model::mechanism::{JointId, JointKind, Mechanism};
+use std::collections::BTreeSet;
+
+/// Fills a finding that leaves a singular pose open, where fixing what stands still by itself decides it.
+///
+/// # Errors
+/// [`AnalysisError`] where numbers overflow.
+pub(super) fn with_loops_at_rest(
+    pose: &Pose<'_>,
+    more: &mut MoreDigits,
+    structure: &Structure,
+    (part, rank): (&Part, &PartRank),
+    options: &AnalysisOptions,
+    found: &mut PartFinding,
+) -> Result<(), AnalysisError> {
+    let exact = rank.stated <= rank.accuracy && pose.as_drawn && pose.configuration.is_none();
+    let open = found.open.is_some() && found.pose == Some(PoseKind::Singular);
+    if !exact || !open || part.cycles.len() < 2 {
+        return Ok(());
+    }
+    let still = joints_at_rest(pose, more, structure, part)?;
+    if still.is_empty() {
+        return Ok(());
+    }
+    let whole: Vec<JointId> = part.joints.iter().map(|&joint| JointId(joint)).collect();
+    let fixed: Vec<JointId> = still.iter().map(|&joint| JointId(joint)).collect();
+    let left = pose
+        .mechanism
+        .with_others_put_aside(&whole)
+        .with_joints_fixed_as_drawn(&fixed);
+    let asked = AnalysisOptions {
+        configuration: None,
+        exact: options.exact,
+        depth: Depth::Motions,
+        closure_tolerance: None,
+    };
+    let answer = analyse_as_stated(&left, &asked)?;
+    let names: Vec<&str> = still
+        .iter()
+        .map(|&joint| pose.mechanism.joints()[joint].name.as_str())
+        .collect();
+    // Bodies that nothing holds are none of the part.
+    let loose = 6 * answer.structure.loose_pieces;
+    let finite = answer
+        .mobility
+        .finite()
+        .and_then(|all| all.checked_sub(loose));
+    found.evidence.push(Evidence {
+        engine: "loops at rest",
+        scope: "a neighbourhood, real",
+        bounds: finite.map_or((0, None), |finite| (finite, Some(finite))),
+        text: format!(
+            "single loops keep joints as drawn: {}; with these fixed: {}",
+            names.join(", "),
+            answer.mobility.certificate
+        ),
+    });
+    let Some(finite) = finite.filter(|_| answer.assembly.steps == 0) else {
+        return Ok(());
+    };
+    let branches = match &answer.branches {
+        Some(_) if finite == 0 => Some(Vec::new()),
+        Some(branches) if loose == 0 => branches_of_part(pose, &left, part, rank, branches)?,
+        _ => None,
+    };
+    found.kind = match branches.as_deref() {
+        _ if finite == 0 => Some(SingularKind::Shaky),
+        Some([only]) if shaky(only) => Some(SingularKind::PermanentlyShaky),
+        _ => answer.mobility.kind,
+    };
+    (found.lower, found.upper) = (finite, finite);
+    found.certificate = format!(
+        "single loops stand still and keep {} of the joints as drawn; with these fixed: {}",
+        still.len(),
+        answer.mobility.certificate
+    );
+    found.complex_dimension = found.complex_dimension.filter(|complex| *complex >= finite);
+    found.branches = branches;
+    found.open = None;
+    Ok(())
+}
+
+/// The joints of a part that some loop of it keeps as drawn whatever the others do.
+fn joints_at_rest(
+    pose: &Pose<'_>,
+    more: &mut MoreDigits,
+    structure: &Structure,
+    part: &Part,
+) -> Result<BTreeSet<usize>, MatrixError> {
+    let mut still = BTreeSet::new();
+    for cycle in &part.cycles {
+        let passed: BTreeSet<usize> = cycle.iter().map(|(joint, _)| *joint).collect();
+        let own = Part {
+            joints: part
+                .joints
+                .iter()
+                .copied()
+                .filter(|joint| passed.contains(joint))
+                .collect(),
+            cycles: vec![cycle.clone()],
+            couplings: Vec::new(),
+        };
+        let rank = rank_part_with(pose, more, &own, None)?;
+        let Some(kernel) = Kernel::of(pose, &rank, KERNEL_LIMIT)?.filter(|k| k.basis.complete)
+        else {
+            continue;
+        };
+        let by_kind = height_at(pose, &own) > TALL;
+        let idle = idle_directions(pose.mechanism, &own, &kernel, by_kind);
+        if kernel.basis.nullity == idle.len() {
+            continue;
+        }
+        let found = part_mobility(pose, more, structure, &own, &rank, Depth::Verdict)?;
+        if found.open.is_some() || found.upper != idle.len() {
+            continue;
+        }
+        let mut column = 0;
+        for &joint in &own.joints {
+            let kind = pose.mechanism.joints()[joint].kind;
+            let columns = column..column + kind.freedom();
+            column = columns.end;
+            let rests = idle
+                .iter()
+                .all(|way| way[columns.clone()].iter().all(|x| x.abs() < AT_REST));
+            let drawn = pose.states[joint].values.iter().all(|x| *x == 0.0);
+            if rests && drawn && kind.freedom() > 0 && kind != JointKind::Distance {
+                still.insert(joint);
+            }
+        }
+    }
+    Ok(still)
+}
+
+/// Whether at every pose of a branch more moves to first order than along it.
+fn shaky(branch: &PartBranch) -> bool {
+    branch
+        .poses
+        .iter()
+        .all(|p| p.instantaneous.is_some_and(|i| i > branch.dimension))
+}
+
+/// Branches of what is left, as branches of the part: the joints that were fixed stand still. `None` where a rank on one is open.
+fn branches_of_part(
+    pose: &Pose<'_>,
+    left: &Mechanism,
+    part: &Part,
+    rank: &PartRank,
+    branches: &[Branch],
+) -> Result<Option<Vec<PartBranch>>, MatrixError> {
+    let Some(kernel) = Kernel::of(pose, rank, KERNEL_LIMIT)? else {
+        return Ok(None);
+    };
+    let section = Section {
+        mechanism: pose.mechanism,
+        geometry: pose.geometry,
+        part,
+        metric: &kernel.metric,
+    };
+    let mut of_part = Vec::with_capacity(branches.len());
+    for branch in branches {
+        let mut poses = Vec::with_capacity(branch.poses.len());
+        for there in &branch.poses {
+            let states = states_of_part(pose, part, left, there);
+            let seen = tangents_at(&section, &states, rank.stated, branch.dimension)?;
+            poses.push(PartPose {
+                states: part.joints.iter().map(|&j| states[j].clone()).collect(),
+                tangents: tangents_of_part(pose.mechanism, part, left, there),
+                instantaneous: seen.and_then(|(tangents, _)| tangents.instantaneous),
+                surplus: rank.unknowns() as i64 - rank.equations() as i64,
+            });
+        }
+        if poses.is_empty() || poses.iter().any(|p| p.instantaneous.is_none()) {
+            return Ok(None);
+        }
+        of_part.push(PartBranch {
+            dimension: branch.dimension,
+            half_branches: branch.half_branches,
+            poses,
+        });
+    }
+    Ok(Some(of_part))
+}
+
+/// The states of all joints at a pose of what is left.
+fn states_of_part(
+    pose: &Pose<'_>,
+    part: &Part,
+    left: &Mechanism,
+    there: &BranchPose,
+) -> Vec<JointState<f64>> {
+    let mut states = pose.states.to_vec();
+    for &joint in &part.joints {
+        if left.joints()[joint].kind == pose.mechanism.joints()[joint].kind {
+            states[joint] = there.states[joint].clone();
+        }
+    }
+    states
+}
+
+/// The tangents at a pose of what is left, in the unknowns of the part.
+fn tangents_of_part(
+    mechanism: &Mechanism,
+    part: &Part,
+    left: &Mechanism,
+    there: &BranchPose,
+) -> Vec<Vec<f64>> {
+    let first = left.variable_offsets();
+    let rates = |tangent: &Tangent| -> Vec<f64> {
+        let mut rates = Vec::new();
+        for &joint in &part.joints {
+            rates.extend((first[joint]..first[joint + 1]).map(|variable| tangent[variable]));
+            // A joint that was fixed has no variables any more.
+            rates.resize(
+                rates.len() + mechanism.joints()[joint].freedom() - left.joints()[joint].freedom(),
+                0.0,
+            );
+        }
+        rates
+    };
+    there.tangents.iter().map(rates).collect()
+}
