@@ -95,6 +95,23 @@ fn loops_at_rest_are_fixed() {
     }
 }
 
+/// Quadratic terms that vanish on a few linear spaces, with a common basis or without.
+#[test]
+fn modes_that_exclude_one_another_are_all_found() {
+    for (name, expected) in [
+        ("modes_3_2_1", &[3, 2, 1][..]),
+        ("modes_six_axes", &[1; 6]),
+        ("flat_miura_3x5", &[4, 1, 1, 1]),
+    ] {
+        let file = folder(&format!("tests/zoo2/{name}.urdf"));
+        let mechanism = kutzbach::format::read_file(file, &[]).unwrap().mechanism;
+        let analysis = support::analysis(&mechanism);
+        let branches = analysis.branches.unwrap();
+        let dimensions: Vec<usize> = branches.iter().map(|b| b.dimension).collect();
+        assert_eq!(dimensions, expected, "{name}");
+    }
+}
+
 /// Surfaces with an isolated critical point: one branch, however many pieces meet there.
 #[test]
 fn normal_surfaces_are_one_branch() {

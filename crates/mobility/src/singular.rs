@@ -9,10 +9,12 @@
 //! What is idle at every pose is taken out first ([`idle_directions`]). One variable left needs no search: an analytic
 //! function of one variable that does not vanish identically has an isolated zero, so that only what is idle moves.
 
+mod by_arrangement;
 mod by_form;
 mod by_polygon;
 mod resolution;
 
+use self::by_arrangement::by_arrangement;
 use self::by_form::by_form;
 use self::by_polygon::by_polygon;
 use self::resolution::Resolution;
@@ -335,7 +337,8 @@ pub(super) fn singular_finding(
             .instantaneous
             .is_some_and(|freedom| freedom > 2 + idle.len())
     {
-        decided = by_form(&mut found, &mut evidence, &start, &doubtful)?;
+        decided = by_form(&mut found, &mut evidence, &start, &doubtful)?
+            || by_arrangement(&mut found, &mut evidence, &start, &doubtful)?;
     }
     if !decided {
         found.certificate =

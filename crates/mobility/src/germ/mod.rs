@@ -25,6 +25,7 @@
 //! One loop with δ = 2 to degree 4: some hundred microseconds. In general C(2δ+K, K) products of displacements per joint
 //! and degree, and one dense singular value decomposition of the Jacobian.
 
+mod arrangement;
 mod critical;
 mod definite;
 mod dual_space;
@@ -42,6 +43,7 @@ pub(crate) mod splitting;
 #[allow(clippy::unwrap_used)]
 mod tests;
 
+pub use arrangement::linear_arrangement;
 pub use critical::is_irreducible_hypersurface;
 pub use definite::{isolated_by_leading_terms, quadratic_form, signature};
 pub use dual_space::{ComplexDimension, complex_dimension};

@@ -1,0 +1,126 @@
+//! Singular poses at which the quadratic terms left over vanish on a few linear spaces: modes of motion that exclude one another.
+//!
+//! Let X be the germ, and L₁, …, Lₘ the linear spaces that are the zeros of its quadratic terms, simply but for the origin
+//! ([`linear_arrangement`]). Then the tangent cone of X lies in their union. If each Lᵢ is the tangent space of a smooth
+//! branch Bᵢ of X, the cone of the union of these branches contains ∪ Lᵢ as well, so that both cones, and with them both Hilbert
+//! functions, are the same from some degree on; and since ∪ Bᵢ lies in X, it is X but for the origin. So there are no other
+//! branches, whatever the terms of higher degree are. That the branches exist shows where the mechanism is closed on them and
+//! followed.
+
+use super::super::germ::{Germ, linear_arrangement, quadratic_form};
+use super::super::germ_zeros::{GermBranch, HalfBranch};
+use super::super::lifting::{Start, lift_all};
+use super::super::part_mobility::{Evidence, PartFinding};
+use super::super::pose_rank::PartRank;
+use super::super::vocabulary::SingularKind;
+use kutzbach_math::matrix::{MatrixError, SplitMix64};
+use nalgebra::{DMatrix, DVector};
+
+/// Distances from the pose at which points of the spaces are brought to the mechanism.
+const RADII: [f64; 4] = [0.1, 0.05, 0.02, 0.2];
+
+/// A form exceeds its error by this factor, or is none.
+const CLEARANCE: f64 = 1e4;
+
+/// Fills a finding where the zeros of the quadratic terms are linear spaces and each of them is a branch; tells whether it did.
+///
+/// # Errors
+/// [`MatrixError`] where numbers overflow.
+pub(super) fn by_arrangement(
+    found: &mut PartFinding,
+    evidence: &mut Vec<Evidence>,
+    start: &Start<'_>,
+    rank: &PartRank,
+) -> Result<bool, MatrixError> {
+    let Some(germ) = Germ::of_part_across(start.pose.mechanism, rank, 2, start.idle)? else {
+        return Ok(false);
+    };
+    let forms: Vec<DMatrix<f64>> = germ.equations().iter().map(quadratic_form).collect();
+    let clear = |form: &DMatrix<f64>| form.norm() > CLEARANCE * germ.noise(2);
+    if !forms.iter().all(clear) {
+        return Ok(false);
+    }
+    let Some(spaces) = linear_arrangement(&forms) else {
+        return Ok(false);
+    };
+    let branches: Vec<GermBranch> = spaces.iter().map(branch_along).collect();
+    let Ok(lifted) = lift_all(start, &germ, &branches)? else {
+        return Ok(false);
+    };
+    if lifted.iter().any(|lifted| lifted.shaky) {
+        return Ok(false);
+    }
+    let idle = start.idle.len();
+    let mut dimensions: Vec<usize> = lifted.iter().map(|l| l.branch.dimension).collect();
+    dimensions.sort_unstable();
+    let finite = dimensions.last().copied().unwrap_or(0);
+    evidence.push(Evidence {
+        engine: "second order",
+        scope: "a neighbourhood, real",
+        bounds: (finite, Some(finite)),
+        text: format!(
+            "{} quadratic forms in {} variables, whose zeros are {} linear spaces, of dimensions {dimensions:?} with what is idle; each is \
+             tangent to a branch",
+            forms.len(),
+            germ.freedom(),
+            spaces.len()
+        ),
+    });
+    found.lower = finite;
+    found.upper = finite;
+    found.kind = match dimensions.as_slice() {
+        [] | [_] => None,
+        [least, .., most] if least == most => Some(SingularKind::Bifurcation),
+        _ => Some(SingularKind::Kinematotropic),
+    };
+    found.certificate = format!(
+        "the quadratic terms that the equations leave over vanish on {} linear spaces only; the loops close along a branch tangent to \
+         each, so that there are no others (equal Hilbert functions)",
+        spaces.len()
+    );
+    found.complex_dimension = Some(spaces.iter().map(DMatrix::ncols).max().unwrap_or(0) + idle);
+    found.branches = Some(lifted.into_iter().map(|l| l.branch).collect());
+    Ok(true)
+}
+
+/// A smooth branch with a tangent space, and points of that space in general position.
+fn branch_along(space: &DMatrix<f64>) -> GermBranch {
+    let mut random = SplitMix64::named("arrangement of branches");
+    let direction = |random: &mut SplitMix64| -> Vec<f64> {
+        let weights = DVector::from_fn(space.ncols(), |_, _| random.symmetric());
+        (space * weights).normalize().as_slice().to_vec()
+    };
+    let at = |direction: &[f64], radius: f64| -> Vec<f64> {
+        direction.iter().map(|x| radius * x).collect()
+    };
+    let points = RADII
+        .iter()
+        .map(|&radius| at(&direction(&mut random), radius))
+        .collect();
+    let ways = match space.ncols() {
+        1 => vec![1.0, -1.0],
+        _ => Vec::new(),
+    };
+    let half_branches: Vec<HalfBranch> = ways
+        .iter()
+        .map(|sign| {
+            let tangent: Vec<f64> = space.column(0).iter().map(|x| sign * x).collect();
+            let path: Vec<Vec<f64>> = RADII.iter().map(|&r| at(&tangent, r)).collect();
+            HalfBranch {
+                point: path[0].clone(),
+                tangent,
+                path,
+            }
+        })
+        .collect();
+    GermBranch {
+        dimension: space.ncols(),
+        tangents: half_branches.iter().map(|h| h.tangent.clone()).collect(),
+        half_branches,
+        points,
+        ramification: (space.ncols() == 1).then_some(1),
+        reduced: true,
+        vanishing_order: None,
+        hits: 0,
+    }
+}
