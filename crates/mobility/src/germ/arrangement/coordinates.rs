@@ -62,8 +62,8 @@ fn common_basis(spaces: &[Space]) -> Option<Vec<Axis>> {
     let mut flats: Vec<Space> = spaces.to_vec();
     let mut next = 0;
     while next < flats.len() {
-        for other in 0..spaces.len() {
-            let both = projector(&flats[next]) + projector(&spaces[other]);
+        for other in spaces {
+            let both = projector(&flats[next]) + projector(other);
             let away = DMatrix::identity(both.nrows(), both.nrows()) * 2.0 - both;
             let Some(common) = kernel_of_semidefinite(&away)? else {
                 continue;

@@ -35,7 +35,7 @@ pub type Space = DMatrix<f64>;
 #[must_use]
 pub fn linear_arrangement(forms: &[DMatrix<f64>]) -> Option<Vec<Space>> {
     let size = forms.first()?.nrows();
-    if size < 2 || size > MOST_VARIABLES {
+    if !(2..=MOST_VARIABLES).contains(&size) {
         return None;
     }
     let forms = independent(forms)?;
