@@ -43,6 +43,8 @@ mod four_bars;
 mod frames;
 mod fuzz_format;
 mod gallery;
+#[path = "germs/main.rs"]
+mod germs;
 mod grippers;
 mod growth;
 mod house;

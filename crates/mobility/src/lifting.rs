@@ -303,11 +303,8 @@ fn stays_multiple(
 ) -> Result<bool, MatrixError> {
     let tall = height_at(start.pose, start.part);
     let rounded = start.rank.stated > start.rank.accuracy;
-    if far && (rounded || tall <= TALL) {
-        return Ok(true);
-    }
     if rounded {
-        return Ok(false);
+        return Ok(far);
     }
     let Some(bits) = LADDER.into_iter().find(|bits| *bits as usize >= 3 * tall) else {
         return Ok(false);
@@ -333,9 +330,6 @@ fn stays_multiple(
     let accuracy = 10.0 * closing.residual.sqrt() + closing.rounding;
     // What could be hidden in the last bits of the numbers has to be above it, and a thousandth of that too: a singular value
     // is an offset times something.
-    if tall > TALL && accuracy > 0.5f64.powi(tall as i32 + 10) {
-        return Ok(false);
-    }
     Ok(decide(&matrix, accuracy)?.nullity() == Some(freedom))
 }
 
