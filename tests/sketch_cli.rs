@@ -154,3 +154,33 @@ fn what_is_known_of_mechanisms_shows_in_their_sketches() {
         assert!(text.contains(words), "{name}: {text}");
     }
 }
+
+/// The middle link slides along both of its neighbours at once.
+#[test]
+fn a_link_with_parallel_sliders_only_is_refused() {
+    let joint = |name: &str, kind: &str, parent: &str, child: &str, frame: &str, axis: &str| {
+        format!(
+            "<joint name=\"{name}\" type=\"{kind}\"><parent link=\"{parent}\"/><child link=\"{child}\"/><origin {frame}/>\
+             <axis xyz=\"{axis}\"/></joint>"
+        )
+    };
+    let mechanism = |turned: &str| {
+        let text = format!(
+            "<robot name=\"x\"><link name=\"a\"/><link name=\"b\"/><link name=\"c\"/>{}{}\
+             <loop name=\"pin\" type=\"revolute\"><predecessor link=\"c\"><origin xyz=\"1 1 0\"/></predecessor>\
+             <successor link=\"a\"><origin xyz=\"2 3 0\"/></successor><axis xyz=\"0 0 1\"/></loop></robot>",
+            joint("one", "prismatic", "a", "b", "xyz=\"0 0 0\"", "1 0 0"),
+            joint("two", "prismatic", "b", "c", "xyz=\"1 2 0\"", turned),
+        );
+        let mechanism = kutzbach::format::read(&text, "x.urdf", &[])
+            .unwrap()
+            .mechanism;
+        kutzbach::constructive::planar::sketch(&mechanism).map_err(|why| why.to_string())
+    };
+    let why = mechanism("1 0 0").unwrap_err();
+    assert_eq!(
+        why,
+        "all sliders of link `b` are parallel, and it has no hinge: it is free along them"
+    );
+    assert!(mechanism("0 1 0").is_ok());
+}

@@ -113,7 +113,7 @@ fn constructive(arguments: &Arguments) -> Result<u8, Failure> {
     let text = match (arguments.format, found.graph()) {
         (Format::Json, _) => output::json(&found.data())?,
         (Format::Dot, Some(graph)) => to_dot(&graph, &SpanningTree::root_at(&graph, 0)),
-        (Format::Svg, Some(graph)) => to_svg(&graph, &SpanningTree::root_at(&graph, 0)),
+        (Format::Svg, _) => found.tree_svg(),
         _ => harmless(&found.text()),
     };
     arguments.destination.put(&text)?;

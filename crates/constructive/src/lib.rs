@@ -12,7 +12,8 @@
 //! | [`sketch`] | points, lines, and what holds between them |
 //! | [`construction`] | every solution, step by step |
 //! | [`planar`] | planar mechanisms as sketches |
-//! | [`words`], [`picture`] | the answers as text, data, graph and picture |
+//! | [`redundancy`] | whether a constraint too many agrees with the others |
+//! | [`words`], [`picture`], [`tree_picture`] | the answers as text, data, graph and pictures |
 //! | [`samples`] | graphs by name, by Henneberg moves, and all small ones |
 //!
 //! Sources: Laman (1970); Owen (1991); Jacobs and Hendrickson (1997); Soto i Riera, *Constructive Geometric Constraint Solving*
@@ -24,6 +25,8 @@ pub mod graph;
 pub mod pebbles;
 pub mod picture;
 pub mod planar;
+pub mod redundancy;
 pub mod samples;
 pub mod sketch;
+pub mod tree_picture;
 pub mod words;

@@ -149,6 +149,11 @@ impl Sketch {
         Some([a?, b?, c?])
     }
 
+    /// The triangles of rigid bodies, and how they lie in these.
+    pub(crate) fn rigid_triangles(&self) -> impl Iterator<Item = &Triangle> {
+        self.rigid.values()
+    }
+
     /// The elements.
     #[must_use]
     pub fn elements(&self) -> &[Element] {

@@ -2,8 +2,10 @@
 
 use crate::analysis::{LeafKind, Node, STree, s_tree};
 use crate::construction::{Construction, NotConstructive, Outcome};
-use crate::pebbles::{PebbleGame, Standing};
-use crate::sketch::NamedSketch;
+use crate::pebbles::{Circuit, PebbleGame, Standing};
+use crate::redundancy::{Redundancy, redundancy};
+use crate::sketch::{Element, NamedSketch};
+use crate::tree_picture::tree_svg;
 use kutzbach_model::graph::{ConstraintGraph, EdgeSpec, NodeSpec};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -40,8 +42,11 @@ impl<'a> SketchWords<'a> {
         self.construction.as_ref()
     }
 
+    /// Names, as far as they are listed.
     fn list(&self, elements: &[usize]) -> String {
-        let names: Vec<&str> = elements.iter().map(|&e| &*self.named.names[e]).collect();
+        let listed = elements.iter().take(MOST_LISTED);
+        let mut names: Vec<String> = listed.map(|&e| self.named.names[e].clone()).collect();
+        more(&mut names, elements.len());
         names.join(" ")
     }
 
@@ -76,8 +81,16 @@ impl<'a> SketchWords<'a> {
         let mut lines = Vec::new();
         for circuit in self.game.circuits().iter().take(MOST_LISTED) {
             let [u, v] = self.named.sketch.graph().edges()[circuit.edge];
+            let judged = match self.redundancy(circuit) {
+                Redundancy::Agrees => "and agrees with them".to_owned(),
+                Redundancy::Contradicts { nearest } => format!(
+                    "and contradicts them: they leave {nearest:.6} at the nearest, it asks for {:.6}",
+                    self.named.sketch.constraints()[circuit.edge].value.value()
+                ),
+                Redundancy::Unknown => "whether it agrees with them is not known".to_owned(),
+            };
             lines.push(format!(
-                "too many: {} is fixed already by the constraints among {}",
+                "too many: {} is fixed already by the constraints among {}, {judged}",
                 self.list(&[u, v]),
                 self.list(&circuit.vertices)
             ));
@@ -93,6 +106,11 @@ impl<'a> SketchWords<'a> {
         lines
     }
 
+    fn redundancy(&self, circuit: &Circuit) -> Redundancy {
+        let refused: Vec<usize> = self.game.circuits().iter().map(|c| c.edge).collect();
+        redundancy(&self.named.sketch, circuit, &refused)
+    }
+
     /// The construction, or what stands in its way.
     fn told(&self) -> Vec<String> {
         let construction = match &self.construction {
@@ -106,8 +124,11 @@ impl<'a> SketchWords<'a> {
                     } => Some(format!("triconnected: {}", self.list(vertices))),
                     _ => None,
                 });
-                let first = "not constructed by circles and lines alone".to_owned();
-                return [first].into_iter().chain(hard).collect();
+                let mut lines = vec!["not constructed by circles and lines alone".to_owned()];
+                let all = self.tree.leaves(LeafKind::Triconnected);
+                lines.extend(hard.take(MOST_LISTED));
+                more(&mut lines, all);
+                return lines;
             }
             Err(_) => return Vec::new(),
         };
@@ -116,22 +137,37 @@ impl<'a> SketchWords<'a> {
             format!("steps: {}", construction.drawn_left().len()),
             format!("solutions: {count}"),
         ];
-        if count.degenerate {
+        if count.degenerate && !count.infinite && count.value() != Some(0) {
             lines.push(
                 "other choices end where nothing fixes an element; they are not counted".to_owned(),
             );
         }
+        if count.between.is_some() {
+            lines.push(
+                "circles touch or nearly do: doubles do not tell none, one and two places apart"
+                    .to_owned(),
+            );
+        }
         let outcomes = construction.outcomes(construction.drawn_left());
-        for (step, outcome) in outcomes.iter().enumerate().take(MOST_LISTED) {
+        let reached = reached(&outcomes);
+        for (step, outcome) in outcomes.iter().enumerate().take(reached.min(MOST_LISTED)) {
             lines.push(self.step(construction, step, outcome));
         }
-        more(&mut lines, outcomes.len());
-        for step in construction.left_open_by_rounding() {
+        more(&mut lines, reached);
+        if reached < outcomes.len() {
             lines.push(format!(
-                "step {}: with other digits after those stated it turns out otherwise",
-                step + 1
+                "not reached on the sides drawn: {} after it",
+                plural(outcomes.len() - reached, "step")
             ));
         }
+        let open = construction.left_open_by_rounding();
+        lines.extend(open.iter().take(MOST_LISTED).map(|step| {
+            format!(
+                "step {}: with other digits after those stated it turns out otherwise",
+                step + 1
+            )
+        }));
+        more(&mut lines, open.len());
         lines
     }
 
@@ -139,18 +175,22 @@ impl<'a> SketchWords<'a> {
         let (by, element) = construction.elements_of(step);
         let what = match outcome {
             _ if construction.is_rigid(step) => "one place, on the same body".to_owned(),
-            Outcome::Two { .. } if construction.drawn_left()[step] => {
-                "two places, drawn on the left".to_owned()
+            Outcome::Two { .. } => {
+                let side = self.side(by, element, construction.drawn_left()[step]);
+                format!("two places, drawn {side}")
             }
-            Outcome::Two { .. } => "two places, drawn on the right".to_owned(),
-            Outcome::Touching { proven: true } => "circles touch: a double solution".to_owned(),
-            Outcome::Touching { proven: false } => {
-                "circles touch to rounding: a double solution".to_owned()
-            }
+            Outcome::Touching { within: 0.0 } => format!("{} touch: a double solution", self.tools(by, element)),
+            Outcome::Touching { within } => format!(
+                "{} touch or nearly do, within {within:.1e}: none, one or two places",
+                self.tools(by, element)
+            ),
             Outcome::One => "one place".to_owned(),
-            Outcome::Apart { by } => format!("circles do not meet, they are {by:.3e} apart"),
+            Outcome::Apart { by: off } => {
+                format!("{} do not meet, they are {off:.3e} apart", self.tools(by, element))
+            }
             Outcome::Degenerate => {
-                "degenerate: what it is placed by coincides or is parallel".to_owned()
+                "degenerate: what it is placed by coincides or is parallel, and 1 degree of freedom is left"
+                    .to_owned()
             }
         };
         format!(
@@ -161,15 +201,63 @@ impl<'a> SketchWords<'a> {
         )
     }
 
+    fn is_line(&self, element: usize) -> bool {
+        matches!(self.named.sketch.elements()[element], Element::Line { .. })
+    }
+
+    /// What a step intersects.
+    fn tools(&self, by: [usize; 2], element: usize) -> &'static str {
+        let lines = by.iter().filter(|&&e| self.is_line(e)).count();
+        match (self.is_line(element), lines) {
+            (false, 0) => "circles",
+            (false, 1) => "circle and line",
+            (false, _) => "lines",
+            (true, 0) => "distances of the line",
+            (true, _) => "directions",
+        }
+    }
+
+    /// Which of two places is drawn, as [`crate::construction`] tells them apart.
+    fn side(&self, by: [usize; 2], element: usize, left: bool) -> String {
+        let [p, q] = by.map(|e| &self.named.names[e]);
+        match (self.is_line(element), self.tools(by, element), left) {
+            (true, _, true) => format!("pointing from {p} to {q}"),
+            (true, _, false) => format!("pointing from {q} to {p}"),
+            (false, "circle and line", true) => "ahead along the line".to_owned(),
+            (false, "circle and line", false) => "behind along the line".to_owned(),
+            (false, _, true) => "on the left".to_owned(),
+            (false, _, false) => "on the right".to_owned(),
+        }
+    }
+
+    /// The s-tree as SVG.
+    #[must_use]
+    pub fn tree_svg(&self) -> String {
+        tree_svg(&self.tree, |node| match node {
+            Node::Split { pair, .. } => format!("split at {}", self.list(pair)),
+            Node::Leaf { vertices, .. } => self.list(vertices),
+        })
+    }
+
     /// Everything for a program.
     #[must_use]
     pub fn data(&self) -> Value {
         let names = |elements: &[usize]| -> Vec<&str> {
             elements.iter().map(|&e| &*self.named.names[e]).collect()
         };
-        let circuits = self.game.circuits().iter().map(|c| {
+        let circuits = self.game.circuits().iter().enumerate().map(|(i, c)| {
             let ends = self.named.sketch.graph().edges()[c.edge];
-            json!({ "between": names(&ends), "among": names(&c.vertices) })
+            // Each is compared with all solutions of the others.
+            let judged = match i < MOST_LISTED {
+                true => self.redundancy(c),
+                false => Redundancy::Unknown,
+            };
+            let (verdict, nearest) = match judged {
+                Redundancy::Agrees => ("agrees", None),
+                Redundancy::Contradicts { nearest } => ("contradicts", Some(nearest)),
+                Redundancy::Unknown => ("unknown", None),
+            };
+            json!({ "between": names(&ends), "among": names(&c.vertices), "verdict": verdict, "nearest": nearest })
         });
         let parts: Vec<Vec<&str>> = match self.game.freedoms() {
             0 => Vec::new(),
@@ -179,9 +267,14 @@ impl<'a> SketchWords<'a> {
         let count = construction.map(Construction::count);
         let steps = construction.map(|c| {
             let outcomes = c.outcomes(c.drawn_left());
+            let reached = reached(&outcomes);
             let step = |(i, o): (usize, &Outcome)| {
                 let (by, element) = c.elements_of(i);
-                json!({ "element": names(&[element])[0], "by": names(&by), "outcome": word(o), "size": size(o),
+                let (outcome, size) = match i < reached {
+                    true => (word(o), size(o)),
+                    false => ("not_reached", None),
+                };
+                json!({ "element": names(&[element])[0], "by": names(&by), "outcome": outcome, "size": size,
                     "left": c.drawn_left()[i] })
             };
             outcomes.iter().enumerate().map(step).collect::<Vec<Value>>()
@@ -200,6 +293,7 @@ impl<'a> SketchWords<'a> {
             "solutions": count.as_ref().map(ToString::to_string),
             "solutions_complete": count.as_ref().map(|c| c.complete),
             "solutions_degenerate": count.as_ref().map(|c| c.degenerate),
+            "solutions_infinite": count.as_ref().map(|c| c.infinite),
             "steps": steps,
         })
     }
@@ -235,6 +329,17 @@ impl<'a> SketchWords<'a> {
     }
 }
 
+/// Steps up to the first that is impossible, with it.
+fn reached(outcomes: &[Outcome]) -> usize {
+    let impossible = outcomes.iter().position(|o| !o.is_possible());
+    impossible.map_or(outcomes.len(), |k| k + 1)
+}
+
+/// `1 step`, `2 steps`.
+fn plural(count: usize, word: &str) -> String {
+    format!("{count} {word}{}", if count == 1 { "" } else { "s" })
+}
+
 fn more(lines: &mut Vec<String>, count: usize) {
     if count > MOST_LISTED {
         lines.push(format!("and {} more", count - MOST_LISTED));
@@ -244,8 +349,8 @@ fn more(lines: &mut Vec<String>, count: usize) {
 const fn word(outcome: &Outcome) -> &'static str {
     match outcome {
         Outcome::Two { .. } => "two",
-        Outcome::Touching { proven: true } => "touching",
-        Outcome::Touching { proven: false } => "touching_to_rounding",
+        Outcome::Touching { within: 0.0 } => "touching",
+        Outcome::Touching { .. } => "touching_or_nearly",
         Outcome::One => "one",
         Outcome::Apart { .. } => "apart",
         Outcome::Degenerate => "degenerate",
@@ -254,7 +359,112 @@ const fn word(outcome: &Outcome) -> &'static str {
 
 const fn size(outcome: &Outcome) -> Option<f64> {
     match outcome {
-        Outcome::Two { by } | Outcome::Apart { by } => Some(*by),
+        Outcome::Two { by } | Outcome::Apart { by } | Outcome::Touching { within: by } => Some(*by),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::sketch::{Constraint, Sketch};
+    use kutzbach_math::number::Number;
+
+    fn said(elements: Vec<Element>, constraints: &[(usize, usize, &str)]) -> String {
+        let constraint = |&(u, v, value): &(usize, usize, &str)| Constraint {
+            ends: [u, v],
+            value: Number::expression(value, &mut |_: &str| Ok(None)).unwrap(),
+        };
+        let names = (0..elements.len()).map(|k| format!("e{k}")).collect();
+        let constraints = constraints.iter().map(constraint).collect();
+        let named = NamedSketch {
+            name: "x".to_owned(),
+            names,
+            sketch: Sketch::new(elements, constraints).unwrap(),
+        };
+        SketchWords::of(&named).text()
+    }
+
+    fn points(places: &[[f64; 2]]) -> Vec<Element> {
+        places.iter().map(|&p| Element::Point(p)).collect()
+    }
+
+    #[test]
+    fn a_constraint_too_many_agrees_or_contradicts() {
+        let square = points(&[[0.0; 2], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
+        let with = |last| {
+            let sides = [
+                (0, 1, "1"),
+                (1, 2, "1"),
+                (2, 3, "1"),
+                (3, 0, "1"),
+                (0, 2, "sqrt(2)"),
+                (1, 3, last),
+            ];
+            said(square.clone(), &sides)
+        };
+        assert!(
+            with("sqrt(2)").contains("among e0 e1 e2 e3, and agrees with them"),
+            "{}",
+            with("sqrt(2)")
+        );
+        let text = with("2");
+        assert!(
+            text.contains(
+                "and contradicts them: they leave 1.414214 at the nearest, it asks for 2.000000"
+            ),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn sides_along_lines_are_ahead_and_behind() {
+        let line = Element::Line {
+            through: [0.0; 2],
+            direction: [1.0, 0.0],
+        };
+        let at = |x: f64| vec![line, Element::Point([0.0; 2]), Element::Point([x, 2.0])];
+        let constraints = [(0, 1, "0"), (0, 2, "2"), (1, 2, "4")];
+        assert!(said(at(3.0), &constraints).contains("two places, drawn ahead along the line"));
+        assert!(said(at(-3.0), &constraints).contains("two places, drawn behind along the line"));
+        let tangent = |direction| {
+            let line = Element::Line {
+                through: [0.0, 1.0],
+                direction,
+            };
+            let elements = vec![Element::Point([0.0; 2]), Element::Point([4.0, 0.0]), line];
+            said(elements, &[(0, 1, "4"), (0, 2, "-1"), (1, 2, "1/2")])
+        };
+        let [one, other] = [[3.0, 1.0], [-3.0, -1.0]].map(tangent);
+        let pointing = |text: &str| {
+            let (_, rest) = text.split_once("drawn pointing ").unwrap();
+            rest.trim().to_owned()
+        };
+        assert_ne!(pointing(&one), pointing(&other));
+    }
+
+    #[test]
+    fn nothing_is_said_of_steps_that_are_not_reached() {
+        let places = points(&[[0.0; 2], [1.0, 0.0], [0.5, 1.0], [1.5, 1.0]]);
+        let bars = [
+            (0, 1, "1"),
+            (0, 2, "1"),
+            (1, 2, "5"),
+            (1, 3, "1"),
+            (2, 3, "1"),
+        ];
+        let text = said(places, &bars);
+        assert!(
+            text.contains("circles do not meet, they are 3.000e0 apart"),
+            "{text}"
+        );
+        assert!(
+            text.contains("not reached on the sides drawn: 1 step after it"),
+            "{text}"
+        );
+        assert!(!text.contains("step 2:"), "{text}");
+        // Whole numbers are as they are: other digits are no question.
+        assert!(!text.contains("other digits"), "{text}");
     }
 }

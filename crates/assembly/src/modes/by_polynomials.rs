@@ -16,16 +16,9 @@ const SAME: f64 = 1e-12;
 
 pub(super) fn answer(mechanism: &Mechanism, why_no_tree: &str, budget: &Budget) -> Modes {
     let mut modes = Modes {
-        held: Vec::new(),
-        held_near: Vec::new(),
-        freedom: None,
-        configurations: Vec::new(),
         complete: Complete::Unknown(String::new()),
         moves: None,
-        proposed: Vec::new(),
-        contradiction: None,
-        way: Way::Nothing,
-        open: 0,
+        ..Modes::new(Way::Nothing)
     };
     let unknown = |modes: Modes, why: String| Modes {
         complete: Complete::Unknown(format!("{why}; no incidence tree either: {why_no_tree}")),

@@ -29,22 +29,31 @@ const MOST_UNKNOWNS: usize = 6;
 pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
     let placed = match Placed::of(mechanism) {
         Ok(placed) => placed,
-        Err(Unsuited::Contradiction(mismatch)) if mechanism.precision().is_exact() => {
-            return Outcome::Modes(
-                Box::new(Modes {
-                    held: Vec::new(),
-                    held_near: Vec::new(),
-                    freedom: None,
-                    configurations: Vec::new(),
-                    complete: Complete::Proven,
-                    moves: Some(0),
-                    proposed: Vec::new(),
-                    contradiction: Some(mismatch.to_string()),
-                    way: Way::Nothing,
-                    open: 0,
-                }),
-                false,
-            );
+        Err(Unsuited::Contradiction(mismatch)) => {
+            let proven = mismatch
+                .gap()
+                .is_some_and(|gap| rounded::is_beyond(mechanism, gap));
+            let modes = Modes {
+                contradiction: Some(mismatch.to_string()),
+                ..Modes::new(Way::Nothing)
+            };
+            return Outcome::Modes(Box::new(modes), proven);
+        }
+        Err(Unsuited::OneBody(links)) => {
+            let configuration = Configuration {
+                joints: Vec::new(),
+                poses: place::poses_of_one_body(mechanism, &links),
+                multiplicity: Some(1),
+                proven: true,
+                finite: Some(0),
+                drawn: false,
+            };
+            let modes = Modes {
+                configurations: vec![configuration],
+                ..Modes::new(Way::Nothing)
+            };
+            let tree = mechanism.joints().len() < mechanism.links().len();
+            return Outcome::Modes(Box::new(modes), tree);
         }
         Err(why) => return Outcome::NotByTree(why.to_string()),
     };
@@ -58,18 +67,7 @@ pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
             system.freedom()
         ));
     }
-    let mut modes = Modes {
-        held: Vec::new(),
-        held_near: Vec::new(),
-        freedom: None,
-        configurations: Vec::new(),
-        complete: Complete::Proven,
-        moves: Some(0),
-        proposed: Vec::new(),
-        contradiction: None,
-        way: way(&system),
-        open: 0,
-    };
+    let mut modes = Modes::new(way(&system));
     if system.impossible.is_some() {
         return Outcome::Modes(Box::new(modes), false);
     }
@@ -117,7 +115,8 @@ pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
     }
     if found.is_complete() {
         let exact = mechanism.precision().is_exact();
-        let stays = !exact && stays(&system, &found, rounded::share(mechanism), &part);
+        let stays =
+            !exact && !placed.redundant && stays(&system, &found, rounded::share(mechanism), &part);
         return Outcome::Modes(Box::new(modes), stays);
     }
     match decide(&system, budget) {

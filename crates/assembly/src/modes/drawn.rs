@@ -79,6 +79,7 @@ fn mark(modes: &mut Modes, drawn: Option<&Drawn>) {
             "the drawn pose closes within rounding and is none of the configurations found"
                 .to_owned(),
         );
+        modes.contradiction = None;
         modes.moves = None;
     }
 }

@@ -171,20 +171,30 @@ pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Mode
 }
 
 impl Modes {
+    /// No configuration, proven, as long as nothing else is entered.
+    fn new(way: Way) -> Self {
+        Self {
+            held: Vec::new(),
+            held_near: Vec::new(),
+            freedom: None,
+            configurations: Vec::new(),
+            complete: Complete::Proven,
+            moves: Some(0),
+            proposed: Vec::new(),
+            contradiction: None,
+            way,
+            open: 0,
+        }
+    }
+
     /// The answer where there was no time for one.
     #[must_use]
     pub fn out_of_time(question: &Question) -> Self {
         Self {
             held: question.held.clone().unwrap_or_default(),
-            held_near: Vec::new(),
-            freedom: None,
-            configurations: Vec::new(),
             complete: Complete::Unknown("the time limit was reached".to_owned()),
             moves: None,
-            proposed: Vec::new(),
-            contradiction: None,
-            way: Way::Nothing,
-            open: 0,
+            ..Self::new(Way::Nothing)
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Poses of links.
 
-use crate::placed::Placed;
+use crate::placed::{Placed, PlacedLink};
 use kutzbach_closure::{Arithmetic, Geometry, JointState};
 use kutzbach_math::number::Number;
 use kutzbach_math::space::{Rigid, cross, dot, scale, subtract, unit};
@@ -114,6 +114,22 @@ pub(super) fn link_poses(
             poses[link.link.0] = Some(body_pose.compose(&rounded(&link.pose)));
         }
     }
+    onto_ground(mechanism, &mut poses);
+    poses
+}
+
+/// Poses of all links, which are one body.
+pub(super) fn poses_of_one_body(mechanism: &Mechanism, links: &[PlacedLink]) -> Vec<Option<Pose>> {
+    let mut poses = vec![None; mechanism.links().len()];
+    for link in links {
+        poses[link.link.0] = Some(rounded(&link.pose));
+    }
+    onto_ground(mechanism, &mut poses);
+    poses
+}
+
+/// Moves everything so that the ground is where it is at home.
+fn onto_ground(mechanism: &Mechanism, poses: &mut [Option<Pose>]) {
     let geometry = Geometry::new(mechanism, None, &Arithmetic::double());
     let ground = mechanism.ground().0;
     if let Some(found) = poses[ground].clone() {
@@ -122,7 +138,6 @@ pub(super) fn link_poses(
             *pose = to_world.compose(pose);
         }
     }
-    poses
 }
 
 /// Three points that span the largest triangle with the first one.

@@ -5,6 +5,7 @@
 //! several times, and those of more equations than unknowns, need not stay: the mechanism meant may close in more ways, or in fewer.
 
 use super::{Complete, Modes, Way};
+use crate::placed::Gap;
 use kutzbach_closure::{Arithmetic, Geometry};
 use kutzbach_model::mechanism::Mechanism;
 
@@ -15,6 +16,17 @@ pub(super) fn share(mechanism: &Mechanism) -> f64 {
     let geometry = Geometry::new(mechanism, None, &Arithmetic::double());
     let all = geometry.uncertainties.iter();
     all.map(|u| u.lengths / geometry.size + u.angles).sum()
+}
+
+/// What a gap has to be more than, in what rounding may have made of it, to be no work of rounding.
+const CLEARLY: f64 = 10.0;
+
+/// Whether a gap within one body is more than rounding can have made: along the body an unknown angle moves a point by no more than
+/// the number of joints times the mechanism's size, to first order.
+pub(super) fn is_beyond(mechanism: &Mechanism, gap: &Gap) -> bool {
+    let size = Geometry::new(mechanism, None, &Arithmetic::double()).size;
+    let share = CLEARLY * share(mechanism);
+    gap.radians > share || gap.metres > share * size * mechanism.joints().len() as f64
 }
 
 /// Withdraws the proof of an answer to rounded numbers that other digits may change. `stays`: it is known to be the same with
@@ -30,13 +42,16 @@ pub(super) fn doubt(modes: &mut Modes, mechanism: &Mechanism, stays: bool, never
         if never_closes {
             return;
         }
-        "nothing closes as they are written"
+        match modes.contradiction.take() {
+            Some(excluded) => format!("{excluded} as they are written"),
+            None => "nothing closes as they are written".to_owned(),
+        }
     } else if modes.way == Way::Nothing {
-        return;
+        "a joint between two sides of one body closes as they are written".to_owned()
     } else if multiplicities.any(|times| times.is_some_and(singular)) {
-        "a configuration counts several times"
+        "a configuration counts several times".to_owned()
     } else {
-        "there are more equations than unknowns, or a configuration is too nearly singular for these digits"
+        "there are more equations than unknowns, or a configuration is too nearly singular for these digits".to_owned()
     };
     modes.complete = Complete::Unknown(format!(
         "the numbers are rounded, and with the digits that are not written there may be more configurations or fewer: {why}"

@@ -1,13 +1,14 @@
 //! Links that are one body.
 
 use super::nodes::Nodes;
-use super::{Exact3, Mismatch, Placed, Unsuited, collection, cross, minus, square};
+use super::{Exact3, Gap, Mismatch, Placed, Unsuited, collection, cross, minus, square};
 use crate::collection::{Bar, Body};
 use kutzbach_math::number::Number;
-use kutzbach_model::mechanism::{ExactPose, JointKind, LinkId, Mechanism, Placement};
+use kutzbach_model::mechanism::{ExactPose, Joint, JointKind, LinkId, Mechanism, Placement};
+use std::collections::BTreeSet;
 
 /// A link and its place in a body.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PlacedLink {
     /// The link.
     pub link: LinkId,
@@ -33,7 +34,7 @@ pub(super) struct Groups {
 }
 
 impl Groups {
-    pub(super) fn of(mechanism: &Mechanism) -> Result<Self, Unsuited> {
+    pub(super) fn of(mechanism: &Mechanism) -> Self {
         let links = mechanism.links();
         let mut places: Vec<Option<(usize, ExactPose)>> = vec![None; links.len()];
         let mut names = Vec::new();
@@ -59,28 +60,69 @@ impl Groups {
                         if near.link.0 != link {
                             continue;
                         }
-                        let back = ExactPose::of(&far.frame).inverse();
-                        let at = pose.then(&ExactPose::of(&near.frame)).then(&back);
-                        match &places[far.link.0] {
-                            None => {
-                                places[far.link.0] = Some((group, at));
-                                waiting.push(far.link.0);
-                            }
-                            Some((_, known)) if *known == at => {}
-                            Some(_) => {
-                                return Err(Unsuited::Fixed {
-                                    joint: joint.name.clone(),
-                                });
-                            }
+                        if places[far.link.0].is_none() {
+                            let back = ExactPose::of(&far.frame).inverse();
+                            let at = pose.then(&ExactPose::of(&near.frame)).then(&back);
+                            places[far.link.0] = Some((group, at));
+                            waiting.push(far.link.0);
                         }
                     }
                 }
             }
         }
-        Ok(Self {
+        Self {
             places: places.into_iter().flatten().collect(),
             names,
-        })
+        }
+    }
+
+    /// What a body is called.
+    pub(super) fn name(&self, group: usize) -> &str {
+        &self.names[group]
+    }
+
+    /// The links, where they are one body; made before crosses are added.
+    pub(super) fn only_body(&self) -> Option<Vec<PlacedLink>> {
+        (self.names.len() == 1).then(|| self.links_of(0))
+    }
+
+    /// Whether a joint that is not needed for that joins two sides of one body.
+    fn redundant(&self, mechanism: &Mechanism) -> bool {
+        let inside = |joint: &&Joint| {
+            self.places[joint.predecessor.link.0].0 == self.places[joint.successor.link.0].0
+        };
+        let bodies: BTreeSet<usize> = self.places.iter().map(|place| place.0).collect();
+        let joints = mechanism.joints().iter().filter(inside).count();
+        joints > self.places.len() - bodies.len()
+    }
+
+    fn links_of(&self, group: usize) -> Vec<PlacedLink> {
+        let places = self.places.iter().enumerate();
+        places
+            .filter(|(_, place)| place.0 == group)
+            .map(|(link, place)| PlacedLink {
+                link: LinkId(link),
+                pose: place.1.clone(),
+            })
+            .collect()
+    }
+
+    /// No body has one point in two places.
+    pub(super) fn check_torn(&self, nodes: &Nodes) -> Result<(), Unsuited> {
+        let Some(torn) = nodes.torn() else {
+            return Ok(());
+        };
+        let [one, other] = torn.map(|n| &nodes.all[n]);
+        let metres = square(&minus(&one.at, &other.at)).value().sqrt();
+        let gap = Gap {
+            metres,
+            radians: 0.0,
+        };
+        Err(Unsuited::Contradiction(Box::new(Mismatch::Torn {
+            points: [one.name.clone(), other.name.clone()],
+            body: self.names[one.group].clone(),
+            gap,
+        })))
     }
 
     /// Body and `body_from_link` of a link.
@@ -126,13 +168,7 @@ impl Groups {
                 .collect();
             points.sort_by_key(|(p, _)| *p);
             points.dedup_by_key(|(p, _)| *p);
-            let links: Vec<PlacedLink> = (0..self.places.len())
-                .filter(|&link| self.places[link].0 == group)
-                .map(|link| PlacedLink {
-                    link: LinkId(link),
-                    pose: self.places[link].1.clone(),
-                })
-                .collect();
+            let links = self.links_of(group);
             if points.len() == 2 && is_rod(mechanism, &links) {
                 let way = minus(&points[0].1, &points[1].1);
                 bars.push((
@@ -179,6 +215,7 @@ impl Groups {
         let placed = Placed {
             collection,
             bodies: placed,
+            redundant: self.redundant(mechanism),
             bar_squares,
         };
         placed.check_distances()?;
@@ -217,7 +254,7 @@ impl Placed {
             let ends = [ends[0].min(ends[1]), ends[0].max(ends[1])];
             match known.get(&ends) {
                 Some((body, other)) if *other != value => {
-                    Err(Unsuited::Contradiction(Box::new(Mismatch {
+                    Err(Unsuited::Contradiction(Box::new(Mismatch::Distances {
                         points: ends.map(|p| self.collection.points()[p].clone()),
                         bodies: [body.clone(), name.to_owned()],
                         distances: [other, &value]

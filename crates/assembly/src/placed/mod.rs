@@ -10,13 +10,15 @@
 mod axes;
 mod bodies;
 mod nodes;
+mod within;
 
 pub use bodies::{PlacedBody, PlacedLink};
+pub use within::Gap;
 
 use crate::collection::{Bar, Body, Collection};
 use bodies::{Groups, home_poses};
 use kutzbach_math::number::Number;
-use kutzbach_model::mechanism::{ExactPose, JointKind, Mechanism};
+use kutzbach_model::mechanism::{ExactPose, Joint, JointKind, Mechanism};
 use nodes::Nodes;
 use thiserror::Error;
 
@@ -24,7 +26,7 @@ use thiserror::Error;
 pub type Exact3 = [Number; 3];
 
 /// Why a mechanism is no collection of bodies that share points.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Unsuited {
     /// A joint that makes no points coincide.
@@ -61,35 +63,83 @@ pub enum Unsuited {
         /// The point.
         point: String,
     },
-    /// Fixed joints that place a link in two ways.
-    #[error("fixed joint `{joint}` contradicts other fixed or held joints")]
-    Fixed {
-        /// The joint.
-        joint: String,
-    },
-    /// Two points whose distance is different in two bodies, so that they cannot share both.
+    /// Fixed and held joints make one body of all links, and everything else closes: nothing is left to solve.
+    #[error("all links are one body")]
+    OneBody(Vec<PlacedLink>),
+    /// What excludes each other.
     #[error("{0}")]
     Contradiction(Box<Mismatch>),
 }
 
-/// Two points that are not equally far apart in two bodies.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Mismatch {
-    /// The points.
-    pub points: [String; 2],
-    /// The bodies, or bars.
-    pub bodies: [String; 2],
-    /// The distances there, six decimals (m).
-    pub distances: [String; 2],
+/// Two things that a mechanism asks for and that exclude each other. In names of points and bodies.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Mismatch {
+    /// Two points are not equally far apart in two bodies, or in a body and a bar.
+    Distances {
+        /// The points.
+        points: [String; 2],
+        /// The bodies, or bars.
+        bodies: [String; 2],
+        /// The distances there, six decimals (m).
+        distances: [String; 2],
+    },
+    /// A joint between two sides of one body, which does not close.
+    Within {
+        /// The joint.
+        joint: String,
+        /// A link of the body.
+        link: String,
+        /// How far its sides are apart.
+        gap: Gap,
+    },
+    /// Joints make one point of two points of one body.
+    Torn {
+        /// The points.
+        points: [String; 2],
+        /// The body.
+        body: String,
+        /// How far they are apart in it.
+        gap: Gap,
+    },
+}
+
+impl Mismatch {
+    /// How far what should meet is apart in one body.
+    #[must_use]
+    pub const fn gap(&self) -> Option<&Gap> {
+        match self {
+            Self::Within { gap, .. } | Self::Torn { gap, .. } => Some(gap),
+            Self::Distances { .. } => None,
+        }
+    }
 }
 
 impl std::fmt::Display for Mismatch {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let ([p, q], [a, b], [one, two]) = (&self.points, &self.bodies, &self.distances);
-        write!(
-            f,
-            "points `{p}` and `{q}` are {one} m apart in `{a}` and {two} m in `{b}`: nothing closes"
-        )
+        match self {
+            Self::Distances {
+                points: [p, q],
+                bodies: [a, b],
+                distances: [one, two],
+            } => write!(
+                f,
+                "points `{p}` and `{q}` are {one} m apart in `{a}` and {two} m in `{b}`"
+            )?,
+            Self::Within { joint, link, gap } => write!(
+                f,
+                "joint `{joint}` joins two sides of one body, that of link `{link}`, which are {gap}"
+            )?,
+            Self::Torn {
+                points: [p, q],
+                body,
+                gap,
+            } => write!(
+                f,
+                "points `{p}` and `{q}` of `{body}` are {gap}, and joints make them one point"
+            )?,
+        }
+        f.write_str(": nothing closes")
     }
 }
 
@@ -102,6 +152,8 @@ pub struct Placed {
     pub bodies: Vec<PlacedBody>,
     /// Squared lengths of the bars (m²).
     pub bar_squares: Vec<Number>,
+    /// Whether some joint closes within a body: with other numbers it might not.
+    pub redundant: bool,
 }
 
 impl Placed {
@@ -111,23 +163,43 @@ impl Placed {
     /// [`Unsuited`] where something else than shared points and distances holds it together, or where shared points
     /// contradict each other.
     pub fn of(mechanism: &Mechanism) -> Result<Self, Unsuited> {
+        let mut groups = Groups::of(mechanism);
+        let sides = |joint: &Joint, groups: &Groups| {
+            [&joint.predecessor, &joint.successor].map(|side| {
+                let (group, pose) = groups.place(side.link);
+                (group, pose.then(&ExactPose::of(&side.frame)))
+            })
+        };
+        let mut left = Vec::new();
+        for joint in mechanism.joints() {
+            let [one, other] = sides(joint, &groups);
+            if one.0 != other.0 || within::leaves_a_freedom(joint) {
+                left.push((joint, one, other));
+                continue;
+            }
+            let square = bar_square(mechanism, joint);
+            if let Some(gap) = within::gap(joint, [&one.1, &other.1], &square) {
+                return Err(Unsuited::Contradiction(Box::new(Mismatch::Within {
+                    joint: joint.name.clone(),
+                    link: groups.name(one.0).to_owned(),
+                    gap,
+                })));
+            }
+        }
         if let Some(coupling) = mechanism.couplings().first() {
             return Err(Unsuited::Coupling {
                 name: coupling.name.clone(),
             });
         }
-        let mut groups = Groups::of(mechanism)?;
+        if let Some(links) = groups.only_body() {
+            return Err(Unsuited::OneBody(links));
+        }
         let mut nodes = Nodes::default();
         let mut bars: Vec<(String, [usize; 2], Number)> = Vec::new();
         let mut hinges = Vec::new();
-        for joint in mechanism.joints() {
-            let [one, other] = [&joint.predecessor, &joint.successor].map(|side| {
-                let (group, pose) = groups.place(side.link);
-                (group, pose.then(&ExactPose::of(&side.frame)))
-            });
+        for (joint, one, other) in left {
             let name = &joint.name;
             match joint.kind {
-                JointKind::Fixed => {}
                 JointKind::Spherical => {
                     let a = nodes.add(one.0, one.1.translation, name);
                     let b = nodes.add(other.0, other.1.translation, name);
@@ -161,12 +233,16 @@ impl Placed {
             }
         }
         axes::share_points(&hinges, &mut nodes);
+        groups.check_torn(&nodes)?;
         groups.finish(mechanism, &nodes, bars)
     }
 }
 
-/// The squared length of a bar: as stated, or between its points where the file draws them.
-fn bar_square(mechanism: &Mechanism, joint: &kutzbach_model::mechanism::Joint) -> Number {
+/// The squared length of a bar (zero of any other joint): as stated, or between its points where the file draws them.
+fn bar_square(mechanism: &Mechanism, joint: &Joint) -> Number {
+    if joint.kind != JointKind::Distance {
+        return Number::zero();
+    }
     if let Some(distance) = &joint.distance {
         return distance * distance;
     }

@@ -1,6 +1,7 @@
 //! Points of bodies, and which of them are one point.
 
 use super::{Exact3, minus};
+use std::collections::BTreeMap;
 
 /// Coordinates whose doubles differ by more than this part of their size are different numbers: doubles are correctly
 /// rounded, so that equal numbers have equal ones; a wide margin costs nothing but a few exact comparisons.
@@ -52,6 +53,15 @@ impl Nodes {
             node = self.parent[node];
         }
         node
+    }
+
+    /// Two places of one body that are joined to one point, if there are: points of a body at one place are one node.
+    pub(super) fn torn(&self) -> Option<[usize; 2]> {
+        let mut known = BTreeMap::new();
+        (0..self.all.len()).find_map(|node| {
+            let of = (self.all[node].group, self.class(node));
+            known.insert(of, node).map(|other| [other, node])
+        })
     }
 
     /// Number of bodies and bars that have a point.

@@ -13,12 +13,23 @@ const MOST_STEPS: usize = 1 << 20;
 pub(super) struct Class {
     /// The steps, ascending.
     pub(super) steps: Vec<usize>,
-    /// For each solution whether a step of the class takes the other side than drawn; the fewest such steps first.
-    pub(super) ways: Vec<Vec<bool>>,
+    /// The choices that lead to solutions, those with the fewest steps on the other side than drawn first.
+    pub(super) ways: Vec<Choices>,
     /// Whether these are all.
     pub(super) complete: bool,
     /// Whether some choices leave an element without a place of its own: infinitely many solutions, or none.
     pub(super) degenerate: bool,
+    /// Whether that happens in the last step of the class, so that they are infinitely many.
+    pub(super) infinite: bool,
+}
+
+/// One choice for every step of a class.
+#[derive(Clone, Debug)]
+pub(super) struct Choices {
+    /// Whether a step takes the other side than drawn.
+    pub(super) other: Vec<bool>,
+    /// Steps that touch or nearly do, which leave none, one or two places.
+    pub(super) nearly: u32,
 }
 
 /// The classes: a step together with all steps that it depends on.
@@ -56,46 +67,117 @@ struct Trial {
 }
 
 impl Trial {
-    /// Takes note of how the steps turned out, and makes the next choice; false where there is none.
-    fn next(&mut self, all: &[Outcome], rigid: &[bool]) -> bool {
+    fn new(steps: Vec<usize>) -> Self {
+        Self {
+            other: vec![false; steps.len()],
+            class: Class {
+                steps,
+                ways: Vec::new(),
+                complete: false,
+                degenerate: false,
+                infinite: false,
+            },
+        }
+    }
+
+    /// Takes note of how the steps turned out, and makes the next choice. Nothing is learnt from steps that stand on impossible
+    /// ones of other classes.
+    fn next(&mut self, all: &[Outcome], rigid: &[bool], trusted: &[bool]) {
         let steps = &self.class.steps;
-        let found: Vec<Outcome> = steps.iter().map(|&s| all[s]).collect();
+        let dead = steps.iter().position(|&s| !all[s].is_possible());
+        let looked_at = &steps[..dead.map_or(steps.len(), |k| k + 1)];
+        if !looked_at.iter().all(|&s| trusted[s]) {
+            return;
+        }
+        match dead {
+            Some(k) if all[steps[k]] == Outcome::Degenerate => {
+                self.class.degenerate = true;
+                self.class.infinite |= k + 1 == steps.len();
+            }
+            Some(_) => {}
+            None => {
+                let nearly = |s: &&usize| {
+                    !rigid[**s] && matches!(all[**s], Outcome::Touching { within } if within > 0.0)
+                };
+                self.class.ways.push(Choices {
+                    other: self.other.clone(),
+                    nearly: steps.iter().filter(nearly).count() as u32,
+                });
+            }
+        }
         // Choices after a step that is impossible change nothing; nor do those of a step with one place only.
-        let dead = found.iter().position(|o| !o.is_possible());
-        self.class.degenerate |= dead.is_some_and(|k| found[k] == Outcome::Degenerate);
-        if dead.is_none() {
-            self.class.ways.push(self.other.clone());
-        }
         let next = (0..dead.unwrap_or(steps.len())).rev().find(|&k| {
-            !self.other[k] && !rigid[steps[k]] && matches!(found[k], Outcome::Two { .. })
+            !self.other[k] && !rigid[steps[k]] && matches!(all[steps[k]], Outcome::Two { .. })
         });
-        if let Some(k) = next {
-            self.other[k] = true;
-            self.other[k + 1..].fill(false);
+        match next {
+            Some(k) => {
+                self.other[k] = true;
+                self.other[k + 1..].fill(false);
+            }
+            None => self.complete(),
         }
-        next.is_some()
+    }
+
+    /// From now on the class takes choices that are possible, if there are any: others learn nothing from impossible steps.
+    fn complete(&mut self) {
+        self.class.complete = true;
+        if let Some(way) = self.class.ways.first() {
+            self.other.clone_from(&way.other);
+        }
     }
 }
 
-/// Tries the choices of all classes at once, as they do not change each other's steps: the drawn ones first. `outcomes` says how
-/// all steps turn out where these take the other side than drawn; what is
-/// rigid never does.
+/// In which classes steps are impossible.
+#[derive(Clone, Copy, PartialEq)]
+enum Dead {
+    Nowhere,
+    In(usize),
+    InSeveral,
+}
+
+impl Dead {
+    fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Nowhere, dead) | (dead, Self::Nowhere) => dead,
+            (one, other) if one == other => one,
+            _ => Self::InSeveral,
+        }
+    }
+}
+
+/// Whether all is possible, but for the step's own class, in the clusters that a step puts together: where it is not, the nearest
+/// thing to a place stands in for one, and lengths that other steps measure are not what they would be.
+fn trusted(all: &[Outcome], class_of: &[usize], parts: &[Vec<usize>]) -> Vec<bool> {
+    let mut dead: Vec<Dead> = Vec::with_capacity(all.len());
+    let mut trusted = Vec::with_capacity(all.len());
+    for (step, outcome) in all.iter().enumerate() {
+        let below = parts[step]
+            .iter()
+            .fold(Dead::Nowhere, |d, &p| d.and(dead[p]));
+        trusted.push(below == Dead::Nowhere || below == Dead::In(class_of[step]));
+        dead.push(match outcome.is_possible() {
+            true => below,
+            false => below.and(Dead::In(class_of[step])),
+        });
+    }
+    trusted
+}
+
+/// Tries the choices of all classes, the drawn ones first; at once where they do not stand on each other's impossible steps.
+/// `outcomes` says how all steps turn out where these take the other side than drawn; what is rigid never does. `parts` has for
+/// every step those that made the clusters that it puts together. Where a class has no solution the others are left as they are.
 pub(super) fn tried(
     classes: Vec<Vec<usize>>,
     rigid: &[bool],
+    parts: &[Vec<usize>],
     mut outcomes: impl FnMut(&[bool]) -> Vec<Outcome>,
 ) -> Vec<Class> {
-    let trial = |steps: Vec<usize>| Trial {
-        other: vec![false; steps.len()],
-        class: Class {
-            steps,
-            ways: Vec::new(),
-            complete: false,
-            degenerate: false,
-        },
-    };
-    let mut trials: Vec<Trial> = classes.into_iter().map(trial).collect();
     let steps = rigid.len();
+    let mut class_of = vec![0; steps];
+    for (class, own) in classes.iter().enumerate() {
+        own.iter().for_each(|&s| class_of[s] = class);
+    }
+    let mut trials: Vec<Trial> = classes.into_iter().map(Trial::new).collect();
     let mut other = vec![false; steps];
     for _ in 0..MOST_TRIES.min(1 + MOST_STEPS / steps.max(1)) {
         for trial in &trials {
@@ -104,19 +186,22 @@ pub(super) fn tried(
             }
         }
         let all = outcomes(&other);
-        let mut open = false;
+        let trusted = trusted(&all, &class_of, parts);
         for trial in trials.iter_mut().filter(|t| !t.class.complete) {
-            trial.class.complete = !trial.next(&all, rigid);
-            open |= !trial.class.complete;
+            trial.next(&all, rigid, &trusted);
         }
-        if !open {
+        let none = |t: &Trial| t.class.complete && t.class.ways.is_empty();
+        if trials.iter().any(none) {
+            trials.iter_mut().for_each(|t| t.class.complete = true);
+        }
+        if trials.iter().all(|t| t.class.complete) {
             break;
         }
     }
     trials
         .into_iter()
         .map(|mut trial| {
-            let others = |way: &Vec<bool>| way.iter().filter(|&&o| o).count();
+            let others = |way: &Choices| way.other.iter().filter(|&&o| o).count();
             trial.class.ways.sort_by_key(others);
             trial.class
         })

@@ -1,28 +1,34 @@
-//! Tangency decided exactly, where a step hangs on constraints alone.
+//! Tangency decided exactly, where a step hangs on constraints alone or on a few points.
 
+use super::derived::Derived;
 use super::plan::{Move, Plan};
 use super::third::Outcome;
 use crate::sketch::{Element, Sketch};
 use kutzbach_math::number::Number;
 use std::collections::HashMap;
 
-/// Steps that touch to rounding are proven to, or found not to, where all three of their measures are constraints.
-pub(super) fn settle(sketch: &Sketch, plan: &Plan, outcomes: &mut [Outcome]) {
+/// Steps that touch or nearly do are proven to touch, or found not to, where all three of their measures are constraints, or follow
+/// from a few steps of points.
+pub(super) fn settle(derived: &Derived<'_>, outcomes: &mut [Outcome]) {
+    let (sketch, plan) = (derived.sketch, derived.plan);
     let open = |o: &Outcome| matches!(o, Outcome::Touching { .. });
     if !outcomes.iter().any(open) {
         return;
     }
     let by_ends = sketch.by_ends();
-    for (step, outcome) in plan.moves.iter().zip(outcomes) {
+    for (index, (step, outcome)) in plan.moves.iter().zip(outcomes).enumerate() {
         if !open(outcome) {
             continue;
         }
         let values = given(sketch, step, &by_ends);
         let Some(margin) = values.and_then(|v| margin(sketch, step, v)) else {
+            if let Some(decided) = derived.outcome(index) {
+                *outcome = decided;
+            }
             continue;
         };
         *outcome = match margin.signum() {
-            0 => Outcome::Touching { proven: true },
+            0 => Outcome::Touching { within: 0.0 },
             1 => Outcome::Two { by: margin.value() },
             _ => Outcome::Apart {
                 by: -margin.value(),
@@ -36,7 +42,9 @@ pub(super) fn left_open(sketch: &Sketch, plan: &Plan) -> Vec<usize> {
     let by_ends = sketch.by_ends();
     let is_open = |step: &Move| {
         let values = given(sketch, step, &by_ends)?;
-        let off = |n: &Number| n.stated().map_or(0.0, |s| 0.5 * 10_f64.powi(-s.decimals));
+        // Whole numbers are meant as they are.
+        let fraction = |n: &Number| n.stated().filter(|s| s.decimals > 0);
+        let off = |n: &Number| fraction(n).map_or(0.0, |s| 0.5 * 10_f64.powi(-s.decimals));
         let slack: f64 = values.iter().map(|n| off(n)).sum();
         let margin = margin(sketch, step, values)?.value().abs();
         Some(slack > 0.0 && margin <= slack)

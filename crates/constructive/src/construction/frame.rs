@@ -62,6 +62,7 @@ fn carry(step: &Move, frames: &mut [Vec<Shape>], extents: &mut [f64], left: bool
     let [stays, second, last] = step.places;
     let gone = [second, last].map(|p| std::mem::take(&mut frames[p]));
     let kept = &mut frames[stays];
+    let only_tied = kept.len() == 2;
     let [x, z] = step.stay.map(|i| kept[i]);
     let [x2, y2] = step.second.map(|i| gone[0][i]);
     let [y3, z3] = step.last.map(|i| gone[1][i]);
@@ -72,6 +73,7 @@ fn carry(step: &Move, frames: &mut [Vec<Shape>], extents: &mut [f64], left: bool
         // Turns count from the placed line to the new one.
         measures: [measure(&x2, &y2), measure(&z3, &y3)],
         extent: extent_of_all,
+        only_tied,
         left,
     });
     let y = placed.unwrap_or(y2);
@@ -83,7 +85,7 @@ fn carry(step: &Move, frames: &mut [Vec<Shape>], extents: &mut [f64], left: bool
     let mut farthest = extents[stays].max(y.extent());
     kept.push(y);
     for ((shapes, motion), skip) in gone.into_iter().zip(motions).zip(skipped) {
-        if motion.is_none() && shapes.len() > 2 {
+        if motion.is_none() && shapes.len() > 2 && outcome.is_possible() {
             outcome = Outcome::Degenerate;
         }
         for (i, shape) in shapes.into_iter().enumerate() {

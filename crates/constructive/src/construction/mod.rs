@@ -7,7 +7,8 @@
 //! # What is counted, and how
 //! Whether circles meet hangs on earlier choices only through measures that are no constraints themselves. Steps fall into
 //! classes that hang together; the solutions are a product over the classes, and only within a class choices are tried, up to a
-//! stated number. Solutions that differ by a motion of the plane are one, mirror images are two.
+//! stated number. A step that is impossible spoils the lengths of its cluster: what stands on it is tried again with choices that
+//! are possible. Solutions that differ by a motion of the plane are one, mirror images are two.
 //!
 //! # Signs
 //! The side is that of the third element, seen from the first to the second of the two that are placed: left or right of the way
@@ -20,6 +21,7 @@
 mod classes;
 mod count;
 mod depend;
+mod derived;
 mod exact;
 mod frame;
 mod plan;
@@ -216,6 +218,12 @@ impl<'a> Construction<'a> {
         constraints.map(off).fold(0.0, f64::max)
     }
 
+    /// The value of a constraint between two shapes: length, distance to the left of a line, or angle (rad).
+    #[must_use]
+    pub fn value_between(one: &Shape, other: &Shape) -> f64 {
+        frame::value_between(one, other)
+    }
+
     /// Steps that rounded numbers leave open: circles that meet, touch or stay apart with other digits after those stated. Looked
     /// at are steps all of whose measures are constraints.
     #[must_use]
@@ -225,7 +233,13 @@ impl<'a> Construction<'a> {
 
     fn carried(&self, left: &[bool]) -> frame::Carried {
         let mut carried = frame::carry_out(&self.plan, self.frames.clone(), |step| left[step]);
-        exact::settle(self.sketch, &self.plan, &mut carried.outcomes);
+        let derived = derived::Derived {
+            sketch: self.sketch,
+            merges: &self.reduction.merges,
+            plan: &self.plan,
+            left,
+        };
+        exact::settle(&derived, &mut carried.outcomes);
         carried
     }
 
@@ -233,7 +247,13 @@ impl<'a> Construction<'a> {
         let steps = self.plan.moves.len();
         let depends = depend::dependence(self.sketch, &self.reduction.merges);
         let classes = classes::classes(depends.as_deref(), steps);
-        classes::tried(classes, &self.rigid, |other| {
+        let edges = self.sketch.constraints().len();
+        let made_by = |m: &crate::analysis::Merge| {
+            let steps = m.parts.iter().filter_map(|p| p.checked_sub(edges));
+            steps.collect()
+        };
+        let parts: Vec<Vec<usize>> = self.reduction.merges.iter().map(made_by).collect();
+        classes::tried(classes, &self.rigid, &parts, |other| {
             let sides = self.drawn_left.iter().zip(other);
             self.outcomes(
                 &sides

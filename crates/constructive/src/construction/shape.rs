@@ -1,5 +1,6 @@
 //! Where points and lines are, and the motions that put two of them onto two others.
 
+use super::third::scale_of;
 use crate::sketch::Element;
 
 /// A point or a directed line at a place.
@@ -36,8 +37,9 @@ impl Shape {
         matches!(self, Self::Line { .. })
     }
 
-    /// The farthest that a coordinate of it is from zero: for rounding errors.
-    pub(super) fn extent(&self) -> f64 {
+    /// The farthest that a coordinate of it, or the offset of a line, is from zero: for rounding errors.
+    #[must_use]
+    pub fn extent(&self) -> f64 {
         match self {
             Self::Point([x, y]) => x.abs().max(y.abs()),
             Self::Line { offset, .. } => offset.abs(),
@@ -142,6 +144,10 @@ impl Motion {
 
     /// The rotation from one direction to another, of any lengths.
     fn turning(a: [f64; 2], b: [f64; 2]) -> Option<Self> {
+        let [a, b] = [a, b].map(|v| {
+            let scale = scale_of(v[0].abs().max(v[1].abs()));
+            v.map(|x| x / scale)
+        });
         let turn = [dot(a, b), cross(a, b)];
         let length = turn[0].hypot(turn[1]);
         (length > 0.0).then(|| Self {

@@ -43,7 +43,7 @@ impl Iterator for Solutions<'_> {
         loop {
             let mut left = self.construction.drawn_left.clone();
             for (class, &way) in self.classes.iter().zip(self.next.as_ref()?) {
-                for (&step, &other) in class.steps.iter().zip(&class.ways[way]) {
+                for (&step, &other) in class.steps.iter().zip(&class.ways[way].other) {
                     left[step] ^= other;
                 }
             }

@@ -84,7 +84,7 @@ fn flat_triangles_are_double_and_too_long_sides_are_told() {
     };
     assert_eq!(
         outcome("3*sqrt(2)"),
-        (Outcome::Touching { proven: true }, Some(1), 1)
+        (Outcome::Touching { within: 0.0 }, Some(1), 1)
     );
     // Shorter by less than doubles tell.
     let nearly = outcome("3*sqrt(2)-1/10**20");
@@ -245,20 +245,159 @@ fn degenerate_steps_are_told() {
         through: [0.0; 2],
         direction,
     };
-    // Three lines by their angles alone.
-    let lines = vec![line([1.0, 0.0]), line([0.0, 1.0]), line([1.0, 1.0])];
+    // Three lines by their angles alone, which agree or do not.
+    let lines = || vec![line([1.0, 0.0]), line([0.0, 1.0]), line([1.0, 1.0])];
     let angles = [(0, 1, "pi/2"), (0, 2, "pi/4"), (1, 2, "-pi/4")];
+    let contradictory = [(0, 1, "pi/2"), (0, 2, "pi/4"), (1, 2, "-pi/3")];
     // A point at two parallel lines.
     let parallel = vec![line([1.0, 0.0]), line([1.0, 0.1]), Element::Point([1.0; 2])];
     let offsets = [(0, 1, "0"), (0, 2, "1"), (1, 2, "2")];
-    for (elements, constraints) in [(lines, angles), (parallel, offsets)] {
+    for (elements, constraints) in [(lines(), angles), (parallel, offsets)] {
         let sketch = sketch(elements, &constraints);
         let construction = Construction::new(&sketch).unwrap();
         let why = construction.as_drawn().unwrap_err();
         assert_eq!((why.step, why.outcome), (0, Outcome::Degenerate));
-        assert_eq!(construction.count().value(), Some(0));
-        assert!(construction.count().degenerate);
+        let count = construction.count();
+        assert!(count.degenerate && count.infinite);
+        assert_eq!(count.to_string(), "infinitely many");
     }
+    let sketch = sketch(lines(), &contradictory);
+    let construction = Construction::new(&sketch).unwrap();
+    let why = construction.as_drawn().unwrap_err();
+    assert!(
+        matches!(why.outcome, Outcome::Apart { by } if (by - std::f64::consts::PI / 12.0).abs() < 1e-14)
+    );
+    assert_eq!(construction.count().to_string(), "0");
+}
+
+/// Two triangles over one base have their tips in one place on the same side, and a fifth point is tied to both.
+#[test]
+fn coincident_centres_leave_all_of_a_circle_or_nothing() {
+    let counted = |one: &str, other: &str| {
+        let places = points(&[[0.0; 2], [4.0, 0.0], [1.0, 2.0], [1.0, -2.0], [6.0, 0.0]]);
+        let constraints = [
+            (0, 1, "4"),
+            (0, 2, "3"),
+            (1, 2, "3"),
+            (0, 3, "3"),
+            (1, 3, "3"),
+            (2, 4, one),
+            (3, 4, other),
+        ];
+        let sketch = sketch(places, &constraints);
+        Construction::new(&sketch).unwrap().count()
+    };
+    // On other sides the tips are 2 sqrt(5) apart.
+    assert_eq!(
+        counted("5", "5").to_string(),
+        "4, and infinitely many besides"
+    );
+    assert_eq!(counted("1", "1").to_string(), "infinitely many");
+    assert_eq!(counted("5", "4").to_string(), "4");
+    assert_eq!(counted("1", "2").to_string(), "0");
+}
+
+/// The tips of two triangles over one base are exactly as far apart as the two bars to a fifth point are long together; doubles do
+/// not tell. A line through the base, with nothing else on it, takes the exact answer away.
+#[test]
+fn circles_that_touch_at_derived_lengths_are_decided_or_left_open() {
+    let counted = |bar: &str, line: bool| {
+        let mut elements = points(&[[0.0; 2], [4.0, 0.0], [2.0, 2.0], [2.0, -2.0], [3.0, 0.0]]);
+        let mut constraints = vec![
+            (0, 1, "4"),
+            (0, 2, "3"),
+            (1, 2, "3"),
+            (0, 3, "3"),
+            (1, 3, "3"),
+            (2, 4, bar),
+            (3, 4, "2"),
+        ];
+        if line {
+            elements.push(Element::Line {
+                through: [0.0; 2],
+                direction: [4.0, 1.0],
+            });
+            constraints.insert(0, (5, 0, "0"));
+            constraints.insert(1, (5, 1, "1"));
+        }
+        let sketch = sketch(elements, &constraints);
+        Construction::new(&sketch).unwrap().count().to_string()
+    };
+    for (bar, exact, left_open) in [
+        ("sqrt(20)-2", "2", "from 0 to 8"),
+        ("sqrt(20)-2+1/10**20", "4", "from 0 to 8"),
+        ("sqrt(20)-2-1/10**20", "0", "from 0 to 8"),
+        ("sqrt(20)-2+1/10**6", "4", "8"),
+        ("sqrt(20)-2-1/10**6", "0", "0"),
+    ] {
+        assert_eq!(counted(bar, false), exact, "{bar}");
+        assert_eq!(counted(bar, true), left_open, "{bar}");
+    }
+}
+
+#[test]
+fn lengths_of_any_size_are_constructed() {
+    for (scale, size) in [("10**80", 1e80), ("1/10**82", 1e-82)] {
+        let sides = [(0, 1, 4), (1, 2, 3), (2, 0, 5), (1, 3, 2), (2, 3, 4)];
+        let texts: Vec<String> = sides.iter().map(|s| format!("{}*{scale}", s.2)).collect();
+        let constraints: Vec<(usize, usize, &str)> = sides
+            .iter()
+            .zip(&texts)
+            .map(|(s, text)| (s.0, s.1, &**text))
+            .collect();
+        let places = [[0.0; 2], [4.0, 0.0], [4.0, 3.0], [6.0, 0.0]].map(|p| p.map(|x| size * x));
+        let sketch = sketch(points(&places), &constraints);
+        let construction = Construction::new(&sketch).unwrap();
+        let all: Vec<Solution> = construction.solutions().collect();
+        assert_eq!(
+            (construction.count().value(), all.len()),
+            (Some(4), 4),
+            "{scale}"
+        );
+        for solution in &all {
+            assert!(construction.residual(solution) < 1e-14 * size, "{scale}");
+        }
+    }
+}
+
+/// Impossible choices of one class spoil lengths that another one measures: all choices are tried one by one here.
+#[test]
+fn counts_are_those_of_brute_force() {
+    let mut random = Random::new(24);
+    let (mut fewer, mut none) = (0, 0);
+    for round in 0..400 {
+        let n = 5 + random.below(7);
+        let graph = match round % 2 {
+            0 => samples::glued(n, &mut random),
+            _ => samples::henneberg(n, 0, &mut random),
+        };
+        let mut sketch = drawn(graph.edges(), n, &mut random);
+        if round % 5 == 0 {
+            // Lengths that belong to no drawing.
+            let constraints = sketch.constraints().iter().map(|c| Constraint {
+                ends: c.ends,
+                value: Number::from_f64(0.5 + random.unit()).unwrap(),
+            });
+            sketch = Sketch::new(sketch.elements().to_vec(), constraints.collect()).unwrap();
+        }
+        let construction = Construction::new(&sketch).unwrap();
+        let steps = n - 2;
+        let by_hand = (0_u32..1 << steps)
+            .filter(|bits| {
+                let left: Vec<bool> = (0..steps).map(|k| bits >> k & 1 == 1).collect();
+                construction.with_sides(&left).is_ok()
+            })
+            .count();
+        let count = construction.count();
+        assert!(count.complete && count.between.is_none(), "{round}");
+        assert_eq!(count.value(), Some(by_hand as u128), "{round}: {graph:?}");
+        if round % 8 == 0 {
+            assert_eq!(construction.solutions().count(), by_hand, "{round}");
+        }
+        fewer += usize::from(by_hand < 1 << steps);
+        none += usize::from(by_hand == 0);
+    }
+    assert!(fewer > 100 && none > 5, "{fewer} {none}");
 }
 
 #[test]

@@ -10,19 +10,21 @@ pub enum Outcome {
         /// Above zero.
         by: f64,
     },
-    /// They touch: both places are one, a double solution, as far as rounding can tell or (`proven`) exactly.
+    /// They touch: both places are one, a double solution; or they overlap or stay apart by less than `within`, which leaves
+    /// none, one or two places.
     Touching {
-        /// Whether exact arithmetic has shown it.
-        proven: bool,
+        /// In units of length; zero where exact arithmetic has shown that they touch.
+        within: f64,
     },
     /// One place: two lines.
     One,
-    /// They do not meet: `by` is how far they stay apart, in units of length.
+    /// They do not meet: `by` is how far they stay apart, in units of length (radians for a line by its angles with two others).
     Apart {
         /// Above zero.
         by: f64,
     },
-    /// The two that are placed coincide or are parallel, or three lines are tied by angles alone: nothing fixes the third.
+    /// The two that are placed coincide or are parallel, or three lines are tied by angles alone, and both measures agree, to
+    /// rounding: nothing fixes the third, which keeps one freedom.
     Degenerate,
 }
 
@@ -34,21 +36,32 @@ impl Outcome {
     }
 }
 
-/// A margin, and by how much rounding may have changed it.
-pub(super) struct Margin {
-    pub(super) value: f64,
-    pub(super) error: f64,
+/// A margin, and below which size its sign is not trusted.
+struct Margin {
+    value: f64,
+    nearly: f64,
 }
+
+/// Margins below this part of the largest length are not trusted: how much of it is rounding hangs on how flat the triangles
+/// were that lengths went through.
+const NEARLY: f64 = 1e-9;
 
 impl Margin {
     fn outcome(&self) -> Outcome {
-        if self.value > self.error {
+        if self.value.abs() <= self.nearly {
+            Outcome::Touching {
+                within: self.nearly,
+            }
+        } else if self.value > 0.0 {
             Outcome::Two { by: self.value }
-        } else if self.value < -self.error {
-            Outcome::Apart { by: -self.value }
         } else {
-            Outcome::Touching { proven: false }
+            Outcome::Apart { by: -self.value }
         }
+    }
+
+    /// The margin for what lies in one place where it is zero or below.
+    const fn inside(&self) -> f64 {
+        self.value.max(0.0)
     }
 }
 
@@ -59,6 +72,9 @@ pub(super) struct Third<'a> {
     pub(super) measures: [Measure; 2],
     /// The largest coordinate of the clusters that take part.
     pub(super) extent: f64,
+    /// Whether the two that are placed are held by the constraint between them alone: two parallel lines then are at no
+    /// particular distance.
+    pub(super) only_tied: bool,
     /// Which of two places.
     pub(super) left: bool,
 }
@@ -76,8 +92,8 @@ pub(super) fn third(step: &Third<'_>) -> (Option<Shape>, Outcome) {
             circle_and_line(step, p, *r, (line, *h))
         }
         (false, [one, other], [Offset(h), Offset(k)]) => {
-            let [a, b] = [(one, *h), (other, *k)].map(|(line, by)| beside(&line, by));
-            super::shape::crossing(&a, &b).map(|p| (Shape::Point(p), Outcome::One))
+            let lines = [(one, *h), (other, *k)].map(|(line, by)| beside(&line, by));
+            two_lines(step, lines, [*h, *k])
         }
         (true, [Shape::Point(p), Shape::Point(q)], [Offset(h), Offset(k)]) => {
             common_tangent(step, [p, q], [*h, *k])
@@ -85,13 +101,62 @@ pub(super) fn third(step: &Third<'_>) -> (Option<Shape>, Outcome) {
         // A turn counts from the placed line.
         (true, [Shape::Point(p), Shape::Line { direction, .. }], [Offset(h), Turn(t)])
         | (true, [Shape::Line { direction, .. }, Shape::Point(p)], [Turn(t), Offset(h)]) => {
-            Some((line_by(turned(direction, *t), p, *h), Outcome::One))
+            Ok((line_by(turned(direction, *t), p, *h), Outcome::One))
         }
-        _ => None,
+        (
+            true,
+            [
+                Shape::Line { direction: a, .. },
+                Shape::Line { direction: b, .. },
+            ],
+            [Turn(t), Turn(u)],
+        ) => {
+            let [a, b] = [turned(a, *t), turned(b, *u)];
+            let off = cross(a, b).atan2(dot(a, b)).abs();
+            Err(free_or_apart(off, DIRECTIONS))
+        }
+        _ => Err(Outcome::Degenerate),
     };
     match found {
-        None => (None, Outcome::Degenerate),
-        Some((shape, outcome)) => (Some(shape), outcome),
+        Err(outcome) => (None, outcome),
+        Ok((shape, outcome)) => (Some(shape), outcome),
+    }
+}
+
+/// Directions carry a few roundings each.
+const DIRECTIONS: f64 = 64.0 * f64::EPSILON;
+
+/// What two measures leave that should agree and are so far off each other.
+fn free_or_apart(off: f64, error: f64) -> Outcome {
+    match off <= error {
+        true => Outcome::Degenerate,
+        false => Outcome::Apart { by: off },
+    }
+}
+
+/// A place, or why there is none.
+type Found = Result<(Shape, Outcome), Outcome>;
+
+/// Where two lines cross; parallel ones are one, or stay apart.
+fn two_lines(step: &Third<'_>, [one, other]: [Shape; 2], offsets: [f64; 2]) -> Found {
+    if let Some(p) = super::shape::crossing(&one, &other) {
+        return Ok((Shape::Point(p), Outcome::One));
+    }
+    match (one, other) {
+        (
+            Shape::Line {
+                direction: a,
+                offset: h,
+            },
+            Shape::Line {
+                direction: b,
+                offset: k,
+            },
+        ) if !step.only_tied => {
+            let off = (h - k * dot(a, b).signum()).abs();
+            Err(free_or_apart(off, rounding(step.extent, &offsets)))
+        }
+        _ => Err(Outcome::Degenerate),
     }
 }
 
@@ -121,79 +186,101 @@ fn rounding(extent: f64, lengths: &[f64]) -> f64 {
     32.0 * f64::EPSILON * largest
 }
 
-fn two_circles(
-    step: &Third<'_>,
-    [p, q]: [[f64; 2]; 2],
-    [r, s]: [f64; 2],
-) -> Option<(Shape, Outcome)> {
-    let across = minus(q, p);
-    let d = across[0].hypot(across[1]);
-    let error = rounding(step.extent, &[r, s, d]);
-    if d <= error {
-        return None;
+/// A power of two near a length that is not zero: in such units squares of lengths neither overflow nor vanish.
+pub(super) fn scale_of(length: f64) -> f64 {
+    const EXPONENT: u64 = 0x7ff << 52;
+    match f64::from_bits(length.to_bits() & EXPONENT) {
+        power if power.is_normal() => power,
+        _ => 1.0,
     }
-    let value = (r + s - d).min(d - (r - s).abs());
-    let outcome = Margin { value, error }.outcome();
-    let unit = across.map(|x| x / d);
-    let foot = (d + (r - s) * (r + s) / d) / 2.0;
-    let height = match outcome {
-        // Heron's formula by its factors, which lose no digits where the triangle is flat.
-        Outcome::Two { .. } => {
-            ((r + s - d) * (r + s + d) * (d - r + s) * (d + r - s)).sqrt() / (2.0 * d)
+}
+
+/// Two points that are placed.
+struct Pair {
+    /// The direction from the first to the second, and the distance.
+    unit: [f64; 2],
+    distance: f64,
+    /// The margin below which nothing is said.
+    nearly: f64,
+}
+
+impl Pair {
+    /// Where the points coincide, to rounding: both measures from there have to agree.
+    fn of(step: &Third<'_>, [p, q]: [[f64; 2]; 2], measures: [f64; 2]) -> Result<Self, Outcome> {
+        let across = minus(q, p);
+        let distance = across[0].hypot(across[1]);
+        let [one, other] = measures;
+        let error = rounding(step.extent, &[one, other, distance]);
+        if distance <= error {
+            return Err(free_or_apart((one - other).abs(), error));
         }
-        _ => 0.0,
+        Ok(Self {
+            unit: across.map(|x| x / distance),
+            distance,
+            nearly: nearly(&[one, other, distance]),
+        })
+    }
+}
+
+fn nearly(lengths: &[f64]) -> f64 {
+    NEARLY * lengths.iter().fold(0.0, |m: f64, l| m.max(l.abs()))
+}
+
+fn two_circles(step: &Third<'_>, points: [[f64; 2]; 2], [r, s]: [f64; 2]) -> Found {
+    let Pair {
+        unit,
+        distance,
+        nearly,
+    } = Pair::of(step, points, [r, s])?;
+    let value = (r + s - distance).min(distance - (r - s).abs());
+    let margin = Margin { value, nearly };
+    let scale = scale_of(distance.max(r).max(s));
+    let [d, r, s] = [distance, r, s].map(|x| x / scale);
+    let foot = (d + (r - s) / d * (r + s)) / 2.0;
+    let height = match margin.inside() > 0.0 {
+        // Heron's formula by its factors, which lose no digits where the triangle is flat.
+        true => ((r + s - d) * (r + s + d) * (d - r + s) * (d + r - s)).sqrt() / (2.0 * d),
+        false => 0.0,
     };
     let height = if step.left { height } else { -height };
-    let place = along(along(p, unit, foot), left(unit), height);
-    Some((Shape::Point(place), outcome))
+    let at = along(points[0], unit, scale * foot);
+    let place = along(at, left(unit), scale * height);
+    Ok((Shape::Point(place), margin.outcome()))
 }
 
-fn circle_and_line(
-    step: &Third<'_>,
-    p: [f64; 2],
-    r: f64,
-    (line, by): (Shape, f64),
-) -> Option<(Shape, Outcome)> {
+fn circle_and_line(step: &Third<'_>, p: [f64; 2], r: f64, (line, by): (Shape, f64)) -> Found {
     let Shape::Line { direction, offset } = line else {
-        return None;
+        return Err(Outcome::Degenerate);
     };
     let height = dot(left(direction), p) - offset - by;
-    let error = rounding(step.extent, &[r, by]);
-    let value = r - height.abs();
-    let outcome = Margin { value, error }.outcome();
-    let half = match outcome {
-        Outcome::Two { .. } => (value * (r + height.abs())).sqrt(),
-        _ => 0.0,
+    let margin = Margin {
+        value: r - height.abs(),
+        nearly: nearly(&[r, height, step.extent * f64::EPSILON / NEARLY]),
     };
+    let half = margin.inside().sqrt() * (r + height.abs()).sqrt();
     let half = if step.left { half } else { -half };
     let foot = along(p, left(direction), -height);
-    Some((Shape::Point(along(foot, direction, half)), outcome))
+    Ok((Shape::Point(along(foot, direction, half)), margin.outcome()))
 }
 
-fn common_tangent(
-    step: &Third<'_>,
-    [p, q]: [[f64; 2]; 2],
-    [h, k]: [f64; 2],
-) -> Option<(Shape, Outcome)> {
-    let across = minus(q, p);
-    let d = across[0].hypot(across[1]);
-    let error = rounding(step.extent, &[h, k, d]);
-    if d <= error {
-        return None;
-    }
+fn common_tangent(step: &Third<'_>, points: [[f64; 2]; 2], [h, k]: [f64; 2]) -> Found {
+    let Pair {
+        unit,
+        distance,
+        nearly,
+    } = Pair::of(step, points, [h, k])?;
     let rise = k - h;
-    let value = d - rise.abs();
-    let outcome = Margin { value, error }.outcome();
-    let cosine = (rise / d).clamp(-1.0, 1.0);
-    let sine = match outcome {
-        Outcome::Two { .. } => (value * (d + rise.abs())).sqrt() / d,
-        _ => 0.0,
+    let margin = Margin {
+        value: distance - rise.abs(),
+        nearly,
     };
+    let cosine = (rise / distance).clamp(-1.0, 1.0);
+    let sine = (margin.inside() / distance).sqrt() * (1.0 + cosine.abs()).sqrt();
     // The direction turned to the left has the cosine with the way from p to q.
     let sine = if step.left { sine } else { -sine };
-    let normal = turned(across.map(|x| x / d), [cosine, sine]);
+    let normal = turned(unit, [cosine, sine]);
     let direction = [normal[1], -normal[0]];
-    Some((line_by(direction, p, h), outcome))
+    Ok((line_by(direction, points[0], h), margin.outcome()))
 }
 
 /// On which side the third is drawn, of two places; zero where the drawing cannot tell.

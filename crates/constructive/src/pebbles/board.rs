@@ -1,5 +1,8 @@
 //! Two pebbles a vertex, on the vertex or on an edge that leaves it.
 
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
 /// Where the pebbles are: a vertex covers at most two edges, and what it does not cover is free.
 #[derive(Clone, Debug)]
 pub(super) struct Board {
@@ -8,6 +11,9 @@ pub(super) struct Board {
     /// In which search a vertex was reached, and from which vertex by which of its pebbles.
     seen: Vec<(u64, usize, usize)>,
     search: u64,
+    /// For which part a vertex was marked, and whether as rigid in it or as loose.
+    marks: Vec<(u64, bool)>,
+    part: u64,
     steps: u64,
     stack: Vec<usize>,
 }
@@ -18,6 +24,8 @@ impl Board {
             covers: vec![[None; 2]; vertices],
             seen: vec![(0, 0, 0); vertices],
             search: 0,
+            marks: vec![(0, false); vertices],
+            part: 0,
             steps: 0,
             stack: Vec::new(),
         }
@@ -111,29 +119,74 @@ impl Board {
         reached
     }
 
-    /// The largest rigid part with both ends of an edge: with three pebbles gathered there, everything from where no other
-    /// free pebble can be reached.
-    pub(super) fn rigid_around(&mut self, ends: [usize; 2]) -> Vec<usize> {
+    /// The largest rigid part with both ends of an edge, ascending: with three pebbles gathered there, everything from where no
+    /// other free pebble can be reached. `near` has the neighbours of every vertex.
+    ///
+    /// It grows from neighbour to neighbour. A part of three vertices or more stays in one piece without any one of them, so that the
+    /// last one need not be looked at, and few neighbours are looked at first: hubs cost nothing.
+    pub(super) fn rigid_around(&mut self, ends: [usize; 2], near: &[Vec<usize>]) -> Vec<usize> {
         self.gather(ends);
-        let mut back: Vec<Vec<usize>> = vec![Vec::new(); self.covers.len()];
-        for (v, covered) in self.covers.iter().enumerate() {
-            for w in covered.iter().flatten() {
-                back[*w].push(v);
-            }
+        self.part += 1;
+        let mut rigid = ends.to_vec();
+        let mut open = BinaryHeap::new();
+        for u in ends {
+            self.marks[u] = (self.part, true);
+            open.push(Reverse((near[u].len(), u)));
         }
-        let mut free: Vec<bool> = (0..self.covers.len())
-            .map(|v| !ends.contains(&v) && self.free(v) > 0)
-            .collect();
-        let mut stack: Vec<usize> = (0..free.len()).filter(|&v| free[v]).collect();
-        while let Some(v) = stack.pop() {
-            self.steps += 1;
-            for &w in &back[v] {
-                if !free[w] {
-                    free[w] = true;
-                    stack.push(w);
+        while open.len() > 1 {
+            let Some(Reverse((_, v))) = open.pop() else {
+                break;
+            };
+            for &w in &near[v] {
+                self.steps += 1;
+                if self.marks[w].0 == self.part {
+                    continue;
+                }
+                for x in self.held_with(w) {
+                    rigid.push(x);
+                    open.push(Reverse((near[x].len(), x)));
                 }
             }
         }
-        (0..free.len()).filter(|&v| !free[v]).collect()
+        rigid.sort_unstable();
+        rigid
+    }
+
+    /// The vertices that can be reached from `w` if none of them is free or marked as loose: they are marked as rigid. Otherwise
+    /// the path to that one is marked as loose.
+    fn held_with(&mut self, w: usize) -> Vec<usize> {
+        self.search += 1;
+        let mut reached = Vec::new();
+        self.stack.clear();
+        self.stack.push(w);
+        self.seen[w] = (self.search, w, 0);
+        while let Some(v) = self.stack.pop() {
+            self.steps += 1;
+            if self.marks[v] == (self.part, false) || self.free(v) > 0 {
+                let mut at = v;
+                loop {
+                    self.marks[at] = (self.part, false);
+                    let before = self.seen[at].1;
+                    if before == at {
+                        return Vec::new();
+                    }
+                    at = before;
+                }
+            }
+            reached.push(v);
+            for slot in 0..2 {
+                if let Some(x) = self.covers[v][slot]
+                    && self.seen[x].0 != self.search
+                    && self.marks[x] != (self.part, true)
+                {
+                    self.seen[x] = (self.search, v, slot);
+                    self.stack.push(x);
+                }
+            }
+        }
+        for &v in &reached {
+            self.marks[v] = (self.part, true);
+        }
+        reached
     }
 }

@@ -58,15 +58,19 @@ impl Bodies {
             }
             let sides = [&joint.predecessor, &joint.successor];
             let [one, other] = sides.map(|side| view.element(joint, side, homes));
+            let places = [one?, other?];
+            view.check_normal(joint, homes)?;
             let on = sides.map(|s| body[s.link.0]);
-            if on[0] == on[1] {
-                continue; // held by other joints already
+            if on[0] != on[1] {
+                let name = &joint.name;
+                pins.push(Pin { name, on, places });
+            } else if !places[0].same(&places[1]) {
+                return Err(NotPlanar::Within {
+                    joint: joint.name.clone(),
+                    link: mechanism.links()[on[0]].name.clone(),
+                    gap: places[0].gap(&places[1]),
+                });
             }
-            pins.push(Pin {
-                name: &joint.name,
-                on,
-                places: [one?, other?],
-            });
         }
         let names = mechanism.links().iter().map(|l| l.name.clone());
         Self::shared(&pins, names.collect())

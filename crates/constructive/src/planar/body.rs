@@ -1,5 +1,6 @@
 //! What holds the elements of one body against each other.
 
+use super::millimetres;
 use crate::sketch::{Constraint, Element};
 use kutzbach_math::number::Number;
 
@@ -37,7 +38,7 @@ impl Exact {
         }
     }
 
-    const fn is_line(&self) -> bool {
+    pub(super) const fn is_line(&self) -> bool {
         matches!(self, Self::Line(..))
     }
 
@@ -52,8 +53,29 @@ impl Exact {
         }
     }
 
-    fn parallel(&self, other: &Self) -> bool {
+    pub(super) fn parallel(&self, other: &Self) -> bool {
         matches!((self, other), (Self::Line(_, a), Self::Line(_, b)) if cross(a, b).is_zero())
+    }
+
+    /// How far from each other two are that should be at the same place, in words.
+    pub(super) fn gap(&self, other: &Self) -> String {
+        let value = |p: &Pair| p.clone().map(|x| x.value());
+        match (self, other) {
+            (Self::Line(p, a), Self::Line(q, b))
+                if cross(a, b).is_zero() && dot(a, b).signum() > 0 =>
+            {
+                let [x, y] = value(a);
+                millimetres(cross(a, &minus(p, q)).value() / x.hypot(y))
+            }
+            (Self::Line(_, a), Self::Line(_, b)) => {
+                let angle = cross(a, b).value().atan2(dot(a, b).value());
+                format!("{:.3}°", angle.to_degrees().abs())
+            }
+            (Self::Point(p) | Self::Line(p, _), Self::Point(q) | Self::Line(q, _)) => {
+                let [x, y] = value(&minus(p, q));
+                millimetres(x.hypot(y))
+            }
+        }
     }
 
     /// The value of the constraint between the two.

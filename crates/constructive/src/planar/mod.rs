@@ -3,7 +3,7 @@
 //! A hinge is a point that two bodies share, a slider a directed line that two bodies share. What one body has of these it keeps as
 //! drawn: enough constraints for that are stated, and its triangles are never turned over
 //! ([`Sketch::with_rigid`](crate::sketch::Sketch::with_rigid)). Links that are fixed to each other are one body, and so are those of
-//! a joint that is held. Everything is seen along the hinges; how far apart bodies lie along them does not matter.
+//! a joint that is held. Everything is seen along the hinges; both sides of every joint have to be equally far along them.
 //!
 //! Values are exact: lengths are square roots, angles inverse circular functions of what the file states.
 
@@ -45,11 +45,49 @@ pub enum NotPlanar {
         /// The coupling.
         name: String,
     },
-    /// A body with nothing but parallel or more than two lines, which angles alone do not hold.
-    #[error("the sliders of link `{link}` leave it without a point")]
+    /// A body with more lines than its points hold: three without a point, or two that are parallel with one.
+    #[error("the sliders of link `{link}` are not all held by its hinges")]
     LinesOnly {
         /// A link of the body.
         link: String,
+    },
+    /// A body with nothing but parallel lines.
+    #[error(
+        "all sliders of link `{link}` are parallel, and it has no hinge: it is free along them"
+    )]
+    Parallel {
+        /// A link of the body.
+        link: String,
+    },
+    /// Fixed and held joints make one body of both sides of a joint that does not close there.
+    #[error(
+        "joint `{joint}` joins two sides of one body, that of link `{link}`, which are {gap} apart: nothing closes as it is written"
+    )]
+    Within {
+        /// The joint.
+        joint: String,
+        /// A link of the body.
+        link: String,
+        /// How far the sides are apart, with its unit.
+        gap: String,
+    },
+    /// The two sides of a joint are not equally far along the hinges, which no motion in the plane changes.
+    #[error(
+        "the sides of joint `{joint}` are {gap} apart along the hinges: nothing closes as it is written"
+    )]
+    Offset {
+        /// The joint.
+        joint: String,
+        /// How far, with its unit.
+        gap: String,
+    },
+    /// The hinge axis or the slider's frame points the other way on one side of a joint.
+    #[error(
+        "one side of joint `{joint}` is turned out of the plane against the other: nothing closes as it is written"
+    )]
+    TurnedOver {
+        /// The joint.
+        joint: String,
     },
     /// Joints that are in one place on some links and in two on another.
     #[error("link `{link}` has `{}` and `{}` in two places, other links in one", joints[0], joints[1])]
@@ -104,6 +142,12 @@ pub fn sketch(mechanism: &Mechanism) -> Result<NamedSketch, NotPlanar> {
                 joint: bodies.names[*joint].clone(),
             });
         }
+        let parallel = |(_, e): &(usize, Exact)| e.is_line() && e.parallel(&held[0].1);
+        if !held.is_empty() && held.iter().all(parallel) {
+            return Err(NotPlanar::Parallel {
+                link: name.to_owned(),
+            });
+        }
         let of_body = body::hold(held).ok_or_else(|| NotPlanar::LinesOnly {
             link: name.to_owned(),
         })?;
@@ -131,6 +175,14 @@ pub fn sketch(mechanism: &Mechanism) -> Result<NamedSketch, NotPlanar> {
         names: bodies.names,
         sketch: sketch.with_rigid(rigid),
     })
+}
+
+/// Metres as millimetres; tiny ones keep their digits.
+fn millimetres(metres: f64) -> String {
+    match metres.abs() * 1e3 {
+        small if small < 1e-3 => format!("{small:.3e} mm"),
+        length => format!("{length:.3} mm"),
+    }
 }
 
 /// Whether a joint of this kind is an element.

@@ -1,7 +1,7 @@
 //! The plane that everything moves in.
 
 use super::body::{Exact, Pair};
-use super::{NotPlanar, is_element};
+use super::{NotPlanar, is_element, millimetres};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{ExactPose, Joint, JointKind, Mechanism, Side};
 
@@ -49,6 +49,29 @@ impl View {
         Ok(Self {
             across: [long(right)?, long(up)?],
             normal,
+        })
+    }
+
+    /// Both sides of a joint are equally far along the hinges and have the same side up: motions in the plane change neither.
+    pub(super) fn check_normal(&self, joint: &Joint, homes: &[ExactPose]) -> Result<(), NotPlanar> {
+        let sides = [&joint.predecessor, &joint.successor];
+        let poses = sides.map(|s| homes[s.link.0].then(&ExactPose::of(&s.frame)));
+        let [up, other_up] = [0, 1].map(|k| poses[k].inverse().rotate(&self.normal));
+        if up != other_up {
+            return Err(NotPlanar::TurnedOver {
+                joint: joint.name.clone(),
+            });
+        }
+        let [one, other] = [0, 1].map(|k| dot(&poses[k].translation, &self.normal));
+        let off = &one - &other;
+        if off.is_zero() {
+            return Ok(());
+        }
+        let [x, y, z] = self.normal.clone().map(|n| n.value());
+        let metres = off.value().abs() / x.hypot(y).hypot(z);
+        Err(NotPlanar::Offset {
+            joint: joint.name.clone(),
+            gap: millimetres(metres),
         })
     }
 
