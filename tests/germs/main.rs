@@ -111,38 +111,6 @@ fn no_kind_is_contradicted() {
     assert!(seen.iter().filter(|s| s.decided).count() >= 12);
 }
 
-#[test]
-#[ignore = "debug"]
-fn zz_debug() {
-    for seed in std::env::var("SEEDS")
-        .unwrap()
-        .split(',')
-        .map(|s| s.parse::<u64>().unwrap())
-    {
-        let germ = drawn(seed);
-        println!("== {seed} {}", germ.kind);
-        for p in &germ.polynomials {
-            let terms: Vec<String> = p
-                .terms
-                .iter()
-                .map(|(e, c)| format!("{} {e:?}", c.source()))
-                .collect();
-            println!("{}", terms.join(" + "));
-        }
-        let mechanism = arm::mechanism(&format!("germ_{seed}"), &germ.polynomials);
-        let analysis = support::analysis(&mechanism);
-        println!(
-            "{:?} {:?} {:?}",
-            analysis.mobility.finite(),
-            analysis.mobility.kind,
-            mechanism.precision()
-        );
-        for (_, e) in &analysis.mobility.evidence {
-            println!("   {} {:?} {}", e.engine, e.bounds, e.text);
-        }
-    }
-}
-
 mod corpus {
     use super::*;
 

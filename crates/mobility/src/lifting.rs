@@ -329,7 +329,11 @@ fn stays_multiple(
     matrix.scale_columns();
     let accuracy = 10.0 * closing.residual.sqrt() + closing.rounding;
     // What could be hidden in the last bits of the numbers has to be above it, and a thousandth of that too: a singular value
-    // is an offset times something.
+    // is an offset times something. Of short numbers a quarter has to do, which is as far as directions in double precision lead.
+    let hidden = if tall > TALL { tall + 10 } else { TALL + 2 };
+    if accuracy > 0.5f64.powi(hidden as i32) {
+        return Ok(false);
+    }
     Ok(decide(&matrix, accuracy)?.nullity() == Some(freedom))
 }
 

@@ -20,7 +20,7 @@ use self::by_polygon::by_polygon;
 use self::resolution::Resolution;
 use super::chart::{ChartTest, Kernel};
 use super::germ::{
-    ComplexDimension, Germ, complex_dimension, is_irreducible_hypersurface,
+    ComplexDimension, Germ, complex_dimension, inertia, is_irreducible_hypersurface,
     isolated_by_leading_terms, prestress_certificate, signature,
 };
 use super::germ_zeros::{GermBranch, GermZeroOptions, GermZeros, germ_zeros};
@@ -236,7 +236,9 @@ pub(super) fn singular_finding(
                 germ_text(&germ, order, degree, &zeros, complex.as_ref())
             ),
         });
-        let cut = cut_in_pieces(&zeros, complex.as_ref()).or_else(|| merged(&germ, &zeros));
+        let cut = cut_in_pieces(&zeros, complex.as_ref())
+            .or_else(|| merged(&germ, &zeros))
+            .or_else(|| two_in_one(&germ, &zeros));
         let complex = complex.map(|c| c.dimension + idle.len());
         found.complex_dimension = complex;
         if let Some(thin) = &zeros.thin {
@@ -500,6 +502,18 @@ fn merged(germ: &Germ, zeros: &GermZeros) -> Option<&'static str> {
     (found? % 2 != germ.order()? % 2).then_some(
         "the multiplicity of the pose is another than that of the branches found, so that some are overlooked or taken for one",
     )
+}
+
+/// Why the one sheet found may be two at a small angle, if it may: where the quadratic form is a product of two, the germ is u v + g of the
+/// other variables (the splitting lemma), two sheets where g vanishes and one elsewhere.
+fn two_in_one(germ: &Germ, zeros: &GermZeros) -> Option<&'static str> {
+    let ([equation], [only]) = (germ.equations(), &zeros.branches[..]) else {
+        return None;
+    };
+    let whole = germ.freedom() >= 3 && only.dimension + 1 == germ.freedom();
+    let product = || inertia(equation, germ.noise(2)) == (1, 1);
+    (whole && only.reduced && product() && !irreducible(germ))
+        .then_some("one sheet was found, and two that cross at a small angle would look the same")
 }
 
 /// The dimension of the space that the directions of two branches span, but for a small share.

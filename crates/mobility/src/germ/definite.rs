@@ -263,12 +263,20 @@ fn all_of(series: &Series, noise: &[f64]) -> Series {
 /// coefficients.
 #[must_use]
 pub fn signature(series: &Series, noise: f64) -> Option<(usize, usize)> {
+    let (plus, minus) = inertia(series, noise);
+    let variables = series.monomials().variables();
+    (variables > 0 && plus + minus == variables).then_some((plus, minus))
+}
+
+/// How many eigenvalues of the quadratic form of a series are positive and how many negative, those within its error left out.
+#[must_use]
+pub fn inertia(series: &Series, noise: f64) -> (usize, usize) {
     let eigen = quadratic_form(series).symmetric_eigenvalues();
     // An eigenvalue is no more wrong than the form in the Frobenius norm.
-    let error = noise.max(64.0 * f64::EPSILON * eigen.amax());
-    let clear = eigen.iter().all(|value| value.abs() > CLEARANCE * error);
-    let plus = eigen.iter().filter(|value| **value > 0.0).count();
-    (clear && !eigen.is_empty()).then(|| (plus, eigen.len() - plus))
+    let amax = eigen.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+    let least = CLEARANCE * noise.max(64.0 * f64::EPSILON * amax);
+    let plus = eigen.iter().filter(|value| **value > least).count();
+    (plus, eigen.iter().filter(|value| **value < -least).count())
 }
 
 /// The symmetric matrix of the degree-two part of a series.

@@ -45,7 +45,7 @@ mod tests;
 
 pub use arrangement::linear_arrangement;
 pub use critical::is_irreducible_hypersurface;
-pub use definite::{isolated_by_leading_terms, quadratic_form, signature};
+pub use definite::{inertia, isolated_by_leading_terms, quadratic_form, signature};
 pub use dual_space::{ComplexDimension, complex_dimension};
 pub use reduction::Germ;
 pub use second_order::{PrestressCertificate, prestress_certificate};
