@@ -306,6 +306,8 @@ fn stays_multiple(
     if rounded {
         return Ok(far);
     }
+    // Short numbers leave little that is too small for double precision: there only a rank that is seen to be larger counts.
+    let short = far && tall <= TALL;
     let Some(bits) = LADDER.into_iter().find(|bits| *bits as usize >= 3 * tall) else {
         return Ok(false);
     };
@@ -322,19 +324,20 @@ fn stays_multiple(
     finer.advance_by(&mut there, &section.way_between(pose.states, states));
     let closing = finer.close(&mut there, &[], 200)?;
     if closing.residual > CLOSED_IN_MORE_DIGITS {
-        return Ok(false);
+        return Ok(short);
     }
     let here = jacobian(pose.mechanism, geometry, &there, start.part)?;
     let mut matrix = here.matrix;
     matrix.scale_columns();
     let accuracy = 10.0 * closing.residual.sqrt() + closing.rounding;
-    // What could be hidden in the last bits of the numbers has to be above it, and a thousandth of that too: a singular value
-    // is an offset times something. Of short numbers a quarter has to do, which is as far as directions in double precision lead.
-    let hidden = if tall > TALL { tall + 10 } else { TALL + 2 };
-    if accuracy > 0.5f64.powi(hidden as i32) {
-        return Ok(false);
+    let found = decide(&matrix, accuracy)?.nullity();
+    if short {
+        return Ok(found.is_none_or(|found| found >= freedom));
     }
-    Ok(decide(&matrix, accuracy)?.nullity() == Some(freedom))
+    // What could be hidden in the last bits of the numbers has to be above it, and a thousandth of that too: a singular value
+    // is an offset times something.
+    let seen = tall <= TALL || accuracy <= 0.5f64.powi(tall as i32 + 10);
+    Ok(seen && found == Some(freedom))
 }
 
 /// A double zero is found to so much only, because directions are computed in double precision.
