@@ -105,13 +105,16 @@ mod tests {
     fn joints_of_any_kind_are_fixed_where_they_are_drawn() {
         let mut builder = MechanismBuilder::new("arm");
         builder.link("ground").link("arm").link("rod").link("end");
-        for (name, kind, ends) in [
-            ("ball", JointKind::Spherical, ["ground", "arm"]),
-            ("reach", JointKind::Distance, ["arm", "rod"]),
-            ("pin", JointKind::Revolute, ["rod", "end"]),
-        ] {
-            builder.joint(JointBuilder::tree(name, kind, ends[0], ends[1]));
-        }
+        let reach = JointBuilder::tree("reach", JointKind::Distance, "arm", "rod");
+        builder
+            .joint(JointBuilder::tree(
+                "ball",
+                JointKind::Spherical,
+                "ground",
+                "arm",
+            ))
+            .joint(reach.distance(Number::integer(2)))
+            .joint(JointBuilder::tree("pin", JointKind::Revolute, "rod", "end"));
         let mechanism = builder.build().unwrap();
         let named = |name| mechanism.joint_named(name).unwrap();
         let fixed = mechanism.with_joints_fixed_as_drawn(&[named("ball"), named("reach")]);
