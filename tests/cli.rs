@@ -60,7 +60,7 @@ fn report_writes_json_that_is_the_same_every_time() {
     let again = kutzbach(&folder, &["report", "bar.urdf", "--format", "json"]);
     assert_eq!(once.stdout, again.stdout);
     let report: serde_json::Value = serde_json::from_slice(&once.stdout).unwrap();
-    assert_eq!(report["schema"], "kutzbach-report-1");
+    assert_eq!(report["schema"], "kutzbach-report-2");
     assert_eq!(report["kutzbach"], -2);
     assert_eq!(report["size"]["loops"], 1);
     assert!(report.get("timing").is_none());

@@ -146,3 +146,119 @@ fn two_hundred_random_four_bars_go_as_far_as_the_formulas_say() {
     });
     assert_none(&results.concat());
 }
+
+/// Linkages of textbooks: ground, crank, coupler and rocker. Fourteen are the rows of table P4-1 in R. L. Norton, Design of
+/// Machinery, chapter 4; the others have names of their own (the same book, chapter 3, on straight-line linkages and
+/// inversions): Hoeken's straight-line linkage, Galloway's deltoid, Watt's, Roberts's, a drag link and a parallelogram; row i has
+/// the proportions of Chebyshev's.
+#[test]
+fn the_linkages_of_textbooks_are_classed_and_go_as_far_as_the_formulas_say() {
+    use FourBarKind::{CrankRocker, DoubleCrank, DoubleRocker};
+    use GrashofClass::{ChangePoint, Grashof, NonGrashof};
+    let table: [(&str, [f64; 4], f64, GrashofClass, FourBarKind); 20] = [
+        ("P4-1 a", [6.0, 2.0, 7.0, 9.0], 30.0, Grashof, CrankRocker),
+        ("P4-1 b", [7.0, 9.0, 3.0, 8.0], 85.0, Grashof, DoubleRocker),
+        ("P4-1 c", [3.0, 10.0, 6.0, 8.0], 45.0, Grashof, DoubleCrank),
+        (
+            "P4-1 d",
+            [8.0, 5.0, 7.0, 6.0],
+            25.0,
+            ChangePoint,
+            CrankRocker,
+        ),
+        ("P4-1 e", [8.0, 5.0, 8.0, 6.0], 75.0, Grashof, CrankRocker),
+        ("P4-1 f", [5.0, 8.0, 8.0, 9.0], 15.0, Grashof, DoubleCrank),
+        ("P4-1 g", [6.0, 8.0, 8.0, 9.0], 25.0, Grashof, DoubleCrank),
+        (
+            "P4-1 h",
+            [20.0, 10.0, 10.0, 10.0],
+            50.0,
+            NonGrashof,
+            DoubleRocker,
+        ),
+        ("P4-1 i", [4.0, 5.0, 2.0, 5.0], 80.0, Grashof, DoubleRocker),
+        (
+            "P4-1 j",
+            [20.0, 10.0, 5.0, 10.0],
+            33.0,
+            NonGrashof,
+            DoubleRocker,
+        ),
+        (
+            "P4-1 k",
+            [4.0, 6.0, 10.0, 7.0],
+            88.0,
+            NonGrashof,
+            DoubleRocker,
+        ),
+        (
+            "P4-1 l",
+            [9.0, 7.0, 10.0, 7.0],
+            60.0,
+            NonGrashof,
+            DoubleRocker,
+        ),
+        (
+            "P4-1 m",
+            [9.0, 7.0, 11.0, 8.0],
+            50.0,
+            NonGrashof,
+            DoubleRocker,
+        ),
+        (
+            "P4-1 n",
+            [9.0, 7.0, 11.0, 6.0],
+            120.0,
+            NonGrashof,
+            DoubleRocker,
+        ),
+        ("Hoeken", [2.0, 1.0, 2.5, 2.5], 40.0, Grashof, CrankRocker),
+        (
+            "Galloway",
+            [2.0, 2.0, 4.0, 4.0],
+            60.0,
+            ChangePoint,
+            DoubleCrank,
+        ),
+        ("Watt", [4.0, 2.0, 1.0, 2.0], 20.0, NonGrashof, DoubleRocker),
+        (
+            "Roberts",
+            [2.0, 1.2, 1.0, 1.2],
+            70.0,
+            NonGrashof,
+            DoubleRocker,
+        ),
+        (
+            "drag link",
+            [1.0, 3.0, 2.5, 2.8],
+            50.0,
+            Grashof,
+            DoubleCrank,
+        ),
+        (
+            "parallelogram",
+            [4.0, 2.0, 4.0, 2.0],
+            50.0,
+            ChangePoint,
+            DoubleCrank,
+        ),
+    ];
+    let failed = in_parallel(&table, |&(name, lengths, crank, class, kind)| {
+        let Some(text) = drawn(lengths, crank.to_radians()) else {
+            return vec![format!("{name} does not close")];
+        };
+        let Some(bar) = report_on(&text).four_bars.into_iter().next() else {
+            return vec![format!("{name} is no four-bar")];
+        };
+        let mut all = Vec::new();
+        if (bar.class, bar.kind) != (class, kind) {
+            all.push(format!("{name}: {:?}, {:?}", bar.class, bar.kind));
+        }
+        // A change point is a singular pose of the motion, beyond which there are two.
+        if class != ChangePoint {
+            all.extend(wrong(&lengths, &text));
+        }
+        all
+    });
+    assert_none(&failed.concat());
+}

@@ -87,7 +87,7 @@ fn recorded(name: &str) -> Recorded {
         geometry: &geometry,
         source_name: "planar_four_bar.urdf",
         source: &source,
-        report: Some("{\"schema\": \"kutzbach-report-1\"}"),
+        report: Some("{\"schema\": \"kutzbach-report-2\"}"),
         facts: &facts,
         roles: &Roles::default(),
         simulated_at: Some([12.5, 0.0, -1.0]),
@@ -260,7 +260,7 @@ fn python_reads_what_was_recorded() {
     let text = String::from_utf8(recorded.source).unwrap();
     assert_eq!(answer["attachments"]["planar_four_bar.urdf"]["text"], text);
     let report = &answer["attachments"]["report.json"];
-    assert_eq!(report["text"], "{\"schema\": \"kutzbach-report-1\"}");
+    assert_eq!(report["text"], "{\"schema\": \"kutzbach-report-2\"}");
     assert_eq!(report["media_type"], "application/json");
     assert_eq!(answer["metadata"]["mobility"]["finite"], "1");
     assert_eq!(answer["log"][0]["message"], "größer als 0");

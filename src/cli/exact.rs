@@ -25,7 +25,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// Prove what holds at every pose: equations as polynomials, their Groebner basis, dimension, pieces
+/// Prove what holds at every pose: equations as polynomials, their Groebner basis, dimension, irreducible components
 #[derive(Debug, Args)]
 pub struct Arguments {
     #[command(flatten)]

@@ -55,7 +55,7 @@ pub struct Arguments {
         conflicts_with_all = ["substeps", "time_step"]
     )]
     accuracy: Option<f64>,
-    /// Seed of the blows that count freedoms
+    /// Seed of the random impulses that count degrees of freedom
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Spend about so many seconds of work on the verification, counted in steps and not by the clock, so that the answer

@@ -12,6 +12,7 @@ mod answer;
 mod components;
 mod engine;
 mod factor;
+mod over_field;
 mod polynomial;
 mod strategy;
 mod system;
@@ -34,6 +35,7 @@ pub use engine::{
     local_dimension_is_at_most, local_dimension_modulo, quotient, radical_contains, saturate,
 };
 pub use factor::{Factorization, UnivariateFactors, factor};
+pub use over_field::{FieldPolynomial, OverRationals, RealSet};
 pub use polynomial::{Polynomial, Rational};
 pub use strategy::{
     Case, Divided, Group, Incremental, Instance, Problem, Relation, RelationFinding,

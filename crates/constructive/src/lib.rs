@@ -11,6 +11,7 @@
 //! | [`analysis`] | three ways to find out whether a graph is constructive: reduction, decomposition, s-tree |
 //! | [`sketch`] | points, lines, and what holds between them |
 //! | [`construction`] | every solution, step by step |
+//! | [`together`] | what circles and lines do not construct, solved at once |
 //! | [`planar`] | planar mechanisms as sketches |
 //! | [`redundancy`] | whether a constraint too many agrees with the others |
 //! | [`words`], [`picture`], [`tree_picture`] | the answers as text, data, graph and pictures |
@@ -28,5 +29,6 @@ pub mod planar;
 pub mod redundancy;
 pub mod samples;
 pub mod sketch;
+pub mod together;
 pub mod tree_picture;
 pub mod words;

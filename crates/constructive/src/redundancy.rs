@@ -45,10 +45,13 @@ pub fn redundancy(sketch: &Sketch, circuit: &Circuit, refused: &[usize]) -> Redu
     let Ok(others) = Sketch::new(elements, constraints.collect()) else {
         return Redundancy::Unknown;
     };
-    let rigid = sketch.rigid_triangles().filter_map(|&(three, places)| {
-        let [a, b, c] = three.map(local);
-        Some(([a?, b?, c?], places))
-    });
+    let rigid = sketch
+        .rigid_triangles()
+        .into_iter()
+        .filter_map(|(three, places)| {
+            let [a, b, c] = three.map(local);
+            Some(([a?, b?, c?], places))
+        });
     let others = others.with_rigid(rigid.collect());
     let Ok(construction) = Construction::new(&others) else {
         return Redundancy::Unknown;

@@ -20,7 +20,7 @@ pub enum Element {
 }
 
 impl Element {
-    const fn is_line(&self) -> bool {
+    pub(crate) const fn is_line(&self) -> bool {
         matches!(self, Self::Line { .. })
     }
 }
@@ -80,6 +80,8 @@ pub struct Sketch {
     graph: Graph,
     /// Three elements, ascending, with a kept order and how they lie to each other.
     rigid: HashMap<[usize; 3], Triangle>,
+    /// Whether values are known to rounding only.
+    rounded: bool,
 }
 
 /// Three elements and how they lie to each other.
@@ -124,6 +126,7 @@ impl Sketch {
             constraints,
             graph,
             rigid: HashMap::new(),
+            rounded: false,
         })
     }
 
@@ -139,6 +142,16 @@ impl Sketch {
         self
     }
 
+    /// The same sketch with values that are known to rounding only: whether circles touch is then not decided by them.
+    pub(crate) fn known_to_rounding(mut self) -> Self {
+        self.rounded = true;
+        self
+    }
+
+    pub(crate) const fn is_known_to_rounding(&self) -> bool {
+        self.rounded
+    }
+
     /// How three elements lie to each other in a body that has them, in the order asked for.
     pub(crate) fn rigid(&self, elements: [usize; 3]) -> Option<[Element; 3]> {
         let mut sorted = elements;
@@ -150,8 +163,10 @@ impl Sketch {
     }
 
     /// The triangles of rigid bodies, and how they lie in these.
-    pub(crate) fn rigid_triangles(&self) -> impl Iterator<Item = &Triangle> {
-        self.rigid.values()
+    pub(crate) fn rigid_triangles(&self) -> Vec<Triangle> {
+        let mut all: Vec<Triangle> = self.rigid.values().copied().collect();
+        all.sort_unstable_by_key(|(elements, _)| *elements);
+        all
     }
 
     /// The elements.

@@ -1,10 +1,11 @@
 //! What is known of a sketch as text, data and graph.
 
 use crate::analysis::{LeafKind, Node, STree, s_tree};
-use crate::construction::{Construction, NotConstructive, Outcome};
+use crate::construction::{Construction, NotConstructive, Outcome, Shape};
 use crate::pebbles::{Circuit, PebbleGame, Standing};
 use crate::redundancy::{Redundancy, redundancy};
 use crate::sketch::{Element, NamedSketch};
+use crate::together::{Core, CoreOutcome, Placed, Together, together};
 use crate::tree_picture::tree_svg;
 use kutzbach_model::graph::{ConstraintGraph, EdgeSpec, NodeSpec};
 use serde_json::{Value, json};
@@ -20,16 +21,22 @@ pub struct SketchWords<'a> {
     game: PebbleGame,
     tree: STree,
     construction: Result<Construction<'a>, NotConstructive>,
+    /// Of a well-constrained sketch that is not constructed by circles and lines alone.
+    together: Option<Together>,
 }
 
 impl<'a> SketchWords<'a> {
-    /// Plays the pebble game, builds the s-tree and the order of construction.
+    /// Plays the pebble game, builds the s-tree and the order of construction; what is not constructed is solved at once.
     #[must_use]
     pub fn of(named: &'a NamedSketch) -> Self {
+        let tree = s_tree(named.sketch.graph());
+        let construction = Construction::new(&named.sketch);
+        let hard = matches!(construction, Err(NotConstructive::Clusters(_)));
         Self {
             game: PebbleGame::play(named.sketch.graph()),
-            tree: s_tree(named.sketch.graph()),
-            construction: Construction::new(&named.sketch),
+            together: hard.then(|| together(&named.sketch, &tree)),
+            tree,
+            construction,
             named,
         }
     }
@@ -128,6 +135,7 @@ impl<'a> SketchWords<'a> {
                 let all = self.tree.leaves(LeafKind::Triconnected);
                 lines.extend(hard.take(MOST_LISTED));
                 more(&mut lines, all);
+                lines.extend(self.solved_together());
                 return lines;
             }
             Err(_) => return Vec::new(),
@@ -169,6 +177,55 @@ impl<'a> SketchWords<'a> {
         }));
         more(&mut lines, open.len());
         lines
+    }
+
+    /// What was solved at once, and what it makes in all.
+    fn solved_together(&self) -> Vec<String> {
+        let Some(together) = &self.together else {
+            return Vec::new();
+        };
+        if together.cores.is_empty() {
+            return vec!["solutions: not known, no part of it can be solved by itself".to_owned()];
+        }
+        let mut lines: Vec<String> = together.cores.iter().map(|c| self.core(c)).collect();
+        lines.push(match together.total {
+            Some(total) => format!("solutions: {total}"),
+            None => "solutions: not known".to_owned(),
+        });
+        lines
+    }
+
+    fn core(&self, core: &Core) -> String {
+        let size = core
+            .size
+            .map_or_else(String::new, |[unknowns, equations, degree]| {
+                format!(
+                    ", {} in {} of degree {degree} at most",
+                    plural(equations, "equation"),
+                    plural(unknowns, "unknown")
+                )
+            });
+        let came = match &core.outcome {
+            CoreOutcome::Solved { complex, places } => {
+                let double = places.iter().filter(|p| p.multiplicity > 1).count();
+                let double = match double {
+                    0 => String::new(),
+                    some => format!(", {some} of them multiple"),
+                };
+                let complex =
+                    complex.map_or_else(String::new, |c| format!(", {c} over the complex numbers"));
+                format!(
+                    "{}{double}, and no other, by exact algebra{complex}",
+                    plural(places.len(), "place")
+                )
+            }
+            CoreOutcome::Infinite => "infinitely many places: it moves".to_owned(),
+            CoreOutcome::Open(why) => format!("not decided: {why}"),
+        };
+        format!(
+            "solved at once: {}{size}: {came}",
+            self.list(&core.elements)
+        )
     }
 
     fn step(&self, construction: &Construction<'_>, step: usize, outcome: &Outcome) -> String {
@@ -265,6 +322,7 @@ impl<'a> SketchWords<'a> {
         };
         let construction = self.construction.as_ref().ok();
         let count = construction.map(Construction::count);
+        let total = self.together.as_ref().and_then(|t| t.total);
         let steps = construction.map(|c| {
             let outcomes = c.outcomes(c.drawn_left());
             let reached = reached(&outcomes);
@@ -290,12 +348,45 @@ impl<'a> SketchWords<'a> {
             "rigid_parts": parts,
             "constructive": self.tree.solved,
             "triconnected": self.tree.leaves(LeafKind::Triconnected),
-            "solutions": count.as_ref().map(ToString::to_string),
-            "solutions_complete": count.as_ref().map(|c| c.complete),
+            "solved_at_once": self.together.iter().flat_map(|t| &t.cores).map(|c| self.core_data(c)).collect::<Vec<Value>>(),
+            "solutions": count.as_ref().map(ToString::to_string).or_else(|| total.map(|t| t.to_string())),
+            "solutions_complete": count.as_ref().map(|c| c.complete).or_else(|| total.map(|t| t.all)),
             "solutions_degenerate": count.as_ref().map(|c| c.degenerate),
             "solutions_infinite": count.as_ref().map(|c| c.infinite),
             "steps": steps,
         })
+    }
+
+    fn core_data(&self, core: &Core) -> Value {
+        let names: Vec<&str> = core
+            .elements
+            .iter()
+            .map(|&e| &*self.named.names[e])
+            .collect();
+        let [unknowns, equations, degree] = match core.size {
+            Some(size) => size.map(Some),
+            None => [None; 3],
+        };
+        let shape = |s: &Shape| match s {
+            Shape::Point(p) => json!(p),
+            Shape::Line { direction, offset } => {
+                json!({ "direction": direction, "offset": offset })
+            }
+        };
+        let (outcome, complex, places, why) = match &core.outcome {
+            CoreOutcome::Solved { complex, places } => ("solved", *complex, Some(places), None),
+            CoreOutcome::Infinite => ("infinite", None, None, None),
+            CoreOutcome::Open(why) => ("open", None, None, Some(why)),
+        };
+        let places = places.map(|all| {
+            let place = |p: &Placed| {
+                let shapes: Vec<Value> = p.shapes.iter().map(shape).collect();
+                json!({ "at": shapes, "multiplicity": p.multiplicity })
+            };
+            all.iter().map(place).collect::<Vec<Value>>()
+        });
+        json!({ "elements": names, "unknowns": unknowns, "equations": equations, "degree": degree, "outcome": outcome,
+            "complex": complex, "places": places, "why": why })
     }
 
     /// The s-tree as a graph whose node 0 is its root, for pictures; edges to sides with a virtual edge say so.

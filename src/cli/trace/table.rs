@@ -98,9 +98,9 @@ pub fn text(mechanism: &Mechanism, trace: &Trace, points: &[LinkPoint]) -> Strin
     ));
     line(String::new());
     if motion.events.is_empty() {
-        line("Met on the way: nothing".to_owned());
+        line("Events: none".to_owned());
     } else {
-        line("Met on the way".to_owned());
+        line("Events".to_owned());
         let rows: Vec<Vec<String>> = std::iter::once(vec![
             "arclength".to_owned(),
             motion.driven.name.clone(),
@@ -127,7 +127,7 @@ pub fn text(mechanism: &Mechanism, trace: &Trace, points: &[LinkPoint]) -> Strin
         "to",
         "travel",
         "turns",
-        "dead centres",
+        "extreme positions",
     ];
     let rows: Vec<Vec<String>> = std::iter::once(header.map(str::to_owned).to_vec())
         .chain(motion.ranges.iter().map(|range| {

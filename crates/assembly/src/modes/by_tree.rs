@@ -1,12 +1,12 @@
 //! Configurations by the equations of an incidence tree.
 
-use super::exact::{Exact, decide};
+use super::exact::decide;
 use super::{Complete, Configuration, Modes, Way, place, rounded};
 use crate::placed::{Placed, Unsuited};
 use crate::real::{real_solutions, stays};
 use crate::reduced::ReducedSystem;
 use crate::words::count;
-use kutzbach_algebra::{Budget, Limits};
+use kutzbach_algebra::{Budget, Limits, RealSet};
 use kutzbach_model::mechanism::Mechanism;
 
 /// What came of it.
@@ -120,7 +120,7 @@ pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
         return Outcome::Modes(Box::new(modes), stays);
     }
     match decide(&system, budget) {
-        Ok(Exact::Finite(all)) => {
+        Ok(RealSet::Finite { real: all, .. }) => {
             modes.configurations = all
                 .iter()
                 .map(|(u, m)| configuration(u, *m, true))
@@ -130,7 +130,7 @@ pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
                 *exact = true;
             }
         }
-        Ok(Exact::Curve(dimension)) => {
+        Ok(RealSet::Dimension(dimension)) => {
             modes.moves = Some(dimension);
             modes.complete = Complete::Unknown(format!(
                 "infinitely many: the configurations form a set of dimension {dimension}"
@@ -139,7 +139,7 @@ pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
                 *exact = true;
             }
         }
-        Ok(Exact::Unclear) => {
+        Ok(RealSet::Unclear) => {
             modes.moves = None;
             modes.complete = Complete::Unknown(
                 "infinitely many complex solutions; which real ones there are is not known"

@@ -1,6 +1,6 @@
 //! Which polynomials are linear combinations of others.
 
-use super::poly::Poly;
+use super::Poly;
 use kutzbach_algebra::NumberField;
 
 /// Polynomials in echelon form: every one has a term that no other has.

@@ -4,7 +4,7 @@
 //! basis of one side, the height on it and their product, whose vectors are perpendicular and not of length one, everything
 //! is rational in the squares of the sides. So a body's basis may have any lengths, and products take account of them.
 
-use super::poly::Poly;
+use super::Poly;
 use kutzbach_algebra::{FieldElement, NumberField};
 use std::collections::BTreeMap;
 

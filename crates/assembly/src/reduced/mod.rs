@@ -14,11 +14,10 @@ mod closures;
 mod export;
 mod independent;
 mod local;
-mod poly;
 mod turn;
 
 pub use export::Exported;
-pub use poly::Poly;
+pub use kutzbach_algebra::FieldPolynomial as Poly;
 pub use turn::Unknowns;
 
 use crate::collection::{Collection, with_triangles};

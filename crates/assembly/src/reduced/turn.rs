@@ -6,8 +6,8 @@
 //! x = (|u|/|u'|) cos, y = (|u|/|u'||e|) sin. Every coordinate is linear in x and y, a half angle would make it a quotient of
 //! degree two. *One point.* A quaternion of length one; coordinates are quadratic in it.
 
+use super::Poly;
 use super::local::{Constant, Local, Vector, minus, sum};
-use super::poly::Poly;
 use kutzbach_algebra::{FieldElement, NumberField};
 
 /// The unknowns of an edge of the tree.

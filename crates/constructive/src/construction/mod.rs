@@ -36,6 +36,7 @@ pub use count::Count;
 pub use shape::Shape;
 pub use solutions::Solutions;
 pub use third::Outcome;
+pub(crate) use third::drawn_side;
 
 use crate::analysis::{Reduction, reduce};
 use crate::pebbles::{Circuit, PebbleGame};
@@ -233,6 +234,9 @@ impl<'a> Construction<'a> {
 
     fn carried(&self, left: &[bool]) -> frame::Carried {
         let mut carried = frame::carry_out(&self.plan, self.frames.clone(), |step| left[step]);
+        if self.sketch.is_known_to_rounding() {
+            return carried;
+        }
         let derived = derived::Derived {
             sketch: self.sketch,
             merges: &self.reduction.merges,

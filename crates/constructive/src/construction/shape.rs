@@ -19,7 +19,7 @@ pub enum Shape {
 
 impl Shape {
     /// Where an element is drawn.
-    pub(super) fn drawn(element: &Element) -> Self {
+    pub(crate) fn drawn(element: &Element) -> Self {
         match *element {
             Element::Point(p) => Self::Point(p),
             Element::Line { through, direction } => {

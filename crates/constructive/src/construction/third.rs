@@ -284,7 +284,7 @@ fn common_tangent(step: &Third<'_>, points: [[f64; 2]; 2], [h, k]: [f64; 2]) -> 
 }
 
 /// On which side the third is drawn, of two places; zero where the drawing cannot tell.
-pub(super) fn drawn_side(placed: [&Shape; 2], shape: &Shape) -> f64 {
+pub(crate) fn drawn_side(placed: [&Shape; 2], shape: &Shape) -> f64 {
     match (placed.map(|s| *s), *shape) {
         ([Shape::Point(p), Shape::Point(q)], Shape::Point(y)) => cross(minus(q, p), minus(y, p)),
         (

@@ -5,11 +5,11 @@ use crate::sketch::{Constraint, Element};
 use kutzbach_math::number::Number;
 
 /// Exact coordinates in the plane.
-pub(super) type Pair = [Number; 2];
+pub(crate) type Pair = [Number; 2];
 
 /// A point, or a point of a line and its direction.
 #[derive(Clone, Debug)]
-pub(super) enum Exact {
+pub(crate) enum Exact {
     Point(Pair),
     Line(Pair, Pair),
 }
@@ -27,7 +27,7 @@ fn cross(a: &Pair, b: &Pair) -> Number {
 }
 
 impl Exact {
-    pub(super) fn drawn(&self) -> Element {
+    pub(crate) fn drawn(&self) -> Element {
         let value = |p: &Pair| [p[0].value(), p[1].value()];
         match self {
             Self::Point(p) => Element::Point(value(p)),
@@ -38,12 +38,12 @@ impl Exact {
         }
     }
 
-    pub(super) const fn is_line(&self) -> bool {
+    pub(crate) const fn is_line(&self) -> bool {
         matches!(self, Self::Line(..))
     }
 
     /// Whether both are at the same place: points in one place, lines of one direction on each other.
-    pub(super) fn same(&self, other: &Self) -> bool {
+    pub(crate) fn same(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Point(p), Self::Point(q)) => minus(p, q).iter().all(Number::is_zero),
             (Self::Line(p, a), Self::Line(q, b)) => {
@@ -53,12 +53,12 @@ impl Exact {
         }
     }
 
-    pub(super) fn parallel(&self, other: &Self) -> bool {
+    pub(crate) fn parallel(&self, other: &Self) -> bool {
         matches!((self, other), (Self::Line(_, a), Self::Line(_, b)) if cross(a, b).is_zero())
     }
 
     /// How far from each other two are that should be at the same place, in words.
-    pub(super) fn gap(&self, other: &Self) -> String {
+    pub(crate) fn gap(&self, other: &Self) -> String {
         let value = |p: &Pair| p.clone().map(|x| x.value());
         match (self, other) {
             (Self::Line(p, a), Self::Line(q, b))
@@ -96,14 +96,14 @@ impl Exact {
 
 /// What a body asks for.
 #[derive(Default)]
-pub(super) struct Held {
-    pub(super) constraints: Vec<Constraint>,
+pub(crate) struct Held {
+    pub(crate) constraints: Vec<Constraint>,
     /// Three elements each, and how they lie in the body.
-    pub(super) triangles: Vec<([usize; 3], [Element; 3])>,
+    pub(crate) triangles: Vec<([usize; 3], [Element; 3])>,
 }
 
 /// Ties the first two elements, and every other one to two that are tied already; `None` where only lines are left.
-pub(super) fn hold(elements: &[(usize, Exact)]) -> Option<Held> {
+pub(crate) fn hold(elements: &[(usize, Exact)]) -> Option<Held> {
     let mut held = Held::default();
     let mut tied: Vec<[usize; 2]> = Vec::new();
     // Points first: any of them hold each other.

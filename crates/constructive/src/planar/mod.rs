@@ -13,7 +13,7 @@ mod places;
 
 use crate::sketch::{Element, NamedSketch, Sketch, SketchError};
 use bodies::Bodies;
-use body::Exact;
+pub(crate) use body::{Exact, hold};
 use kutzbach_model::mechanism::{JointKind, Mechanism};
 use places::View;
 use thiserror::Error;

@@ -351,9 +351,9 @@ fn legend(svg: &mut String, ways: &[Way]) {
 
 /// What a way says, in words.
 fn claim_text(way: &Way) -> String {
-    let clear = way.decades.map_or(String::new(), |d| {
-        format!(", clear by {d:.0} powers of ten")
-    });
+    let clear = way
+        .decades
+        .map_or(String::new(), |d| format!(", margin of {d:.0} decades"));
     let certificate = way.certificate.map_or(String::new(), |level| {
         format!(", {} certificate", level.word())
     });

@@ -150,7 +150,7 @@ fn a_report_survives_json() {
         samples::hostile(),
     ] {
         let json = serde_json::to_string(&report).unwrap();
-        assert!(json.starts_with("{\"schema\":\"kutzbach-report-1\",\"mechanism\":"));
+        assert!(json.starts_with("{\"schema\":\"kutzbach-report-2\",\"mechanism\":"));
         let back: crate::Report = serde_json::from_str(&json).unwrap();
         assert_eq!(page(&back), page(&report));
         assert_eq!(back, report);

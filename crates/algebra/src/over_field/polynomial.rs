@@ -1,13 +1,13 @@
-//! Polynomials in the unknowns of a tree, over the field of the mechanism's numbers.
+//! Polynomials over a number field.
 
-use kutzbach_algebra::{FieldElement, NumberField};
+use crate::system::{FieldElement, NumberField};
 use std::collections::BTreeMap;
 
-/// A sparse polynomial; exponents by unknown, without zeros at the end.
+/// A sparse polynomial with coefficients in a [`NumberField`]; exponents by unknown, without zeros at the end.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
-pub struct Poly(BTreeMap<Vec<u8>, FieldElement>);
+pub struct FieldPolynomial(BTreeMap<Vec<u8>, FieldElement>);
 
-impl Poly {
+impl FieldPolynomial {
     /// A constant.
     #[must_use]
     pub fn constant(value: FieldElement) -> Self {

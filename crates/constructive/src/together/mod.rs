@@ -1,0 +1,181 @@
+//! What circles and lines do not construct: its elements are placed all at once, by exact algebra, and the construction goes on
+//! from there.
+//!
+//! # The problem
+//! K₃,₃ and the prism are rigid and have no triangle to begin with: any place of any element depends on all constraints. There are
+//! finitely many solutions at generic values, and all of them are wanted: 16 over the complex numbers for K₃,₃, 24 for the prism.
+//!
+//! # How
+//! A *core* is such a part whose constraints are all given: a triconnected leaf of the s-tree whose edges are all constraints, or else what is
+//! left of the sketch when elements of two constraints are taken off one after the other. With one constraint pinned to the axes its
+//! equations are polynomials with exact coefficients, of which all real solutions are found with proof. Each of them makes the core
+//! one rigid body, on which the rest is constructed as usual; the numbers of solutions add up.
+//!
+//! # What it costs
+//! With D complex solutions about D³ operations; a limit on work, the same on every machine, ends in an answer that says so. A core that
+//! needs the lengths between elements of other parts takes these parts in, and grows with them.
+//!
+//! Source: R. Soto i Riera (2002) names what is left over; counts by J. Capco, M. Gallet, G. Grasegger, C. Koutschan, N. Lubbes, J.
+//! Schicho, "The number of realizations of a Laman graph" (2018).
+
+mod part;
+mod system;
+
+pub use part::{Core, CoreOutcome, Placed};
+
+use crate::analysis::STree;
+use crate::construction::{Construction, Shape};
+use crate::planar::hold;
+use crate::sketch::{Constraint, Element, Sketch};
+use kutzbach_algebra::{Budget, Limits};
+use kutzbach_math::number::Number;
+
+/// Matrix entries that one core may take.
+const WORK: u64 = 200_000_000;
+
+/// Combinations of the cores' solutions that are constructed on; beyond that the number of solutions is a lower bound.
+const MOST_COMBINATIONS: usize = 256;
+
+/// A sketch that is not constructed by circles and lines alone, solved as far as it goes.
+#[derive(Clone, Debug)]
+pub struct Together {
+    /// The parts that were solved at once.
+    pub cores: Vec<Core>,
+    /// How many solutions the sketch has; `None` where a core or what stands on it was not solved.
+    pub total: Option<Total>,
+}
+
+/// A number of solutions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Total {
+    /// So many, or at least so many.
+    pub least: u128,
+    /// Whether these are all.
+    pub all: bool,
+}
+
+impl std::fmt::Display for Total {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let bound = if self.all { "" } else { "at least " };
+        write!(f, "{bound}{}", self.least)
+    }
+}
+
+/// Solves the cores of a well-constrained sketch that does not reduce to one cluster, and counts what stands on them.
+#[must_use]
+pub fn together(sketch: &Sketch, tree: &STree) -> Together {
+    for cores in [part::leaves(sketch, tree), part::peeled(sketch)] {
+        if cores.is_empty() || !reduces(sketch, &cores) {
+            continue;
+        }
+        let budget = || {
+            Budget::new(Limits {
+                work: Some(WORK),
+                ..Limits::default()
+            })
+        };
+        let cores: Vec<Core> = cores
+            .into_iter()
+            .map(|elements| Core::solved(sketch, elements, &budget()))
+            .collect();
+        let total = total(sketch, &cores);
+        return Together { cores, total };
+    }
+    Together {
+        cores: Vec::new(),
+        total: None,
+    }
+}
+
+/// Whether the rest is constructed once these are rigid.
+fn reduces(sketch: &Sketch, cores: &[Vec<usize>]) -> bool {
+    let drawn = |core: &Vec<usize>| {
+        let shapes = core.iter().map(|&e| Shape::drawn(&sketch.elements()[e]));
+        (core.clone(), shapes.collect())
+    };
+    let cores: Vec<(Vec<usize>, Vec<Shape>)> = cores.iter().map(drawn).collect();
+    with_bodies(sketch, &cores).is_some_and(|s| Construction::new(&s).is_ok())
+}
+
+fn total(sketch: &Sketch, cores: &[Core]) -> Option<Total> {
+    let mut total = Total {
+        least: 0,
+        all: true,
+    };
+    let places: Vec<&[Placed]> = cores.iter().map(Core::places).collect::<Option<_>>()?;
+    let mut next = vec![0; cores.len()];
+    if places.iter().any(|p| p.is_empty()) {
+        return Some(total);
+    }
+    for _ in 0..MOST_COMBINATIONS {
+        let bodies: Vec<(Vec<usize>, Vec<Shape>)> = cores
+            .iter()
+            .zip(&places)
+            .zip(&next)
+            .map(|((core, places), &k)| (core.elements.clone(), places[k].shapes.clone()))
+            .collect();
+        let sketch = with_bodies(sketch, &bodies)?;
+        let count = Construction::new(&sketch).ok()?.count();
+        let sure = match count.between {
+            Some([least, _]) => Some(least),
+            None => count.value(),
+        };
+        total.all &= sure.is_some()
+            && count.complete
+            && !count.degenerate
+            && !count.infinite
+            && count.between.is_none();
+        total.least = total.least.checked_add(sure?)?;
+        let advanced = next.iter_mut().zip(&places).rev().any(|(digit, places)| {
+            *digit = (*digit + 1) % places.len();
+            *digit != 0
+        });
+        if !advanced {
+            return Some(total);
+        }
+    }
+    total.all = false;
+    Some(total)
+}
+
+/// The sketch with these elements as rigid bodies, at shapes that are known to rounding; `None` where a body has no points to
+/// hold it.
+fn with_bodies(sketch: &Sketch, bodies: &[(Vec<usize>, Vec<Shape>)]) -> Option<Sketch> {
+    let inside = |elements: &[usize]| {
+        bodies
+            .iter()
+            .any(|(body, _)| elements.iter().all(|e| body.contains(e)))
+    };
+    let kept = sketch.constraints().iter().filter(|c| !inside(&c.ends));
+    let mut constraints: Vec<Constraint> = kept.cloned().collect();
+    let kept = sketch.rigid_triangles().into_iter();
+    let mut triangles: Vec<([usize; 3], [Element; 3])> =
+        kept.filter(|(three, _)| !inside(three)).collect();
+    for (elements, shapes) in bodies {
+        let exact = elements.iter().zip(shapes);
+        let held: Vec<_> = exact
+            .map(|(&e, shape)| Some((e, exact_shape(shape)?)))
+            .collect::<Option<_>>()?;
+        let held = hold(&held)?;
+        constraints.extend(held.constraints);
+        triangles.extend(held.triangles);
+    }
+    let result = Sketch::new(sketch.elements().to_vec(), constraints).ok()?;
+    Some(result.with_rigid(triangles).known_to_rounding())
+}
+
+/// The place as exact numbers, to take lengths from.
+fn exact_shape(shape: &Shape) -> Option<crate::planar::Exact> {
+    let pair = |[x, y]: [f64; 2]| Some([Number::from_f64(x)?, Number::from_f64(y)?]);
+    Some(match *shape {
+        Shape::Point(p) => crate::planar::Exact::Point(pair(p)?),
+        Shape::Line { direction, offset } => {
+            let through = [-direction[1] * offset, direction[0] * offset];
+            crate::planar::Exact::Line(pair(through)?, pair(direction)?)
+        }
+    })
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;

@@ -1,0 +1,82 @@
+//! Where a mechanism was read, how large it is, and how long its analysis took.
+
+use serde::{Deserialize, Serialize};
+
+/// Where a mechanism was read, and how precisely its geometry is stated.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Source {
+    /// The file as named by the caller.
+    pub file: String,
+    /// Its format, such as `urdf`.
+    pub format: String,
+    /// The most decimals of any literal in the geometry; `null` where there is no literal to round.
+    pub digits: Option<i32>,
+    /// Whether every number is taken as exact (D13).
+    pub exact: bool,
+    /// How well the literals were said to be known (m, rad), where that was said by hand instead of by digits.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub precision: Option<f64>,
+    /// Literals that were read as the constants they are within their own digits, where there are such.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub constants: Option<Constants>,
+}
+
+/// Literals that were read as constants, such as `1.5707963267948966` as π/2.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Constants {
+    /// How many.
+    pub count: usize,
+    /// Each constant once, with the first literal that was read so.
+    pub readings: Vec<LiteralReading>,
+}
+
+/// A literal and what it was read as.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct LiteralReading {
+    /// The text in the file.
+    pub literal: String,
+    /// The constant, such as `π/2`.
+    pub read_as: String,
+}
+
+/// How large a mechanism is.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Size {
+    /// Links, the ground included.
+    pub links: usize,
+    /// Joints, those that close loops included.
+    pub joints: usize,
+    /// Independent loops: joints − links + connected parts.
+    pub loops: usize,
+    /// Couplings, `mimic` included.
+    pub couplings: usize,
+    /// Sum of the joint freedoms.
+    pub freedoms: usize,
+}
+
+/// What remains of the count when the geometry is arbitrary.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct GenericCount {
+    /// Freedoms at random geometry.
+    pub mobility: usize,
+    /// Dependent equations at random geometry.
+    pub redundant: i64,
+}
+
+/// How long an analysis took.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Timing {
+    /// All of it, in milliseconds.
+    pub total_ms: f64,
+    /// Its stages, in the order they ran.
+    pub stages: Vec<Stage>,
+}
+
+/// How long one stage took.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Stage {
+    /// The stage.
+    pub name: String,
+    /// Milliseconds.
+    pub ms: f64,
+}
