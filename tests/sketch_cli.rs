@@ -184,3 +184,49 @@ fn a_link_with_parallel_sliders_only_is_refused() {
     );
     assert!(mechanism("0 1 0").is_ok());
 }
+
+/// Too long for every commit.
+mod corpus {
+    use super::said;
+    use crate::support::{folder, in_parallel, mechanism_files};
+    use serde_json::Value;
+
+    /// Joints held, and how many configurations `assemble` proves there are; `None` where it does not.
+    fn proven(file: &str) -> Option<(Vec<String>, usize)> {
+        let answer: Value =
+            serde_json::from_str(&said(&["assemble", file, "--format", "json"])).ok()?;
+        let held = answer["held"].as_object()?.iter();
+        let held = held.map(|(joint, value)| format!("--hold={joint}={value}"));
+        let all = answer["solutions"].as_array()?.len();
+        (answer["complete"] == "proven").then(|| (held.collect(), all))
+    }
+
+    /// Different solvers on different equations: interval subdivision and exact algebra along an incidence tree, constructions by
+    /// circles and lines, exact algebra in coordinates.
+    #[test]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
+    fn planar_mechanisms_have_as_many_solutions_as_configurations_are_proven() {
+        let files: Vec<String> = ["mechanisms", "tests/zoo"]
+            .iter()
+            .flat_map(|path| mechanism_files(&folder(path)))
+            .map(|(_, path)| path.display().to_string())
+            .filter(|file| {
+                let read = kutzbach::format::read_file(file, &[]).unwrap();
+                kutzbach::constructive::planar::sketch(&read.mechanism).is_ok()
+            })
+            .collect();
+        let compared = in_parallel(&files, |file| {
+            let (held, configurations) = proven(file)?;
+            let mut arguments = vec!["graph", file, "--constructive", "--format", "json"];
+            arguments.extend(held.iter().map(String::as_str));
+            let sketch: Value = serde_json::from_str(&said(&arguments)).ok()?;
+            let solutions: usize = sketch["solutions"].as_str()?.parse().ok()?;
+            Some((file.clone(), configurations, solutions))
+        });
+        let known: Vec<_> = compared.into_iter().flatten().collect();
+        assert!(known.len() >= 35, "only {} were compared", known.len());
+        for (file, configurations, solutions) in known {
+            assert_eq!(configurations, solutions, "{file}");
+        }
+    }
+}

@@ -239,9 +239,7 @@ mod corpus {
             let outcome = compared(&drawn.name, &drawn.mechanism(), &drawn.known);
             (drawn.name.clone(), outcome)
         });
-        // Complex branches of dimension 2 of which only a curve is real; two branches of which spheres small enough for the search show
-        // one.
-        assert_answers(outcomes, &["peaucellier_rhombus_flat", "ball_cong_0_6"]);
+        assert_answers(outcomes, &[]);
     }
 
     #[test]

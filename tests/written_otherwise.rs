@@ -167,6 +167,20 @@ fn compare(count: usize) {
     assert_none(&wrong.concat());
 }
 
+/// Sixteen levers of 10 : 1, the last one welded: a rank that doubles do not show, whatever pieces the links are welded of.
+#[test]
+fn levers_cut_into_welded_pieces_stay_as_rigid_as_they_are() {
+    let path = folder("tests/zoo2").join("levers_16_welded.urdf");
+    let mechanism = kutzbach::format::read_file(path, &[]).unwrap().mechanism;
+    for changes in [32, 36] {
+        let (draft, _) = rewritten(&Draft::of(&mechanism), changes);
+        let found = analysis(&draft.build());
+        let instantaneous = found.home.as_ref().and_then(|h| h.instantaneous);
+        assert_ne!(instantaneous, Some(1), "changes {changes:06b}");
+        assert_eq!(found.mobility.finite(), Some(0), "changes {changes:06b}");
+    }
+}
+
 /// Too long for every commit.
 mod corpus {
     #[test]

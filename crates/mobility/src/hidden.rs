@@ -8,7 +8,7 @@
 use super::pose_rank::PartRank;
 use kutzbach_closure::{Geometry, Part};
 use kutzbach_math::matrix::{MatrixError, NullVectors, RankDecision, SparseMatrix, null_vectors};
-use kutzbach_model::mechanism::Mechanism;
+use kutzbach_model::mechanism::{JointKind, Mechanism};
 use std::collections::BTreeSet;
 
 /// Bits of ratios that leave double precision enough to separate a singular value from rounding.
@@ -19,6 +19,9 @@ const USUAL_ARMS: f64 = 1.0;
 
 /// Of so many loops with a joint at rest double precision sees every contact a radian away; each one more squares what is left over.
 const LOOPS_IN_DOUBLE: usize = 3;
+
+/// Places closer than this share of their distances from a frame's origin are one.
+const SAME_PLACE: f64 = 1e-13;
 
 /// A joint whose share of a unit kernel vector is smaller is at rest.
 const AT_REST: f64 = 1e-6;
@@ -37,7 +40,7 @@ pub(super) fn bits_for_ratios(
     let loops = part
         .cycles
         .iter()
-        .map(|cycle| (bits_between(arms(geometry, cycle)) - USUAL_ARMS).max(0.0));
+        .map(|cycle| (bits_between(arms(mechanism, geometry, cycle)) - USUAL_ARMS).max(0.0));
     let bits = couplings.chain(loops).sum::<f64>() as usize;
     (bits > RATIO_IN_DOUBLE).then_some(bits + 53)
 }
@@ -56,16 +59,42 @@ fn bits_between(numbers: impl Iterator<Item = f64>) -> f64 {
     }
 }
 
-/// Distances between the joints that follow each other on a loop (m).
-fn arms(geometry: &Geometry<f64>, cycle: &[(usize, bool)]) -> impl Iterator<Item = f64> {
-    let next = cycle.iter().cycle().skip(1);
-    cycle.iter().zip(next).map(|(before, after)| {
-        // Both frames are given in the link between the two.
-        let leaving = &geometry.sides[before.0][usize::from(before.1)].translation;
-        let coming = &geometry.sides[after.0][usize::from(!after.1)].translation;
-        let squares = leaving.iter().zip(coming).map(|(a, b)| (a - b).powi(2));
-        squares.sum::<f64>().sqrt()
-    })
+/// Distances between the joints that follow each other on a loop (m), across links that fixed joints make one body.
+fn arms(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    cycle: &[(usize, bool)],
+) -> impl Iterator<Item = f64> {
+    let fixed = |joint: usize| mechanism.joints()[joint].kind == JointKind::Fixed;
+    let moving = move |&(_, &(joint, _)): &(usize, &(usize, bool))| !fixed(joint);
+    let length = cycle.len();
+    cycle
+        .iter()
+        .enumerate()
+        .filter(moving)
+        .map(move |(place, before)| {
+            // In the link behind the joint, and from there in that behind each fixed one.
+            let mut from = geometry.sides[before.0][usize::from(before.1)].translation;
+            for after in cycle.iter().cycle().skip(place + 1).take(length) {
+                let coming = &geometry.sides[after.0][usize::from(!after.1)];
+                if fixed(after.0) {
+                    let leaving = &geometry.sides[after.0][usize::from(after.1)];
+                    from = leaving.apply(&coming.inverse().apply(&from));
+                    continue;
+                }
+                let squared = |v: &mut dyn Iterator<Item = f64>| v.map(|x| x * x).sum::<f64>();
+                let coming = &coming.translation;
+                let apart = squared(&mut from.iter().zip(coming).map(|(a, b)| a - b)).sqrt();
+                let size = squared(&mut from.iter().chain(coming).copied()).sqrt();
+                // On the way across fixed joints equal places come to differ by rounding.
+                return if apart > SAME_PLACE * size {
+                    apart
+                } else {
+                    0.0
+                };
+            }
+            0.0
+        })
 }
 
 /// Null vectors in double precision at a rank that more digits may have decided; `None` where doubles do not separate it.
@@ -83,7 +112,12 @@ pub(super) fn null_vectors_in_doubles(
 
 /// How often what the kernel does not show may be squared on the way, beyond what doubles follow: loops in which a joint is at rest,
 /// though it may move to higher order, and couplings, in which first orders may cancel.
-pub(super) fn squarings(part: &Part, rank: &PartRank, kernel: &NullVectors<f64>) -> usize {
+pub(super) fn squarings(
+    mechanism: &Mechanism,
+    part: &Part,
+    rank: &PartRank,
+    kernel: &NullVectors<f64>,
+) -> usize {
     let moving: BTreeSet<usize> = rank
         .jacobian
         .variables
@@ -92,7 +126,8 @@ pub(super) fn squarings(part: &Part, rank: &PartRank, kernel: &NullVectors<f64>)
         .filter(|(row, _)| kernel.vectors.iter().any(|v| v[*row].abs() > AT_REST))
         .map(|(_, (joint, _))| *joint)
         .collect();
-    let resting = |cycle: &&Vec<(usize, bool)>| cycle.iter().any(|(j, _)| !moving.contains(j));
+    let rests = |joint: &usize| mechanism.joints()[*joint].freedom() > 0 && !moving.contains(joint);
+    let resting = |cycle: &&Vec<(usize, bool)>| cycle.iter().any(|(joint, _)| rests(joint));
     let loops = part.cycles.iter().filter(resting).count();
     (loops + part.couplings.len()).saturating_sub(LOOPS_IN_DOUBLE)
 }

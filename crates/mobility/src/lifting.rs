@@ -306,6 +306,10 @@ fn stays_multiple(
     if rounded {
         return Ok(far);
     }
+    // Digits beyond those of printed doubles are not known: what is multiple far away in these is not asked in finer ones.
+    if far && start.rank.stated > 0.0 && tall <= TALL {
+        return Ok(true);
+    }
     // Short numbers leave little that is too small for double precision: there only a rank that is seen to be larger counts.
     let short = far && tall <= TALL;
     let Some(bits) = LADDER.into_iter().find(|bits| *bits as usize >= 3 * tall) else {

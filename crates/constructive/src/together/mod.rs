@@ -23,8 +23,9 @@ mod system;
 
 pub use part::{Core, CoreOutcome, Placed};
 
-use crate::analysis::STree;
+use crate::analysis::{STree, reduce};
 use crate::construction::{Construction, Shape};
+use crate::graph::Graph;
 use crate::planar::hold;
 use crate::sketch::{Constraint, Element, Sketch};
 use kutzbach_algebra::{Budget, Limits};
@@ -87,14 +88,21 @@ pub fn together(sketch: &Sketch, tree: &STree) -> Together {
     }
 }
 
-/// Whether the rest is constructed once these are rigid.
+/// Whether the rest is constructed once these are rigid, wherever their elements are.
 fn reduces(sketch: &Sketch, cores: &[Vec<usize>]) -> bool {
-    let drawn = |core: &Vec<usize>| {
-        let shapes = core.iter().map(|&e| Shape::drawn(&sketch.elements()[e]));
-        (core.clone(), shapes.collect())
+    let inside = |ends: &[usize; 2]| {
+        let holds = |core: &Vec<usize>| ends.iter().all(|e| core.contains(e));
+        cores.iter().any(holds)
     };
-    let cores: Vec<(Vec<usize>, Vec<Shape>)> = cores.iter().map(drawn).collect();
-    with_bodies(sketch, &cores).is_some_and(|s| Construction::new(&s).is_ok())
+    let kept = sketch.graph().edges().iter().filter(|ends| !inside(ends));
+    // Two elements hold all others.
+    let held = |core: &Vec<usize>| -> Vec<[usize; 2]> {
+        let pairs = core.iter().enumerate().skip(1);
+        let by_two = pairs.flat_map(|(i, &e)| core.iter().take(i.min(2)).map(move |&two| [two, e]));
+        by_two.collect()
+    };
+    let all = kept.copied().chain(cores.iter().flat_map(held));
+    Graph::new(sketch.graph().vertices(), all).is_ok_and(|graph| reduce(&graph).solved)
 }
 
 fn total(sketch: &Sketch, cores: &[Core]) -> Option<Total> {
@@ -105,6 +113,12 @@ fn total(sketch: &Sketch, cores: &[Core]) -> Option<Total> {
     let places: Vec<&[Placed]> = cores.iter().map(Core::places).collect::<Option<_>>()?;
     let mut next = vec![0; cores.len()];
     if places.iter().any(|p| p.is_empty()) {
+        return Some(total);
+    }
+    if let [core] = cores
+        && core.elements.len() == sketch.elements().len()
+    {
+        total.least = places[0].len() as u128;
         return Some(total);
     }
     for _ in 0..MOST_COMBINATIONS {

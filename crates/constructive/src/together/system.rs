@@ -75,7 +75,8 @@ impl System {
                 let power: f64 = powers.map(|(&e, x)| x.powi(i32::from(e))).product();
                 power * self.field.number(coefficient).value()
             };
-            polynomial.terms().map(term).sum()
+            // Added to zero, so that none is −0.
+            polynomial.terms().map(term).fold(0.0, |sum, x| sum + x)
         };
         let shape = |place: &Place| match place {
             Place::Point(p) => Shape::Point([value(&p[0]), value(&p[1])]),

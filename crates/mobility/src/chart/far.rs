@@ -23,7 +23,7 @@ const CLEAR: f64 = 1e3;
 /// Bits in which nothing is hidden by powers or by ratios, as far as the number of loops and couplings tells; 53 where doubles do.
 fn bits_for(pose: &Pose<'_>, part: &Part, rank: &PartRank, kernel: &Kernel) -> u32 {
     let last = LADDER[LADDER.len() - 1];
-    let powers = match squarings(part, rank, &kernel.basis) {
+    let powers = match squarings(pose.mechanism, part, rank, &kernel.basis) {
         0 => 53,
         rungs => LADDER[rungs.min(LADDER.len()) - 1],
     };

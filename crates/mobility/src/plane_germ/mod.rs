@@ -75,7 +75,7 @@ pub(super) struct PlaneCurve {
 }
 
 /// The real branches through a pose where two coordinates but for idle ones are free to first order, of a part whose numbers are
-/// exact.
+/// exact. What stated digits leave open, such as the last one of printed doubles, counts as an error of all coefficients.
 ///
 /// # Errors
 /// [`Doubt`], also of parts of other kinds.
@@ -126,7 +126,7 @@ fn to_degree(
     for plane in series(&one, degree, fineness as i64, |y| {
         leftover.evaluate_next(&mut row, y)
     })? {
-        let plane = plane.up_to(degree - GUARD);
+        let plane = plane.up_to(degree - GUARD).blurred(start.rank.stated);
         if order_of(&plane)?.is_some() {
             equations.push(plane);
         }

@@ -34,6 +34,16 @@ impl<R: Real> Plane<R> {
         }
     }
 
+    /// The series where every coefficient is known to this share of the largest one only.
+    pub fn blurred(mut self, share: f64) -> Self {
+        let all = || self.by_y.iter().flatten();
+        let error = share * all().map(Fuzzy::size).fold(0.0, f64::max);
+        for c in self.by_y.iter_mut().flatten() {
+            c.error = c.error.max(error);
+        }
+        self
+    }
+
     /// The coefficients of xⁱ yʲ with i + j = degree, by j.
     pub fn form(&self, degree: usize) -> Vec<Fuzzy<R>> {
         (0..=degree)
