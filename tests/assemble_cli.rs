@@ -27,6 +27,79 @@ fn refused(arguments: &[&str]) -> String {
     String::from_utf8(output.stderr).unwrap()
 }
 
+/// The data of a page's script.
+fn page_data(page: &str) -> serde_json::Value {
+    let (_, rest) = page.split_once("id=\"page-data\">").unwrap();
+    let (data, _) = rest.split_once("</script>").unwrap();
+    serde_json::from_str(data).unwrap()
+}
+
+/// Numbers of a field in base64.
+fn numbers(field: &serde_json::Value) -> Vec<f32> {
+    use base64::Engine;
+    let bytes = base64::engine::general_purpose::STANDARD
+        .decode(field.as_str().unwrap())
+        .unwrap();
+    let four = bytes.chunks_exact(4);
+    four.map(|b| f32::from_le_bytes(b.try_into().unwrap()))
+        .collect()
+}
+
+/// The crank-rocker closes in two ways at any angle of its crank, on two circuits: each turns fully through its own. Three
+/// tetrahedra do not move.
+#[test]
+fn the_page_shows_configurations_side_by_side_and_moves_through_each() {
+    let page = |file: &str| {
+        let output = kutzbach(&["assemble", file, "--format", "html"]);
+        assert!(output.status.success());
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let text = page("mechanisms/planar_four_bar.urdf");
+    assert_eq!(text, page("mechanisms/planar_four_bar.urdf"));
+    assert_eq!(text.matches("<li><svg").count(), 2);
+    let data = page_data(&text);
+    let answer = json(&["mechanisms/planar_four_bar.urdf"]);
+    let names: Vec<&str> = data["joints"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|joint| joint["name"].as_str().unwrap())
+        .collect();
+    for (index, branch) in data["branches"].as_array().unwrap().iter().enumerate() {
+        // The drawn one comes first, the others in their order.
+        let title = branch["name"].as_str().unwrap();
+        let number: usize = title
+            .strip_prefix("Configuration ")
+            .unwrap()
+            .parse()
+            .unwrap();
+        let solution = &answer["solutions"][number - 1];
+        assert_eq!(index == 0, solution["drawn"] == true);
+        let motion = &data["motions"][branch["motions"][0].as_u64().unwrap() as usize];
+        assert_eq!(motion["closed"], true);
+        let values = numbers(&motion["values"]);
+        let start = motion["start"].as_u64().unwrap() as usize * names.len();
+        for (name, value) in names.iter().zip(&values[start..start + names.len()]) {
+            let wanted = solution["joints"][name].as_f64().unwrap();
+            let off = (f64::from(*value) - wanted).rem_euclid(std::f64::consts::TAU);
+            assert!(
+                off.min(std::f64::consts::TAU - off) < 1e-5,
+                "{title}, {name}: {value}, {wanted}"
+            );
+        }
+    }
+    let text = page("mechanisms/tetra_iii.urdf");
+    assert_eq!(text.matches("<li><svg").count(), 10);
+    let data = page_data(&text);
+    let poses: std::collections::BTreeSet<&str> = data["motions"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|motion| motion["poses"].as_str().unwrap())
+        .collect();
+    assert_eq!(poses.len(), 10);
+}
+
 /// The problems of the paper: file, weight of the tree, configurations, how often each counts.
 #[test]
 fn all_configurations_of_the_papers_problems_are_found() {

@@ -11,7 +11,9 @@ use kutzbach::number::Number;
 use std::collections::BTreeMap;
 use std::fmt::Debug;
 use support::rewrite::Draft;
-use support::{analysis, assert_none, combine, drawn, folder, in_parallel, mechanism_files, zoo};
+use support::{
+    analysis, assert_none, combine, drawn, folder, in_parallel, mechanism_files, whole_numbers, zoo,
+};
 
 /// Every reference mechanism, the relatives of these, and the poses that look like others.
 fn mechanisms() -> Vec<(String, Mechanism)> {
@@ -167,6 +169,40 @@ fn compare(count: usize) {
     assert_none(&wrong.concat());
 }
 
+/// Random mechanisms with whole-number coordinates on a line, in a plane and on a sphere, each with another tree, turned, moved or
+/// scaled, cut into welded pieces, renamed, and with another link as the ground.
+fn compare_whole_numbers(cases: std::ops::Range<u64>) -> usize {
+    let cases: Vec<u64> = cases.collect();
+    let found = in_parallel(&cases, |&case| {
+        let (name, mechanism) = whole_numbers::random(case);
+        let base = analysis(&mechanism);
+        let mut wrong = Vec::new();
+        for seed in [1 + case * 13 % 63, 1 + case * 29 % 63] {
+            let (mut draft, names) = rewritten(&Draft::of(&mechanism), seed);
+            let links = draft.links.len() as u64;
+            draft
+                .ground
+                .clone_from(&draft.links[(case % links) as usize]);
+            let other = draft.build();
+            let there = analysis(&other);
+            let told = contradictions(&(&mechanism, &base), &(&other, &there), &names, false);
+            wrong.extend(
+                told.iter()
+                    .map(|what| format!("{name}, changes {seed:06b}: {what}")),
+            );
+        }
+        (base.mobility.verdict == Verdict::Undecided, wrong)
+    });
+    let wrong: Vec<String> = found.iter().flat_map(|(_, wrong)| wrong.clone()).collect();
+    assert_none(&wrong);
+    found.iter().filter(|(open, _)| *open).count()
+}
+
+#[test]
+fn whole_numbers_written_otherwise_contradict_nothing() {
+    assert!(compare_whole_numbers(0..30) <= 1);
+}
+
 /// Sixteen levers of 10 : 1, the last one welded: a rank that doubles do not show, whatever pieces the links are welded of.
 #[test]
 fn levers_cut_into_welded_pieces_stay_as_rigid_as_they_are() {
@@ -183,6 +219,15 @@ fn levers_cut_into_welded_pieces_stay_as_rigid_as_they_are() {
 
 /// Too long for every commit.
 mod corpus {
+    #[test]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
+    fn mechanisms_of_whole_numbers_contradict_nothing() {
+        let cases = std::env::var("KUTZBACH_WHOLE_NUMBERS").map_or(600, |n| n.parse().unwrap());
+        let open = super::compare_whole_numbers(0..cases);
+        println!("{open} of {cases} undecided");
+        assert!(50 * open as u64 <= cases, "{open} undecided");
+    }
+
     #[test]
     #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn five_hundred_rewritings_contradict_nothing() {

@@ -1,5 +1,7 @@
 //! `kutzbach assemble FILE`: every way in which it closes.
 
+mod page;
+
 use super::failure::Failure;
 use super::interrupt::{self, INTERRUPTED};
 use super::pose::measured;
@@ -46,6 +48,8 @@ enum Format {
     Text,
     /// Everything, for a program
     Json,
+    /// One page that shows the configurations side by side, and how each moves, for any browser
+    Html,
 }
 
 /// Runs the command.
@@ -85,6 +89,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             .map(|line| format!("{}\n", visible(line)))
             .collect(),
         Format::Json => output::json(&words::data(mechanism, &modes))?,
+        Format::Html => page::page(&reading, &arguments.source.file, &modes)?,
     };
     arguments.destination.put(&text)?;
     Ok(match modes.complete {

@@ -369,24 +369,23 @@ pub(super) fn idle_branch(start: &Start<'_>) -> Result<PartBranch, MatrixError> 
         let z: Vec<f64> = direction.iter().map(|x| x * share).collect();
         section.advance_by(&mut states, &z);
     }
-    section.close(&mut states, &[], 80)?;
+    let closing = section.close(&mut states, &[], 80)?;
+    // What is not idle is a zero of higher order, so that closing leaves the pose off by more than its residual.
+    let blur = closing.residual.max(closing.rounding).sqrt();
     let freedom = start.kernel.basis.nullity;
-    let there = tangents_at(&section, &states, start.rank.stated, freedom)?;
+    let there = tangents_at(&section, &states, start.rank.stated + 10.0 * blur, freedom)?;
     let poses = match there {
-        Some((tangents, _)) => {
-            let instantaneous = tangents.instantaneous.unwrap_or(freedom);
-            match idle_there(start, &tangents) {
-                Some(idle) => vec![pose_on(&section, &states, &idle, instantaneous)],
-                None => secant_poses(
-                    &section,
-                    &states,
-                    &tangents.basis,
-                    dimension,
-                    instantaneous,
-                    start.rank.stated,
-                )?,
-            }
-        }
+        Some((tangents, _)) => match idle_there(start, &tangents) {
+            Some(idle) => vec![pose_on(&section, &states, &idle, freedom)],
+            None => secant_poses(
+                &section,
+                &states,
+                &tangents.basis,
+                dimension,
+                freedom,
+                start.rank.stated,
+            )?,
+        },
         None => Vec::new(),
     };
     Ok(PartBranch {

@@ -4,7 +4,7 @@ mod incidence;
 mod modes;
 
 pub use incidence::IncidenceWords;
-pub use modes::{SCHEMA, data, text};
+pub use modes::{SCHEMA, data, note, text};
 
 /// A number with its word.
 pub(crate) fn count(number: usize, one: &str) -> String {

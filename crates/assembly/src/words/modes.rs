@@ -224,7 +224,10 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
     }
     way(&mut text, &modes.way);
     for (number, configuration) in modes.configurations.iter().enumerate() {
-        let marks = marks(configuration);
+        let marks = match note(configuration) {
+            note if note.is_empty() => note,
+            note => format!(" ({note})"),
+        };
         let _ = writeln!(text, "\nConfiguration {}{marks}", number + 1);
         joint_lines(&mut text, mechanism, configuration);
         link_lines(&mut text, mechanism, configuration);
@@ -312,7 +315,9 @@ fn link_lines(text: &mut String, mechanism: &Mechanism, configuration: &Configur
 }
 
 /// What is to be said of a configuration in brackets.
-fn marks(configuration: &Configuration) -> String {
+/// What is to be said of a configuration: that it is the drawn one, singular, or not proven; empty where nothing is.
+#[must_use]
+pub fn note(configuration: &Configuration) -> String {
     let mut marks = Vec::new();
     if configuration.drawn {
         marks.push("drawn".to_owned());
@@ -332,10 +337,7 @@ fn marks(configuration: &Configuration) -> String {
             }
         }
     }
-    match marks.is_empty() {
-        true => String::new(),
-        false => format!(" ({})", marks.join("; ")),
-    }
+    marks.join("; ")
 }
 
 fn way(text: &mut String, way: &Way) {

@@ -84,7 +84,7 @@ pub(super) fn page_data(facts: &Facts<'_>, stage: &Stage, names: &Names) -> Page
 }
 
 /// `world_from_link` of every link, by the frame it is drawn by and relative to the middle of the mechanism.
-fn placed(links: &[Rigid<f64>], stage: &Stage) -> Vec<Pose> {
+pub(super) fn placed(links: &[Rigid<f64>], stage: &Stage) -> Vec<Pose> {
     placed_links(links, stage).collect()
 }
 
@@ -172,7 +172,7 @@ fn branches(facts: &Facts<'_>, repertoire: &Repertoire) -> Vec<BranchData> {
         .collect()
 }
 
-fn motion(
+pub(super) fn motion(
     mechanism: &Mechanism,
     played: &Played,
     stage: &Stage,
@@ -230,7 +230,7 @@ fn motion(
     }
 }
 
-fn roles(mechanism: &Mechanism, roles: &Roles) -> RoleData {
+pub(super) fn roles(mechanism: &Mechanism, roles: &Roles) -> RoleData {
     let ground = mechanism.ground().0;
     let link = |index: usize| match index == ground {
         true => "ground",
@@ -245,7 +245,7 @@ fn roles(mechanism: &Mechanism, roles: &Roles) -> RoleData {
 }
 
 /// Single precision, little-endian, base64.
-fn packed(numbers: impl Iterator<Item = f64>) -> String {
+pub(super) fn packed(numbers: impl Iterator<Item = f64>) -> String {
     let bytes: Vec<u8> = numbers
         .flat_map(|number| (number as f32).to_le_bytes())
         .collect();

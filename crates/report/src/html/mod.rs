@@ -23,6 +23,7 @@
 //! | `blocks`, `escape`, `names` | pages as HTML; text as text; names as indices |
 //! | `motions` | what is played |
 //! | `accuracy` | what accuracy costs, in the page and as one of its own |
+//! | `configurations` | all configurations side by side, each with the motion through it |
 //! | `drawing`, `data` | the mechanism and its motions for the script |
 //! | `plots`, `ranges` | what is read off them |
 //!
@@ -30,6 +31,7 @@
 
 mod accuracy;
 mod blocks;
+mod configurations;
 mod data;
 mod document;
 mod drawing;
@@ -43,6 +45,7 @@ mod ranges;
 use super::schema::Report;
 use crate::picture::view::View;
 pub use accuracy::accuracy_page;
+pub use configurations::{Shown, configurations_page};
 pub use document::{SCRIPT, STYLE, script, style};
 pub use gallery::{Entry, index};
 use kutzbach_closure::{Arithmetic, Geometry, Rigid, spanning_poses};
@@ -112,7 +115,7 @@ struct Stage {
 }
 
 impl Stage {
-    fn new(facts: &Facts<'_>, assets: Assets) -> Self {
+    fn new(facts: &Facts<'_>, link_poses: usize) -> Self {
         let configuration = facts
             .configuration
             .and_then(|name| facts.mechanism.configuration(name));
@@ -137,7 +140,7 @@ impl Stage {
                 facts.mechanism,
                 facts.analysis,
                 facts.configuration,
-                assets.link_poses(),
+                link_poses,
             ),
             home,
             drawing,
@@ -175,7 +178,7 @@ impl<'a> Prepared<'a> {
     #[must_use]
     pub fn new(facts: Facts<'a>, assets: Assets) -> Self {
         Self {
-            stage: Stage::new(&facts, assets),
+            stage: Stage::new(&facts, assets.link_poses()),
             facts,
             assets,
         }

@@ -107,7 +107,7 @@ fn range_texts(mechanism: &Mechanism) -> Vec<String> {
         verification: None,
         accuracy: None,
     };
-    let ranges = ranges(mechanism, &Stage::new(&facts, Assets::Inside));
+    let ranges = ranges(mechanism, &Stage::new(&facts, Assets::Inside.link_poses()));
     ranges.into_values().collect()
 }
 
