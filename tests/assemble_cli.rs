@@ -100,6 +100,32 @@ fn the_page_shows_configurations_side_by_side_and_moves_through_each() {
     assert_eq!(poses.len(), 10);
 }
 
+/// Three tetrahedra: a rotation about an axis for each, a point of its conic, and three closure equations.
+#[test]
+fn the_equations_of_the_tree_are_written_for_other_programs() {
+    let written = |file: &str, format: &str| {
+        let output = kutzbach(&["assemble", file, "--format", format]);
+        assert!(output.status.success());
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let text = written("mechanisms/tetra_iii.urdf", "msolve");
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines[..2], ["x1,x2,x3,x4,x5,x6", "0"]);
+    assert_eq!(lines.len(), 2 + 6);
+    assert_eq!(lines[5], "x1^2+8*x2^2-1,");
+    let text = written("mechanisms/tetra_iii.urdf", "singular");
+    assert!(text.starts_with("// x1: x1\n"), "{text}");
+    assert!(
+        text.ends_with("ideal G = std(I);\ndim(G);\nmult(G);\n"),
+        "{text}"
+    );
+    let error = refused(&["assemble", "mechanisms/delta.urdf", "--format", "msolve"]);
+    assert!(
+        error.contains("no equations of an incidence tree"),
+        "{error}"
+    );
+}
+
 /// The problems of the paper: file, weight of the tree, configurations, how often each counts.
 #[test]
 fn all_configurations_of_the_papers_problems_are_found() {

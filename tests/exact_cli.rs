@@ -35,6 +35,30 @@ fn the_same_question_has_the_same_bytes() {
     assert!(first.contains("complex dimension 1, degree 4"), "{first}");
 }
 
+/// Unknowns are renumbered, since names of joints are no names elsewhere; coefficients are whole numbers.
+#[test]
+fn the_equations_are_written_for_other_programs() {
+    let file = "mechanisms/planar_four_bar.urdf";
+    let msolve = text(&[file, "--format", "msolve"]);
+    let lines: Vec<&str> = msolve.lines().collect();
+    assert_eq!(lines[..2], ["x1,x2,x3,x4,x5,x6,x7,x8", "0"]);
+    assert_eq!(lines[2], "x1^2+x2^2-1,");
+    assert_eq!(lines.len(), 2 + 8);
+    let singular = text(&[file, "--format", "singular"]);
+    assert!(
+        singular.starts_with("// x1: cos(crank_pivot)\n"),
+        "{singular}"
+    );
+    let ideal = lines[2..].join("\n");
+    assert!(
+        singular.contains(&format!(
+            "ring r = 0,({}),dp;\nideal I =\n{ideal};",
+            lines[0]
+        )),
+        "{singular}"
+    );
+}
+
 #[test]
 fn relations_are_judged_one_by_one() {
     let answer = json(&["mechanisms/thomas_torras_assembly.urdf", "--incremental"]);

@@ -8,8 +8,10 @@ use super::pose::measured;
 use super::{DONE, UNDECIDED, load, output};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressDrawTarget};
-use kutzbach::algebra::Limits;
-use kutzbach::assembly::modes::{Complete, Modes, ModesError, Question, assembly_modes};
+use kutzbach::algebra::{Limits, Reader};
+use kutzbach::assembly::modes::{
+    Complete, Modes, ModesError, Question, assembly_modes, reduced_equations,
+};
 use kutzbach::assembly::words;
 use kutzbach::mechanism::{JointId, JointKind, Mechanism};
 use kutzbach::number::Number;
@@ -48,6 +50,10 @@ enum Format {
     Text,
     /// Everything, for a program
     Json,
+    /// The equations of the incidence tree, for Singular
+    Singular,
+    /// The same for msolve
+    Msolve,
     /// One page that shows the configurations side by side, and how each moves, for any browser
     Html,
 }
@@ -69,6 +75,20 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
                 .collect::<Result<Vec<_>, _>>()?,
         ),
     };
+    let reader = match arguments.format {
+        Format::Singular => Some(Reader::Singular),
+        Format::Msolve => Some(Reader::Msolve),
+        _ => None,
+    };
+    if let Some(reader) = reader {
+        let equations =
+            reduced_equations(mechanism, held.as_deref()).map_err(|why| Failure::Plain {
+                message: format!("no equations of an incidence tree: {why}"),
+                help: Some("`kutzbach exact` writes those of the loops".to_owned()),
+            })?;
+        arguments.destination.put(&equations.written_for(reader))?;
+        return Ok(DONE);
+    }
     let cancelled = Arc::new(AtomicBool::new(false));
     let question = Question {
         held,
@@ -89,7 +109,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             .map(|line| format!("{}\n", visible(line)))
             .collect(),
         Format::Json => output::json(&words::data(mechanism, &modes))?,
-        Format::Html => page::page(&reading, &arguments.source.file, &modes)?,
+        Format::Html | Format::Singular | Format::Msolve => {
+            page::page(&reading, &arguments.source.file, &modes)?
+        }
     };
     arguments.destination.put(&text)?;
     Ok(match modes.complete {

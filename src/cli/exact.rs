@@ -8,9 +8,9 @@ use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressDrawTarget};
 use kutzbach::algebra::{
     BlockAnswer, BlockFinding, Budget, ExactOptions, Formulation, Limits, Method, MonomialOrder,
-    Progress, Stop, SystemError, SystemOptions, assembly_conditions, entries_in, exact_answer,
-    exact_by_blocks, motion_conditions, polynomial_system, relation_by_relation, relations_of,
-    without_loops,
+    Progress, Reader, Stop, SystemError, SystemOptions, assembly_conditions, entries_in,
+    exact_answer, exact_by_blocks, motion_conditions, polynomial_system, relation_by_relation,
+    relations_of, without_loops, written_for,
 };
 use kutzbach::graph::ConstraintGraph;
 use kutzbach::mechanism::Mechanism;
@@ -120,6 +120,10 @@ enum Format {
     Text,
     /// Everything, for a program
     Json,
+    /// The equations alone, as a program for Singular
+    Singular,
+    /// The equations alone, as a file for msolve
+    Msolve,
 }
 
 /// Runs the command.
@@ -146,6 +150,13 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         )
         .then(|| "`report` gives the verdict within the digits".to_owned()),
     };
+    if let Some(reader) = arguments.reader() {
+        let text = arguments
+            .equations(reader, &reading.mechanism, &request)
+            .map_err(refused)?;
+        arguments.destination.put(&text)?;
+        return Ok(DONE);
+    }
     let (text, stopped) = watched(arguments, |budget| {
         if !arguments.symbolic.is_empty() {
             arguments.conditions(&reading.mechanism, &request, budget)
@@ -185,6 +196,31 @@ enum Ended {
 }
 
 impl Arguments {
+    /// Whether the answer is for a person to read, or for a program.
+    fn for_a_person(&self) -> bool {
+        self.format == Format::Text
+    }
+
+    /// The program that the equations alone are for.
+    fn reader(&self) -> Option<Reader> {
+        match self.format {
+            Format::Singular => Some(Reader::Singular),
+            Format::Msolve => Some(Reader::Msolve),
+            Format::Text | Format::Json => None,
+        }
+    }
+
+    /// The equations for another program.
+    fn equations(
+        &self,
+        reader: Reader,
+        mechanism: &Mechanism,
+        request: &Request,
+    ) -> Result<String, SystemError> {
+        let system = polynomial_system(mechanism, &request.options.system)?;
+        Ok(written_for(reader, &system.names(), &system.polynomials()))
+    }
+
     fn request(&self, configuration: Option<String>) -> Request {
         let formulation = match (self.variables, self.incremental) {
             (Some(Variables::Canonical), _) | (None, false) => Formulation::Canonical,
@@ -224,9 +260,9 @@ impl Arguments {
     ) -> Result<(String, Option<Left>), Ended> {
         if let Some(found) = without_loops(mechanism).filter(|_| self.asks_nothing_special()) {
             let report = loopless_report(mechanism, &found, request);
-            let text = match self.format {
-                Format::Text => render_loopless(&report, self.layout()),
-                Format::Json => output::json(&report).map_err(Ended::Failed)?,
+            let text = match self.for_a_person() {
+                true => render_loopless(&report, self.layout()),
+                false => output::json(&report).map_err(Ended::Failed)?,
             };
             return Ok((text, None));
         }
@@ -240,9 +276,9 @@ impl Arguments {
             Err(error) => return Err(Ended::Refused(error)),
         };
         let report = exact_report(mechanism, &answer, request);
-        let text = match self.format {
-            Format::Text => render(&report, self.layout()),
-            Format::Json => output::json(&report).map_err(Ended::Failed)?,
+        let text = match self.for_a_person() {
+            true => render(&report, self.layout()),
+            false => output::json(&report).map_err(Ended::Failed)?,
         };
         Ok((text, answer.stopped.map(|(_, stop)| Left::Stopped(stop))))
     }
@@ -265,9 +301,9 @@ impl Arguments {
             return Err(Ended::Refused(error.clone()));
         }
         let report = blocks_report(mechanism, &found, request);
-        let text = match self.format {
-            Format::Text => render_blocks(&report, self.layout()),
-            Format::Json => output::json(&report).map_err(Ended::Failed)?,
+        let text = match self.for_a_person() {
+            true => render_blocks(&report, self.layout()),
+            false => output::json(&report).map_err(Ended::Failed)?,
         };
         let stopped = found.blocks.iter().find_map(|block| match &block.found {
             BlockFinding::Answered { stopped, .. } => stopped.map(|(_, stop)| stop),
@@ -298,12 +334,12 @@ impl Arguments {
             "" => "writing the equations",
             phase => phase,
         };
-        match self.format {
-            Format::Text => format!(
+        match self.for_a_person() {
+            true => format!(
                 "Undecided: stopped at {phase}: {why}.\n\n{}\n",
                 visible(&file)
             ),
-            Format::Json => {
+            false => {
                 let value = json!({
                     "schema": EXACT_SCHEMA,
                     "file": file,
@@ -328,9 +364,9 @@ impl Arguments {
                 Err((stop, findings)) => (findings, Some(stop)),
             };
         let report = relations_report(mechanism, &system, &findings, stopped, request);
-        let text = match self.format {
-            Format::Text => render_relations(&report, self.layout()),
-            Format::Json => output::json(&report).map_err(Ended::Failed)?,
+        let text = match self.for_a_person() {
+            true => render_relations(&report, self.layout()),
+            false => output::json(&report).map_err(Ended::Failed)?,
         };
         Ok((text, stopped.map(Left::Stopped)))
     }
@@ -375,9 +411,9 @@ impl Arguments {
         let families = families.and_then(|found| found.families(&system, budget).ok());
         let report =
             conditions_report(mechanism, &system, data, families.as_ref(), moving, request);
-        let text = match self.format {
-            Format::Text => render_conditions(&report, self.layout()),
-            Format::Json => output::json(&report).map_err(Ended::Failed)?,
+        let text = match self.for_a_person() {
+            true => render_conditions(&report, self.layout()),
+            false => output::json(&report).map_err(Ended::Failed)?,
         };
         Ok((text, found.err().map(Left::Stopped)))
     }

@@ -18,6 +18,7 @@ mod strategy;
 mod system;
 mod univariate;
 mod without_loops;
+mod written;
 mod zero_dimensional;
 
 pub use answer::{
@@ -49,4 +50,5 @@ pub use system::{
 };
 pub use univariate::{RealRoot, Univariate};
 pub use without_loops::{WithoutLoops, without_loops};
+pub use written::{Reader, written_for};
 pub use zero_dimensional::{FinitePoints, RealSolution, Representation, TraceForm};

@@ -164,6 +164,7 @@ fn unexplained(
     let literal = PartRank {
         stated: 0.0,
         decision,
+        note: None,
         ..rank.clone()
     };
     let found = subgroup_finding(

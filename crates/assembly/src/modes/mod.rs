@@ -20,6 +20,8 @@ mod rounded;
 pub use half_turn::{HalfTurn, WITHIN};
 pub use place::Pose;
 
+use crate::placed::Placed;
+use crate::reduced::{Exported, ReducedSystem};
 use kutzbach_algebra::{Budget, Limits};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{HoldError, JointId, Mechanism};
@@ -168,6 +170,27 @@ pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Mode
             place::joint_values(mechanism, &fixed, &modes.held, &configuration.poses);
     }
     Ok(modes)
+}
+
+/// The equations of the incidence tree that [`assembly_modes`] solves, over the rationals, for another program.
+///
+/// # Errors
+/// Where joints cannot be held, or there is no tree; in a sentence.
+pub fn reduced_equations(
+    mechanism: &Mechanism,
+    held: Option<&[(JointId, Number)]>,
+) -> Result<Exported, String> {
+    let held = match held {
+        Some(held) => held.to_vec(),
+        None => inputs::proposed(mechanism).0,
+    };
+    let held_near = inputs::held_near(mechanism, &held);
+    let fixed = mechanism
+        .with_joints_held(&inputs::replaced(&held, &held_near))
+        .map_err(|error| error.to_string())?;
+    let placed = Placed::of(&fixed).map_err(|why| why.to_string())?;
+    let system = ReducedSystem::new(&placed).map_err(|why| why.to_string())?;
+    Ok(system.exported())
 }
 
 impl Modes {

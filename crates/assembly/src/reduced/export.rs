@@ -1,8 +1,7 @@
 //! The system as polynomials over the rationals, for the exact solver and for other programs.
 
 use super::ReducedSystem;
-use kutzbach_algebra::{FieldPolynomial, OverRationals, Polynomial};
-use std::fmt::Write;
+use kutzbach_algebra::{FieldPolynomial, OverRationals, Reader, written_for};
 
 /// A reduced system over the rationals: what its numbers adjoin are unknowns as well.
 #[derive(Clone, Debug)]
@@ -39,57 +38,10 @@ impl Exported {
         }
     }
 
-    /// As a program for Singular: the ring, the ideal `I`, its dimension and degree.
+    /// As a file for another program.
     #[must_use]
-    pub fn singular(&self) -> String {
-        let mut text = format!("ring r = 0,({}),dp;\nideal I =\n", self.names.join(","));
-        text.push_str(&self.listed());
-        text.push_str(";\nideal G = std(I);\ndim(G);\nmult(G);\n");
-        text
-    }
-
-    /// As a file for msolve.
-    #[must_use]
-    pub fn msolve(&self) -> String {
-        format!("{}\n0\n{}\n", self.names.join(","), self.listed())
-    }
-
-    fn listed(&self) -> String {
-        let mut text = String::new();
-        for (index, polynomial) in self.system.polynomials.iter().enumerate() {
-            let end = if index + 1 < self.system.polynomials.len() {
-                ",\n"
-            } else {
-                ""
-            };
-            let _ = write!(text, "{}{end}", plain(polynomial, &self.names));
-        }
-        text
-    }
-}
-
-/// A polynomial in the syntax that computer algebra systems share: `3*x1^2*y2-5`.
-fn plain(polynomial: &Polynomial, names: &[String]) -> String {
-    let mut text = String::new();
-    for (exponents, coefficient) in polynomial.terms() {
-        let mut factors = vec![coefficient.to_string()];
-        for (name, &e) in names.iter().zip(exponents) {
-            match e {
-                0 => {}
-                1 => factors.push(name.clone()),
-                _ => factors.push(format!("{name}^{e}")),
-            }
-        }
-        let term = factors.join("*");
-        if !text.is_empty() && !term.starts_with('-') {
-            text.push('+');
-        }
-        text.push_str(&term);
-    }
-    if text.is_empty() {
-        "0".to_owned()
-    } else {
-        text
+    pub fn written_for(&self, reader: Reader) -> String {
+        written_for(reader, &self.names, &self.system.polynomials)
     }
 }
 

@@ -75,6 +75,12 @@ pub(crate) use offsets::hidden_offset;
 /// Parts of more joints are not reduced: their screws would have to be known in one frame, to which errors add up.
 pub const MOST_JOINTS: usize = 400;
 
+/// Orders in which the loops of a part are reduced until one explains all of them.
+const ATTEMPTS: u64 = 6;
+
+/// Parts of more joints are reduced in one order.
+const MOST_REORDERED: usize = 60;
+
 /// A subgroup found in numbers coarser than this says nothing.
 const COARSEST: f64 = 0.05;
 
@@ -203,9 +209,27 @@ fn reduced(
     accuracy: f64,
 ) -> Result<Outcome, GroupError> {
     let placed = placing::place(mechanism, geometry, states, part, rank, accuracy)?;
-    let mut network = Network::new(mechanism, structure, part, &placed)?;
-    network.reduce()?;
-    network.conclude()
+    let attempts = match part.cycles.len() {
+        1 => 1,
+        _ if part.joints.len() <= MOST_REORDERED => ATTEMPTS,
+        _ => 1,
+    };
+    let in_order = |attempt| -> Result<Outcome, GroupError> {
+        let mut network = Network::new(mechanism, structure, part, &placed, attempt)?;
+        network.reduce()?;
+        network.conclude()
+    };
+    let first = in_order(0)?;
+    for attempt in 1..attempts {
+        if first.freedom.is_some() {
+            break;
+        }
+        let other = in_order(attempt)?;
+        if other.freedom.is_some() {
+            return Ok(other);
+        }
+    }
+    Ok(first)
 }
 
 impl SubgroupFinding {
