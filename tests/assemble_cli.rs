@@ -126,6 +126,50 @@ fn the_equations_of_the_tree_are_written_for_other_programs() {
     );
 }
 
+/// Three tetrahedra around the triangle that they imply: each shares two points with it, which are five equations. Text, data and
+/// pictures agree.
+#[test]
+fn seam_graphs_and_selections_are_shown() {
+    let shown = |format: &str| {
+        let file = "mechanisms/tetra_iii.urdf";
+        let output = kutzbach(&["graph", file, "--seams", "--format", format]);
+        assert!(output.status.success());
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let data: serde_json::Value = serde_json::from_str(&shown("json")).unwrap();
+    let seams = &data["seams"];
+    assert_eq!(
+        (&seams["equations"], &seams["removed"]),
+        (&15.into(), &15.into())
+    );
+    assert_eq!(seams["copies"], 9);
+    let selected = seams["selected"].as_array().unwrap();
+    let text = shown("text");
+    assert!(
+        text.contains("Well-formed selection: 15 equations, as many as"),
+        "{text}"
+    );
+    assert_eq!(text.matches(" of 3 equations").count(), selected.len());
+    // Two copies of two points for each tetrahedron and pair, and the selected edges.
+    assert_eq!(shown("dot").matches(" -- ").count(), 6 + selected.len());
+    let svg = shown("svg");
+    assert!(roxmltree::Document::parse(&svg).is_ok());
+    assert!(svg.contains("Seam graph of 9 copies of points"));
+    let incidence = kutzbach(&[
+        "graph",
+        "mechanisms/tetra_iii.urdf",
+        "--incidence",
+        "--format",
+        "svg",
+    ]);
+    let incidence = String::from_utf8(incidence.stdout).unwrap();
+    assert!(
+        incidence.contains("Incidence tree of 4 bodies") && !incidence.contains("ground</text>")
+    );
+    let error = refused(&["graph", "mechanisms/oldham.urdf", "--seams"]);
+    assert!(error.contains("no incidence tree"), "{error}");
+}
+
 /// The problems of the paper: file, weight of the tree, configurations, how often each counts.
 #[test]
 fn all_configurations_of_the_papers_problems_are_found() {

@@ -3,10 +3,12 @@
 use super::failure::Failure;
 use super::{DONE, load, output, sketch};
 use clap::{Args, ValueEnum};
+use kutzbach::assembly::placed::Unsuited;
 use kutzbach::assembly::words;
 use kutzbach::constructive::words::SketchWords;
 use kutzbach::graph::{
-    ConstraintGraph, CycleBasis, FoldedGraph, GraphSummary, SpanningTree, to_dot, to_svg,
+    Captions, ConstraintGraph, CycleBasis, FoldedGraph, GraphSummary, SpanningTree, to_dot, to_svg,
+    to_svg_with,
 };
 use kutzbach::mechanism::Mechanism;
 use kutzbach::report::text::visible;
@@ -24,6 +26,10 @@ pub struct Arguments {
     /// Show which bodies are best placed by which others: the incidence tree, as text, dot or svg
     #[arg(long)]
     incidence: bool,
+    /// Show which equations to ask for of bodies whose data contradict one another a little: the seam graph and a well-formed selection
+    /// in it, as text, dot or svg
+    #[arg(long, conflicts_with_all = ["incidence", "constructive"])]
+    seams: bool,
     /// Show what of a sketch or planar mechanism is over- or under-constrained, how circles and lines construct it, and how many solutions
     /// there are; the s-tree as dot or svg
     #[arg(long, conflicts_with = "incidence")]
@@ -60,6 +66,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     if arguments.incidence {
         return incidence(arguments, &reading.mechanism);
     }
+    if arguments.seams {
+        return seams(arguments, &reading.mechanism);
+    }
     let mut graph = ConstraintGraph::of(&reading.mechanism);
     let mut tree = SpanningTree::of_mechanism(&graph, &reading.mechanism);
     let mut folded = 0;
@@ -84,10 +93,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
 
 /// The incidence tree of the bodies that share points.
 fn incidence(arguments: &Arguments, mechanism: &Mechanism) -> Result<u8, Failure> {
-    let found = words::IncidenceWords::of(mechanism).map_err(|why| Failure::Plain {
-        message: format!("no incidence tree: {why}"),
-        help: Some("it is made of balls, hinges, universal joints and bars".to_owned()),
-    })?;
+    let found = words::IncidenceWords::of(mechanism).map_err(no_tree)?;
     let text = match arguments.format {
         Format::Text => harmless(&found.text()),
         Format::Json => output::json(&found.data())?,
@@ -97,10 +103,40 @@ fn incidence(arguments: &Arguments, mechanism: &Mechanism) -> Result<u8, Failure
                 let tree = SpanningTree::root_at(&graph, found.root());
                 match arguments.format {
                     Format::Dot => to_dot(&graph, &tree),
-                    _ => to_svg(&graph, &tree),
+                    _ => {
+                        let title = format!("Incidence tree of {} bodies", graph.node_count());
+                        let legend = ["placed by", "", "root"];
+                        to_svg_with(&graph, &tree, &Captions { title, legend })
+                    }
                 }
             }
         },
+    };
+    arguments.destination.put(&text)?;
+    Ok(DONE)
+}
+
+fn no_tree(why: Unsuited) -> Failure {
+    Failure::Plain {
+        message: format!("no incidence tree: {why}"),
+        help: Some("it is made of balls, hinges, universal joints and bars".to_owned()),
+    }
+}
+
+/// The seam graph of the bodies that share points, and the equations selected in it.
+fn seams(arguments: &Arguments, mechanism: &Mechanism) -> Result<u8, Failure> {
+    let found = words::SeamWords::of(mechanism).map_err(no_tree)?;
+    let text = match (arguments.format, found.graph()) {
+        (Format::Json, _) => output::json(&found.data())?,
+        (Format::Dot, Some(graph)) => to_dot(&graph, &SpanningTree::root_at(&graph, 0)),
+        (Format::Svg, Some(graph)) => {
+            let captions = Captions {
+                title: format!("Seam graph of {} copies of points", graph.node_count()),
+                legend: ["spanning tree", "other edges", "first copy"],
+            };
+            to_svg_with(&graph, &SpanningTree::root_at(&graph, 0), &captions)
+        }
+        _ => harmless(&found.text()),
     };
     arguments.destination.put(&text)?;
     Ok(DONE)

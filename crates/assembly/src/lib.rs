@@ -12,6 +12,7 @@
 //! | [`placed`] | the collection of a mechanism, with exact points |
 //! | [`real`] | all real solutions, with proof |
 //! | [`reduced`] | the equations that a tree leaves, exact |
+//! | [`seams`] | which of the incidences to ask for where all of them contradict one another |
 //! | [`tree`] | covering sets and the incidence tree with the fewest unknowns |
 //! | [`words`] | the answers as text and data |
 
@@ -20,6 +21,7 @@ pub mod modes;
 pub mod placed;
 pub mod real;
 pub mod reduced;
+pub mod seams;
 pub mod tree;
 pub mod words;
 

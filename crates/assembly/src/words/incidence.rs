@@ -51,8 +51,12 @@ impl IncidenceWords {
         })
     }
 
-    fn collection(&self) -> &Collection {
+    pub(super) fn collection(&self) -> &Collection {
         &self.collection
+    }
+
+    pub(super) fn tree(&self) -> Option<&IncidenceTree> {
+        self.tree.as_ref()
     }
 
     /// How many bodies there are, and where they come from.

@@ -2,9 +2,11 @@
 
 mod incidence;
 mod modes;
+mod seams;
 
 pub use incidence::IncidenceWords;
 pub use modes::{SCHEMA, data, note, text};
+pub use seams::SeamWords;
 
 /// A number with its word.
 pub(crate) fn count(number: usize, one: &str) -> String {

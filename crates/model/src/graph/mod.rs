@@ -64,4 +64,4 @@ pub use draw::to_dot;
 pub use folded::FoldedGraph;
 pub use spanning_tree::SpanningTree;
 pub use summary::{BlockSummary, CycleSummary, CyclesSummary, GraphSummary, TreeNode};
-pub use svg::{SVG_STYLE, folded_svg_fragment, svg_fragment, to_svg};
+pub use svg::{Captions, SVG_STYLE, folded_svg_fragment, svg_fragment, to_svg, to_svg_with};

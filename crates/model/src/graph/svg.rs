@@ -26,7 +26,39 @@ pub const SVG_STYLE: &str = include_str!("svg/style.css");
 /// graph, apart from the placing of edge names, which is left out for large graphs (the names then show when pointed at).
 #[must_use]
 pub fn to_svg(graph: &ConstraintGraph, tree: &SpanningTree) -> String {
-    written(graph, tree, &Handles::None)
+    written(graph, tree, &Handles::None, &of_mechanism(graph, tree))
+}
+
+/// What a picture of another graph than that of a mechanism says.
+#[derive(Clone, Debug)]
+pub struct Captions<'a> {
+    /// What it shows.
+    pub title: String,
+    /// What solid lines are, dashed ones, and the dark box: a word or two each.
+    pub legend: [&'a str; 3],
+}
+
+/// The picture of any graph along a spanning tree, with words of its own.
+#[must_use]
+pub fn to_svg_with(
+    graph: &ConstraintGraph,
+    tree: &SpanningTree,
+    captions: &Captions<'_>,
+) -> String {
+    written(graph, tree, &Handles::None, captions)
+}
+
+/// The words of a mechanism's graph.
+fn of_mechanism(graph: &ConstraintGraph, tree: &SpanningTree) -> Captions<'static> {
+    Captions {
+        title: format!(
+            "Constraint graph: {} links, {} joints, {} independent loops",
+            graph.node_count(),
+            graph.edge_count(),
+            tree.chords().len()
+        ),
+        legend: ["spanning tree", "closes a loop", "ground"],
+    }
 }
 
 /// The same picture as an element `svg.graph` without style, for a page that includes [`SVG_STYLE`]. Links have `data-link`
@@ -34,13 +66,14 @@ pub fn to_svg(graph: &ConstraintGraph, tree: &SpanningTree) -> String {
 /// keyboard reaches both.
 #[must_use]
 pub fn svg_fragment(graph: &ConstraintGraph, tree: &SpanningTree) -> String {
-    written(graph, tree, &Handles::Own)
+    written(graph, tree, &Handles::Own, &of_mechanism(graph, tree))
 }
 
 /// The same of a folded graph: `data-link` and `data-joint` are still indices of the mechanism.
 #[must_use]
 pub fn folded_svg_fragment(folded: &FoldedGraph) -> String {
-    written(&folded.graph, &folded.tree, &Handles::Of(folded))
+    let captions = of_mechanism(&folded.graph, &folded.tree);
+    written(&folded.graph, &folded.tree, &Handles::Of(folded), &captions)
 }
 
 /// Attributes by which a page finds a link or joint, and by which the keyboard reaches it. A document of its own has none:
@@ -80,17 +113,17 @@ fn handle(what: &str, index: usize, reached: bool) -> String {
     format!(" data-{what}=\"{index}\"{reached}")
 }
 
-fn written(graph: &ConstraintGraph, tree: &SpanningTree, handles: &Handles<'_>) -> String {
+fn written(
+    graph: &ConstraintGraph,
+    tree: &SpanningTree,
+    handles: &Handles<'_>,
+    captions: &Captions<'_>,
+) -> String {
     let alone = handles.alone();
     let layout = Layout::new(graph, tree);
     let curves = layout.curves(graph, tree);
     let (width, height) = layout.size(&curves);
-    let title = format!(
-        "Constraint graph: {} links, {} joints, {} independent loops",
-        graph.node_count(),
-        graph.edge_count(),
-        tree.chords().len()
-    );
+    let title = escaped(&captions.title);
     let mut svg = String::new();
     let namespace = if alone {
         " xmlns=\"http://www.w3.org/2000/svg\""
@@ -120,7 +153,12 @@ fn written(graph: &ConstraintGraph, tree: &SpanningTree, handles: &Handles<'_>) 
     if graph.edge_count() <= PLACED_EDGES {
         write_edge_names(&mut svg, graph, tree, &layout, &curves, handles);
     }
-    write_legend(&mut svg, width, height - LEGEND_HEIGHT / 2.0);
+    write_legend(
+        &mut svg,
+        width,
+        height - LEGEND_HEIGHT / 2.0,
+        captions.legend,
+    );
     svg.push_str("</svg>\n");
     svg
 }
@@ -241,17 +279,20 @@ fn write_edge_names(
     }
 }
 
-fn write_legend(svg: &mut String, width: f64, y: f64) {
+fn write_legend(svg: &mut String, width: f64, y: f64, [solid, dashed, dark]: [&str; 3]) {
     put(
         svg,
         format_args!(
             concat!(
-                "<g transform=\"translate({left:.1} {y:.1})\"><path class=\"edge\" d=\"M0 0H36\"/><text x=\"92\" y=\"0\" dy=\"0.35em\">spanning tree</text>",
-                "<path class=\"edge chord\" d=\"M160 0H196\"/><text x=\"252\" y=\"0\" dy=\"0.35em\">closes a loop</text>",
-                "<rect class=\"link ground\" x=\"322\" y=\"-7\" width=\"36\" height=\"14\" rx=\"3\"/><text x=\"386\" y=\"0\" dy=\"0.35em\">ground</text></g>\n"
+                "<g transform=\"translate({left:.1} {y:.1})\"><path class=\"edge\" d=\"M0 0H36\"/><text x=\"92\" y=\"0\" dy=\"0.35em\">{solid}</text>",
+                "<path class=\"edge chord\" d=\"M160 0H196\"/><text x=\"252\" y=\"0\" dy=\"0.35em\">{dashed}</text>",
+                "<rect class=\"link ground\" x=\"322\" y=\"-7\" width=\"36\" height=\"14\" rx=\"3\"/><text x=\"386\" y=\"0\" dy=\"0.35em\">{dark}</text></g>\n"
             ),
             left = (width - 410.0) / 2.0,
             y = y,
+            solid = escaped(solid),
+            dashed = escaped(dashed),
+            dark = escaped(dark),
         ),
     );
 }
