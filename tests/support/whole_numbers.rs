@@ -15,14 +15,16 @@ pub enum Place {
     Plane,
     /// Hinges whose axes meet in one point.
     Sphere,
+    /// Hinges, sliders, sleeves and balls at points of a small cube, along its edges and diagonals.
+    Space,
 }
 
 /// Links beside the ground, at least and at most.
 const LINKS: [u64; 2] = [3, 6];
 
-/// A connected mechanism of hinges with one to three loops, drawn by the number of the case.
+/// A connected mechanism with one to three loops, drawn by the number of the case.
 pub fn random(case: u64) -> (String, Mechanism) {
-    let place = [Place::Line, Place::Plane, Place::Sphere][(case % 3) as usize];
+    let place = [Place::Line, Place::Plane, Place::Sphere, Place::Space][(case % 4) as usize];
     let mut random = SplitMix64::new(0x5EED_0000 + case);
     let mut below = |most: u64| random.next_u64() % most;
     let links = LINKS[0] + below(LINKS[1] - LINKS[0] + 1);
@@ -45,7 +47,9 @@ pub fn random(case: u64) -> (String, Mechanism) {
             Place::Line => [coordinate(3), 0, 0],
             Place::Plane => [coordinate(2), coordinate(2), 0],
             Place::Sphere => [coordinate(2), coordinate(2), coordinate(2)],
+            Place::Space => [coordinate(1), coordinate(1), coordinate(1)],
         };
+        let along = [coordinate(1), coordinate(1), coordinate(1)];
         let pair = [one.min(other), one.max(other)];
         // Twice the same hinge is one.
         if !taken.insert((pair, at)) {
@@ -54,10 +58,16 @@ pub fn random(case: u64) -> (String, Mechanism) {
         let (point, axis) = match place {
             Place::Sphere if at == [0; 3] => (at, [0, 0, 1]),
             Place::Sphere => ([0; 3], at),
+            Place::Space if along != [0; 3] => (at, along),
             _ => (at, [0, 0, 1]),
         };
-        let _ = write!(text, "J{joints} R {} {}", name(one), name(other));
-        point.iter().chain(&axis).for_each(|x| {
+        let kind = match place {
+            Place::Space => ["R", "R", "R", "P", "C", "S"][below(6) as usize],
+            _ => "R",
+        };
+        let _ = write!(text, "J{joints} {kind} {} {}", name(one), name(other));
+        let axis = if kind == "S" { &[][..] } else { &axis[..] };
+        point.iter().chain(axis).for_each(|x| {
             let _ = write!(text, " {x}");
         });
         text.push('\n');
