@@ -13,6 +13,7 @@ mod analyse;
 mod assemble;
 mod cases;
 mod chart;
+mod configurations;
 mod constructive;
 mod exact;
 mod germ;
