@@ -201,6 +201,8 @@ fn compare_whole_numbers(cases: std::ops::Range<u64>) -> usize {
 #[test]
 fn whole_numbers_written_otherwise_contradict_nothing() {
     assert!(compare_whole_numbers(0..30) <= 1);
+    // Coefficients below what three decimals state left a curve of a surface of two dimensions.
+    compare_whole_numbers(4072..4073);
 }
 
 /// Sixteen levers of 10 : 1, the last one welded: a rank that doubles do not show, whatever pieces the links are welded of.

@@ -481,11 +481,12 @@ fn secant_poses(
             let spanned = orthonormal(trial);
             let new = spanned.len() > basis.len();
             let reach = spanned.last().map_or(0.0, |v| along(v, &slope));
-            if new && reach.abs() > 0.05 && basis.len() < dimension {
+            if new && reach.abs() > 0.05 {
                 basis = spanned;
             }
         }
     }
+    // More of them say that the branch is a part of a larger one.
     if basis.len() != dimension {
         return Ok(Vec::new());
     }

@@ -520,6 +520,9 @@ fn two_in_one(germ: &Germ, zeros: &GermZeros) -> Option<&'static str> {
 fn directions(a: &GermBranch, b: &GermBranch) -> usize {
     let tangents: Vec<&Vec<f64>> = a.tangents.iter().chain(&b.tangents).collect();
     let size = tangents.first().map_or(0, |t| t.len());
+    if size == 0 {
+        return 0;
+    }
     let matrix = DMatrix::from_fn(tangents.len(), size, |i, j| tangents[i][j]);
     let values = matrix.singular_values();
     values

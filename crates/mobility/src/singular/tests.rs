@@ -285,3 +285,30 @@ fn the_text_of_a_search_has_its_figures() {
         assert!(text.contains(part), "{part}: {text}");
     }
 }
+
+/// Branches that are known by no direction may be parts of one.
+#[test]
+fn branches_without_tangents_span_nothing() {
+    let branch = GermBranch {
+        dimension: 2,
+        half_branches: Vec::new(),
+        points: Vec::new(),
+        tangents: Vec::new(),
+        ramification: None,
+        reduced: true,
+        vanishing_order: None,
+        hits: 1,
+    };
+    assert_eq!(directions(&branch, &branch), 0);
+    let zeros = GermZeros {
+        branches: vec![branch.clone(), branch],
+        isolation: None,
+        starts: 0,
+        seed: 0,
+        radii: Vec::new(),
+        thin: None,
+        work: 0,
+        varies: false,
+    };
+    assert!(cut_in_pieces(&zeros, None).is_some());
+}
