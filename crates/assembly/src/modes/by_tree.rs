@@ -2,8 +2,8 @@
 
 use super::exact::decide;
 use super::{Complete, Configuration, Modes, Way, place, rounded};
-use crate::placed::{Placed, Unsuited};
-use crate::real::{real_solutions, stays};
+use crate::placed::{Placed, Slack, Unsuited};
+use crate::real::{RealSolutions, real_solutions, real_solutions_within};
 use crate::reduced::ReducedSystem;
 use crate::words::count;
 use kutzbach_algebra::{Budget, Limits, RealSet};
@@ -11,7 +11,7 @@ use kutzbach_model::mechanism::Mechanism;
 
 /// What came of it.
 pub(super) enum Outcome {
-    /// An answer, and whether it stays what it is with all digits that rounding left out.
+    /// An answer, and whether it is one with all digits that rounding left out.
     Modes(Box<Modes>, bool),
     /// Why the tree cannot say.
     NotByTree(String),
@@ -26,8 +26,9 @@ const SHARE: f64 = 0.5;
 /// Systems of more unknowns than this are not searched: every one more costs ten times as much.
 const MOST_UNKNOWNS: usize = 6;
 
-pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
-    let placed = match Placed::of(mechanism) {
+/// Of a mechanism whose numbers are known so far.
+pub(super) fn answer(mechanism: &Mechanism, slack: &Slack, budget: &Budget) -> Outcome {
+    let placed = match Placed::within(mechanism, slack) {
         Ok(placed) => placed,
         Err(Unsuited::Contradiction(mismatch)) => {
             let proven = mismatch
@@ -57,7 +58,7 @@ pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
         }
         Err(why) => return Outcome::NotByTree(why.to_string()),
     };
-    let system = match ReducedSystem::new(&placed) {
+    let system = match ReducedSystem::within(&placed, slack.share) {
         Ok(system) => system,
         Err(why) => return Outcome::NotByTree(why.to_string()),
     };
@@ -77,16 +78,13 @@ pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
             Complete::Unknown(too_few_equations(system.closures.len(), system.freedom()));
         return Outcome::Modes(Box::new(modes), false);
     }
-    let part = Budget::new(Limits {
-        time: budget.left().map(|t| t.mul_f64(SHARE)),
-        work: Some(MOST_BOXES),
-        ..budget.limits().clone()
-    });
-    let found = real_solutions(&system, &part);
-    if let Way::Tree { boxes, .. } = &mut modes.way {
-        *boxes = found.boxes;
-    }
-    modes.open = found.open.len();
+    let part = || {
+        Budget::new(Limits {
+            time: budget.left().map(|t| t.mul_f64(SHARE)),
+            work: Some(MOST_BOXES),
+            ..budget.limits().clone()
+        })
+    };
     let configuration = |unknowns: &[f64], multiplicity: usize, proven: bool| Configuration {
         joints: Vec::new(),
         poses: place::link_poses(mechanism, &placed, &system.points_at(unknowns)),
@@ -95,29 +93,51 @@ pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
         finite: proven.then_some(0),
         drawn: false,
     };
-    modes.configurations = found
-        .roots
-        .iter()
-        .map(|root| configuration(&root.unknowns, 1, root.proven))
-        .collect();
-    let finite = |pose: &place::Pose| {
-        let numbers = pose
-            .translation
-            .iter()
-            .chain(pose.rotation.iter().flatten());
-        numbers.copied().all(f64::is_finite)
+    let all = |found: &RealSolutions| -> Vec<Configuration> {
+        let roots = found.roots.iter();
+        roots
+            .map(|root| configuration(&root.unknowns, 1, root.proven && !placed.redundant))
+            .collect()
     };
-    let poses = modes.configurations.iter().flat_map(|c| &c.poses);
-    if !poses.flatten().all(finite) {
+    // The numbers are rounded: what holds of all digits is asked first.
+    let mut within = None;
+    if slack.share > 0.0 {
+        let found = real_solutions_within(&system, slack.share, &part());
+        modes.configurations = all(&found);
+        set_boxes(&mut modes, found.boxes);
+        if found.open.is_empty() && found.stopped.is_none() && is_finite(&modes) {
+            // Near each place there is one at most.
+            for configuration in &mut modes.configurations {
+                configuration.finite = Some(0);
+            }
+            return Outcome::Modes(Box::new(modes), true);
+        }
+        within = Some((modes.configurations.clone(), found.open.len()));
+    }
+    let found = real_solutions(&system, &part());
+    set_boxes(&mut modes, found.boxes);
+    modes.open = found.open.len();
+    modes.configurations = all(&found);
+    if !is_finite(&modes) {
         return Outcome::NotByTree(
             "some of a body's points are the same within rounding".to_owned(),
         );
     }
+    // More than the equations as they are written have: with other digits these may be configurations too.
+    if let Some((places, open)) = within
+        && places.len() > modes.configurations.len()
+    {
+        modes.configurations = places;
+        modes.open = open;
+        modes.moves = None;
+        modes.complete = Complete::Unknown(
+            "the numbers are rounded so coarsely that the search leaves places open where there may be several configurations or none"
+                .to_owned(),
+        );
+        return Outcome::Modes(Box::new(modes), false);
+    }
     if found.is_complete() {
-        let exact = mechanism.precision().is_exact();
-        let stays =
-            !exact && !placed.redundant && stays(&system, &found, rounded::share(mechanism), &part);
-        return Outcome::Modes(Box::new(modes), stays);
+        return Outcome::Modes(Box::new(modes), false);
     }
     match decide(&system, budget) {
         Ok(RealSet::Finite { real: all, .. }) => {
@@ -157,6 +177,25 @@ pub(super) fn answer(mechanism: &Mechanism, budget: &Budget) -> Outcome {
         }
     }
     Outcome::Modes(Box::new(modes), false)
+}
+
+fn set_boxes(modes: &mut Modes, count: usize) {
+    if let Way::Tree { boxes, .. } = &mut modes.way {
+        *boxes = count;
+    }
+}
+
+/// Whether all poses are numbers.
+fn is_finite(modes: &Modes) -> bool {
+    let finite = |pose: &place::Pose| {
+        let numbers = pose
+            .translation
+            .iter()
+            .chain(pose.rotation.iter().flatten());
+        numbers.copied().all(f64::is_finite)
+    };
+    let poses = modes.configurations.iter().flat_map(|c| &c.poses);
+    poses.flatten().all(finite)
 }
 
 /// A real solution lies on a motion where the equations have independent derivatives. Only over the complex numbers does every

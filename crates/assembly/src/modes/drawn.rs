@@ -7,13 +7,19 @@ use kutzbach_model::mechanism::Mechanism;
 /// Part of a mechanism's size that two poses of one configuration may differ: the drawn one is closed in doubles.
 const SAME: f64 = 1e-6;
 /// The same for singular ones, since an error of e in the equations moves a double solution by √e, and for unproven ones, which
-/// may be those of rounded numbers.
+/// may be those of rounded numbers; there no less than what these leave open.
 const SAME_SINGULAR: f64 = 1e-3;
 
 /// Says of an answer what is known of the drawn configuration. An answer that is not complete lists it where it closes, with
 /// the freedoms that the mobility analysis leaves it: whether something moves elsewhere does not tell whether it does here.
-pub(super) fn tell(modes: &mut Modes, fixed: &Mechanism, drawn: Option<&Drawn>, in_time: bool) {
-    mark(modes, drawn);
+pub(super) fn tell(
+    modes: &mut Modes,
+    fixed: &Mechanism,
+    drawn: Option<&Drawn>,
+    share: f64,
+    in_time: bool,
+) {
+    mark(modes, drawn, share);
     let Complete::Unknown(_) = modes.complete else {
         return;
     };
@@ -48,7 +54,7 @@ fn list(modes: &mut Modes, drawn: Option<&Drawn>, finite: Option<usize>) {
 
 /// Marks the configuration that is drawn. Where the drawn pose closes and is none of those that are said to be all, they are
 /// not.
-fn mark(modes: &mut Modes, drawn: Option<&Drawn>) {
+fn mark(modes: &mut Modes, drawn: Option<&Drawn>, share: f64) {
     let Some(drawn) = drawn else { return };
     let apart = |configuration: &Configuration| {
         configuration
@@ -66,7 +72,7 @@ fn mark(modes: &mut Modes, drawn: Option<&Drawn>) {
     if let Some((distance, configuration)) = nearest {
         let singular = configuration.multiplicity.is_some_and(|times| times > 1);
         let same = match singular || !configuration.proven {
-            true => SAME_SINGULAR,
+            true => SAME_SINGULAR.max(share),
             false => SAME,
         };
         if distance <= same {

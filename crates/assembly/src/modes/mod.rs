@@ -5,8 +5,11 @@
 //! the same equations, as long as it takes no longer than it may. Where joints slide or the geometry is of another kind, the
 //! exact closure equations of the loops are solved as they are.
 //!
-//! An answer is *proven* only if every configuration is proven to be one and nothing else is left; if, besides, the drawn pose
-//! closes and is not among them, the answer contradicts a known fact and is withdrawn.
+//! An answer is *proven* only if nothing else is left and, for exact numbers, every configuration is proven to be one; if, besides, the
+//! drawn pose closes and is not among them, the answer contradicts a known fact and is withdrawn.
+//!
+//! Rounded numbers are asked first what holds of all digits: then a configuration may be one that closes only within the digits, which it
+//! says of itself.
 
 mod by_polynomials;
 mod by_tree;
@@ -84,7 +87,7 @@ pub enum Way {
 /// Whether these are all configurations.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Complete {
-    /// They are, proven.
+    /// There is no other, proven. Whether each of them is one it says itself.
     Proven,
     /// It is not known, because.
     Unknown(String),
@@ -154,16 +157,22 @@ pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Mode
     let mut limits = question.limits.clone();
     limits.time = limits.time.map(|t| t.saturating_sub(began.elapsed()));
     let budget = Budget::new(limits);
-    let (mut modes, stays) = match by_tree::answer(&fixed, &budget) {
+    let joints: Vec<JointId> = (0..fixed.joints().len()).map(JointId).collect();
+    let (algebraic, _) = fixed.with_rational_rotations(&joints);
+    let slack = rounded::slack(&fixed);
+    let (mut modes, stays) = match by_tree::answer(&algebraic, &slack, &budget) {
         by_tree::Outcome::Modes(modes, stays) => (*modes, stays),
-        by_tree::Outcome::NotByTree(why) => (by_polynomials::answer(&fixed, &why, &budget), false),
+        by_tree::Outcome::NotByTree(why) => {
+            let modes = by_polynomials::answer(&algebraic, &why, &budget);
+            (modes, false)
+        }
     };
     rounded::doubt(&mut modes, &fixed, stays, never_closes);
     modes.held = held;
     modes.held_near = held_near;
     modes.freedom = freedom;
     let in_time = budget.left().is_none_or(|left| !left.is_zero());
-    drawn::tell(&mut modes, &fixed, drawn.as_ref(), in_time);
+    drawn::tell(&mut modes, &fixed, drawn.as_ref(), slack.share, in_time);
     // Joints by the mechanism as it was asked about: those held have their values.
     for configuration in &mut modes.configurations {
         configuration.joints =

@@ -5,17 +5,32 @@
 //! several times, and those of more equations than unknowns, need not stay: the mechanism meant may close in more ways, or in fewer.
 
 use super::{Complete, Modes, Way};
-use crate::placed::Gap;
+use crate::placed::{Gap, Slack};
 use kutzbach_closure::{Arithmetic, Geometry};
 use kutzbach_model::mechanism::Mechanism;
 
 /// The share of a coefficient by which rounding may have moved it: what is unknown of all lengths, in parts of the mechanism's
 /// size, and of all angles. To first order, and without the levers of points close together; the search for it takes every
 /// coefficient to be off by that share of the largest, and all in the worst direction.
-pub(super) fn share(mechanism: &Mechanism) -> f64 {
+fn share(mechanism: &Mechanism) -> f64 {
     let geometry = Geometry::new(mechanism, None, &Arithmetic::double());
     let all = geometry.uncertainties.iter();
-    all.map(|u| u.lengths / geometry.size + u.angles).sum()
+    // Some angles are read as others within their digits.
+    all.map(|u| u.lengths / geometry.size + 2.0 * u.angles)
+        .sum()
+}
+
+/// What the digits leave open: nothing where the numbers are exact.
+pub(super) fn slack(mechanism: &Mechanism) -> Slack {
+    if mechanism.precision().is_exact() {
+        return Slack::default();
+    }
+    let size = Geometry::new(mechanism, None, &Arithmetic::double()).size;
+    let share = share(mechanism);
+    Slack {
+        share,
+        metres: share * size,
+    }
 }
 
 /// What a gap has to be more than, in what rounding may have made of it, to be no work of rounding.

@@ -1,7 +1,7 @@
 //! Links that are one body.
 
 use super::nodes::Nodes;
-use super::{Exact3, Gap, Mismatch, Placed, Unsuited, collection, cross, minus, square};
+use super::{Exact3, Gap, Mismatch, Placed, Slack, Unsuited, collection, cross, minus, square};
 use crate::collection::{Bar, Body};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{ExactPose, Joint, JointKind, LinkId, Mechanism, Placement};
@@ -142,6 +142,7 @@ impl Groups {
         mechanism: &Mechanism,
         nodes: &Nodes,
         bars: Vec<(String, [usize; 2], Number)>,
+        slack: &Slack,
     ) -> Result<Placed, Unsuited> {
         let mut of_group: Vec<Vec<usize>> = vec![Vec::new(); self.names.len()];
         for (index, node) in nodes.all.iter().enumerate() {
@@ -218,7 +219,7 @@ impl Groups {
             redundant: self.redundant(mechanism),
             bar_squares,
         };
-        placed.check_distances()?;
+        placed.check_distances(slack)?;
         Ok(placed)
     }
 }
@@ -247,13 +248,17 @@ fn on_one_line(points: &[(usize, Exact3)]) -> bool {
 
 impl Placed {
     /// Two points that two bodies, or a body and a bar, share must be equally far apart in both.
-    fn check_distances(&self) -> Result<(), Unsuited> {
+    fn check_distances(&self, slack: &Slack) -> Result<(), Unsuited> {
+        let apart = |one: &Number, other: &Number| {
+            let off = (one.value().sqrt() - other.value().sqrt()).abs();
+            one != other && (slack.metres == 0.0 || off > slack.metres)
+        };
         let mut known: std::collections::BTreeMap<[usize; 2], (String, Number)> =
             std::collections::BTreeMap::new();
         let mut check = |ends: [usize; 2], name: &str, value: Number| {
             let ends = [ends[0].min(ends[1]), ends[0].max(ends[1])];
             match known.get(&ends) {
-                Some((body, other)) if *other != value => {
+                Some((body, other)) if apart(other, &value) => {
                     Err(Unsuited::Contradiction(Box::new(Mismatch::Distances {
                         points: ends.map(|p| self.collection.points()[p].clone()),
                         bodies: [body.clone(), name.to_owned()],

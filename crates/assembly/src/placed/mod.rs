@@ -143,6 +143,15 @@ impl std::fmt::Display for Mismatch {
     }
 }
 
+/// How far numbers may be from those meant.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Slack {
+    /// In parts of the largest coefficient of an equation, and of an angle (rad).
+    pub share: f64,
+    /// Of a length (m).
+    pub metres: f64,
+}
+
 /// A mechanism as bodies with exact points.
 #[derive(Clone, Debug)]
 pub struct Placed {
@@ -163,6 +172,14 @@ impl Placed {
     /// [`Unsuited`] where something else than shared points and distances holds it together, or where shared points
     /// contradict each other.
     pub fn of(mechanism: &Mechanism) -> Result<Self, Unsuited> {
+        Self::within(mechanism, &Slack::default())
+    }
+
+    /// The same where numbers are known so far: what contradicts each other by no more does not.
+    ///
+    /// # Errors
+    /// [`Unsuited`].
+    pub fn within(mechanism: &Mechanism, slack: &Slack) -> Result<Self, Unsuited> {
         let mut groups = Groups::of(mechanism);
         let sides = |joint: &Joint, groups: &Groups| {
             [&joint.predecessor, &joint.successor].map(|side| {
@@ -178,7 +195,8 @@ impl Placed {
                 continue;
             }
             let square = bar_square(mechanism, joint);
-            if let Some(gap) = within::gap(joint, [&one.1, &other.1], &square) {
+            let gap = within::gap(joint, [&one.1, &other.1], &square);
+            if let Some(gap) = gap.filter(|gap| gap.is_beyond(slack)) {
                 return Err(Unsuited::Contradiction(Box::new(Mismatch::Within {
                     joint: joint.name.clone(),
                     link: groups.name(one.0).to_owned(),
@@ -234,7 +252,7 @@ impl Placed {
         }
         axes::share_points(&hinges, &mut nodes);
         groups.check_torn(&nodes)?;
-        groups.finish(mechanism, &nodes, bars)
+        groups.finish(mechanism, &nodes, bars, slack)
     }
 }
 

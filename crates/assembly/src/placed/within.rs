@@ -1,6 +1,6 @@
 //! Joints whose two sides belong to one body: they leave nothing to solve, and have to close as they are.
 
-use super::{Exact3, cross, dot, minus, square};
+use super::{Exact3, Slack, cross, dot, minus, square};
 use kutzbach_math::number::Number;
 use kutzbach_math::space::Rigid;
 use kutzbach_model::mechanism::{ExactPose, Joint, JointKind};
@@ -12,6 +12,13 @@ pub struct Gap {
     pub metres: f64,
     /// Of the directions (rad).
     pub radians: f64,
+}
+
+impl Gap {
+    /// Whether it is more than numbers known so far leave open.
+    pub(super) fn is_beyond(&self, slack: &Slack) -> bool {
+        self.metres > slack.metres || self.radians > slack.share
+    }
 }
 
 impl std::fmt::Display for Gap {

@@ -178,6 +178,19 @@ pub(super) fn tensors(
         .collect()
 }
 
+/// The size of every closure: the largest coefficient of all of its kind, since one that cancels says little of what it is known to.
+pub(super) fn sizes(system: &ReducedSystem, tensors: &[Tensor]) -> Vec<f64> {
+    let all = || system.closures.iter().zip(tensors);
+    let largest = |square: bool| {
+        let of_kind = all().filter(|(closure, _)| closure.is_square() == square);
+        of_kind.fold(f64::MIN_POSITIVE, |m, (_, tensor)| m.max(tensor.largest()))
+    };
+    let of_kind = [false, true].map(largest);
+    all()
+        .map(|(closure, _)| of_kind[usize::from(closure.is_square())])
+        .collect()
+}
+
 fn tensor(
     system: &ReducedSystem,
     scales: &[[Interval; 2]],
@@ -244,11 +257,8 @@ fn bernstein(mut powers: Powers, variables: Vec<usize>) -> Tensor {
     }
     let balls: Vec<(f64, f64)> = powers.coefficients.iter().map(|c| c.ball()).collect();
     let radius = balls.iter().fold(0.0, |m: f64, (_, r)| m.max(*r));
-    Tensor {
-        variables,
-        coefficients: balls.iter().map(|(c, _)| *c).collect(),
-        radius,
-    }
+    let coefficients = balls.iter().map(|(c, _)| *c).collect();
+    Tensor::new(variables, coefficients, radius)
 }
 
 /// The components of every turn at a place of a chart.

@@ -108,7 +108,7 @@ fn most_independent(matrix: &[Vec<f64>], count: usize) -> Option<Vec<usize>> {
 }
 
 /// The inverse by elimination with partial pivoting; its quality is no matter of proof.
-fn inverted(mut rows: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
+pub(super) fn inverted(mut rows: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
     let n = rows.len();
     for (i, row) in rows.iter_mut().enumerate() {
         row.extend((0..n).map(|j| f64::from(u8::from(i == j))));

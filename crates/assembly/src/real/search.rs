@@ -3,7 +3,7 @@
 use super::chart::{self, Chart, REACH};
 use super::interval::Interval;
 use super::krawczyk::image;
-use super::tensor::Tensor;
+use super::tensor::{BEYOND, Tensor};
 use crate::reduced::ReducedSystem;
 use kutzbach_algebra::{Budget, Stop};
 
@@ -55,8 +55,14 @@ pub(super) struct Found {
 /// Boxes left open after which a search ends: isolated solutions leave a few each, curves thousands.
 const MOST_OPEN: usize = 600;
 
+/// Boxes are not made smaller than this, in shares by which coefficients may be off: what these leave open covers some boxes.
+const IN_SHARES: f64 = 4.0;
+
+/// The largest box that is made smaller in any case.
+const LARGEST: f64 = 1.0 / 32.0;
+
 /// Searches all boxes of all charts. What is found holds for all equations whose coefficients are within a share of the largest
-/// one of those given.
+/// one of those given of the same kind: lengths, or squares of lengths.
 pub(super) fn search(
     system: &ReducedSystem,
     charts: &[Chart],
@@ -68,7 +74,10 @@ pub(super) fn search(
     let mut found = Found::default();
     for (index, chart) in charts.iter().enumerate() {
         let mut tensors = chart::tensors(system, &scales, chart);
-        tensors.iter_mut().for_each(|tensor| tensor.widen(share));
+        let sizes = chart::sizes(system, &tensors);
+        for (tensor, size) in tensors.iter_mut().zip(sizes) {
+            tensor.widen(share * size);
+        }
         let mut waiting = vec![Cell {
             chart: index,
             sides: vec![Interval::new(-REACH, REACH); count],
@@ -85,7 +94,8 @@ pub(super) fn search(
                 found.open.push((cell.chart, cell.sides));
                 continue;
             }
-            examine(system, charts, cell, &mut waiting, &mut found);
+            let least = (IN_SHARES * share).clamp(SMALLEST, LARGEST);
+            examine(system, charts, cell, least, &mut waiting, &mut found);
             found.crowded = found.open.len() > MOST_OPEN;
         }
     }
@@ -96,11 +106,21 @@ fn examine(
     system: &ReducedSystem,
     charts: &[Chart],
     mut cell: Cell,
+    least: f64,
     waiting: &mut Vec<Cell>,
     found: &mut Found,
 ) {
     let count = cell.sides.len();
+    let known = |cell: &Cell, found: &Found| {
+        found.proven.iter().any(|other| {
+            let pairs = cell.sides.iter().zip(&other.alone);
+            other.chart == cell.chart && pairs.into_iter().all(|(a, b)| a.inside(*b))
+        })
+    };
     loop {
+        if known(&cell, found) {
+            return;
+        }
         if cell
             .tensors
             .iter()
@@ -134,11 +154,20 @@ fn examine(
                 shrunk = true;
             }
         }
-        if !shrunk || cell.longest() < SMALLEST {
+        if !shrunk || cell.longest() < least {
+            // What is unknown of the equations may be more than the box: then a larger one around the place holds one solution.
+            if cell.tensors.iter().any(Tensor::is_unknown)
+                && let Some(Some(proven)) = prove_around(&cell, &first.image)
+            {
+                add(system, charts, proven, found);
+                if known(&cell, found) {
+                    return;
+                }
+            }
             break;
         }
     }
-    if cell.longest() < SMALLEST {
+    if cell.longest() < least {
         found.open.push((cell.chart, cell.sides));
         return;
     }
@@ -171,6 +200,17 @@ impl Cell {
             .for_each(|t| t.restrict(variable, a, b));
     }
 
+    /// The same, where something of the equations is unknown no farther out than that is bounded.
+    fn cut_in_reach(&mut self, variable: usize, a: f64, b: f64) {
+        const OUTERMOST: f64 = REACH * (1.0 + 2.0 * BEYOND);
+        if !self.tensors.iter().any(Tensor::is_unknown) {
+            return self.cut(variable, a, b);
+        }
+        let side = self.sides[variable];
+        let at = |x: f64| (x - side.low) / side.width();
+        self.cut(variable, a.max(at(-OUTERMOST)), b.min(at(OUTERMOST)));
+    }
+
     /// The variable along which the equations change most, of those that are not short already.
     fn steepest(&self) -> usize {
         let long = 0.05 * self.longest();
@@ -191,14 +231,38 @@ impl Cell {
     }
 }
 
-/// Tries to prove one solution of as many equations as unknowns in a box made a little wider; then makes it as narrow as
-/// rounding allows. Inside, `None` where another equation does not hold there.
-fn prove(cell: &Cell) -> Option<Option<Proven>> {
-    let mut cell = cell.clone();
-    let count = cell.sides.len();
-    for variable in 0..count {
-        cell.cut(variable, -WIDER, 1.0 + WIDER);
+/// How many times as long as K the boxes around it are, in which a solution is looked for.
+const AROUND: [f64; 2] = [2.5, 5.0];
+
+/// Tries to prove one solution in boxes around K, as long as these are not far larger than the box.
+fn prove_around(cell: &Cell, image: &[Interval]) -> Option<Option<Proven>> {
+    const MOST: f64 = 64.0;
+    if image.iter().any(|k| !(k.width() < MOST)) {
+        return None;
     }
+    AROUND.into_iter().find_map(|times| {
+        let mut around = cell.clone();
+        for (variable, k) in image.iter().enumerate() {
+            let half = 0.5 * times * k.width();
+            around.cut_in_reach(variable, k.middle() - half, k.middle() + half);
+        }
+        prove_in(around)
+    })
+}
+
+/// Tries to prove one solution of as many equations as unknowns in a box made a little wider.
+fn prove(cell: &Cell) -> Option<Option<Proven>> {
+    let mut wider = cell.clone();
+    for variable in 0..wider.sides.len() {
+        wider.cut_in_reach(variable, -WIDER, 1.0 + WIDER);
+    }
+    prove_in(wider)
+}
+
+/// Tries to prove one solution in a box; then makes it as narrow as rounding allows. Inside, `None` where another equation does not
+/// hold there.
+fn prove_in(mut cell: Cell) -> Option<Option<Proven>> {
+    let count = cell.sides.len();
     let cube = Interval::new(0.0, 1.0);
     let first = image(&cell.tensors, count)?;
     if !first.image.iter().all(|k| k.inside(cube)) {

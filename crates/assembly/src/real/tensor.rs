@@ -5,9 +5,15 @@
 //! all, which grows with each step: a combination with weights that sum to one in magnitude keeps the radius, and rounding
 //! adds at most eight units of the largest coefficient (three products, two sums, weights that are products of two
 //! differences themselves: 2u for a weight, u for its product, 2u for the sums, together below 8u of Σ|w| max|b|).
+//!
+//! What is unknown of the polynomial itself is another polynomial of this kind, with coefficients below a bound on the first box. Its
+//! values stay below that bound on all boxes up to [`BEYOND`] outside of it, and its slopes fall with the length of the box.
 
 /// Unit of rounding.
 const UNIT: f64 = f64::EPSILON / 2.0;
+
+/// How far outside of the first box, in parts of it, what is unknown is bounded.
+pub(super) const BEYOND: f64 = 1.0 / 32.0;
 
 /// A polynomial of degree at most two in each of some variables.
 #[derive(Clone, Debug)]
@@ -16,11 +22,25 @@ pub(super) struct Tensor {
     pub(super) variables: Vec<usize>,
     /// 3ᵏ coefficients.
     pub(super) coefficients: Vec<f64>,
-    /// How far every coefficient may be off.
+    /// How far every coefficient may be off by rounding.
     pub(super) radius: f64,
+    /// How far the polynomial may be from the one meant, on the box.
+    unknown: f64,
+    /// The same of its derivative in each variable, the box being as long as one.
+    unknown_slopes: Vec<f64>,
 }
 
 impl Tensor {
+    pub(super) fn new(variables: Vec<usize>, coefficients: Vec<f64>, radius: f64) -> Self {
+        Self {
+            unknown_slopes: vec![0.0; variables.len()],
+            variables,
+            coefficients,
+            radius,
+            unknown: 0.0,
+        }
+    }
+
     /// Least and largest value on the box that is possible.
     pub(super) fn range(&self) -> (f64, f64) {
         let mut low = f64::INFINITY;
@@ -30,17 +50,28 @@ impl Tensor {
             high = high.max(c);
         }
         (
-            (low - self.radius).next_down(),
-            (high + self.radius).next_up(),
+            (low - self.radius - self.unknown).next_down().next_down(),
+            (high + self.radius + self.unknown).next_up().next_up(),
         )
     }
 
-    /// Lets every coefficient be off by a share of the largest one.
-    pub(super) fn widen(&mut self, share: f64) {
-        self.radius = (self.radius + share * self.largest()).next_up();
+    /// Lets every coefficient of the polynomial be off by so much, on the first box.
+    pub(super) fn widen(&mut self, by: f64) {
+        // The weights at 1 + t are t², 2t (1 + t) and (1 + t)², up to signs.
+        const OUTSIDE: f64 = (1.0 + 2.0 * BEYOND) * (1.0 + 2.0 * BEYOND);
+        let power = self.variables.iter().fold(1.0, |p, _| p * OUTSIDE);
+        self.unknown = by * power * (1.0 + 16.0 * UNIT);
+        // Twice the difference of two coefficients.
+        self.unknown_slopes.fill(4.0 * self.unknown);
     }
 
-    fn largest(&self) -> f64 {
+    /// Whether something of the polynomial is unknown.
+    pub(super) fn is_unknown(&self) -> bool {
+        self.unknown > 0.0
+    }
+
+    /// The largest coefficient.
+    pub(super) fn largest(&self) -> f64 {
         self.coefficients.iter().fold(0.0, |m, c| c.abs().max(m))
     }
 
@@ -65,6 +96,8 @@ impl Tensor {
         self.radius = (self.radius * size * (1.0 + 16.0 * UNIT)
             + 8.0 * UNIT * size * self.largest())
         .next_up();
+        let slope = self.unknown_slopes[place] * (b - a).abs().next_up();
+        self.unknown_slopes[place] = slope.next_up();
         let stride = self.stride(place);
         for start in 0..self.coefficients.len() {
             if !(start / stride).is_multiple_of(3) {
@@ -93,9 +126,10 @@ impl Tensor {
             high = high.max(step);
         }
         let margin = 2.0 * self.radius + 2.0 * UNIT * self.largest();
+        let unknown = self.unknown_slopes[place];
         (
-            2.0 * (low - margin).next_down(),
-            2.0 * (high + margin).next_up(),
+            (2.0 * (low - margin).next_down() - unknown).next_down(),
+            (2.0 * (high + margin).next_up() + unknown).next_up(),
         )
     }
 
@@ -113,8 +147,8 @@ impl Tensor {
             steps += 1.0;
         }
         // Two sums a step; products by powers of two are exact.
-        let radius = self.radius + 2.0 * UNIT * (steps + 1.0) * self.largest();
-        (values[0], radius.next_up())
+        let radius = self.radius + self.unknown + 2.0 * UNIT * (steps + 1.0) * self.largest();
+        (values[0], radius.next_up().next_up())
     }
 }
 
@@ -126,14 +160,8 @@ mod tests {
     fn sample() -> Tensor {
         let x = [-1.0 / 3.0, 1.0 / 6.0, 2.0 / 3.0];
         let y = [-0.5, 0.0, 0.5];
-        Tensor {
-            variables: vec![0, 1],
-            coefficients: x
-                .iter()
-                .flat_map(|a| y.iter().map(move |b| a * b))
-                .collect(),
-            radius: 1e-16,
-        }
+        let products = x.iter().flat_map(|a| y.iter().map(move |b| a * b));
+        Tensor::new(vec![0, 1], products.collect(), 1e-16)
     }
 
     #[test]
@@ -162,6 +190,38 @@ mod tests {
                 assert!(low <= slope + 1e-15 && slope - 1e-15 <= high);
             }
             assert!(part.radius < 1e-13);
+        }
+    }
+
+    /// A polynomial that is off by another one stays within what is said to be unknown of it, on parts of the box and beyond it.
+    #[test]
+    fn what_is_unknown_covers_another_polynomial() {
+        let by = 1e-3;
+        let mut random = kutzbach_math::matrix::SplitMix64::new(11);
+        let mut sign = || if random.next_u64() % 2 == 0 { by } else { -by };
+        let plain = sample();
+        let off = plain.coefficients.iter().map(|c| c + sign()).collect();
+        let other = Tensor::new(vec![0, 1], off, 0.0);
+        for (a, b) in [(0.0, 0.5), (0.25, 0.3125), (0.5, 0.5 + 1e-3), (-0.03, 1.03)] {
+            let (mut wide, mut there) = (plain.clone(), other.clone());
+            wide.widen(by);
+            for variable in [0, 1] {
+                wide.restrict(variable, a, b);
+                there.restrict(variable, a, b);
+            }
+            let (middle, radius) = wide.middle();
+            assert!((there.middle().0 - middle).abs() <= radius);
+            let (range, inner) = (wide.range(), there.range());
+            assert!(range.0 <= inner.0 && inner.1 <= range.1);
+            for variable in [0, 1] {
+                let (slope, inner) = (wide.slope(variable), there.slope(variable));
+                assert!(
+                    slope.0 <= inner.0 && inner.1 <= slope.1,
+                    "{slope:?} {inner:?}"
+                );
+                // A thousandth of the box has a thousandth of the slope left open.
+                assert!(slope.1 - slope.0 <= (32.0 * by + 1.1) * (b - a));
+            }
         }
     }
 }

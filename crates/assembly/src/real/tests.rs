@@ -104,6 +104,13 @@ fn a_budget_that_ends_claims_nothing() {
 fn simple_solutions_stay_when_coefficients_change_a_little() {
     let (system, found) = solved("tetra_iii");
     let budget = Budget::unlimited();
-    assert!(stays(&system, &found, 1e-6, &budget));
-    assert!(!stays(&system, &found, 1e-2, &budget));
+    let within = real_solutions_within(&system, 1e-6, &budget);
+    assert!(within.is_complete());
+    assert_eq!(within.roots.len(), found.roots.len());
+    for (one, other) in found.roots.iter().zip(&within.roots) {
+        let pairs = one.unknowns.iter().zip(&other.unknowns);
+        assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-9));
+    }
+    let coarse = real_solutions_within(&system, 1e-2, &budget);
+    assert!(!coarse.is_complete());
 }

@@ -63,6 +63,14 @@ pub struct Closure {
     pub asks: Asks,
 }
 
+impl Closure {
+    /// Whether it is one of squared lengths, not of lengths.
+    #[must_use]
+    pub const fn is_square(&self) -> bool {
+        matches!(self.asks, Asks::Distance { .. })
+    }
+}
+
 /// The system of an incidence tree.
 #[derive(Clone, Debug)]
 pub struct ReducedSystem {
@@ -109,6 +117,14 @@ impl ReducedSystem {
     /// # Errors
     /// [`NotReduced`].
     pub fn new(placed: &Placed) -> Result<Self, NotReduced> {
+        Self::within(placed, 0.0)
+    }
+
+    /// The same where coefficients are known up to a share of the largest one: constants that are no larger do not contradict.
+    ///
+    /// # Errors
+    /// [`NotReduced`].
+    pub fn within(placed: &Placed, share: f64) -> Result<Self, NotReduced> {
         let collection = with_triangles(&placed.collection);
         let given = placed.bodies.len();
         let needed: Vec<usize> = (0..given)
@@ -116,7 +132,7 @@ impl ReducedSystem {
             .collect();
         let tree =
             optimal_incidence_tree(&collection, &needed, |_| true).ok_or(NotReduced::NoTree)?;
-        Self::along(placed, collection, tree)
+        Self::along(placed, collection, tree, share)
     }
 
     /// The system of a given tree over the bodies given and implied triangles after them.
@@ -127,6 +143,7 @@ impl ReducedSystem {
         placed: &Placed,
         collection: Collection,
         tree: IncidenceTree,
+        share: f64,
     ) -> Result<Self, NotReduced> {
         if tree.edges.iter().any(|e| e.shared.is_empty()) {
             return Err(NotReduced::Apart {
@@ -160,20 +177,40 @@ impl ReducedSystem {
             turns,
         };
         let all = closures(&system, placed).ok_or(NotReduced::NotAlgebraic)?;
+        let sizes = all.iter().map(|c| (c.is_square(), system.size(c)));
+        let largest = |square: bool| {
+            let of_kind = sizes.clone().filter(|(own, _)| *own == square);
+            of_kind.fold(0.0, |m: f64, (_, size)| m.max(size))
+        };
+        let known_to = [false, true].map(|square| share * largest(square));
         let mut independent = Independent::default();
         for closure in all {
             if closure.polynomial.is_constant() && !closure.polynomial.is_zero() {
-                system.impossible = Some(closure.asks);
+                if share > 0.0
+                    && system.size(&closure) <= known_to[usize::from(closure.is_square())]
+                {
+                    system.dependent.push(closure.asks);
+                } else {
+                    system.impossible = Some(closure.asks);
+                }
             } else if independent.add(&closure.polynomial, &system.field) {
                 system.closures.push(closure);
             } else {
                 system.dependent.push(closure.asks);
             }
         }
-        if system.impossible.is_none() && independent.holds_a_constant() {
+        if share == 0.0 && system.impossible.is_none() && independent.holds_a_constant() {
             system.impossible = system.closures.last().map(|c| c.asks.clone());
         }
         Ok(system)
+    }
+
+    /// The largest coefficient of a closure, in doubles.
+    fn size(&self, closure: &Closure) -> f64 {
+        let terms = closure.polynomial.terms();
+        terms.fold(0.0, |m: f64, (_, c)| {
+            m.max(self.field.number(c).value().abs())
+        })
     }
 
     /// Freedoms along the tree: the number of independent unknowns.

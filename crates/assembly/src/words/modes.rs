@@ -158,6 +158,7 @@ pub fn data(mechanism: &Mechanism, modes: &Modes) -> Value {
 pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
     let mut text = String::new();
     let found = modes.configurations.len();
+    let unproven = modes.configurations.iter().filter(|c| !c.proven).count();
     let first = match (&modes.complete, found) {
         (Complete::Proven, 0) => {
             let held = if modes.held.is_empty() {
@@ -168,8 +169,13 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
             format!("It cannot be put together{held}: no configuration exists, which is proved.")
         }
         (Complete::Proven, _) => format!(
-            "{}, and no other, which is proved.",
-            count(found, "configuration")
+            "{}{}, and no other, which is proved.",
+            count(found, "configuration"),
+            if unproven > 0 {
+                " within the digits"
+            } else {
+                ""
+            }
         ),
         (Complete::Unknown(_), _) if modes.moves.is_some_and(|m| m > 0) => moving(modes),
         (Complete::Unknown(_), 0) => "In how many ways it closes is not known.".to_owned(),
@@ -198,6 +204,17 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
     }
     if let Complete::Unknown(why) = &modes.complete {
         let _ = writeln!(text, "  • {why}.");
+    }
+    if unproven > 0 && modes.complete == Complete::Proven {
+        let _ = writeln!(
+            text,
+            "  • the numbers are rounded: whether {} with the digits that are not written is not known.",
+            match unproven {
+                1 if found == 1 => "it closes",
+                all if all == found => "they close",
+                _ => "those marked so close",
+            }
+        );
     }
     if !modes.proposed.is_empty() {
         let _ = writeln!(
@@ -314,7 +331,6 @@ fn link_lines(text: &mut String, mechanism: &Mechanism, configuration: &Configur
     }
 }
 
-/// What is to be said of a configuration in brackets.
 /// What is to be said of a configuration: that it is the drawn one, singular, or not proven; empty where nothing is.
 #[must_use]
 pub fn note(configuration: &Configuration) -> String {
@@ -324,7 +340,9 @@ pub fn note(configuration: &Configuration) -> String {
     }
     match configuration.multiplicity {
         Some(times) if times > 1 => marks.push(format!("counts {times} times: singular")),
-        Some(_) if !configuration.proven => marks.push("consistent, not proven".to_owned()),
+        Some(_) if !configuration.proven => {
+            marks.push("closes within rounding, not proved".to_owned())
+        }
         Some(_) => {}
         None => {
             if !configuration.proven {
