@@ -1,6 +1,7 @@
 //! The three problems of Sitharam, Peters and Zhou, by the names of their points.
 
 use super::{Bar, Body, Collection};
+use kutzbach_math::matrix::SplitMix64;
 
 /// The points of every body by name, bodies as strings such as `A B g1 d1`.
 pub(crate) fn names(collection: &Collection) -> Vec<String> {
@@ -132,4 +133,28 @@ pub(crate) fn pent_as_drawn() -> Collection {
 
 pub(crate) fn quad_as_drawn() -> Collection {
     collection(&QUAD[..5], &["p1 p2", "p2 p3", "p3 p4", "p4 p1"])
+}
+
+/// Bodies of three to five points of a few, no two with more than two in common.
+pub(crate) fn random_collection(random: &mut SplitMix64) -> Option<Collection> {
+    let mut below = |most: usize| (random.next_u64() % most as u64) as usize;
+    let count = 3 + below(4);
+    let points = count + 2 + below(5);
+    let mut bodies: Vec<Vec<usize>> = Vec::new();
+    for _ in 0..count {
+        let mut own: Vec<usize> = Vec::new();
+        for _ in 0..3 + below(3) {
+            own.push(below(points));
+        }
+        own.sort_unstable();
+        own.dedup();
+        let fits = |other: &Vec<usize>| own.iter().filter(|p| other.contains(p)).count() <= 2;
+        (own.len() >= 3 && bodies.iter().all(fits)).then(|| bodies.push(own.clone()))?;
+    }
+    let names = (0..points).map(|i| format!("p{i}")).collect();
+    let bodies = bodies.into_iter().enumerate().map(|(i, points)| Body {
+        name: format!("b{i}"),
+        points,
+    });
+    Collection::new(names, bodies.collect(), Vec::new()).ok()
 }

@@ -102,7 +102,7 @@ pub(super) fn answer(mechanism: &Mechanism, slack: &Slack, budget: &Budget) -> O
     // The numbers are rounded: what holds of all digits is asked first.
     let mut within = None;
     if slack.share > 0.0 {
-        let found = real_solutions_within(&system, slack.share, &part());
+        let found = real_solutions_within(&system, system.share, &part());
         modes.configurations = all(&found);
         set_boxes(&mut modes, found.boxes);
         if found.open.is_empty() && found.stopped.is_none() && is_finite(&modes) {

@@ -127,7 +127,7 @@ pub fn real_solutions_within(system: &ReducedSystem, share: f64, budget: &Budget
         let again = share > 0.0
             && roots
                 .iter()
-                .any(|known| same(known, &unknowns, known.radius + radius));
+                .any(|known| same(known, &unknowns, OF_RADIUS * known.radius.min(radius)));
         if !again {
             roots.push(RealRoot {
                 radius,
@@ -180,6 +180,10 @@ const MOST_SOUGHT: usize = 64;
 
 /// How far from a place left open the equations may hold best (half angles).
 const NEARBY: f64 = 0.25;
+
+/// Two enclosures are of one solution, found by other equations or in another chart, where the places at which equations hold best differ by
+/// less than this share of them: solutions that are two are farther apart than an enclosure.
+const OF_RADIUS: f64 = 0.1;
 
 /// Places left open are told from each other beyond so many shares (half angles): in another chart the equations have other weights.
 const COARSE: f64 = 30.0;
@@ -250,6 +254,9 @@ fn reach(system: &ReducedSystem, [one, other]: [usize; 2], unknowns: &[f64]) -> 
     2.0 * 2.0 * system.freedom() as f64 * far / apart
 }
 
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod disturbed;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests;

@@ -59,6 +59,27 @@ impl Local {
         })
     }
 
+    /// The largest distance of two points, in doubles (m).
+    pub(super) fn extent(&self, field: &NumberField) -> f64 {
+        let points: Vec<&Constant> = self.points.values().collect();
+        let pairs = points
+            .iter()
+            .enumerate()
+            .flat_map(|(i, a)| points[..i].iter().map(move |b| (a, b)));
+        let squares = pairs.map(|(a, b)| {
+            let way = minus(a, b);
+            field.number(&self.dot(&way, &way, field)).value()
+        });
+        squares.fold(0.0, f64::max).sqrt()
+    }
+
+    /// How much farther off a corner of a triangle may be than its sides: by the base, and by the height.
+    pub(super) fn lever(&self, field: &NumberField) -> f64 {
+        let [base, height] = [0, 1].map(|i| field.number(&self.metric[i]).value().sqrt());
+        let extent = self.extent(field);
+        (extent / base).max(1.0) * (extent / height).max(1.0)
+    }
+
     pub(super) fn dot(&self, a: &Constant, b: &Constant, field: &NumberField) -> FieldElement {
         let mut sum = FieldElement::default();
         for i in 0..3 {

@@ -88,6 +88,8 @@ pub struct ReducedSystem {
     pub impossible: Option<Asks>,
     /// The field of the coefficients.
     pub field: NumberField,
+    /// The share of the largest coefficient of its kind, lengths or squares of lengths, to which every coefficient is known.
+    pub share: f64,
     locals: Vec<Local>,
     turns: Vec<Turn>,
 }
@@ -120,7 +122,8 @@ impl ReducedSystem {
         Self::within(placed, 0.0)
     }
 
-    /// The same where coefficients are known up to a share of the largest one: constants that are no larger do not contradict.
+    /// The same where lengths and angles are known up to a share of the bodies' size, and coefficients to [`Self::share`]: constants that are no
+    /// larger do not contradict.
     ///
     /// # Errors
     /// [`NotReduced`].
@@ -173,16 +176,20 @@ impl ReducedSystem {
             dependent: Vec::new(),
             impossible: None,
             field,
+            share,
             locals,
             turns,
         };
+        if share > 0.0 {
+            system.share *= system.lever(placed);
+        }
         let all = closures(&system, placed).ok_or(NotReduced::NotAlgebraic)?;
         let sizes = all.iter().map(|c| (c.is_square(), system.size(c)));
         let largest = |square: bool| {
             let of_kind = sizes.clone().filter(|(own, _)| *own == square);
             of_kind.fold(0.0, |m: f64, (_, size)| m.max(size))
         };
-        let known_to = [false, true].map(|square| share * largest(square));
+        let known_to = [false, true].map(|square| system.share * largest(square));
         let mut independent = Independent::default();
         for closure in all {
             if closure.polynomial.is_constant() && !closure.polynomial.is_zero() {
@@ -203,6 +210,22 @@ impl ReducedSystem {
             system.impossible = system.closures.last().map(|c| c.asks.clone());
         }
         Ok(system)
+    }
+
+    /// How much larger the share of a coefficient may be than that of a length: points close together place others far away.
+    fn lever(&self, placed: &Placed) -> f64 {
+        let extents: Vec<f64> = self.locals.iter().map(|l| l.extent(&self.field)).collect();
+        let of_turns = self.tree.edges.iter().zip(&self.turns).map(|(edge, turn)| {
+            let extent = extents[edge.parent].max(extents[edge.child]);
+            turn.lever(extent, &self.field)
+        });
+        let implied = self
+            .tree
+            .cover
+            .iter()
+            .filter(|&&b| b >= placed.bodies.len());
+        let of_triangles = implied.map(|&b| self.locals[b].lever(&self.field));
+        of_turns.chain(of_triangles).fold(1.0, f64::max)
     }
 
     /// The largest coefficient of a closure, in doubles.

@@ -97,6 +97,21 @@ struct HingeParts {
 }
 
 impl Turn {
+    /// How much farther a point moves than those by which the turn is made, at most, in bodies of these extents: along the axis, and about it.
+    pub(super) fn lever(&self, extent: f64, field: &NumberField) -> f64 {
+        let Parts::Hinge(parts) = &self.parts else {
+            return 1.0;
+        };
+        let Unknowns::Hinge { ratio, .. } = &self.unknowns else {
+            return 1.0;
+        };
+        // |u'|² by |u|² and their ratio.
+        let square = |inverse: &FieldElement| 1.0 / field.number(inverse).value();
+        let (axis, arm) = (square(&parts.inverse[0]), square(&parts.inverse[1]));
+        let least = axis.min(arm).min(arm / field.number(ratio).value());
+        (extent / least.sqrt()).max(1.0)
+    }
+
     /// The turn of a child about the points that it shares with its parent; `None` where these do not suffice, or for one
     /// point where a body's basis is not of unit vectors.
     pub(super) fn new(

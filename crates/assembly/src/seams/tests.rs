@@ -1,5 +1,5 @@
 use super::*;
-use crate::collection::{Body, samples, standard};
+use crate::collection::{samples, samples::random_collection, standard};
 use crate::tree::optimal_incidence_tree;
 use kutzbach_math::matrix::SplitMix64;
 
@@ -140,30 +140,6 @@ fn the_problems_of_the_papers_have_well_formed_selections() {
     // Second paper, example 2: 5 + 3 + 5 + 3, where a rigid collection of four bodies has 18.
     assert_eq!(removed_freedoms(&four_in_a_ring, &[0, 1, 2, 3]), 16);
     assert_eq!(selection(&four_in_a_ring).1.equations(), 16);
-}
-
-/// Bodies of three to five points of a few, no two with more than two in common.
-fn random_collection(random: &mut SplitMix64) -> Option<Collection> {
-    let mut below = |most: usize| (random.next_u64() % most as u64) as usize;
-    let count = 3 + below(4);
-    let points = count + 2 + below(5);
-    let mut bodies: Vec<Vec<usize>> = Vec::new();
-    for _ in 0..count {
-        let mut own: Vec<usize> = Vec::new();
-        for _ in 0..3 + below(3) {
-            own.push(below(points));
-        }
-        own.sort_unstable();
-        own.dedup();
-        let fits = |other: &Vec<usize>| own.iter().filter(|p| other.contains(p)).count() <= 2;
-        (own.len() >= 3 && bodies.iter().all(fits)).then(|| bodies.push(own.clone()))?;
-    }
-    let names = (0..points).map(|i| format!("p{i}")).collect();
-    let bodies = bodies.into_iter().enumerate().map(|(i, points)| Body {
-        name: format!("b{i}"),
-        points,
-    });
-    Collection::new(names, bodies.collect(), Vec::new()).ok()
 }
 
 #[test]
