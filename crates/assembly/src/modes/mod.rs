@@ -1,6 +1,7 @@
 //! In how many ways a mechanism closes, with some joints held.
 //!
-//! Two ways lead to all configurations. Where bodies share points, the incidence tree leaves few unknowns, which are
+//! Three ways lead to all configurations. What is planar and not small is constructed by circles and lines
+//! ([`kutzbach_constructive`]). Where bodies share points, the incidence tree leaves few unknowns, which are
 //! searched with proof ([`crate::real`]); where that leaves something open (double solutions, curves), exact algebra decides on
 //! the same equations, as long as it takes no longer than it may. Where joints slide or the geometry is of another kind, the
 //! exact closure equations of the loops are solved as they are.
@@ -11,6 +12,7 @@
 //! Rounded numbers are asked first what holds of all digits: then a configuration may be one that closes only within the digits, which it
 //! says of itself.
 
+mod by_construction;
 mod by_polynomials;
 mod by_tree;
 mod drawn;
@@ -80,6 +82,11 @@ pub enum Way {
         /// Number of complex solutions, where they are finitely many and were counted.
         complex: Option<usize>,
     },
+    /// By circles and lines of a planar mechanism.
+    Construction {
+        /// Steps that have two places at most, of which each link of several joints has one only.
+        steps: usize,
+    },
     /// No loop closes, or everything is held: the tree of joints alone.
     Nothing,
 }
@@ -122,6 +129,8 @@ pub struct Modes {
     pub freedom: Option<usize>,
     /// The configurations.
     pub configurations: Vec<Configuration>,
+    /// How many there are, such as `2^40`, where they are more than those listed.
+    pub in_all: Option<String>,
     /// Whether these are all.
     pub complete: Complete,
     /// The most freedoms that are known to be left at some configurations with the joints held, not at all of them; `None` where
@@ -136,6 +145,9 @@ pub struct Modes {
     /// Places left open: so many boxes may hold more.
     pub open: usize,
 }
+
+/// Planar mechanisms of so many steps with circles and lines are constructed, although a tree may leave few enough unknowns to search.
+const MANY_STEPS: usize = 4;
 
 /// All configurations of a mechanism.
 ///
@@ -160,12 +172,16 @@ pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Mode
     let joints: Vec<JointId> = (0..fixed.joints().len()).map(JointId).collect();
     let (algebraic, _) = fixed.with_rational_rotations(&joints);
     let slack = rounded::slack(&fixed);
-    let (mut modes, stays) = match by_tree::answer(&algebraic, &slack, &budget) {
-        by_tree::Outcome::Modes(modes, stays) => (*modes, stays),
-        by_tree::Outcome::NotByTree(why) => {
-            let modes = by_polynomials::answer(&algebraic, &why, &budget);
-            (modes, false)
-        }
+    let (mut modes, stays) = match by_construction::answer(&fixed, MANY_STEPS) {
+        Some(modes) => (modes, false),
+        None => match by_tree::answer(&algebraic, &slack, &budget) {
+            by_tree::Outcome::Modes(modes, stays) => (*modes, stays),
+            by_tree::Outcome::NotByTree(why) => {
+                let modes = by_construction::answer(&fixed, 0)
+                    .unwrap_or_else(|| by_polynomials::answer(&algebraic, &why, &budget));
+                (modes, false)
+            }
+        },
     };
     rounded::doubt(&mut modes, &fixed, stays, never_closes);
     modes.held = held;
@@ -210,6 +226,7 @@ impl Modes {
             held_near: Vec::new(),
             freedom: None,
             configurations: Vec::new(),
+            in_all: None,
             complete: Complete::Proven,
             moves: Some(0),
             proposed: Vec::new(),

@@ -129,7 +129,7 @@ pub(super) fn poses_of_one_body(mechanism: &Mechanism, links: &[PlacedLink]) -> 
 }
 
 /// Moves everything so that the ground is where it is at home.
-fn onto_ground(mechanism: &Mechanism, poses: &mut [Option<Pose>]) {
+pub(super) fn onto_ground(mechanism: &Mechanism, poses: &mut [Option<Pose>]) {
     let geometry = Geometry::new(mechanism, None, &Arithmetic::double());
     let ground = mechanism.ground().0;
     if let Some(found) = poses[ground].clone() {

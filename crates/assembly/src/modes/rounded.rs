@@ -63,6 +63,8 @@ pub(super) fn doubt(modes: &mut Modes, mechanism: &Mechanism, stays: bool, never
         }
     } else if modes.way == Way::Nothing {
         "a joint between two sides of one body closes as they are written".to_owned()
+    } else if matches!(modes.way, Way::Construction { .. }) {
+        "circles and lines meet as they are written".to_owned()
     } else if multiplicities.any(|times| times.is_some_and(singular)) {
         "a configuration counts several times".to_owned()
     } else {

@@ -198,7 +198,13 @@ mod tests {
     fn what_is_unknown_covers_another_polynomial() {
         let by = 1e-3;
         let mut random = kutzbach_math::matrix::SplitMix64::new(11);
-        let mut sign = || if random.next_u64().is_multiple_of(2) { by } else { -by };
+        let mut sign = || {
+            if random.next_u64().is_multiple_of(2) {
+                by
+            } else {
+                -by
+            }
+        };
         let plain = sample();
         let off = plain.coefficients.iter().map(|c| c + sign()).collect();
         let other = Tensor::new(vec![0, 1], off, 0.0);

@@ -133,6 +133,10 @@ pub fn data(mechanism: &Mechanism, modes: &Modes) -> Value {
             "complex": complex,
             "exact": true,
         }),
+        Way::Construction { steps } => json!({
+            "steps": steps,
+            "tree": Value::Null,
+        }),
         Way::Nothing => Value::Null,
     };
     json!({
@@ -142,6 +146,7 @@ pub fn data(mechanism: &Mechanism, modes: &Modes) -> Value {
         "held": held,
         "held_near": held_near,
         "solutions": modes.configurations.iter().map(|c| solution(mechanism, c)).collect::<Vec<_>>(),
+        "in_all": modes.in_all,
         "complete": complete,
         "why": why,
         "moves": modes.moves,
@@ -168,6 +173,10 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
             };
             format!("It cannot be put together{held}: no configuration exists, which is proved.")
         }
+        (Complete::Proven, _) if modes.in_all.is_some() => format!(
+            "{} configurations, and no other, which is proved; {found} are listed.",
+            modes.in_all.as_deref().unwrap_or_default()
+        ),
         (Complete::Proven, _) => format!(
             "{}{}, and no other, which is proved.",
             count(found, "configuration"),
@@ -179,6 +188,10 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
         ),
         (Complete::Unknown(_), _) if modes.moves.is_some_and(|m| m > 0) => moving(modes),
         (Complete::Unknown(_), 0) => "In how many ways it closes is not known.".to_owned(),
+        (Complete::Unknown(_), _) if modes.in_all.is_some() => format!(
+            "{} configurations found, of which {found} are listed; whether there are others is not known.",
+            modes.in_all.as_deref().unwrap_or_default()
+        ),
         (Complete::Unknown(_), _) => {
             format!(
                 "{} found; whether there are others is not known.",
@@ -395,6 +408,13 @@ fn way(text: &mut String, way: &Way) {
                 "\nHow: exact algebra on the closure equations of the loops: {} in {} of degree {degree} at most{complex}",
                 count(*equations, "equation"),
                 count(*variables, "unknown"),
+            );
+        }
+        Way::Construction { steps } => {
+            let _ = writeln!(
+                text,
+                "\nHow: by circles and lines in the plane: {} with two places at most",
+                count(*steps, "step")
             );
         }
         Way::Nothing => {}

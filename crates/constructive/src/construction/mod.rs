@@ -33,6 +33,7 @@ mod tests;
 mod third;
 
 pub use count::Count;
+pub(crate) use shape::Motion;
 pub use shape::Shape;
 pub use solutions::Solutions;
 pub use third::Outcome;

@@ -99,7 +99,7 @@ pub(super) fn measure(one: &Shape, other: &Shape) -> Measure {
 
 /// A rotation about the origin, then a translation.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Motion {
+pub(crate) struct Motion {
     turn: [f64; 2],
     shift: [f64; 2],
 }
@@ -108,6 +108,11 @@ impl Motion {
     /// By cosine and sine of the turn, and the shift after it.
     pub(super) const fn by(turn: [f64; 2], shift: [f64; 2]) -> Self {
         Self { turn, shift }
+    }
+
+    /// Cosine and sine of the turn, and the shift after it.
+    pub(crate) const fn parts(&self) -> ([f64; 2], [f64; 2]) {
+        (self.turn, self.shift)
     }
 
     pub(super) fn of(&self, shape: &Shape) -> Shape {
@@ -123,7 +128,7 @@ impl Motion {
 
     /// The motion that puts two elements onto two others of the same kinds and the same measure; `None` where they do not fix
     /// one: coincident points, parallel lines.
-    pub(super) fn onto(from: [&Shape; 2], to: [&Shape; 2]) -> Option<Self> {
+    pub(crate) fn onto(from: [&Shape; 2], to: [&Shape; 2]) -> Option<Self> {
         match (from.map(|s| *s), to.map(|s| *s)) {
             ([Shape::Point(p), Shape::Point(q)], [Shape::Point(u), Shape::Point(v)]) => {
                 Self::turning(minus(q, p), minus(v, u)).map(|m| m.carrying(p, u))

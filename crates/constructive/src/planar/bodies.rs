@@ -12,7 +12,9 @@ pub(super) struct Bodies {
     /// Where that is drawn.
     pub(super) elements: Vec<Exact>,
     /// Name of a first link, and the elements where the body has them.
-    of_body: Vec<(String, Vec<(usize, Exact)>)>,
+    pub(super) of_body: Vec<(String, Vec<(usize, Exact)>)>,
+    /// The body of every link, as an index of these.
+    pub(super) of_link: Vec<usize>,
 }
 
 /// Where every link is drawn at home.
@@ -73,11 +75,15 @@ impl Bodies {
             }
         }
         let names = mechanism.links().iter().map(|l| l.name.clone());
-        Self::shared(&pins, names.collect())
+        Self::shared(&pins, names.collect(), body)
     }
 
     /// Pins that are in one place on some body are one element, and so on from body to body.
-    fn shared(pins: &[Pin<'_>], links: Vec<String>) -> Result<Self, NotPlanar> {
+    fn shared(
+        pins: &[Pin<'_>],
+        links: Vec<String>,
+        of_link: Vec<usize>,
+    ) -> Result<Self, NotPlanar> {
         let mut on_body: Vec<Vec<(usize, usize)>> = vec![Vec::new(); links.len()];
         for (pin, k) in (0..pins.len()).flat_map(|pin| [(pin, 0), (pin, 1)]) {
             on_body[pins[pin].on[k]].push((pin, k));
@@ -120,6 +126,7 @@ impl Bodies {
             names: firsts.iter().map(|&p| pins[p].name.to_owned()).collect(),
             elements: firsts.iter().map(|&p| pins[p].places[0].clone()).collect(),
             of_body,
+            of_link,
         })
     }
 
@@ -184,7 +191,7 @@ mod tests {
             pin("c", [1, 2], [0, 0]),
             pin("d", [0, 3], [5, 7]),
         ];
-        let bodies = Bodies::shared(&pins, links(4)).unwrap();
+        let bodies = Bodies::shared(&pins, links(4), (0..4).collect()).unwrap();
         assert_eq!(bodies.names, ["a", "d"]);
         let held: Vec<Vec<usize>> = bodies
             .held()
@@ -200,7 +207,9 @@ mod tests {
             pin("b", [1, 2], [0, 0]),
             pin("c", [2, 0], [0, 3]),
         ];
-        let error = Bodies::shared(&pins, links(3)).err().unwrap();
+        let error = Bodies::shared(&pins, links(3), (0..3).collect())
+            .err()
+            .unwrap();
         let told = "link `link 0` has `a` and `c` in two places, other links in one";
         assert_eq!(error.to_string(), told);
     }

@@ -10,12 +10,16 @@
 mod bodies;
 mod body;
 mod places;
+mod poses;
 
+use crate::construction::Shape;
 use crate::sketch::{Element, NamedSketch, Sketch, SketchError};
 use bodies::Bodies;
 pub(crate) use body::{Exact, hold};
+use kutzbach_math::space::Rigid;
 use kutzbach_model::mechanism::{JointKind, Mechanism};
 use places::View;
+use poses::Links;
 use thiserror::Error;
 
 /// Why a mechanism is no sketch.
@@ -121,11 +125,41 @@ pub enum NotPlanar {
     },
 }
 
+/// A planar mechanism and its sketch.
+#[derive(Clone, Debug)]
+pub struct Planar {
+    /// The sketch as drawn at home; its elements are named as the joints.
+    pub sketch: NamedSketch,
+    view: View,
+    links: Links,
+}
+
+impl Planar {
+    /// Reads off a mechanism.
+    ///
+    /// # Errors
+    /// [`NotPlanar`], at the first joint that does not fit.
+    pub fn of(mechanism: &Mechanism) -> Result<Self, NotPlanar> {
+        read_off(mechanism)
+    }
+
+    /// `world_from_link` of all links (m) where the elements are at these places, up to one motion of the plane for all; `None` where a link
+    /// has no two elements that hold it.
+    #[must_use]
+    pub fn poses(&self, shapes: &[Shape]) -> Option<Vec<Rigid<f64>>> {
+        self.links.poses(&self.view, shapes)
+    }
+}
+
 /// The sketch of a planar mechanism as drawn at home; its elements are named as its joints.
 ///
 /// # Errors
 /// [`NotPlanar`], at the first joint that does not fit.
 pub fn sketch(mechanism: &Mechanism) -> Result<NamedSketch, NotPlanar> {
+    Planar::of(mechanism).map(|planar| planar.sketch)
+}
+
+fn read_off(mechanism: &Mechanism) -> Result<Planar, NotPlanar> {
     if let Some(coupling) = mechanism.couplings().first() {
         let name = coupling.name.clone();
         return Err(NotPlanar::Coupling { name });
@@ -170,10 +204,18 @@ pub fn sketch(mechanism: &Mechanism) -> Result<NamedSketch, NotPlanar> {
             why,
         }
     })?;
-    Ok(NamedSketch {
-        name: mechanism.name().to_owned(),
-        names: bodies.names,
-        sketch: sketch.with_rigid(rigid),
+    Ok(Planar {
+        sketch: NamedSketch {
+            name: mechanism.name().to_owned(),
+            names: bodies.names,
+            sketch: sketch.with_rigid(rigid),
+        },
+        view,
+        links: Links {
+            homes,
+            body: bodies.of_link,
+            held: bodies.of_body.into_iter().map(|(_, held)| held).collect(),
+        },
     })
 }
 

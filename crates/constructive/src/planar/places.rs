@@ -3,11 +3,13 @@
 use super::body::{Exact, Pair};
 use super::{NotPlanar, is_element, millimetres};
 use kutzbach_math::number::Number;
+use kutzbach_math::space::Rigid;
 use kutzbach_model::mechanism::{ExactPose, Joint, JointKind, Mechanism, Side};
 
 type Exact3 = [Number; 3];
 
 /// Two directions of the plane with their lengths, and its normal.
+#[derive(Clone, Debug)]
 pub(super) struct View {
     across: [(Exact3, Number); 2],
     normal: Exact3,
@@ -82,6 +84,23 @@ impl View {
             dot(v, axis).checked_div(length).ok()
         });
         Some([x?, y?])
+    }
+
+    /// The motion in space that turns the plane by an angle with this cosine and sine about the origin and then shifts it.
+    pub(super) fn lifted(&self, [c, s]: [f64; 2], shift: [f64; 2]) -> Rigid<f64> {
+        let [x, y] = [0, 1].map(|k| {
+            let (axis, length) = &self.across[k];
+            axis.clone().map(|e| e.value() / length.value())
+        });
+        let z = kutzbach_math::space::cross(&x, &y);
+        // B diag(turn, 1) Bᵀ, with B = (x, y, z).
+        let entry = |i: usize, j: usize| {
+            c * (x[i] * x[j] + y[i] * y[j]) + s * (y[i] * x[j] - x[i] * y[j]) + z[i] * z[j]
+        };
+        Rigid {
+            rotation: [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j))),
+            translation: [0, 1, 2].map(|i| shift[0] * x[i] + shift[1] * y[i]),
+        }
     }
 
     /// What a joint is on one of its sides, as drawn.

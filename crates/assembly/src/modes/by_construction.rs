@@ -1,0 +1,176 @@
+//! Configurations of planar mechanisms by circles and lines, one after the other.
+//!
+//! All hinges are parallel and all sliders across them, and links hold one another in that plane: so every configuration is one of the
+//! sketch. Its steps have two places at most, and what does not hang together multiplies: a machine of many dyads has 2ᵏ configurations,
+//! which are counted and not listed.
+
+use super::{Complete, Configuration, Modes, Way, place};
+use kutzbach_constructive::construction::{Construction, Outcome};
+use kutzbach_constructive::planar::Planar;
+use kutzbach_model::mechanism::Mechanism;
+
+/// Configurations that are listed; those nearest to the drawing come first.
+const MOST_LISTED: usize = 256;
+
+/// The answer where circles and lines construct the mechanism, in at least so many steps of two places; `None` elsewhere.
+pub(super) fn answer(mechanism: &Mechanism, least: usize) -> Option<Modes> {
+    let planar = Planar::of(mechanism).ok()?;
+    let construction = Construction::new(&planar.sketch.sketch).ok()?;
+    let steps = (0..construction.drawn_left().len()).filter(|step| !construction.is_rigid(*step));
+    let steps = steps.count();
+    if steps < least {
+        return None;
+    }
+    let count = construction.count();
+    // What doubles leave open exact algebra may decide.
+    if count.degenerate || count.infinite || least > 0 && count.between.is_some() {
+        return None;
+    }
+    let mut modes = Modes::new(Way::Construction { steps });
+    for solution in construction.solutions().take(MOST_LISTED) {
+        // What one link has on a line has one place, although circles touch there.
+        let outcomes: Vec<Outcome> = construction
+            .outcomes(&solution.left)
+            .into_iter()
+            .enumerate()
+            .filter(|(step, _)| !construction.is_rigid(*step))
+            .map(|(_, outcome)| outcome)
+            .collect();
+        let mut poses: Vec<_> = planar
+            .poses(&solution.shapes)?
+            .into_iter()
+            .map(Some)
+            .collect();
+        place::onto_ground(mechanism, &mut poses);
+        let touching = |o: &&Outcome| matches!(o, Outcome::Touching { .. });
+        let double = outcomes.iter().filter(touching).count();
+        let nearly = |o: &Outcome| matches!(o, Outcome::Touching { within } if *within > 0.0);
+        let proven = !outcomes.iter().any(nearly);
+        modes.configurations.push(Configuration {
+            joints: Vec::new(),
+            poses,
+            multiplicity: 1_usize.checked_shl(u32::try_from(double).ok()?),
+            proven,
+            finite: proven.then_some(0),
+            drawn: false,
+        });
+    }
+    let listed = modes.configurations.len();
+    if count.value() != Some(listed as u128) {
+        modes.in_all = Some(count.to_string());
+    }
+    if !count.complete {
+        modes.complete = Complete::Unknown(
+            "there are more choices than are tried, so that there are at least so many".to_owned(),
+        );
+    } else if modes.configurations.iter().any(|c| !c.proven) || count.between.is_some() {
+        modes.complete =
+            Complete::Unknown("circles touch or nearly do, which doubles do not decide".to_owned());
+    }
+    Some(modes)
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::by_tree::{self, Outcome as ByTree};
+    use super::super::{inputs, place::apart};
+    use super::*;
+    use crate::placed::Slack;
+    use crate::samples;
+    use kutzbach_algebra::{Budget, Limits};
+    use std::fmt::Write;
+    use std::path::Path;
+
+    /// Four-bars in a row, each driven by the rocker of the one before; the crank held.
+    fn chain(loops: usize) -> Mechanism {
+        let mut joints = String::from(
+            "<joint name=\"crank\" type=\"fixed\"><parent link=\"g\"/><child link=\"b0\"/></joint>",
+        );
+        let mut links = String::from("<link name=\"g\"/><link name=\"b0\"/>");
+        for k in 0..loops {
+            let (near, far) = (6 * k, 6 * k + 6);
+            let _ = write!(
+                links,
+                "<link name=\"c{k}\"/><link name=\"b{next}\"/>",
+                next = k + 1
+            );
+            let hinge = |name: &str, on: [&str; 2], at: &str| {
+                format!(
+                    "<loop name=\"{name}{k}\" type=\"continuous\"><predecessor link=\"{}\"><origin xyz=\"{at}\"/></predecessor>\
+                     <successor link=\"{}\"><origin xyz=\"{at}\"/></successor><axis xyz=\"0 0 1\"/></loop>",
+                    on[0], on[1]
+                )
+            };
+            let [b, c, next] = [format!("b{k}"), format!("c{k}"), format!("b{}", k + 1)];
+            joints += &hinge("p", [&b, &c], &format!("{near} 2 0"));
+            joints += &hinge("q", [&c, &next], &format!("{far} 3 0"));
+            joints += &hinge("r", [&next, "g"], &format!("{far} 0 0"));
+            for link in [&c, &next] {
+                let _ = write!(
+                    joints,
+                    "<joint name=\"at {link}\" type=\"floating\"><parent link=\"g\"/><child link=\"{link}\"/></joint>"
+                );
+            }
+        }
+        let text = format!("<robot name=\"chain\">{links}{joints}</robot>");
+        kutzbach_format::read(&text, "chain.urdf", &[])
+            .unwrap()
+            .mechanism
+    }
+
+    /// Circles and lines find what subdivision and exact algebra on the equations of a tree find.
+    #[test]
+    fn constructions_and_trees_agree() {
+        let zoo = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/zoo");
+        let of_zoo = |name: &str| {
+            let drawn = samples::read(&zoo.join(name).with_extension("urdf"), &[]);
+            let held = inputs::proposed(&drawn).0;
+            drawn.with_joints_held(&held).unwrap()
+        };
+        for (mechanism, count) in [
+            (of_zoo("jansen_leg"), 8),
+            (of_zoo("watt_I"), 4),
+            (of_zoo("stephenson_III"), 2),
+            (chain(3), 8),
+        ] {
+            let name = mechanism.name();
+            let built = answer(&mechanism, 0).unwrap();
+            assert_eq!(built.complete, Complete::Proven, "{name}");
+            assert_eq!(built.configurations.len(), count, "{name}");
+            let budget = Budget::new(Limits::seconds(60.0));
+            let ByTree::Modes(tree, _) = by_tree::answer(&mechanism, &Slack::default(), &budget)
+            else {
+                panic!("{name}");
+            };
+            assert_eq!(tree.configurations.len(), count, "{name}");
+            for one in &built.configurations {
+                let poses = |other: &&Configuration| {
+                    let pairs = one.poses.iter().flatten().zip(other.poses.iter().flatten());
+                    pairs.into_iter().all(|(a, b)| apart(a, b, 10.0) < 1e-6)
+                };
+                assert_eq!(
+                    tree.configurations.iter().filter(poses).count(),
+                    1,
+                    "{name}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn many_steps_are_counted_and_not_listed() {
+        let built = answer(&chain(10), 0).unwrap();
+        assert_eq!(built.complete, Complete::Proven);
+        assert_eq!(
+            (built.in_all.as_deref(), built.configurations.len()),
+            (Some("1024"), MOST_LISTED)
+        );
+        assert!(
+            built
+                .configurations
+                .iter()
+                .all(|c| c.proven && c.multiplicity == Some(1))
+        );
+    }
+}
