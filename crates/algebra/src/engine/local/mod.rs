@@ -231,6 +231,9 @@ fn homogenised(p: &Terms<Zp>, order: &MonomialOrder) -> Result<Terms<Zp>, Stop> 
 
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
+mod oracle;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
     use crate::engine::testing::parse;
