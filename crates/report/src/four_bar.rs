@@ -138,7 +138,22 @@ pub(super) fn four_bars(
         let joint = |i: usize| mechanism.joints()[around[i].0].name.clone();
         Some(FourBar::new(links, lengths, [joint(0), joint(3)]))
     };
-    candidates.iter().filter_map(of).collect()
+    candidates
+        .iter()
+        .filter_map(of)
+        .filter(FourBar::turns)
+        .collect()
+}
+
+/// A link that swings by no more (rad) is at rest: the others are stretched to their full length.
+const AT_REST: f64 = 1e-6;
+
+impl FourBar {
+    /// Whether a link can turn at all.
+    fn turns(&self) -> bool {
+        let swings = |one: &Swing| one.extremes.is_none_or(|[from, to]| to - from > AT_REST);
+        self.swings.iter().any(swings)
+    }
 }
 
 fn is_four_bar(mechanism: &Mechanism, part: &Part) -> bool {
@@ -280,6 +295,12 @@ mod tests {
         assert_eq!(turned.links[1], "b");
         assert_eq!(turned.swings[0].joint, "B");
         assert!(turned.swings[0].extremes.is_none());
+    }
+
+    #[test]
+    fn a_stretched_chain_of_links_does_not_turn() {
+        assert!(!of([6.0, 2.0, 1.0, 3.0]).turns());
+        assert!(of([5.9, 2.0, 1.0, 3.0]).turns());
     }
 
     #[test]

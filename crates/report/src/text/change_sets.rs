@@ -173,8 +173,7 @@ fn ways(joints: usize, kinds: &[&str]) -> usize {
 
 /// `any one of a … d → spherical and another → cylindrical`.
 fn choice(joints: &BTreeSet<&str>, kinds: &[&str]) -> String {
-    let names: Vec<String> = joints.iter().map(|&name| name.to_owned()).collect();
-    let names = mirrored_runs(&names, NAMED);
+    let names = mirrored_runs(&sorted(joints.iter().copied()), NAMED);
     let parts = kinds.chunk_by(|a, b| a == b).enumerate().map(|(i, run)| {
         let kind = run[0].replace('_', " ");
         match (i, run.len()) {
@@ -189,18 +188,26 @@ fn choice(joints: &BTreeSet<&str>, kinds: &[&str]) -> String {
 
 /// `a → spherical, b and c → cylindrical`.
 fn spelt(set: &Set) -> String {
-    let mut by_kind: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    let mut by_kind: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for (joint, to) in set {
-        by_kind.entry(to).or_default().push((*joint).to_owned());
+        by_kind.entry(to).or_default().push(joint);
     }
     let parts = by_kind.iter().rev().map(|(to, joints)| {
         let kind = to.replace('_', " ");
-        format!("{} → {kind}", mirrored_runs(joints, 2 * NAMED))
+        let joints = sorted(joints.iter().copied());
+        format!("{} → {kind}", mirrored_runs(&joints, 2 * NAMED))
     });
     parts.collect::<Vec<_>>().join(" and ")
 }
 
-/// `hinge_1: force along z, moments about x and y`: independent redundant constraints, joint by joint.
+/// Names in natural order.
+fn sorted<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let mut names: Vec<String> = names.map(str::to_owned).collect();
+    names.sort_by(|a, b| crate::natural_order(a, b));
+    names
+}
+
+/// `hinge_1: force along z, moments about x and y`: independent redundant constraints, joints that have the same ones together.
 pub(super) fn independent(report: &Report, verbose: bool) -> Option<String> {
     let of = |joint: &JointRow| {
         let own = joint.redundant_directions.iter().filter(|d| d.independent);
@@ -216,21 +223,31 @@ pub(super) fn independent(report: &Report, verbose: bool) -> Option<String> {
         let forces = components("force", "along", &forces);
         let moments = components("moment", "about", &moments);
         let parts: Vec<String> = forces.into_iter().chain(moments).collect();
-        (!parts.is_empty()).then(|| format!("{}: {}", joint.name, parts.join(", ")))
+        (!parts.is_empty()).then(|| (joint.name.clone(), parts.join(", ")))
     };
-    let all: Vec<String> = report.joints.iter().filter_map(of).collect();
-    let shown = match verbose || all.len() <= JOINTS {
-        true => all.len(),
+    let mut groups: Vec<(String, Vec<String>)> = Vec::new();
+    for (joint, parts) in report.joints.iter().filter_map(of) {
+        match groups.iter_mut().find(|(known, _)| *known == parts) {
+            Some((_, joints)) => joints.push(joint),
+            None => groups.push((parts, vec![joint])),
+        }
+    }
+    let shown = match verbose || groups.len() <= JOINTS {
+        true => groups.len(),
         false => JOINTS - 1,
     };
-    let mut text = all[..shown].join("; ");
-    if shown < all.len() {
-        text.push_str(&format!(
-            "; and at {}",
-            counted(all.len() - shown, "more joint")
-        ));
+    let most = if verbose { usize::MAX } else { 2 * NAMED };
+    let told = groups[..shown].iter().map(|(parts, joints)| {
+        let each = if joints.len() > 1 { " each" } else { "" };
+        let names = mirrored_runs(&sorted(joints.iter().map(String::as_str)), most);
+        format!("{names}{each}: {parts}")
+    });
+    let mut text = told.collect::<Vec<_>>().join("; ");
+    if shown < groups.len() {
+        let more = groups[shown..].iter().map(|(_, joints)| joints.len()).sum();
+        text.push_str(&format!("; and at {}", counted(more, "more joint")));
     }
-    (!all.is_empty()).then_some(text)
+    (!groups.is_empty()).then_some(text)
 }
 
 fn components(what: &str, how: &str, directions: &[String]) -> Option<String> {
@@ -256,6 +273,7 @@ fn named(direction: &[f64; 3]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::change_sets::RedundantDirection;
 
     fn set(changes: &[(&str, &str)]) -> Vec<JointReplacement> {
         let of = |(joint, to): &(&str, &str)| JointReplacement {
@@ -321,6 +339,27 @@ mod tests {
         assert_eq!(
             components("moment", "about", &two).as_deref(),
             Some("moments about x and y")
+        );
+    }
+
+    #[test]
+    fn joints_with_the_same_redundant_constraints_are_told_together() {
+        let mut report = crate::samples::mobile();
+        let along = |component, direction| RedundantDirection {
+            component,
+            direction,
+            independent: true,
+        };
+        let (force, moment) = (Component::Force, Component::Moment);
+        let names = ["J10", "J2", "J1", "J3"];
+        for (joint, name) in report.joints.iter_mut().zip(names) {
+            joint.name = name.to_owned();
+            joint.redundant_directions = vec![along(force, [0.0, 0.0, 1.0])];
+        }
+        report.joints[0].redundant_directions = vec![along(moment, [1.0, 0.0, 0.0])];
+        assert_eq!(
+            independent(&report, false).as_deref(),
+            Some("J10: moment about x; J1 … J3 each: force along z")
         );
     }
 }
