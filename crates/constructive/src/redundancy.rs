@@ -3,6 +3,7 @@
 use crate::construction::{Construction, Shape};
 use crate::pebbles::Circuit;
 use crate::sketch::{Constraint, Element, Sketch};
+use kutzbach_math::number::Number;
 
 /// Solutions of the others that are compared, at most.
 const MOST_SOLUTIONS: usize = 256;
@@ -14,6 +15,11 @@ const SAME: f64 = 1e-9;
 pub enum Redundancy {
     /// Some of their solutions have its value, to rounding.
     Agrees,
+    /// None of them has as it is written, but one has with other digits after those stated; this is its value (length, rad).
+    WithinDigits {
+        /// That value.
+        nearest: f64,
+    },
     /// None of their solutions has; this is the nearest value (length, rad).
     Contradicts {
         /// That value.
@@ -65,7 +71,7 @@ pub fn redundancy(sketch: &Sketch, circuit: &Circuit, refused: &[usize]) -> Redu
         .ends
         .iter()
         .all(|&e| matches!(sketch.elements()[e], Element::Line { .. }));
-    let mut nearest: Option<(f64, f64)> = None;
+    let mut nearest: Option<(f64, f64, Vec<bool>)> = None;
     let mut solutions = construction.solutions();
     for solution in solutions.by_ref().take(MOST_SOLUTIONS) {
         let found = Construction::value_between(&solution.shapes[u], &solution.shapes[v]);
@@ -82,14 +88,50 @@ pub fn redundancy(sketch: &Sketch, circuit: &Circuit, refused: &[usize]) -> Redu
         if off <= SAME * size {
             return Redundancy::Agrees;
         }
-        if nearest.is_none_or(|(least, _)| off < least) {
-            nearest = Some((off, found));
+        if nearest.as_ref().is_none_or(|(least, ..)| off < *least) {
+            nearest = Some((off, found, solution.left));
         }
     }
     let count = construction.count();
     let all = count.complete && !count.degenerate && count.between.is_none();
-    match nearest.filter(|_| all && solutions.next().is_none()) {
-        Some((_, nearest)) => Redundancy::Contradicts { nearest },
-        None => Redundancy::Unknown,
+    let Some((off, nearest, left)) = nearest else {
+        return Redundancy::Unknown;
+    };
+    match off <= left_open(&asked.value) + spread(&others, [u, v], &left, nearest) {
+        true => Redundancy::WithinDigits { nearest },
+        false if all && solutions.next().is_none() => Redundancy::Contradicts { nearest },
+        false => Redundancy::Unknown,
     }
+}
+
+/// Constraints whose digits are looked at, at most: each is a construction anew.
+const MOST_CONSTRAINTS: usize = 400;
+
+/// Values of fewer decimals are meant as they are.
+const ROUNDED: i32 = 3;
+
+/// Half a unit of the last decimal that a rounded value states.
+fn left_open(value: &Number) -> f64 {
+    let stated = value.stated().filter(|s| s.decimals >= ROUNDED);
+    stated.map_or(0.0, |s| 0.5 * 10_f64.powi(-s.decimals))
+}
+
+/// How far the value between two elements may be off, to first order, with other digits of all constraints; zero where these are too many.
+fn spread(sketch: &Sketch, [u, v]: [usize; 2], left: &[bool], value: f64) -> f64 {
+    let constraints = sketch.constraints();
+    if constraints.len() > MOST_CONSTRAINTS {
+        return 0.0;
+    }
+    let moved = |i: usize| -> Option<f64> {
+        let by = left_open(&constraints[i].value);
+        if by == 0.0 {
+            return None;
+        }
+        let other = Number::from_f64(constraints[i].value.value() + by)?;
+        let other = sketch.with_value(i, other);
+        let solution = Construction::new(&other).ok()?.with_sides(left).ok()?;
+        let shapes = &solution.shapes;
+        Some((Construction::value_between(&shapes[u], &shapes[v]) - value).abs())
+    };
+    (0..constraints.len()).filter_map(moved).sum()
 }

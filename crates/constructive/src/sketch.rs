@@ -142,6 +142,13 @@ impl Sketch {
         self
     }
 
+    /// The same sketch with another value of a constraint.
+    pub(crate) fn with_value(&self, constraint: usize, value: Number) -> Self {
+        let mut other = self.clone();
+        other.constraints[constraint].value = value;
+        other
+    }
+
     /// The same sketch with values that are known to rounding only: whether circles touch is then not decided by them.
     pub(crate) fn known_to_rounding(mut self) -> Self {
         self.rounded = true;

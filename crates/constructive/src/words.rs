@@ -90,6 +90,10 @@ impl<'a> SketchWords<'a> {
             let [u, v] = self.named.sketch.graph().edges()[circuit.edge];
             let judged = match self.redundancy(circuit) {
                 Redundancy::Agrees => "and agrees with them".to_owned(),
+                Redundancy::WithinDigits { nearest } => format!(
+                    "and agrees with them within the digits: they leave {nearest:.6}, it asks for {:.6}",
+                    self.named.sketch.constraints()[circuit.edge].value.value()
+                ),
                 Redundancy::Contradicts { nearest } => format!(
                     "and contradicts them: they leave {nearest:.6} at the nearest, it asks for {:.6}",
                     self.named.sketch.constraints()[circuit.edge].value.value()
@@ -311,6 +315,7 @@ impl<'a> SketchWords<'a> {
             };
             let (verdict, nearest) = match judged {
                 Redundancy::Agrees => ("agrees", None),
+                Redundancy::WithinDigits { nearest } => ("within_digits", Some(nearest)),
                 Redundancy::Contradicts { nearest } => ("contradicts", Some(nearest)),
                 Redundancy::Unknown => ("unknown", None),
             };
@@ -465,7 +470,8 @@ mod tests {
     fn said(elements: Vec<Element>, constraints: &[(usize, usize, &str)]) -> String {
         let constraint = |&(u, v, value): &(usize, usize, &str)| Constraint {
             ends: [u, v],
-            value: Number::expression(value, &mut |_: &str| Ok(None)).unwrap(),
+            value: Number::decimal(value)
+                .unwrap_or_else(|_| Number::expression(value, &mut |_: &str| Ok(None)).unwrap()),
         };
         let names = (0..elements.len()).map(|k| format!("e{k}")).collect();
         let constraints = constraints.iter().map(constraint).collect();
@@ -500,6 +506,10 @@ mod tests {
             "{}",
             with("sqrt(2)")
         );
+        let text = with("1.4142");
+        let told =
+            "and agrees with them within the digits: they leave 1.414214, it asks for 1.414200";
+        assert!(text.contains(told), "{text}");
         let text = with("2");
         assert!(
             text.contains(
