@@ -5,12 +5,43 @@
 //! which are counted and not listed.
 
 use super::{Complete, Configuration, Modes, Way, place};
+use kutzbach_algebra::{Budget, Limits};
+use kutzbach_constructive::analysis::s_tree;
 use kutzbach_constructive::construction::{Construction, Outcome};
 use kutzbach_constructive::planar::Planar;
+use kutzbach_constructive::together::together_within;
 use kutzbach_model::mechanism::Mechanism;
 
 /// Configurations that are listed; those nearest to the drawing come first.
 const MOST_LISTED: usize = 256;
+
+/// The answer where what circles and lines do not construct is solved at once, by exact algebra; `None` where that is not the case, or takes
+/// longer than it may.
+pub(super) fn at_once(mechanism: &Mechanism, budget: &Budget) -> Option<Modes> {
+    let planar = Planar::of(mechanism).ok()?;
+    let sketch = &planar.sketch.sketch;
+    let tree = s_tree(sketch.graph());
+    let limits = Limits {
+        time: budget.left(),
+        ..budget.limits().clone()
+    };
+    let found = together_within(sketch, &tree, &limits);
+    let cores = found.cores.iter().map(|core| core.elements.len()).collect();
+    let mut modes = Modes::new(Way::AtOnce { cores });
+    for (shapes, multiplicity) in found.solutions(sketch, MOST_LISTED)? {
+        let mut poses: Vec<_> = planar.poses(&shapes)?.into_iter().map(Some).collect();
+        place::onto_ground(mechanism, &mut poses);
+        modes.configurations.push(Configuration {
+            joints: Vec::new(),
+            poses,
+            multiplicity: Some(multiplicity),
+            proven: true,
+            finite: Some(0),
+            drawn: false,
+        });
+    }
+    Some(modes)
+}
 
 /// The answer where circles and lines construct the mechanism, in at least so many steps of two places; `None` elsewhere.
 pub(super) fn answer(mechanism: &Mechanism, least: usize) -> Option<Modes> {
@@ -143,19 +174,50 @@ mod tests {
             else {
                 panic!("{name}");
             };
-            assert_eq!(tree.configurations.len(), count, "{name}");
-            for one in &built.configurations {
-                let poses = |other: &&Configuration| {
-                    let pairs = one.poses.iter().flatten().zip(other.poses.iter().flatten());
-                    pairs.into_iter().all(|(a, b)| apart(a, b, 10.0) < 1e-6)
-                };
-                assert_eq!(
-                    tree.configurations.iter().filter(poses).count(),
-                    1,
-                    "{name}"
-                );
-            }
+            same(&built, &tree, name);
         }
+    }
+
+    /// Each configuration of one answer is one of the other.
+    fn same(one: &Modes, other: &Modes, name: &str) {
+        assert_eq!(
+            one.configurations.len(),
+            other.configurations.len(),
+            "{name}"
+        );
+        for configuration in &one.configurations {
+            let poses = |other: &&Configuration| {
+                let pairs = configuration
+                    .poses
+                    .iter()
+                    .flatten()
+                    .zip(other.poses.iter().flatten());
+                pairs.into_iter().all(|(a, b)| apart(a, b, 10.0) < 1e-6)
+            };
+            assert_eq!(
+                other.configurations.iter().filter(poses).count(),
+                1,
+                "{name}"
+            );
+        }
+    }
+
+    /// A platform on three legs is no construction: subdivision and exact algebra in coordinates find the same.
+    #[test]
+    fn what_is_solved_at_once_agrees_with_the_tree() {
+        let drawn = samples::own("planar_3rrr");
+        let mechanism = drawn.with_joints_held(&inputs::proposed(&drawn).0).unwrap();
+        let budget = Budget::new(Limits::seconds(60.0));
+        assert!(answer(&mechanism, 0).is_none());
+        let found = at_once(&mechanism, &budget).unwrap();
+        let ByTree::Modes(tree, _) = by_tree::answer(&mechanism, &Slack::default(), &budget) else {
+            panic!("no tree");
+        };
+        assert_eq!(
+            (found.complete.clone(), found.configurations.len()),
+            (Complete::Proven, 2)
+        );
+        same(&found, &tree, "planar_3rrr");
     }
 
     #[test]

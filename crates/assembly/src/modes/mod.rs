@@ -87,6 +87,11 @@ pub enum Way {
         /// Steps that have two places at most, of which each link of several joints has one only.
         steps: usize,
     },
+    /// By circles and lines of a planar mechanism, on parts that are solved at once.
+    AtOnce {
+        /// Hinges and sliders of each part.
+        cores: Vec<usize>,
+    },
     /// No loop closes, or everything is held: the tree of joints alone.
     Nothing,
 }
@@ -178,6 +183,7 @@ pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Mode
             by_tree::Outcome::Modes(modes, stays) => (*modes, stays),
             by_tree::Outcome::NotByTree(why) => {
                 let modes = by_construction::answer(&fixed, 0)
+                    .or_else(|| by_construction::at_once(&fixed, &budget))
                     .unwrap_or_else(|| by_polynomials::answer(&algebraic, &why, &budget));
                 (modes, false)
             }

@@ -137,6 +137,10 @@ pub fn data(mechanism: &Mechanism, modes: &Modes) -> Value {
             "steps": steps,
             "tree": Value::Null,
         }),
+        Way::AtOnce { cores } => json!({
+            "solved_at_once": cores,
+            "tree": Value::Null,
+        }),
         Way::Nothing => Value::Null,
     };
     json!({
@@ -415,6 +419,14 @@ fn way(text: &mut String, way: &Way) {
                 text,
                 "\nHow: by circles and lines in the plane: {} with two places at most",
                 count(*steps, "step")
+            );
+        }
+        Way::AtOnce { cores } => {
+            let sizes: Vec<String> = cores.iter().map(|n| count(*n, "joint")).collect();
+            let _ = writeln!(
+                text,
+                "\nHow: by circles and lines in the plane, on what exact algebra solves at once: {}",
+                sizes.join(", ")
             );
         }
         Way::Nothing => {}

@@ -65,6 +65,12 @@ impl std::fmt::Display for Total {
 /// Solves the cores of a well-constrained sketch that does not reduce to one cluster, and counts what stands on them.
 #[must_use]
 pub fn together(sketch: &Sketch, tree: &STree) -> Together {
+    together_within(sketch, tree, &Limits::default())
+}
+
+/// The same within limits of the time as well, for each core.
+#[must_use]
+pub fn together_within(sketch: &Sketch, tree: &STree, limits: &Limits) -> Together {
     for cores in [part::leaves(sketch, tree), part::peeled(sketch)] {
         if cores.is_empty() || !reduces(sketch, &cores) {
             continue;
@@ -72,7 +78,7 @@ pub fn together(sketch: &Sketch, tree: &STree) -> Together {
         let budget = || {
             Budget::new(Limits {
                 work: Some(WORK),
-                ..Limits::default()
+                ..limits.clone()
             })
         };
         let cores: Vec<Core> = cores
@@ -85,6 +91,26 @@ pub fn together(sketch: &Sketch, tree: &STree) -> Together {
     Together {
         cores: Vec::new(),
         total: None,
+    }
+}
+
+impl Together {
+    /// All solutions, with their multiplicities, where these are known to be all and no more than `most`; each up to a motion of the plane.
+    #[must_use]
+    pub fn solutions(&self, sketch: &Sketch, most: usize) -> Option<Vec<(Vec<Shape>, usize)>> {
+        self.total.filter(|t| t.all && t.least <= most as u128)?;
+        let mut all = Vec::new();
+        for choice in choices(&self.cores)? {
+            let multiplicity = choice.iter().map(|placed| placed.multiplicity).product();
+            if let Some(shapes) = whole(sketch, &self.cores, &choice) {
+                all.push((shapes, multiplicity));
+                continue;
+            }
+            let sketch = standing_on(sketch, &self.cores, &choice)?;
+            let construction = Construction::new(&sketch).ok()?;
+            all.extend(construction.solutions().map(|s| (s.shapes, multiplicity)));
+        }
+        Some(all)
     }
 }
 
@@ -105,30 +131,53 @@ fn reduces(sketch: &Sketch, cores: &[Vec<usize>]) -> bool {
     Graph::new(sketch.graph().vertices(), all).is_ok_and(|graph| reduce(&graph).solved)
 }
 
+/// A place for every core, in all combinations, up to one more than are constructed on; `None` where a core was not solved.
+fn choices(cores: &[Core]) -> Option<Vec<Vec<&Placed>>> {
+    let places: Vec<&[Placed]> = cores.iter().map(Core::places).collect::<Option<_>>()?;
+    let mut all: Vec<Vec<&Placed>> = vec![Vec::new()];
+    for places in places {
+        let longer = all.iter().flat_map(|choice| {
+            places.iter().map(move |placed| {
+                let mut longer = choice.clone();
+                longer.push(placed);
+                longer
+            })
+        });
+        all = longer.take(MOST_COMBINATIONS + 1).collect();
+    }
+    Some(all)
+}
+
+/// The places of all elements, where one core has them all.
+fn whole(sketch: &Sketch, cores: &[Core], choice: &[&Placed]) -> Option<Vec<Shape>> {
+    let ([core], [placed]) = (cores, choice) else {
+        return None;
+    };
+    (core.elements.len() == sketch.elements().len()).then(|| placed.shapes.clone())
+}
+
+/// The sketch with its cores as rigid bodies.
+fn standing_on(sketch: &Sketch, cores: &[Core], choice: &[&Placed]) -> Option<Sketch> {
+    let bodies: Vec<(Vec<usize>, Vec<Shape>)> = cores
+        .iter()
+        .zip(choice)
+        .map(|(core, placed)| (core.elements.clone(), placed.shapes.clone()))
+        .collect();
+    with_bodies(sketch, &bodies)
+}
+
 fn total(sketch: &Sketch, cores: &[Core]) -> Option<Total> {
+    let choices = choices(cores)?;
     let mut total = Total {
         least: 0,
-        all: true,
+        all: choices.len() <= MOST_COMBINATIONS,
     };
-    let places: Vec<&[Placed]> = cores.iter().map(Core::places).collect::<Option<_>>()?;
-    let mut next = vec![0; cores.len()];
-    if places.iter().any(|p| p.is_empty()) {
-        return Some(total);
-    }
-    if let [core] = cores
-        && core.elements.len() == sketch.elements().len()
-    {
-        total.least = places[0].len() as u128;
-        return Some(total);
-    }
-    for _ in 0..MOST_COMBINATIONS {
-        let bodies: Vec<(Vec<usize>, Vec<Shape>)> = cores
-            .iter()
-            .zip(&places)
-            .zip(&next)
-            .map(|((core, places), &k)| (core.elements.clone(), places[k].shapes.clone()))
-            .collect();
-        let sketch = with_bodies(sketch, &bodies)?;
+    for choice in choices.iter().take(MOST_COMBINATIONS) {
+        if whole(sketch, cores, choice).is_some() {
+            total.least += 1;
+            continue;
+        }
+        let sketch = standing_on(sketch, cores, choice)?;
         let count = Construction::new(&sketch).ok()?.count();
         let sure = match count.between {
             Some([least, _]) => Some(least),
@@ -140,15 +189,7 @@ fn total(sketch: &Sketch, cores: &[Core]) -> Option<Total> {
             && !count.infinite
             && count.between.is_none();
         total.least = total.least.checked_add(sure?)?;
-        let advanced = next.iter_mut().zip(&places).rev().any(|(digit, places)| {
-            *digit = (*digit + 1) % places.len();
-            *digit != 0
-        });
-        if !advanced {
-            return Some(total);
-        }
     }
-    total.all = false;
     Some(total)
 }
 
