@@ -93,10 +93,12 @@ pub(super) fn answer(mechanism: &Mechanism, slack: &Slack, budget: &Budget) -> O
         finite: proven.then_some(0),
         drawn: false,
     };
+    // A joint within one body that closes as it is written need not with other digits.
+    let loose = placed.redundant && slack.share > 0.0;
     let all = |found: &RealSolutions| -> Vec<Configuration> {
         let roots = found.roots.iter();
         roots
-            .map(|root| configuration(&root.unknowns, 1, root.proven && !placed.redundant))
+            .map(|root| configuration(&root.unknowns, 1, root.proven && !loose))
             .collect()
     };
     // The numbers are rounded: what holds of all digits is asked first.
