@@ -143,7 +143,11 @@ impl Sketch {
     }
 
     /// The same sketch with another value of a constraint.
-    pub(crate) fn with_value(&self, constraint: usize, value: Number) -> Self {
+    ///
+    /// # Panics
+    /// Where there is no such constraint.
+    #[must_use]
+    pub fn with_value(&self, constraint: usize, value: Number) -> Self {
         let mut other = self.clone();
         other.constraints[constraint].value = value;
         other

@@ -5,11 +5,14 @@
 //! which are counted and not listed.
 
 use super::{Complete, Configuration, Modes, Way, place};
+use crate::placed::Slack;
 use kutzbach_algebra::{Budget, Limits};
 use kutzbach_constructive::analysis::s_tree;
 use kutzbach_constructive::construction::{Construction, Outcome};
 use kutzbach_constructive::planar::Planar;
+use kutzbach_constructive::sketch::{Element, Sketch};
 use kutzbach_constructive::together::together_within;
+use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::Mechanism;
 
 /// Configurations that are listed; those nearest to the drawing come first.
@@ -44,7 +47,9 @@ pub(super) fn at_once(mechanism: &Mechanism, budget: &Budget) -> Option<Modes> {
 }
 
 /// The answer where circles and lines construct the mechanism, in at least so many steps of two places; `None` elsewhere.
-pub(super) fn answer(mechanism: &Mechanism, least: usize) -> Option<Modes> {
+///
+/// With it whether it is the answer for all numbers that are known so far.
+pub(super) fn answer(mechanism: &Mechanism, slack: &Slack, least: usize) -> Option<(Modes, bool)> {
     let planar = Planar::of(mechanism).ok()?;
     let construction = Construction::new(&planar.sketch.sketch).ok()?;
     let steps = (0..construction.drawn_left().len()).filter(|step| !construction.is_rigid(*step));
@@ -98,7 +103,79 @@ pub(super) fn answer(mechanism: &Mechanism, least: usize) -> Option<Modes> {
         modes.complete =
             Complete::Unknown("circles touch or nearly do, which doubles do not decide".to_owned());
     }
-    Some(modes)
+    let stays =
+        modes.complete == Complete::Proven && stays(&planar.sketch.sketch, &construction, slack);
+    Some((modes, stays))
+}
+
+/// Steps of two places at most, all choices of which are looked at with other digits.
+const FEW_STEPS: usize = 6;
+
+/// Share of a margin that other digits may use up: what they do is found to first order.
+const USED: f64 = 0.5;
+
+/// Whether every step of every choice, up to the first that is impossible, turns out the same with all lengths and angles off by what is
+/// known of them.
+fn stays(sketch: &Sketch, construction: &Construction<'_>, slack: &Slack) -> bool {
+    let drawn = construction.drawn_left();
+    let free: Vec<usize> = (0..drawn.len())
+        .filter(|s| !construction.is_rigid(*s))
+        .collect();
+    if slack.share == 0.0 || free.len() > FEW_STEPS {
+        return false;
+    }
+    let is_line = |e: &usize| matches!(sketch.elements()[*e], Element::Line { .. });
+    let moved = sketch
+        .constraints()
+        .iter()
+        .enumerate()
+        .map(|(i, constraint)| {
+            let by = if constraint.ends.iter().all(is_line) {
+                slack.share
+            } else {
+                slack.metres
+            };
+            Number::from_f64(constraint.value.value() + by).map(|value| sketch.with_value(i, value))
+        });
+    let Some(moved) = moved.collect::<Option<Vec<Sketch>>>() else {
+        return false;
+    };
+    let others: Result<Vec<_>, _> = moved.iter().map(Construction::new).collect();
+    let Ok(others) = others else {
+        return false;
+    };
+    (0..1_usize << free.len()).all(|choice| {
+        let mut left = drawn.to_vec();
+        for (bit, step) in free.iter().enumerate() {
+            left[*step] ^= choice >> bit & 1 == 1;
+        }
+        let here = construction.outcomes(&left);
+        let there: Vec<Vec<Outcome>> = others.iter().map(|c| c.outcomes(&left)).collect();
+        let last = here
+            .iter()
+            .position(|o| !o.is_possible())
+            .unwrap_or(here.len() - 1);
+        (0..=last).filter(|step| free.contains(step)).all(|step| {
+            let Some(own) = margin(&here[step]) else {
+                return false;
+            };
+            let used = there
+                .iter()
+                .map(|outcomes| Some((margin(&outcomes[step])? - own).abs()));
+            let used: Option<f64> = used.sum();
+            used.is_some_and(|used| used <= USED * own.abs())
+        })
+    })
+}
+
+/// By how much circles overlap, below zero where they stay apart; `None` where they touch or nothing fixes the element.
+fn margin(outcome: &Outcome) -> Option<f64> {
+    match outcome {
+        Outcome::Two { by } => Some(*by),
+        Outcome::Apart { by } => Some(-by),
+        Outcome::One => Some(f64::MAX),
+        Outcome::Touching { .. } | Outcome::Degenerate => None,
+    }
 }
 
 #[cfg(test)]
@@ -107,7 +184,6 @@ mod tests {
     use super::super::by_tree::{self, Outcome as ByTree};
     use super::super::{inputs, place::apart};
     use super::*;
-    use crate::placed::Slack;
     use crate::samples;
     use kutzbach_algebra::{Budget, Limits};
     use std::fmt::Write;
@@ -166,7 +242,7 @@ mod tests {
             (chain(3), 8),
         ] {
             let name = mechanism.name();
-            let built = answer(&mechanism, 0).unwrap();
+            let built = answer(&mechanism, &Slack::default(), 0).unwrap().0;
             assert_eq!(built.complete, Complete::Proven, "{name}");
             assert_eq!(built.configurations.len(), count, "{name}");
             let budget = Budget::new(Limits::seconds(60.0));
@@ -208,7 +284,7 @@ mod tests {
         let drawn = samples::own("planar_3rrr");
         let mechanism = drawn.with_joints_held(&inputs::proposed(&drawn).0).unwrap();
         let budget = Budget::new(Limits::seconds(60.0));
-        assert!(answer(&mechanism, 0).is_none());
+        assert!(answer(&mechanism, &Slack::default(), 0).is_none());
         let found = at_once(&mechanism, &budget).unwrap();
         let ByTree::Modes(tree, _) = by_tree::answer(&mechanism, &Slack::default(), &budget) else {
             panic!("no tree");
@@ -222,7 +298,7 @@ mod tests {
 
     #[test]
     fn many_steps_are_counted_and_not_listed() {
-        let built = answer(&chain(10), 0).unwrap();
+        let built = answer(&chain(10), &Slack::default(), 0).unwrap().0;
         assert_eq!(built.complete, Complete::Proven);
         assert_eq!(
             (built.in_all.as_deref(), built.configurations.len()),

@@ -177,16 +177,16 @@ pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Mode
     let joints: Vec<JointId> = (0..fixed.joints().len()).map(JointId).collect();
     let (algebraic, _) = fixed.with_rational_rotations(&joints);
     let slack = rounded::slack(&fixed);
-    let (mut modes, stays) = match by_construction::answer(&fixed, MANY_STEPS) {
-        Some(modes) => (modes, false),
+    let (mut modes, stays) = match by_construction::answer(&fixed, &slack, MANY_STEPS) {
+        Some(built) => built,
         None => match by_tree::answer(&algebraic, &slack, &budget) {
             by_tree::Outcome::Modes(modes, stays) => (*modes, stays),
-            by_tree::Outcome::NotByTree(why) => {
-                let modes = by_construction::answer(&fixed, 0)
-                    .or_else(|| by_construction::at_once(&fixed, &budget))
-                    .unwrap_or_else(|| by_polynomials::answer(&algebraic, &why, &budget));
-                (modes, false)
-            }
+            by_tree::Outcome::NotByTree(why) => by_construction::answer(&fixed, &slack, 0)
+                .unwrap_or_else(|| {
+                    let modes = by_construction::at_once(&fixed, &budget);
+                    let polynomials = || by_polynomials::answer(&algebraic, &why, &budget);
+                    (modes.unwrap_or_else(polynomials), false)
+                }),
         },
     };
     rounded::doubt(&mut modes, &fixed, stays, never_closes);

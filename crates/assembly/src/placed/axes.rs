@@ -33,6 +33,14 @@ impl Hinge {
         [0, 1, 2].map(|i| &self.origins[side][i] + &(&self.axes[side][i] * along))
     }
 
+    /// The power of two of lengths of the axis that is nearest to a size.
+    fn end(&self, size: f64) -> Option<Number> {
+        let axis = &self.axes[0];
+        let length = dot(axis, axis).value().sqrt();
+        let power = (size / length).log2().round().clamp(-40.0, 40.0);
+        Number::from_f64(power.exp2())
+    }
+
     /// How far along the axis a point of a side's body is, in lengths of the axis; `None` where it is not on it.
     fn along(&self, side: usize, point: &Exact3) -> Option<Number> {
         let way = minus(point, &self.origins[side]);
@@ -61,8 +69,9 @@ fn meeting(one: (&Exact3, &Exact3), other: (&Exact3, &Exact3)) -> Option<Exact3>
 }
 
 /// Gives every hinge two points that its bodies share: those in which other joints are, then the joint's origin, then
-/// the end of its axis.
-pub(super) fn share_points(hinges: &[Hinge], nodes: &mut Nodes) {
+/// the end of its axis. Of rounded numbers the end is taken about as far away as the mechanism is large: an axis is off by an angle, which
+/// closer points would make more of.
+pub(super) fn share_points(hinges: &[Hinge], nodes: &mut Nodes, size: Option<f64>) {
     for (index, hinge) in hinges.iter().enumerate() {
         for other in &hinges[..index] {
             for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
@@ -105,7 +114,8 @@ pub(super) fn share_points(hinges: &[Hinge], nodes: &mut Nodes) {
             .map(|(along, _)| along)
             .take(2)
             .collect();
-        for along in [Number::zero(), Number::one()] {
+        let end = size.and_then(|size| hinge.end(size));
+        for along in [Number::zero(), end.unwrap_or_else(Number::one)] {
             if chosen.len() < 2 && !chosen.contains(&along) {
                 chosen.push(along);
             }

@@ -250,7 +250,8 @@ impl Placed {
                 }
             }
         }
-        axes::share_points(&hinges, &mut nodes);
+        let size = (slack.share > 0.0).then(|| slack.metres / slack.share);
+        axes::share_points(&hinges, &mut nodes, size);
         groups.check_torn(&nodes)?;
         groups.finish(mechanism, &nodes, bars, slack)
     }

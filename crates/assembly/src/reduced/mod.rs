@@ -214,10 +214,9 @@ impl ReducedSystem {
 
     /// How much larger the share of a coefficient may be than that of a length: points close together place others far away.
     fn lever(&self, placed: &Placed) -> f64 {
-        let extents: Vec<f64> = self.locals.iter().map(|l| l.extent(&self.field)).collect();
         let of_turns = self.tree.edges.iter().zip(&self.turns).map(|(edge, turn)| {
-            let extent = extents[edge.parent].max(extents[edge.child]);
-            turn.lever(extent, &self.field)
+            let bodies = [edge.child, edge.parent].map(|b| &self.locals[b]);
+            turn.lever(bodies, &self.field)
         });
         let implied = self
             .tree

@@ -97,19 +97,25 @@ struct HingeParts {
 }
 
 impl Turn {
-    /// How much farther a point moves than those by which the turn is made, at most, in bodies of these extents: along the axis, and about it.
-    pub(super) fn lever(&self, extent: f64, field: &NumberField) -> f64 {
+    /// How much farther than the points by which the turn is made another point of these bodies moves at most, where the former are
+    /// off by a little: with the axis, and about it.
+    pub(super) fn lever(&self, [child, parent]: [&Local; 2], field: &NumberField) -> f64 {
         let Parts::Hinge(parts) = &self.parts else {
             return 1.0;
         };
-        let Unknowns::Hinge { ratio, .. } = &self.unknowns else {
-            return 1.0;
+        let of_body = |body: &Local, pivot: &Constant, [e, u, _]: &[Constant; 3]| {
+            let value = |a: &Constant, b: &Constant| field.number(&body.dot(a, b, field)).value();
+            let (axis, arm) = (value(e, e), value(u, u));
+            let of_point = |point: &Constant| {
+                let way = minus(point, pivot);
+                let (square, along) = (value(&way, &way), value(&way, e));
+                let off = (square - along * along / axis).max(0.0);
+                (square / axis).max(off / arm).sqrt()
+            };
+            body.points.values().map(of_point).fold(1.0, f64::max)
         };
-        // |u'|² by |u|² and their ratio.
-        let square = |inverse: &FieldElement| 1.0 / field.number(inverse).value();
-        let (axis, arm) = (square(&parts.inverse[0]), square(&parts.inverse[1]));
-        let least = axis.min(arm).min(arm / field.number(ratio).value());
-        (extent / least.sqrt()).max(1.0)
+        let in_child = of_body(child, &self.pivot[0], &parts.of);
+        in_child.max(of_body(parent, &self.pivot[1], &parts.to))
     }
 
     /// The turn of a child about the points that it shares with its parent; `None` where these do not suffice, or for one
