@@ -26,14 +26,14 @@ pub(super) struct Tensor {
     pub(super) radius: f64,
     /// How far the polynomial may be from the one meant, on the box.
     unknown: f64,
-    /// The same of its derivative in each variable, the box being as long as one.
+    /// The same of its derivative in each variable, the box being as long as one; empty where nothing is unknown.
     unknown_slopes: Vec<f64>,
 }
 
 impl Tensor {
     pub(super) fn new(variables: Vec<usize>, coefficients: Vec<f64>, radius: f64) -> Self {
         Self {
-            unknown_slopes: vec![0.0; variables.len()],
+            unknown_slopes: Vec::new(),
             variables,
             coefficients,
             radius,
@@ -57,12 +57,15 @@ impl Tensor {
 
     /// Lets every coefficient of the polynomial be off by so much, on the first box.
     pub(super) fn widen(&mut self, by: f64) {
+        if by == 0.0 {
+            return;
+        }
         // The weights at 1 + t are t², 2t (1 + t) and (1 + t)², up to signs.
         const OUTSIDE: f64 = (1.0 + 2.0 * BEYOND) * (1.0 + 2.0 * BEYOND);
         let power = self.variables.iter().fold(1.0, |p, _| p * OUTSIDE);
         self.unknown = by * power * (1.0 + 16.0 * UNIT);
         // Twice the difference of two coefficients.
-        self.unknown_slopes.fill(4.0 * self.unknown);
+        self.unknown_slopes = vec![4.0 * self.unknown; self.variables.len()];
     }
 
     /// Whether something of the polynomial is unknown.
@@ -96,8 +99,9 @@ impl Tensor {
         self.radius = (self.radius * size * (1.0 + 16.0 * UNIT)
             + 8.0 * UNIT * size * self.largest())
         .next_up();
-        let slope = self.unknown_slopes[place] * (b - a).abs().next_up();
-        self.unknown_slopes[place] = slope.next_up();
+        if let Some(slope) = self.unknown_slopes.get_mut(place) {
+            *slope = (*slope * (b - a).abs().next_up()).next_up();
+        }
         let stride = self.stride(place);
         for start in 0..self.coefficients.len() {
             if !(start / stride).is_multiple_of(3) {
@@ -126,7 +130,7 @@ impl Tensor {
             high = high.max(step);
         }
         let margin = 2.0 * self.radius + 2.0 * UNIT * self.largest();
-        let unknown = self.unknown_slopes[place];
+        let unknown = self.unknown_slopes.get(place).copied().unwrap_or(0.0);
         (
             (2.0 * (low - margin).next_down() - unknown).next_down(),
             (2.0 * (high + margin).next_up() + unknown).next_up(),
