@@ -111,6 +111,13 @@ fn no_kind_is_contradicted() {
     assert!(seen.iter().filter(|s| s.decided).count() >= 12);
 }
 
+/// Exact equations of this tacnode would multiply two poses of ten thousands of terms each: they are not written, and series decide.
+#[test]
+fn equations_of_too_many_terms_are_not_written() {
+    let seen = look(211);
+    assert!(seen.decided && seen.wrong.is_empty(), "{:?}", seen.wrong);
+}
+
 mod corpus {
     use super::*;
 

@@ -23,6 +23,19 @@ pub(super) struct Implicit<'a> {
     pub(super) unoriented: bool,
 }
 
+impl JointModel {
+    /// Whether what the joint asks for multiplies the poses of its two links: a direction of one by something of the other.
+    pub(super) fn multiplies_poses(&self) -> bool {
+        !matches!(
+            self.kind,
+            JointKind::Fixed
+                | JointKind::Revolute
+                | JointKind::Spherical
+                | JointKind::Translational
+        )
+    }
+}
+
 impl Implicit<'_> {
     fn ring(&self) -> Polynomials<'_> {
         Polynomials(self.field)

@@ -11,6 +11,18 @@ use super::space::{Polynomials, Pose, subtract};
 /// Most terms of one pose.
 const MAX_TERMS: usize = 60_000;
 
+/// Most products of terms that one equation between two poses may take.
+const MAX_PRODUCTS: usize = 4_000_000;
+
+/// Products of terms that a direction of one link with a way between both takes at most.
+fn products(one: &Pose<Poly>, other: &Pose<Poly>) -> usize {
+    let terms = |entries: &mut dyn Iterator<Item = &Poly>| entries.map(|p| p.terms().len()).sum();
+    let [a, b]: [usize; 2] = [one, other].map(|p| terms(&mut p.rotation.iter().flatten()));
+    let [s, t]: [usize; 2] = [one, other].map(|p| terms(&mut p.translation.iter()));
+    // A direction is a combination of three entries of a row.
+    (a.max(b) / 3).saturating_mul(s + t)
+}
+
 /// Joints in order, each with whether it is passed from predecessor to successor.
 pub(super) type Path = [(usize, bool)];
 
@@ -96,9 +108,16 @@ impl Walker<'_> {
         } else {
             (&after, &before)
         };
+        let model = &self.models[joint];
+        if model.multiplies_poses() && products(predecessor, successor) > MAX_PRODUCTS {
+            return Err(SystemError::TooLarge {
+                what: "a cycle".to_owned(),
+                limit: MAX_PRODUCTS,
+            });
+        }
         Ok(Implicit {
             field: self.field,
-            model: &self.models[joint],
+            model,
             predecessor,
             successor,
             unoriented: self.unoriented,
