@@ -6,7 +6,7 @@
 //! KUTZBACH_UPDATE=1 cargo corpus germs
 //! ```
 //!
-//! `KUTZBACH_GERMS=20000 cargo corpus germs` draws more of them, and does not compare the table.
+//! `KUTZBACH_GERMS=192..2000 cargo corpus germs` draws others, and does not compare the table.
 
 mod arm;
 mod kinds;
@@ -22,7 +22,9 @@ const MARKS: [&str; 2] = ["<!-- germs: begin -->", "<!-- germs: end -->"];
 
 /// What an analysis says of a germ.
 struct Seen {
+    seed: u64,
     kind: &'static str,
+    seconds: f64,
     decided: bool,
     branches: bool,
     why: String,
@@ -38,10 +40,13 @@ fn drawn(seed: u64) -> Germ {
 fn look(seed: u64) -> Seen {
     let germ = drawn(seed);
     let mechanism = arm::mechanism(&format!("germ_{seed}"), &germ.polynomials);
+    let start = std::time::Instant::now();
     let analysis = support::analysis(&mechanism);
     let mobility = &analysis.mobility;
     Seen {
+        seed,
         kind: germ.kind,
+        seconds: start.elapsed().as_secs_f64(),
         decided: mobility.finite().is_some(),
         branches: analysis.branches.is_some(),
         why: mobility.why.join("; "),
@@ -125,13 +130,18 @@ mod corpus {
     #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn germs_of_known_branches_are_not_contradicted() {
         let more = std::env::var("KUTZBACH_GERMS").ok();
-        let count: u64 = more.as_ref().map_or(192, |count| count.parse().unwrap());
-        let seeds: Vec<u64> = (0..count).collect();
+        let range = more.as_deref().unwrap_or("0..192");
+        let (first, end) = range.split_once("..").expect("first..end");
+        let seeds: Vec<u64> = (first.parse().unwrap()..end.parse().unwrap()).collect();
         let seen = in_parallel(&seeds, |seed| look(*seed));
         let found = table(&seen);
         println!("{found}");
         for open in seen.iter().filter(|s| !s.decided) {
-            println!("{}: {}", open.kind, open.why);
+            println!("{} of seed {}: {}", open.kind, open.seed, open.why);
+        }
+        for slow in seen.iter().filter(|s| s.seconds > 5.0) {
+            let Seen { kind, seed, .. } = slow;
+            println!("{kind} of seed {seed}: {:.0} s", slow.seconds);
         }
         let wrong: Vec<String> = seen.iter().flat_map(|s| s.wrong.clone()).collect();
         assert_none(&wrong);

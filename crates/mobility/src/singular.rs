@@ -12,11 +12,13 @@
 mod by_arrangement;
 mod by_form;
 mod by_polygon;
+mod by_splitting;
 mod resolution;
 
 use self::by_arrangement::by_arrangement;
 use self::by_form::by_form;
 use self::by_polygon::by_polygon;
+use self::by_splitting::by_splitting;
 use self::resolution::Resolution;
 use super::chart::{ChartTest, Kernel};
 use super::germ::{
@@ -340,7 +342,8 @@ pub(super) fn singular_finding(
             .is_some_and(|freedom| freedom > 2 + idle.len())
     {
         decided = by_form(&mut found, &mut evidence, &start, &doubtful)?
-            || by_arrangement(&mut found, &mut evidence, &start, &doubtful)?;
+            || by_arrangement(&mut found, &mut evidence, &start, &doubtful)?
+            || by_splitting(&mut found, &mut evidence, &start, &doubtful)?;
     }
     if !decided {
         found.certificate =

@@ -68,19 +68,25 @@ impl PolynomialSystem {
         None
     }
 
-    /// Whether the system moved to its drawn pose takes no more than `memory` (bytes). A factor xᵉ of a monomial becomes (x + a)ᵉ, of
-    /// e + 1 terms where the value a at the pose is not zero: counted, with multiplicity, before anything is expanded.
+    /// Whether the system moved to its drawn pose takes no more than `memory` (bytes): see [`terms_at_home`](Self::terms_at_home).
     #[must_use]
     pub fn fits_at_home(&self, memory: u64) -> bool {
+        self.terms_at_home() <= memory / BYTES_PER_TERM
+    }
+
+    /// How many terms the system has where it is moved to its drawn pose; zero where no pose is drawn. A factor xᵉ of a monomial becomes
+    /// (x + a)ᵉ, of e + 1 terms where the value a at the pose is not zero: counted, with multiplicity, before anything is expanded.
+    #[must_use]
+    pub fn terms_at_home(&self) -> u64 {
         let Some(point) = &self.construction.point else {
-            return true;
+            return 0;
         };
         let monomials = self.equations.iter().flat_map(|e| e.polynomial.terms());
         let counts = monomials.map(|(exponents, _)| {
             let factors = exponents.iter().zip(point).filter(|(_, x)| !x.is_zero());
             factors.fold(1usize, |all, (&e, _)| all.saturating_mul(e as usize + 1))
         });
-        counts.fold(0, usize::saturating_add) as u64 <= memory / BYTES_PER_TERM
+        counts.fold(0, usize::saturating_add) as u64
     }
 
     fn reduced(&self, point: &[Element], images: &[u64], p: u64) -> Option<ModularSystem> {

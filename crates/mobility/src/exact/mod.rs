@@ -147,6 +147,9 @@ fn numbers_are_exact(pose: &Pose<'_>, part: &Part) -> bool {
     geometry && couplings && positions.flat_map(|(_, values)| values).all(chosen)
 }
 
+/// A term around the pose is read, sorted and reduced at the cost of so many matrix entries at least.
+const WORK_PER_TERM: u64 = 5;
+
 /// What can be proved, or why nothing can.
 fn exact_finding(
     pose: &Pose<'_>,
@@ -184,6 +187,13 @@ fn exact_finding(
     };
     let system = polynomial_system(mechanism, &options)
         .map_err(|error| format!("no polynomial equations: {error}"))?;
+    let terms = system.terms_at_home();
+    if terms.saturating_mul(WORK_PER_TERM) > most.work {
+        return Err(format!(
+            "not asked: around the pose its equations have {terms} terms, more than its budget reads"
+        ));
+    }
+    budget.spend(terms).map_err(stopped)?;
     if !system.fits_at_home(most.memory) {
         let gigabytes = most.memory as f64 / 1e9;
         return Err(format!(

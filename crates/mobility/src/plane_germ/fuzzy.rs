@@ -1,6 +1,6 @@
 //! Numbers that are known to within an error.
 
-use super::Doubt;
+use crate::leftover::Doubt;
 use kutzbach_math::matrix::Real;
 
 /// Up to so many times its error a number is zero: estimates of errors leave out moderate factors.

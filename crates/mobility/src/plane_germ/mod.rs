@@ -1,7 +1,7 @@
 //! Germs in two variables of exact numbers: their real branches, by Newton's polygon in as many digits as it takes.
 //!
 //! Where two coordinates are free to first order, what the equations leave over is a plane curve, or a few. Its coefficients are
-//! computed in hundreds of bits ([`leftover`], [`taylor`]), so that zero and a billionth of a billionth differ clearly, and its
+//! computed in hundreds of bits ([`Leftover`], [`taylor`]), so that zero and a billionth of a billionth differ clearly, and its
 //! half-branches are separated by Newton's polygon ([`puiseux`]), each until a simple root shows that it is one and goes on. What
 //! comes out holds on *every* small neighbourhood; no sphere is searched, so that an offset of 1e-9 is seen as what it is.
 //!
@@ -14,7 +14,6 @@
 //! Cost: a hundred evaluations of the equations and more in about a thousand bits, a third of a second for twenty joints.
 
 mod fuzzy;
-mod leftover;
 mod polynomial;
 mod puiseux;
 mod taylor;
@@ -23,12 +22,12 @@ mod taylor;
 mod tests;
 
 use crate::germ_zeros::{GermBranch, HalfBranch};
+use crate::leftover::{Doubt, Leftover, Row, power_of_two};
 use crate::lifting::Start;
 use crate::more_digits::MoreDigits;
 use crate::pose_rank::height_at;
 use fuzzy::{derivative, value_at};
 use kutzbach_math::matrix::{Extended, Real, SplitMix64};
-use leftover::{Leftover, Row, power_of_two};
 use puiseux::{Half, half_branches, power};
 use taylor::{Plane, series};
 
@@ -46,17 +45,6 @@ const MOST_UNKNOWNS: usize = 80;
 
 /// Directions of which the one farthest from all tangents is taken for y.
 const TURNS: usize = 16;
-
-/// Why no answer was found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Doubt {
-    /// A number is neither zero nor clearly different from it.
-    Precision,
-    /// Branches agree in all terms that are known, or one is multiple.
-    Multiple,
-    /// The equations could not be evaluated.
-    Arithmetic,
-}
 
 /// The real branches of a plane germ.
 pub(super) struct PlaneCurve {

@@ -4,8 +4,8 @@
 //! multiple one, and between two neighbours the polynomial is monotone and has one simple root where its sign changes. A root of
 //! multiplicity m is a simple one of the (m−1)st derivative, so that it is known about as well as the coefficients are.
 
-use super::Doubt;
 use super::fuzzy::{Fuzzy, derivative, value_at};
+use crate::leftover::Doubt;
 use kutzbach_math::matrix::Real;
 
 /// A real root.

@@ -6,10 +6,10 @@
 //! A multiple one is looked at with the next polygon. Nothing is concluded from coefficients beyond those that are known: an edge
 //! counts only if no unknown term can lie on it or below.
 
-use super::Doubt;
 use super::fuzzy::Fuzzy;
 use super::polynomial::{Root, real_roots};
 use super::taylor::Plane;
+use crate::leftover::Doubt;
 use kutzbach_math::matrix::Real;
 
 /// More polygons in a row are not followed: each separates what touches to some order.

@@ -3,9 +3,8 @@
 //! Values at the points (i h, j h), i + j ≤ K, of a grid so fine that what lies beyond degree K is a tiny share determine the
 //! coefficients up to degree K: those of degree k are off by about h^(K+1−k) times coefficients of degree K + 1.
 
-use super::Doubt;
 use super::fuzzy::{Fuzzy, value_at};
-use super::leftover::power_of_two;
+use crate::leftover::{Doubt, power_of_two};
 use kutzbach_math::matrix::Real;
 
 /// A power series in x and y, cut off at a degree.

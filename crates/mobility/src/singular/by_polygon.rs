@@ -1,9 +1,10 @@
 //! Singular poses where two coordinates are free to first order, by Newton's polygon.
 
 use super::super::germ::Germ;
+use super::super::leftover::Doubt;
 use super::super::lifting::{Start, lift_all};
 use super::super::part_mobility::{Evidence, PartFinding};
-use super::super::plane_germ::{Doubt, PlaneCurve, plane_curve};
+use super::super::plane_germ::{PlaneCurve, plane_curve};
 use super::super::pose_rank::PartRank;
 use super::super::vocabulary::SingularKind;
 use super::isolated;

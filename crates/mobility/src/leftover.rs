@@ -6,12 +6,22 @@
 //! degree because the kernel of `L J` is that of `J`. The joints' increments are taken from the pose in one step, so that κ is
 //! one analytic function; equations are those about the centre and in the length that the cycles have at the pose.
 
-use super::Doubt;
 use crate::germ::splitting::Splitting;
 use crate::more_digits::MoreDigits;
 use crate::pose_rank::{PartRank, Pose};
 use kutzbach_closure::{Geometry, JointState, Metric, Part, Section, WalkedCycle};
 use kutzbach_math::matrix::{Extended, Real, Ring};
+
+/// Why many digits give no answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Doubt {
+    /// A number is neither zero nor clearly different from it.
+    Precision,
+    /// Branches agree in all terms that are known, or one is multiple.
+    Multiple,
+    /// The equations could not be evaluated.
+    Arithmetic,
+}
 
 /// Steps that gain less than this factor do not converge.
 const CONVERGES: f64 = 0.01;
@@ -20,7 +30,7 @@ const CONVERGES: f64 = 0.01;
 const ROUNDINGS: i64 = 60;
 
 /// The equations of a part near its pose.
-pub(super) struct Leftover<'a> {
+pub(crate) struct Leftover<'a> {
     section: Section<'a, Extended>,
     home: &'a [JointState<Extended>],
     /// Walks at the pose, whose centres and lengths the equations are told in.
@@ -103,6 +113,21 @@ impl<'a> Leftover<'a> {
         let across = row.extrapolated(self.section.metric.weights.len(), &self.one);
         let (left, across) = self.evaluate(y, across)?;
         row.0.push(across);
+        Ok(left)
+    }
+
+    /// What is left over at any place. `near` is the solution across the kernel at a place nearby, or nothing, and becomes the one here.
+    ///
+    /// # Errors
+    /// [`Doubt`] where solving the other equations does not converge.
+    pub fn evaluate_near(
+        &self,
+        near: &mut Vec<Extended>,
+        y: &[Extended],
+    ) -> Result<Vec<Extended>, Doubt> {
+        near.resize(self.section.metric.weights.len(), self.one.zero_like());
+        let (left, across) = self.evaluate(y, std::mem::take(near))?;
+        *near = across;
         Ok(left)
     }
 
@@ -220,7 +245,7 @@ impl<'a> Leftover<'a> {
 
 /// Solutions across the kernel at equidistant places.
 #[derive(Debug, Default)]
-pub(super) struct Row(Vec<Vec<Extended>>);
+pub(crate) struct Row(Vec<Vec<Extended>>);
 
 impl Row {
     /// The polynomial through all of them, at the next place.
@@ -263,7 +288,7 @@ fn larger<R: Real>(a: R, b: R) -> R {
 }
 
 /// 2ⁿ, beyond the range of doubles too.
-pub(super) fn power_of_two<R: Real>(one: &R, exponent: i64) -> R {
+pub(crate) fn power_of_two<R: Real>(one: &R, exponent: i64) -> R {
     let base = one.constant(if exponent < 0 { 0.5 } else { 2.0 });
     let mut result = one.one_like();
     let mut square = base;
