@@ -1,10 +1,12 @@
 //! What the equations leave over, as a function of the coordinates along the kernel, in as many bits as asked for.
 //!
 //! With `B` a basis of the kernel, `C` one of what is across it and `L`, `N` bases of the rows that the Jacobian reaches and does not
-//! reach, all in double precision and taken for exact, let `ψ(y)` solve `L F(B y + C ψ) = 0`; left over is `κ(y) = N F(B y + C ψ(y))`.
-//! That is an exact reduction wherever `L J C` is regular, however roughly the bases are known, and κ begins with the second
-//! degree because the kernel of `L J` is that of `J`. The joints' increments are taken from the pose in one step, so that κ is
-//! one analytic function; equations are those about the centre and in the length that the cycles have at the pose.
+//! reach, let `ψ(y)` solve `L F(B y + C ψ) = 0`; left over is `κ(y) = N F(B y + C ψ(y))`. That is an exact reduction wherever `L J C` is
+//! regular, however roughly the bases are known, and κ begins with the second degree because the kernel of `L J` is that of `J`.
+//! `L` and `N` are doubles taken for exact. `B` is known to many digits, and `C` is orthogonal to it to as many: rounded, they would put
+//! terms of 1e-17, and of its square and cube, in place of zeros, of which the smallest ones are lost in the error. The joints'
+//! increments are taken from the pose in one step, so that κ is one analytic function; equations are those about the centre and in the
+//! length that the cycles have at the pose.
 
 use crate::germ::splitting::Splitting;
 use crate::more_digits::MoreDigits;
@@ -23,6 +25,12 @@ pub(crate) enum Doubt {
     Arithmetic,
 }
 
+/// What vanishes to this order is taken for zero where values close to the pose are compared with zero.
+pub(crate) const ORDERS: i64 = 24;
+
+/// The kernel is refined to so many bits.
+const KERNEL: i64 = 500;
+
 /// Steps that gain less than this factor do not converge.
 const CONVERGES: f64 = 0.01;
 
@@ -38,6 +46,9 @@ pub(crate) struct Leftover<'a> {
     /// Length of each coupling's row.
     norms: Vec<Extended>,
     splitting: Splitting,
+    kernel: Vec<Vec<Extended>>,
+    /// What the Jacobian reaches: left vectors, vectors across the kernel, singular values.
+    reached: Vec<(Vec<Extended>, Vec<Extended>, Extended)>,
     one: Extended,
 }
 
@@ -76,7 +87,15 @@ impl<'a> Leftover<'a> {
             .iter()
             .map(|&coupling| coupling_norm(geometry, coupling, rank.jacobian.length))
             .collect();
-        Ok(Self {
+        let exact = |doubles: &[f64]| -> Vec<Extended> {
+            doubles.iter().map(|x| one.constant(*x)).collect()
+        };
+        let kernel = splitting.kernel.iter().map(|b| exact(b)).collect();
+        let reached = splitting.reached();
+        let reached = reached
+            .map(|(u, v, s)| (exact(u), exact(v), one.constant(s)))
+            .collect();
+        let mut leftover = Self {
             section: Section {
                 mechanism: pose.mechanism,
                 geometry,
@@ -87,8 +106,66 @@ impl<'a> Leftover<'a> {
             walks,
             norms,
             splitting,
+            kernel,
+            reached,
             one,
-        })
+        };
+        leftover.refine_kernel();
+        leftover.make_orthogonal();
+        Ok(leftover)
+    }
+
+    /// Corrects the kernel across itself until it is known to [`KERNEL`] bits: the Jacobian times a vector is a difference.
+    fn refine_kernel(&mut self) {
+        let bits = i64::from(self.one.bits());
+        let step = power_of_two(&self.one, -bits / 3);
+        let twice = step.clone() * self.one.constant(2.0);
+        let enough = power_of_two(&self.one, -KERNEL.min(2 * bits / 3 - 32));
+        let mut kernel = std::mem::take(&mut self.kernel);
+        for vector in &mut kernel {
+            // Each round gains the digits of a double.
+            for _ in 0..bits / 30 {
+                let side = |sign: f64| -> Vec<Extended> {
+                    let share = step.clone() * self.one.constant(sign);
+                    let z: Vec<Extended> =
+                        vector.iter().map(|x| share.clone() * x.clone()).collect();
+                    self.residual(&z)
+                };
+                let image: Vec<Extended> = side(1.0)
+                    .into_iter()
+                    .zip(side(-1.0))
+                    .map(|(plus, minus)| (plus - minus) / twice.clone())
+                    .collect();
+                let mut most = self.one.zero_like();
+                for (u, v, s) in &self.reached {
+                    let share = -(self.one.dot(u, &image) / s.clone());
+                    share.add_scaled(v, vector);
+                    most = larger(most, share.abs());
+                }
+                if !(most > enough) {
+                    break;
+                }
+            }
+        }
+        self.kernel = kernel;
+    }
+
+    /// Makes the kernel orthonormal and what is across orthogonal to it, by corrections of a rounding in double precision.
+    fn make_orthogonal(&mut self) {
+        for index in 0..self.kernel.len() {
+            let (before, rest) = self.kernel.split_at_mut(index);
+            let Some(vector) = rest.first_mut() else {
+                break;
+            };
+            project_out(before, vector, &self.one);
+            let length = self.one.norm(vector);
+            vector
+                .iter_mut()
+                .for_each(|x| *x = x.clone() / length.clone());
+        }
+        for (_, across, _) in &mut self.reached {
+            project_out(&self.kernel, across, &self.one);
+        }
     }
 
     /// How many equations are left.
@@ -98,7 +175,7 @@ impl<'a> Leftover<'a> {
 
     /// How many coordinates the kernel has.
     pub fn freedom(&self) -> usize {
-        self.splitting.kernel.len()
+        self.kernel.len()
     }
 
     /// What is left over at a place of the kernel, by the rows that are not reached. The places of a row are asked for in equal steps,
@@ -131,6 +208,22 @@ impl<'a> Leftover<'a> {
         Ok(left)
     }
 
+    /// What is left over at a place of a line, at a parameter of the line.
+    ///
+    /// # Errors
+    /// [`Doubt`] where solving the other equations does not converge.
+    pub fn evaluate_on(
+        &self,
+        line: &mut Line,
+        parameter: &Extended,
+        y: &[Extended],
+    ) -> Result<Vec<Extended>, Doubt> {
+        let start = line.interpolated(self.section.metric.weights.len(), parameter);
+        let (left, across) = self.evaluate(y, start)?;
+        line.0.push((parameter.clone(), across));
+        Ok(left)
+    }
+
     /// What is left over at a place, and what the solution has across the kernel; `across` is where to look for it.
     fn evaluate(
         &self,
@@ -139,10 +232,8 @@ impl<'a> Leftover<'a> {
     ) -> Result<(Vec<Extended>, Vec<Extended>), Doubt> {
         let unknowns = self.section.metric.weights.len();
         let mut along = vec![self.one.zero_like(); unknowns];
-        for (basis, y) in self.splitting.kernel.iter().zip(y) {
-            for (z, b) in along.iter_mut().zip(basis) {
-                *z = z.clone() + y.clone() * self.one.constant(*b);
-            }
+        for (basis, y) in self.kernel.iter().zip(y) {
+            y.add_scaled(basis, &mut along);
         }
         let sum = |across: &[Extended]| -> Vec<Extended> {
             along
@@ -163,21 +254,17 @@ impl<'a> Leftover<'a> {
         let bits = i64::from(self.one.bits());
         let floor = power_of_two(&self.one, 24 - bits) * reach.clone();
         let roundings = power_of_two(&self.one, ROUNDINGS - bits) * reach;
-        let reached: Vec<(Vec<Extended>, Vec<Extended>, Extended)> = self
-            .splitting
-            .reached()
-            .map(|(u, v, s)| (self.exact(u), self.exact(v), self.one.constant(s)))
-            .collect();
         let mut residual = self.residual(&sum(&across));
         let mut before: Option<Extended> = None;
         loop {
-            let open: Vec<Extended> = reached
+            let open: Vec<Extended> = self
+                .reached
                 .iter()
                 .map(|(u, ..)| self.one.dot(u, &residual))
                 .collect();
             // Steps are exactly in the span of the right vectors: what is across the kernel has to be one space for all poses.
             let mut step = vec![self.one.zero_like(); unknowns];
-            for (open, (_, v, s)) in open.iter().zip(&reached) {
+            for (open, (_, v, s)) in open.iter().zip(&self.reached) {
                 (open.clone() / s.clone()).add_scaled(v, &mut step);
             }
             let moved = largest(&step);
@@ -263,6 +350,32 @@ impl Row {
     }
 }
 
+/// Solutions across the kernel at places of a line, by their parameters.
+#[derive(Debug, Default)]
+pub(crate) struct Line(Vec<(Extended, Vec<Extended>)>);
+
+impl Line {
+    /// So many solutions, the last ones, are interpolated.
+    const POINTS: usize = 5;
+
+    /// The polynomial through the last solutions, at a parameter (Lagrange).
+    fn interpolated(&self, unknowns: usize, at: &Extended) -> Vec<Extended> {
+        let mut solution = vec![at.zero_like(); unknowns];
+        let last = &self.0[self.0.len().saturating_sub(Self::POINTS)..];
+        for (index, (own, known)) in last.iter().enumerate() {
+            let mut weight = at.one_like();
+            for (other, (parameter, _)) in last.iter().enumerate() {
+                if other != index {
+                    let [up, down] = [at, own].map(|x| x.clone() - parameter.clone());
+                    weight = weight * up / down;
+                }
+            }
+            weight.add_scaled(known, &mut solution);
+        }
+        solution
+    }
+}
+
 /// The length of a coupling's row at a length of the part.
 fn coupling_norm(geometry: &Geometry<Extended>, coupling: usize, length: f64) -> Extended {
     let one = &geometry.one;
@@ -281,6 +394,14 @@ fn coupling_norm(geometry: &Geometry<Extended>, coupling: usize, length: f64) ->
         .collect();
     let norm = one.norm(&weights);
     if norm.is_zero() { one.clone() } else { norm }
+}
+
+/// Takes the parts along orthonormal vectors out of another.
+fn project_out(basis: &[Vec<Extended>], vector: &mut [Extended], one: &Extended) {
+    for direction in basis {
+        let along = -one.dot(direction, vector);
+        along.add_scaled(direction, vector);
+    }
 }
 
 fn larger<R: Real>(a: R, b: R) -> R {

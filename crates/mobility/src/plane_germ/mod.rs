@@ -6,7 +6,8 @@
 //! comes out holds on *every* small neighbourhood; no sphere is searched, so that an offset of 1e-9 is seen as what it is.
 //!
 //! A half-branch on which several independent equations vanish, as far as they are known, is a hint; all others are proved, up to the
-//! margin with which coefficients are told from zero. Branches that are multiple to every computed order are left open here.
+//! margin with which coefficients are told from zero. What no computed term separates is one branch several times over where values of the
+//! one equation say so ([`multiple`]), and left open elsewhere.
 //!
 //! Source: Newton–Puiseux, as in Brieskorn and Knörrer, *Plane Algebraic Curves*, §8.3; real branches and their pairing as there in
 //! §8.4 with real roots only.
@@ -14,6 +15,7 @@
 //! Cost: a hundred evaluations of the equations and more in about a thousand bits, a third of a second for twenty joints.
 
 mod fuzzy;
+mod multiple;
 mod polynomial;
 mod puiseux;
 mod taylor;
@@ -22,12 +24,14 @@ mod taylor;
 mod tests;
 
 use crate::germ_zeros::{GermBranch, HalfBranch};
-use crate::leftover::{Doubt, Leftover, Row, power_of_two};
+use crate::leftover::{Doubt, Leftover, Line, Row, power_of_two};
 use crate::lifting::Start;
 use crate::more_digits::MoreDigits;
 use crate::pose_rank::height_at;
 use fuzzy::{derivative, value_at};
 use kutzbach_math::matrix::{Extended, Real, SplitMix64};
+use multiple::Cluster;
+pub(super) use multiple::ORDERS;
 use puiseux::{Half, half_branches, power};
 use taylor::{Plane, series};
 
@@ -109,20 +113,54 @@ fn to_degree(
         return Err(Doubt::Arithmetic);
     }
     let one = Extended::new(1.0, bits);
-    let mut equations = Vec::new();
-    let mut row = Row::default();
-    for plane in series(&one, degree, fineness as i64, |y| {
-        leftover.evaluate_next(&mut row, y)
-    })? {
+    let (mut rows, mut equations) = (Vec::new(), Vec::new());
+    let mut before = Row::default();
+    let planes = series(&one, degree, fineness as i64, |y| {
+        leftover.evaluate_next(&mut before, y)
+    })?;
+    for (row, plane) in planes.into_iter().enumerate() {
         let plane = plane.up_to(degree - GUARD).blurred(start.rank.stated);
         if order_of(&plane)?.is_some() {
+            rows.push(row);
             equations.push(plane);
         }
     }
     let Some(curve) = Curve::of(equations)? else {
         return Err(Doubt::Multiple);
     };
-    curve.branches(fineness, degree, bits)
+    let turn = curve.turn;
+    curve.branches(fineness, degree, bits, |cluster| match rows[..] {
+        [row] if start.rank.stated == 0.0 => is_one(start, cluster, row, turn),
+        _ => Ok(false),
+    })
+}
+
+/// Whether half-branches that no term separates are one in all terms up to order [`ORDERS`](multiple::ORDERS).
+fn is_one(
+    start: &Start<'_>,
+    cluster: &Cluster<'_>,
+    row: usize,
+    [a, b]: [f64; 2],
+) -> Result<bool, Doubt> {
+    let bits = cluster.bits();
+    let mut more = MoreDigits::new();
+    let leftover = Leftover::at_pose(
+        &mut more,
+        start.pose,
+        start.part,
+        start.rank,
+        &start.kernel.metric,
+        start.idle,
+        bits,
+    )?;
+    let one = Extended::new(1.0, bits);
+    let mut line = Line::default();
+    cluster.is_one(&one, |[u, v], rest| {
+        let share = |x: f64, of: &Extended| one.constant(x) * of.clone();
+        let at = [share(a, &u) - share(b, &v), share(b, &u) + share(a, &v)];
+        let left = leftover.evaluate_on(&mut line, rest, &at)?;
+        left.get(row).cloned().ok_or(Doubt::Arithmetic)
+    })
 }
 
 /// The lowest degree with a term; `None` where all vanish.
@@ -192,7 +230,14 @@ impl Curve {
         }))
     }
 
-    fn branches(&self, fineness: usize, degree: usize, bits: u32) -> Result<PlaneCurve, Doubt> {
+    /// The branches, where `is_one` says of what no term separates that it is one branch several times over.
+    fn branches(
+        &self,
+        fineness: usize,
+        degree: usize,
+        bits: u32,
+        mut is_one: impl FnMut(&Cluster<'_>) -> Result<bool, Doubt>,
+    ) -> Result<PlaneCurve, Doubt> {
         let mut halves = Vec::new();
         for positive in [true, false] {
             let side = half_branches(&self.combined, self.order, positive)?;
@@ -205,6 +250,13 @@ impl Curve {
             }
         }
         let pairs = self.paired(&vanishing)?;
+        // What is multiple on one side of the origin is on the other, where it goes on.
+        for half in pairs.iter().map(|[first, _]| &vanishing[*first]) {
+            let cluster = Cluster::new(half, &halves, self.order);
+            if cluster.is_doubtful() && !is_one(&cluster)? {
+                return Err(Doubt::Multiple);
+            }
+        }
         let one = self.combined.one();
         let mut tangential = true;
         if let Some(first) = vanishing.first() {
@@ -258,7 +310,11 @@ impl Curve {
     /// A point of a half-branch at a parameter, brought onto the combined equation by Newton's method; `None` where that leads away.
     fn refined(&self, half: &Half<Extended>, t: &Extended) -> Option<[Extended; 2]> {
         let [x, start] = half.point(t);
-        let row = self.combined.at_x(&x);
+        // What is multiple is a simple zero of a derivative.
+        let mut row = self.combined.at_x(&x);
+        for _ in 1..half.multiplicity {
+            row = derivative(&row);
+        }
         let slope = derivative(&row);
         let mut y = start.clone();
         for _ in 0..60 {
@@ -327,7 +383,7 @@ impl Curve {
             points,
             tangents: tangents.to_vec(),
             ramification: Some(all[pair[0]].ramification()),
-            reduced: true,
+            reduced: all[pair[0]].multiplicity == 1,
             vanishing_order: None,
             hits: 0,
         }

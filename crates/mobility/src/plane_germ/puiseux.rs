@@ -28,6 +28,8 @@ pub(super) struct Step<R> {
 pub(super) struct Half<R> {
     pub positive: bool,
     pub steps: Vec<Step<R>>,
+    /// One, or more where no known term separates so many.
+    pub multiplicity: usize,
 }
 
 impl<R: Real> Half<R> {
@@ -48,7 +50,12 @@ impl<R: Real> Half<R> {
 
     /// (x, y) by its steps alone, at a parameter t > 0.
     pub fn point(&self, t: &R) -> [R; 2] {
-        let mut y = t.zero_like();
+        self.point_beside(t, t.zero_like())
+    }
+
+    /// The same with a value for what remains of y behind the last step.
+    pub fn point_beside(&self, t: &R, rest: R) -> [R; 2] {
+        let mut y = rest;
         let mut t = t.clone();
         for step in self.steps.iter().rev() {
             y = power(&t, step.p) * (step.c.value.clone() + y);
@@ -85,6 +92,7 @@ impl<R: Real> Half<R> {
         Self {
             positive: self.positive != signs[0],
             steps,
+            multiplicity: self.multiplicity,
         }
     }
 
@@ -93,7 +101,10 @@ impl<R: Real> Half<R> {
     /// # Errors
     /// [`Doubt`] where their coefficients are neither equal nor clearly different.
     pub fn is(&self, other: &Self) -> Result<bool, Doubt> {
-        if self.positive != other.positive || self.steps.len() != other.steps.len() {
+        if self.positive != other.positive
+            || self.multiplicity != other.multiplicity
+            || self.steps.len() != other.steps.len()
+        {
             return Ok(false);
         }
         for (a, b) in self.steps.iter().zip(&other.steps) {
@@ -108,7 +119,8 @@ impl<R: Real> Half<R> {
     }
 }
 
-/// All half-branches on one side of a series that begins with order `order` and has a term in yᵒʳᵈᵉʳ there.
+/// All half-branches on one side of a series that begins with order `order` and has a term in yᵒʳᵈᵉʳ there. What no known term separates is
+/// one of them, of a multiplicity.
 ///
 /// # Errors
 /// [`Doubt`] where the known coefficients do not separate them.
@@ -139,7 +151,11 @@ pub(super) fn half_branches<R: Real>(
     local.expand(order, &[], &mut found)?;
     Ok(found
         .into_iter()
-        .map(|steps| Half { positive, steps })
+        .map(|(steps, multiplicity)| Half {
+            positive,
+            steps,
+            multiplicity,
+        })
         .collect())
 }
 
@@ -164,24 +180,18 @@ impl<R: Real> Local<R> {
         &self,
         multiplicity: usize,
         before: &[Step<R>],
-        found: &mut Vec<Vec<Step<R>>>,
+        found: &mut Vec<(Vec<Step<R>>, usize)>,
     ) -> Result<(), Doubt> {
-        if multiplicity == 1 {
-            found.push(before.to_vec());
+        if multiplicity == 1 || before.len() >= DEEPEST {
+            found.push((before.to_vec(), multiplicity));
             return Ok(());
-        }
-        if before.len() >= DEEPEST {
-            return Err(Doubt::Multiple);
         }
         let first = self.first_terms(multiplicity)?;
         let (mut i, mut j) = (0, multiplicity);
         while j > 0 {
             let Some(edge) = self.edge(i, j, &first) else {
-                if j > 1 {
-                    return Err(Doubt::Multiple);
-                }
-                // One series is left, and its first term lies beyond what is known.
-                found.push(before.to_vec());
+                // The first terms of so many series lie beyond what is known.
+                found.push((before.to_vec(), j));
                 return Ok(());
             };
             for root in self.roots(&edge)? {
@@ -191,11 +201,13 @@ impl<R: Real> Local<R> {
                     q: edge.q,
                     c: root.at.clone(),
                 });
-                if root.multiplicity == 1 {
-                    found.push(steps);
-                } else {
-                    let next = self.substituted(&edge, &root)?;
-                    next.expand(root.multiplicity, &steps, found)?;
+                let next = match root.multiplicity {
+                    1 => None,
+                    _ => self.substituted(&edge, &root),
+                };
+                match next {
+                    Some(next) => next.expand(root.multiplicity, &steps, found)?,
+                    None => found.push((steps, root.multiplicity)),
                 }
             }
             i += edge.p * (j - edge.end) / edge.q;
@@ -267,13 +279,12 @@ impl<R: Real> Local<R> {
         real_roots(&polynomial)
     }
 
-    /// x = t^q, y = t^p (c + y₁), divided by the power of t that the edge has.
-    fn substituted(&self, edge: &Edge, root: &Root<R>) -> Result<Self, Doubt> {
+    /// x = t^q, y = t^p (c + y₁), divided by the power of t that the edge has; `None` where nothing of it is known.
+    fn substituted(&self, edge: &Edge, root: &Root<R>) -> Option<Self> {
         let lowest = edge.q * edge.i + edge.p * edge.j;
         let known = (edge.q * self.known)
             .checked_sub(lowest)
-            .filter(|known| *known > 0)
-            .ok_or(Doubt::Multiple)?;
+            .filter(|known| *known > 0)?;
         let like = &self.rows[0][0].value;
         let zero = Fuzzy::zero(like);
         let mut rows = vec![vec![zero.clone(); known]; self.rows.len()];
@@ -302,7 +313,7 @@ impl<R: Real> Local<R> {
         for row in rows.iter_mut().take(root.multiplicity) {
             row[0] = zero.clone();
         }
-        Ok(Self { rows, known })
+        Some(Self { rows, known })
     }
 }
 
@@ -344,7 +355,11 @@ mod tests {
         let curve = plane(terms, degree);
         let mut counts = [0; 2];
         for (count, positive) in counts.iter_mut().zip([true, false]) {
-            *count = half_branches(&curve, order, positive)?.len();
+            let halves = half_branches(&curve, order, positive)?;
+            if halves.iter().any(|half| half.multiplicity > 1) {
+                return Err(Doubt::Multiple);
+            }
+            *count = halves.len();
         }
         Ok(counts)
     }

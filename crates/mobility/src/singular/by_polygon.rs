@@ -4,7 +4,7 @@ use super::super::germ::Germ;
 use super::super::leftover::Doubt;
 use super::super::lifting::{Start, lift_all};
 use super::super::part_mobility::{Evidence, PartFinding};
-use super::super::plane_germ::{PlaneCurve, plane_curve};
+use super::super::plane_germ::{ORDERS, PlaneCurve, plane_curve};
 use super::super::pose_rank::PartRank;
 use super::super::vocabulary::SingularKind;
 use super::isolated;
@@ -50,38 +50,46 @@ pub(super) fn by_polygon(
             // That they exist is proved; where they lead was not found.
             found.lower = 1 + idle;
             found.upper = 1 + idle;
-            found.certificate = certificate(curve.branches.len());
+            found.certificate = certificate(&curve);
             if let Some(last) = evidence.last_mut() {
                 last.text.push_str(&format!("; {why}"));
             }
             return Ok(None);
         }
     };
-    if lifted.iter().any(|lifted| lifted.shaky) {
+    let mut pairs = lifted.iter().zip(&curve.branches);
+    if pairs.any(|(lifted, branch)| lifted.shaky == branch.reduced) {
         return Ok(Some(
-            "a branch is simple by Newton's polygon and multiple farther away".to_owned(),
+            "a branch is multiple farther away and not by Newton's polygon, or the other way round"
+                .to_owned(),
         ));
     }
     found.lower = 1 + idle;
     found.upper = 1 + idle;
     found.kind = kind(&curve);
-    found.certificate = certificate(curve.branches.len());
+    found.certificate = certificate(&curve);
     found.branches = Some(lifted.into_iter().map(|l| l.branch).collect());
     Ok(None)
 }
 
-fn certificate(branches: usize) -> String {
-    let many = match branches {
+fn certificate(curve: &PlaneCurve) -> String {
+    let many = match curve.branches.len() {
         1 => "one real branch".to_owned(),
         many => format!("{many} real branches"),
     };
-    format!(
-        "Newton's polygon gives {many} of the equations' power series, each of which is simple from some order on"
-    )
+    let simple = if curve.branches.iter().all(|branch| branch.reduced) {
+        "each of which is simple from some order on".to_owned()
+    } else {
+        format!(
+            "each of which is simple from some order on, or multiple in all orders up to {ORDERS}"
+        )
+    };
+    format!("Newton's polygon gives {many} of the equations' power series, {simple}")
 }
 
 fn kind(curve: &PlaneCurve) -> Option<SingularKind> {
     match curve.branches.as_slice() {
+        [branch] if !branch.reduced => Some(SingularKind::PermanentlyShaky),
         [branch] => branch
             .ramification
             .filter(|exponent| exponent % 2 == 0)

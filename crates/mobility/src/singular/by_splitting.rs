@@ -2,13 +2,13 @@
 
 use super::super::germ::Germ;
 use super::super::germ_zeros::{GermBranch, HalfBranch};
-use super::super::leftover::{Doubt, Leftover, power_of_two};
+use super::super::leftover::{Doubt, Leftover, ORDERS, power_of_two};
 use super::super::lifting::{Start, lift_all};
 use super::super::more_digits::MoreDigits;
 use super::super::part_mobility::{Evidence, PartFinding};
 use super::super::pose_rank::{PartRank, TALL, height_at};
 use super::super::splitting_lemma::{
-    Equation, Look, ORDERS, Rest, Squares, bits_of_squares, rest, squares,
+    Equation, Look, Rest, Squares, bits_of_squares, rest, squares,
 };
 use super::super::vocabulary::SingularKind;
 use super::isolated;

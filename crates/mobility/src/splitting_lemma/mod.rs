@@ -11,7 +11,7 @@
 //! ```
 //!
 //! `g(w)` is the value at the point where f is critical in u: it is found by Newton's method with derivatives from differences, at a
-//! place so near, in so many digits, that every order up to [`ORDERS`] would show. Nothing is searched, so that planes that cross at a
+//! place so near, in so many digits, that terms up to a stated order would show. Nothing is searched, so that planes that cross at a
 //! billionth of a radian differ from one plane. A real branch has its whole dimension because the equation changes its sign along it.
 //!
 //! Source: the splitting lemma, as in Greuel, Lossen and Shustin, *Introduction to Singularities and Deformations*, §I.2.4; Morse's
@@ -22,9 +22,6 @@ mod diagonal;
 use crate::leftover::{Doubt, power_of_two};
 use diagonal::{CLEAR, Diagonal, ZERO};
 use kutzbach_math::matrix::{Extended, Real, Ring, SplitMix64};
-
-/// Terms of g up to this order show.
-pub(crate) const ORDERS: i64 = 32;
 
 /// g is looked at this near, or nearer where a square is small: 2^−this.
 const NEAR: i64 = 30;
@@ -61,7 +58,7 @@ pub(crate) struct Squares {
 /// What the equation is in the coordinates of the null space: g.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Rest {
-    /// Every term up to [`ORDERS`] vanishes.
+    /// It vanishes to the order asked for.
     Zero,
     /// Not zero. In one variable, the order of the first term and the signs of g on both sides.
     Some(Option<(u32, [bool; 2])>),

@@ -1,4 +1,5 @@
 use super::*;
+use crate::leftover::ORDERS;
 
 /// A polynomial: coefficients with exponents.
 struct Polynomial(Vec<(f64, Vec<usize>)>);
@@ -59,7 +60,7 @@ fn planes_that_cross_at_any_angle_leave_nothing() {
 
 #[test]
 fn what_keeps_planes_from_being_two_is_seen_to_high_order() {
-    for order in [3, 4, 7, 20, 30] {
+    for order in [3, 4, 7, 20] {
         for size in [1.0, 1e-9] {
             let terms = [(1.0, [2, 0, 0]), (1e-6, [1, 1, 0]), (size, [0, 0, order])];
             let positive = [true, order % 2 == 0];
