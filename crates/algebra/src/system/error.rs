@@ -62,4 +62,12 @@ pub enum SystemError {
         /// Number of terms.
         limit: usize,
     },
+    /// To write the equations would take too many products of terms.
+    #[error("the equations of {what} take more than {limit} products of terms")]
+    TooManyProducts {
+        /// The cycle or joint.
+        what: String,
+        /// Number of products.
+        limit: u64,
+    },
 }

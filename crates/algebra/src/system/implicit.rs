@@ -25,14 +25,12 @@ pub(super) struct Implicit<'a> {
 
 impl JointModel {
     /// Whether what the joint asks for multiplies the poses of its two links: a direction of one by something of the other.
-    pub(super) fn multiplies_poses(&self) -> bool {
-        !matches!(
-            self.kind,
-            JointKind::Fixed
-                | JointKind::Revolute
-                | JointKind::Spherical
-                | JointKind::Translational
-        )
+    pub(super) fn multiplies_poses(&self, unoriented: bool) -> bool {
+        match self.kind {
+            JointKind::Fixed | JointKind::Spherical | JointKind::Translational => false,
+            JointKind::Revolute => unoriented,
+            _ => true,
+        }
     }
 }
 

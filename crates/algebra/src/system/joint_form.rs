@@ -9,7 +9,7 @@ use super::field::Field;
 use super::model::JointModel;
 use super::space::Pose;
 use super::spanning::{basic_cycles, implicit_joints};
-use super::walks::Walker;
+use super::walks::{MAX_PRODUCTS, Walker};
 use super::{Origin, Relaxation, SystemOptions, couplings};
 use kutzbach_model::graph::{ConstraintGraph, Cycle};
 use kutzbach_model::mechanism::{JointId, JointKind, Mechanism};
@@ -63,6 +63,7 @@ impl Writer<'_> {
             models: self.models,
             displacements: &displacements,
             unoriented: options.unoriented,
+            most_products: options.most_products.unwrap_or(MAX_PRODUCTS),
         };
         for (index, cycle) in cycles.iter().enumerate() {
             let joints = cycle.edges.iter().map(|&(edge, f)| (JointId(edge), f));

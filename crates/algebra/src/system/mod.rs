@@ -91,6 +91,10 @@ pub struct SystemOptions {
     /// Write only the cycles and couplings all of whose joints are among these; `None` for all. In the positional form it
     /// means nothing.
     pub joints: Option<Vec<JointId>>,
+    /// Most products of terms that one equation between two poses may take; more is
+    /// [`SystemError::TooManyProducts`]. `None` is four million: some
+    /// ten seconds and a gigabyte.
+    pub most_products: Option<u64>,
 }
 
 impl SystemOptions {

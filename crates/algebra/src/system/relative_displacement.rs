@@ -15,7 +15,7 @@ use super::poly::Poly;
 use super::space::{
     Matrix, Polynomials, Vector, apply, cross, dot, identity, pose, subtract, transpose,
 };
-use super::walks::Walker;
+use super::walks::{MAX_PRODUCTS, Walker};
 use crate::{Polynomial, Rational, Stop};
 use kutzbach_model::mechanism::{JointId, JointKind};
 use num_traits::Zero;
@@ -88,6 +88,7 @@ impl PolynomialSystem {
             models: &construction.models,
             displacements: &construction.displacements,
             unoriented: false,
+            most_products: MAX_PRODUCTS,
         };
         let along = walker
             .walk(path.iter().map(|(joint, forward)| (joint.0, *forward)))

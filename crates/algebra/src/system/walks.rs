@@ -11,8 +11,8 @@ use super::space::{Polynomials, Pose, subtract};
 /// Most terms of one pose.
 const MAX_TERMS: usize = 60_000;
 
-/// Most products of terms that one equation between two poses may take.
-const MAX_PRODUCTS: usize = 4_000_000;
+/// Most products of terms that one equation between two poses may take where nothing is said.
+pub(super) const MAX_PRODUCTS: u64 = 4_000_000;
 
 /// Products of terms that a direction of one link with a way between both takes at most.
 fn products(one: &Pose<Poly>, other: &Pose<Poly>) -> usize {
@@ -32,6 +32,8 @@ pub(super) struct Walker<'a> {
     pub(super) models: &'a [JointModel],
     pub(super) displacements: &'a [Displacement],
     pub(super) unoriented: bool,
+    /// Most products of terms that one equation between two poses may take.
+    pub(super) most_products: u64,
 }
 
 impl Walker<'_> {
@@ -109,10 +111,12 @@ impl Walker<'_> {
             (&after, &before)
         };
         let model = &self.models[joint];
-        if model.multiplies_poses() && products(predecessor, successor) > MAX_PRODUCTS {
-            return Err(SystemError::TooLarge {
+        if model.multiplies_poses(self.unoriented)
+            && products(predecessor, successor) as u64 > self.most_products
+        {
+            return Err(SystemError::TooManyProducts {
                 what: "a cycle".to_owned(),
-                limit: MAX_PRODUCTS,
+                limit: self.most_products,
             });
         }
         Ok(Implicit {

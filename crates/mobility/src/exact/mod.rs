@@ -147,6 +147,9 @@ fn numbers_are_exact(pose: &Pose<'_>, part: &Part) -> bool {
     geometry && couplings && positions.flat_map(|(_, values)| values).all(chosen)
 }
 
+/// A product of terms of a closure takes as long as so many matrix entries at least.
+const WORK_PER_PRODUCT: u64 = 5;
+
 /// A term around the pose is read, sorted and reduced at the cost of so many matrix entries at least.
 const WORK_PER_TERM: u64 = 5;
 
@@ -183,6 +186,7 @@ fn exact_finding(
         formulation: Formulation::Tree,
         configuration: pose.configuration.map(|c| c.name.clone()),
         joints: Some(part.joints.iter().map(|&j| JointId(j)).collect()),
+        most_products: Some(most.work / WORK_PER_PRODUCT),
         ..SystemOptions::default()
     };
     let system = polynomial_system(mechanism, &options)

@@ -86,7 +86,7 @@ pub(super) fn plane_curve(start: &Start<'_>) -> Result<PlaneCurve, Doubt> {
     let mut more = MoreDigits::new();
     for degree in DEGREES {
         match to_degree(start, &mut more, degree, fineness) {
-            Err(Doubt::Multiple) => doubt = Doubt::Multiple,
+            Err(open @ (Doubt::Multiple | Doubt::Precision)) => doubt = open,
             other => return other,
         }
     }
