@@ -8,7 +8,7 @@ use super::{Complete, Configuration, Modes, Way, place};
 use crate::placed::Slack;
 use kutzbach_algebra::{Budget, Limits};
 use kutzbach_constructive::analysis::s_tree;
-use kutzbach_constructive::construction::{Construction, Outcome};
+use kutzbach_constructive::construction::{Construction, Outcome, Shape};
 use kutzbach_constructive::planar::Planar;
 use kutzbach_constructive::sketch::{Element, Sketch};
 use kutzbach_constructive::together::together_within;
@@ -32,18 +32,30 @@ pub(super) fn at_once(mechanism: &Mechanism, budget: &Budget) -> Option<Modes> {
     let cores = found.cores.iter().map(|core| core.elements.len()).collect();
     let mut modes = Modes::new(Way::AtOnce { cores });
     for (shapes, multiplicity) in found.solutions(sketch, MOST_LISTED)? {
-        let mut poses: Vec<_> = planar.poses(&shapes)?.into_iter().map(Some).collect();
-        place::onto_ground(mechanism, &mut poses);
-        modes.configurations.push(Configuration {
-            joints: Vec::new(),
-            poses,
-            multiplicity: Some(multiplicity),
-            proven: true,
-            finite: Some(0),
-            drawn: false,
-        });
+        let found = configuration(mechanism, &planar, &shapes, Some(multiplicity), true)?;
+        modes.configurations.push(found);
     }
     Some(modes)
+}
+
+/// A configuration from where the elements are; `None` where a body has no two that hold it.
+fn configuration(
+    mechanism: &Mechanism,
+    planar: &Planar,
+    shapes: &[Shape],
+    multiplicity: Option<usize>,
+    proven: bool,
+) -> Option<Configuration> {
+    let mut poses: Vec<_> = planar.poses(shapes)?.into_iter().map(Some).collect();
+    place::onto_ground(mechanism, &mut poses);
+    Some(Configuration {
+        joints: Vec::new(),
+        poses,
+        multiplicity,
+        proven,
+        finite: proven.then_some(0),
+        drawn: false,
+    })
 }
 
 /// The answer where circles and lines construct the mechanism, in at least so many steps of two places; `None` elsewhere.
@@ -72,24 +84,13 @@ pub(super) fn answer(mechanism: &Mechanism, slack: &Slack, least: usize) -> Opti
             .filter(|(step, _)| !construction.is_rigid(*step))
             .map(|(_, outcome)| outcome)
             .collect();
-        let mut poses: Vec<_> = planar
-            .poses(&solution.shapes)?
-            .into_iter()
-            .map(Some)
-            .collect();
-        place::onto_ground(mechanism, &mut poses);
         let touching = |o: &&Outcome| matches!(o, Outcome::Touching { .. });
         let double = outcomes.iter().filter(touching).count();
         let nearly = |o: &Outcome| matches!(o, Outcome::Touching { within } if *within > 0.0);
         let proven = !outcomes.iter().any(nearly);
-        modes.configurations.push(Configuration {
-            joints: Vec::new(),
-            poses,
-            multiplicity: 1_usize.checked_shl(u32::try_from(double).ok()?),
-            proven,
-            finite: proven.then_some(0),
-            drawn: false,
-        });
+        let times = 1_usize.checked_shl(u32::try_from(double).ok()?);
+        let found = configuration(mechanism, &planar, &solution.shapes, times, proven)?;
+        modes.configurations.push(found);
     }
     let listed = modes.configurations.len();
     if count.value() != Some(listed as u128) {

@@ -5,18 +5,10 @@ use kutzbach_closure::{Arithmetic, Geometry, JointState};
 use kutzbach_math::number::Number;
 use kutzbach_math::space::{Rigid, cross, dot, scale, subtract, unit};
 use kutzbach_mobility::{AnalysisOptions, Depth, analyse};
-use kutzbach_model::mechanism::{ExactPose, JointId, Mechanism};
+use kutzbach_model::mechanism::{JointId, Mechanism};
 
 /// `world_from_link`, in doubles (m).
 pub type Pose = Rigid<f64>;
-
-/// An exact pose in doubles.
-pub(super) fn rounded(pose: &ExactPose) -> Pose {
-    Rigid {
-        rotation: [0, 1, 2].map(|i| [0, 1, 2].map(|j| pose.rotation[i][j].value())),
-        translation: [0, 1, 2].map(|i| pose.translation[i].value()),
-    }
-}
 
 /// How far apart two poses are: angle, and distance in parts of a size.
 pub(super) fn apart(one: &Pose, other: &Pose, size: f64) -> f64 {
@@ -111,7 +103,7 @@ pub(super) fn link_poses(
         let there = frame_of([here[a].1, here[b].1, here[c].1]);
         let body_pose = there.compose(&local.inverse());
         for link in &body.links {
-            poses[link.link.0] = Some(body_pose.compose(&rounded(&link.pose)));
+            poses[link.link.0] = Some(body_pose.compose(&link.pose.to_doubles()));
         }
     }
     onto_ground(mechanism, &mut poses);
@@ -122,7 +114,7 @@ pub(super) fn link_poses(
 pub(super) fn poses_of_one_body(mechanism: &Mechanism, links: &[PlacedLink]) -> Vec<Option<Pose>> {
     let mut poses = vec![None; mechanism.links().len()];
     for link in links {
-        poses[link.link.0] = Some(rounded(&link.pose));
+        poses[link.link.0] = Some(link.pose.to_doubles());
     }
     onto_ground(mechanism, &mut poses);
     poses

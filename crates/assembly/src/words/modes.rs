@@ -168,6 +168,12 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
     let mut text = String::new();
     let found = modes.configurations.len();
     let unproven = modes.configurations.iter().filter(|c| !c.proven).count();
+    // Of rounded numbers the proof takes what is unknown of every length and angle by its slope.
+    let proved = if mechanism.precision().is_exact() {
+        "proved"
+    } else {
+        "proved to first order in what the digits leave open"
+    };
     let first = match (&modes.complete, found) {
         (Complete::Proven, 0) => {
             let held = if modes.held.is_empty() {
@@ -175,14 +181,14 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
             } else {
                 ", held so"
             };
-            format!("It cannot be put together{held}: no configuration exists, which is proved.")
+            format!("It cannot be put together{held}: no configuration exists, which is {proved}.")
         }
         (Complete::Proven, _) if modes.in_all.is_some() => format!(
-            "{} configurations, and no other, which is proved; {found} are listed.",
+            "{} configurations, and no other, which is {proved}; {found} are listed.",
             modes.in_all.as_deref().unwrap_or_default()
         ),
         (Complete::Proven, _) => format!(
-            "{}{}, and no other, which is proved.",
+            "{}{}, and no other, which is {proved}.",
             count(found, "configuration"),
             if unproven > 0 {
                 " within the digits"
@@ -225,11 +231,11 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
     if unproven > 0 && modes.complete == Complete::Proven {
         let _ = writeln!(
             text,
-            "  • the numbers are rounded: whether {} with the digits that are not written is not known.",
+            "  • the numbers are rounded: with other digits than those written {} may not close.",
             match unproven {
-                1 if found == 1 => "it closes",
-                all if all == found => "they close",
-                _ => "those marked so close",
+                1 if found == 1 => "it",
+                all if all == found => "they",
+                _ => "those marked so",
             }
         );
     }

@@ -25,7 +25,7 @@ impl Links {
         links
             .map(|(home, &body)| {
                 let (turn, shift) = motions[body].as_ref()?.parts();
-                Some(view.lifted(turn, shift).compose(&plain(home)))
+                Some(view.lifted(turn, shift).compose(&home.to_doubles()))
             })
             .collect()
     }
@@ -48,11 +48,4 @@ fn motion(held: &[(usize, Exact)], shapes: &[Shape]) -> Option<Motion> {
     })?;
     let there = [&shapes[held[i].0], &shapes[held[j].0]];
     Motion::onto([&drawn[i], &drawn[j]], there)
-}
-
-fn plain(pose: &ExactPose) -> Rigid<f64> {
-    Rigid {
-        rotation: [0, 1, 2].map(|i| [0, 1, 2].map(|j| pose.rotation[i][j].value())),
-        translation: [0, 1, 2].map(|i| pose.translation[i].value()),
-    }
 }

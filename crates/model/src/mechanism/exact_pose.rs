@@ -2,6 +2,7 @@
 
 use super::frame::Frame;
 use kutzbach_math::number::{Number, NumberError};
+use kutzbach_math::space::Rigid;
 
 /// `a_from_b` with exact entries: `p_a = rotation p_b + translation` (m).
 #[derive(Clone, Debug, PartialEq)]
@@ -28,6 +29,15 @@ fn is_plain_zero(x: &Number) -> bool {
 }
 
 impl ExactPose {
+    /// The pose in doubles, each entry rounded (m).
+    #[must_use]
+    pub fn to_doubles(&self) -> Rigid<f64> {
+        Rigid {
+            rotation: [0, 1, 2].map(|i| [0, 1, 2].map(|j| self.rotation[i][j].value())),
+            translation: [0, 1, 2].map(|i| self.translation[i].value()),
+        }
+    }
+
     /// The pose that changes nothing.
     #[must_use]
     pub fn identity() -> Self {
