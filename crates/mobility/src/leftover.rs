@@ -34,8 +34,11 @@ const KERNEL: i64 = 500;
 /// Steps that gain less than this factor do not converge.
 const CONVERGES: f64 = 0.01;
 
-/// Steps that do not get smaller below 2^(this − bits) are rounding.
+/// Steps that do not get smaller below 2^(this − bits), in parts of the distance from the pose, are rounding.
 const ROUNDINGS: i64 = 60;
+
+/// Below 2^(this − bits) all steps are rounding, and all values of what is left over are zero.
+pub(crate) const ABSOLUTE: i64 = 24;
 
 /// The equations of a part near its pose.
 pub(crate) struct Leftover<'a> {
@@ -253,7 +256,11 @@ impl<'a> Leftover<'a> {
         }
         let bits = i64::from(self.one.bits());
         let floor = power_of_two(&self.one, 24 - bits) * reach.clone();
-        let roundings = power_of_two(&self.one, ROUNDINGS - bits) * reach;
+        // Equations about links of unit size are rounded as they are, however near the pose.
+        let roundings = larger(
+            power_of_two(&self.one, ROUNDINGS - bits) * reach,
+            power_of_two(&self.one, ABSOLUTE - bits),
+        );
         let mut residual = self.residual(&sum(&across));
         let mut before: Option<Extended> = None;
         loop {

@@ -306,10 +306,6 @@ fn stays_multiple(
     if rounded {
         return Ok(far);
     }
-    // Digits beyond those of printed doubles are not known: what is multiple far away in these is not asked in finer ones.
-    if far && start.rank.stated > 0.0 && tall <= TALL {
-        return Ok(true);
-    }
     // Short numbers leave little that is too small for double precision: there only a rank that is seen to be larger counts.
     let short = far && tall <= TALL;
     let Some(bits) = LADDER.into_iter().find(|bits| *bits as usize >= 3 * tall) else {
@@ -333,7 +329,8 @@ fn stays_multiple(
     let here = jacobian(pose.mechanism, geometry, &there, start.part)?;
     let mut matrix = here.matrix;
     matrix.scale_columns();
-    let accuracy = 10.0 * closing.residual.sqrt() + closing.rounding;
+    // Digits beyond those of printed doubles are not known.
+    let accuracy = 10.0 * (closing.residual.sqrt() + start.rank.stated) + closing.rounding;
     let found = decide(&matrix, accuracy)?.nullity();
     if short {
         return Ok(found.is_none_or(|found| found >= freedom));

@@ -60,9 +60,13 @@ const SUSPICIOUS: f64 = 0.05;
 /// Numbers of more bits than this (8 decimals) can hold offsets that double precision takes for rounding.
 pub(super) const TALL: usize = 27;
 
+/// Doubles below this share of the largest are likely to be rounding: 2^−40.
+const ROUNDED: f64 = 9.1e-13;
+
 /// Bits of the longest number that a part's geometry holds (see [`Number::height`](kutzbach_math::number::Number::height)), or those
 /// between its largest and its smallest number, if they are more than [`TALL`]: what is written as 1 m beside 1e16 m is meant. Whole
-/// numbers count for that, and those that have a height; a small fraction of a double's digits is likely to be rounding.
+/// numbers count for that, and those that have a height; others of which no digits are stated down to 2^−40 of the largest, since what is
+/// smaller is likely to be the rounding of a double.
 pub(super) fn height(mechanism: &Mechanism, part: &Part) -> usize {
     let joints = part.joints.iter().flat_map(|&joint| {
         let joint = &mechanism.joints()[joint];
@@ -81,17 +85,28 @@ pub(super) fn height(mechanism: &Mechanism, part: &Part) -> usize {
         factors.chain([&coupling.offset])
     });
     let mut longest = 0;
-    let (mut least, mut most) = (f64::INFINITY, 0.0f64);
+    // Sizes of numbers that are meant, and of those that are unless they are very small.
+    let (mut meant, mut others) = (Vec::new(), Vec::new());
     for number in joints.chain(couplings) {
         let bits = number.height();
         longest = longest.max(bits);
-        let whole = || number.stated().is_none() && number.rational().is_some_and(|x| x.is_int());
+        let stated = number.stated().is_some();
+        let whole = || !stated && number.rational().is_some_and(|x| x.is_int());
         let size = number.value().abs();
         if size > 0.0 && (bits > 0 || whole()) {
-            least = least.min(size);
-            most = most.max(size);
+            meant.push(size);
+        } else if size > 0.0 && !stated {
+            others.push(size);
         }
     }
+    let largest = |sizes: &[f64]| sizes.iter().copied().fold(0.0, f64::max);
+    let most = largest(&meant).max(largest(&others));
+    let likely = others.iter().filter(|size| **size >= ROUNDED * most);
+    let least = meant
+        .iter()
+        .chain(likely)
+        .copied()
+        .fold(f64::INFINITY, f64::min);
     let spread = if most > least {
         (most.log2() - least.log2()).ceil() as usize
     } else {

@@ -329,11 +329,23 @@ pub(super) fn singular_finding(
         }
     }
     let mut decided = found.branches.is_some();
-    if !decided && !rounded && rank.instantaneous == Some(2 + idle.len()) {
+    // What double precision takes for multiple may be several that hardly differ, or a cusp.
+    let multiple = |found: &PartFinding| {
+        found.branches.iter().flatten().any(|branch| {
+            let generic = branch.poses.first().and_then(|pose| pose.instantaneous);
+            generic.is_some_and(|freedom| freedom > branch.dimension)
+        })
+    };
+    let unsure = !decided || multiple(&found);
+    if unsure && !rounded && rank.instantaneous == Some(2 + idle.len()) {
         match by_polygon(&mut found, &mut evidence, &start, &doubtful)? {
             None => decided = true,
+            Some(_) if decided => {}
             Some(reason) => why = reason,
         }
+    }
+    if decided && multiple(&found) && !rounded {
+        by_splitting(&mut found, &mut evidence, &start, &doubtful)?;
     }
     if !decided
         && !rounded

@@ -69,9 +69,11 @@ pub(super) struct PlaneCurve {
 /// The real branches through a pose where two coordinates but for idle ones are free to first order, of a part whose numbers are
 /// exact. What stated digits leave open, such as the last one of printed doubles, counts as an error of all coefficients.
 ///
+/// `thorough`: longer series are computed where the shortest do not tell.
+///
 /// # Errors
 /// [`Doubt`], also of parts of other kinds.
-pub(super) fn plane_curve(start: &Start<'_>) -> Result<PlaneCurve, Doubt> {
+pub(super) fn plane_curve(start: &Start<'_>, thorough: bool) -> Result<PlaneCurve, Doubt> {
     let tall = height_at(start.pose, start.part);
     let fineness = FINENESS
         + if tall > crate::pose_rank::TALL {
@@ -84,7 +86,12 @@ pub(super) fn plane_curve(start: &Start<'_>) -> Result<PlaneCurve, Doubt> {
     }
     let mut doubt = Doubt::Multiple;
     let mut more = MoreDigits::new();
-    for degree in DEGREES {
+    let degrees = if thorough {
+        &DEGREES[..]
+    } else {
+        &DEGREES[..1]
+    };
+    for &degree in degrees {
         match to_degree(start, &mut more, degree, fineness) {
             Err(open @ (Doubt::Multiple | Doubt::Precision)) => doubt = open,
             other => return other,

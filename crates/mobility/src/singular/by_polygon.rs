@@ -24,7 +24,8 @@ pub(super) fn by_polygon(
     rank: &PartRank,
 ) -> Result<Option<String>, MatrixError> {
     let idle = start.idle.len();
-    let curve = match plane_curve(start) {
+    // What is decided already is looked at once more, and not for long.
+    let curve = match plane_curve(start, found.branches.is_none()) {
         Ok(curve) => curve,
         Err(doubt) => return Ok(Some(reason(doubt).to_owned())),
     };
@@ -43,32 +44,30 @@ pub(super) fn by_polygon(
     let Some(germ) = Germ::of_part_across(start.pose.mechanism, rank, DEGREE, start.idle)? else {
         return Ok(Some("its power series are too many to follow".to_owned()));
     };
-    let lifted = match lift_all(start, &germ, &curve.branches)? {
-        Ok(lifted) => lifted,
+    let lifted = lift_all(start, &germ, &curve.branches)?.and_then(|lifted| {
+        let mut pairs = lifted.iter().zip(&curve.branches);
+        if pairs.any(|(lifted, branch)| lifted.shaky == branch.reduced) {
+            let why = "a branch is multiple farther away and not by Newton's polygon, or the other way round";
+            return Err(why.to_owned());
+        }
+        Ok(lifted)
+    });
+    let branches = match lifted {
+        Ok(lifted) => Some(lifted.into_iter().map(|l| l.branch).collect()),
         Err(why) if !curve.sole => return Ok(Some(why)),
         Err(why) => {
             // That they exist is proved; where they lead was not found.
-            found.lower = 1 + idle;
-            found.upper = 1 + idle;
-            found.certificate = certificate(&curve);
             if let Some(last) = evidence.last_mut() {
                 last.text.push_str(&format!("; {why}"));
             }
-            return Ok(None);
+            None
         }
     };
-    let mut pairs = lifted.iter().zip(&curve.branches);
-    if pairs.any(|(lifted, branch)| lifted.shaky == branch.reduced) {
-        return Ok(Some(
-            "a branch is multiple farther away and not by Newton's polygon, or the other way round"
-                .to_owned(),
-        ));
-    }
     found.lower = 1 + idle;
     found.upper = 1 + idle;
     found.kind = kind(&curve);
     found.certificate = certificate(&curve);
-    found.branches = Some(lifted.into_iter().map(|l| l.branch).collect());
+    found.branches = branches;
     Ok(None)
 }
 

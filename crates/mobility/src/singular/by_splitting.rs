@@ -2,7 +2,7 @@
 
 use super::super::germ::Germ;
 use super::super::germ_zeros::{GermBranch, HalfBranch};
-use super::super::leftover::{Doubt, Leftover, ORDERS, power_of_two};
+use super::super::leftover::{ABSOLUTE, Doubt, Leftover, ORDERS, power_of_two};
 use super::super::lifting::{Start, lift_all};
 use super::super::more_digits::MoreDigits;
 use super::super::part_mobility::{Evidence, PartFinding};
@@ -24,9 +24,8 @@ const NARROWEST: i64 = 200;
 /// Whether equations are independent is looked at 2^−this from the pose, so that terms of [`ORDERS`] show.
 const AWAY: i64 = 20;
 
-/// Up to 2^this times the rounding a value is zero, from the other on it is not.
-const ZERO: i64 = 40;
-const CLEAR: i64 = 90;
+/// From 2^(this − bits) on a value is not zero.
+const CLEAR: i64 = 80;
 
 /// Distances from the pose at which points of branches are brought to the mechanism, and points tried at each.
 const RADII: [f64; 4] = [0.1, 0.05, 0.02, 0.2];
@@ -101,6 +100,7 @@ pub(super) fn by_splitting(
         Germs::Line => Some(SingularKind::PermanentlyShaky),
         _ => None,
     };
+    found.branches = None;
     // The branches exist in any case. Where they lead is told if double precision distinguishes them.
     if let Some(germ) = Germ::of_part_across(start.pose.mechanism, rank, DEGREE, start.idle)?
         && let Ok(lifted) = lift_all(start, &germ, &branches)?
@@ -225,8 +225,7 @@ impl<'a> Sole<'a> {
     fn of(leftover: Leftover<'a>, one: &Extended) -> Result<Self, Doubt> {
         let away = power_of_two(one, -AWAY);
         let bits = i64::from(one.bits());
-        let rounding = |power: i64| away.clone() * away.clone() * power_of_two(one, power - bits);
-        let (zero, clear) = (rounding(ZERO), rounding(CLEAR));
+        let [zero, clear] = [ABSOLUTE, CLEAR].map(|power| power_of_two(one, power - bits));
         let mut random = SplitMix64::named("one equation left over");
         let mut values: Vec<Vec<Extended>> = Vec::new();
         for _ in 0..POINTS {

@@ -19,7 +19,7 @@
 
 mod diagonal;
 
-use crate::leftover::{Doubt, power_of_two};
+use crate::leftover::{ABSOLUTE, Doubt, power_of_two};
 use diagonal::{CLEAR, Diagonal, ZERO};
 use kutzbach_math::matrix::{Extended, Real, Ring, SplitMix64};
 
@@ -180,10 +180,20 @@ pub(crate) fn rest(
     let near = power_of_two(one, -look.near);
     // What rounding and differences leave of the value.
     let bits = i64::from(look.bits);
-    let error = near.clone()
+    let largest = squares
+        .sizes
+        .iter()
+        .fold(0.0, |most: f64, x| most.max(x.abs()));
+    let differences = near.clone()
         * near.clone()
         * power_of_two(one, 64 + 3 * squares.narrow - bits)
-        * one.constant(squares.sizes.iter().fold(0.0, |most, x| most.max(x.abs())));
+        * one.constant(largest);
+    let rounding = power_of_two(one, ABSOLUTE - bits);
+    let error = if differences > rounding {
+        differences
+    } else {
+        rounding
+    };
     let (zero, clear) = (
         error.clone() * one.constant(ZERO),
         error * one.constant(CLEAR),
