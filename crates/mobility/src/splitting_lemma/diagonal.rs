@@ -12,23 +12,19 @@ pub(super) struct Diagonal {
 }
 
 impl Diagonal {
-    /// Of a matrix whose entries are known to `share` of the largest.
+    /// Of a matrix whose entries are known to an error.
     ///
     /// # Errors
     /// [`Doubt::Precision`] where an entry is neither zero nor clearly different from it.
-    pub fn of(mut form: Vec<Vec<Extended>>, share: &Extended) -> Result<Self, Doubt> {
+    pub fn of(mut form: Vec<Vec<Extended>>, error: &Extended) -> Result<Self, Doubt> {
         let size = form.len();
-        let one = share.one_like();
+        let one = error.one_like();
         let unit = |i: usize| -> Vec<Extended> {
             let entry = |j: usize| one.constant(if i == j { 1.0 } else { 0.0 });
             (0..size).map(entry).collect()
         };
         let mut vectors: Vec<Vec<Extended>> = (0..size).map(unit).collect();
-        let error = largest(&form, 0).2 * share.clone();
-        let (zero, clear) = (
-            error.clone() * one.constant(ZERO),
-            error * one.constant(CLEAR),
-        );
+        let [zero, clear] = [ZERO, CLEAR].map(|factor| error.clone() * one.constant(factor));
         let mut done = 0;
         while done < size {
             let (row, column, most) = largest(&form, done);
@@ -190,6 +186,12 @@ mod tests {
                 assert!(image(vector).iter().all(|x| x.abs() < 1e-80), "{rows:?}");
             }
         }
+    }
+
+    #[test]
+    fn what_is_all_below_the_error_is_zero() {
+        let form = [[1e-85, 0.0, 3e-86], [0.0, -2e-85, 0.0], [3e-86, 0.0, 0.0]];
+        assert_eq!(diagonal(&form).unwrap().signature(), (0, 0));
     }
 
     #[test]

@@ -92,7 +92,6 @@ pub(crate) fn squares(
             }
             sum = sum + equation.value(&at)?;
         }
-        // Terms of order four are left.
         Ok(sum * one.constant(0.5) * power_of_two(one, 2 * STEP))
     };
     let mut form = vec![vec![one.zero_like(); variables]; variables];
@@ -105,8 +104,14 @@ pub(crate) fn squares(
             form[j][i] = mixed;
         }
     }
+    // Terms of order four are left, and where nothing is quadratic they are all.
     let known = power_of_two(one, -2 * STEP);
-    let stated = one.constant(stated);
+    let most = form
+        .iter()
+        .flatten()
+        .map(Extended::abs)
+        .fold(one.zero_like(), |most, x| if x > most { x } else { most });
+    let stated = one.constant(stated) * most;
     let diagonal = Diagonal::of(form, if stated > known { &stated } else { &known })?;
     let doubles = |vector: &[Extended]| -> Vec<f64> {
         let vector: Vec<f64> = vector.iter().map(Real::to_f64).collect();
@@ -142,6 +147,10 @@ pub(crate) fn squares(
 }
 
 impl Squares {
+    fn largest(&self) -> f64 {
+        self.sizes.iter().fold(0.0, |most, x| most.max(x.abs()))
+    }
+
     /// Where terms of g up to an order show, whatever the other coefficients are; `extra` bits for numbers of many digits.
     pub fn near(&self, orders: i64, extra: i64) -> Look {
         self.look(NEAR + self.narrow + extra, orders)
@@ -187,7 +196,7 @@ pub(crate) fn rest(
     let differences = near.clone()
         * near.clone()
         * power_of_two(one, 64 + 3 * squares.narrow - bits)
-        * one.constant(largest);
+        * one.constant(squares.largest());
     let rounding = power_of_two(one, ABSOLUTE - bits);
     let error = if differences > rounding {
         differences
@@ -263,6 +272,7 @@ fn critical_value(
         |vector: &[f64]| -> Vec<Extended> { vector.iter().map(|x| one.constant(*x)).collect() };
     let across: Vec<Vec<Extended>> = squares.across.iter().map(|v| exact(v)).collect();
     let h = distance.clone() * power_of_two(&one, -bits / 4);
+    let largest = one.constant(squares.largest());
     let mut at: Vec<Extended> = exact(place)
         .into_iter()
         .map(|x| x * distance.clone())
@@ -296,7 +306,7 @@ fn critical_value(
                 form[j][i] = form[i][j].clone();
             }
         }
-        let hessian = Diagonal::of(form, &power_of_two(&one, -bits / 4))?;
+        let hessian = Diagonal::of(form, &(largest.clone() * power_of_two(&one, -bits / 4)))?;
         if !hessian.null.is_empty() {
             return Err(Doubt::Precision);
         }

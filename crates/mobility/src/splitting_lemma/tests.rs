@@ -93,6 +93,19 @@ fn a_form_of_full_rank_leaves_no_variable() {
     assert_eq!(told(&cone).unwrap(), ((2, 1), None));
 }
 
+/// What is left of terms of order four is no quadratic form.
+#[test]
+fn a_germ_without_quadratic_terms_has_none() {
+    let quartic = [
+        (1e-3, [4, 0, 0]),
+        (-0.5, [0, 4, 0]),
+        (1.0, [1, 1, 2]),
+        (2.0, [0, 0, 4]),
+        (7.0, [3, 0, 0]),
+    ];
+    assert_eq!(told(&quartic).unwrap(), ((0, 0), None));
+}
+
 #[test]
 fn the_lines_of_an_indefinite_form_are_its_zeros() {
     let mut planes = Polynomial(vec![(1.0, vec![2, 0]), (-4.0, vec![0, 2])]);
