@@ -189,10 +189,6 @@ pub(crate) fn rest(
     let near = power_of_two(one, -look.near);
     // What rounding and differences leave of the value.
     let bits = i64::from(look.bits);
-    let largest = squares
-        .sizes
-        .iter()
-        .fold(0.0, |most: f64, x| most.max(x.abs()));
     let differences = near.clone()
         * near.clone()
         * power_of_two(one, 64 + 3 * squares.narrow - bits)
