@@ -29,6 +29,7 @@ use kutzbach_closure::{CycleJacobian, Geometry, JointState, Part, entry_accuracy
 use kutzbach_math::matrix::{
     CLEARANCE, MatrixError, Method, RankDecision, Real, SparseMatrix, decide,
 };
+use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Configuration, Mechanism};
 use std::cell::Cell;
 use std::collections::BTreeSet;
@@ -60,14 +61,13 @@ const SUSPICIOUS: f64 = 0.05;
 /// Numbers of more bits than this (8 decimals) can hold offsets that double precision takes for rounding.
 pub(super) const TALL: usize = 27;
 
-/// Doubles below this share of the largest are likely to be rounding: 2^−40.
-const ROUNDED: f64 = 9.1e-13;
+/// Whether a number of a part was computed from decimals: then any offset may be meant by it, or none by its last digits.
+pub(super) fn is_computed(mechanism: &Mechanism, part: &Part) -> bool {
+    numbers(mechanism, part).any(|x| x.stated().is_none() && x.coarsest_input().is_some())
+}
 
-/// Bits of the longest number that a part's geometry holds (see [`Number::height`](kutzbach_math::number::Number::height)), or those
-/// between its largest and its smallest number, if they are more than [`TALL`]: what is written as 1 m beside 1e16 m is meant. Whole
-/// numbers count for that, and those that have a height; others of which no digits are stated down to 2^−40 of the largest, since what is
-/// smaller is likely to be the rounding of a double.
-pub(super) fn height(mechanism: &Mechanism, part: &Part) -> usize {
+/// All numbers of a part's geometry.
+fn numbers<'a>(mechanism: &'a Mechanism, part: &'a Part) -> impl Iterator<Item = &'a Number> {
     let joints = part.joints.iter().flat_map(|&joint| {
         let joint = &mechanism.joints()[joint];
         let sides = [&joint.predecessor.frame, &joint.successor.frame];
@@ -84,10 +84,21 @@ pub(super) fn height(mechanism: &Mechanism, part: &Part) -> usize {
         let factors = coupling.terms.iter().map(|term| &term.factor);
         factors.chain([&coupling.offset])
     });
+    joints.chain(couplings)
+}
+
+/// Doubles below this share of the largest are likely to be rounding: 2^−40.
+const ROUNDED: f64 = 9.1e-13;
+
+/// Bits of the longest number that a part's geometry holds (see [`Number::height`]), or those
+/// between its largest and its smallest number, if they are more than [`TALL`]: what is written as 1 m beside 1e16 m is meant. Whole
+/// numbers count for that, and those that have a height; others that no decimal is in down to 2^−40 of the largest, since what is smaller is
+/// likely to be the rounding of a double.
+pub(super) fn height(mechanism: &Mechanism, part: &Part) -> usize {
     let mut longest = 0;
     // Sizes of numbers that are meant, and of those that are unless they are very small.
     let (mut meant, mut others) = (Vec::new(), Vec::new());
-    for number in joints.chain(couplings) {
+    for number in numbers(mechanism, part) {
         let bits = number.height();
         longest = longest.max(bits);
         let stated = number.stated().is_some();
@@ -95,7 +106,7 @@ pub(super) fn height(mechanism: &Mechanism, part: &Part) -> usize {
         let size = number.value().abs();
         if size > 0.0 && (bits > 0 || whole()) {
             meant.push(size);
-        } else if size > 0.0 && !stated {
+        } else if size > 0.0 && number.coarsest_input().is_none() {
             others.push(size);
         }
     }

@@ -29,7 +29,7 @@ use super::germ_zeros::{GermBranch, GermZeroOptions, GermZeros, germ_zeros};
 use super::idle_directions::idle_directions;
 use super::lifting::{Lifted, Start, idle_branch, lift_all};
 use super::part_mobility::{Evidence, PartFinding};
-use super::pose_rank::{PartRank, Pose, TALL, height_at};
+use super::pose_rank::{PartRank, Pose, TALL, height_at, is_computed};
 use super::vocabulary::{CertificateLevel, PoseKind, SingularKind};
 use kutzbach_closure::Part;
 use kutzbach_math::matrix::MatrixError;
@@ -312,7 +312,8 @@ pub(super) fn singular_finding(
                     continue;
                 }
                 found.upper = top;
-                let resolution = Resolution::of(&germ, height_at(pose, part));
+                let height = height_at(pose, part);
+                let resolution = Resolution::of(&germ, height, is_computed(pose.mechanism, part));
                 found.kind = kind_of(&lifted, &zeros.branches, &resolution);
                 found.certificate = format!(
                     "the real zeros of the equations' power series give {} the loops close at finite distances from this pose",

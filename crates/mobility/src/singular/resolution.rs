@@ -21,8 +21,8 @@ pub(super) struct Resolution {
 }
 
 impl Resolution {
-    /// At the pose of a germ, of a part whose longest number has so many bits.
-    pub fn of(germ: &Germ, height: usize) -> Self {
+    /// At the pose of a germ, of a part whose longest number has so many bits, or whose numbers may hold anything.
+    pub fn of(germ: &Germ, height: usize, anything: bool) -> Self {
         let leading = |equation: &Series| {
             (2..=germ.degree()).find_map(|degree| {
                 let squares = equation.of_degree(degree).iter().map(|c| c * c);
@@ -33,7 +33,10 @@ impl Resolution {
         let noise = germ.equations().iter().filter_map(leading);
         Self {
             noise: noise.fold(0.0, f64::max),
-            least: (-(height as f64)).exp2(),
+            least: match anything {
+                true => 0.0,
+                false => (-(height as f64)).exp2(),
+            },
         }
     }
 
