@@ -329,8 +329,8 @@ fn stays_multiple(
     let here = jacobian(pose.mechanism, geometry, &there, start.part)?;
     let mut matrix = here.matrix;
     matrix.scale_columns();
-    // Digits beyond those of printed doubles are not known.
-    let accuracy = 10.0 * (closing.residual.sqrt() + start.rank.stated) + closing.rounding;
+    // Digits beyond those stated are not known, and a double zero only to the root of what they leave open.
+    let accuracy = 10.0 * (closing.residual + start.rank.stated).sqrt() + closing.rounding;
     let found = decide(&matrix, accuracy)?.nullity();
     if short {
         return Ok(found.is_none_or(|found| found >= freedom));
