@@ -205,6 +205,15 @@ pub fn as_a_double(number: &Number) -> Number {
     read(&format!("{:?}", number.value()))
 }
 
+/// All digits of the nearest double, as few programs write them.
+pub fn as_a_double_in_full(number: &Number) -> Number {
+    let decimal = as_a_double(number);
+    match decimal.stated() {
+        Some(stated) if stated.significant > 2 => read(&format!("{:.60}", number.value())),
+        _ => decimal,
+    }
+}
+
 /// Any number written with so many decimals, all of them: of a decimal, its own digits rounded; of an exact number that is no
 /// decimal, its value. Whole numbers stay as they are.
 pub fn rounded(number: &Number, decimals: i32) -> Number {

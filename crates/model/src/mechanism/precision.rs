@@ -21,7 +21,8 @@ use kutzbach_math::number::{Number, Stated};
 /// chose, not rounded ones, and is taken as exact too. Decimals of lengths count in the decade of the longest one, if that
 /// is below 1 m: `0.125` says of metres what `1.25` says of decimetres. Literals that were read as constants
 /// ([`Recognised`](super::Recognised)) are exact; those that were read as shorter decimals state what these state. Where every
-/// literal ends in zeros, at least three more than it needs, in twelve digits or more, these are padding and state nothing.
+/// literal ends in zeros, at least three more than it needs, in twelve digits or more, these are padding and state nothing. Printed
+/// doubles state 17 significant digits, however many are printed.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Precision {
     /// Most decimals of any literal in the geometry but zeros, for which 0 counts; `None` where there is no literal.
@@ -96,6 +97,11 @@ impl Precision {
         } else {
             stated
         };
+        let stated = if self.doubles {
+            of_a_double(stated)
+        } else {
+            stated
+        };
         // With s digits of which the last is worth 10⁻ᵈ, the first is worth 10ˢ⁻ᵈ⁻¹: so e = s − d, without a logarithm.
         let written = i64::from(stated.significant);
         let by_digits = if written > 0 {
@@ -143,21 +149,28 @@ impl Precision {
             }
         }
         let decade = lengths.places.map_or(0, |places| places.min(0));
+        let doubles =
+            (lengths.printed || directions.printed) && !lengths.longer && !directions.longer;
+        let significant = lengths.significant.max(directions.significant);
         Self {
             decimals: lengths.decimals.max(directions.decimals),
-            significant: lengths.significant.max(directions.significant),
+            significant: match doubles {
+                true => significant.min(OF_A_DOUBLE),
+                false => significant,
+            },
             designed: lengths
                 .decimals
                 .map_or(0, |decimals| decimals.saturating_add(decade))
                 .max(directions.decimals.unwrap_or(0)),
             padded,
-            doubles: (lengths.printed || directions.printed)
-                && !lengths.longer
-                && !directions.longer,
+            doubles,
             by_hand: None,
         }
     }
 }
+
+/// Significant digits that tell doubles apart.
+const OF_A_DOUBLE: u32 = 17;
 
 /// The digits found in a kind of numbers.
 #[derive(Default)]
@@ -223,6 +236,15 @@ fn bare(number: &Number, stated: Stated) -> Stated {
     Stated {
         decimals: stated.decimals.saturating_sub_unsigned(zeros),
         significant: stated.significant.saturating_sub(zeros),
+    }
+}
+
+/// What a double states of the digits that are printed of it.
+fn of_a_double(stated: Stated) -> Stated {
+    let beyond = stated.significant.saturating_sub(OF_A_DOUBLE);
+    Stated {
+        decimals: stated.decimals.saturating_sub_unsigned(beyond),
+        significant: stated.significant - beyond,
     }
 }
 
@@ -312,6 +334,16 @@ mod tests {
         assert_uncertainty(&rounded, "0.000000", 0.5e-6);
         // By hand, zeros are as uncertain as anything.
         assert!(!of(&["0.000"]).known_to(1e-3).is_exact());
+    }
+
+    #[test]
+    fn more_than_17_digits_of_a_double_state_nothing() {
+        let double = "2.121320343559642385145025400561280548572540283203125";
+        assert_uncertainty(&of(&[double, "3"]), double, 0.5e-16);
+        assert_uncertainty(&of(&["2.12132034355964238515", "3"]), "3", 0.5e-16);
+        // √(9/2) in as many digits is no double.
+        let longer = "2.121320343559642573202533086314547117854507813065422";
+        assert_uncertainty(&of(&[longer, double]), longer, 0.5e-51);
     }
 
     #[test]
