@@ -435,10 +435,7 @@ mod corpus {
                     cut(draft, &|n| decimal::with_significant(n, 17)),
                 ),
                 plain("doubles", cut(draft, &decimal::as_a_double)),
-                plain(
-                    "doubles in full",
-                    cut(draft, &decimal::as_a_double_in_full),
-                ),
+                plain("doubles in full", cut(draft, &decimal::as_a_double_in_full)),
             ]
             .into_iter()
             .filter(|(_, draft, _)| !hangs_on_its_digits(draft))

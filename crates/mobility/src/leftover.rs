@@ -9,9 +9,9 @@
 //! length that the cycles have at the pose.
 
 use crate::germ::splitting::Splitting;
+use crate::lifting::Start;
 use crate::more_digits::MoreDigits;
-use crate::pose_rank::{PartRank, Pose};
-use kutzbach_closure::{Geometry, JointState, Metric, Part, Section, WalkedCycle};
+use kutzbach_closure::{Geometry, JointState, Section, WalkedCycle};
 use kutzbach_math::matrix::{Extended, Real, Ring};
 
 /// Why many digits give no answer.
@@ -56,26 +56,25 @@ pub(crate) struct Leftover<'a> {
 }
 
 impl<'a> Leftover<'a> {
-    /// At a pose polished in some bits. `across` are directions of the kernel that are left out.
+    /// At a pose polished in some bits, idle directions left out.
     ///
     /// # Errors
     /// [`Doubt`] where the pose cannot be polished or the Jacobian cannot be split.
-    pub fn at_pose(
-        more: &'a mut MoreDigits,
-        pose: &Pose<'a>,
-        part: &'a Part,
-        rank: &PartRank,
-        metric: &'a Metric,
-        across: &[Vec<f64>],
-        bits: u32,
-    ) -> Result<Self, Doubt> {
+    pub fn at_pose(start: &Start<'a>, more: &'a mut MoreDigits, bits: u32) -> Result<Self, Doubt> {
+        let Start {
+            pose,
+            part,
+            rank,
+            kernel,
+            idle,
+        } = *start;
         let freedom = rank.instantaneous.ok_or(Doubt::Arithmetic)?;
         let kept = rank
             .unknowns()
             .checked_sub(freedom)
             .ok_or(Doubt::Arithmetic)?;
         let mut splitting = Splitting::of(&rank.matrix, kept).map_err(|_| Doubt::Arithmetic)?;
-        splitting.leave_out(across);
+        splitting.leave_out(idle);
         let (geometry, home) = more
             .polished(pose, part, !pose.as_drawn, bits)
             .map_err(|_| Doubt::Arithmetic)?;
@@ -93,7 +92,7 @@ impl<'a> Leftover<'a> {
         let exact = |doubles: &[f64]| -> Vec<Extended> {
             doubles.iter().map(|x| one.constant(*x)).collect()
         };
-        let kernel = splitting.kernel.iter().map(|b| exact(b)).collect();
+        let directions = splitting.kernel.iter().map(|b| exact(b)).collect();
         let reached = splitting.reached();
         let reached = reached
             .map(|(u, v, s)| (exact(u), exact(v), one.constant(s)))
@@ -103,13 +102,13 @@ impl<'a> Leftover<'a> {
                 mechanism: pose.mechanism,
                 geometry,
                 part,
-                metric,
+                metric: &kernel.metric,
             },
             home,
             walks,
             norms,
             splitting,
-            kernel,
+            kernel: directions,
             reached,
             one,
         };

@@ -107,15 +107,7 @@ fn to_degree(
     fineness: usize,
 ) -> Result<PlaneCurve, Doubt> {
     let bits = u32::try_from(fineness * (degree + 4) + 64).map_err(|_| Doubt::Arithmetic)?;
-    let leftover = Leftover::at_pose(
-        more,
-        start.pose,
-        start.part,
-        start.rank,
-        &start.kernel.metric,
-        start.idle,
-        bits,
-    )?;
+    let leftover = Leftover::at_pose(start, more, bits)?;
     if leftover.freedom() != 2 || leftover.equations() == 0 {
         return Err(Doubt::Arithmetic);
     }
@@ -151,15 +143,7 @@ fn is_one(
 ) -> Result<bool, Doubt> {
     let bits = cluster.bits();
     let mut more = MoreDigits::new();
-    let leftover = Leftover::at_pose(
-        &mut more,
-        start.pose,
-        start.part,
-        start.rank,
-        &start.kernel.metric,
-        start.idle,
-        bits,
-    )?;
+    let leftover = Leftover::at_pose(start, &mut more, bits)?;
     let one = Extended::new(1.0, bits);
     let mut line = Line::default();
     cluster.is_one(&one, |[u, v], rest| {

@@ -8,16 +8,14 @@
 //! followed.
 
 use super::super::germ::{Germ, linear_arrangement, quadratic_form};
-use super::super::germ_zeros::{GermBranch, HalfBranch};
+use super::super::germ_zeros::GermBranch;
 use super::super::lifting::{Start, lift_all};
 use super::super::part_mobility::{Evidence, PartFinding};
 use super::super::pose_rank::PartRank;
 use super::super::vocabulary::SingularKind;
+use super::known_branches::{RADII, curve_along, scaled, sheet};
 use kutzbach_math::matrix::{MatrixError, SplitMix64};
 use nalgebra::{DMatrix, DVector};
-
-/// Distances from the pose at which points of the spaces are brought to the mechanism.
-const RADII: [f64; 4] = [0.1, 0.05, 0.02, 0.2];
 
 /// A form exceeds its error by this factor, or is none.
 const CLEARANCE: f64 = 1e4;
@@ -88,39 +86,17 @@ fn branch_along(space: &DMatrix<f64>) -> GermBranch {
     let mut random = SplitMix64::named("arrangement of branches");
     let direction = |random: &mut SplitMix64| -> Vec<f64> {
         let weights = DVector::from_fn(space.ncols(), |_, _| random.symmetric());
-        (space * weights).normalize().as_slice().to_vec()
-    };
-    let at = |direction: &[f64], radius: f64| -> Vec<f64> {
-        direction.iter().map(|x| radius * x).collect()
+        (space * weights).as_slice().to_vec()
     };
     let points = RADII
         .iter()
-        .map(|&radius| at(&direction(&mut random), radius))
+        .map(|&radius| scaled(&direction(&mut random), radius))
         .collect();
-    let ways = match space.ncols() {
-        1 => vec![1.0, -1.0],
-        _ => Vec::new(),
-    };
-    let half_branches: Vec<HalfBranch> = ways
-        .iter()
-        .map(|sign| {
-            let tangent: Vec<f64> = space.column(0).iter().map(|x| sign * x).collect();
-            let path: Vec<Vec<f64>> = RADII.iter().map(|&r| at(&tangent, r)).collect();
-            HalfBranch {
-                point: path[0].clone(),
-                tangent,
-                path,
-            }
-        })
-        .collect();
-    GermBranch {
-        dimension: space.ncols(),
-        tangents: half_branches.iter().map(|h| h.tangent.clone()).collect(),
-        half_branches,
-        points,
-        ramification: (space.ncols() == 1).then_some(1),
-        reduced: true,
-        vanishing_order: None,
-        hits: 0,
+    match space.ncols() {
+        1 => GermBranch {
+            points,
+            ..curve_along(space.column(0).as_slice(), true)
+        },
+        many => sheet(many, points),
     }
 }

@@ -1,7 +1,7 @@
 //! Singular poses at which one equation is left over whose quadratic terms have rank two or more, by the splitting lemma in many digits.
 
 use super::super::germ::Germ;
-use super::super::germ_zeros::{GermBranch, HalfBranch};
+use super::super::germ_zeros::GermBranch;
 use super::super::leftover::{ABSOLUTE, Doubt, Leftover, ORDERS, power_of_two};
 use super::super::lifting::{Start, lift_all};
 use super::super::more_digits::MoreDigits;
@@ -12,6 +12,7 @@ use super::super::splitting_lemma::{
 };
 use super::super::vocabulary::SingularKind;
 use super::isolated;
+use super::known_branches::{POINTS, RADII, cone, curve_along, scaled, sheet};
 use kutzbach_math::matrix::{Extended, MatrixError, Real, Ring, SplitMix64};
 
 /// Parts with more unknowns, or more coordinates free to first order, are not looked at.
@@ -27,9 +28,8 @@ const AWAY: i64 = 20;
 /// From 2^(this − bits) on a value is not zero.
 const CLEAR: i64 = 80;
 
-/// Distances from the pose at which points of branches are brought to the mechanism, and points tried at each.
-const RADII: [f64; 4] = [0.1, 0.05, 0.02, 0.2];
-const POINTS: usize = 3;
+/// Points near the pose at which rows are compared.
+const PLACES: usize = 3;
 
 /// What the equation says of the real branches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,24 +62,37 @@ pub(super) fn by_splitting(
         Germs::Isolated => (
             Vec::new(),
             0,
-            "near this pose the closure equations have no other real solution: what they leave over is a sum of squares (splitting lemma)",
+            "near this pose the closure equations have no other real solution: what they leave over is a sum of squares (splitting lemma)"
+                .to_owned(),
         ),
         Germs::Line => (
-            vec![line(&squares)],
+            squares
+                .null
+                .iter()
+                .map(|v| curve_along(v, false))
+                .collect(),
             1,
-            "what the equations leave over is a sum of squares that vanish along one line (splitting lemma)",
+            format!(
+                "what the equations leave over is, to order {ORDERS}, a sum of squares that vanish along one line (splitting lemma)"
+            ),
         ),
         Germs::One => (
-            vec![sheet(variables - 1, cone(&squares))],
+            vec![sheet(
+                variables - 1,
+                cone(&squares.sizes, &squares.across, &squares.null),
+            )],
             variables - 1,
             "what the equations leave over is one equation that is no product (splitting lemma), so that near this pose the solutions \
-             are one branch",
+             are one branch"
+                .to_owned(),
         ),
         Germs::Two => (
             sheets(&squares, variables - 1),
             variables - 1,
-            "what the equations leave over is a product of two (splitting lemma), so that near this pose the solutions are two sheets \
-             that cross",
+            format!(
+                "what the equations leave over is, to order {ORDERS}, a product of two (splitting lemma), so that near this pose the \
+                 solutions are two sheets that cross"
+            ),
         ),
     };
     evidence.push(Evidence {
@@ -88,7 +101,7 @@ pub(super) fn by_splitting(
         bounds: (dimension + idle, Some(dimension + idle)),
         text,
     });
-    certificate.clone_into(&mut found.certificate);
+    found.certificate = certificate;
     if germs == Germs::Isolated {
         isolated(found, start)?;
         return Ok(true);
@@ -123,7 +136,7 @@ fn told(start: &Start<'_>) -> Result<Option<(Germs, Squares, String)>, Doubt> {
     let extra = if tall > TALL { tall as i64 } else { 0 };
     let mut more = MoreDigits::new();
     let bits = bits_of_squares(extra);
-    let leftover = at_pose(start, &mut more, bits)?;
+    let leftover = Leftover::at_pose(start, &mut more, bits)?;
     let variables = leftover.freedom();
     if !(3..=MOST_VARIABLES).contains(&variables) || leftover.equations() == 0 {
         return Ok(None);
@@ -175,7 +188,7 @@ const FEW: i64 = 8;
 fn rest_of(start: &Start<'_>, squares: &Squares, row: usize, extra: i64) -> Result<Rest, Doubt> {
     let at = |look: Look| -> Result<Rest, Doubt> {
         let mut more = MoreDigits::new();
-        let leftover = at_pose(start, &mut more, look.bits)?;
+        let leftover = Leftover::at_pose(start, &mut more, look.bits)?;
         let near = Vec::new();
         rest(
             &mut Sole {
@@ -196,22 +209,6 @@ fn rest_of(start: &Start<'_>, squares: &Squares, row: usize, extra: i64) -> Resu
     at(squares.near(ORDERS, extra))
 }
 
-fn at_pose<'a>(
-    start: &Start<'a>,
-    more: &'a mut MoreDigits,
-    bits: u32,
-) -> Result<Leftover<'a>, Doubt> {
-    Leftover::at_pose(
-        more,
-        start.pose,
-        start.part,
-        start.rank,
-        &start.kernel.metric,
-        start.idle,
-        bits,
-    )
-}
-
 /// One row of what is left over, of which all others are multiples.
 struct Sole<'a> {
     leftover: Leftover<'a>,
@@ -228,7 +225,7 @@ impl<'a> Sole<'a> {
         let [zero, clear] = [ABSOLUTE, CLEAR].map(|power| power_of_two(one, power - bits));
         let mut random = SplitMix64::named("one equation left over");
         let mut values: Vec<Vec<Extended>> = Vec::new();
-        for _ in 0..POINTS {
+        for _ in 0..PLACES {
             let at: Vec<Extended> = (0..leftover.freedom())
                 .map(|_| one.constant(random.symmetric()) * away.clone())
                 .collect();
@@ -268,19 +265,6 @@ impl Equation for Sole<'_> {
     }
 }
 
-fn sheet(dimension: usize, points: Vec<Vec<f64>>) -> GermBranch {
-    GermBranch {
-        dimension,
-        half_branches: Vec::new(),
-        points,
-        tangents: Vec::new(),
-        ramification: None,
-        reduced: true,
-        vanishing_order: None,
-        hits: 0,
-    }
-}
-
 /// The two sheets of a product, along each of the lines and the null space.
 fn sheets(squares: &Squares, dimension: usize) -> Vec<GermBranch> {
     let lines = squares.lines.iter().flatten();
@@ -302,76 +286,4 @@ fn sheets(squares: &Squares, dimension: usize) -> Vec<GermBranch> {
             sheet(dimension, points)
         })
         .collect()
-}
-
-/// The null space where it is a line.
-fn line(squares: &Squares) -> GermBranch {
-    let half_branches: Vec<HalfBranch> = [1.0, -1.0]
-        .iter()
-        .flat_map(|side| squares.null.iter().map(move |v| scaled(v, *side)))
-        .map(|tangent| {
-            let path: Vec<Vec<f64>> = RADII.iter().map(|r| scaled(&tangent, *r)).collect();
-            HalfBranch {
-                point: path[0].clone(),
-                tangent,
-                path,
-            }
-        })
-        .collect();
-    GermBranch {
-        tangents: half_branches.iter().map(|h| h.tangent.clone()).collect(),
-        ramification: Some(1),
-        reduced: false,
-        half_branches,
-        ..sheet(
-            1,
-            squares
-                .null
-                .iter()
-                .flat_map(|v| RADII.map(|r| scaled(v, r)))
-                .collect(),
-        )
-    }
-}
-
-/// Points of the cone of a form, in general position; none where it is definite.
-pub(super) fn cone(squares: &Squares) -> Vec<Vec<f64>> {
-    let (plus, minus) = squares.signature;
-    if plus == 0 || minus == 0 {
-        return Vec::new();
-    }
-    let mut random = SplitMix64::named("quadratic cone");
-    let mut points = Vec::with_capacity(RADII.len() * POINTS);
-    for radius in RADII {
-        for _ in 0..POINTS {
-            // One vector in the space where the form is positive and one where it is negative, of opposite values.
-            let size = squares.across[0].len();
-            let mut sides = [vec![0.0; size], vec![0.0; size]];
-            let mut values = [0.0f64; 2];
-            for (value, vector) in squares.sizes.iter().zip(&squares.across) {
-                let side = usize::from(*value < 0.0);
-                let share = random.symmetric() / value.abs().sqrt();
-                values[side] += value.abs() * share * share;
-                share.add_scaled(vector, &mut sides[side]);
-            }
-            let [plus, minus] = values.map(|value| value.sqrt().max(f64::MIN_POSITIVE));
-            let mut point: Vec<f64> = sides[0]
-                .iter()
-                .zip(&sides[1])
-                .map(|(a, b)| a / plus + b / minus)
-                .collect();
-            let length = 0.0.norm(&point);
-            for vector in &squares.null {
-                (length * random.symmetric()).add_scaled(vector, &mut point);
-            }
-            points.push(scaled(&point, radius));
-        }
-    }
-    points
-}
-
-/// A vector brought to a length, with its sign.
-fn scaled(vector: &[f64], length: f64) -> Vec<f64> {
-    let share = length / 0.0.norm(vector);
-    vector.iter().map(|x| share * x).collect()
 }
