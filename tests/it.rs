@@ -35,6 +35,7 @@ mod families;
 mod format_errors;
 mod format_files;
 mod format_hostile;
+#[path = "format_loops/main.rs"]
 mod format_loops;
 mod format_reading;
 mod format_round_trip;

@@ -24,7 +24,7 @@ mod taylor;
 mod tests;
 
 use crate::germ_zeros::{GermBranch, HalfBranch};
-use crate::leftover::{Doubt, Leftover, Line, Row, power_of_two};
+use crate::leftover::{Doubt, Grid, Leftover, Line, power_of_two};
 use crate::lifting::Start;
 use crate::more_digits::MoreDigits;
 use crate::pose_rank::height_at;
@@ -113,7 +113,7 @@ fn to_degree(
     }
     let one = Extended::new(1.0, bits);
     let (mut rows, mut equations) = (Vec::new(), Vec::new());
-    let mut before = Row::default();
+    let mut before = Grid::default();
     let planes = series(&one, degree, fineness as i64, |y| {
         leftover.evaluate_next(&mut before, y)
     })?;
