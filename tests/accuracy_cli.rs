@@ -1,11 +1,11 @@
 //! `kutzbach accuracy` and the accuracy options of `simulate`, `report` and `trace`, as a user meets them. No seconds are
 //! asserted.
 use serde_json::Value;
-use std::process::{Command, Output, Stdio};
+use std::process::{Output, Stdio};
 
 /// Runs `kutzbach` in the folder of the package.
 fn kutzbach(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    crate::support::program()
         .args(arguments)
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .stdin(Stdio::null())

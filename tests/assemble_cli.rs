@@ -1,10 +1,10 @@
 //! `kutzbach assemble` from outside: what it prints, and how it ends.
 
 use std::io::Write;
-use std::process::{Command, Output, Stdio};
+use std::process::{Output, Stdio};
 
 fn kutzbach(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    crate::support::program()
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .args(arguments)
         .output()
@@ -459,7 +459,7 @@ fn held_triangle(kind: &str, axes: &str, frame: &str) -> String {
 
 /// What a command says of it with two joints held.
 fn said_of_held(command: &[&str], text: &str) -> String {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    let mut child = crate::support::program()
         .args([command[0], "-"])
         .args(&command[1..])
         .args(["--hold", "ab=0", "--hold", "bc=0"])
@@ -647,7 +647,7 @@ const LONG: &str = "tests/zoo/general_6r_rigid.urdf";
 #[cfg(unix)]
 #[test]
 fn ctrl_c_leaves_what_was_found() {
-    let child = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    let child = crate::support::program()
         .args(["assemble", LONG, "--budget", "60"])
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .stdout(Stdio::piped())
@@ -655,11 +655,7 @@ fn ctrl_c_leaves_what_was_found() {
         .spawn()
         .unwrap();
     std::thread::sleep(std::time::Duration::from_millis(1500));
-    let sent = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()
-        .unwrap();
-    assert!(sent.success(), "it had ended before");
+    crate::support::press_ctrl_c(&child);
     let asked = std::time::Instant::now();
     let output = child.wait_with_output().unwrap();
     assert!(asked.elapsed().as_secs() < 20);
@@ -672,7 +668,7 @@ fn ctrl_c_leaves_what_was_found() {
 #[test]
 fn a_budget_is_kept() {
     let began = std::time::Instant::now();
-    let output = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    let output = crate::support::program()
         .args(["assemble", LONG, "--budget", "1"])
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .output()

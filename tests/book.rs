@@ -5,7 +5,6 @@ use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use support::folder;
 
 /// The pages of the book by file name, and the README.
@@ -195,10 +194,9 @@ fn paths_that_lead_nowhere_are_found_out() {
 }
 
 fn printed(arguments: &[&str]) -> String {
-    let run = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    let run = crate::support::program()
         .args(arguments)
         .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .env_remove("COLUMNS")
         .output()
         .unwrap();
     String::from_utf8([run.stdout, run.stderr].concat()).unwrap()

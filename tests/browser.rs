@@ -11,7 +11,7 @@ use std::process::{Command, Stdio};
 use support::folder;
 
 fn kutzbach(arguments: &[&str], file: &Path, to: &Path) {
-    let run = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    let run = crate::support::program()
         .arg(arguments[0])
         .arg(file)
         .args(&arguments[1..])

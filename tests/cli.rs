@@ -1,7 +1,7 @@
 //! The command line as a user meets it: what it prints, what it exits with, what it leaves behind.
 use std::fs;
 use std::path::PathBuf;
-use std::process::{Command, Output, Stdio};
+use std::process::{Output, Stdio};
 
 const BAR: &str = r#"<robot name="bar" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <link name="ground"/> <link name="crank"/> <link name="coupler"/> <link name="rocker"/>
@@ -20,14 +20,11 @@ const BAR: &str = r#"<robot name="bar" xmlns:xacro="http://www.ros.org/wiki/xacr
 
 /// A folder of its own for one test.
 fn folder(test: &str) -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("cli_{test}"));
-    let _ = fs::remove_dir_all(&path);
-    fs::create_dir_all(&path).unwrap();
-    path
+    crate::support::empty_folder(&format!("cli_{test}"))
 }
 
 fn kutzbach(folder: &PathBuf, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    crate::support::program()
         .args(arguments)
         .current_dir(folder)
         .stdin(Stdio::null())
@@ -345,7 +342,7 @@ fn a_strict_check_fails_where_anything_is_missing_and_an_update_mends_it() {
 #[test]
 fn a_dash_reads_standard_input() {
     let run = |text: &str| {
-        let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+        let mut child = crate::support::program()
             .args(["report", "-", "--format", "json"])
             .stdin(std::process::Stdio::piped())
             .stdout(std::process::Stdio::piped())
@@ -428,7 +425,7 @@ fn a_reader_that_leaves_is_no_error() {
         .collect();
     let chain = format!("<robot name=\"chain\"><link name=\"l0\"/>{links}</robot>");
     fs::write(folder.join("chain.urdf"), chain).unwrap();
-    let mut child = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    let mut child = crate::support::program()
         .args(["graph", "chain.urdf", "--format", "dot"])
         .current_dir(&folder)
         .stdout(Stdio::piped())

@@ -1,9 +1,9 @@
 //! `kutzbach exact` from outside: what it prints, and how it ends.
 
-use std::process::{Command, Output};
+use std::process::Output;
 
 fn exact(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    crate::support::program()
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .arg("exact")
         .args(arguments)
@@ -84,18 +84,12 @@ fn a_spent_budget_is_an_answer() {
 
 #[test]
 fn angles_without_an_algebraic_cosine_are_refused() {
-    let file = std::env::temp_dir().join(format!("kutzbach-exact-{}.urdf", std::process::id()));
-    std::fs::write(
-        &file,
-        r#"<robot name="r"><link name="a"/><link name="b"/>
+    let content = r#"<robot name="r"><link name="a"/><link name="b"/>
            <joint name="j" type="revolute"><parent link="a"/><child link="b"/>
              <origin xyz="0 0 0" rpy="0.3 0 0"/><axis xyz="0 0 1"/></joint>
            <loop name="k" type="revolute">
-             <predecessor link="a"/><successor link="b"/><axis xyz="0 0 1"/></loop></robot>"#,
-    )
-    .unwrap();
-    let output = exact(&[file.to_str().unwrap()]);
-    std::fs::remove_file(&file).unwrap();
+             <predecessor link="a"/><successor link="b"/><axis xyz="0 0 1"/></loop></robot>"#;
+    let output = of_file("angle", content, &[]);
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2), "{said}");
     assert!(
@@ -108,7 +102,7 @@ fn angles_without_an_algebraic_cosine_are_refused() {
 #[test]
 fn a_time_limit_is_told() {
     for (strict, code) in [(None, 0), (Some("--strict"), 3)] {
-        let output = std::process::Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+        let output = crate::support::program()
             .current_dir(env!("CARGO_MANIFEST_DIR"))
             .args(["exact", "mechanisms/delta.urdf", "--time", "0.3"])
             .args(strict)
@@ -145,13 +139,11 @@ fn two_four_bars(camera: &str, first: [&str; 2], second: [&str; 2]) -> String {
 }
 
 fn of_file(name: &str, content: &str, arguments: &[&str]) -> Output {
-    let file = std::env::temp_dir().join(format!("kutzbach-{name}-{}.urdf", std::process::id()));
+    let file = crate::support::empty_folder(&format!("exact_{name}")).join("m.urdf");
     std::fs::write(&file, content).unwrap();
     let mut all = vec![file.to_str().unwrap()];
     all.extend(arguments);
-    let output = exact(&all);
-    std::fs::remove_file(&file).unwrap();
-    output
+    exact(&all)
 }
 
 fn blocks_of(name: &str, content: &str) -> serde_json::Value {

@@ -7,7 +7,6 @@ use kutzbach::algebra::{
 use kutzbach::format::{ReadOptions, read_with};
 use kutzbach::mechanism::{JointId, Mechanism};
 use std::path::Path;
-use std::process::Command;
 
 /// Generous: a slow machine must not fail a test of mathematics.
 fn budget() -> Budget {
@@ -181,7 +180,7 @@ fn a_joint_without_variables_is_no_question() {
         })
         .collect();
     assert_eq!(without.len(), 1);
-    let output = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    let output = crate::support::program()
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .args(["exact", "tests/conditions/bennett_measures.urdf"])
         .args(["--symbolic", "a", "--variables", "tree", "--moving"])
@@ -197,7 +196,7 @@ fn a_joint_without_variables_is_no_question() {
 #[test]
 fn the_ways_to_satisfy_conditions_are_listed() {
     let ask = |format: &str| {
-        let output = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+        let output = crate::support::program()
             .current_dir(env!("CARGO_MANIFEST_DIR"))
             .args(["exact", "tests/conditions/bennett_measures.urdf"])
             .args(

@@ -132,12 +132,12 @@ fn bytes_that_are_not_text() {
     assert_eq!(read(&marked, "f", &[]).unwrap().mechanism.joints().len(), 2);
 }
 
-/// A file in the temporary folder that is removed when dropped.
+/// A file in a folder of the tests' own that is removed when dropped.
 struct Temporary(PathBuf);
 
 impl Temporary {
     fn new(name: &str) -> Self {
-        Self(std::env::temp_dir().join(format!("kutzbach-{}-{name}", std::process::id())))
+        Self(PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name))
     }
 }
 
@@ -166,7 +166,7 @@ fn files_that_cannot_be_read() {
     let error = read_file(&missing.0, &[]).unwrap_err();
     assert!(error.message.contains("cannot be read"), "{error}");
     assert_eq!((error.line, error.column), (1, 1));
-    let error = read_file(std::env::temp_dir(), &[]).unwrap_err();
+    let error = read_file(env!("CARGO_TARGET_TMPDIR"), &[]).unwrap_err();
     assert!(
         error.message.contains("directory") || error.message.contains("cannot be read"),
         "{error}"

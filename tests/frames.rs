@@ -5,7 +5,6 @@ use crate::support;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 use support::folder;
 
 /// The text of a mechanism with so many links in a row fixed between the parent of every joint and the joint.
@@ -45,7 +44,7 @@ fn check(count: usize) {
             fs::write(framed.join(path.file_name().unwrap()), text).unwrap();
         }
     }
-    let output = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    let output = crate::support::program()
         .arg("check")
         .arg(&framed)
         .output()

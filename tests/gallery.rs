@@ -1,45 +1,42 @@
-//! The gallery in `docs/gallery` is that of `mechanisms/`.
+//! The stills of `docs/gallery` are those of `mechanisms/`, and the index says what the program says today.
 //!
-//! ```text
-//! cargo run --release -- gallery mechanisms -o docs/gallery --title "The mechanisms of kutzbach"
-//! ```
+//! `bash .ci/pictures` makes them anew.
 
 use crate::support;
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::path::Path;
-use support::folder;
+use support::{assert_none, folder};
 
-fn stems(folder: &Path, extension: &str) -> BTreeSet<String> {
+/// Every file of a folder that git keeps of the gallery.
+fn files(folder: &Path) -> BTreeMap<String, String> {
     let entries = std::fs::read_dir(folder).unwrap();
     let paths = entries.map(|entry| entry.unwrap().path());
     paths
-        .filter(|path| path.extension().is_some_and(|e| e == extension))
-        .map(|path| path.file_stem().unwrap().to_string_lossy().into_owned())
+        .filter(|path| path.extension().is_some_and(|e| e == "svg" || e == "md"))
+        .map(|path| {
+            let name = path.file_name().unwrap().to_string_lossy().into_owned();
+            (name, std::fs::read_to_string(path).unwrap())
+        })
         .collect()
 }
 
 #[test]
-fn every_mechanism_has_its_page_and_no_page_is_left_over() {
-    let mut pages = stems(&folder("docs/gallery"), "html");
-    assert!(pages.remove("index"));
-    assert_eq!(pages, stems(&folder("mechanisms"), "urdf"));
-    let index = std::fs::read_to_string(folder("docs/gallery/index.html")).unwrap();
-    for page in &pages {
-        assert!(index.contains(&format!("href=\"{page}.html\"")), "{page}");
-    }
-}
-
-#[test]
-fn the_gallery_has_the_script_and_the_style_of_today() {
-    let read = |name: &str| std::fs::read_to_string(folder(name)).unwrap();
-    let advice = "make it again: see the head of tests/gallery.rs";
-    assert!(
-        read("docs/gallery/viewer.js") == read("viewer/dist/viewer.js"),
-        "{advice}"
-    );
-    assert!(
-        read("docs/gallery/page.css") == kutzbach::report::html::style(),
-        "{advice}"
-    );
+fn the_gallery_is_that_of_today() {
+    let made = support::empty_folder("gallery_stills");
+    let run = support::program()
+        .args(["gallery", "mechanisms", "--stills", "--title"])
+        .args(["The mechanisms of kutzbach", "-o"])
+        .arg(&made)
+        .current_dir(folder(""))
+        .output()
+        .unwrap();
+    let told = String::from_utf8_lossy(&run.stderr);
+    assert!(run.status.success(), "{told}");
+    let (today, kept) = (files(&made), files(&folder("docs/gallery")));
+    let old = |name: &&String| today.get(*name) != kept.get(*name);
+    let names = today.keys().chain(kept.keys());
+    let wrong: Vec<String> = names.filter(old).cloned().collect();
+    assert_none(&wrong);
+    assert!(today.len() > 100);
 }

@@ -2,7 +2,6 @@
 
 use serde_json::Value;
 use std::path::PathBuf;
-use std::process::Command;
 
 /// A finger on a parallelogram on one side (±1) of the palm; its last hinge closes a loop as simulators write it.
 fn finger(name: &str, side: i32, follows: &str) -> String {
@@ -46,7 +45,7 @@ fn answer(command: &str) -> Value {
     } else {
         &[]
     };
-    let output = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    let output = crate::support::program()
         .args([command, "--format", "json"])
         .args(more)
         .arg(gripper())

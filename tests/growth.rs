@@ -5,21 +5,20 @@
 use crate::support;
 
 use kutzbach::families::{
-    bennett_row, comb, gear_train, hinge_ring, miura_sheet, parallelograms, scissor_lift,
-    serial_chain, star,
+    bennett_row, comb, gear_train, hinge_ring, layer_tower, limb_grid, miura_sheet, parallelograms,
+    scissor_lift, serial_chain, star,
 };
 use kutzbach::mechanism::Mechanism;
-use std::process::Command;
 use support::{assert_none, in_parallel, instructions, written};
 
 /// Work may grow with this power of the size: an ordering of fronts, a sort or a tree map adds a logarithm to what is linear.
 const STEEPEST: f64 = 1.3;
 
 /// Every shape by name, with the smallest of its sizes: the others are twice and four times as large. Small ones may cost more than
-/// larger ones, since more is asked of them (exact algebra, poses nearby): the larger pair tells how it goes on.
+/// larger ones, since more is asked of them (exact algebra, poses nearby): the larger pair tells how it goes on, and both are printed.
 type Shape = (&'static str, fn(usize) -> Mechanism, usize);
 
-const SHAPES: [Shape; 9] = [
+const SHAPES: [Shape; 11] = [
     ("serial chain", |n| serial_chain(n).unwrap(), 75),
     ("star", |n| star(n).unwrap(), 100),
     ("comb", |n| comb(n).unwrap(), 75),
@@ -29,7 +28,14 @@ const SHAPES: [Shape; 9] = [
     ("scissor lift", |n| scissor_lift(n).unwrap(), 100),
     ("Miura strip", |n| miura_sheet(6, n).unwrap(), 10),
     ("ring of hinges", |n| hinge_ring(n).unwrap(), 200),
+    // Of side² bodies: the side grows by the root of two and by two.
+    ("grid of limbs", |n| limb_grid(n.isqrt()).unwrap(), 25),
+    ("tower of layers", |n| layer_tower(n).unwrap(), 9),
 ];
+
+/// Shapes that are known to cost more, with what they may cost at most: roles are looked at closer by an iterative solver, whose
+/// iterations grow with the size. One that does no longer is to be taken off this list.
+const KNOWN: [(&str, f64); 2] = [("grid of limbs", 2.2), ("tower of layers", 2.2)];
 
 #[test]
 #[ignore = "needs valgrind: counts instructions"]
@@ -45,7 +51,9 @@ fn reports_cost_as_much_as_mechanisms_are_large() {
             exponents[1]
         );
         println!("{line}");
-        (exponents[1] > STEEPEST).then_some(line)
+        let known = KNOWN.iter().find(|(of, _)| of == name);
+        let most = known.map_or(STEEPEST, |(_, most)| *most);
+        (exponents[1] > most || known.is_some() && exponents[1] <= STEEPEST).then_some(line)
     });
     assert_none(&lines.into_iter().flatten().collect::<Vec<_>>());
 }
@@ -61,7 +69,7 @@ fn large_mechanisms_are_reported_on() {
         parallelograms(500),
     ] {
         let mechanism = mechanism.unwrap();
-        let mut report = Command::new(env!("CARGO_BIN_EXE_kutzbach"));
+        let mut report = crate::support::program();
         let output = report
             .arg("report")
             .arg(written(&mechanism))

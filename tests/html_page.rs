@@ -10,23 +10,15 @@ use kutzbach::motion::{TraceOptions, trace};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Output;
 use support::folder;
 
-/// An empty folder.
 fn scratch(name: &str) -> PathBuf {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR"))
-        .join("html_page")
-        .join(name);
-    let _ = std::fs::remove_dir_all(&path);
-    std::fs::create_dir_all(&path).unwrap();
-    path
+    support::empty_folder(&format!("html_page/{name}"))
 }
 
 fn kutzbach(arguments: &[&str]) -> Output {
-    let run = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
-        .args(arguments)
-        .output();
+    let run = crate::support::program().args(arguments).output();
     run.unwrap()
 }
 
@@ -251,6 +243,35 @@ fn a_page_of_a_configuration_starts_there() {
     let there = data(&page_of(&file, &["--at", &configuration.name]));
     let home = data(&page_of(&file, &[]));
     assert_ne!(there["home"], home["home"]);
+}
+
+/// A text without the tags in it.
+fn bare(html: &str) -> String {
+    html.split('<')
+        .map(|piece| piece.split_once('>').map_or(piece, |(_, text)| text))
+        .collect()
+}
+
+/// Whoever looks at a picture of a page reads what pages say today: `pages.json` holds what each said when it was taken.
+#[test]
+fn pictures_of_pages_are_not_old() {
+    let path = folder("docs/src/images/pages.json");
+    let taken: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let taken = taken.as_object().unwrap();
+    let pictures = std::fs::read_dir(folder("docs/src/images")).unwrap();
+    let pictures = pictures.filter_map(|entry| entry.unwrap().file_name().into_string().ok());
+    let pictures = pictures.filter(|name| name.starts_with("page_")).count();
+    assert_eq!(pictures, taken.len());
+    for (picture, of) in taken {
+        let page = page(of["page"].as_str().unwrap());
+        let header = between(&page, "</h1>", "</header>");
+        let sentence = bare(&format!("<p{}", between(header, "<p", "</p>")));
+        assert_eq!(
+            of["sentence"].as_str().unwrap(),
+            sentence,
+            "{picture} is old: bash .ci/pictures"
+        );
+    }
 }
 
 /// Too long for every commit.

@@ -284,7 +284,7 @@ fn python_reads_what_was_recorded() {
 
 /// What `kutzbach` prints, run in the folder of the package.
 fn kutzbach(arguments: &[&str]) -> Vec<u8> {
-    let run = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    let run = crate::support::program()
         .args(arguments)
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .output()

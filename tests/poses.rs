@@ -2,7 +2,6 @@
 
 use kutzbach::format::read;
 use kutzbach::report::{Options, Report, Verdict, report};
-use std::process::Command;
 
 /// A parallelogram with a crank of 1 m and a base of 2 m, drawn upright, whose crank is limited.
 fn parallelogram(lower: &str, upper: &str) -> String {
@@ -21,7 +20,7 @@ fn parallelogram(lower: &str, upper: &str) -> String {
 fn reported(name: &str, text: &str, arguments: &[&str]) -> (Option<i32>, String, String) {
     let file = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("poses_{name}.urdf"));
     std::fs::write(&file, text).unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    let output = crate::support::program()
         .arg("report")
         .arg(&file)
         .args(arguments)

@@ -1,5 +1,4 @@
 //! The example on the README's first screen is what the program prints.
-use std::process::Command;
 
 #[test]
 fn the_report_in_the_readme_is_the_one_printed() {
@@ -9,10 +8,9 @@ fn the_report_in_the_readme_is_the_one_printed() {
         .split_once("```text\n")
         .expect("the README shows a report");
     let (shown, _) = rest.split_once("\n```").expect("the block ends");
-    let run = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    let run = crate::support::program()
         .args(["report", "mechanisms/bennett.urdf"])
         .current_dir(root)
-        .env_remove("COLUMNS")
         .output()
         .unwrap();
     assert!(
@@ -28,10 +26,9 @@ fn the_report_in_the_readme_is_the_one_printed() {
 
 /// What the program prints of a mechanism of this repository.
 fn printed(arguments: &[&str]) -> String {
-    let run = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    let run = crate::support::program()
         .args(arguments)
         .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .env_remove("COLUMNS")
         .output()
         .unwrap();
     assert!(run.status.success(), "{arguments:?}");

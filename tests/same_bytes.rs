@@ -3,7 +3,6 @@
 use crate::support;
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use support::{assert_none, folder, in_parallel};
 
 fn files(name: &str) -> Vec<PathBuf> {
@@ -15,11 +14,10 @@ fn files(name: &str) -> Vec<PathBuf> {
 }
 
 fn report(file: &Path, form: &str, threads: &str) -> Vec<u8> {
-    let run = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    let run = crate::support::program()
         .args(["report", "--evidence", "--format", form])
         .arg(file)
         .env("RAYON_NUM_THREADS", threads)
-        .env_remove("COLUMNS")
         .output()
         .unwrap();
     assert!(run.status.success(), "{}", file.display());

@@ -7,7 +7,7 @@ use std::process::{Command, Output, Stdio};
 
 /// Runs `kutzbach simulate` in the folder of the package.
 fn simulate(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    crate::support::program()
         .arg("simulate")
         .args(arguments)
         .current_dir(env!("CARGO_MANIFEST_DIR"))
@@ -33,10 +33,7 @@ fn json(arguments: &[&str]) -> Value {
 
 /// A folder of its own for one test.
 fn folder(test: &str) -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("simulate_{test}"));
-    let _ = fs::remove_dir_all(&path);
-    fs::create_dir_all(&path).unwrap();
-    path
+    crate::support::empty_folder(&format!("simulate_{test}"))
 }
 
 fn names_in(folder: &Path) -> Vec<String> {
@@ -302,9 +299,9 @@ fn a_full_disk_leaves_a_message_and_no_file() {
     // A file that may not grow beyond 200 KiB: full in the middle of the simulation.
     let folder = folder("full");
     let log = folder.join("log.mcap");
-    let output = Command::new("bash")
-        .args(["-c", "trap '' XFSZ; ulimit -f 200; exec \"$@\"", "bash"])
-        .arg(env!("CARGO_BIN_EXE_kutzbach"))
+    let output = Command::new("sh")
+        .args(["-c", "trap '' XFSZ; ulimit -f 400; exec \"$@\"", "sh"])
+        .arg(crate::support::PROGRAM)
         .args(["simulate", "mechanisms/bennett.urdf", "--mcap"])
         .arg(&log)
         .current_dir(env!("CARGO_MANIFEST_DIR"))
@@ -334,7 +331,7 @@ fn interrupted(test: &str, words: &[&str], wait: std::time::Duration) -> (Output
     use std::time::{Duration, Instant};
     let folder = folder(test);
     let log = folder.join("log.mcap");
-    let mut process = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    let mut process = crate::support::program()
         .arg("simulate")
         .args(words)
         .arg("--mcap")
@@ -351,11 +348,7 @@ fn interrupted(test: &str, words: &[&str], wait: std::time::Duration) -> (Output
         std::thread::sleep(Duration::from_millis(20));
     }
     std::thread::sleep(wait);
-    let sent = Command::new("kill")
-        .args(["-INT", &process.id().to_string()])
-        .status()
-        .unwrap();
-    assert!(sent.success(), "it had ended before");
+    crate::support::press_ctrl_c(&process);
     let asked = Instant::now();
     while process.try_wait().unwrap().is_none() {
         if asked.elapsed() > Duration::from_secs(20) {

@@ -1,13 +1,12 @@
 //! `kutzbach graph --constructive` from outside, and what is wrong with sketches.
 
 use kutzbach::format::read_sketch;
-use std::process::Command;
 
 const TRUSS: &str = include_str!("../examples/draw_sketch/truss.xml");
 const PAGE: &str = include_str!("../docs/src/constructive.md");
 
 fn shown(format: &str) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    let output = crate::support::program()
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .args(["graph", "examples/draw_sketch/truss.xml", "--constructive"])
         .args(["--format", format])
@@ -113,7 +112,7 @@ fn a_sketch_is_no_mechanism_and_settings_change_it() {
 }
 
 fn said(arguments: &[&str]) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    let output = crate::support::program()
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .args(arguments)
         .output()

@@ -4,7 +4,7 @@ use crate::support;
 use serde_json::Value;
 use std::fs;
 use std::path::PathBuf;
-use std::process::{Command, Output, Stdio};
+use std::process::{Output, Stdio};
 use support::rewrite::Draft;
 use support::zoo_mechanism;
 
@@ -18,9 +18,7 @@ const ROCKER: &str = r#"<robot name="rocker"><link name="ground"/><link name="cr
 
 /// A folder of its own for one test, with a mechanism in it.
 fn folder(test: &str, text: &str) -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("trace_cli_{test}"));
-    let _ = fs::remove_dir_all(&path);
-    fs::create_dir_all(&path).unwrap();
+    let path = support::empty_folder(&format!("trace_cli_{test}"));
     fs::write(path.join("m.urdf"), text).unwrap();
     path
 }
@@ -30,7 +28,7 @@ fn zoo_text(name: &str) -> String {
 }
 
 fn traced(folder: &PathBuf, more: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    crate::support::program()
         .args(["trace", "m.urdf"])
         .args(more)
         .current_dir(folder)

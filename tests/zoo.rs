@@ -137,7 +137,7 @@ fn every_file_is_drawn_closed_and_decided_without_reservation() {
 /// Everything that is known of the reference mechanisms, as the program itself compares it: all of it is decided, and right.
 #[test]
 fn every_known_fact_is_found() {
-    let run = std::process::Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    let run = crate::support::program()
         .args(["check", "--format", "json", "tests/zoo"])
         .current_dir(folder(""))
         .output()

@@ -10,7 +10,7 @@ use support::folder;
 
 #[test]
 fn no_known_fact_is_contradicted() {
-    let run = std::process::Command::new(env!("CARGO_BIN_EXE_kutzbach"))
+    let run = crate::support::program()
         .args(["check", "--format", "json", "tests/zoo2"])
         .current_dir(folder(""))
         .output()

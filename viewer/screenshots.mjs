@@ -1,4 +1,6 @@
-// Pictures of pages for the book: node screenshots.mjs PAGES OUT, where PAGES holds the pages named below.
+// Pictures of pages for the book: node screenshots.mjs PAGES OUT, where PAGES holds the pages named below. What each says first is
+// written to pages.json beside them, so that a test can tell when they are old.
+import { writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import puppeteer from "puppeteer-core";
@@ -16,6 +18,7 @@ const SHOTS = [
   { name: "page_print", page: "slider_crank", width: 794, height: 1123, print: true, features: light, at: 0.1 },
 ];
 
+const said = {};
 const browser = await puppeteer.launch({
   executablePath: process.env.KUTZBACH_CHROMIUM ?? "chromium",
   headless: true,
@@ -41,6 +44,7 @@ for (const { name, page: file, width, height, phone = false, print = false, home
     at ?? 0,
     home,
   );
+  said[name] = { page: file, sentence: await page.$eval("#verdict p", (p) => p.textContent.trim()) };
   if (print) {
     await page.evaluate(() => window.dispatchEvent(new Event("beforeprint")));
     await page.emulateMediaType("print");
@@ -51,3 +55,4 @@ for (const { name, page: file, width, height, phone = false, print = false, home
   await page.close();
 }
 await browser.close();
+writeFileSync(join(out, "pages.json"), `${JSON.stringify(said, null, 2)}\n`);

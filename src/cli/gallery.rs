@@ -1,10 +1,12 @@
-//! `kutzbach gallery DIR`: a page for every mechanism of a folder, and one that leads to them.
+//! `kutzbach gallery DIR`: a page for every mechanism of a folder and one that leads to them, or a picture of each and an index.
 
 use super::failure::Failure;
 use super::{BAD_INPUT, DONE, files, load, output};
 use clap::Args;
 use kutzbach::report::Options;
-use kutzbach::report::html::{Assets, Entry, Facts, Prepared, SCRIPT, STYLE, index, script, style};
+use kutzbach::report::html::{
+    Assets, Entry, Facts, Prepared, SCRIPT, STYLE, index, script, stills_index, style,
+};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -17,6 +19,9 @@ pub struct Arguments {
     /// Folder to write to; made where it does not exist
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
+    /// Make no pages: an SVG picture of each mechanism, and an index of them in Markdown (README.md)
+    #[arg(long)]
+    stills: bool,
     /// Title of the index
     #[arg(long, default_value = "Mechanisms")]
     title: String,
@@ -29,18 +34,20 @@ pub struct Arguments {
 /// standard error, and all others are still done.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let files = files::mechanism_files(&arguments.paths)?;
-    let pages = page_names(&files);
+    let names = names(&files, if arguments.stills { "svg" } else { "html" });
     std::fs::create_dir_all(&arguments.output).map_err(|error| Failure::Plain {
         message: format!("cannot make `{}`: {error}", arguments.output.display()),
         help: None,
     })?;
     let put = |name: &str, text: &str| output::put(text, Some(&arguments.output.join(name)));
-    put(SCRIPT, script())?;
-    put(STYLE, &style())?;
+    if !arguments.stills {
+        put(SCRIPT, script())?;
+        put(STYLE, &style())?;
+    }
     let done = files::each(&files, |file| {
-        let name = &pages[file];
-        let (entry, page) = one(file, name)?;
-        put(name, &page)?;
+        let name = &names[file];
+        let (entry, content) = one(file, name, arguments.stills)?;
+        put(name, &content)?;
         Ok(entry)
     });
     let mut code = DONE;
@@ -53,12 +60,15 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             Entry::unreadable(&file.display().to_string(), &why)
         }));
     }
-    put("index.html", &index(&arguments.title, &entries))?;
+    match arguments.stills {
+        true => put("README.md", &stills_index(&arguments.title, &entries))?,
+        false => put("index.html", &index(&arguments.title, &entries))?,
+    }
     Ok(code)
 }
 
-/// Reads, analyses and draws one file.
-fn one(file: &Path, page: &str) -> Result<(Entry, String), Failure> {
+/// Reads, analyses and draws one file: its entry, and its page or still.
+fn one(file: &Path, name: &str, still: bool) -> Result<(Entry, String), Failure> {
     let reading = load::mechanism(file, &[], false)?;
     let (report, analysis) = load::analysed(&reading, file, &Options::default())?;
     let facts = Facts {
@@ -70,12 +80,15 @@ fn one(file: &Path, page: &str) -> Result<(Entry, String), Failure> {
         accuracy: None,
     };
     let prepared = Prepared::new(facts, Assets::Beside);
-    let text = load::html(&prepared)?;
-    Ok((prepared.entry(page), text))
+    let text = match still {
+        true => prepared.still(),
+        false => load::html(&prepared)?,
+    };
+    Ok((prepared.entry(name), text))
 }
 
-/// A page name for every file: its own, numbered where several files have the same.
-fn page_names(files: &[PathBuf]) -> BTreeMap<PathBuf, String> {
+/// A name with this extension for every file: its own, numbered where several files have the same.
+fn names(files: &[PathBuf], extension: &str) -> BTreeMap<PathBuf, String> {
     let mut used: BTreeMap<String, usize> = BTreeMap::new();
     files
         .iter()
@@ -95,8 +108,8 @@ fn page_names(files: &[PathBuf]) -> BTreeMap<PathBuf, String> {
             *count += 1;
             // An index of the folder is there already.
             let name = match (*count, safe.as_str()) {
-                (1, safe) if safe != "index" => format!("{safe}.html"),
-                (n, safe) => format!("{safe}-{n}.html"),
+                (1, safe) if safe != "index" => format!("{safe}.{extension}"),
+                (n, safe) => format!("{safe}-{n}.{extension}"),
             };
             (file.clone(), name)
         })

@@ -11,8 +11,40 @@ use kutzbach::mechanism::Mechanism;
 use kutzbach::mobility::{Analysis, AnalysisOptions, analyse};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::sync::LazyLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// The program, built with these tests.
+pub const PROGRAM: &str = env!("CARGO_BIN_EXE_kutzbach");
+
+/// The program, to be started without anything of whoever runs the tests: neither the width and colours of a terminal nor
+/// folders of packages, home, locale or time zone.
+pub fn program() -> Command {
+    let mut program = Command::new(PROGRAM);
+    program.env_clear();
+    // Without it no program of Windows starts.
+    program.envs(std::env::var_os("SystemRoot").map(|root| ("SystemRoot", root)));
+    program
+}
+
+/// Sends a process what Ctrl-C sends; it must not have ended. Every shell has `kill` built in, not every machine a program.
+#[cfg(unix)]
+pub fn press_ctrl_c(process: &std::process::Child) {
+    let sent = Command::new("sh")
+        .args(["-c", "kill -INT \"$1\"", "sh", &process.id().to_string()])
+        .status()
+        .unwrap();
+    assert!(sent.success(), "it had ended before");
+}
+
+/// A folder of its own for one test, empty.
+pub fn empty_folder(test: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
+    let _ = std::fs::remove_dir_all(&path);
+    std::fs::create_dir_all(&path).unwrap();
+    path
+}
 
 /// A folder of the package.
 pub fn folder(name: &str) -> PathBuf {
@@ -168,11 +200,13 @@ pub fn written(mechanism: &Mechanism) -> PathBuf {
     file
 }
 
-/// Instructions that the program executes for a report on a mechanism, as valgrind counts them.
+/// Instructions that the program executes for a report on a mechanism, as valgrind counts them: the program that
+/// `KUTZBACH_PROGRAM` names, which may be optimised, or the one built with these tests.
 pub fn instructions(mechanism: &Mechanism) -> u64 {
-    let output = std::process::Command::new("valgrind")
+    let output = Command::new("valgrind")
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
-        .args([env!("CARGO_BIN_EXE_kutzbach"), "report"])
+        .arg(std::env::var_os("KUTZBACH_PROGRAM").unwrap_or_else(|| PROGRAM.into()))
+        .arg("report")
         .arg(written(mechanism))
         .output()
         .expect("valgrind has to be installed");

@@ -11,7 +11,7 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 /// Folders above a file that are looked at.
-const HIGHEST: usize = 8;
+pub(super) const HIGHEST: usize = 8;
 /// Levels of folders below each of them.
 const DEEPEST: usize = 3;
 /// Folders that are looked at for one package, each paid for.

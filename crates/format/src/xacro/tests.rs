@@ -1,3 +1,4 @@
+use super::packages::HIGHEST;
 use crate::{ReadOptions, Reading, expanded_file, read_file_with, read_with};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::Mechanism;
@@ -540,14 +541,20 @@ fn what_costs_time_costs_steps() {
             "<xacro:m/>".repeat(1000)
         ),
         format!("{arguments}{}", "<a b='$(eval 1)'/>".repeat(1000)),
-        format!(
-            "<a/>{}",
-            "<xacro:include filename='/*/*/no*' optional='true'/>".repeat(100_000)
-        ),
     ] {
         let told = told_on_the_last_line(&body);
         assert!(told.contains("1000000 steps"), "{told}");
     }
+    // A pattern costs what it looks at, whether it fits or not: thirty names a time.
+    let files: Vec<String> = (0..30).map(|at| format!("parts/a{at}/x.xacro")).collect();
+    let mut files: Vec<(&str, &str)> = files.iter().map(|name| (&name[..], "<robot/>")).collect();
+    let pattern = "<xacro:include filename='parts/*/no*' optional='true'/>".repeat(40_000);
+    let main = robot(&format!("<xacro:if value='0'/>\n{pattern}"));
+    files.push(("main.xacro", &main));
+    let folder = Folder::new("patterns", &files);
+    let error = read_file_with(folder.0.join("main.xacro"), &ReadOptions::default()).unwrap_err();
+    assert!(error.message.contains("1000000 steps"), "{error}");
+    assert_eq!(error.line, 3, "{error}");
     let name = "n".repeat(2000);
     let told = told_on_the_last_line(&loops(&format!("[1 for {name} in [1]]")));
     assert!(told.contains("a name of more than 1000 bytes"), "{told}");
@@ -597,13 +604,13 @@ fn yaml_that_repeats_itself_is_bounded() {
     }
 }
 
-/// A folder that is removed when dropped.
+/// A folder that is removed when dropped. Deeper than packages are looked for above a file, so that nothing but what a test
+/// puts there is looked at.
 struct Folder(PathBuf);
 
 impl Folder {
     fn new(name: &str, files: &[(&str, &str)]) -> Self {
-        let folder =
-            std::env::temp_dir().join(format!("kutzbach-xacro-{}-{name}", std::process::id()));
+        let folder = Self::root(name).join("in/".repeat(HIGHEST));
         for (file, text) in files {
             let path = folder.join(file);
             std::fs::create_dir_all(path.parent().unwrap()).unwrap();
@@ -611,11 +618,15 @@ impl Folder {
         }
         Self(folder)
     }
+
+    fn root(name: &str) -> PathBuf {
+        std::env::temp_dir().join(format!("kutzbach-xacro-{}-{name}", std::process::id()))
+    }
 }
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
+        let _ = self.0.ancestors().nth(HIGHEST).map(std::fs::remove_dir_all);
     }
 }
 

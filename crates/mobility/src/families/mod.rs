@@ -8,6 +8,7 @@
 
 mod bennett;
 mod continuous;
+mod coupled;
 mod double_planar;
 mod drawn;
 mod four_bars;
@@ -18,6 +19,7 @@ mod truth;
 
 pub use bennett::{bennett_chain, bennett_row, spoiled_bennett};
 pub use continuous::{Family, continuous_families, negative_power_of_ten};
+pub use coupled::{layer_tower, limb_grid};
 pub use double_planar::double_planar;
 pub use four_bars::{
     flat_change_point, flattening_parallelogram, near_dead_centre, spoiled_parallelogram,

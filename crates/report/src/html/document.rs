@@ -189,6 +189,10 @@ fn header(report: &Report, answer: &[Block], names: &Names, out: &mut String) {
 
 /// The mechanism at the pose analysed, with where it goes drawn faintly.
 pub(super) fn still(mechanism: &Mechanism, stage: &Stage, size: [f64; 2]) -> String {
+    sketch(mechanism, stage, size).fragment()
+}
+
+pub(super) fn sketch<'a>(mechanism: &'a Mechanism, stage: &'a Stage, size: [f64; 2]) -> Sketch<'a> {
     let mut sketch = Sketch::new(mechanism, &stage.drawing, &stage.home, stage.view);
     sketch.size = size;
     sketch.gaps.clone_from(&stage.gaps);
@@ -198,7 +202,7 @@ pub(super) fn still(mechanism: &Mechanism, stage: &Stage, size: [f64; 2]) -> Str
         let poses = (0..GHOSTS).map(|k| (2 * k + 1) * all / (2 * GHOSTS));
         sketch.ghosts = poses.map(|k| played.poses[k].links.as_slice()).collect();
     }
-    sketch.fragment()
+    sketch
 }
 
 fn graph_section(facts: &Facts<'_>, out: &mut String) {

@@ -1,4 +1,4 @@
-//! A page that leads to many pages.
+//! A page that leads to many pages, and an index of pictures alone.
 
 use super::document::shell;
 use super::escape::escaped;
@@ -9,12 +9,12 @@ use kutzbach_mobility::Verdict;
 use kutzbach_model::mechanism::Mechanism;
 
 /// A thumbnail has room for this many pixels.
-const THUMBNAIL: [f64; 2] = [320.0, 200.0];
+pub(super) const THUMBNAIL: [f64; 2] = [320.0, 200.0];
 
 /// One mechanism of a gallery, or a file that is none.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// The page it leads to, relative to the gallery; `None` for a file that could not be read.
+    /// The page it leads to, or its still, relative to the gallery; `None` for a file that could not be read.
     page: Option<String>,
     title: String,
     sentence: String,
@@ -91,6 +91,13 @@ impl Entry {
     }
 }
 
+/// Members of the groups that have any, those that move first, each group in the order given.
+fn groups(entries: &[Entry]) -> impl Iterator<Item = (Group, Vec<&Entry>)> {
+    let members = |group| -> Vec<&Entry> { entries.iter().filter(|e| e.group == group).collect() };
+    let all = Group::ALL.into_iter().map(move |g| (g, members(g)));
+    all.filter(|(_, members)| !members.is_empty())
+}
+
 /// The page with a thumbnail of every mechanism, those that move first, each group in the order given.
 #[must_use]
 pub fn index(title: &str, entries: &[Entry]) -> String {
@@ -100,11 +107,7 @@ pub fn index(title: &str, entries: &[Entry]) -> String {
         escaped(title),
         counted(entries.len(), "mechanism")
     );
-    for group in Group::ALL {
-        let members: Vec<&Entry> = entries.iter().filter(|e| e.group == group).collect();
-        if members.is_empty() {
-            continue;
-        }
+    for (group, members) in groups(entries) {
         content.push_str(&format!(
             "<section><h2>{} <span class=\"quiet\">{}</span></h2>\n<ul class=\"cards\">\n",
             group.title(),
@@ -133,4 +136,27 @@ pub fn index(title: &str, entries: &[Entry]) -> String {
     }
     content.push_str("</main>\n");
     shell(title, &content, Assets::Beside)
+}
+
+/// An index in Markdown for where pages are not shown: the still that each entry names beside what is said of its mechanism,
+/// those that move first, each group in the order given.
+#[must_use]
+pub fn stills_index(title: &str, entries: &[Entry]) -> String {
+    let mut text = format!("# {}\n", escaped(title));
+    for (group, members) in groups(entries) {
+        text += &format!("\n## {}: {}\n\n<table>\n", group.title(), members.len());
+        for entry in members {
+            let picture = entry.page.as_ref().map_or_else(String::new, |still| {
+                format!("<img src=\"{}\" alt=\"\" width=\"240\">", escaped(still))
+            });
+            text += &format!(
+                "<tr><td>{picture}</td><td><b>{}</b><br>{}<br><sub>{}</sub></td></tr>\n",
+                escaped(&entry.title),
+                escaped(&entry.sentence),
+                escaped(&entry.figures)
+            );
+        }
+        text += "</table>\n";
+    }
+    text
 }

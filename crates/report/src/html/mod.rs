@@ -47,7 +47,7 @@ use crate::picture::view::View;
 pub use accuracy::accuracy_page;
 pub use configurations::{Shown, configurations_page};
 pub use document::{SCRIPT, STYLE, script, style};
-pub use gallery::{Entry, index};
+pub use gallery::{Entry, index, stills_index};
 use kutzbach_closure::{Arithmetic, Geometry, Rigid, spanning_poses};
 use kutzbach_mobility::Analysis;
 use kutzbach_model::mechanism::Mechanism;
@@ -192,7 +192,13 @@ impl<'a> Prepared<'a> {
         document::document(&self.facts, &self.stage, self.assets)
     }
 
-    /// The entry of a gallery that leads to the page of this name.
+    /// The mechanism at the pose analysed, with where it goes drawn faintly, as a small SVG document.
+    #[must_use]
+    pub fn still(&self) -> String {
+        document::sketch(self.facts.mechanism, &self.stage, gallery::THUMBNAIL).document()
+    }
+
+    /// The entry of a gallery that leads to the page of this name, or shows the still of this name.
     #[must_use]
     pub fn entry(&self, page: &str) -> Entry {
         Entry::new(page, self.facts.mechanism, self.facts.report, &self.stage)
