@@ -89,6 +89,8 @@ mod variations;
 mod verification;
 mod work_precision;
 mod world;
+#[path = "writers/main.rs"]
+mod writers;
 mod written_otherwise;
 mod zoo;
 mod zoo2;

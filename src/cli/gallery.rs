@@ -7,6 +7,7 @@ use kutzbach::report::Options;
 use kutzbach::report::html::{
     Assets, Entry, Facts, Prepared, SCRIPT, STYLE, index, script, stills_index, style,
 };
+use std::any::Any;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -30,8 +31,8 @@ pub struct Arguments {
 /// Runs the command.
 ///
 /// # Errors
-/// Where a path does not exist or the output cannot be written. A file that cannot be read is told of in the index and on
-/// standard error, and all others are still done.
+/// Where a path does not exist or the output cannot be written. A file that cannot be read, or whose page cannot be made, is told
+/// of in the index and on standard error, and all others are still done.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let files = files::mechanism_files(&arguments.paths)?;
     let names = names(&files, if arguments.stills { "svg" } else { "html" });
@@ -46,7 +47,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     }
     let done = files::each(&files, |file| {
         let name = &names[file];
-        let (entry, content) = one(file, name, arguments.stills)?;
+        // A fault of this program in one page is no reason to lose the others.
+        let made = std::panic::catch_unwind(|| one(file, name, arguments.stills));
+        let (entry, content) = made.unwrap_or_else(|fault| Err(broken(file, &*fault)))?;
         put(name, &content)?;
         Ok(entry)
     });
@@ -65,6 +68,20 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         false => put("index.html", &index(&arguments.title, &entries))?,
     }
     Ok(code)
+}
+
+/// What a page that could not be made broke on.
+fn broken(file: &Path, fault: &(dyn Any + Send)) -> Failure {
+    let text = fault.downcast_ref::<String>().map(String::as_str);
+    let text = text.or_else(|| fault.downcast_ref::<&str>().copied());
+    Failure::Plain {
+        message: format!(
+            "{}: its page could not be made, by a fault of this program: {}",
+            file.display(),
+            text.unwrap_or("no reason is known")
+        ),
+        help: None,
+    }
 }
 
 /// Reads, analyses and draws one file: its entry, and its page or still.

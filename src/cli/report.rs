@@ -13,7 +13,7 @@ use kutzbach::mechanism::{FreedomPart, Mechanism};
 use kutzbach::mobility::{Analysis, ExactBudget};
 use kutzbach::report::html::{Assets, Facts, Prepared};
 use kutzbach::report::text::{Layout, Units, render};
-use kutzbach::report::{Options, PlayAsked, Report, Verdict, assembled_file};
+use kutzbach::report::{Options, PlayAsked, Report, assembled_file};
 use kutzbach::simulate::verification::{
     Moment, Observer, Passage, Verification, VerificationOptions, verify,
 };
@@ -39,7 +39,8 @@ pub struct Arguments {
     /// Where the verdict hangs on how the file's numbers were rounded, write the nearest mechanism found that moves to a file too
     #[arg(long, value_name = "OUT")]
     nearest: Option<std::path::PathBuf>,
-    /// End with exit code 2 where anything unusual of the file is not read, and with 3 where the verdict is undecided
+    /// End with exit code 2 where anything unusual of the file is not read, and with 3 where the verdict or the motion of a
+    /// link is undecided, or the mechanism does not assemble
     #[arg(long)]
     strict: bool,
     /// Show every row and every detail: proofs, loops, independent sub-mechanisms, margins, and what of the file was skipped
@@ -224,8 +225,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         })?;
         output::put(&kutzbach::format::write(&nearest.mechanism), Some(out))?;
     }
-    let undecided = report.mobility.verdict == Verdict::Undecided;
-    Ok(if arguments.strict && undecided {
+    Ok(if arguments.strict && !report.is_decided() {
         UNDECIDED
     } else {
         DONE

@@ -79,6 +79,8 @@ pub struct Assembly {
     /// What the residual was held against: the numbers' stated precision and rounding, whichever is larger; or what was
     /// given.
     pub tolerance: f64,
+    /// Length of the loop by which both count (m): times it, they are gaps at the joints, of angles at this lever.
+    pub length: f64,
     /// Largest distance a joint was moved from where the file draws it (m).
     pub moved: f64,
     /// Gauss–Newton steps taken, summed over the parts.
@@ -150,6 +152,7 @@ pub fn assemble_with(
         closed: true,
         residual: 0.0,
         tolerance: 0.0,
+        length: 1.0,
         moved: 0.0,
         steps: 0,
         states: geometry.states.clone(),
@@ -202,8 +205,13 @@ pub fn assemble_with(
         assembly.jacobians.push(outcome.jacobian);
         assembly.closed &= outcome.residual <= outcome.tolerance;
         // Of several parts the one that is farthest from closing speaks for all.
-        assembly.residual = largest(&[assembly.residual, outcome.residual]);
-        assembly.tolerance = assembly.tolerance.max(outcome.tolerance);
+        let share = |residual: f64, allowed: f64| residual / allowed.max(f64::MIN_POSITIVE);
+        let known = share(assembly.residual, assembly.tolerance);
+        if !known.is_nan() && !(share(outcome.residual, outcome.tolerance) < known) {
+            assembly.residual = outcome.residual;
+            assembly.tolerance = outcome.tolerance;
+            assembly.length = outcome.length;
+        }
         assembly.steps += outcome.steps;
     }
     let poses = spanning_poses(mechanism, geometry, &assembly.states);
@@ -370,7 +378,9 @@ fn close(
         }
         steps += outcome.steps;
         if outcome.closed() {
-            if outcome.steps > 0 {
+            if let Some(closed) = nearest::second_order(task, reference, states, &outcome, work)? {
+                outcome = closed;
+            } else if outcome.steps > 0 {
                 outcome = nearest::commensurate(task, reference, states, outcome, work)?;
             }
             if outcome.steps > 0 && limits::excess(task, states) > 0.0 {

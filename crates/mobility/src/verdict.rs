@@ -85,7 +85,7 @@ pub fn unassembled(assembly: &Assembly) -> Mobility {
         complex_dimension: None,
         level: CertificateLevel::Numeric,
         certificate: format!(
-            "{}: the best pose still misses by {:.2e} (allowed {:.2e})",
+            "{}: the best pose still misses by {:.2e} of its loop's length or rad (allowed {:.2e})",
             match &assembly.proven_open {
                 Some(_) if assembly.held.is_empty() => "a loop is proven to close at no pose",
                 Some(_) => "a loop is proven to close at no pose with the held joints as they are",

@@ -49,9 +49,9 @@ pub(super) fn assembly(mechanism: &Mechanism, found: &closure::Assembly) -> Asse
     gaps.sort_by(|a, b| natural_order(&a.cycle, &b.cycle));
     Assembly {
         closed: Some(found.closed),
-        residual: Some(found.residual),
+        residual: Some(found.residual * found.length),
         moved: Some(found.moved),
-        tolerance: Some(found.tolerance),
+        tolerance: Some(found.tolerance * found.length),
         tolerance_asked: false,
         gaps,
         starts: Some(found.starts),

@@ -31,6 +31,8 @@ pub(super) struct Effort {
     pub(super) steps: usize,
     /// Steps in which the sum of squares has to halve; `None` lets it creep.
     pub(super) patience: Option<usize>,
+    /// Whether a gap that counts as closed is closed all the same, however far that moves the joints.
+    pub(super) to_rounding: bool,
 }
 
 impl Effort {
@@ -38,16 +40,24 @@ impl Effort {
     pub(super) const LONG: Self = Self {
         steps: 200,
         patience: None,
+        to_rounding: false,
     };
     /// Only where it stands.
     pub(super) const NONE: Self = Self {
         steps: 0,
         patience: None,
+        to_rounding: false,
     };
     /// From one start among many.
     pub(super) const SHORT: Self = Self {
         steps: 80,
         patience: Some(12),
+        to_rounding: false,
+    };
+    /// From a pose beside one that counts as closed, for the last of the gap.
+    pub(super) const TO_ROUNDING: Self = Self {
+        to_rounding: true,
+        ..Self::SHORT
     };
 }
 
@@ -55,6 +65,10 @@ impl Effort {
 pub(super) struct PartOutcome {
     pub(super) residual: f64,
     pub(super) tolerance: f64,
+    /// Length by which both count (m): that of the cycle which stays open farthest.
+    pub(super) length: f64,
+    /// What the arithmetic leaves of a closed cycle (rad, cycle lengths).
+    pub(super) rounding: f64,
     pub(super) steps: usize,
     /// Floating-point operations, roughly: see [`step_work`].
     pub(super) work: f64,
@@ -68,6 +82,8 @@ impl PartOutcome {
         Self {
             residual: f64::INFINITY,
             tolerance: 0.0,
+            length: 1.0,
+            rounding: 0.0,
             steps: 0,
             work: 0.0,
             jacobian: None,
@@ -208,7 +224,7 @@ pub(super) fn descend(
             }
             milestone = square;
         }
-        let within = residual <= stated.min(COARSEST_CLOSING);
+        let within = residual <= stated.min(COARSEST_CLOSING) && !effort.to_rounding;
         if within && !polishing {
             // The caution that led here from afar is no measure of what the steps at the end are worth. Some is needed: beside
             // a closed pose of dependent equations a step without damping goes any way along the motion.
@@ -251,30 +267,35 @@ pub(super) fn descend(
             }
         }
     }
-    let (residual, tolerance) = match task.tolerance {
-        // What still counts as closed is the uncertainty of a walk around the cycle, which is that of a Jacobian entry.
-        None => (residual, (stated + rounding).min(COARSEST_CLOSING)),
-        Some(given) => against(given, &here, rounding),
+    // What still counts as closed is the uncertainty of a walk around the cycle, which is that of a Jacobian entry.
+    let allowed = |length: f64| match task.tolerance {
+        None => stated + rounding,
+        Some(given) => given / length + rounding,
     };
+    let (residual, tolerance, length) = worst_of(&here, allowed);
     Ok(PartOutcome {
         residual,
         tolerance,
+        length,
+        rounding,
         steps,
         work: work * (steps + 1) as f64,
         jacobian: Some(here),
     })
 }
 
-/// The equation that exceeds a tolerance in metres by most, or comes closest to that: its residual, and what it may be.
-/// Angles, and displacements in cycle lengths, count by the length of their cycle; couplings by that of the part.
-fn against(given: f64, here: &CycleJacobian<f64>, rounding: f64) -> (f64, f64) {
+/// The equation that exceeds what is allowed by most, or comes closest to that: its residual, what it may be, and the length by
+/// which it counts (m). `allowed` says what an equation may leave (rad, lengths of its cycle) that counts by a length (m): that of the
+/// cycle, for couplings that of the part.
+fn worst_of(here: &CycleJacobian<f64>, allowed: impl Fn(f64) -> f64) -> (f64, f64, f64) {
     let of_cycles = 6 * here.walks.len();
-    let mut worst = (0.0, (given / here.length + rounding).min(COARSEST_CLOSING));
+    let may = |length: f64| allowed(length).min(COARSEST_CLOSING);
+    let mut worst = (0.0f64, may(here.length), here.length);
     let mut heed = |rows: &[f64], length: f64| {
         let found = largest(rows);
-        let allowed = (given / length + rounding).min(COARSEST_CLOSING);
-        if !(found * worst.1 <= worst.0 * allowed) {
-            worst = (found, allowed);
+        // What is not a number must not pass for small.
+        if !worst.0.is_nan() && !(found * worst.1 <= worst.0 * may(length)) {
+            worst = (found, may(length), length);
         }
     };
     for (walk, rows) in here.walks.iter().zip(here.residual.chunks(6)) {

@@ -205,6 +205,53 @@ pub(super) fn commensurate(
     }
 }
 
+/// A gap is clear of rounding where it is so many times what rounding leaves: nearer to that, what a pose beside it leaves over may be
+/// less by luck.
+const CLEAR: f64 = 1e3;
+
+/// Where a pose counts as closed and its gap is more than rounding: looks for a pose beside it that closes. At a singular pose such a
+/// gap ε lies across all that the joints do to first order, and is closed to second order by going about √ε along the direction that
+/// gives way, one way or the other: drawn a little short of stretched, a chain is closed by bending it. A gap that stays open there too
+/// is a misfit of dimensions. The states end at the closed pose, or where they were.
+pub(super) fn second_order(
+    task: &Task<'_>,
+    reference: &[JointState<f64>],
+    states: &mut [JointState<f64>],
+    outcome: &PartOutcome,
+    work: &mut f64,
+) -> Result<Option<PartOutcome>, MatrixError> {
+    let gap = outcome.residual;
+    if !(gap > CLEAR * outcome.rounding) {
+        return Ok(None);
+    }
+    let drawn = jacobian(task.mechanism, task.geometry, reference, task.part)?;
+    let farthest = COMMENSURATE * gap.max(largest(&drawn.residual)).sqrt();
+    let as_found = Kept::of(task.part, states);
+    let mut nearest: Option<(f64, Kept<f64>, PartOutcome)> = None;
+    for factor in std::iter::once(0.0).chain(BESIDE) {
+        as_found.put_back(states);
+        if factor > 0.0 {
+            super::descent::nudge(task, (factor * gap.sqrt()).min(1.0), states)?;
+        }
+        let begun = descend(task, states, Effort::TO_ROUNDING)?;
+        *work -= begun.work;
+        let far = distance(task, reference, states, &begun);
+        let closes = begun.residual <= begun.rounding && far <= farthest;
+        if closes && nearest.as_ref().is_none_or(|(least, ..)| far < *least) {
+            nearest = Some((far, Kept::of(task.part, states), begun));
+        }
+    }
+    let Some((_, pose, begun)) = nearest else {
+        as_found.put_back(states);
+        return Ok(None);
+    };
+    pose.put_back(states);
+    Ok(Some(PartOutcome {
+        steps: outcome.steps + begun.steps.max(1),
+        ..begun
+    }))
+}
+
 /// Takes back whole turns of hinges: to within half a turn of the reference, or to where the limits allow it. What a
 /// coupling relates counts its turns.
 pub(super) fn unwind(

@@ -12,6 +12,7 @@ use crate::picture::pictogram::{self, Pictogram};
 use crate::picture::plot;
 use crate::picture::sketch::{self, Sketch};
 use crate::schema::{Cycle, Report};
+use crate::text::words::metres;
 use crate::text::{
     Block, Layout, Page, Units, assembly, branches, counts, explanation, four_bars, joints,
     sections, verdict,
@@ -21,6 +22,7 @@ use base64::engine::general_purpose::STANDARD;
 use kutzbach_model::graph::{self, FoldedGraph};
 use kutzbach_model::mechanism::Mechanism;
 use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
 
 /// Names of the files that pages of a gallery share.
 pub const SCRIPT: &str = "viewer.js";
@@ -131,7 +133,15 @@ fn body(facts: &Facts<'_>, stage: &Stage, names: &Names, out: &mut String) {
     header(report, answer, names, out);
     out.push_str("<section id=\"motion\"><h2>Motion</h2>\n<div id=\"stage\">");
     out.push_str(&still(facts.mechanism, stage, STILL));
-    out.push_str("</div>\n<div id=\"controls\"></div>\n</section>\n<section id=\"reasons\">\n");
+    out.push_str("</div>\n<div id=\"controls\"></div>\n");
+    if let Some(distance) = stage.nearest {
+        out.push_str(&format!(
+            "<p class=\"quiet\">As drawn it does not move. Shown is the nearest mechanism found that does: its dimensions \
+             differ by up to {}.</p>\n",
+            metres(distance)
+        ));
+    }
+    out.push_str("</section>\n<section id=\"reasons\">\n");
     blocks::write(reasons, names, out);
     out.push_str("</section>\n");
     let section = |id: &str, write: &dyn Fn(&mut Page), out: &mut String| {
@@ -146,7 +156,11 @@ fn body(facts: &Facts<'_>, stage: &Stage, names: &Names, out: &mut String) {
     section("freedoms", &|page| counts::write(report, page), out);
     section("assembly", &|page| assembly::section(report, page), out);
     section("branches", &|page| branches::branches(report, page), out);
-    let ranges = ranges(facts.mechanism, stage);
+    // Of another mechanism than the one that the table is about they would say nothing.
+    let ranges = match stage.nearest {
+        None => ranges(facts.mechanism, stage),
+        Some(_) => BTreeMap::new(),
+    };
     section(
         "joints",
         &|page| {

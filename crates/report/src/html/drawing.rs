@@ -4,7 +4,7 @@ use super::data::{
     BranchData, CycleData, EventData, HeldData, JointData, LinkData, MotionData, PageData, Palette,
     Pose, RoleData, SCHEMA, ShapeData, VariableData,
 };
-use super::motions::{Played, Repertoire};
+use super::motions::Played;
 use super::names::{Names, shown};
 use super::{Facts, Stage};
 use base64::Engine;
@@ -72,7 +72,7 @@ pub(super) fn page_data(facts: &Facts<'_>, stage: &Stage, names: &Names) -> Page
         home: placed(&stage.home, stage),
         roles: roles(mechanism, &stage.roles),
         palette: palette(),
-        branches: branches(facts, &stage.repertoire),
+        branches: branches(stage),
         still: stage.repertoire.nothing.clone(),
         motions: stage
             .repertoire
@@ -156,14 +156,13 @@ fn hex(colour: Colour) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
-fn branches(facts: &Facts<'_>, repertoire: &Repertoire) -> Vec<BranchData> {
-    let branches = facts.analysis.branches.as_deref().unwrap_or_default();
+fn branches(stage: &Stage) -> Vec<BranchData> {
+    let repertoire = &stage.repertoire;
+    let branches = stage.branches.iter().enumerate();
     branches
-        .iter()
-        .enumerate()
-        .map(|(index, branch)| BranchData {
-            name: branch.name.clone(),
-            dimension: branch.dimension,
+        .map(|(index, (name, dimension))| BranchData {
+            name: name.clone(),
+            dimension: *dimension,
             motions: (0..repertoire.played.len())
                 .filter(|&m| repertoire.played[m].branch == index)
                 .collect(),

@@ -49,7 +49,7 @@ pub use configurations::{Shown, configurations_page};
 pub use document::{SCRIPT, STYLE, script, style};
 pub use gallery::{Entry, index, stills_index};
 use kutzbach_closure::{Arithmetic, Geometry, Rigid, spanning_poses};
-use kutzbach_mobility::Analysis;
+use kutzbach_mobility::{Analysis, AnalysisOptions, Depth, Verdict, analyse};
 use kutzbach_model::mechanism::Mechanism;
 use kutzbach_scene::{Drawing, Roles};
 use kutzbach_simulate::accuracy::Accuracy;
@@ -112,18 +112,28 @@ struct Stage {
     /// Points that should be one, where the mechanism does not assemble (world, m).
     gaps: Vec<[[f64; 3]; 2]>,
     repertoire: Repertoire,
+    /// Names and dimensions of the branches of what is shown.
+    branches: Vec<(String, usize)>,
+    /// How far the dimensions shown are from those drawn (m), where the mechanism drawn does not move and the nearest that does is
+    /// shown instead.
+    nearest: Option<f64>,
 }
 
 impl Stage {
     fn new(facts: &Facts<'_>, link_poses: usize) -> Self {
+        let nearest = nearest_that_moves(facts);
+        let (mechanism, analysis) = match &nearest {
+            Some((mechanism, analysis)) => (*mechanism, analysis),
+            None => (facts.analysis.of(facts.mechanism), facts.analysis),
+        };
         let configuration = facts
             .configuration
-            .and_then(|name| facts.mechanism.configuration(name));
-        let geometry = Geometry::new(facts.mechanism, configuration, &Arithmetic::double());
-        let (home, _) = spanning_poses(facts.mechanism, &geometry, &facts.analysis.assembly.states);
-        let branches = facts.analysis.branches.as_deref().unwrap_or_default();
-        let roles = Roles::of(facts.mechanism, facts.analysis, branches.first(), None);
-        let drawing = Drawing::new(facts.mechanism, &geometry, &roles);
+            .and_then(|name| mechanism.configuration(name));
+        let geometry = Geometry::new(mechanism, configuration, &Arithmetic::double());
+        let (home, _) = spanning_poses(mechanism, &geometry, &analysis.assembly.states);
+        let branches = analysis.branches.as_deref().unwrap_or_default();
+        let roles = Roles::of(mechanism, analysis, branches.first(), None);
+        let drawing = Drawing::new(mechanism, &geometry, &roles);
         let [low, high] = drawing.bounds;
         let centre = [0, 1, 2].map(|i| 0.5 * (low[i] + high[i]));
         let near = |link: &Rigid<f64>| {
@@ -135,13 +145,16 @@ impl Stage {
             origins: home.iter().map(near).collect(),
             centre,
             view: View::of(&drawing, &geometry.displacements, &home),
-            gaps: gaps(facts, &geometry, &home),
-            repertoire: repertoire(
-                facts.mechanism,
-                facts.analysis,
-                facts.configuration,
-                link_poses,
-            ),
+            gaps: gaps((mechanism, analysis), &geometry, &home),
+            repertoire: repertoire(mechanism, analysis, facts.configuration, link_poses),
+            branches: branches
+                .iter()
+                .map(|b| (b.name.clone(), b.dimension))
+                .collect(),
+            nearest: nearest.as_ref().map(|_| {
+                let nominal = facts.analysis.mobility.nominal.as_ref();
+                nominal.and_then(|nominal| nominal.distance).unwrap_or(0.0)
+            }),
             home,
             drawing,
             roles,
@@ -150,14 +163,33 @@ impl Stage {
     }
 }
 
+/// The nearest mechanism that moves, analysed, where the one drawn does not, and that one lies within its digits.
+fn nearest_that_moves<'a>(facts: &Facts<'a>) -> Option<(&'a Mechanism, Analysis)> {
+    let drawn = &facts.analysis.mobility;
+    let within = drawn.nominal.as_ref().is_some_and(|n| n.within_digits);
+    let nearest = facts.analysis.nearest.as_ref();
+    let nearest = nearest.filter(|_| within && drawn.verdict != Verdict::Mobile)?;
+    let options = AnalysisOptions {
+        configuration: facts.configuration.map(str::to_owned),
+        depth: Depth::Motions,
+        ..AnalysisOptions::default()
+    };
+    let analysis = analyse(&nearest.mechanism, &options).ok()?;
+    (analysis.mobility.verdict == Verdict::Mobile).then_some((&nearest.mechanism, analysis))
+}
+
 /// Where the loops of a mechanism that does not assemble stay open: the two sides of the joint that closes each.
-fn gaps(facts: &Facts<'_>, geometry: &Geometry<f64>, links: &[Rigid<f64>]) -> Vec<[[f64; 3]; 2]> {
-    let assembly = &facts.analysis.assembly;
+fn gaps(
+    (mechanism, analysis): (&Mechanism, &Analysis),
+    geometry: &Geometry<f64>,
+    links: &[Rigid<f64>],
+) -> Vec<[[f64; 3]; 2]> {
+    let assembly = &analysis.assembly;
     if assembly.closed {
         return Vec::new();
     }
     let side = |joint: usize, side: usize| {
-        let known = &facts.mechanism.joints()[joint];
+        let known = &mechanism.joints()[joint];
         let link = [known.predecessor.link.0, known.successor.link.0][side];
         links[link].apply(&geometry.sides[joint][side].translation)
     };

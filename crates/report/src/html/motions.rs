@@ -149,7 +149,14 @@ pub(super) fn repertoire(
         let driven = drives.first().map(|variable| variable.joint);
         let roles = Roles::of(mechanism, analysis, Some(&branches[branch]), driven);
         let played = play(mechanism, branch, motion, drives, roles, samples);
-        repertoire.played.push(played);
+        // A curve of which no pose can be computed is none to show.
+        match played.poses.is_empty() {
+            false => repertoire.played.push(played),
+            true => {
+                let still = &mut repertoire.still[branch];
+                still.get_or_insert_with(|| "no pose of this motion could be computed".to_owned());
+            }
+        }
     }
     repertoire
 }

@@ -138,3 +138,37 @@ fn a_rigid_mechanism_says_why_nothing_moves() {
     assert!(repertoire.played.is_empty());
     assert!(repertoire.nothing.unwrap().contains("rigid"));
 }
+
+/// Bennett's linkage to the millimetre, axes to 1e-3: as written it closes nowhere along its motion.
+const ROUNDED: &str = r#"<robot name="rounded"><link name="g"/><link name="l1"/><link name="l2"/><link name="l3"/>
+<joint name="h1" type="continuous"><parent link="g"/><child link="l1"/><origin xyz="0.100 0.200 0.050"/><axis xyz="0.386 -0.095 0.918"/></joint>
+<joint name="h2" type="continuous"><parent link="l1"/><child link="l2"/><origin xyz="0.085 0.180 -0.017"/><axis xyz="0.781 -0.318 0.538"/></joint>
+<joint name="h3" type="continuous"><parent link="l2"/><child link="l3"/><origin xyz="-0.186 -0.241 0.128"/><axis xyz="0.032 0.451 0.892"/></joint>
+<loop name="h4" type="continuous"><predecessor link="l3"><origin xyz="-0.200 -0.003 0.009"/></predecessor><successor link="g"><origin xyz="-0.201 0.136 0.170"/></successor><axis xyz="0.007 0.876 0.483"/></loop></robot>"#;
+
+#[test]
+fn of_rounded_numbers_the_mechanism_meant_is_shown() {
+    let mechanism = kutzbach_format::read(ROUNDED, "rounded.urdf", &[])
+        .unwrap()
+        .mechanism;
+    let input = Input {
+        mechanism: &mechanism,
+        file: "rounded.urdf",
+        format: "urdf",
+        warnings: &[],
+        skipped: &[],
+    };
+    let (report, analysis) = analysed_report_on(&input, &Options::default()).unwrap();
+    let facts = Facts {
+        mechanism: &mechanism,
+        report: &report,
+        analysis: &analysis,
+        configuration: None,
+        verification: None,
+        accuracy: None,
+    };
+    let prepared = Prepared::new(facts, Assets::Inside);
+    let played = &prepared.stage.repertoire.played;
+    assert!(!played.is_empty() && played.iter().all(|p| p.poses.len() > 20));
+    assert!(prepared.page().unwrap().contains("viewer") && !prepared.stage.branches.is_empty());
+}

@@ -7,11 +7,11 @@ use serde::{Deserialize, Serialize};
 pub struct Assembly {
     /// Whether all loops close within [`tolerance`](Self::tolerance); `null` where it was not tried.
     pub closed: Option<bool>,
-    /// The largest gap left, as a length: angles count by the mechanism's characteristic length. Metres.
+    /// The largest gap left, as a length: angles count by the length of their loop. Metres.
     pub residual: Option<f64>,
     /// How far the pose had to move from the file's to close; the largest shift of a joint, in metres.
     pub moved: Option<f64>,
-    /// What the residual is held against: rounding and the numbers' stated precision, or what was given.
+    /// What the residual is held against: rounding and the numbers' stated precision, or what was given. Metres.
     pub tolerance: Option<f64>,
     /// Whether [`tolerance`](Self::tolerance) is the one asked for, instead of what the numbers' precision allows.
     #[serde(default)]

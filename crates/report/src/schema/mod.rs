@@ -32,6 +32,7 @@ pub use structure::{Cycle, Tree, TreeLink};
 
 use super::change_sets::ChangeSets;
 use super::four_bar::FourBar;
+use kutzbach_mobility::Verdict;
 use serde::{Deserialize, Serialize};
 
 /// The value of [`Report::schema`].
@@ -101,8 +102,33 @@ pub struct Report {
     pub timing: Option<Timing>,
 }
 
+impl Report {
+    /// Whether it says what was asked: the mechanism assembles, its mobility is decided, and so is how every link moves.
+    #[must_use]
+    pub fn is_decided(&self) -> bool {
+        let known = |motion: &Motion| motion.freedom.is_some() && motion.rotations.is_some();
+        matches!(self.mobility.verdict, Verdict::Mobile | Verdict::Rigid)
+            && self.motions.iter().all(known)
+    }
+}
+
 // By reference, as serde calls it.
 #[allow(clippy::trivially_copy_pass_by_ref)]
 fn is_false(value: &bool) -> bool {
     !*value
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::samples::{mobile, rigid, unassembled, undecided};
+
+    #[test]
+    fn decided_is_what_assembles_and_leaves_no_motion_open() {
+        assert!(mobile().is_decided() && rigid().is_decided());
+        assert!(!unassembled().is_decided() && !undecided().is_decided());
+        let mut open = mobile();
+        assert!(!open.motions.is_empty());
+        open.motions[0].rotations = None;
+        assert!(!open.is_decided());
+    }
 }

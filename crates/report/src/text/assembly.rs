@@ -247,7 +247,7 @@ fn open(assembly: &Assembly, page: &mut Page) {
     }
     let mut table = Table::new()
         .column("loop", Column::Shrinking)
-        .column("gap (m)", Column::Numbers)
+        .column("gap", Column::Numbers)
         .column("angle (°)", Column::Numbers);
     let mut gaps: Vec<_> = assembly.gaps.iter().collect();
     let all = gaps.len();
@@ -262,7 +262,7 @@ fn open(assembly: &Assembly, page: &mut Page) {
             subject,
             vec![
                 Cell::new(&gap.cycle),
-                Cell::new(figure(gap.left_position)).tint(Tint::Bad),
+                Cell::new(metres(gap.left_position)).tint(Tint::Bad),
                 Cell::new(figure(gap.left_angle.to_degrees())),
             ],
         );
@@ -303,7 +303,7 @@ fn tolerance(assembly: &Assembly) -> Option<String> {
     if !(gap > 0.0 && gap < SMALL_GAP && residual < SMALL_GAP) {
         return None;
     }
-    // A power of ten above the gap, and above what the residual makes of a loop of some metres.
+    // A power of ten above the gap at the joint, and above that with angles at the lever of the loop.
     let enough = 10f64.powi((3.0 * gap.max(residual)).log10().ceil() as i32);
     Some(format!(
         "If the file is no more precise than that, `--closure-tolerance {enough:e}` (m) takes the gap as closed."

@@ -192,7 +192,13 @@ pub fn figure(value: f64) -> String {
 /// A length in the unit that fits, from nanometres to metres: `9.6 µm`, `1.2 mm`.
 #[must_use]
 pub fn metres(value: f64) -> String {
-    let units = [(1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm")];
+    let units = [
+        (1.0, "m"),
+        (1e-3, "mm"),
+        (1e-6, "µm"),
+        (1e-9, "nm"),
+        (1e-12, "pm"),
+    ];
     // Rounded to three digits, 0.9996 mm is 1 mm.
     let unit = units
         .into_iter()

@@ -1,0 +1,174 @@
+//! Linkages as programs write them: families that move, and look-alikes that do not, in the frames and the digits of many writers.
+//!
+//! A family draws a linkage in world coordinates to the last digit of doubles (`families.rs`), frames say where links have their own
+//! (`frames.rs`), and a writer prints every number in its manner (`writers.rs`). The file is read again, and its verdict has to be that of
+//! the linkage drawn: what the digits took away was not meant to be there. Look-alikes are spoiled by far more than any writer rounds.
+
+mod families;
+mod frames;
+mod writers;
+
+use crate::support::{analysis, in_parallel};
+use families::{FAMILIES, Family};
+use frames::{FRAMES, Setting, written};
+use kutzbach::matrix::SplitMix64;
+use kutzbach::mobility::Verdict;
+use std::collections::BTreeMap;
+use std::time::Instant;
+use writers::{WRITERS, Writer};
+
+/// One file.
+struct Case {
+    family: &'static Family,
+    writer: &'static Writer,
+    setting: Setting,
+    seed: u64,
+}
+
+/// What came of it.
+struct Outcome {
+    name: String,
+    writer: &'static str,
+    said: Option<usize>,
+    finite: usize,
+    verdict: Verdict,
+    seconds: f64,
+    text: String,
+}
+
+impl Outcome {
+    fn right(&self) -> bool {
+        self.said == Some(self.finite)
+    }
+
+    /// Wrong, and nothing said of doubt.
+    fn confident(&self) -> bool {
+        self.said.is_some() && !self.right()
+    }
+
+    fn line(&self) -> String {
+        let Self { name, verdict, .. } = self;
+        format!(
+            "{name}: {verdict:?} {:?} instead of {}",
+            self.said, self.finite
+        )
+    }
+}
+
+fn tried(case: &Case) -> Outcome {
+    let mut random = SplitMix64::new(case.seed);
+    let drawn = (case.family.draw)(&mut random);
+    let text = written(&drawn, case.setting, case.writer, &mut random);
+    let reading = kutzbach::format::read(&text, "written.urdf", &[]).unwrap();
+    let started = Instant::now();
+    let mobility = analysis(&reading.mechanism).mobility;
+    Outcome {
+        name: format!(
+            "{} {} {} {}",
+            case.family.name,
+            case.writer.name,
+            case.setting.name(),
+            case.seed
+        ),
+        writer: case.writer.name,
+        said: mobility.finite(),
+        finite: drawn.finite,
+        verdict: mobility.verdict,
+        seconds: started.elapsed().as_secs_f64(),
+        text,
+    }
+}
+
+fn all_cases(seeds: std::ops::Range<u64>) -> Vec<Case> {
+    let mut cases = Vec::new();
+    for writer in &WRITERS {
+        for family in &FAMILIES {
+            for (index, setting) in FRAMES.into_iter().enumerate() {
+                cases.extend(seeds.clone().map(|seed| Case {
+                    family,
+                    writer,
+                    setting,
+                    seed: 1000 * seed + index as u64,
+                }));
+            }
+        }
+    }
+    cases
+}
+
+/// Writer, right, undecided, unassembled, wrong and confident, of so many, slowest.
+fn table(outcomes: &[Outcome]) -> String {
+    let mut rows: BTreeMap<&str, [usize; 5]> = BTreeMap::new();
+    let mut slowest: BTreeMap<&str, f64> = BTreeMap::new();
+    for outcome in outcomes {
+        let row = rows.entry(outcome.writer).or_default();
+        row[0] += usize::from(outcome.right());
+        row[1] += usize::from(outcome.verdict == Verdict::Undecided);
+        row[2] += usize::from(outcome.verdict == Verdict::Unassembled);
+        row[3] += usize::from(outcome.confident());
+        row[4] += 1;
+        let most = slowest.entry(outcome.writer).or_default();
+        *most = most.max(outcome.seconds);
+    }
+    let mut text = String::from("writer: right, undecided, unassembled, wrong, of, slowest (s)\n");
+    for (writer, row) in rows {
+        text.push_str(&format!("{writer}: {row:?} {:.1}\n", slowest[writer]));
+    }
+    text
+}
+
+/// Cases of the quick tier: each family and writer once, frames in turn.
+fn sample() -> Vec<Case> {
+    let mut cases = Vec::new();
+    for (w, writer) in WRITERS
+        .iter()
+        .enumerate()
+        .filter(|(_, writer)| writer.quick)
+    {
+        for (f, family) in FAMILIES.iter().enumerate() {
+            let index = (w + f) % FRAMES.len();
+            let seed = 7000 + index as u64;
+            let setting = FRAMES[index];
+            cases.push(Case {
+                family,
+                writer,
+                setting,
+                seed,
+            });
+        }
+    }
+    cases
+}
+
+#[test]
+fn no_writer_makes_a_verdict_wrong() {
+    let outcomes = in_parallel(&sample(), tried);
+    let wrong = outcomes.iter().filter(|o| o.confident());
+    let wrong: Vec<String> = wrong.map(Outcome::line).collect();
+    crate::support::assert_none(&wrong);
+}
+
+mod corpus {
+    use super::*;
+
+    /// Files that are not answered right lie in `KUTZBACH_WRITERS_OUT`, where that names a folder; `KUTZBACH_WRITERS` seeds are tried.
+    #[test]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
+    fn every_writer_decides() {
+        let seeds = std::env::var("KUTZBACH_WRITERS").ok();
+        let seeds = seeds.and_then(|n| n.parse().ok()).unwrap_or(1);
+        let outcomes = in_parallel(&all_cases(0..seeds), tried);
+        let told = table(&outcomes);
+        println!("{told}");
+        if let Some(out) = std::env::var_os("KUTZBACH_WRITERS_OUT") {
+            for outcome in outcomes.iter().filter(|o| !o.right()) {
+                println!("{}", outcome.line());
+                let name = format!("{}.urdf", outcome.name.replace([' ', '%', '.'], "_"));
+                std::fs::write(std::path::Path::new(&out).join(name), &outcome.text).unwrap();
+            }
+        }
+        let wrong = outcomes.iter().filter(|o| o.confident());
+        let wrong: Vec<String> = wrong.map(Outcome::line).collect();
+        crate::support::assert_none(&wrong);
+    }
+}

@@ -1,0 +1,143 @@
+//! How programs print numbers.
+
+use kutzbach::matrix::SplitMix64;
+
+/// What a number is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum What {
+    Length,
+    Angle,
+    Direction,
+}
+
+/// How one is printed.
+#[derive(Clone, Copy)]
+pub enum Style {
+    /// `%.Nf`.
+    Fixed(usize),
+    /// Rounded to so many decimals, and printed as short as can be.
+    Shortest(usize),
+    /// `%.Ng`.
+    General(usize),
+    /// Every double by its shortest text.
+    Double,
+    /// Passed through single precision, then as doubles are.
+    Single,
+    /// Passed through single precision, then `%.9g`.
+    SingleShort,
+    /// Doubles off by up to so much.
+    Noisy(f64),
+}
+
+/// A program.
+pub struct Writer {
+    pub name: &'static str,
+    /// Of lengths, angles and directions.
+    pub styles: [Style; 3],
+    /// Whether some zero of a length is written as some micrometres.
+    pub residue: bool,
+    /// Whether the quick tier asks.
+    pub quick: bool,
+}
+
+const fn alike(name: &'static str, style: Style, quick: bool) -> Writer {
+    Writer {
+        name,
+        styles: [style; 3],
+        residue: false,
+        quick,
+    }
+}
+
+const fn mixed(name: &'static str, styles: [Style; 3]) -> Writer {
+    Writer {
+        name,
+        styles,
+        residue: false,
+        quick: false,
+    }
+}
+
+pub const WRITERS: [Writer; 16] = [
+    alike("%.4f", Style::Fixed(4), false),
+    alike("%.5f", Style::Fixed(5), true),
+    alike("%.6f", Style::Fixed(6), true),
+    alike("%.9f", Style::Fixed(9), false),
+    alike("%.12f", Style::Fixed(12), false),
+    alike("%.6g", Style::General(6), false),
+    alike("%.9g", Style::General(9), false),
+    alike("doubles", Style::Double, true),
+    alike("noise 1e-12", Style::Noisy(1e-12), true),
+    alike("noise 1e-9", Style::Noisy(1e-9), true),
+    alike("single", Style::Single, false),
+    alike("single %.9g", Style::SingleShort, false),
+    Writer {
+        name: "round 6, residue",
+        styles: [Style::Shortest(6); 3],
+        residue: true,
+        quick: false,
+    },
+    mixed(
+        "lengths 6, rest full",
+        [Style::Fixed(6), Style::Double, Style::Double],
+    ),
+    mixed(
+        "lengths 4, rest 6",
+        [Style::Fixed(4), Style::Fixed(6), Style::Fixed(6)],
+    ),
+    mixed(
+        "lengths full, rest 5",
+        [Style::Double, Style::Fixed(5), Style::Fixed(5)],
+    ),
+];
+
+impl Writer {
+    pub fn number(&self, what: What, value: f64, random: &mut SplitMix64) -> String {
+        let style = match what {
+            What::Length => self.styles[0],
+            What::Angle => self.styles[1],
+            What::Direction => self.styles[2],
+        };
+        match style {
+            Style::Fixed(decimals) => bare_zero(format!("{value:.decimals$}")),
+            Style::Shortest(decimals) => {
+                let unit = 10f64.powi(decimals as i32);
+                format!("{}", (value * unit).round() / unit + 0.0)
+            }
+            Style::General(digits) => general(value, digits),
+            Style::Double => format!("{}", value + 0.0),
+            Style::Single => format!("{}", f64::from(value as f32) + 0.0),
+            Style::SingleShort => general(f64::from(value as f32), 9),
+            Style::Noisy(size) => format!("{}", value + size * random.symmetric()),
+        }
+    }
+}
+
+/// No sign before a zero.
+fn bare_zero(text: String) -> String {
+    match text.trim_start_matches(['-', '0', '.']).is_empty() {
+        true => text.trim_start_matches('-').to_owned(),
+        false => text,
+    }
+}
+
+/// `%.Ng`.
+fn general(value: f64, digits: usize) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let scientific = format!("{value:.*e}", digits - 1);
+    let (mantissa, exponent) = scientific.split_once('e').unwrap();
+    let exponent: i32 = exponent.parse().unwrap();
+    let trimmed = |text: &str| -> String {
+        match text.contains('.') {
+            true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+            false => text.to_owned(),
+        }
+    };
+    if exponent < -4 || exponent >= digits as i32 {
+        return format!("{}e{exponent}", trimmed(mantissa));
+    }
+    let decimals = usize::try_from(digits as i32 - 1 - exponent).unwrap();
+    trimmed(&format!("{value:.decimals$}"))
+}
