@@ -83,7 +83,11 @@ fn measured(name: &str, mechanism: &Mechanism, starts: usize) -> (usize, String)
     let drawn = Geometry::new(mechanism, None, &Arithmetic::double());
     let (mut closed, mut at_once, mut most, mut falsely_proven) = (0, 0, 0, 0);
     for start in 0..starts {
-        let pose = anywhere(mechanism, drawn.size.max(0.1), start);
+        let pose = anywhere(
+            mechanism,
+            drawn.size_of(0..drawn.sides.len()).max(0.1),
+            start,
+        );
         let geometry = Geometry::new(mechanism, Some(&pose), &Arithmetic::double());
         let assembly = assemble(mechanism, &geometry, &parts, &BTreeSet::new()).unwrap();
         closed += usize::from(assembly.closed);

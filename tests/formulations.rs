@@ -60,7 +60,7 @@ fn disagreements(name: &str, mechanism: &Mechanism) -> Vec<String> {
         let cycles = jacobian(mechanism, &geometry, states, part).unwrap();
         let links = positional_jacobian(mechanism, &geometry, states, part).unwrap();
         assert_eq!(links.columns(), velocities(mechanism, part));
-        let (_, rounding) = entry_accuracy(mechanism, &cycles);
+        let (_, rounding) = entry_accuracy(&cycles);
         // Where the stated precision is too coarse to be of use, the analysis takes the numbers as they are.
         let found = nullities(&cycles.matrix, &links, rank.stated + rounding);
         if found[0].is_none() || found[0] != found[1] {
@@ -123,7 +123,7 @@ fn twice_the_digits() {
             let residual = refine(&mechanism, &geometry, &mut states, part, &held).unwrap();
             let cycles = jacobian(&mechanism, &geometry, &states, part).unwrap();
             let links = positional_jacobian(&mechanism, &geometry, &states, part).unwrap();
-            let (_, rounding) = entry_accuracy(&mechanism, &cycles);
+            let (_, rounding) = entry_accuracy(&cycles);
             if !(rounding < 1e-26 && residual < 1e-26) {
                 wrong.push(format!("{name}: closed to {residual:.0e} only"));
             }

@@ -51,6 +51,7 @@ mod grippers;
 mod growth;
 mod house;
 mod html_page;
+mod independence;
 mod inputs;
 mod invariance;
 mod known_mechanisms;

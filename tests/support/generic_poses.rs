@@ -76,7 +76,7 @@ fn first_variable(mechanism: &Mechanism, joint: usize) -> usize {
 
 /// Null vectors of a part at a pose, in radians and metres by the part's own columns.
 fn tangents(mechanism: &Mechanism, here: &CycleJacobian<f64>) -> Vec<Vec<f64>> {
-    let (stated, rounding) = entry_accuracy(mechanism, here);
+    let (stated, rounding) = entry_accuracy(here);
     let mut matrix = here.matrix.clone();
     let scales = matrix.scale_columns();
     let decision = decide(&matrix, stated + rounding).unwrap();

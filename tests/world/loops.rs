@@ -265,7 +265,10 @@ mod corpus {
                 return None;
             }
             let placed = Placed::new(mechanism.clone());
-            let length = placed.geometry.size.max(1e-3);
+            let length = placed
+                .geometry
+                .size_of(0..placed.geometry.sides.len())
+                .max(1e-3);
             for solver in SOLVERS {
                 let options = options(solver, Effects::default(), 1e-3, 8);
                 let built = placed.try_world(&analysis.assembly.states, &options);

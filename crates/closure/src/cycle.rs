@@ -4,7 +4,7 @@
 //! nor on how far the cycle is from the ground: a chain of ten thousand loops keeps the digits of a single one.
 
 use super::displacement::JointState;
-use super::geometry::{Geometry, Uncertainty};
+use super::geometry::{Geometry, Uncertainty, least_length};
 use kutzbach_math::matrix::Real;
 use kutzbach_math::space::{self, PlacedScrew, Rigid, Vector, three};
 
@@ -83,10 +83,16 @@ impl<R: Real> WalkedCycle<R> {
                 .iter()
                 .map(|(joint, _)| &geometry.uncertainties[*joint]),
         );
+        let arm = match geometry.arm(cycle) {
+            0.0 => cycle
+                .first()
+                .map_or(0.0, |(joint, _)| geometry.arms[*joint]),
+            arm => arm,
+        };
         let (centre, length) = characteristic_length(
             joints.iter().flat_map(|j| &j.screws),
-            reach.max(geometry.size),
-            geometry.least_length(),
+            reach,
+            arm,
             &uncertainty,
         );
         let extent = joints
@@ -161,15 +167,17 @@ impl<R: Real> WalkedCycle<R> {
 ///
 /// The point minimises `Σ |(I − u uᵀ)(c − p)|²`. Where that leaves a direction open (all axes parallel) it stays at the
 /// mean of the axis points along that direction. Where no length is left because all axes meet in a point, as far as
-/// rounding and stated precision let that be seen, the size of the set of axis points serves, then the RMS pitch, then
-/// `reach`, the largest coordinate met (m); finally 1 m. What is not above `least` (m) is no length but rounding.
+/// rounding and stated precision let that be seen, the size of the set of axis points serves, then the RMS pitch, then `arm`, the
+/// length of the longest link that has one for sure (m; 0 if none has, see [`Geometry::arm`]), then `reach`, the largest
+/// coordinate met (m); finally 1 m. What rounding leaves of coordinates up to `reach` is no length.
 pub fn characteristic_length<'a, R: Real + 'a>(
     screws: impl Iterator<Item = &'a PlacedScrew<R>>,
     reach: f64,
-    least: f64,
+    arm: f64,
     uncertainty: &Uncertainty,
 ) -> ([f64; 3], f64) {
     use nalgebra::{Matrix3, Vector3};
+    let least = least_length(reach);
     // All lengths below are in units of the reach, so that squares stay in the range of numbers.
     let unit = if reach > least && reach.is_finite() {
         reach
@@ -187,7 +195,7 @@ pub fn characteristic_length<'a, R: Real + 'a>(
         .collect();
     if axes.is_empty() {
         // Translations only: the rank has no length in it, and any positive one will do.
-        return ([0.0; 3], unit);
+        return ([0.0; 3], if arm > least { arm } else { unit });
     }
     let count = axes.len() as f64;
     let mean = axes.iter().map(|(_, p, _)| p).sum::<Vector3<f64>>() / count;
@@ -225,6 +233,7 @@ pub fn characteristic_length<'a, R: Real + 'a>(
         (spread, (1e-3 * size).max(places + tilts)),
         (size, places),
         (pitch, places),
+        (arm / unit, least / unit),
         (1.0, 0.0),
     ]
     .into_iter()

@@ -1,12 +1,14 @@
 //! From the exact numbers of a mechanism to frames in an arithmetic of choice.
 
+use super::cycle::Walk;
 use super::displacement::{JointDisplacement, JointState};
 use kutzbach_math::matrix::{Extended, Real};
 use kutzbach_math::number::Number;
 use kutzbach_math::space::{Rigid, Vector, length, three};
 use kutzbach_model::mechanism::{
-    Configuration, Direction, Frame, Joint, JointKind, Mechanism, Placement, Precision,
+    Configuration, Direction, Frame, Joint, JointId, JointKind, Mechanism, Placement, Precision,
 };
+use std::collections::BTreeMap;
 
 /// How to turn an exact number into the arithmetic `R`: rounding to double, or evaluating to some number of bits.
 pub struct Arithmetic<R> {
@@ -89,10 +91,10 @@ pub struct Geometry<R> {
     pub states: Vec<JointState<R>>,
     /// Couplings as rows `Σ factor · variable = offset`; variables by joint, each of one freedom.
     pub couplings: Vec<(Vec<(usize, R)>, R)>,
-    /// What the file's stated precision leaves open of every joint's numbers.
+    /// What the stated precision leaves open of every joint's numbers.
     pub uncertainties: Vec<Uncertainty>,
-    /// Largest coordinate of any joint frame in its link (m).
-    pub size: f64,
+    /// The longest arm ([`Geometry::arm`]) of every joint's independent sub-mechanism (m); 0 for joints in no loop.
+    pub arms: Vec<f64>,
     /// One, in the arithmetic.
     pub one: R,
 }
@@ -103,10 +105,19 @@ const SMALLEST_LENGTH: f64 = 1e-12;
 /// Rounding leaves zeros of about 1e-16 of the coordinates they come from; a thousand times that is still no length.
 const NOISE_OF_SIZE: f64 = 1e-13;
 
+/// What a coordinate has to exceed to be a length (m), where it is computed from coordinates of up to a size (m).
+#[must_use]
+pub fn least_length(size: f64) -> f64 {
+    SMALLEST_LENGTH.max(NOISE_OF_SIZE * size)
+}
+
 impl<R: Real> Geometry<R> {
-    /// What a coordinate has to exceed to be a length (m).
-    pub fn least_length(&self) -> f64 {
-        SMALLEST_LENGTH.max(NOISE_OF_SIZE * self.size)
+    /// Largest coordinate of some joints' frames in their links (m).
+    pub fn size_of(&self, joints: impl IntoIterator<Item = usize>) -> f64 {
+        let sides = joints.into_iter().flat_map(|joint| &self.sides[joint]);
+        sides
+            .flat_map(|frame| &frame.translation)
+            .fold(0.0, |far: f64, x| far.max(x.to_f64().abs()))
     }
 
     /// Evaluates a mechanism at the home pose or at a configuration. Cost: linear in the mechanism.
@@ -187,13 +198,8 @@ impl<R: Real> Geometry<R> {
                 (terms, arithmetic.number(&coupling.offset))
             })
             .collect();
-        let size = sides
-            .iter()
-            .flatten()
-            .flat_map(|frame| &frame.translation)
-            .fold(0.0, |far: f64, x| far.max(x.to_f64().abs()));
-        Self {
-            size,
+        let mut geometry = Self {
+            arms: Vec::new(),
             sides,
             displacements: displacements.into_iter().flatten().collect(),
             home,
@@ -202,10 +208,81 @@ impl<R: Real> Geometry<R> {
             uncertainties: mechanism
                 .joints()
                 .iter()
-                .map(|joint| Uncertainty::of(mechanism.precision(), joint))
+                .enumerate()
+                .map(|(index, joint)| {
+                    Uncertainty::of(mechanism.precision_of(JointId(index)), joint)
+                })
                 .collect(),
             one,
+        };
+        geometry.arms = geometry.longest_arms(mechanism);
+        geometry
+    }
+
+    /// The longest distance of two joints that follow one another on a cycle, or stated by a joint of it (m), of those that no
+    /// rounding within the stated precision can have made of zero; 0 if there is none.
+    pub fn arm(&self, cycle: &Walk) -> f64 {
+        let pairs = cycle.iter().zip(cycle.iter().cycle().skip(1));
+        pairs.fold(0.0, |longest: f64, (&(joint, forward), &(next, onward))| {
+            let between =
+                self.between([(joint, usize::from(forward)), (next, usize::from(!onward))]);
+            longest.max(between).max(self.stated_distance(joint))
+        })
+    }
+
+    /// The distance of two joints' frames, each on a side of its joint (0: predecessor), on one link; 0 where rounding may have
+    /// made it of zero.
+    ///
+    /// If two points are the same, of which each coordinate is known to ±u and ±v, then they are written within `√Σ(u + v)²` of
+    /// one another, which is at most `√2` times the root of all `Σ(u² + v²)`.
+    fn between(&self, [one, other]: [(usize, usize); 2]) -> f64 {
+        let at = |(joint, side): (usize, usize)| &self.sides[joint][side].translation;
+        let (p, q) = (at(one), at(other));
+        let apart = [0, 1, 2].map(|i| (p[i].clone() - q[i].clone()).to_f64());
+        let distance = length(&apart);
+        let open = [one, other].map(|(joint, _)| self.uncertainties[joint].lengths);
+        let size = p
+            .iter()
+            .chain(q)
+            .fold(0.0, |m: f64, x| m.max(x.to_f64().abs()));
+        let least = (std::f64::consts::SQRT_2 * open[0].hypot(open[1])).max(least_length(size));
+        if distance > least { distance } else { 0.0 }
+    }
+
+    fn stated_distance(&self, joint: usize) -> f64 {
+        let displacement = &self.displacements[joint];
+        let distance = match displacement.kind() {
+            JointKind::Distance => displacement.distance().to_f64(),
+            _ => 0.0,
+        };
+        if distance > self.uncertainties[joint].lengths {
+            distance
+        } else {
+            0.0
         }
+    }
+
+    /// The longest arm of every joint's independent sub-mechanism: on each link from one of its joints to the others.
+    fn longest_arms(&self, mechanism: &Mechanism) -> Vec<f64> {
+        let mut first = BTreeMap::new();
+        let mut longest: Vec<f64> = Vec::new();
+        let blocks: Vec<Option<usize>> = (0..mechanism.joints().len())
+            .map(|joint| mechanism.sub_mechanism(JointId(joint)))
+            .collect();
+        for (joint, block) in blocks.iter().enumerate() {
+            let Some(block) = *block else { continue };
+            if longest.len() <= block {
+                longest.resize(block + 1, 0.0);
+            }
+            let ends = &mechanism.joints()[joint];
+            for (side, end) in [&ends.predecessor, &ends.successor].into_iter().enumerate() {
+                let start = *first.entry((block, end.link)).or_insert((joint, side));
+                longest[block] = longest[block].max(self.between([start, (joint, side)]));
+            }
+            longest[block] = longest[block].max(self.stated_distance(joint));
+        }
+        let arm = |block: Option<usize>| block.map_or(0.0, |block| longest[block]);
+        blocks.into_iter().map(arm).collect()
     }
 
     /// A distance joint without length: its two points coincide where the distance was to be read off.

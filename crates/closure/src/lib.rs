@@ -36,7 +36,7 @@ pub use assembly::{
 pub use cycle::{Walk, WalkedCycle, WalkedJoint, characteristic_length};
 pub use displacement::Factor;
 pub use displacement::{JointDisplacement, JointState};
-pub use geometry::{Arithmetic, Geometry, Uncertainty};
+pub use geometry::{Arithmetic, Geometry, Uncertainty, least_length};
 pub use jacobian::stated_by;
 pub use jacobian::{CycleJacobian, Part, entry_accuracy, jacobian};
 pub use jacobian::{linearised, variable_unit};

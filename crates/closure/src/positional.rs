@@ -54,8 +54,11 @@ pub fn positional_jacobian<R: Real>(
     );
     let (_, length) = characteristic_length(
         placed.iter().flat_map(|(_, _, screws)| screws),
-        reach.max(geometry.size),
-        geometry.least_length(),
+        reach,
+        part.joints
+            .iter()
+            .map(|&j| geometry.arms[j])
+            .fold(0.0, f64::max),
         &uncertainty,
     );
     let inverse_length = one.constant(1.0 / length);

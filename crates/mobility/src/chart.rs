@@ -27,6 +27,7 @@ pub(super) use far::{far_chart, moving_far};
 use guide::Guide;
 use kutzbach_closure::{Closing, Metric, Part, Section};
 use kutzbach_math::matrix::{MatrixError, NullVectors, Real, SplitMix64};
+use kutzbach_model::mechanism::JointId;
 
 /// A germ whose leftover vanishes to a higher order than this is not told from none. Order 4 decides all that is known;
 /// two more are a margin, which rounded numbers do not have.
@@ -200,7 +201,9 @@ pub(super) fn literal_leftover(
     rank: &PartRank,
     kernel: &Kernel,
 ) -> Result<Option<f64>, MatrixError> {
-    if pose.mechanism.precision().significant >= DIGITS_OF_A_DOUBLE {
+    let precision = |joint: &usize| pose.mechanism.precision_of(JointId(*joint));
+    let digits = part.joints.iter().map(|joint| precision(joint).significant);
+    if digits.max() >= Some(DIGITS_OF_A_DOUBLE) {
         return Ok(None);
     }
     let reach = (first_radius(rank), 0.0);

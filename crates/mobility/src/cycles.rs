@@ -46,7 +46,7 @@ pub fn cycle_facts(
         couplings: Vec::new(),
     };
     let alone = jacobian(mechanism, geometry, states, &part)?;
-    let (stated, rounding, coarse) = known_to(mechanism, &alone);
+    let (stated, rounding, coarse) = known_to(&alone);
     let left = 0.0.norm(&alone.residual);
     let accuracy = rounding + left + if coarse { 0.0 } else { stated };
     let mut matrix = alone.matrix.clone();

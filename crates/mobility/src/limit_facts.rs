@@ -7,7 +7,8 @@
 //! Cost: linear in joints and couplings.
 
 use kutzbach_closure::{JointState, coupled_joints, nearest_turn};
-use kutzbach_model::mechanism::{Joint, Mechanism};
+use kutzbach_math::number::Number;
+use kutzbach_model::mechanism::{Joint, JointId, Mechanism, Precision};
 
 /// Something that the limits of a mechanism say.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,7 +52,8 @@ pub fn limit_facts(mechanism: &Mechanism, states: &[JointState<f64>]) -> Vec<Lim
     let ranges: Vec<Option<Range>> = mechanism
         .joints()
         .iter()
-        .map(|joint| Range::of(mechanism, joint))
+        .enumerate()
+        .map(|(index, joint)| Range::of(mechanism.precision_of(JointId(index)), joint))
         .collect();
     let coupled = coupled_joints(mechanism);
     for (index, (range, state)) in ranges.iter().zip(states).enumerate() {
@@ -95,12 +97,12 @@ struct Range {
 
 impl Range {
     /// `None` for joints without limits.
-    fn of(mechanism: &Mechanism, joint: &Joint) -> Option<Self> {
+    fn of(precision: &Precision, joint: &Joint) -> Option<Self> {
         let (lower, upper) = joint.bounds()?;
         let limit = joint.limit.as_ref()?;
         let numbers = || limit.lower.iter().chain(&limit.upper);
         let stated = numbers()
-            .map(|x| mechanism.precision().uncertainty(x))
+            .map(|x| precision.uncertainty(x).max(own_digits(x)))
             .fold(0.0, f64::max);
         let size = numbers().map(|x| x.value().abs()).fold(0.0, f64::max);
         Some(Self {
@@ -113,6 +115,13 @@ impl Range {
     fn width(&self) -> f64 {
         self.upper - self.lower
     }
+}
+
+/// Half a unit of a number's last decimal (rad or m), where it has more of them than somebody would choose.
+fn own_digits(number: &Number) -> f64 {
+    let decimals = number.stated().map(|stated| stated.decimals);
+    let rounded = decimals.filter(|decimals| *decimals > Precision::EXACT_DECIMALS);
+    rounded.map_or(0.0, |decimals| 0.5 * 10f64.powi(-decimals.min(300)))
 }
 
 /// Intervals of Σ factor · variable: each term has to be what the others leave.

@@ -4,9 +4,9 @@ use super::branch::BranchPose;
 use super::one_sided::OneSided;
 use super::tangent_space::{Limits, TangentSpace};
 use kutzbach_closure::Structure;
-use kutzbach_closure::{Geometry, Rigid, spanning_poses};
+use kutzbach_closure::{Geometry, Rigid, least_length, spanning_poses};
 use kutzbach_math::group::Twist;
-use kutzbach_model::mechanism::Mechanism;
+use kutzbach_model::mechanism::{JointId, Mechanism};
 use nalgebra::{Matrix3, Vector3};
 
 /// The twists of all links.
@@ -394,11 +394,16 @@ fn extent(
     geometry: &Geometry<f64>,
     poses: &[Rigid<f64>],
 ) -> (Vector3<f64>, f64, f64) {
+    // What neither moves by itself nor is part of a loop, as a mount, says nothing of how large the motions are.
     let points: Vec<Vector3<f64>> = mechanism
         .joints()
         .iter()
         .zip(&geometry.sides)
-        .map(|(joint, sides)| {
+        .enumerate()
+        .filter(|(index, (joint, _))| {
+            joint.freedom() > 0 || mechanism.sub_mechanism(JointId(*index)).is_some()
+        })
+        .map(|(_, (joint, sides))| {
             let link = joint.predecessor.link.0;
             poses[link].apply(&sides[0].translation).into()
         })
@@ -408,13 +413,13 @@ fn extent(
     let distances: Vec<f64> = points.iter().map(|point| (point - centre).norm()).collect();
     let spread = (distances.iter().map(|d| d * d).sum::<f64>() / count).sqrt();
     let farthest = distances.iter().fold(0.0, |m: f64, d| m.max(*d));
-    let least = geometry.least_length();
-    let length = if spread > least {
-        spread
-    } else if geometry.size > least {
-        geometry.size
-    } else {
-        1.0
-    };
+    let reach = points
+        .iter()
+        .fold(0.0, |far: f64, point| far.max(point.amax()));
+    let arm = geometry.arms.iter().copied().fold(0.0, f64::max);
+    let length = [spread, arm, reach]
+        .into_iter()
+        .find(|length| *length > least_length(reach))
+        .unwrap_or(1.0);
     (centre, length, farthest)
 }

@@ -60,7 +60,7 @@ impl MoreDigits {
     ) -> Result<FinerMatrix, MatrixError> {
         let (geometry, states) = self.polished(pose, part, moved, bits)?;
         let there = jacobian(pose.mechanism, geometry, states, part)?;
-        let (_, rounding) = entry_accuracy(pose.mechanism, &there);
+        let (_, rounding) = entry_accuracy(&there);
         let left: Vec<f64> = there.residual.iter().map(Real::to_f64).collect();
         let mut matrix = there.matrix;
         matrix.scale_columns();

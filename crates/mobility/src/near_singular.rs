@@ -148,7 +148,7 @@ fn clearer(
                 .collect();
             let kept = follow(mechanism, geometry, states, part, &way, |there| {
                 let moved = jacobian(mechanism, geometry, there, part)?;
-                let (_, rounding) = entry_accuracy(mechanism, &moved);
+                let (_, rounding) = entry_accuracy(&moved);
                 let left = 0.0.norm(&moved.residual);
                 let mut matrix = moved.matrix;
                 matrix.scale_columns();

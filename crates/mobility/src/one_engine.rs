@@ -67,7 +67,7 @@ pub fn rank_alone(
     bits: u32,
 ) -> Result<OneEngine, MatrixError> {
     let double = jacobian(pose.mechanism, pose.geometry, pose.states, part)?;
-    let (stated, rounding, coarse) = known_to(pose.mechanism, &double);
+    let (stated, rounding, coarse) = known_to(&double);
     let stated = if coarse { 0.0 } else { stated };
     let (rows, columns) = (double.matrix.rows(), double.matrix.columns());
     let decision = if bits <= 53 {

@@ -93,7 +93,7 @@ impl Posed {
     /// The largest equation left open, in units of what rounding and stated precision explain.
     pub fn openness(&self, states: &[JointState<f64>]) -> f64 {
         let there = jacobian(&self.mechanism, &self.geometry, states, self.part()).unwrap();
-        let (stated, rounding) = entry_accuracy(&self.mechanism, &there);
+        let (stated, rounding) = entry_accuracy(&there);
         let left = there.residual.iter().fold(0.0f64, |m, r| m.max(r.abs()));
         left / (4.0 * rounding + stated)
     }

@@ -16,7 +16,7 @@
 //! Cost: near-linear in links and joints.
 
 use kutzbach_closure::Structure;
-use kutzbach_closure::{Geometry, Rigid, Uncertainty};
+use kutzbach_closure::{Geometry, Rigid, least_length};
 use kutzbach_model::mechanism::{JointKind, Mechanism, Placement};
 use nalgebra::{Matrix3, Vector3};
 use std::collections::VecDeque;
@@ -252,7 +252,11 @@ impl Crossings {
         let within: Vec<f64> = geometry
             .uncertainties
             .iter()
-            .map(|open| geometry.least_length() + uncertain(geometry, open))
+            .enumerate()
+            .map(|(joint, open)| {
+                let least = least_length(geometry.size_of([joint]).max(geometry.arms[joint]));
+                least + DEVIATIONS * (open.lengths + open.angles * geometry.arms[joint])
+            })
             .collect();
         let mut part_of = vec![None; mechanism.joints().len()];
         for (index, part) in structure.parts.iter().enumerate() {
@@ -351,10 +355,6 @@ impl Crossings {
             ball: freedom == 3,
         })
     }
-}
-
-fn uncertain(geometry: &Geometry<f64>, open: &Uncertainty) -> f64 {
-    DEVIATIONS * (open.lengths + open.angles * geometry.size)
 }
 
 /// The axis or the point of a joint, in the frame of one of its bodies.

@@ -343,8 +343,8 @@ pub fn rank_part(pose: &Pose<'_>, part: &Part) -> Result<PartRank, MatrixError> 
 }
 
 /// The accuracy of a part's Jacobian: (stated precision, rounding), and whether the first is too coarse to be of use.
-pub(super) fn known_to(mechanism: &Mechanism, jacobian: &CycleJacobian<f64>) -> (f64, f64, bool) {
-    let (stated, rounding) = entry_accuracy(mechanism, jacobian);
+pub(super) fn known_to(jacobian: &CycleJacobian<f64>) -> (f64, f64, bool) {
+    let (stated, rounding) = entry_accuracy(jacobian);
     (stated, rounding, stated > COARSEST_STATED)
 }
 
@@ -376,7 +376,7 @@ pub(super) fn rank_part_with(
         Some(known) => known,
         None => jacobian(pose.mechanism, pose.geometry, pose.states, part)?,
     };
-    let (mut stated, rounding, mut coarse) = known_to(pose.mechanism, &double);
+    let (mut stated, rounding, mut coarse) = known_to(&double);
     let standing = Standing::of(pose, part, &double, stated + rounding)?;
     let rounding = rounding + standing.residual;
     // An assembled pose: see the module's text.

@@ -185,7 +185,7 @@ fn moving(
     direction.iter_mut().for_each(|x| *x *= size / largest);
     let moves = follow(mechanism, geometry, states, part, &direction, |there| {
         let moved = jacobian(mechanism, geometry, there, part)?;
-        let (_, rounding) = entry_accuracy(mechanism, &moved);
+        let (_, rounding) = entry_accuracy(&moved);
         let mut matrix = moved.matrix;
         matrix.scale_columns();
         let left = 0.0.norm(&moved.residual);

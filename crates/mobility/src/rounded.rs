@@ -17,7 +17,7 @@ use kutzbach_closure::{CycleJacobian, Uncertainty, stated_by};
 use kutzbach_math::matrix::{
     DENSE_COLUMNS, MatrixError, RankDecision, SparseMatrix, decide, relative_singular_values,
 };
-use kutzbach_model::mechanism::Mechanism;
+use kutzbach_model::mechanism::{JointId, Mechanism};
 
 /// Half a unit of the sixth decimal (m, rad).
 const COARSEST: f64 = 5e-7;
@@ -53,11 +53,9 @@ pub(super) fn if_rounded(
     matrix: &SparseMatrix<f64>,
     written: &RankDecision,
 ) -> Result<Option<OtherRank>, MatrixError> {
-    let precision = mechanism.precision();
-    let Some(rank) = written
-        .rank
-        .filter(|rank| *rank > 1 && precision.is_of_doubles())
-    else {
+    let mut joints = jacobian.walks.iter().flat_map(|walk| &walk.joints);
+    let of_doubles = joints.any(|j| mechanism.precision_of(JointId(j.joint)).is_of_doubles());
+    let Some(rank) = written.rank.filter(|rank| *rank > 1 && of_doubles) else {
         return Ok(None);
     };
     let by_one = uncertainty_by_one(mechanism, jacobian);
@@ -83,13 +81,13 @@ pub(super) fn if_rounded(
 
 /// The Jacobian's uncertainty for every metre or radian by which each literal is unknown.
 fn uncertainty_by_one(mechanism: &Mechanism, jacobian: &CycleJacobian<f64>) -> f64 {
-    let one = mechanism.precision().known_to(1.0);
     let of_walk = |walk: &kutzbach_closure::WalkedCycle<f64>| {
-        let joints = walk
-            .joints
-            .iter()
-            .map(|walked| &mechanism.joints()[walked.joint]);
-        let all: Vec<Uncertainty> = joints.map(|joint| Uncertainty::of(&one, joint)).collect();
+        let by_one = |joint: usize| {
+            let one = mechanism.precision_of(JointId(joint)).known_to(1.0);
+            Uncertainty::of(&one, &mechanism.joints()[joint])
+        };
+        let joints = walk.joints.iter().map(|walked| walked.joint);
+        let all: Vec<Uncertainty> = joints.map(by_one).collect();
         stated_by(walk, &Uncertainty::total(&all))
     };
     jacobian.walks.iter().map(of_walk).fold(0.0, f64::max)

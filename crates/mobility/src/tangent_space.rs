@@ -18,7 +18,7 @@ use super::branch::{BranchPose, Tangent};
 use super::one_sided::{dot, norm};
 use super::pose_rank::known_to;
 use kutzbach_closure::Structure;
-use kutzbach_closure::{Geometry, Part, jacobian};
+use kutzbach_closure::{Geometry, Part, jacobian, least_length};
 use kutzbach_math::matrix::{MatrixError, Real, SparseMatrix, decide};
 use kutzbach_model::mechanism::{FreedomPart, Mechanism};
 use petgraph::unionfind::UnionFind;
@@ -150,12 +150,10 @@ impl TangentSpace {
             set_units(mechanism, &part.joints, found.length, &first, &mut units);
             equations.push(found);
         }
-        // Nothing measures a free slider: the whole mechanism's size does as well as any length.
-        let size = if geometry.size > geometry.least_length() {
-            geometry.size
-        } else {
-            1.0
-        };
+        // Nothing measures a free slider: the size of what is free does as well as any length.
+        let moving = structure.free_joints.iter().copied();
+        let size = geometry.size_of(moving.filter(|&j| mechanism.joints()[j].freedom() > 0));
+        let size = if size > least_length(size) { size } else { 1.0 };
         set_units(mechanism, &structure.free_joints, size, &first, &mut units);
         let mut tangents = pose.tangents.clone();
         let mut moved = vec![false; count];
@@ -406,7 +404,7 @@ impl PartEquations {
         part: &Part,
     ) -> Result<Self, MatrixError> {
         let here = jacobian(mechanism, geometry, &pose.states, part)?;
-        let (stated, rounding, coarse) = known_to(mechanism, &here);
+        let (stated, rounding, coarse) = known_to(&here);
         let residual = 0.0.norm(&here.residual);
         let uncertainty = rounding + residual + if coarse { 0.0 } else { stated };
         let mut scaled = here.matrix.clone();

@@ -90,7 +90,7 @@ pub fn tangents_at(
     expected: usize,
 ) -> Result<Option<(Tangents, CycleJacobian<f64>)>, MatrixError> {
     let here = jacobian(section.mechanism, section.geometry, states, section.part)?;
-    let (_, rounding) = entry_accuracy(section.mechanism, &here);
+    let (_, rounding) = entry_accuracy(&here);
     let left = 0.0.norm(&here.residual);
     let mut matrix = here.matrix.clone();
     let scales = matrix.scale_columns();

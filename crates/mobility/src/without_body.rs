@@ -41,7 +41,7 @@ pub(super) fn standing_without(
         return None;
     }
     let equations = jacobian(mechanism, geometry, states, &left).ok()?;
-    let (stated, rounding, coarse) = known_to(mechanism, &equations);
+    let (stated, rounding, coarse) = known_to(&equations);
     let open = 0.0.norm(&equations.residual);
     let accuracy = rounding + open + if coarse { 0.0 } else { stated };
     let mut matrix = equations.matrix;

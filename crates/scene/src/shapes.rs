@@ -4,7 +4,7 @@ use super::appearance::{AXIS, Colour, GROUND, Roles, joint_colour, link_colour};
 use super::joint_symbols::{Piece, axis_arrow, symbol};
 use super::link_shapes::{Solid, joined, visuals};
 use super::vectors::{Point, difference, norm, pose_of, sum, times};
-use kutzbach_closure::{Geometry, Rigid};
+use kutzbach_closure::{Geometry, Rigid, least_length};
 use kutzbach_model::mechanism::{JointKind, Mechanism};
 
 /// A solid about its own origin; lengths in metres.
@@ -111,7 +111,8 @@ impl Drawing {
         }
         let bounds = bounds(geometry, &incident, &own);
         let mut extent = norm(difference(bounds[1], bounds[0]));
-        if !(extent > geometry.least_length() && extent.is_finite()) {
+        if !(extent > least_length(geometry.size_of(0..geometry.sides.len())) && extent.is_finite())
+        {
             extent = 1.0;
         }
         for (link, points) in mechanism.links().iter().zip(&mut incident) {
@@ -177,7 +178,8 @@ fn joint_points(mechanism: &Mechanism, geometry: &Geometry<f64>) -> Vec<[Point; 
         .iter()
         .map(|[a, b]| [a.translation, b.translation])
         .collect();
-    let least = geometry.least_length();
+    let size = geometry.size_of(0..geometry.sides.len());
+    let least = least_length(size);
     let mut in_world = mechanism
         .joints()
         .iter()
@@ -194,11 +196,7 @@ fn joint_points(mechanism: &Mechanism, geometry: &Geometry<f64>) -> Vec<[Point; 
         None => false,
     };
     if one_point {
-        let distance = if geometry.size > least {
-            geometry.size
-        } else {
-            1.0
-        };
+        let distance = if size > least { size } else { 1.0 };
         for (index, joint) in mechanism.joints().iter().enumerate() {
             // Any point of the axis serves these: it is the same axis on both sides.
             if matches!(

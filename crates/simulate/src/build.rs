@@ -260,10 +260,11 @@ fn size_of(
             screws.into_iter().map(move |screw| screw.moved(&frame))
         })
         .collect();
+    let moving = (0..mechanism.joints().len()).filter(|&j| mechanism.joints()[j].freedom() > 0);
     let (_, length) = characteristic_length(
         screws.iter(),
-        geometry.size,
-        geometry.least_length(),
+        geometry.size_of(moving),
+        geometry.arms.iter().copied().fold(0.0, f64::max),
         &Uncertainty::default(),
     );
     if length > 1e-50 && length < 1e50 {

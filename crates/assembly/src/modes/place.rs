@@ -66,8 +66,19 @@ pub(super) fn start(mechanism: &Mechanism) -> Start {
 fn drawn_poses(mechanism: &Mechanism, states: &[JointState<f64>]) -> Drawn {
     let geometry = Geometry::new(mechanism, None, &Arithmetic::double());
     let poses = kutzbach_closure::spanning_poses(mechanism, &geometry, states).0;
-    let far = poses.iter().flat_map(|pose| pose.translation);
-    let size = far.fold(geometry.size.max(1e-12), |m: f64, x| m.max(x.abs()));
+    let moving = mechanism.joints().iter().enumerate().filter(|(joint, of)| {
+        of.freedom() > 0 || mechanism.sub_mechanism(JointId(*joint)).is_some()
+    });
+    let size = moving
+        .flat_map(|(joint, of)| {
+            let links = [of.predecessor.link, of.successor.link].map(|link| &poses[link.0]);
+            let [one, other] = [links[0].translation, links[1].translation];
+            [one, other]
+                .concat()
+                .into_iter()
+                .chain([geometry.size_of([joint])])
+        })
+        .fold(1e-12, |m: f64, x| m.max(x.abs()));
     Drawn { poses, size }
 }
 

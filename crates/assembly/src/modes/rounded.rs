@@ -7,29 +7,44 @@
 use super::{Complete, Modes, Way};
 use crate::placed::{Gap, Slack};
 use kutzbach_closure::{Arithmetic, Geometry};
-use kutzbach_model::mechanism::Mechanism;
+use kutzbach_model::mechanism::{JointId, Mechanism};
+use std::collections::BTreeMap;
 
-/// The share of a coefficient by which rounding may have moved it: what is unknown of all lengths, in parts of the mechanism's
-/// size, and of all angles. To first order, and without the levers of points close together; the search for it takes every
-/// coefficient to be off by that share of the largest, and all in the worst direction.
-fn share(mechanism: &Mechanism) -> f64 {
+/// The share of a coefficient by which rounding may have moved it: what is unknown of all lengths of an independent sub-mechanism, in
+/// parts of its size, and of all angles; of that sub-mechanism of which it is most. To first order, and without the levers of
+/// points close together; the search for it takes every coefficient to be off by that share of the largest, and all in the worst
+/// direction. Then the same in metres.
+fn slack_of(mechanism: &Mechanism) -> Slack {
     let geometry = Geometry::new(mechanism, None, &Arithmetic::double());
-    let all = geometry.uncertainties.iter();
-    // Some angles are read as others within their digits.
-    all.map(|u| u.lengths / geometry.size + 2.0 * u.angles)
-        .sum()
+    let mut open: BTreeMap<usize, (f64, f64, f64)> = BTreeMap::new();
+    for (joint, uncertainty) in geometry.uncertainties.iter().enumerate() {
+        let Some(block) = mechanism.sub_mechanism(JointId(joint)) else {
+            continue;
+        };
+        let (lengths, angles, size) = open.entry(block).or_default();
+        *lengths += uncertainty.lengths;
+        // Some angles are read as others within their digits.
+        *angles += 2.0 * uncertainty.angles;
+        *size = match geometry.arms[joint] > 0.0 {
+            true => geometry.arms[joint],
+            false => size.max(geometry.size_of([joint])),
+        };
+    }
+    let mut slack = Slack::default();
+    for (lengths, angles, size) in open.into_values() {
+        let size = if size > 0.0 { size } else { 1.0 };
+        let share = lengths / size + angles;
+        slack.share = slack.share.max(share);
+        slack.metres = slack.metres.max(share * size);
+    }
+    slack
 }
 
 /// What the digits leave open: nothing where the numbers are exact.
 pub(super) fn slack(mechanism: &Mechanism) -> Slack {
-    if mechanism.precision().is_exact() {
-        return Slack::default();
-    }
-    let size = Geometry::new(mechanism, None, &Arithmetic::double()).size;
-    let share = share(mechanism);
-    Slack {
-        share,
-        metres: share * size,
+    match mechanism.precision().is_exact() {
+        true => Slack::default(),
+        false => slack_of(mechanism),
     }
 }
 
@@ -39,9 +54,9 @@ const CLEARLY: f64 = 10.0;
 /// Whether a gap within one body is more than rounding can have made: along the body an unknown angle moves a point by no more than
 /// the number of joints times the mechanism's size, to first order.
 pub(super) fn is_beyond(mechanism: &Mechanism, gap: &Gap) -> bool {
-    let size = Geometry::new(mechanism, None, &Arithmetic::double()).size;
-    let share = CLEARLY * share(mechanism);
-    gap.radians > share || gap.metres > share * size * mechanism.joints().len() as f64
+    let slack = slack_of(mechanism);
+    let metres = slack.metres * mechanism.joints().len() as f64;
+    gap.radians > CLEARLY * slack.share || gap.metres > CLEARLY * metres
 }
 
 /// Withdraws the proof of an answer to rounded numbers that other digits may change. `stays`: it is known to be the same with

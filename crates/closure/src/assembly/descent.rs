@@ -199,7 +199,7 @@ pub(super) fn descend(
     } = *task;
     let mut here = jacobian(mechanism, geometry, states, part)?;
     let work = step_work(&here);
-    let (mut stated, rounding) = entry_accuracy(mechanism, &here);
+    let (mut stated, rounding) = entry_accuracy(&here);
     if let Some(given) = task.tolerance {
         stated = here.walks.iter().fold(given / here.length, |least, walk| {
             least.min(given / walk.length)

@@ -134,7 +134,7 @@ fn numbers_are_exact(pose: &Pose<'_>, part: &Part) -> bool {
             .chain(&joint.distance)
             .all(|number: &Number| number.stated().is_none())
     };
-    let geometry = mechanism.precision().is_exact() || part.joints.iter().all(joint_numbers);
+    let geometry = mechanism.is_exact(&part.joints) || part.joints.iter().all(joint_numbers);
     let chosen = |number: &Number| {
         let stated = number.stated();
         stated.is_none_or(|s| s.decimals <= Precision::EXACT_DECIMALS)

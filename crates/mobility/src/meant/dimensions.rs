@@ -1,8 +1,9 @@
 //! The numbers of a part that may be others than they are written, and a geometry that follows them.
 
+use super::rounding;
 use kutzbach_closure::{Geometry, JointNumbers, JointState, Part};
 use kutzbach_math::number::Number;
-use kutzbach_model::mechanism::{Joint, Mechanism, Precision};
+use kutzbach_model::mechanism::{Joint, Mechanism};
 
 /// One number that may change.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,10 +30,13 @@ pub(super) struct Dimensions<'a> {
 }
 
 impl<'a> Dimensions<'a> {
-    /// Those of a part whose numbers are known to a precision.
-    pub fn of(mechanism: &'a Mechanism, part: &Part, precision: &Precision) -> Self {
+    /// Those of a part, each known to the precision of its joint's sub-mechanism.
+    pub fn of(mechanism: &'a Mechanism, part: &Part) -> Self {
         let mut all = Vec::new();
         for &joint in &part.joints {
+            let Some(precision) = rounding(mechanism, joint) else {
+                continue;
+            };
             for (place, number) in mechanism.joints()[joint].numbers().into_iter().enumerate() {
                 let unit = number.map_or(0.0, |number| precision.uncertainty(number));
                 if unit > 0.0 {

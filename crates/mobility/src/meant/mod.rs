@@ -25,7 +25,7 @@ use super::verdict::Nominal;
 use super::vocabulary::Verdict;
 use dimensions::turns;
 use held_fast::held_fast;
-use kutzbach_model::mechanism::{Mechanism, Precision};
+use kutzbach_model::mechanism::{JointId, Mechanism, Precision};
 use parts::{PartMeant, parts_meant};
 pub use relations::Kept;
 
@@ -108,15 +108,20 @@ pub(super) fn completed(
     );
     let rigid = stated.mobility.verdict == Verdict::Rigid && mechanism.precision().is_exact();
     let asked = open || rigid || stated.mobility.nominal.is_some();
-    let Some(precision) = rounding(mechanism).filter(|_| asked && options.depth > Depth::Rank)
-    else {
+    let mut parts = stated.structure.parts.iter();
+    let rounded = parts.any(|part| {
+        part.joints
+            .iter()
+            .any(|&j| rounding(mechanism, j).is_some())
+    });
+    if !(rounded && asked && options.depth > Depth::Rank) {
         return Ok(stated);
-    };
+    }
     let configuration = options
         .configuration
         .as_ref()
         .and_then(|name| mechanism.configuration(name));
-    let parts = parts_meant(mechanism, configuration, &precision, &stated)?;
+    let parts = parts_meant(mechanism, configuration, &stated)?;
     let within = |part: &PartMeant| part.nearest.is_some() && part.units() <= WITHIN;
     if parts.is_empty() {
         return Ok(stated);
@@ -213,9 +218,9 @@ fn sorted(mut changes: Vec<Change>) -> Vec<Change> {
     changes
 }
 
-/// The precision at which the file's numbers are rounded; `None` where they are exact, or printed doubles.
-fn rounding(mechanism: &Mechanism) -> Option<Precision> {
-    let precision = *mechanism.precision();
+/// The precision at which the numbers of a joint's sub-mechanism are rounded; `None` where they are exact, or printed doubles.
+fn rounding(mechanism: &Mechanism, joint: usize) -> Option<Precision> {
+    let precision = *mechanism.precision_of(JointId(joint));
     if precision.is_of_doubles() {
         return None;
     }

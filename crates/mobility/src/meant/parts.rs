@@ -12,7 +12,7 @@ use crate::tree_bound::most_by_joints;
 use kutzbach_closure::{Arithmetic, Geometry, JointState, Metric, Part, linearised};
 use kutzbach_math::matrix::{DENSE_COLUMNS, MatrixError, relative_singular_values};
 use kutzbach_math::number::Number;
-use kutzbach_model::mechanism::{Configuration, Mechanism, Precision};
+use kutzbach_model::mechanism::{Configuration, Mechanism};
 
 /// So many numbers of freedoms are tried for a part.
 const TRIES: usize = 3;
@@ -54,7 +54,6 @@ impl PartMeant {
 pub(super) fn parts_meant(
     mechanism: &Mechanism,
     configuration: Option<&Configuration>,
-    precision: &Precision,
     stated: &Analysis,
 ) -> Result<Vec<PartMeant>, MatrixError> {
     let geometry = Geometry::new(mechanism, configuration, &Arithmetic::double());
@@ -62,7 +61,7 @@ pub(super) fn parts_meant(
     for (index, part) in stated.structure.parts.iter().enumerate() {
         let finding = stated.findings.get(index);
         let rank = stated.parts.get(index);
-        let dimensions = Dimensions::of(mechanism, part, precision);
+        let dimensions = Dimensions::of(mechanism, part);
         let asked = finding.is_none_or(|finding| {
             let nearly = rank.is_some_and(|rank| nearly_moves(&dimensions, rank));
             finding.open.is_some() || finding.nominal.is_some() || finding.upper == 0 && nearly

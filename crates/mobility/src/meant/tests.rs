@@ -32,7 +32,7 @@ fn related(mechanism: &Mechanism) -> Relations {
     let geometry = Geometry::new(mechanism, None, &Arithmetic::double());
     let found = analyse(mechanism, &AnalysisOptions::default()).unwrap();
     let part = &found.structure.parts[0];
-    let dimensions = Dimensions::of(mechanism, part, mechanism.precision());
+    let dimensions = Dimensions::of(mechanism, part);
     Relations::of(mechanism, part, &dimensions, &geometry, 1.0)
 }
 

@@ -54,11 +54,14 @@ pub fn place(
         .iter()
         .flatten()
         .flat_map(|screw| screw.point)
-        .fold(geometry.size, |far, x| far.max(x.abs()));
+        .fold(0.0, |far: f64, x| far.max(x.abs()));
     let (centre, length) = characteristic_length(
         placed.iter().flatten(),
         reach,
-        geometry.least_length(),
+        part.joints
+            .iter()
+            .map(|&j| geometry.arms[j])
+            .fold(0.0, f64::max),
         &uncertainty,
     );
     let screws = placed

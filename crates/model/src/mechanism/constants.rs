@@ -25,7 +25,7 @@
 use super::frame::{Direction, Frame};
 use super::link::Placement;
 use super::model::Mechanism;
-use super::precision::Precision;
+use super::precision::Precisions;
 use kutzbach_math::number::Number;
 use std::f64::consts::PI;
 
@@ -322,27 +322,29 @@ impl Mechanism {
     #[must_use]
     pub fn with_constants(mut self) -> Self {
         let mut found = Recognised::default();
-        let mut size = 0.0f64;
-        self.each_frame(|frame| {
-            for x in &frame.position {
-                size = size.max(x.value().abs());
+        let sizes = Sizes::of(&self);
+        for link in &mut self.links {
+            if let Placement::Floating { origin, .. } = &mut link.placement {
+                found.frame(origin, sizes.whole);
             }
-        });
-        let size = size.min(LONGEST);
-        self.each_frame(|frame| found.frame(frame, size));
+        }
+        for (index, joint) in self.joints.iter_mut().enumerate() {
+            let size = sizes.around(&self.precisions, index);
+            found.frame(&mut joint.predecessor.frame, size);
+            found.frame(&mut joint.successor.frame, size);
+        }
         for joint in &mut self.joints {
             found.axis(&mut joint.axis);
             found.axis(&mut joint.axis2);
         }
-        self.precision = Precision::of(&self.links, &self.joints);
         self.recognised = found;
-        self
+        self.read_digits()
     }
 
     /// The mechanism with every literal of its geometry known to within `uncertainty` (m, rad), whatever its digits say.
     #[must_use]
     pub fn with_precision(mut self, uncertainty: f64) -> Self {
-        self.precision = self.precision.known_to(uncertainty);
+        self.precisions = self.precisions.known_to(uncertainty);
         self
     }
 
@@ -351,17 +353,48 @@ impl Mechanism {
     pub fn recognised(&self) -> &Recognised {
         &self.recognised
     }
+}
 
-    fn each_frame(&mut self, mut change: impl FnMut(&mut Frame)) {
-        for link in &mut self.links {
-            if let Placement::Floating { origin, .. } = &mut link.placement {
-                change(origin);
+/// How large the coordinates are that others are held against (m).
+struct Sizes {
+    /// Of all frames.
+    whole: f64,
+    /// Of the joint frames of every independent sub-mechanism.
+    blocks: Vec<f64>,
+}
+
+impl Sizes {
+    fn of(mechanism: &Mechanism) -> Self {
+        let farthest = |frame: &Frame| {
+            let coordinates = frame.position.iter().map(|x| x.value().abs());
+            coordinates.fold(0.0, f64::max).min(LONGEST)
+        };
+        let mut sizes = Self {
+            whole: 0.0,
+            blocks: Vec::new(),
+        };
+        for link in &mechanism.links {
+            if let Placement::Floating { origin, .. } = &link.placement {
+                sizes.whole = sizes.whole.max(farthest(origin));
             }
         }
-        for joint in &mut self.joints {
-            change(&mut joint.predecessor.frame);
-            change(&mut joint.successor.frame);
+        for (index, joint) in mechanism.joints.iter().enumerate() {
+            let size = farthest(&joint.predecessor.frame).max(farthest(&joint.successor.frame));
+            sizes.whole = sizes.whole.max(size);
+            if let Some(block) = mechanism.precisions.block(index) {
+                if sizes.blocks.len() <= block {
+                    sizes.blocks.resize(block + 1, 0.0);
+                }
+                sizes.blocks[block] = sizes.blocks[block].max(size);
+            }
         }
+        sizes
+    }
+
+    /// Of the numbers around those of a joint: its sub-mechanism's, or all where it is in no loop.
+    fn around(&self, precisions: &Precisions, joint: usize) -> f64 {
+        let block = precisions.block(joint);
+        block.map_or(self.whole, |block| self.blocks[block])
     }
 }
 
@@ -381,6 +414,7 @@ mod tests {
         place(Number::decimal(text).unwrap(), &mut joint);
         let mut builder = MechanismBuilder::new("m");
         builder.link("a").link("b").joint(joint);
+        builder.joint(JointBuilder::closing("k", JointKind::Fixed, "a", "b"));
         let mechanism = builder.build().unwrap().with_constants();
         let frame = &mechanism.joints()[0].predecessor.frame;
         let found = if frame.position[0].literal_text() == Some(text) {
@@ -521,6 +555,7 @@ mod tests {
         let mut builder = MechanismBuilder::new("axis");
         builder.link("a").link("b");
         builder.joint(JointBuilder::tree("j", JointKind::Revolute, "a", "b").axis(axis));
+        builder.joint(JointBuilder::closing("k", JointKind::Fixed, "a", "b"));
         builder.build().unwrap().with_constants()
     }
 

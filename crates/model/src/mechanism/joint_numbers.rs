@@ -2,7 +2,6 @@
 
 use super::joint::Joint;
 use super::model::Mechanism;
-use super::precision::Precision;
 use kutzbach_math::number::Number;
 
 impl Joint {
@@ -67,8 +66,7 @@ impl Mechanism {
                 *number = value;
             }
         }
-        self.precision = Precision::of(&self.links, &self.joints);
-        self
+        self.read_digits()
     }
 }
 

@@ -5,7 +5,7 @@ use super::constants::Recognised;
 use super::coupling::Coupling;
 use super::joint::Joint;
 use super::link::Link;
-use super::precision::Precision;
+use super::precision::{Precision, Precisions};
 use super::scene::{Expectation, Scene};
 use std::collections::BTreeMap;
 
@@ -30,7 +30,7 @@ pub struct Mechanism {
     pub(super) scene: Option<Scene>,
     pub(super) expectation: Option<Expectation>,
     pub(super) placement_order: Vec<LinkId>,
-    pub(super) precision: Precision,
+    pub(super) precisions: Precisions,
     pub(super) recognised: Recognised,
     pub(super) link_by_name: BTreeMap<String, LinkId>,
     pub(super) joint_by_name: BTreeMap<String, JointId>,
@@ -162,10 +162,38 @@ impl Mechanism {
         self.joint_by_name.get(name).copied()
     }
 
-    /// How precisely the geometry is stated.
+    /// How precisely the geometry of all loops together is stated: exact where that of every independent sub-mechanism is. No
+    /// number is judged by it; see [`Mechanism::precision_of`].
     #[must_use]
     pub fn precision(&self) -> &Precision {
-        &self.precision
+        self.precisions.together()
+    }
+
+    /// How precisely the geometry of a joint's independent sub-mechanism is stated. The numbers of a joint in no loop bear on
+    /// nothing: they count as exact.
+    #[must_use]
+    pub fn precision_of(&self, joint: JointId) -> &Precision {
+        self.precisions.of_joint(joint.0)
+    }
+
+    /// Which independent sub-mechanism a joint belongs to, that is which biconnected block of the constraint graph, counted over
+    /// those with loops by the names of their joints; `None` for joints in no loop.
+    #[must_use]
+    pub fn sub_mechanism(&self, joint: JointId) -> Option<usize> {
+        self.precisions.block(joint.0)
+    }
+
+    /// Whether the numbers of all these joints' sub-mechanisms are exact.
+    #[must_use]
+    pub fn is_exact<'a>(&self, joints: impl IntoIterator<Item = &'a usize>) -> bool {
+        let exact = |joint: &usize| self.precisions.of_joint(*joint).is_exact();
+        joints.into_iter().all(exact)
+    }
+
+    /// Reads anew what the digits state.
+    pub(super) fn read_digits(mut self) -> Self {
+        self.precisions = Precisions::of(&self);
+        self
     }
 
     /// The sum of all joint freedoms.

@@ -1,12 +1,12 @@
-//! How far a file's numbers may be from the numbers meant.
+//! How far a file's numbers may be from the numbers meant: judged for every independent sub-mechanism by itself.
 
 use super::constants::{has_no_more_than_a_double, is_printed_double};
-use super::frame::{Direction, Frame};
-use super::joint::Joint;
-use super::link::{Link, Placement};
+use super::link::Placement;
+use super::model::Mechanism;
+use crate::graph::{Block, ConstraintGraph};
 use kutzbach_math::number::{Number, Stated};
 
-/// How precisely a file states its geometry.
+/// How precisely a file states the geometry of one independent sub-mechanism.
 ///
 /// A rounded number differs from the number meant by up to half a unit of its last place. Writers round in two manners,
 /// to a fixed number of decimals or to a fixed number of significant digits, and both strip trailing zeros. With `D` the
@@ -17,8 +17,8 @@ use kutzbach_math::number::{Number, Stated};
 /// ```
 ///
 /// which is right for both manners: the first term wherever no zeros were stripped, the second where they were. Zeros do not count
-/// for `D`: `0.000000` stands beside whole numbers as `0` does. Expressions are exact. A file whose numbers all have at most [`Precision::EXACT_DECIMALS`] decimals holds numbers that a designer
-/// chose, not rounded ones, and is taken as exact too. Decimals of lengths count in the decade of the longest one, if that
+/// for `D`: `0.000000` stands beside whole numbers as `0` does. Expressions are exact. Numbers that all have at most [`Precision::EXACT_DECIMALS`] decimals are those that a designer
+/// chose, not rounded ones, and are taken as exact too. Decimals of lengths count in the decade of the longest one, if that
 /// is below 1 m: `0.125` says of metres what `1.25` says of decimetres. Literals that were read as constants
 /// ([`Recognised`](super::Recognised)) are exact; those that were read as shorter decimals state what these state. Where every
 /// literal ends in zeros, at least three more than it needs, in twelve digits or more, these are padding and state nothing. Printed
@@ -37,6 +37,8 @@ pub struct Precision {
     doubles: bool,
     /// What is said to be known of every literal, whatever its digits say (m, rad).
     by_hand: Option<f64>,
+    /// Where the literal is that `designed` comes from.
+    finest: Option<LiteralPlace>,
 }
 
 impl Precision {
@@ -113,31 +115,22 @@ impl Precision {
         0.5 * power_of_ten(-i64::from(stated.decimals)).min(by_decimals.max(by_digits))
     }
 
-    /// The precision of a mechanism's links and joints.
-    pub(super) fn of(links: &[Link], joints: &[Joint]) -> Self {
+    /// The literal that makes the numbers rounded: of those with most decimals the first; `None` where the numbers are exact by
+    /// their digits.
+    #[must_use]
+    pub fn rounded_by(&self) -> Option<LiteralPlace> {
+        let rounded = self.designed > Self::EXACT_DECIMALS;
+        self.finest.filter(|_| rounded)
+    }
+
+    /// The precision of some numbers that one file states of one sub-mechanism.
+    fn of<'a>(numbers: impl IntoIterator<Item = (LiteralPlace, &'a Number)>) -> Self {
         let (mut lengths, mut directions) = (Digits::default(), Digits::default());
-        let mut read_frame = |frame: &Frame| {
-            frame.position.iter().for_each(|x| lengths.read(x));
-            frame.roll_pitch_yaw.iter().for_each(|a| directions.read(a));
-        };
-        for link in links {
-            if let Placement::Floating { origin, .. } = &link.placement {
-                read_frame(origin);
+        for (place, number) in numbers {
+            match place.turns() {
+                true => directions.read(place, number),
+                false => lengths.read(place, number),
             }
-        }
-        for joint in joints {
-            read_frame(&joint.predecessor.frame);
-            read_frame(&joint.successor.frame);
-        }
-        for joint in joints {
-            let Direction(axis) = &joint.axis;
-            let Direction(axis2) = &joint.axis2;
-            axis.iter().chain(axis2).for_each(|x| directions.read(x));
-            joint
-                .lead
-                .iter()
-                .chain(&joint.distance)
-                .for_each(|x| lengths.read(x));
         }
         let significant = lengths.significant.max(directions.significant);
         let bare = lengths.bare.1.max(directions.bare.1);
@@ -152,21 +145,157 @@ impl Precision {
         let doubles =
             (lengths.printed || directions.printed) && !lengths.longer && !directions.longer;
         let significant = lengths.significant.max(directions.significant);
+        let of_lengths = lengths
+            .decimals
+            .map_or(0, |decimals| decimals.saturating_add(decade));
+        let of_directions = directions.decimals.unwrap_or(0);
         Self {
             decimals: lengths.decimals.max(directions.decimals),
             significant: match doubles {
                 true => significant.min(OF_A_DOUBLE),
                 false => significant,
             },
-            designed: lengths
-                .decimals
-                .map_or(0, |decimals| decimals.saturating_add(decade))
-                .max(directions.decimals.unwrap_or(0)),
+            designed: of_lengths.max(of_directions),
             padded,
             doubles,
             by_hand: None,
+            finest: match of_lengths >= of_directions {
+                true => lengths.finest,
+                false => directions.finest,
+            },
         }
     }
+
+    /// What holds of two sub-mechanisms together: exact if both are, and the digits of the longer literals.
+    fn with(self, other: &Self) -> Self {
+        let finer = match other.designed > self.designed {
+            true => other,
+            false => &self,
+        };
+        Self {
+            decimals: self.decimals.max(other.decimals),
+            significant: self.significant.max(other.significant),
+            designed: finer.designed,
+            padded: self.padded && other.padded,
+            doubles: self.doubles || other.doubles,
+            by_hand: self.by_hand,
+            finest: finer.finest,
+        }
+    }
+}
+
+/// Where a literal of the geometry stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LiteralPlace {
+    /// In a joint: its index, and the place in [`Joint::numbers`].
+    Joint(usize, usize),
+    /// In the frame in which a link is placed without a joint: the link's index, and the place as in a joint's first frame.
+    Link(usize, usize),
+}
+
+impl LiteralPlace {
+    /// Whether an angle or a component of a direction stands there, and no length.
+    #[must_use]
+    pub fn turns(self) -> bool {
+        let (Self::Joint(_, place) | Self::Link(_, place)) = self;
+        (3..6).contains(&place) || (9..18).contains(&place)
+    }
+}
+
+/// The precisions of a mechanism's independent sub-mechanisms: the biconnected blocks of its constraint graph.
+///
+/// A sub-mechanism's numbers are read from the literals that bear on its own loops: those of its joints, and the places of its links
+/// where no joint places them. What lies in no loop, such as the frame of a camera that is fixed to a link, bears on nothing.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub(super) struct Precisions {
+    blocks: Vec<Precision>,
+    /// Index in `blocks` of every joint's; `None` for joints in no loop.
+    of_joint: Vec<Option<usize>>,
+    together: Precision,
+    /// That of what bears on nothing.
+    exact: Precision,
+}
+
+impl Precisions {
+    /// Those of a mechanism, of which everything else is known. Cost: near-linear.
+    pub(super) fn of(mechanism: &Mechanism) -> Self {
+        let loops: Vec<Block> = ConstraintGraph::of(mechanism)
+            .blocks()
+            .into_iter()
+            .filter(|block| !block.bridge)
+            .collect();
+        let mut of_joint = vec![None; mechanism.joints.len()];
+        for (index, block) in loops.iter().enumerate() {
+            block
+                .edges
+                .iter()
+                .for_each(|&joint| of_joint[joint] = Some(index));
+        }
+        let blocks: Vec<Precision> = loops
+            .iter()
+            .map(|block| Precision::of(bearing(mechanism, block)))
+            .collect();
+        let mut all = blocks.iter();
+        let first = all.next().copied().unwrap_or_default();
+        Self {
+            together: all.fold(first, Precision::with),
+            blocks,
+            of_joint,
+            exact: Precision::default(),
+        }
+    }
+
+    /// Those with every literal known to within this (m, rad).
+    pub(super) fn known_to(mut self, uncertainty: f64) -> Self {
+        let all = [&mut self.together, &mut self.exact];
+        for precision in all.into_iter().chain(&mut self.blocks) {
+            *precision = precision.known_to(uncertainty);
+        }
+        self
+    }
+
+    pub(super) fn together(&self) -> &Precision {
+        &self.together
+    }
+
+    pub(super) fn of_joint(&self, joint: usize) -> &Precision {
+        let block = self.of_joint.get(joint).copied().flatten();
+        block.map_or(&self.exact, |block| &self.blocks[block])
+    }
+
+    /// Index of the independent sub-mechanism that a joint belongs to; `None` for joints in no loop.
+    pub(super) fn block(&self, joint: usize) -> Option<usize> {
+        self.of_joint.get(joint).copied().flatten()
+    }
+}
+
+/// The literals that bear on a block's loops, in file order.
+fn bearing<'a>(
+    mechanism: &'a Mechanism,
+    block: &Block,
+) -> impl Iterator<Item = (LiteralPlace, &'a Number)> {
+    let mut joints = block.edges.clone();
+    joints.sort_unstable();
+    let mut links = block.nodes.clone();
+    links.sort_unstable();
+    let placed = links.into_iter().flat_map(|link| {
+        let frame = match &mechanism.links[link].placement {
+            Placement::Floating { origin, .. } => Some(origin),
+            _ => None,
+        };
+        let numbers = frame
+            .into_iter()
+            .flat_map(|frame| frame.position.iter().chain(&frame.roll_pitch_yaw));
+        numbers
+            .enumerate()
+            .map(move |(place, number)| (LiteralPlace::Link(link, place), number))
+    });
+    let joints = joints.into_iter().flat_map(|joint| {
+        let numbers = mechanism.joints[joint].numbers().into_iter().enumerate();
+        numbers
+            .filter_map(move |(place, number)| Some((LiteralPlace::Joint(joint, place), number?)))
+    });
+    placed.chain(joints)
 }
 
 /// Significant digits that tell doubles apart.
@@ -177,6 +306,8 @@ const OF_A_DOUBLE: u32 = 17;
 struct Digits {
     /// Most decimals of any literal.
     decimals: Option<i32>,
+    /// Where the first of those is that have so many.
+    finest: Option<LiteralPlace>,
     /// Most significant digits of any literal.
     significant: u32,
     /// Both without zeros at the end.
@@ -192,7 +323,7 @@ struct Digits {
 }
 
 impl Digits {
-    fn read(&mut self, number: &Number) {
+    fn read(&mut self, place: LiteralPlace, number: &Number) {
         let Some(stated) = number.stated() else {
             return;
         };
@@ -201,7 +332,9 @@ impl Digits {
             0 => stated.decimals.min(0),
             _ => stated.decimals,
         };
-        self.decimals = self.decimals.max(Some(decimals));
+        if self.decimals.is_none_or(|most| decimals > most) {
+            (self.decimals, self.finest) = (Some(decimals), Some(place));
+        }
         self.significant = self.significant.max(stated.significant);
         let bare = bare(number, stated);
         self.bare.0 = self.bare.0.max(Some(bare.decimals));
@@ -257,7 +390,8 @@ fn power_of_ten(exponent: i64) -> f64 {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
-    use super::super::{JointBuilder, JointKind, MechanismBuilder};
+    use super::super::Direction;
+    use super::super::{Frame, JointBuilder, JointId, JointKind, MechanismBuilder};
     use super::*;
     use proptest::prelude::*;
 
@@ -265,20 +399,73 @@ mod tests {
         Number::decimal(text).unwrap()
     }
 
-    /// The precision of a file whose geometry holds these numbers.
+    /// The precision of a loop whose geometry holds these numbers.
     fn of(texts: &[&str]) -> Precision {
+        *loop_of("", texts).build().unwrap().precision()
+    }
+
+    /// A loop of fixed joints, `name`d and counted from `0`, whose geometry holds these numbers.
+    fn loop_of(name: &str, texts: &[&str]) -> MechanismBuilder {
         let mut builder = MechanismBuilder::new("numbers");
         builder.link("0");
+        add_loop(&mut builder, name, texts);
+        builder
+    }
+
+    fn add_loop(builder: &mut MechanismBuilder, name: &str, texts: &[&str]) {
+        let link = |index: usize| match index {
+            0 => "0".to_owned(),
+            _ => format!("{name}{index}"),
+        };
         for (index, text) in texts.iter().enumerate() {
-            let (parent, child) = (index.to_string(), (index + 1).to_string());
+            let (parent, child) = (link(index), link(index + 1));
             builder.link(&child);
             let frame = Frame::at([number(text), Number::zero(), Number::zero()]);
-            builder.joint(
-                JointBuilder::tree(&format!("j{index}"), JointKind::Fixed, &parent, &child)
-                    .origin(frame),
-            );
+            let joint = format!("{name}j{index}");
+            builder
+                .joint(JointBuilder::tree(&joint, JointKind::Fixed, &parent, &child).origin(frame));
         }
-        *builder.build().unwrap().precision()
+        if !texts.is_empty() {
+            let (last, closing) = (link(texts.len()), format!("{name}closing"));
+            builder.joint(JointBuilder::closing(
+                &closing,
+                JointKind::Fixed,
+                "0",
+                &last,
+            ));
+        }
+    }
+
+    #[test]
+    fn what_is_in_no_loop_states_nothing() {
+        let mut builder = loop_of("a", &["0.25", "3"]);
+        add_loop(&mut builder, "b", &["0.866025", "1"]);
+        for (at, joint) in [("0", "mount"), ("a1", "bracket")] {
+            let frame = Frame::at_point([0.123456789, 0.0, 1000.5]).unwrap();
+            let camera = format!("{joint}_camera");
+            builder.link(&camera);
+            builder.joint(JointBuilder::tree(joint, JointKind::Fixed, at, &camera).origin(frame));
+        }
+        let mechanism = builder.build().unwrap();
+        let of = |name: &str| *mechanism.precision_of(mechanism.joint_named(name).unwrap());
+        assert_eq!(of("aj0"), super::tests::of(&["0.25", "3"]));
+        assert!(of("aj0").is_exact() && of("mount").is_exact() && of("bracket").is_exact());
+        assert_eq!(of("mount").uncertainty(&number("0.123456789")), 0.0);
+        assert_eq!(of("bj1").decimals, Some(6));
+        assert_uncertainty(&of("bj1"), "0.5", 0.5e-6);
+        // Together they are what the less exact one is, and it is told by which number.
+        let together = mechanism.precision();
+        assert!(!together.is_exact());
+        let rounded_by = mechanism.joint_named("bj0").unwrap().0;
+        assert_eq!(
+            together.rounded_by(),
+            Some(LiteralPlace::Joint(rounded_by, 0))
+        );
+        assert_eq!(of("aj0").rounded_by(), None);
+        let by_hand = mechanism.with_precision(1e-3);
+        assert!(!by_hand.precision_of(JointId(0)).is_exact());
+        let mount = by_hand.joint_named("mount").unwrap();
+        assert!(by_hand.precision_of(mount).is_exact());
     }
 
     #[track_caller]
@@ -435,6 +622,7 @@ mod tests {
                 ]))
                 .lead(expression("1/3")),
         );
+        builder.joint(JointBuilder::closing("k", JointKind::Fixed, "a", "b"));
         let precision = *builder.build().unwrap().precision();
         assert_eq!(precision, Precision::default());
         assert!(precision.is_exact());
@@ -466,12 +654,16 @@ mod tests {
             let mut builder = MechanismBuilder::new("one");
             builder.link("a").link("b");
             builder.joint(joint);
+            builder.joint(JointBuilder::closing("k", JointKind::Fixed, "a", "b"));
             let precision = *builder.build().unwrap().precision();
             assert_eq!((precision.decimals, precision.significant), (Some(3), 3));
         }
         let mut builder = MechanismBuilder::new("floating");
         builder.link("a").link("b");
         builder.floating("f", "a", "b", frame("0.125", "0"));
+        for joint in ["j", "k"] {
+            builder.joint(JointBuilder::closing(joint, JointKind::Spherical, "a", "b"));
+        }
         assert_eq!(builder.build().unwrap().precision().decimals, Some(3));
     }
 

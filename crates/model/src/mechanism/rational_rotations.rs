@@ -23,12 +23,16 @@ const USED: f64 = 0.9;
 
 impl Mechanism {
     /// The mechanism with the literal angles of some joints read as rational rotations within their digits, where they
-    /// are no algebraic ones as written, and how many these are. None are where the file's numbers are exact.
+    /// are no algebraic ones as written, and how many these are. None are where the numbers of their sub-mechanism are exact.
     #[must_use]
     pub fn with_rational_rotations(&self, joints: &[JointId]) -> (Self, usize) {
         let mut result = self.clone();
         let mut count = 0;
-        for joint in joints.iter().filter(|_| !self.precision.is_exact()) {
+        // What is in no loop bears on nothing, however it is turned.
+        let exact = |joint: &JointId| {
+            self.sub_mechanism(*joint).is_some() && self.precision_of(*joint).is_exact()
+        };
+        for joint in joints.iter().filter(|joint| !exact(joint)) {
             let joint = &mut result.joints[joint.0];
             for side in [&mut joint.predecessor, &mut joint.successor] {
                 for angle in &mut side.frame.roll_pitch_yaw {

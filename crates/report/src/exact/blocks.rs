@@ -54,8 +54,7 @@ pub struct BlocksReport {
 /// The report block by block.
 #[must_use]
 pub fn blocks_report(mechanism: &Mechanism, found: &ByBlocks, request: &Request) -> BlocksReport {
-    let rounded = !mechanism.precision().is_exact();
-    let row = |block| row(mechanism, block, rounded);
+    let row = |block| row(mechanism, block);
     let blocks: Vec<BlockRow> = found.blocks.iter().map(row).collect();
     let proved = blocks.iter().all(|row| row.answer == "proved");
     let parts: Option<usize> = blocks.iter().map(|row| row.dimension).sum();
@@ -80,14 +79,15 @@ pub fn blocks_report(mechanism: &Mechanism, found: &ByBlocks, request: &Request)
         dimension: parts.filter(|_| proved).map(|d| d + found.free),
         free: found.free,
         blocks,
-        rounded_numbers_taken_literally: rounded,
+        rounded_numbers_taken_literally: !mechanism.precision().is_exact(),
     }
 }
 
 /// What exact algebra cannot say of rounded numbers, another command can.
 const ASK: &str = "`report` gives the verdict within the digits";
 
-fn row(mechanism: &Mechanism, block: &BlockAnswer, rounded: bool) -> BlockRow {
+fn row(mechanism: &Mechanism, block: &BlockAnswer) -> BlockRow {
+    let rounded = !mechanism.is_exact(block.joints.iter().map(|joint| &joint.0));
     let (answer, dimension, text) = said(&block.found, rounded);
     let name = |joint: &kutzbach_model::mechanism::JointId| mechanism.joint(*joint).name.clone();
     BlockRow {

@@ -40,9 +40,10 @@ mod tests;
 
 pub use joint_builder::JointBuilder;
 
+use super::precision::Precisions;
 use super::{
     Entity, Expectation, Frame, Inertial, JointId, Link, Mechanism, MechanismError, Placement,
-    Precision, Recognised, Scene, Shape,
+    Recognised, Scene, Shape,
 };
 use actuation::resolve_actuated;
 use configurations::{ConfigurationSpec, resolve_configurations};
@@ -277,8 +278,7 @@ impl MechanismBuilder {
         if let Some(expectation) = &self.expectation {
             check_expectation(expectation, &joints, &names)?;
         }
-        let precision = Precision::of(&links, &joints);
-        Ok(Mechanism {
+        let mechanism = Mechanism {
             name: self.name,
             ground,
             links,
@@ -289,10 +289,11 @@ impl MechanismBuilder {
             scene,
             expectation: self.expectation,
             placement_order,
-            precision,
+            precisions: Precisions::default(),
             recognised: Recognised::default(),
             link_by_name: names.links,
             joint_by_name: names.joints,
-        })
+        };
+        Ok(mechanism.read_digits())
     }
 }
