@@ -74,7 +74,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 
         let mut pulled = poses.clone();
         let mut gaps = Vec::new();
-        let shift = 0.1 * geometry.size * time.sin();
+        let size = geometry.size_of(0..geometry.sides.len());
+        let shift = 0.1 * size * time.sin();
         let closing = mechanism.joints().iter().rposition(|j| j.closes_loop);
         if let Some(index) = closing {
             let links = [
