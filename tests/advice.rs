@@ -139,11 +139,14 @@ mod corpus {
     #[test]
     #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn every_advice_for_the_reference_mechanisms_holds() {
-        let results = in_parallel(&zoo(), |(name, mechanism)| {
+        let results = in_parallel(&support::sample(zoo(), 3), |(name, mechanism)| {
             broken_promises(name, mechanism, None)
         });
         let given: usize = results.iter().map(|(given, _)| given).sum();
-        assert!(given > 1000, "only {given} pieces of advice");
+        assert!(
+            given > support::at_least(1000),
+            "only {given} pieces of advice"
+        );
         let wrong: Vec<String> = results.into_iter().flat_map(|(_, wrong)| wrong).collect();
         assert_none(&wrong);
     }

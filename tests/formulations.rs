@@ -147,6 +147,6 @@ mod corpus {
     #[test]
     #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn own_files() {
-        assert_agreement(&own_mechanisms());
+        assert_agreement(&support::sample(own_mechanisms(), 3));
     }
 }

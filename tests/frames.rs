@@ -4,8 +4,7 @@ use crate::support;
 
 use std::fmt::Write as _;
 use std::fs;
-use std::path::Path;
-use support::folder;
+use support::{empty_folder, folder, mechanism_files, sample};
 
 /// The text of a mechanism with so many links in a row fixed between the parent of every joint and the joint.
 fn with_frames(text: &str, count: usize) -> String {
@@ -32,17 +31,10 @@ fn with_frames(text: &str, count: usize) -> String {
 
 /// Checks all mechanisms with frames against what their files state.
 fn check(count: usize) {
-    let framed = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("frames_{count}"));
-    fs::create_dir_all(&framed).unwrap();
-    for entry in fs::read_dir(folder("mechanisms")).unwrap() {
-        let path = entry.unwrap().path();
-        if path
-            .extension()
-            .is_some_and(|extension| extension == "urdf")
-        {
-            let text = with_frames(&fs::read_to_string(&path).unwrap(), count);
-            fs::write(framed.join(path.file_name().unwrap()), text).unwrap();
-        }
+    let framed = empty_folder(&format!("frames_{count}"));
+    for (_, path) in sample(mechanism_files(&folder("mechanisms")), 3) {
+        let text = with_frames(&fs::read_to_string(&path).unwrap(), count);
+        fs::write(framed.join(path.file_name().unwrap()), text).unwrap();
     }
     let output = crate::support::program()
         .arg("check")

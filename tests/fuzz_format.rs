@@ -350,7 +350,14 @@ mod corpus {
     #[test]
     #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn mutated_files_are_read_or_refused_with_a_place() {
-        let cases = setting("KUTZBACH_FUZZ_CASES", 20_000);
+        let cases = setting(
+            "KUTZBACH_FUZZ_CASES",
+            if crate::support::whole() {
+                20_000
+            } else {
+                7_000
+            },
+        );
         let seed = setting("KUTZBACH_FUZZ_SEED", 1);
         let started = Instant::now();
         let mut read = 0u64;

@@ -1,5 +1,6 @@
 //! What has margin is decided, whatever the decimals: platforms on rods, rounded as drawings are.
 
+use crate::support;
 use kutzbach::format::read;
 use kutzbach::matrix::SplitMix64;
 use kutzbach::report::{Options, Report, Verdict, report};
@@ -66,28 +67,26 @@ fn platforms_on_rods_are_decided_whatever_their_decimals() {
 #[test]
 fn platforms_that_rounding_spoils_are_not_taken_for_stiff_ones() {
     // With three decimals these lengths below a metre count as chosen.
-    for decimals in [4, 5] {
-        for case in 0..10 {
-            let turn = f64::from(case) * 0.1;
-            let rods: Vec<_> = [0.1, 0.9, 2.0, 2.8, 4.1, 5.2]
-                .iter()
-                .map(|angle| {
-                    let at = |radius: f64, turn: f64| {
-                        let angle: f64 = angle + turn;
-                        [radius * angle.cos(), radius * angle.sin(), 0.0]
-                    };
-                    (at(0.5, 0.0), at(0.3, turn))
-                })
-                .collect();
-            let report = platform(&rods, 0.6, decimals);
-            let stiff =
-                report.mobility.verdict == Verdict::Rigid && report.home.redundant == Some(0);
-            assert!(
-                !stiff,
-                "{decimals} decimals, turned by {turn}: {:?}",
-                report.mobility
-            );
-        }
+    for (decimals, case) in support::sample((0..20u8).map(|n| (4 + usize::from(n / 10), n % 10)), 4)
+    {
+        let turn = f64::from(case) * 0.1;
+        let rods: Vec<_> = [0.1, 0.9, 2.0, 2.8, 4.1, 5.2]
+            .iter()
+            .map(|angle| {
+                let at = |radius: f64, turn: f64| {
+                    let angle: f64 = angle + turn;
+                    [radius * angle.cos(), radius * angle.sin(), 0.0]
+                };
+                (at(0.5, 0.0), at(0.3, turn))
+            })
+            .collect();
+        let report = platform(&rods, 0.6, decimals);
+        let stiff = report.mobility.verdict == Verdict::Rigid && report.home.redundant == Some(0);
+        assert!(
+            !stiff,
+            "{decimals} decimals, turned by {turn}: {:?}",
+            report.mobility
+        );
     }
 }
 

@@ -11,7 +11,7 @@ use kutzbach::mobility::{Analysis, Branch, RelativeMotion, analyse};
 use kutzbach::motion::{TraceOptions, trace};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use support::rewrite::Draft;
-use support::{KNOWN_OWN, KNOWN_ZOO, assert_none, decimal, in_parallel};
+use support::{KNOWN_OWN, KNOWN_ZOO, assert_none, decimal, in_parallel, sample, whole};
 
 /// Curves traced on every branch, each driven by another joint.
 const CURVES: usize = 5;
@@ -282,22 +282,23 @@ fn all(found: Vec<Found>, most_open: f64) {
         open.len(),
         open.join("\n")
     );
-    assert!(rows > 800, "{rows} rows");
+    let least = if whole() { 800 } else { 200 };
+    assert!(rows > least, "{rows} rows");
 }
 
 #[test]
 fn of_exact_files() {
-    let known: Vec<_> = KNOWN_ZOO.iter().chain(KNOWN_OWN.iter()).collect();
+    let known = sample(KNOWN_ZOO.iter().chain(KNOWN_OWN.iter()), 3);
     let found = in_parallel(&known, |(name, mechanism, analysis)| {
         checked(name, mechanism, analysis, [NONE[0], REACH[0]])
     });
-    // Measured: 30 of 1473.
-    all(found, 0.021);
+    // Measured: 30 of 1473 in all.
+    all(found, if whole() { 0.021 } else { 0.04 });
 }
 
 #[test]
 fn of_files_with_four_decimals() {
-    let known: Vec<_> = KNOWN_ZOO.iter().chain(KNOWN_OWN.iter()).collect();
+    let known = sample(KNOWN_ZOO.iter().chain(KNOWN_OWN.iter()), 3);
     let found = in_parallel(&known, |(name, mechanism, _)| {
         let draft = Draft::of(mechanism).each_number(&|number| decimal::rounded(number, 4));
         let rounded = draft.build();
@@ -307,6 +308,6 @@ fn of_files_with_four_decimals() {
             Err(_) => (0, Vec::new(), Vec::new()),
         }
     });
-    // Measured: 231 of 1018.
-    all(found, 0.24);
+    // Measured: 231 of 1018 in all.
+    all(found, if whole() { 0.24 } else { 0.3 });
 }

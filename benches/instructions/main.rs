@@ -18,6 +18,7 @@ mod jobs;
 mod list;
 
 use std::error::Error;
+use std::hint::black_box;
 
 fn main() -> Result<(), Box<dyn Error>> {
     // `cargo bench` adds `--bench`, `cargo test -p kutzbach-benches --benches` nothing.
@@ -39,7 +40,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 .ok_or_else(|| format!("there is no case `{name}`"))?;
             let mut job = stage(case);
             for _ in 0..repetitions {
-                job();
+                black_box(job());
             }
         }
         _ => return Err("needed are a case and how often it is to run".into()),

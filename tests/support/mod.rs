@@ -7,6 +7,7 @@ pub mod exported;
 pub mod rewrite;
 pub mod whole_numbers;
 
+use kutzbach::matrix::SplitMix64;
 use kutzbach::mechanism::Mechanism;
 use kutzbach::mobility::{Analysis, AnalysisOptions, analyse};
 use std::collections::BTreeSet;
@@ -153,6 +154,26 @@ pub fn is_locked(name: &str, found: &BTreeSet<String>, mechanism: &Mechanism) ->
         Some(count > 0 && (1..=count).all(|i| found.contains(&format!("{name}{i}"))))
     };
     found.contains(name) || numbered().unwrap_or(false)
+}
+
+/// Whether everything is to be looked at that a sample is drawn from otherwise: `bash .ci/on-demand whole`.
+pub fn whole() -> bool {
+    std::env::var_os("KUTZBACH_WHOLE").is_some()
+}
+
+/// What a count has to reach: the number given of everything, a fifth of it where [`sample`] drew about a third.
+pub fn at_least(of_all: usize) -> usize {
+    if whole() { of_all } else { of_all / 5 }
+}
+
+/// About one in so many, drawn by lot and the same every time; `KUTZBACH_SEED` draws others, [`whole`] takes all.
+pub fn sample<T>(items: impl IntoIterator<Item = T>, one_in: u64) -> Vec<T> {
+    let seed = std::env::var("KUTZBACH_SEED").map_or(20260, |seed| seed.parse().unwrap());
+    let mut lots = SplitMix64::new(seed);
+    let mut drawn = |_: &T| whole() || lots.next_u64() % one_in == 0;
+    let chosen: Vec<T> = items.into_iter().filter(&mut drawn).collect();
+    assert!(!chosen.is_empty(), "nothing was drawn");
+    chosen
 }
 
 /// Maps over items on two threads; the results keep the items' order.
