@@ -62,6 +62,7 @@ impl Source {
             precision: self.precision,
             strict,
             packages: self.packages.clone(),
+            without_environment: false,
         }
     }
 

@@ -158,6 +158,10 @@ pub struct ReadOptions {
     /// Names of ROS packages and the folders that they are in, for `$(find name)` and `package://name` in the files that
     /// xacro includes. Packages that are not named here are looked for in the environment and around the file.
     pub packages: Vec<(String, PathBuf)>,
+    /// Whether the environment of the process is left alone: then neither `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH` are looked
+    /// into for packages, nor is any variable set for `$(env NAME)` and `$(optenv NAME default)`, so that a text means the same
+    /// everywhere.
+    pub without_environment: bool,
 }
 
 /// Reads a text, with some of its properties left symbolic, or strictly.

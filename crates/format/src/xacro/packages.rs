@@ -7,7 +7,7 @@
 use super::files::folder_of;
 use super::{Outcome, Run, files};
 use std::collections::VecDeque;
-use std::ffi::OsStr;
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 /// Folders above a file that are looked at.
@@ -50,12 +50,12 @@ impl Run<'_> {
         if let Some((_, path)) = given {
             return Some(from_here(path));
         }
-        for folder in folders_of("ROS_PACKAGE_PATH") {
+        for folder in self.folders_of("ROS_PACKAGE_PATH") {
             if let Some(found) = below(&folder, name, DEEPEST, left) {
                 return Some(found);
             }
         }
-        for prefix in folders_of("AMENT_PREFIX_PATH") {
+        for prefix in self.folders_of("AMENT_PREFIX_PATH") {
             let share = prefix.join("share").join(name);
             if share.is_dir() {
                 return Some(share);
@@ -69,15 +69,21 @@ impl Run<'_> {
             below(folder, name, levels, left).filter(|_| levels > 0)
         })
     }
+
+    fn folders_of(&self, variable: &str) -> Vec<PathBuf> {
+        folders_in(&self.variable(variable).unwrap_or_default())
+    }
+
+    /// A variable of the environment, where that may be read.
+    pub(super) fn variable(&self, name: &str) -> Option<OsString> {
+        let readable = !self.options.without_environment;
+        readable.then(|| std::env::var_os(name)).flatten()
+    }
 }
 
 /// A relative path of the user is meant from where the program was started, not from the file that asks for it.
 fn from_here(path: &Path) -> PathBuf {
     std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf())
-}
-
-fn folders_of(variable: &str) -> Vec<PathBuf> {
-    folders_in(&std::env::var_os(variable).unwrap_or_default())
 }
 
 fn folders_in(list: &OsStr) -> Vec<PathBuf> {

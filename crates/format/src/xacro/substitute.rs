@@ -155,15 +155,16 @@ impl Run<'_> {
         match words[..] {
             ["arg", name] => Ok(Value::Text(self.argument(name)?)),
             ["find", package] => Ok(Value::text(&self.package(package)?)),
-            ["env", name] => match std::env::var(name) {
-                Ok(value) => Ok(Value::text(&value)),
-                Err(_) => Err(Trouble::new(format!(
+            ["env", name] => match self.variable(name).and_then(|v| v.into_string().ok()) {
+                Some(value) => Ok(Value::text(&value)),
+                None => Err(Trouble::new(format!(
                     "the environment variable {} is not set",
                     quoted(name)
                 ))),
             },
             ["optenv", name, ref default @ ..] => {
-                let value = std::env::var(name).unwrap_or_else(|_| default.join(" "));
+                let value = self.variable(name).and_then(|v| v.into_string().ok());
+                let value = value.unwrap_or_else(|| default.join(" "));
                 Ok(Value::text(&value))
             }
             ["dirname"] => path(&self.folder()?),

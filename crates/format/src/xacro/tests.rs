@@ -15,13 +15,14 @@ fn options(settings: &[(&str, &str)]) -> ReadOptions {
             .iter()
             .map(|(name, value)| ((*name).into(), (*value).into()))
             .collect(),
+        without_environment: true,
         ..ReadOptions::default()
     }
 }
 
 /// What a body expands to, one element or text a line, without the robot around it.
 fn expanded(body: &str) -> String {
-    let none = ReadOptions::default();
+    let none = options(&[]);
     let text = robot(body);
     let source = super::expand(&text, "robot.xacro", None, &none)
         .unwrap_or_else(|error| panic!("{error} {:?}", error.help));
@@ -33,7 +34,7 @@ fn expanded(body: &str) -> String {
 }
 
 fn message(body: &str) -> String {
-    let none = ReadOptions::default();
+    let none = options(&[]);
     match read_with(&robot(body), "robot.xacro", &none) {
         Ok(_) => panic!("read"),
         Err(error) => format!("{error} | {}", error.help.as_deref().unwrap_or_default()),
@@ -116,7 +117,7 @@ fn an_element_with_the_name_of_a_macro_is_no_call() {
 
 #[test]
 fn a_macro_that_nobody_defined_is_an_error_in_the_robot() {
-    let none = ReadOptions::default();
+    let none = options(&[]);
     let parts = "<link name='a'/>\n <xacro:left_arm on='a'/>\n";
     let define = "<xacro:macro name='right_arm' params='on'/>";
     let inside = "<xacro:macro name='arms'><xacro:left_arm on='a'/></xacro:macro>";
@@ -151,7 +152,7 @@ fn a_macro_that_nobody_defined_is_an_error_in_the_robot() {
 
 #[test]
 fn calls_left_over_from_an_expansion_are_skipped_with_a_warning() {
-    let none = ReadOptions::default();
+    let none = options(&[]);
     let looks = "<link name='a'>\n<visual><xacro:paint/></visual><collision><xacro:paint/></collision></link>";
     let warnings = |body: &str, file: &str| {
         let reading = read_with(&robot(body), file, &none).unwrap();
@@ -300,7 +301,7 @@ fn settings_and_symbols_reach_what_is_expanded() {
     assert_eq!(error.help.as_deref(), Some("did you mean `side`?"));
     let open = ReadOptions {
         symbolic: vec!["h".into()],
-        ..ReadOptions::default()
+        ..options(&[])
     };
     let mechanism = read_with(&robot(&body), "r", &open).unwrap().mechanism;
     let number = &mechanism.joints()[0].predecessor.frame.position[1];
@@ -330,7 +331,7 @@ fn faults_in_macros_have_their_place_and_their_call() {
     let body = "<xacro:macro name='leg' params='n t'>\n <link name='${n}'/>\n <joint name='${n}j' type='${t}'>\
                 <parent link='a'/><child link='${n}'/></joint>\n</xacro:macro>\n<link name='a'/>\n<xacro:leg n='b' t='revolut'/>\
                 <xacro:leg n='c' t='revolut'/>";
-    let error = read_with(&robot(body), "robot.xacro", &ReadOptions::default()).unwrap_err();
+    let error = read_with(&robot(body), "robot.xacro", &options(&[])).unwrap_err();
     assert_eq!((error.line, error.column), (4, 28), "{error}");
     assert!(
         error
@@ -552,7 +553,7 @@ fn what_costs_time_costs_steps() {
     let main = robot(&format!("<xacro:if value='0'/>\n{pattern}"));
     files.push(("main.xacro", &main));
     let folder = Folder::new("patterns", &files);
-    let error = read_file_with(folder.0.join("main.xacro"), &ReadOptions::default()).unwrap_err();
+    let error = read_file_with(folder.0.join("main.xacro"), &options(&[])).unwrap_err();
     assert!(error.message.contains("1000000 steps"), "{error}");
     assert_eq!(error.line, 3, "{error}");
     let name = "n".repeat(2000);
@@ -598,7 +599,7 @@ fn yaml_that_repeats_itself_is_bounded() {
         ],
     );
     for name in ["compared.xacro", "merged.xacro"] {
-        let error = read_file_with(folder.0.join(name), &ReadOptions::default()).unwrap_err();
+        let error = read_file_with(folder.0.join(name), &options(&[])).unwrap_err();
         assert!(error.message.contains("1000000 steps"), "{error}");
         assert_eq!(error.line, 3, "{error}");
     }
@@ -656,15 +657,14 @@ fn includes_are_found_beside_the_file_and_in_packages() {
         ],
     );
     let path = folder.0.join("robot/urdf/main.xacro");
-    let text =
-        expanded_file(&path, &ReadOptions::default()).unwrap_or_else(|error| panic!("{error}"));
+    let text = expanded_file(&path, &options(&[])).unwrap_or_else(|error| panic!("{error}"));
     let lines: Vec<&str> = text.lines().map(str::trim).collect();
     assert_eq!(
         lines[1..lines.len() - 1].join(""),
         "<e v=\"2\"/><f v=\"2\"/><two/><two/><g v=\"1.5707963267948966\"/><mesh filename=\"package://no_such_package/m.stl\"/>"
     );
     // Without a file there is no place to look in.
-    let error = read_with(&main, "text", &ReadOptions::default()).unwrap_err();
+    let error = read_with(&main, "text", &options(&[])).unwrap_err();
     assert!(error.message.contains("read without a file"), "{error}");
 }
 
@@ -695,7 +695,7 @@ fn the_folder_of_a_package_is_given_from_where_the_program_was_started() {
             "pk".into(),
             PathBuf::from(up).join(there.strip_prefix("/").unwrap_or(&there)),
         )],
-        ..ReadOptions::default()
+        ..options(&[])
     };
     let path = folder.0.join(format!("{deep}main.xacro"));
     let reading = read_file_with(path, &options).unwrap_or_else(|error| panic!("{error}"));
@@ -728,8 +728,7 @@ fn what_is_wrong_in_an_included_file_is_told_there() {
             ("unclosed.xml", "<robot>\n<link>"),
         ],
     );
-    let read =
-        |name: &str| read_file_with(folder.0.join(name), &ReadOptions::default()).unwrap_err();
+    let read = |name: &str| read_file_with(folder.0.join(name), &options(&[])).unwrap_err();
     let error = read("main.xacro");
     assert!(error.file.ends_with("bad.xacro"), "{error}");
     assert!(error.line >= 2, "{error}");
@@ -769,12 +768,12 @@ proptest! {
              <xacro:property name='c' value=\"{text}\"/><xacro:macro name='m' params=\"p:={text} q\"/>\
              <link name=\"${{c}}\"/><xacro:m q=\"${{{text}}}\"/>"
         );
-        let _ = read_with(&robot(&body), "any", &ReadOptions::default());
+        let _ = read_with(&robot(&body), "any", &options(&[]));
     }
 
     #[test]
     fn any_text_of_xacro_is_read_or_refused(text in "[ a-z<>/='{}$():.x]{0,80}") {
-        let _ = read_with(&robot(&text), "any", &ReadOptions::default());
-        let _ = read_with(&robot(&format!("<xacro:if value='{text}'>{text}</xacro:if>")), "any", &ReadOptions::default());
+        let _ = read_with(&robot(&text), "any", &options(&[]));
+        let _ = read_with(&robot(&format!("<xacro:if value='{text}'>{text}</xacro:if>")), "any", &options(&[]));
     }
 }
