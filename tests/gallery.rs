@@ -62,19 +62,3 @@ fn stills_and_sentences_are_those_of_today() {
     wrong.extend(rows.filter(old).map(str::to_owned));
     assert_none(&wrong);
 }
-
-mod corpus {
-    use super::*;
-
-    #[test]
-    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
-    fn the_gallery_is_that_of_today() {
-        let today = made(&[folder("mechanisms")], "gallery_stills");
-        let kept = files(&folder("docs/gallery"));
-        assert!(today.keys().eq(kept.keys()));
-        assert_eq!(today["README.md"], kept["README.md"], "bash .ci/pictures");
-        let old = |name: &&String| parts(&today[*name]) != parts(&kept[*name]);
-        let wrong: Vec<String> = today.keys().filter(old).cloned().collect();
-        assert_none(&wrong);
-    }
-}

@@ -279,12 +279,12 @@ mod corpus {
             "0.123456789012 0 0",
             "1000.123456789012 0.5 0",
         ];
-        check_cameras(&files(), &places, Depth::Everything);
+        check_cameras(&support::sample(files(), 12), &places, Depth::Everything);
     }
 
     #[test]
     #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn independent_loops_of_three_hundred_pairs() {
-        check_pairs(300);
+        check_pairs(if support::whole() { 300 } else { 40 });
     }
 }
