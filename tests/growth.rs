@@ -28,8 +28,8 @@ const SHAPES: [Shape; 11] = [
     ("scissor lift", |n| scissor_lift(n).unwrap(), 100),
     ("Miura strip", |n| miura_sheet(6, n).unwrap(), 10),
     ("ring of hinges", |n| hinge_ring(n).unwrap(), 200),
-    // Of side² bodies: the side grows by the root of two and by two.
-    ("grid of limbs", |n| limb_grid(n.isqrt()).unwrap(), 25),
+    // Of side² bodies, nearly: sides of 7, 10 and 14.
+    ("grid of limbs", |n| limb_grid(n.isqrt()).unwrap(), 50),
     ("tower of layers", |n| layer_tower(n).unwrap(), 9),
 ];
 

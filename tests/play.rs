@@ -99,7 +99,7 @@ fn a_parallelogram_with_a_long_spare_bar_needs_a_quarter_of_the_excess() {
 
 #[test]
 fn what_moves_as_written_needs_none() {
-    let exact = std::fs::read_to_string("mechanisms/bennett.urdf").unwrap();
+    let exact = std::fs::read_to_string(crate::support::folder("mechanisms/bennett.urdf")).unwrap();
     let (play, page) = play_of(
         &exact,
         PlayAsked {
