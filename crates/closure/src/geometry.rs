@@ -309,24 +309,32 @@ impl Uncertainty {
         if precision.is_exact() {
             return sum;
         }
-        let of = |numbers: &[Number; 3]| -> Vector<f64> {
-            three(|i| precision.uncertainty(&numbers[i]))
+        let of = |place: usize, numbers: &[Number; 3]| -> Vector<f64> {
+            three(|i| precision.uncertainty(place + i, &numbers[i]))
         };
-        for side in [&joint.predecessor, &joint.successor] {
-            sum.lengths = sum.lengths.hypot(length(&of(&side.frame.position)));
-            sum.angles = sum.angles.hypot(length(&of(&side.frame.roll_pitch_yaw)));
+        for (side, frame) in [&joint.predecessor.frame, &joint.successor.frame]
+            .into_iter()
+            .enumerate()
+        {
+            let place = 6 * side;
+            sum.lengths = sum.lengths.hypot(length(&of(place, &frame.position)));
+            sum.angles = sum
+                .angles
+                .hypot(length(&of(place + 3, &frame.roll_pitch_yaw)));
         }
-        for (axis, used) in [
-            (&joint.axis, joint.kind.uses_axis()),
-            (&joint.axis2, joint.kind.uses_second_axis()),
+        for (place, axis, used) in [
+            (12, &joint.axis, joint.kind.uses_axis()),
+            (15, &joint.axis2, joint.kind.uses_second_axis()),
         ] {
             if used {
                 let size = length(&three(|i| axis.0[i].value()));
-                sum.angles = sum.angles.hypot(length(&of(&axis.0)) / size);
+                sum.angles = sum.angles.hypot(length(&of(place, &axis.0)) / size);
             }
         }
-        for scalar in joint.lead.iter().chain(&joint.distance) {
-            sum.lengths = sum.lengths.hypot(precision.uncertainty(scalar));
+        for (place, scalar) in [(18, &joint.lead), (19, &joint.distance)] {
+            if let Some(scalar) = scalar {
+                sum.lengths = sum.lengths.hypot(precision.uncertainty(place, scalar));
+            }
         }
         sum
     }

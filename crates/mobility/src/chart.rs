@@ -52,9 +52,6 @@ pub(super) const LADDER_UNKNOWNS: usize = 400;
 /// At most so many directions are tried.
 const DIRECTIONS: usize = 6;
 
-/// Significant digits with which programs print doubles, at least.
-const DIGITS_OF_A_DOUBLE: u32 = 17;
-
 /// The seed of the directions.
 pub const SEED: u64 = 20;
 
@@ -201,9 +198,8 @@ pub(super) fn literal_leftover(
     rank: &PartRank,
     kernel: &Kernel,
 ) -> Result<Option<f64>, MatrixError> {
-    let precision = |joint: &usize| pose.mechanism.precision_of(JointId(*joint));
-    let digits = part.joints.iter().map(|joint| precision(joint).significant);
-    if digits.max() >= Some(DIGITS_OF_A_DOUBLE) {
+    let in_full = |joint: &usize| pose.mechanism.precision_of(JointId(*joint)).is_in_full();
+    if part.joints.iter().any(in_full) {
         return Ok(None);
     }
     let reach = (first_radius(rank), 0.0);

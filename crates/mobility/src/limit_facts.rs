@@ -8,7 +8,7 @@
 
 use kutzbach_closure::{JointState, coupled_joints, nearest_turn};
 use kutzbach_math::number::Number;
-use kutzbach_model::mechanism::{Joint, JointId, Mechanism, Precision};
+use kutzbach_model::mechanism::{FreedomPart, Joint, JointId, Mechanism, Precision};
 
 /// Something that the limits of a mechanism say.
 #[derive(Clone, Debug, PartialEq)]
@@ -100,9 +100,15 @@ impl Range {
     fn of(precision: &Precision, joint: &Joint) -> Option<Self> {
         let (lower, upper) = joint.bounds()?;
         let limit = joint.limit.as_ref()?;
+        // As a length or an angle of its frame.
+        let place = if joint.kind.freedoms() == [FreedomPart::Translation] {
+            0
+        } else {
+            3
+        };
         let numbers = || limit.lower.iter().chain(&limit.upper);
         let stated = numbers()
-            .map(|x| precision.uncertainty(x).max(own_digits(x)))
+            .map(|x| precision.uncertainty(place, x).max(own_digits(x)))
             .fold(0.0, f64::max);
         let size = numbers().map(|x| x.value().abs()).fold(0.0, f64::max);
         Some(Self {

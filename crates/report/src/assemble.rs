@@ -6,8 +6,8 @@
 use super::natural::natural_order;
 use super::play::PlayAsked;
 use super::schema::{
-    Assembly, Constants, CouplingRow, Home, JointRow, LiteralReading, Mobility, Report, SCHEMA,
-    Size, Source, Timing,
+    Assembly, Constants, CouplingRow, Home, JointRow, LiteralAt, LiteralReading, Mobility, Report,
+    SCHEMA, Size, Source, Timing,
 };
 use kutzbach_format::Reading;
 use kutzbach_math::number::Number;
@@ -15,7 +15,7 @@ use kutzbach_mobility::Verdict;
 use kutzbach_mobility::{
     Analysis, AnalysisError, AnalysisOptions, Depth, ExactBudget, analyse, kutzbach_count,
 };
-use kutzbach_model::mechanism::{Coupling, Mechanism};
+use kutzbach_model::mechanism::{Coupling, LiteralPlace, Mechanism, Placement};
 use petgraph::unionfind::UnionFind;
 use std::time::Instant;
 use thiserror::Error;
@@ -263,6 +263,37 @@ fn configuration_of<'a>(mechanism: &Mechanism, name: &'a str) -> Option<&'a str>
     (name != HOME || mechanism.configuration(HOME).is_some()).then_some(name)
 }
 
+fn rounded_by(mechanism: &Mechanism) -> Option<LiteralAt> {
+    let (number, owner) = match mechanism.precision().rounded_by()? {
+        LiteralPlace::Joint(joint, place) => {
+            let joint = &mechanism.joints()[joint];
+            (joint.numbers()[place]?, &joint.name)
+        }
+        LiteralPlace::Link(link, place) => {
+            let link = &mechanism.links()[link];
+            let Placement::Floating { origin, .. } = &link.placement else {
+                return None;
+            };
+            let mut numbers = origin.position.iter().chain(&origin.roll_pitch_yaw);
+            (numbers.nth(place)?, &link.name)
+        }
+    };
+    Some(LiteralAt {
+        literal: number.literal_text()?.to_owned(),
+        owner: owner.clone(),
+    })
+}
+
+fn residues(mechanism: &Mechanism) -> Vec<LiteralAt> {
+    let residues = mechanism.recognised().residues.iter();
+    residues
+        .map(|residue| LiteralAt {
+            literal: residue.text.clone(),
+            owner: mechanism.joints()[residue.joint].name.clone(),
+        })
+        .collect()
+}
+
 fn constants(mechanism: &Mechanism) -> Option<Constants> {
     let found = mechanism.recognised();
     let readings = found
@@ -301,6 +332,8 @@ fn counted(input: &Input<'_>, configuration: &str) -> Report {
             exact: precision.is_exact(),
             precision: precision.by_hand(),
             constants: constants(mechanism),
+            rounded_by: rounded_by(mechanism),
+            residues: residues(mechanism),
         },
         kutzbach: kutzbach_count(mechanism),
         generic: None,

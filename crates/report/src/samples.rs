@@ -52,6 +52,8 @@ pub(crate) fn mobile() -> Report {
             exact: false,
             precision: None,
             constants: None,
+            rounded_by: None,
+            residues: Vec::new(),
         },
         size: Size {
             links: 4,
@@ -201,6 +203,8 @@ pub(crate) fn rigid() -> Report {
         exact: true,
         precision: None,
         constants: None,
+        rounded_by: None,
+        residues: Vec::new(),
     };
     report.size = Size {
         links: 3,

@@ -38,7 +38,7 @@ impl<'a> Dimensions<'a> {
                 continue;
             };
             for (place, number) in mechanism.joints()[joint].numbers().into_iter().enumerate() {
-                let unit = number.map_or(0.0, |number| precision.uncertainty(number));
+                let unit = number.map_or(0.0, |number| precision.uncertainty(place, number));
                 if unit > 0.0 {
                     all.push(Dimension { joint, place, unit });
                 }

@@ -26,6 +26,7 @@ use super::frame::{Direction, Frame};
 use super::link::Placement;
 use super::model::Mechanism;
 use super::precision::Precisions;
+use super::residues::residues;
 use kutzbach_math::number::Number;
 use std::f64::consts::PI;
 
@@ -60,6 +61,19 @@ pub struct Recognised {
     pub count: usize,
     /// Texts and what they are read as, such as `("1.5707963267948966", "π/2")`: the first of each reading, in file order.
     pub examples: Vec<(String, String)>,
+    /// Literals that were read as 0 because they are what rounding left of one, in the order of joints.
+    pub residues: Vec<Residue>,
+}
+
+/// What rounding left of a zero.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Residue {
+    /// The literal.
+    pub text: String,
+    /// Joint index.
+    pub joint: usize,
+    /// Place in [`Joint::numbers`](super::Joint::numbers).
+    pub place: usize,
 }
 
 /// Whether a literal can be the output of a program that prints doubles: it has their digits, and no more than they hold.
@@ -337,8 +351,34 @@ impl Mechanism {
             found.axis(&mut joint.axis);
             found.axis(&mut joint.axis2);
         }
+        found.residues = self.read_residues();
         self.recognised = found;
         self.read_digits()
+    }
+
+    /// Reads as 0 what rounding left of zeros, by independent sub-mechanism.
+    fn read_residues(&mut self) -> Vec<Residue> {
+        let mut blocks: Vec<Vec<usize>> = Vec::new();
+        for joint in 0..self.joints.len() {
+            if let Some(block) = self.precisions.block(joint) {
+                if blocks.len() <= block {
+                    blocks.resize(block + 1, Vec::new());
+                }
+                blocks[block].push(joint);
+            }
+        }
+        let found = blocks.iter().flat_map(|joints| residues(self, joints));
+        let mut found: Vec<(usize, usize)> = found.collect();
+        found.sort_unstable();
+        let mut read = Vec::with_capacity(found.len());
+        for (joint, place) in found {
+            if let Some(number) = self.joints[joint].number_mut(place) {
+                let text = number.literal_text().unwrap_or_default().to_owned();
+                *number = number.read_as(&Number::zero());
+                read.push(Residue { text, joint, place });
+            }
+        }
+        read
     }
 
     /// The mechanism with every literal of its geometry known to within `uncertainty` (m, rad), whatever its digits say.
@@ -607,7 +647,7 @@ mod tests {
         assert!(mechanism.precision().is_exact());
         assert_eq!(mechanism.precision().decimals, Some(0));
         let x = &mechanism.joints()[0].axis.0[0];
-        assert_eq!(mechanism.precision().uncertainty(x), 0.0);
+        assert_eq!(mechanism.precision().uncertainty(12, x), 0.0);
     }
 
     #[test]
@@ -619,7 +659,7 @@ mod tests {
         assert!(mechanism.precision().is_of_doubles());
         let by_hand = mechanism.with_precision(1e-6);
         let x = &by_hand.joints()[0].axis.0[0];
-        assert_eq!(by_hand.precision().uncertainty(x), 1e-6);
+        assert_eq!(by_hand.precision().uncertainty(12, x), 1e-6);
         assert!(!by_hand.precision().is_of_doubles() && !by_hand.precision().is_exact());
         assert!(by_hand.with_precision(0.0).precision().is_exact());
     }

@@ -29,7 +29,16 @@ impl Joint {
         all
     }
 
-    fn number_mut(&mut self, index: usize) -> Option<&mut Number> {
+    /// Which kind of number stands at a place of [`Joint::numbers`]: a length (0), an angle (1), or a component of a direction (2).
+    pub(super) fn kind_of_number(place: usize) -> usize {
+        match place {
+            3..6 | 9..12 => 1,
+            12..18 => 2,
+            _ => 0,
+        }
+    }
+
+    pub(super) fn number_mut(&mut self, index: usize) -> Option<&mut Number> {
         let side = |index: usize| (index % 6 / 3, index % 3);
         match index {
             0..12 => {

@@ -28,14 +28,16 @@ mod joint_numbers;
 mod kind;
 mod link;
 mod model;
+mod number_style;
 mod precision;
 mod rational_rotations;
+mod residues;
 mod scene;
 mod set_aside;
 
 pub use builder::{JointBuilder, MechanismBuilder};
 pub use configuration::Configuration;
-pub use constants::Recognised;
+pub use constants::{Recognised, Residue};
 pub use coupling::{Coupling, CouplingOrigin, CouplingTerm};
 pub use error::{Entity, MechanismError};
 pub use exact_pose::ExactPose;

@@ -1,48 +1,48 @@
 //! How far a file's numbers may be from the numbers meant: judged for every independent sub-mechanism by itself.
 
-use super::constants::{has_no_more_than_a_double, is_printed_double};
+use super::joint::Joint;
 use super::link::Placement;
 use super::model::Mechanism;
+use super::number_style::{EXACT_DECIMALS, Group, Literals, OF_A_DOUBLE};
 use crate::graph::{Block, ConstraintGraph};
-use kutzbach_math::number::{Number, Stated};
+use kutzbach_math::number::Number;
 
 /// How precisely a file states the geometry of one independent sub-mechanism.
 ///
 /// A rounded number differs from the number meant by up to half a unit of its last place. Writers round in two manners,
-/// to a fixed number of decimals or to a fixed number of significant digits, and both strip trailing zeros. With `D` the
-/// most decimals and `S` the most significant digits found in the geometry, a literal `x` with `d` decimals is uncertain by
+/// to a fixed number of decimals or to a fixed number of significant digits, and both strip trailing zeros; and they write lengths,
+/// angles and directions each with digits of their own. With `D` the most decimals and `S` the most significant digits found in
+/// one of these kinds, a literal `x` with `d` decimals is uncertain by
 ///
 /// ```text
 /// u(x) = ½ min(10⁻ᵈ, max(10⁻ᴰ, 10⁻ˢ 10ᵉ)),   10ᵉ⁻¹ ≤ |x| < 10ᵉ
 /// ```
 ///
-/// which is right for both manners: the first term wherever no zeros were stripped, the second where they were. Zeros do not count
-/// for `D`: `0.000000` stands beside whole numbers as `0` does. Expressions are exact. Numbers that all have at most [`Precision::EXACT_DECIMALS`] decimals are those that a designer
-/// chose, not rounded ones, and are taken as exact too. Decimals of lengths count in the decade of the longest one, if that
-/// is below 1 m: `0.125` says of metres what `1.25` says of decimetres. Literals that were read as constants
+/// which is right for both manners: the first term wherever no zeros were stripped, the second where they were. Where the literals
+/// tell which manner it was, the other is left out; and where most literals are shorter than chance makes them beside a few long
+/// ones, they were printed by another hand, and are uncertain by `½ 10⁻ᵈ`. Zeros do not count
+/// for `D`: `0.000000` stands beside whole numbers as `0` does. Expressions are exact. Numbers of a kind that all have at most
+/// [`Precision::EXACT_DECIMALS`] decimals are those that a designer
+/// chose, not rounded ones, and are taken as exact too. Where all directions and angles are, decimals of lengths count in the decade
+/// of the longest one, if that is below 1 m: `0.125` says of metres what `1.25` says of decimetres. Literals that were read as constants
 /// ([`Recognised`](super::Recognised)) are exact; those that were read as shorter decimals state what these state. Where every
 /// literal ends in zeros, at least three more than it needs, in twelve digits or more, these are padding and state nothing. Printed
-/// doubles state 17 significant digits, however many are printed.
+/// doubles state 17 significant digits, however many are printed. Literals that are single-precision numbers, however they are
+/// printed, are uncertain by what single precision is.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Precision {
     /// Most decimals of any literal in the geometry but zeros, for which 0 counts; `None` where there is no literal.
     pub decimals: Option<i32>,
     /// Most significant digits of any literal in the geometry.
     pub significant: u32,
-    /// Most decimals of any literal, those of lengths counted in the decade of the longest one.
-    designed: i32,
-    /// Whether all literals are padded with zeros that say nothing.
-    padded: bool,
-    /// Whether the longest literals are printed doubles.
-    doubles: bool,
+    /// Lengths, angles, components of directions.
+    groups: [Group; 3],
     /// What is said to be known of every literal, whatever its digits say (m, rad).
     by_hand: Option<f64>,
-    /// Where the literal is that `designed` comes from.
-    finest: Option<LiteralPlace>,
 }
 
 impl Precision {
-    /// Zeros at the end of every literal of a file are padding if they are so many: of few literals, too many for chance.
+    /// Zeros at the end of every literal are padding if they are so many: of few literals, too many for chance.
     const PADDING: u32 = 3;
 
     /// Fewer significant digits than this are what people round to, zeros included.
@@ -51,23 +51,32 @@ impl Precision {
     /// Literals it takes for that.
     const PADDED_LITERALS: usize = 4;
 
-    /// Up to this many decimals in the whole file, literals are exact.
-    pub const EXACT_DECIMALS: i32 = 2;
+    /// Up to this many decimals in all numbers of a kind, literals are exact.
+    pub const EXACT_DECIMALS: i32 = EXACT_DECIMALS;
 
     /// Whether every number of the geometry is exact.
     #[must_use]
     pub fn is_exact(&self) -> bool {
         match self.by_hand {
             Some(uncertainty) => uncertainty == 0.0 || self.decimals.is_none(),
-            None => self.designed <= Self::EXACT_DECIMALS,
+            None => self.groups.iter().all(Group::is_exact),
         }
     }
 
-    /// Whether the file's digits are those of doubles that some program printed. They say how the program computes, not how
+    /// Whether the digits of all numbers that are not exact are those of doubles that some program printed. They say how the program computes, not how
     /// well it knows its numbers.
     #[must_use]
     pub fn is_of_doubles(&self) -> bool {
-        self.doubles && self.by_hand.is_none()
+        let mut rounded = self.groups.iter().filter(|group| !group.is_exact());
+        let doubles = rounded.clone().next().is_some() && rounded.all(|group| group.doubles);
+        doubles && self.by_hand.is_none()
+    }
+
+    /// Whether every kind of numbers that is not exact has all the digits of a double.
+    #[must_use]
+    pub fn is_in_full(&self) -> bool {
+        let mut rounded = self.groups.iter().filter(|group| !group.is_exact());
+        rounded.clone().next().is_some() && rounded.all(|group| group.significant >= OF_A_DOUBLE)
     }
 
     /// The uncertainty of every literal that was stated by hand instead of by digits (m, rad).
@@ -84,102 +93,67 @@ impl Precision {
         Self { by_hand, ..self }
     }
 
-    /// How far a number of this file may be from the number meant; zero for exact ones.
+    /// How far a number of this sub-mechanism, at a place of [`Joint::numbers`](super::Joint::numbers), may be from the number
+    /// meant (m, rad); zero for exact ones.
     #[must_use]
-    pub fn uncertainty(&self, number: &Number) -> f64 {
-        let (Some(stated), Some(most), false) = (number.stated(), self.decimals, self.is_exact())
-        else {
-            return 0.0;
-        };
-        if let Some(uncertainty) = self.by_hand {
-            return uncertainty;
+    pub fn uncertainty(&self, place: usize, number: &Number) -> f64 {
+        match self.by_hand {
+            _ if number.stated().is_none() || self.decimals.is_none() => 0.0,
+            Some(uncertainty) => uncertainty,
+            None => self.groups[Joint::kind_of_number(place)].uncertainty(number),
         }
-        let stated = if self.padded {
-            bare(number, stated)
-        } else {
-            stated
-        };
-        let stated = if self.doubles {
-            of_a_double(stated)
-        } else {
-            stated
-        };
-        // With s digits of which the last is worth 10⁻ᵈ, the first is worth 10ˢ⁻ᵈ⁻¹: so e = s − d, without a logarithm.
-        let written = i64::from(stated.significant);
-        let by_digits = if written > 0 {
-            power_of_ten(written - i64::from(stated.decimals) - i64::from(self.significant))
-        } else {
-            0.0
-        };
-        let by_decimals = power_of_ten(-i64::from(most));
-        0.5 * power_of_ten(-i64::from(stated.decimals)).min(by_decimals.max(by_digits))
     }
 
     /// The literal that makes the numbers rounded: of those with most decimals the first; `None` where the numbers are exact by
     /// their digits.
     #[must_use]
     pub fn rounded_by(&self) -> Option<LiteralPlace> {
-        let rounded = self.designed > Self::EXACT_DECIMALS;
-        self.finest.filter(|_| rounded)
+        let rounded = self.groups.iter().filter(|group| !group.is_exact());
+        // Of equal ones the first.
+        let finest = rounded.reduce(|one, other| match other.designed > one.designed {
+            true => other,
+            false => one,
+        });
+        finest?.finest
     }
 
     /// The precision of some numbers that one file states of one sub-mechanism.
     fn of<'a>(numbers: impl IntoIterator<Item = (LiteralPlace, &'a Number)>) -> Self {
-        let (mut lengths, mut directions) = (Digits::default(), Digits::default());
+        let mut literals = [(); 3].map(|()| Literals::default());
         for (place, number) in numbers {
-            match place.turns() {
-                true => directions.read(place, number),
-                false => lengths.read(place, number),
-            }
+            literals[Joint::kind_of_number(place.in_joint())].read(place, number);
         }
-        let significant = lengths.significant.max(directions.significant);
-        let bare = lengths.bare.1.max(directions.bare.1);
+        let digits = literals.iter().map(Literals::significant);
+        let (significant, bare) = digits.fold((0, 0), |a, b| (a.0.max(b.0), a.1.max(b.1)));
         let padded = significant >= Self::LONG.max(bare + Self::PADDING)
-            && lengths.count + directions.count >= Self::PADDED_LITERALS;
-        if padded {
-            for digits in [&mut lengths, &mut directions] {
-                (digits.decimals, digits.significant) = digits.bare;
-            }
+            && literals.iter().map(Literals::pointed).sum::<usize>() >= Self::PADDED_LITERALS;
+        let [lengths, angles, directions] = &literals;
+        let (angles, directions) = (angles.group(padded), directions.group(padded));
+        let mut lengths = lengths.group(padded);
+        // Whoever chose directions chose lengths to the millimetre. Beside rounded directions these are rounded as well.
+        if angles.is_exact() && directions.is_exact() {
+            lengths.count_from_first_digit();
         }
-        let decade = lengths.places.map_or(0, |places| places.min(0));
-        let doubles =
-            (lengths.printed || directions.printed) && !lengths.longer && !directions.longer;
-        let significant = lengths.significant.max(directions.significant);
-        let of_lengths = lengths
-            .decimals
-            .map_or(0, |decimals| decimals.saturating_add(decade));
-        let of_directions = directions.decimals.unwrap_or(0);
+        let groups = [lengths, angles, directions];
         Self {
-            decimals: lengths.decimals.max(directions.decimals),
-            significant: match doubles {
-                true => significant.min(OF_A_DOUBLE),
-                false => significant,
-            },
-            designed: of_lengths.max(of_directions),
-            padded,
-            doubles,
+            decimals: groups.iter().map(|group| group.decimals).max().flatten(),
+            significant: groups
+                .iter()
+                .map(|group| group.significant)
+                .max()
+                .unwrap_or(0),
+            groups,
             by_hand: None,
-            finest: match of_lengths >= of_directions {
-                true => lengths.finest,
-                false => directions.finest,
-            },
         }
     }
 
     /// What holds of two sub-mechanisms together: exact if both are, and the digits of the longer literals.
     fn with(self, other: &Self) -> Self {
-        let finer = match other.designed > self.designed {
-            true => other,
-            false => &self,
-        };
         Self {
             decimals: self.decimals.max(other.decimals),
             significant: self.significant.max(other.significant),
-            designed: finer.designed,
-            padded: self.padded && other.padded,
-            doubles: self.doubles || other.doubles,
+            groups: [0, 1, 2].map(|kind| self.groups[kind].with(&other.groups[kind])),
             by_hand: self.by_hand,
-            finest: finer.finest,
         }
     }
 }
@@ -194,11 +168,10 @@ pub enum LiteralPlace {
 }
 
 impl LiteralPlace {
-    /// Whether an angle or a component of a direction stands there, and no length.
-    #[must_use]
-    pub fn turns(self) -> bool {
+    /// The place in a joint's numbers, or that of the same kind.
+    fn in_joint(self) -> usize {
         let (Self::Joint(_, place) | Self::Link(_, place)) = self;
-        (3..6).contains(&place) || (9..18).contains(&place)
+        place
     }
 }
 
@@ -298,95 +271,6 @@ fn bearing<'a>(
     placed.chain(joints)
 }
 
-/// Significant digits that tell doubles apart.
-const OF_A_DOUBLE: u32 = 17;
-
-/// The digits found in a kind of numbers.
-#[derive(Default)]
-struct Digits {
-    /// Most decimals of any literal.
-    decimals: Option<i32>,
-    /// Where the first of those is that have so many.
-    finest: Option<LiteralPlace>,
-    /// Most significant digits of any literal.
-    significant: u32,
-    /// Both without zeros at the end.
-    bare: (Option<i32>, u32),
-    /// Literals that have a decimal point and are not zero.
-    count: usize,
-    /// Whether some literal that states its precision is a printed double.
-    printed: bool,
-    /// Whether some literal has more digits than a double holds.
-    longer: bool,
-    /// Power of ten of the first digit of the largest literal: 0 for `1.25`, −1 for `0.125`.
-    places: Option<i32>,
-}
-
-impl Digits {
-    fn read(&mut self, place: LiteralPlace, number: &Number) {
-        let Some(stated) = number.stated() else {
-            return;
-        };
-        // However a zero is written, it says nothing of how other numbers were rounded.
-        let decimals = match stated.significant {
-            0 => stated.decimals.min(0),
-            _ => stated.decimals,
-        };
-        if self.decimals.is_none_or(|most| decimals > most) {
-            (self.decimals, self.finest) = (Some(decimals), Some(place));
-        }
-        self.significant = self.significant.max(stated.significant);
-        let bare = bare(number, stated);
-        self.bare.0 = self.bare.0.max(Some(bare.decimals));
-        self.bare.1 = self.bare.1.max(bare.significant);
-        let pointed = number.literal_text().is_some_and(|text| text.contains('.'));
-        self.count += usize::from(pointed && stated.significant > 0);
-        // What was read as a shorter decimal has the digits of that.
-        if number.written() == Some(stated) {
-            self.longer |= !has_no_more_than_a_double(number);
-            self.printed |= is_printed_double(number);
-        }
-        if stated.significant > 0 {
-            let written = i64::from(stated.significant) - i64::from(stated.decimals) - 1;
-            let place = written.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32;
-            self.places = self.places.max(Some(place));
-        }
-    }
-}
-
-/// The digits of a literal without the zeros at the end of its decimals.
-fn bare(number: &Number, stated: Stated) -> Stated {
-    // What was read as a shorter decimal has no such zeros.
-    let text = number
-        .literal_text()
-        .filter(|_| number.written() == Some(stated));
-    let mantissa = text.and_then(|text| text.split(['e', 'E']).next());
-    let Some((_, fraction)) = mantissa.and_then(|mantissa| mantissa.split_once('.')) else {
-        return stated;
-    };
-    let zeros = fraction.len() - fraction.trim_end_matches('0').len();
-    let zeros = u32::try_from(zeros).unwrap_or(0);
-    Stated {
-        decimals: stated.decimals.saturating_sub_unsigned(zeros),
-        significant: stated.significant.saturating_sub(zeros),
-    }
-}
-
-/// What a double states of the digits that are printed of it.
-fn of_a_double(stated: Stated) -> Stated {
-    let beyond = stated.significant.saturating_sub(OF_A_DOUBLE);
-    Stated {
-        decimals: stated.decimals.saturating_sub_unsigned(beyond),
-        significant: stated.significant - beyond,
-    }
-}
-
-/// Zero and infinity where the power is out of range.
-fn power_of_ten(exponent: i64) -> f64 {
-    const BEYOND: i64 = 400;
-    10f64.powi(exponent.clamp(-BEYOND, BEYOND) as i32)
-}
-
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
@@ -450,7 +334,7 @@ mod tests {
         let of = |name: &str| *mechanism.precision_of(mechanism.joint_named(name).unwrap());
         assert_eq!(of("aj0"), super::tests::of(&["0.25", "3"]));
         assert!(of("aj0").is_exact() && of("mount").is_exact() && of("bracket").is_exact());
-        assert_eq!(of("mount").uncertainty(&number("0.123456789")), 0.0);
+        assert_eq!(of("mount").uncertainty(0, &number("0.123456789")), 0.0);
         assert_eq!(of("bj1").decimals, Some(6));
         assert_uncertainty(&of("bj1"), "0.5", 0.5e-6);
         // Together they are what the less exact one is, and it is told by which number.
@@ -470,7 +354,7 @@ mod tests {
 
     #[track_caller]
     fn assert_uncertainty(precision: &Precision, text: &str, expected: f64) {
-        let found = precision.uncertainty(&number(text));
+        let found = precision.uncertainty(0, &number(text));
         assert!(
             (found - expected).abs() <= 1e-12 * expected,
             "{text}: {found:e} instead of {expected:e}"
@@ -564,7 +448,7 @@ mod tests {
             let precision = of(texts);
             assert!(precision.is_exact(), "{texts:?}");
             for text in texts {
-                assert_eq!(precision.uncertainty(&number(text)), 0.0);
+                assert_eq!(precision.uncertainty(0, &number(text)), 0.0);
             }
         }
         // One number of three decimals, and none of them is chosen.
@@ -628,8 +512,8 @@ mod tests {
         assert!(precision.is_exact());
         // Beside rounded numbers they stay exact.
         let rounded = of(&["0.866025"]);
-        assert_eq!(rounded.uncertainty(&expression("sqrt(3)/2")), 0.0);
-        assert_eq!(rounded.uncertainty(&expression("0.866025")), 0.0);
+        assert_eq!(rounded.uncertainty(0, &expression("sqrt(3)/2")), 0.0);
+        assert_eq!(rounded.uncertainty(0, &expression("0.866025")), 0.0);
     }
 
     #[test]
@@ -671,8 +555,8 @@ mod tests {
     fn endless_digits_and_exponents_stay_in_range() {
         let long = format!("0.{}", "3".repeat(5000));
         let precision = of(&[&long, "1e-900"]);
-        assert_eq!(precision.uncertainty(&number(&long)), 0.0);
-        assert!(precision.uncertainty(&number("1e99")) < 1.0);
+        assert_eq!(precision.uncertainty(0, &number(&long)), 0.0);
+        assert!(precision.uncertainty(0, &number("1e99")) < 1.0);
     }
 
     proptest! {
@@ -708,7 +592,7 @@ mod tests {
             for (value, text) in values.iter().zip(&texts) {
                 let written = number(text);
                 let error = (written.value() - value).abs();
-                let allowed = precision.uncertainty(&written);
+                let allowed = precision.uncertainty(0, &written);
                 prop_assert!(
                     error <= allowed * (1.0 + 1e-6) + 1e-12,
                     "{} as {}: off by {:e}, allowed {:e}", value, text, error, allowed

@@ -9,7 +9,7 @@ pub struct Source {
     pub file: String,
     /// Its format, such as `urdf`.
     pub format: String,
-    /// The most decimals of any literal in the geometry; `null` where there is no literal to round.
+    /// The most decimals of any literal in the geometry of loops; `null` where there is no literal to round.
     pub digits: Option<i32>,
     /// Whether every number is taken as exact (D13).
     pub exact: bool,
@@ -19,6 +19,21 @@ pub struct Source {
     /// Literals that were read as the constants they are within their own digits, where there are such.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub constants: Option<Constants>,
+    /// The literal that makes numbers rounded: the first of those with most decimals; `null` where they are exact by their digits.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rounded_by: Option<LiteralAt>,
+    /// Literals that were read as 0 because they are what rounding left of one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub residues: Vec<LiteralAt>,
+}
+
+/// A literal and where it stands.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct LiteralAt {
+    /// The text in the file.
+    pub literal: String,
+    /// The joint whose geometry it belongs to, or the link that it places.
+    pub owner: String,
 }
 
 /// Literals that were read as constants, such as `1.5707963267948966` as π/2.

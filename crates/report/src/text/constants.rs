@@ -1,6 +1,6 @@
 //! The sentence on literals that were read as constants.
 
-use super::super::schema::{Constants, LiteralReading};
+use super::super::schema::{Constants, LiteralAt, LiteralReading};
 use super::words::counted;
 
 /// Readings that a verbose page shows.
@@ -39,6 +39,23 @@ fn briefly(constants: &Constants) -> String {
     format!(
         " {} read as the constants they round{such_as} (`--literal` takes them as written).",
         counted(constants.count, "literal")
+    )
+}
+
+/// `1 residue of rounding read as 0: `3e-06` in `hinge_2` …`; nothing where there is none.
+pub(super) fn residues(found: &[LiteralAt]) -> String {
+    if found.is_empty() {
+        return String::new();
+    }
+    let shown = found.iter().take(SHOWN);
+    let shown: Vec<String> = shown
+        .map(|at| format!("`{}` in `{}`", at.literal, at.owner))
+        .collect();
+    let more = if found.len() > SHOWN { ", …" } else { "" };
+    format!(
+        " {} of rounding read as 0: {}{more} (`--literal` takes them as written).",
+        counted(found.len(), "residue"),
+        shown.join(", ")
     )
 }
 

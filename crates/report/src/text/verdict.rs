@@ -570,14 +570,23 @@ fn identity(report: &Report, verbose: bool) -> String {
         (false, None) => "numbers rounded".to_owned(),
     };
     let constants = report.source.constants.as_ref();
+    let rounded_by = source
+        .rounded_by
+        .as_ref()
+        .filter(|_| source.precision.is_none());
+    let numbers = match rounded_by {
+        Some(at) => format!("{numbers}, such as `{}` in `{}`", at.literal, at.owner),
+        None => numbers,
+    };
     format!(
-        "{} ({}): {}; {numbers}.{}",
+        "{} ({}): {}; {numbers}.{}{}",
         report.mechanism,
         report.source.file,
         names(&parts, parts.len()),
         constants
             .map(|constants| super::constants::sentence(constants, verbose))
-            .unwrap_or_default()
+            .unwrap_or_default(),
+        super::constants::residues(&source.residues)
     )
 }
 
