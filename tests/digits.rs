@@ -175,3 +175,51 @@ fn the_tolerance_follows_the_digits() {
         );
     }
 }
+
+/// A planar crank-rocker in a plane turned about two axes, as a file: positions and axes with decimals of their own.
+fn turned_four_bar(turn: [f64; 2], positions: usize, axes: usize) -> String {
+    let at = |[x, y, z]: [f64; 3], decimals: usize| {
+        let ((s, c), (t, d)) = (turn[0].sin_cos(), turn[1].sin_cos());
+        let (y, z) = (c * y - s * z, s * y + c * z);
+        let (x, z) = (d * x + t * z, d * z - t * x);
+        format!("{x:.decimals$} {y:.decimals$} {z:.decimals$}")
+    };
+    let place = |x: f64, y: f64| at([x, y, 0.0], positions);
+    let axis = format!(r#"<axis xyz="{}"/>"#, at([0.0, 0.0, 1.0], axes));
+    let tree = |number: u32, parent: &str, child: &str, place: String| {
+        format!(
+            r#"<joint name="j{number}" type="revolute"><parent link="{parent}"/><child link="{child}"/><origin xyz="{place}"/>{axis}</joint>"#
+        )
+    };
+    let joints = [
+        tree(1, "g", "a", place(0.1, 0.2)),
+        tree(2, "a", "b", place(0.05, 0.1)),
+        tree(3, "g", "c", place(0.5, 0.15)),
+    ];
+    let (coupler, rocker) = (place(0.4, 0.15), place(0.05, 0.3));
+    format!(
+        r#"<robot name="turned"><link name="g"/><link name="a"/><link name="b"/><link name="c"/>{}<loop name="j4" type="revolute"><predecessor link="b"><origin xyz="{coupler}"/></predecessor><successor link="c"><origin xyz="{rocker}"/></successor>{axis}</loop></robot>"#,
+        joints.concat()
+    )
+}
+
+/// Every length is within half a unit of its own last place of one that moves, however the axes are printed.
+#[test]
+fn lengths_and_axes_have_digits_of_their_own() {
+    let decimals = [3, 4, 6, 8, 16];
+    let pairs: Vec<(usize, usize)> = decimals
+        .iter()
+        .flat_map(|p| decimals.iter().map(move |a| (*p, *a)))
+        .collect();
+    let wrong = in_parallel(&pairs, |&(positions, axes)| {
+        let turns = [[0.7, 0.4], [-1.1, 0.9], [2.3, -0.6]];
+        let other = turns.iter().filter(|turn| {
+            let text = turned_four_bar(**turn, positions, axes);
+            let read = kutzbach::format::read(&text, "turned.urdf", &[]).unwrap();
+            analysis(&read.mechanism).mobility.finite() != Some(1)
+        });
+        let count = other.count();
+        (count > 0).then(|| format!("{positions} and {axes} decimals: {count} of 3"))
+    });
+    assert_none(&wrong.into_iter().flatten().collect::<Vec<_>>());
+}
