@@ -146,6 +146,62 @@ fn no_writer_makes_a_verdict_wrong() {
     let wrong = outcomes.iter().filter(|o| o.confident());
     let wrong: Vec<String> = wrong.map(Outcome::line).collect();
     crate::support::assert_none(&wrong);
+    let open: Vec<String> = outcomes
+        .iter()
+        .filter(|outcome| !outcome.right())
+        .map(Outcome::line)
+        .collect();
+    assert!(
+        50 * open.len() <= outcomes.len(),
+        "{} of {} are open: {open:?}",
+        open.len(),
+        outcomes.len()
+    );
+}
+
+/// From coarse to fine (m, rad).
+const PRECISIONS: [f64; 10] = [1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 1e-8, 1e-9, 1e-10];
+
+/// The mechanisms that numbers may stand for are the more, the less is known of them.
+#[test]
+fn a_coarser_precision_allows_what_a_finer_one_does() {
+    let spoiled = ["four_bar", "slider_crank", "bennett", "spherical", "sarrus"]
+        .into_iter()
+        .chain(["four_bar_tilted", "bennett_spoiled", "sarrus_tilted"]);
+    let cases: Vec<Case> = spoiled
+        .enumerate()
+        .map(|(index, name)| Case {
+            family: FAMILIES.iter().find(|f| f.name == name).unwrap(),
+            writer: WRITERS.iter().find(|w| w.name == "%.6f").unwrap(),
+            setting: FRAMES[1 + index % 3],
+            seed: 9000 + index as u64,
+        })
+        .collect();
+    let wrong = in_parallel(&cases, |case| {
+        let mut random = SplitMix64::new(case.seed);
+        let drawn = (case.family.draw)(&mut random);
+        let text = written(&drawn, case.setting, case.writer, &mut random);
+        let reading = kutzbach::format::read(&text, "written.urdf", &[]).unwrap();
+        let found = PRECISIONS.map(|precision| {
+            let known = reading.mechanism.clone().with_precision(precision);
+            analysis(&known).mobility
+        });
+        let pairs = found.windows(2).zip(&PRECISIONS);
+        let less = pairs.filter(|(pair, _)| {
+            let [coarse, fine] = [0, 1].map(|k| pair[k].finite().unwrap_or(0));
+            pair[0].verdict != Verdict::Undecided && coarse < fine
+        });
+        less.map(|(pair, precision)| {
+            format!(
+                "{}: {:?} at {precision:e}, {:?} at a finer one",
+                case.family.name,
+                (pair[0].verdict, pair[0].finite()),
+                pair[1].finite()
+            )
+        })
+        .collect::<Vec<_>>()
+    });
+    crate::support::assert_none(&wrong.concat());
 }
 
 mod corpus {

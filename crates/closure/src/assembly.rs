@@ -383,6 +383,9 @@ fn close(
             } else if outcome.steps > 0 {
                 outcome = nearest::commensurate(task, reference, states, outcome, work)?;
             }
+            if task.tolerance.is_none() {
+                outcome = nearest::mended(task, states, outcome)?;
+            }
             if outcome.steps > 0 && limits::excess(task, states) > 0.0 {
                 outcome = within_limits(task, states, reference, outcome, work, &mut done)?;
             }

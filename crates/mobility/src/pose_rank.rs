@@ -25,9 +25,10 @@ use super::hidden::bits_for_ratios;
 use super::more_digits::MoreDigits;
 use super::rounded::{OtherRank, if_rounded};
 use super::tree_bound::most_by_joints;
+use faer::Mat;
 use kutzbach_closure::{CycleJacobian, Geometry, JointState, Part, entry_accuracy, jacobian};
 use kutzbach_math::matrix::{
-    CLEARANCE, MatrixError, Method, RankDecision, Real, SparseMatrix, decide,
+    CLEARANCE, DENSE_COLUMNS, MatrixError, Method, RankDecision, Real, SparseMatrix, decide,
 };
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Configuration, Mechanism};
@@ -297,6 +298,29 @@ impl Standing {
     }
 }
 
+/// The share of a residual in the range of the equations (rad, cycle lengths): what the joints could mend to first order. `None` of
+/// matrices that are not decomposed.
+fn share_in_range(
+    matrix: &SparseMatrix<f64>,
+    residual: &[f64],
+) -> Result<Option<f64>, MatrixError> {
+    if matrix.columns() > DENSE_COLUMNS {
+        return Ok(None);
+    }
+    let mut dense = Mat::<f64>::zeros(matrix.rows(), matrix.columns());
+    for (row, column, entry) in matrix.triplets() {
+        dense[(row, column)] += entry;
+    }
+    let Ok(svd) = dense.thin_svd() else {
+        return Ok(None);
+    };
+    let u = svd.U();
+    let along = |j: usize| -> f64 { (0..u.nrows()).map(|i| u[(i, j)] * residual[i]).sum() };
+    Ok(Some(
+        (0..u.ncols()).map(|j| along(j).powi(2)).sum::<f64>().sqrt(),
+    ))
+}
+
 /// Decides a rank that has to come out the same with the poorer of two accuracies.
 fn decide_twice<R: Real>(
     matrix: &SparseMatrix<R>,
@@ -378,12 +402,21 @@ pub(super) fn rank_part_with(
     };
     let (mut stated, rounding, mut coarse) = known_to(&double);
     let standing = Standing::of(pose, part, &double, stated + rounding)?;
+    let rounding_alone = rounding;
     let rounding = rounding + standing.residual;
-    // An assembled pose: see the module's text.
-    let poorer = if standing.moved { rounding.sqrt() } else { 0.0 };
     let mut matrix = double.matrix.clone();
     let column_scales = matrix.scale_columns();
     let columns = matrix.columns();
+    // An assembled pose: see the module's text. What no step of the joints can mend is a misfit of dimensions, and says nothing of how far
+    // the pose is from a closed one.
+    let poorer = match standing.moved {
+        true if standing.residual > rounding_alone => {
+            let mendable = share_in_range(&matrix, &double.residual)?;
+            (rounding_alone + mendable.unwrap_or(standing.residual)).sqrt()
+        }
+        true => rounding.sqrt(),
+        false => 0.0,
+    };
     let nominal = decide_twice(&matrix, stated + rounding + 2.0 * standing.shift, poorer)?;
     let mut nominal = full_within(nominal, stated, rounding + poorer + 2.0 * standing.shift);
     coarse &= nominal.rank.is_none();

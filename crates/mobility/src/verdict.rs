@@ -23,8 +23,10 @@ pub struct Nominal {
     pub distance: Option<f64>,
     /// The closure tolerance that stood in for the precision of the digits (m, rad), where these left the mobility open.
     pub known_to: Option<f64>,
-    /// Whether it lies within what the file's digits, or [`known_to`](Self::known_to), leave open.
+    /// Whether it was found within what the file's digits, or [`known_to`](Self::known_to), leave open.
     pub within_digits: bool,
+    /// Whether it differs by the noise of numbers that a program printed: less than a millionth of the loop's size.
+    pub noise: bool,
     /// The numbers that it has otherwise, where it was computed.
     pub changes: Vec<Change>,
     /// What it was found by: relations that the numbers nearly satisfy, and that it satisfies exactly.
@@ -182,7 +184,9 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, parts: &[PartFinding]
             tolerance,
             distance: None,
             known_to: None,
-            within_digits: true,
+            // Not known before the mechanism meant is found.
+            within_digits: false,
+            noise: false,
             changes: Vec::new(),
             kept: Vec::new(),
         });

@@ -243,6 +243,7 @@ fn verdict(mechanism: &Mechanism, analysis: &Analysis) -> Mobility {
             distance: nominal.distance,
             known_to: nominal.known_to,
             within_digits: nominal.within_digits,
+            noise: nominal.noise,
             changes: nominal
                 .changes
                 .iter()

@@ -14,7 +14,9 @@
 
 use super::super::displacement::JointState;
 use super::super::jacobian::{jacobian, variable_unit};
-use super::descent::{Effort, Kept, PartOutcome, Task, advance, descend, largest, movable_columns};
+use super::descent::{
+    Effort, Kept, PartOutcome, Task, advance, descend, largest, movable_columns, step,
+};
 use super::limits;
 use super::search::has_ball;
 use kutzbach_math::matrix::{LeastSquares, MatrixError};
@@ -250,6 +252,58 @@ pub(super) fn second_order(
         steps: outcome.steps + begun.steps.max(1),
         ..begun
     }))
+}
+
+/// Steps towards where the joints can mend no more of a gap.
+const MENDING: usize = 12;
+
+/// Where a pose counts as closed and a gap is left: moves it to where the joints can mend no more of it, so that what is left is a misfit
+/// of dimensions and not of the pose. Steps are damped by the gap ε, so that directions whose singular value is above √ε are polished,
+/// and those below it, which the misfit itself may have made, are hardly moved along: by at most √ε/2 a step.
+pub(super) fn mended(
+    task: &Task<'_>,
+    states: &mut [JointState<f64>],
+    mut outcome: PartOutcome,
+) -> Result<PartOutcome, MatrixError> {
+    let gap = outcome.residual;
+    let rounding = outcome.rounding;
+    if !(gap > CLEAR * rounding) {
+        return Ok(outcome);
+    }
+    let sum = |r: &[f64]| r.iter().map(|x| x * x).sum::<f64>();
+    for _ in 0..MENDING {
+        let Some(here) = &outcome.jacobian else { break };
+        let columns = movable_columns(here, task.held);
+        let Some(increments) = step(here, &columns, gap)? else {
+            break;
+        };
+        if largest(&increments) <= rounding {
+            break;
+        }
+        let before = Kept::of(task.part, states);
+        advance(
+            task.mechanism,
+            task.geometry,
+            here,
+            &columns,
+            &increments,
+            states,
+        );
+        let there = descend(task, states, Effort::NONE)?;
+        let better = there
+            .jacobian
+            .as_ref()
+            .is_some_and(|t| sum(&t.residual) < sum(&here.residual));
+        if !better {
+            before.put_back(states);
+            break;
+        }
+        outcome = PartOutcome {
+            steps: outcome.steps + 1,
+            ..there
+        };
+    }
+    Ok(outcome)
 }
 
 /// Takes back whole turns of hinges: to within half a turn of the reference, or to where the limits allow it. What a

@@ -32,13 +32,29 @@ pub(super) struct Dimensions<'a> {
 impl<'a> Dimensions<'a> {
     /// Those of a part, each known to the precision of its joint's sub-mechanism.
     pub fn of(mechanism: &'a Mechanism, part: &Part) -> Self {
+        Self::by(mechanism, part, |joint, place, number| {
+            let precision = rounding(mechanism, joint);
+            precision.map_or(0.0, |precision| precision.uncertainty(place, number))
+        })
+    }
+
+    /// Those of a part, each literal known to so much (m, rad).
+    pub fn known_to(mechanism: &'a Mechanism, part: &Part, unit: f64) -> Self {
+        Self::by(mechanism, part, |_, _, number| match number.stated() {
+            Some(_) => unit,
+            None => 0.0,
+        })
+    }
+
+    fn by(
+        mechanism: &'a Mechanism,
+        part: &Part,
+        unit: impl Fn(usize, usize, &Number) -> f64,
+    ) -> Self {
         let mut all = Vec::new();
         for &joint in &part.joints {
-            let Some(precision) = rounding(mechanism, joint) else {
-                continue;
-            };
             for (place, number) in mechanism.joints()[joint].numbers().into_iter().enumerate() {
-                let unit = number.map_or(0.0, |number| precision.uncertainty(place, number));
+                let unit = number.map_or(0.0, |number| unit(joint, place, number));
                 if unit > 0.0 {
                     all.push(Dimension { joint, place, unit });
                 }

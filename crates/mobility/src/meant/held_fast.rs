@@ -5,7 +5,7 @@ use super::parts::PartMeant;
 use crate::analysis::Analysis;
 use crate::roles::JointRole;
 use crate::verdict::judge;
-use crate::vocabulary::{CertificateLevel, Verdict};
+use crate::vocabulary::{CertificateLevel, PoseKind, SingularKind, Verdict};
 use crate::whole_branches::whole_branches;
 use kutzbach_closure::{Arithmetic, Geometry};
 use kutzbach_model::mechanism::{Configuration, Mechanism};
@@ -18,14 +18,31 @@ pub(super) fn held_fast(
     parts: &[PartMeant],
 ) -> Analysis {
     let all: Vec<&PartMeant> = parts.iter().collect();
-    let mut nominal = nominal(&all, 0);
-    if stated.mobility.verdict == Verdict::Undecided {
-        for part in parts {
+    let found = parts.iter().all(|part| part.nearest.is_some());
+    let mut nominal = found.then(|| nominal(&all, 0));
+    if matches!(
+        stated.mobility.verdict,
+        Verdict::Undecided | Verdict::Mobile
+    ) {
+        let mut as_before = true;
+        for part in parts.iter().filter(|part| part.excluded) {
+            let rank = &stated.parts[part.index];
+            as_before &= rank.as_written.is_some() && rank.as_written == rank.instantaneous;
             let finding = &mut stated.findings[part.index];
             finding.lower = 0;
             finding.upper = 0;
             finding.at_rest = 0;
             finding.open = None;
+            finding.nominal = None;
+            finding.class = None;
+            finding.branches = Some(Vec::new());
+            finding.complex_dimension = None;
+            // What gives way to first order as written, and does not move, is a singular pose.
+            (finding.pose, finding.kind) = match (rank.as_written, as_before) {
+                (Some(0), _) => (Some(PoseKind::Regular), None),
+                (_, true) => (Some(PoseKind::Singular), Some(SingularKind::Shaky)),
+                _ => (finding.pose, finding.kind),
+            };
             finding.level = CertificateLevel::Numeric;
             finding.certificate = certificate(part);
             // Of equations whose rank is open, joints that move to first order are not known to be locked.
@@ -47,24 +64,27 @@ pub(super) fn held_fast(
             stated.kutzbach,
             &stated.findings,
         );
-        if let Some(home) = &mut stated.home {
+        if let Some(home) = stated.home.as_mut().filter(|_| !as_before) {
             // Of equations that hold within the digits only, the rank is not known.
             home.instantaneous = None;
             home.redundant = None;
         }
-        nominal.finite = stated.mobility.finite().unwrap_or(0);
+        if let Some(nominal) = &mut nominal {
+            nominal.finite = stated.mobility.finite().unwrap_or(0);
+        }
     }
-    stated.mobility.nominal = Some(nominal);
+    stated.mobility.nominal = nominal;
     stated
 }
 
 /// Why a part does not move whatever its digits stand for.
 fn certificate(part: &PartMeant) -> String {
-    let (open, least) = part.nearest.as_ref().map_or((0.0, 0.0), |nearest| {
-        (nearest.misfit * part.length, nearest.at_least)
+    let least = part.at_least;
+    let open = part.nearest.as_ref().map_or(String::new(), |nearest| {
+        format!(" by up to {:.1e} m", nearest.misfit * part.length)
     });
     format!(
-        "the pose allows one motion at most, and along it the loops stay open by up to {open:.1e} m; to close them along a \
-         motion near it some number has to change, to first order, by at least {least:.1} times what its digits leave open"
+        "the loops stay open{open} along the motions that the pose allows within the digits; to close them along one some number has \
+         to change, to first order, by at least {least:.1} times what its digits leave open"
     )
 }

@@ -11,7 +11,9 @@
 
 mod dimensions;
 mod held_fast;
+mod least_largest;
 mod nearest;
+mod noise;
 mod parts;
 mod poses;
 mod relations;
@@ -21,11 +23,14 @@ mod tests;
 
 use super::analysis::{Analysis, AnalysisError, AnalysisOptions, analyse_as_stated};
 use super::depth::Depth;
-use super::verdict::Nominal;
+use super::exact_constraint::NoChangeSet;
+use super::redundant_directions::JointDirections;
+use super::roles::JointRole;
+use super::verdict::{Nominal, judge, unassembled};
 use super::vocabulary::Verdict;
 use dimensions::turns;
 use held_fast::held_fast;
-use kutzbach_model::mechanism::{JointId, Mechanism, Precision};
+use kutzbach_model::mechanism::{Configuration, JointId, Mechanism, Precision};
 use parts::{PartMeant, parts_meant};
 pub use relations::Kept;
 
@@ -35,8 +40,9 @@ const COMPUTED_TO: f64 = 1e-11;
 /// Files of two decimals hold chosen numbers, unless they do not close: then they are rounded like others.
 const ROUNDED_DECIMALS: i32 = 2;
 
-/// A number is within its digits up to one unit, and rounding.
-const WITHIN: f64 = 1.0 + 1e-6;
+/// Numbers are within their digits up to so many units. What was rounded once differs by one at most; a quarter more is for numbers
+/// that were converted, and rounded, before, and for the second order.
+const WITHIN: f64 = 1.25;
 
 /// A number that the mechanism meant has otherwise.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,19 +101,36 @@ pub struct AsWritten {
 
 /// Completes an analysis that hangs on rounding by a look at the mechanism meant.
 ///
+/// A rank that is lower within the digits is no proof that some numbers within them have it: it says where to look. Where the numbers as
+/// written close less well or bind, the mechanism meant is sought, and its distance decides.
+///
 /// # Errors
 /// [`AnalysisError`] where numbers overflow.
 pub(super) fn completed(
     mechanism: &Mechanism,
     options: &AnalysisOptions,
+    stated: Analysis,
+) -> Result<Analysis, AnalysisError> {
+    let configuration = options
+        .configuration
+        .as_ref()
+        .and_then(|name| mechanism.configuration(name));
+    let found = within_digits(mechanism, options, configuration, stated)?;
+    noise::but_for_noise(mechanism, options, configuration, found)
+}
+
+fn within_digits(
+    mechanism: &Mechanism,
+    options: &AnalysisOptions,
+    configuration: Option<&Configuration>,
     mut stated: Analysis,
 ) -> Result<Analysis, AnalysisError> {
     let open = matches!(
         stated.mobility.verdict,
         Verdict::Undecided | Verdict::Unassembled
     );
-    let rigid = stated.mobility.verdict == Verdict::Rigid && mechanism.precision().is_exact();
-    let asked = open || rigid || stated.mobility.nominal.is_some();
+    let chosen = stated.mobility.verdict == Verdict::Rigid && mechanism.precision().is_exact();
+    let asked = open || chosen || !mechanism.precision().is_exact();
     let mut parts = stated.structure.parts.iter();
     let rounded = parts.any(|part| {
         part.joints
@@ -117,49 +140,72 @@ pub(super) fn completed(
     if !(rounded && asked && options.depth > Depth::Rank) {
         return Ok(stated);
     }
-    let configuration = options
-        .configuration
-        .as_ref()
-        .and_then(|name| mechanism.configuration(name));
     let parts = parts_meant(mechanism, configuration, &stated)?;
-    let within = |part: &PartMeant| part.nearest.is_some() && part.units() <= WITHIN;
     if parts.is_empty() {
         return Ok(stated);
     }
+    let closing = parts.iter().filter_map(|part| part.closing);
+    let closing = closing.fold(0.0, f64::max);
+    if closing > 0.0 {
+        // What the digits leave open at this pose, and not what they leave open of any walk around a loop.
+        let assembly = &mut stated.assembly;
+        let explained = assembly.residual * WITHIN / closing;
+        assembly.tolerance = assembly.tolerance.min(explained);
+    }
+    let all: Vec<&PartMeant> = parts.iter().collect();
     if parts.iter().all(|part| part.nearest.is_some()) {
-        let all: Vec<&PartMeant> = parts.iter().collect();
         let nearest = Meant::of(mechanism, &all);
         stated.nearest = (!nearest.changes.is_empty()).then(|| Box::new(nearest));
     }
-    if open && parts.iter().all(|part| part.excluded) {
-        return Ok(held_fast(mechanism, configuration, stated, &parts));
+    let within = |part: &PartMeant| part.nearest.is_some() && part.units() <= WITHIN;
+    let refuted = |part: &PartMeant| part.excluded || part.is_open();
+    if parts.iter().all(within) {
+        let as_accepted = parts.iter().all(|part| part.accepted == Some(part.freedom));
+        return match (open, chosen || as_accepted) {
+            (false, true) => Ok(with_nearest(stated, &all, chosen)),
+            _ => of_the_one_meant(mechanism, options, stated, &all),
+        };
     }
-    if !parts.iter().all(within) {
-        return Ok(stated);
+    let settled = parts.iter().all(|part| within(part) || refuted(part));
+    if !chosen && settled && parts.iter().any(refuted) {
+        return refuted_parts(mechanism, options, configuration, stated, &parts);
     }
-    let all: Vec<&PartMeant> = parts.iter().collect();
+    Ok(stated)
+}
+
+/// The analysis as it is, with the mechanism that it is said of.
+fn with_nearest(mut stated: Analysis, parts: &[&PartMeant], chosen: bool) -> Analysis {
+    let Some(finite) = stated.mobility.finite() else {
+        return stated;
+    };
+    let finite = match chosen {
+        true => parts.iter().map(|part| part.freedom).sum(),
+        false => finite,
+    };
     let as_written = as_written(&stated);
-    if !open {
-        if let Some(finite) = stated.mobility.finite() {
-            let finite = match rigid {
-                true => parts.iter().map(|part| part.freedom).sum(),
-                false => finite,
-            };
-            let known = stated
-                .mobility
-                .nominal
-                .as_ref()
-                .map(|known| known.tolerance);
-            let mut nominal = nominal(&all, finite);
-            nominal.tolerance = known.unwrap_or(nominal.tolerance);
-            stated.mobility.nominal = Some(nominal);
-            stated.mobility.as_written = Some(as_written);
-        }
-        return Ok(stated);
+    let known = stated.mobility.nominal.as_ref().map(|n| n.tolerance);
+    let mut nominal = nominal(parts, finite);
+    nominal.tolerance = known.unwrap_or(nominal.tolerance);
+    if nominal.changes.is_empty() && !chosen {
+        // The numbers as written are those meant.
+        return stated;
     }
-    let meant = Meant::of(mechanism, &all);
+    stated.mobility.nominal = Some(nominal);
+    stated.mobility.as_written = Some(as_written);
+    stated
+}
+
+/// The analysis of the mechanism meant; the one given where that leaves it open.
+fn of_the_one_meant(
+    mechanism: &Mechanism,
+    options: &AnalysisOptions,
+    stated: Analysis,
+    parts: &[&PartMeant],
+) -> Result<Analysis, AnalysisError> {
+    let meant = Meant::of(mechanism, parts);
     let mut analysis = analyse_as_stated(&meant.mechanism, options)?;
-    let Some(finite) = analysis.mobility.finite().filter(|finite| *finite > 0) else {
+    let moves = parts.iter().any(|part| part.freedom > 0);
+    let Some(finite) = analysis.mobility.finite().filter(|f| *f > 0 || !moves) else {
         return Ok(stated);
     };
     if meant.changes.is_empty() {
@@ -169,8 +215,8 @@ pub(super) fn completed(
         }
         return Ok(analysis);
     }
-    analysis.mobility.nominal = Some(nominal(&all, finite));
-    analysis.mobility.as_written = Some(as_written);
+    analysis.mobility.nominal = Some(nominal(parts, finite));
+    analysis.mobility.as_written = Some(as_written(&stated));
     // How far the file's own numbers leave the loops open is what its reader asks.
     for (now, drawn) in analysis.assembly.gaps.iter_mut().zip(&stated.assembly.gaps) {
         (now.position, now.angle) = (drawn.position, drawn.angle);
@@ -178,6 +224,79 @@ pub(super) fn completed(
     analysis.nearest = Some(Box::new(meant.clone()));
     analysis.meant = Some(Box::new(meant));
     Ok(analysis)
+}
+
+/// The analysis where no numbers within the digits let some part move, or close, as the rank within the digits would have it.
+fn refuted_parts(
+    mechanism: &Mechanism,
+    options: &AnalysisOptions,
+    configuration: Option<&Configuration>,
+    stated: Analysis,
+    parts: &[PartMeant],
+) -> Result<Analysis, AnalysisError> {
+    if parts.iter().any(PartMeant::is_open) {
+        return Ok(left_open(stated, parts));
+    }
+    let fewer = |part: &&PartMeant| {
+        let literal = stated
+            .parts
+            .get(part.index)
+            .and_then(|rank| rank.as_written);
+        part.excluded && part.accepted.is_some_and(|f| f > 1) && literal != Some(0)
+    };
+    if parts.iter().any(|part| fewer(&part)) {
+        // Some of its motions may be left: those of the numbers taken literally, if these close.
+        let literal = mechanism.clone().with_precision(0.0);
+        let mut analysis = analyse_as_stated(&literal, options)?;
+        let all: Vec<&PartMeant> = parts.iter().collect();
+        let Some(finite) = analysis.mobility.finite() else {
+            return Ok(opened(mechanism, stated, parts));
+        };
+        analysis.mobility.nominal = Some(nominal(&all, finite));
+        analysis.nearest = stated.nearest;
+        return Ok(analysis);
+    }
+    Ok(held_fast(mechanism, configuration, stated, parts))
+}
+
+/// A mechanism that counted as closed, though no numbers within the digits close it.
+fn left_open(mut stated: Analysis, parts: &[PartMeant]) -> Analysis {
+    stated.assembly.closed = false;
+    let all: Vec<&PartMeant> = parts.iter().filter(|part| part.nearest.is_some()).collect();
+    stated.mobility = unassembled(&stated.assembly);
+    if !all.is_empty() {
+        stated.mobility.nominal = Some(nominal(&all, 0));
+    }
+    stated.home = None;
+    stated.parts.clear();
+    stated.findings.clear();
+    stated.branches = None;
+    let count = stated.roles.len();
+    stated.roles = vec![JointRole::default(); count];
+    stated.redundant_wrenches = vec![None; count];
+    stated.directions = vec![JointDirections::default(); count];
+    stated.cycles.clear();
+    stated.advice.clear();
+    stated.change_sets = Err(NoChangeSet::Undecided);
+    stated
+}
+
+/// The analysis with the parts open that no numbers within the digits let move as they were taken to.
+fn opened(mechanism: &Mechanism, mut stated: Analysis, parts: &[PartMeant]) -> Analysis {
+    for part in parts.iter().filter(|part| part.excluded) {
+        let finding = &mut stated.findings[part.index];
+        finding.lower = 0;
+        finding.nominal = None;
+        finding.branches = None;
+        finding.open = Some(
+            "no numbers within the digits let it move with as many degrees of freedom as its rank within them; with how many fewer it \
+             moves is open"
+                .to_owned(),
+        );
+    }
+    stated.mobility = judge(mechanism, &stated.structure, &stated.findings);
+    stated.branches = None;
+    stated
 }
 
 fn nominal(parts: &[&PartMeant], finite: usize) -> Nominal {
@@ -195,6 +314,7 @@ fn nominal(parts: &[&PartMeant], finite: usize) -> Nominal {
         distance: Some(parts.iter().map(distance).fold(0.0, f64::max)),
         known_to: None,
         within_digits: parts.iter().all(|part| part.units() <= WITHIN),
+        noise: false,
         changes: sorted(parts.iter().flat_map(|part| part.changes.clone()).collect()),
         kept: parts.iter().flat_map(|part| part.kept.clone()).collect(),
     }

@@ -6,7 +6,7 @@
 //! like the square of the misfit the steps converge quadratically although most of these equations repeat one another:
 //! Yamashita and Fukushima 2001). At the solution the rank of the equations is clear, and the dimensions are moved to the point
 //! of the solutions nearest to what is written: first by the sum of squares in units of each number's uncertainty, then, where
-//! some number leaves its uncertainty, with smaller and smaller weight on it.
+//! some number leaves its uncertainty, by the largest of them (`least_largest.rs`).
 //!
 //! Relations that the numbers nearly satisfy (`relations.rs`) are further equations: the dimensions are moved to where these hold before
 //! a pose is looked at, so that loops that close because of them close from the start.
@@ -16,6 +16,7 @@
 //! Cost: a singular value decomposition for every pose and step.
 
 use super::dimensions::{Dimensions, turns};
+use super::least_largest::least_largest;
 use super::poses::{Loops, OnMotion};
 use super::relations::Relations;
 use faer::Mat;
@@ -90,14 +91,20 @@ const RELAXED: f64 = 0.1;
 /// leave less of them.
 const DEPENDENT: f64 = 1e-9;
 
-/// Numbers farther from what is written than this share of their uncertainty are drawn nearer, where one is beyond it.
-const DRAWN_TO: f64 = 0.9;
+/// What the second order of all numbers together may be, in units of the square of their first.
+const SECOND_ORDER: f64 = 3.0;
 
-/// Rounds of drawing near.
-const DRAWN: usize = 8;
+/// However coarse the numbers are, directions above this share tell something: the coarsest are mostly along axes, where they do
+/// nothing to second order.
+const COARSEST: f64 = 3e-3;
 
-/// Beyond so many units nothing is near.
-const FAR: f64 = 1e4;
+/// Rounds of drawing near, each to where the linear equations say; the farthest is nearest where it is no more than so many times
+/// what it has to be.
+const DRAWN: usize = 5;
+const MET: f64 = 1.02;
+
+/// Numbers that change by more than this (rad, or the distance of the joints) make another linkage.
+const FAR: f64 = 0.3;
 
 /// Difference quotients of the fourth order are taken over this (rad, part lengths): what they leave out, and rounding, are both below
 /// 1e-12 of the derivative.
@@ -118,8 +125,6 @@ pub(super) struct Nearest {
     pub z: Vec<f64>,
     /// How far the loops of the numbers as written stay open along the motion (rad, cycle lengths).
     pub misfit: f64,
-    /// No dimensions that close along a motion near this one change every number by less (units; to first order).
-    pub at_least: f64,
 }
 
 /// The poses, and what the dimensions have to mend there.
@@ -138,6 +143,8 @@ pub(super) struct Search<'a> {
     pub geometry: Geometry<f64>,
     /// The part's length (m).
     pub length: f64,
+    /// How far its loops reach (m), which for axes that nearly coincide is far more.
+    pub reach: f64,
     /// Operations that decompositions took so far, but for a factor.
     pub work: usize,
 }
@@ -154,6 +161,43 @@ impl Search<'_> {
     pub fn closes_as_written(&self, home: &[JointState<f64>]) -> Result<bool, MatrixError> {
         let samples = self.along_the_motion(home, &SAMPLINGS[0])?;
         Ok(samples.is_some_and(|samples| norm(&misfits(&samples)) <= STALLED))
+    }
+
+    /// What some number has to change by at least, in units, for the loops to close along the motion through a pose. To first order at the
+    /// numbers as written, which is what numbers within their digits differ by; zero where there are no such poses.
+    ///
+    /// # Errors
+    /// [`MatrixError`] where numbers overflow.
+    pub fn least_change(&mut self, home: &[JointState<f64>]) -> Result<f64, MatrixError> {
+        let Some(mut samples) = self.along_the_motion(home, &SAMPLINGS[0])? else {
+            return Ok(0.0);
+        };
+        self.least_change_at(&mut samples)
+    }
+
+    /// The same for the loops to close at one pose.
+    ///
+    /// # Errors
+    /// [`MatrixError`] where numbers overflow.
+    pub fn least_change_to_close(&mut self, home: &[JointState<f64>]) -> Result<f64, MatrixError> {
+        let mut states = home.to_vec();
+        let Some(here) = self.loops.settle(&self.geometry, &mut states, 1.0)? else {
+            return Ok(0.0);
+        };
+        self.least_change_at(&mut [Sample { states, here }])
+    }
+
+    fn least_change_at(&mut self, samples: &mut [Sample]) -> Result<f64, MatrixError> {
+        let z = vec![0.0; self.dimensions.all.len()];
+        let (matrix, misfit) = self.equations(samples, &z)?;
+        if norm(&misfit) <= STALLED {
+            return Ok(0.0);
+        }
+        // Numbers within their digits leave over, to second order, about the square of what they do to first order: directions in which
+        // the equations answer to them by no more than so many times that tell nothing.
+        let dependent = |most: f64| (SECOND_ORDER * most).clamp(DEPENDENT, COARSEST);
+        let found = least_largest(&matrix, &misfit, dependent);
+        Ok(found.map_or(0.0, |found| found.at_least))
     }
 
     /// The nearest dimensions, from a pose; `None` where none are found.
@@ -181,16 +225,34 @@ impl Search<'_> {
             let closed = norm(&misfits(&elsewhere)) <= CLOSED_ELSEWHERE;
             samples.extend(elsewhere);
             if closed {
-                let at_least = self.draw_near(&mut samples, &mut z, first)?;
+                self.draw_near(&mut samples, &mut z, first)?;
                 let misfit = self.misfit_of(written, &samples)?;
-                return Ok(Some(Nearest {
-                    z,
-                    misfit,
-                    at_least,
-                }));
+                return Ok(Some(Nearest { z, misfit }));
             }
         }
         Ok(None)
+    }
+
+    /// The nearest dimensions that close at the pose, whatever moves there then; `None` where none are found.
+    ///
+    /// # Errors
+    /// [`MatrixError`] where numbers overflow.
+    pub fn nearest_at_one_pose(
+        &mut self,
+        home: &[JointState<f64>],
+    ) -> Result<Option<Nearest>, MatrixError> {
+        let mut states = home.to_vec();
+        let Some(here) = self.loops.settle(&self.geometry, &mut states, 1.0)? else {
+            return Ok(None);
+        };
+        let mut samples = vec![Sample { states, here }];
+        let mut z = vec![0.0; self.dimensions.all.len()];
+        let misfit = self.open(&samples);
+        if self.solve(&mut samples, &mut z, misfit)?.is_none() {
+            return Ok(None);
+        }
+        self.draw_near(&mut samples, &mut z, misfit)?;
+        Ok(Some(Nearest { z, misfit }))
     }
 
     /// Moves the dimensions to where the relations hold, and a pose with them; whether that can be.
@@ -328,7 +390,7 @@ impl Search<'_> {
             };
             let step = svd.least(&misfit, |s, top| s / (s * s + relative * top * top));
             z.iter_mut().zip(&step).for_each(|(z, step)| *z -= step);
-            let followed = largest(z) <= FAR && self.follow(samples, z)?;
+            let followed = self.is_near(z) && self.follow(samples, z)?;
             let now = if followed {
                 self.open(samples)
             } else {
@@ -374,57 +436,56 @@ impl Search<'_> {
         self.follow(samples, z).map(|_| ())
     }
 
-    /// Moves the dimensions along the solutions so that none of them is farther from what is written than its uncertainty, if that
-    /// can be: those that are get smaller and smaller weights. What comes out is a bound of what that takes ([`Nearest::at_least`]).
+    /// Where some dimension is farther from what is written than its uncertainty, moves them along the solutions to where the
+    /// farthest is nearest.
     fn draw_near(
         &mut self,
         samples: &mut [Sample],
         z: &mut Vec<f64>,
         first: f64,
-    ) -> Result<f64, MatrixError> {
-        let mut weights = vec![1.0; z.len()];
-        let mut at_least = 0.0f64;
+    ) -> Result<(), MatrixError> {
         let mut nearest = (z.clone(), states_of(samples));
         for _ in 0..DRAWN {
-            if largest(z) <= 1.0 {
+            let before = largest(&nearest.0);
+            if before <= 1.0 {
                 break;
             }
-            let (mut matrix, misfit) = self.equations(samples, z)?;
+            let (matrix, misfit) = self.equations(samples, z)?;
             // What the linear equations ask of z from zero on.
             let wanted: Vec<f64> = (0..matrix.nrows())
                 .map(|i| (0..z.len()).map(|j| matrix[(i, j)] * z[j]).sum::<f64>() - misfit[i])
                 .collect();
-            for (j, weight) in weights.iter().enumerate() {
-                for i in 0..matrix.nrows() {
-                    matrix[(i, j)] *= weight;
-                }
-            }
-            let inverse = |s: f64, top: f64| if s > DEPENDENT * top { 1.0 / s } else { 0.0 };
-            let Some(svd) = Steps::of(&matrix) else {
+            let Some(found) = least_largest(&matrix, &wanted, |_| DEPENDENT) else {
                 break;
             };
-            let scaled = svd.least(&wanted, inverse);
-            for ((z, x), weight) in z.iter_mut().zip(&scaled).zip(&weights) {
-                *z = x * weight;
-            }
-            at_least = at_least.max(least_change(z, &weights));
-            let closed = largest(z) <= FAR
-                && self.follow(samples, z)?
-                && self.solve(samples, z, first)?.is_some();
-            if !closed {
+            if before <= MET * found.at_least {
                 break;
             }
-            if largest(z) < largest(&nearest.0) {
-                nearest = (z.clone(), states_of(samples));
+            z.clone_from(&found.z);
+            let closed = self.is_near(z)
+                && self.follow(samples, z)?
+                && self.solve(samples, z, first)?.is_some();
+            if !closed || largest(z) >= before {
+                break;
             }
-            for (weight, z) in weights.iter_mut().zip(z.iter()) {
-                *weight *= (DRAWN_TO / z.abs()).min(1.0);
-            }
+            nearest = (z.clone(), states_of(samples));
         }
         if *z != nearest.0 {
             self.restore(samples, z, &nearest)?;
         }
-        Ok(at_least)
+        Ok(())
+    }
+
+    /// Whether no number changes so much that the linkage is another one.
+    fn is_near(&self, z: &[f64]) -> bool {
+        let mut changes = self.dimensions.all.iter().zip(z);
+        changes.all(|(dimension, z)| {
+            let size = match turns(dimension.place) {
+                true => 1.0,
+                false => self.reach,
+            };
+            (z * dimension.unit).abs() <= FAR * size
+        })
     }
 
     /// Gives the loops their changed dimensions and brings the poses onto the motion again.
@@ -566,19 +627,6 @@ impl Steps {
         }
         step
     }
-}
-
-/// What the largest of the numbers has to be at least, where `z` solves linear equations with the least Σ (z/w)².
-///
-/// By duality, min ‖z‖∞ over A z = b is max yᵀb / ‖Aᵀy‖₁. The multipliers y of the weighted solution have Aᵀy = z/w² and yᵀb =
-/// Σ (z/w)², so that every choice of weights gives a bound, and those of a solution with all its larger numbers alike the best.
-fn least_change(z: &[f64], weights: &[f64]) -> f64 {
-    let of = |power: i32| -> f64 {
-        let terms = z.iter().zip(weights);
-        terms.map(|(z, w)| z.abs().powi(power) / (w * w)).sum()
-    };
-    let sum = of(1);
-    if sum > 0.0 { of(2) / sum } else { 0.0 }
 }
 
 /// What the dimensions have to mend at some poses.

@@ -9,7 +9,9 @@ use super::{Change, WITHIN};
 use crate::analysis::Analysis;
 use crate::pose_rank::{BEYOND_FIRST_ORDER, PartRank};
 use crate::tree_bound::most_by_joints;
-use kutzbach_closure::{Arithmetic, Geometry, JointState, Metric, Part, linearised};
+use kutzbach_closure::{
+    Arithmetic, CycleJacobian, Geometry, JointState, Metric, Part, linearised, rounding_of,
+};
 use kutzbach_math::matrix::{DENSE_COLUMNS, MatrixError, relative_singular_values};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Configuration, Mechanism};
@@ -18,11 +20,10 @@ use kutzbach_model::mechanism::{Configuration, Mechanism};
 const TRIES: usize = 3;
 
 /// Parts of more numbers than this are not searched.
-const MOST_DIMENSIONS: usize = 600;
+pub(super) const MOST_DIMENSIONS: usize = 600;
 
-/// Where all dimensions that close along a motion change some number by more than so many units, to first order, none is within
-/// the digits: room for the second order.
-const EXCLUDED: f64 = 1.5;
+/// A gap is none of rounding where it is so many times what that may leave.
+const GAP: f64 = 8.0;
 
 /// Numbers that may well have been chosen are searched where there are no more of them.
 const MOST_CHOSEN: usize = 200;
@@ -34,8 +35,17 @@ pub(super) struct PartMeant {
     pub nearest: Option<Nearest>,
     /// How many freedoms it has where it moves.
     pub freedom: usize,
-    /// Whether no numbers within the digits let it move.
+    /// How many freedoms the rank within the digits gave it, where that decided.
+    pub accepted: Option<usize>,
+    /// Whether no numbers within the digits let it move, or with as many freedoms as it was given.
     pub excluded: bool,
+    /// What some number has to change by at least for it to move so, in units of what the digits leave open.
+    pub at_least: f64,
+    /// Whether its loops as written stay open at the pose by more than rounding.
+    pub gap: bool,
+    /// What some number has to change by at least for its loops to close at the pose, in units of what the digits leave open, where
+    /// that was asked.
+    pub closing: Option<f64>,
     /// The part's length (m).
     pub length: f64,
     pub changes: Vec<Change>,
@@ -44,6 +54,29 @@ pub(super) struct PartMeant {
 }
 
 impl PartMeant {
+    /// Of a part of which nothing is found yet.
+    pub fn of(index: usize) -> Self {
+        Self {
+            index,
+            nearest: None,
+            freedom: 0,
+            accepted: None,
+            excluded: false,
+            at_least: 0.0,
+            gap: false,
+            closing: None,
+            length: 0.0,
+            changes: Vec::new(),
+            numbers: Vec::new(),
+            kept: Vec::new(),
+        }
+    }
+
+    /// Whether no numbers within the digits close its loops at the pose.
+    pub fn is_open(&self) -> bool {
+        self.closing.is_some_and(|closing| closing > WITHIN)
+    }
+
     /// The largest change, in units of what the digits leave open.
     pub fn units(&self) -> f64 {
         self.changes.iter().map(Change::units).fold(0.0, f64::max)
@@ -64,52 +97,104 @@ pub(super) fn parts_meant(
         let dimensions = Dimensions::of(mechanism, part);
         let asked = finding.is_none_or(|finding| {
             let nearly = rank.is_some_and(|rank| nearly_moves(&dimensions, rank));
-            finding.open.is_some() || finding.nominal.is_some() || finding.upper == 0 && nearly
+            let else_as_written = rank.is_some_and(is_else_as_written);
+            finding.open.is_some()
+                || finding.nominal.is_some()
+                || else_as_written
+                || finding.upper == 0 && nearly
         });
         if !asked {
             continue;
         }
-        let mut of_part = PartMeant {
-            index,
-            nearest: None,
-            freedom: 0,
-            excluded: false,
-            length: 0.0,
-            changes: Vec::new(),
-            numbers: Vec::new(),
-            kept: Vec::new(),
-        };
+        let mut of_part = PartMeant::of(index);
+        of_part.gap = rank.is_some_and(leaves_a_gap);
         let states = &stated.assembly.states;
         let freedom = finding
             .filter(|finding| finding.open.is_none() && finding.upper > 0)
             .map(|finding| finding.upper);
+        of_part.accepted = freedom;
+        let rigid = finding.is_some_and(|finding| finding.open.is_none() && finding.upper == 0);
         let literal = rank.and_then(|rank| rank.as_written);
         let open_to = rank.map_or(0.0, |rank| rank.stated);
+        let most = rank
+            .filter(|_| freedom.is_none())
+            .map(|rank| rank.candidates.1);
         let freedoms = Freedoms {
             known: freedom,
+            possible: most,
             literal: literal.unwrap_or(0),
             open_to: (open_to > 0.0).then_some(BEYOND_FIRST_ORDER * open_to),
         };
         if (1..=MOST_DIMENSIONS).contains(&dimensions.all.len())
-            && let Some(Found {
-                nearest,
-                freedom,
-                length,
-                excluded,
-                kept,
-            }) = nearest_of_part(mechanism, &geometry, states, part, &dimensions, freedoms)?
+            && !(rigid && rank.is_some_and(|rank| rank.stated > 0.0))
+            && let Some(found) =
+                nearest_of_part(mechanism, &geometry, states, part, &dimensions, freedoms)?
         {
-            of_part.excluded = excluded;
-            of_part.freedom = freedom;
-            of_part.changes = changes(&dimensions, &nearest.z);
-            of_part.numbers = dimensions.changes(&nearest.z);
-            of_part.nearest = Some(nearest);
-            of_part.length = length;
-            of_part.kept = kept;
+            of_part.excluded = found.excluded.is_some();
+            of_part.at_least = found.excluded.unwrap_or(0.0);
+            of_part.length = found.length;
+            if let Some((nearest, freedom)) = found.nearest {
+                of_part.freedom = freedom;
+                of_part.changes = changes(&dimensions, &nearest.z);
+                of_part.numbers = dimensions.changes(&nearest.z);
+                of_part.nearest = Some(nearest);
+                of_part.kept = found.kept;
+            }
+        }
+        let still = rigid || of_part.excluded && of_part.accepted.is_some();
+        if still && of_part.gap {
+            of_part.closing = Some(closing(mechanism, &geometry, states, part, &dimensions)?);
         }
         found.push(of_part);
     }
     Ok(found)
+}
+
+/// Whether the loops of a part stay open at its pose by more than rounding: a misfit of dimensions, since the pose was closed as far as
+/// it closes.
+fn leaves_a_gap(rank: &PartRank) -> bool {
+    let rounding = rounding_of(&rank.jacobian.walks, f64::EPSILON);
+    let open = |residual: &f64| residual.abs() > GAP * rounding;
+    rank.stated > 0.0 && rank.jacobian.residual.iter().any(open)
+}
+
+/// Whether the numbers of a part as written close less well, or have a higher rank, than those that they may stand for.
+fn is_else_as_written(rank: &PartRank) -> bool {
+    let literally = rank.as_written != rank.instantaneous;
+    rank.stated > 0.0 && (literally || leaves_a_gap(rank))
+}
+
+/// What some number has to change by at least for the loops of a part to close at its pose, whatever moves then (units); zero where that
+/// is not computed.
+fn closing(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    states: &[JointState<f64>],
+    part: &Part,
+    dimensions: &Dimensions<'_>,
+) -> Result<f64, MatrixError> {
+    let here = linearised(geometry, states, part)?;
+    let mut matrix = here.matrix.clone();
+    let scales = matrix.scale_columns();
+    if matrix.columns() > DENSE_COLUMNS || dimensions.all.len() > MOST_DIMENSIONS {
+        return Ok(0.0);
+    }
+    let values = relative_singular_values(&matrix)?.unwrap_or_default();
+    let noise = dimensions.noise(here.length);
+    let clear = values.iter().filter(|value| **value > noise).count();
+    let metric = Metric::of(mechanism, &here, &scales);
+    let relations = Relations::default();
+    let asked = Asked {
+        mechanism,
+        part,
+        metric: &metric,
+        dimensions,
+        geometry,
+        length: here.length,
+        reach: reach(&here),
+    };
+    let mut search = asked.search(matrix.columns() - clear, &relations);
+    search.least_change_to_close(states)
 }
 
 /// Whether a part of exact numbers that holds fast would be open if they were rounded.
@@ -121,7 +206,7 @@ fn nearly_moves(dimensions: &Dimensions<'_>, rank: &PartRank) -> bool {
         && decision.kept <= BEYOND_FIRST_ORDER * dimensions.noise(rank.jacobian.length)
 }
 
-fn changes(dimensions: &Dimensions<'_>, z: &[f64]) -> Vec<Change> {
+pub(super) fn changes(dimensions: &Dimensions<'_>, z: &[f64]) -> Vec<Change> {
     let change = |(dimension, z): (&Dimension, &f64)| {
         let from = dimensions.numbers(dimension.joint, &[]).0[dimension.place];
         Change {
@@ -139,21 +224,59 @@ fn changes(dimensions: &Dimensions<'_>, z: &[f64]) -> Vec<Change> {
 struct Freedoms {
     /// How many it has within the digits, where that is decided.
     known: Option<usize>,
+    /// How many it may have within the digits, where the rank is open.
+    possible: Option<usize>,
     /// How many the numbers leave at the pose where they are taken literally.
     literal: usize,
     /// Singular values above this share of the largest are no rounded zeros, where a pose was ranked.
     open_to: Option<f64>,
 }
 
-/// The nearest dimensions found of one part.
+/// How far the loops of a part reach from their middle (m), or the part's length if that is more.
+pub(super) fn reach(here: &CycleJacobian<f64>) -> f64 {
+    let each = here.walks.iter().map(|walk| walk.extent);
+    each.fold(here.length, f64::max)
+}
+
+/// A part as it is asked about.
+struct Asked<'a> {
+    mechanism: &'a Mechanism,
+    part: &'a Part,
+    metric: &'a Metric,
+    dimensions: &'a Dimensions<'a>,
+    geometry: &'a Geometry<f64>,
+    length: f64,
+    reach: f64,
+}
+
+impl<'a> Asked<'a> {
+    fn search(&self, freedom: usize, relations: &'a Relations) -> Search<'a> {
+        Search {
+            loops: Loops {
+                mechanism: self.mechanism,
+                part: self.part,
+                metric: self.metric,
+                freedom,
+            },
+            dimensions: self.dimensions,
+            relations,
+            geometry: self.geometry.clone(),
+            length: self.length,
+            reach: self.reach,
+            work: 0,
+        }
+    }
+}
+
+/// What was found of one part.
 struct Found {
-    nearest: Nearest,
-    /// How many freedoms it has.
-    freedom: usize,
+    /// The nearest dimensions, and how many freedoms they have.
+    nearest: Option<(Nearest, usize)>,
     /// The part's length (m).
     length: f64,
-    /// Whether the pose allows one motion at most, and no numbers within the digits let it go through.
-    excluded: bool,
+    /// What some number has to change by at least (units), where no numbers within the digits let it move: where the pose allows
+    /// one motion at most, or has a number of freedoms within the digits.
+    excluded: Option<f64>,
     /// The relations that it was found by.
     kept: Vec<Kept>,
 }
@@ -176,28 +299,33 @@ fn nearest_of_part(
     let values = relative_singular_values(&matrix)?.unwrap_or_default();
     let noise = dimensions.noise(here.length);
     let freedoms = match known.known {
-        Some(freedom) => vec![freedom],
+        // If none within the digits has as many, then maybe some has fewer.
+        Some(freedom) => {
+            let fewer = by_gap(&values, matrix.columns(), noise, &known, freedom - 1);
+            std::iter::once(freedom).chain(fewer).collect()
+        }
         None => {
             let most = most_by_joints(mechanism, part);
             by_gap(&values, matrix.columns(), noise, &known, most)
         }
     };
-    let regular = has_one_direction(&values, matrix.columns(), noise, &known);
+    // Axes that nearly coincide are known by their directions, which lengths leave as they are.
+    let apart = dimensions.noise(reach(&here));
+    // What was accepted was accepted at a regular pose.
+    let regular =
+        known.known.is_some() || has_one_direction(&values, matrix.columns(), apart, &known);
     let metric = Metric::of(mechanism, &here, &scales);
-    let search = |freedom: usize, relations: &Relations| {
-        let mut search = Search {
-            loops: Loops {
-                mechanism,
-                part,
-                metric: &metric,
-                freedom,
-            },
-            dimensions,
-            relations,
-            geometry: geometry.clone(),
-            length: here.length,
-            work: 0,
-        };
+    let asked = Asked {
+        mechanism,
+        part,
+        metric: &metric,
+        dimensions,
+        geometry,
+        length: here.length,
+        reach: reach(&here),
+    };
+    let search = |freedom: usize, relations| {
+        let mut search = asked.search(freedom, relations);
         // What closes as it is written is not made to follow relations.
         if !relations.is_empty() && search.closes_as_written(states)? {
             return Ok(None);
@@ -205,30 +333,30 @@ fn nearest_of_part(
         search.nearest(states)
     };
     let units = |nearest: &Nearest| nearest.z.iter().fold(0.0f64, |m, z| z.abs().max(m));
-    let found = |(nearest, freedom): (Nearest, usize), excluded: bool, kept: Vec<Kept>| Found {
-        nearest,
-        freedom,
-        length: here.length,
-        excluded,
-        kept,
-    };
     let relations = Relations::of(mechanism, part, dimensions, geometry, here.length);
     if !relations.is_empty() {
         for &freedom in freedoms.iter().take(TRIES) {
             let nearest = search(freedom, &relations)?;
             if let Some(nearest) = nearest.filter(|nearest| units(nearest) <= WITHIN) {
-                return Ok(Some(found((nearest, freedom), false, relations.kept())));
+                return Ok(Some(Found {
+                    nearest: Some((nearest, freedom)),
+                    length: here.length,
+                    excluded: None,
+                    kept: relations.kept(),
+                }));
             }
         }
     }
+    let none = Relations::default();
     let mut best: Option<(Nearest, usize)> = None;
-    let mut excluded = regular && freedoms == [1];
+    let decides = regular && (known.known.is_some() || freedoms == [1]);
+    let mut excluded = decides.then_some(f64::INFINITY);
     for freedom in freedoms.into_iter().take(TRIES) {
-        let Some(nearest) = search(freedom, &Relations::default())? else {
-            excluded = false;
+        let least = asked.search(freedom, &none).least_change(states)?;
+        excluded = excluded.map(|e| e.min(least)).filter(|e| *e > WITHIN);
+        let Some(nearest) = search(freedom, &none)? else {
             continue;
         };
-        excluded &= nearest.at_least > EXCLUDED;
         let within = units(&nearest) <= WITHIN;
         if best
             .as_ref()
@@ -237,10 +365,16 @@ fn nearest_of_part(
             best = Some((nearest, freedom));
         }
         if within {
+            excluded = None;
             break;
         }
     }
-    Ok(best.map(|best| found(best, excluded, Vec::new())))
+    Ok(Some(Found {
+        nearest: best,
+        length: here.length,
+        excluded: excluded.filter(|e| e.is_finite()),
+        kept: Vec::new(),
+    }))
 }
 
 /// Whether the equations leave one direction at most, whatever the digits stand for: then each mechanism within them that moves
@@ -261,7 +395,10 @@ fn by_gap(values: &[f64], columns: usize, noise: f64, known: &Freedoms, most: us
         let kept = if rank == 0 { 1.0 } else { value(rank - 1) };
         kept / value(rank).max(noise)
     };
-    let open = |freedom: &usize| value(columns - freedom) <= known.open_to.unwrap_or(1.0);
+    let open = |freedom: &usize| {
+        known.possible.is_some_and(|most| *freedom <= most)
+            || value(columns - freedom) <= known.open_to.unwrap_or(1.0)
+    };
     let mut freedoms: Vec<usize> = (known.literal.max(1)..=most.min(columns))
         .filter(|f| columns - f <= values.len() && open(f))
         .collect();

@@ -2,7 +2,7 @@ use super::dimensions::Dimensions;
 use super::relations::Relations;
 use super::*;
 use crate::analyse;
-use kutzbach_closure::samples::{Place, Written, ring, sarrus_places};
+use kutzbach_closure::samples::{Place, Written, planar, ring, sarrus_places};
 use kutzbach_closure::{Arithmetic, Geometry};
 
 /// Sarrus' linkage in a general place, so that no coordinate is short.
@@ -24,6 +24,36 @@ fn a_linkage_of_coarse_decimals_is_the_one_that_it_rounds() {
     for decimals in 3..=5 {
         let found = analyse(&sarrus(decimals), &AnalysisOptions::default()).unwrap();
         assert_eq!(found.mobility.finite(), Some(1), "{decimals}");
+    }
+}
+
+/// A four-bar of which one hinge leans over, wherever it stands.
+fn leaning(tilt: f64, at: f64) -> Mechanism {
+    let mut places: Vec<Place> = planar(&[
+        [0.0, 0.0],
+        [0.10003, 0.21001],
+        [0.43017, 0.35002],
+        [0.50009, 0.0],
+    ]);
+    places[2].2 = [0.0, tilt, 1.0];
+    for (_, point, _) in &mut places {
+        point[0] += at;
+    }
+    ring(&places, [0.0; 3], Written::Decimals(5))
+}
+
+#[test]
+fn what_no_numbers_within_the_digits_move_is_rigid() {
+    for at in [0.0, 14.5] {
+        for tilt in [4e-5, 4.7e-4, 3e-3, 2e-2] {
+            let found = analyse(&leaning(tilt, at), &AnalysisOptions::default()).unwrap();
+            assert_eq!(found.mobility.finite(), Some(0), "{tilt} at {at}");
+            let nominal = found.mobility.nominal;
+            assert!(nominal.is_none_or(|n| !n.within_digits), "{tilt} at {at}");
+        }
+        // Half a unit of the last place is none.
+        let found = analyse(&leaning(4e-6, at), &AnalysisOptions::default()).unwrap();
+        assert_eq!(found.mobility.finite(), Some(1));
     }
 }
 

@@ -52,6 +52,9 @@ pub struct Nominal {
     /// Whether it lies within what the file's digits, or [`known_to`](Self::known_to), leave open.
     #[serde(default = "yes")]
     pub within_digits: bool,
+    /// Whether it differs by the noise of numbers that a program printed: less than a millionth of the loop's size.
+    #[serde(default, skip_serializing_if = "super::is_false")]
+    pub noise: bool,
     /// The numbers that it has otherwise, those that change most first; empty where it was not computed.
     #[serde(default)]
     pub changes: Vec<Change>,

@@ -85,6 +85,7 @@ fn rounded_numbers_are_named_as_the_reason() {
         distance: None,
         known_to: None,
         within_digits: true,
+        noise: false,
         changes: Vec::new(),
         relations: Vec::new(),
     });

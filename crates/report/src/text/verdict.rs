@@ -326,10 +326,10 @@ fn undecided(report: &Report) -> String {
 }
 
 /// The nearest mobile mechanism where it is not the one drawn.
-fn not_drawn(nominal: &Nominal) -> String {
+fn not_drawn(nominal: &Nominal, distance: f64) -> String {
     let mut text = format!(
         "The nearest mechanism found that moves is {} away",
-        metres(nominal.distance.unwrap_or(nominal.tolerance))
+        metres(distance)
     );
     if let Some(change) = nominal.changes.first() {
         text.push_str(&format!(
@@ -349,6 +349,16 @@ fn not_drawn(nominal: &Nominal) -> String {
         cite::NOMINAL
     ));
     text
+}
+
+/// What numbers that a program printed miss as written.
+fn noise(nominal: &Nominal) -> String {
+    format!(
+        "As written its loops miss by up to {}, which the noise of the numbers explains ({}); no number is off by more than {}.",
+        metres(nominal.tolerance),
+        cite::NOMINAL,
+        metres(nominal.distance.unwrap_or(nominal.tolerance)),
+    )
 }
 
 /// How far the numbers are from those of the mechanism meant, and what they leave as written.
@@ -384,14 +394,17 @@ fn meant(nominal: &Nominal, distance: f64, written: &AsWritten, finite: Option<u
 /// A mechanism that moves only if its numbers are read as rounded.
 pub(super) fn nominal(report: &Report) -> Option<String> {
     let nominal = report.mobility.nominal.as_ref()?;
-    if !nominal.within_digits {
-        return Some(not_drawn(nominal));
+    if nominal.noise {
+        return Some(noise(nominal));
+    }
+    if let Some(distance) = nominal.distance.filter(|_| !nominal.within_digits) {
+        return Some(not_drawn(nominal, distance));
     }
     if let (Some(distance), Some(written)) = (nominal.distance, &report.mobility.as_written) {
         return Some(meant(nominal, distance, written, report.mobility.finite));
     }
     let mut text = format!(
-        "It moves within {} of the numbers written ({}): they are probably rounded",
+        "As written its loops miss by up to {} along the motion ({}): the numbers are probably rounded",
         metres(nominal.tolerance),
         cite::NOMINAL
     );

@@ -224,6 +224,7 @@ fn rounded_numbers_are_told() {
         distance: None,
         known_to: None,
         within_digits: true,
+        noise: false,
         changes: Vec::new(),
         relations: Vec::new(),
     });

@@ -1,0 +1,173 @@
+//! The mechanism meant by numbers that a program printed, up to the noise of its arithmetic.
+//!
+//! A geometry kernel, an optimiser or single precision leave errors far above the last digit that is printed of them. Nobody builds to a
+//! millionth of a link: a misfit below that, which stands alone, is met by the nearest mechanism without it, and what the numbers are as
+//! written is said beside. Numbers typed by a person are taken at their word.
+
+use super::dimensions::Dimensions;
+use super::nearest::{Nearest, Search};
+use super::of_the_one_meant;
+use super::parts::{MOST_DIMENSIONS, PartMeant, changes, reach};
+use super::poses::Loops;
+use super::relations::Relations;
+use crate::analysis::{Analysis, AnalysisError, AnalysisOptions};
+use crate::depth::Depth;
+use crate::vocabulary::Verdict;
+use kutzbach_closure::{Arithmetic, Geometry, Metric, Part, linearised};
+use kutzbach_math::matrix::{DENSE_COLUMNS, MatrixError, relative_singular_values};
+use kutzbach_math::number::Number;
+use kutzbach_model::mechanism::{Configuration, Mechanism};
+
+/// Noise is less than this share of the loop's size (rad).
+const NOISE: f64 = 1e-6;
+
+/// Numbers count in units of this share, so that those of the mechanism meant are a few units from those written.
+const UNIT: f64 = 0.1 * NOISE;
+
+/// What stands alone is so many times smaller than the next.
+const ALONE: f64 = 1e3;
+
+/// Programs print so many significant digits at least, and no more than doubles have.
+const PRINTED: std::ops::RangeInclusive<u32> = 9..=17;
+
+/// It takes so many such numbers, and they are most of those that are neither zero nor a constant.
+const LEAST_PRINTED: usize = 4;
+
+/// Whether a program printed most numbers of a part.
+fn is_printed(mechanism: &Mechanism, part: &Part) -> bool {
+    let (mut long, mut all) = (0, 0);
+    for &joint in &part.joints {
+        for number in mechanism.joints()[joint].numbers().into_iter().flatten() {
+            // What was read as a constant, or as a shorter decimal, says nothing; what was computed was typed.
+            let Some(written) = number.written().filter(|w| w.significant > 0) else {
+                continue;
+            };
+            all += usize::from(written.significant > 1);
+            long += usize::from(PRINTED.contains(&written.significant));
+        }
+    }
+    long >= LEAST_PRINTED && 2 * long > all
+}
+
+/// Completes the analysis of numbers that a program printed: where they bind or stay open by noise only, that of the mechanism meant.
+///
+/// # Errors
+/// [`AnalysisError`] where numbers overflow.
+pub(super) fn but_for_noise(
+    mechanism: &Mechanism,
+    options: &AnalysisOptions,
+    configuration: Option<&Configuration>,
+    stated: Analysis,
+) -> Result<Analysis, AnalysisError> {
+    let by_hand = mechanism.precision().by_hand().is_some();
+    if stated.mobility.verdict == Verdict::Mobile || by_hand || options.depth <= Depth::Rank {
+        return Ok(stated);
+    }
+    let geometry = Geometry::new(mechanism, configuration, &Arithmetic::double());
+    let mut parts = Vec::new();
+    for (index, part) in stated.structure.parts.iter().enumerate() {
+        let finding = stated.findings.get(index);
+        let open = finding.is_none_or(|finding| finding.open.is_some());
+        if !open && finding.is_some_and(|finding| finding.upper > 0) {
+            continue;
+        }
+        match of_part(mechanism, &geometry, &stated, (index, part))? {
+            Some(found) => parts.push(found),
+            None if open && !part.cycles.is_empty() => return Ok(stated),
+            None => {}
+        }
+    }
+    let all: Vec<&PartMeant> = parts.iter().collect();
+    let unassembled = stated.mobility.verdict == Verdict::Unassembled;
+    let same = |part: &&PartMeant| part.changes.iter().all(|c| c.to == c.from);
+    if all.is_empty() || !unassembled && all.iter().all(same) {
+        return Ok(stated);
+    }
+    let mut analysis = of_the_one_meant(mechanism, options, stated, &all)?;
+    if analysis.meant.is_some()
+        && let Some(nominal) = &mut analysis.mobility.nominal
+    {
+        nominal.noise = true;
+        nominal.within_digits = false;
+    }
+    Ok(analysis)
+}
+
+/// The nearest mechanism of one part, where it is within noise.
+fn of_part(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    stated: &Analysis,
+    (index, part): (usize, &Part),
+) -> Result<Option<PartMeant>, MatrixError> {
+    let states = &stated.assembly.states;
+    let here = linearised(geometry, states, part)?;
+    let mut matrix = here.matrix.clone();
+    let scales = matrix.scale_columns();
+    if matrix.columns() > DENSE_COLUMNS || !is_printed(mechanism, part) {
+        return Ok(None);
+    }
+    let misfit = here.residual.iter().fold(0.0f64, |m, r| r.abs().max(m));
+    let values = relative_singular_values(&matrix)?.unwrap_or_default();
+    let rank = values.iter().filter(|value| **value > NOISE).count();
+    let next = values.get(rank).copied().unwrap_or(0.0).max(misfit);
+    let least = rank.checked_sub(1).map_or(1.0, |last| values[last]);
+    if misfit > NOISE || least < ALONE * next {
+        return Ok(None);
+    }
+    let dimensions = Dimensions::known_to(mechanism, part, UNIT * here.length);
+    if !(1..=MOST_DIMENSIONS).contains(&dimensions.all.len()) {
+        return Ok(None);
+    }
+    let freedom = matrix.columns() - rank;
+    let metric = Metric::of(mechanism, &here, &scales);
+    let search = |relations: &Relations, along: bool| -> Result<Option<Nearest>, MatrixError> {
+        let mut search = Search {
+            loops: Loops {
+                mechanism,
+                part,
+                metric: &metric,
+                freedom,
+            },
+            dimensions: &dimensions,
+            relations,
+            geometry: geometry.clone(),
+            length: here.length,
+            reach: reach(&here),
+            work: 0,
+        };
+        match along {
+            false => search.nearest_at_one_pose(states),
+            true => search.nearest(states),
+        }
+    };
+    let within = |nearest: &Nearest| nearest.z.iter().all(|z| z.abs() * UNIT <= NOISE);
+    let relations = Relations::of(mechanism, part, &dimensions, geometry, here.length);
+    let none = Relations::default();
+    let (mut found, mut kept) = (None, Vec::new());
+    if !relations.is_empty() && freedom > 0 {
+        found = search(&relations, true)?.filter(within);
+        kept = relations.kept();
+    }
+    if found.is_none() && freedom > 0 {
+        found = search(&none, true)?.filter(within);
+        kept.clear();
+    }
+    let moves = found.is_some();
+    if found.is_none() && stated.mobility.verdict == Verdict::Unassembled {
+        // It closes, and moves or not as what closes does.
+        found = search(&none, false)?.filter(within);
+    }
+    Ok(found.map(|nearest| {
+        let numbers: Vec<(usize, usize, Number)> = dimensions.changes(&nearest.z);
+        PartMeant {
+            freedom: if moves { freedom } else { 0 },
+            length: here.length,
+            changes: changes(&dimensions, &nearest.z),
+            numbers,
+            kept,
+            nearest: Some(nearest),
+            ..PartMeant::of(index)
+        }
+    }))
+}
