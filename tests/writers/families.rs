@@ -112,7 +112,7 @@ fn between(random: &mut SplitMix64, low: f64, high: f64) -> f64 {
     low + (high - low) * 0.5 * (1.0 + random.symmetric())
 }
 
-/// Of 0.1 to 10 %, evenly in its logarithm, with a sign by lot; never below a unit that coarse writers see.
+/// Of 0.1 to 10 %, evenly in its logarithm, with a sign by lot.
 fn spoiling(random: &mut SplitMix64) -> f64 {
     let size = 10f64.powf(between(random, -2.0, -1.0));
     if random.symmetric() < 0.0 {

@@ -1,7 +1,7 @@
 //! Where links have their frames, and the file that comes of it.
 
 use super::families::{Drawn, Vector, cross, unit};
-use super::writers::{What, Writer};
+use super::printing::{What, Writer};
 use kutzbach::matrix::SplitMix64;
 use std::fmt::Write as _;
 

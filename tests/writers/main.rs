@@ -1,21 +1,21 @@
 //! Linkages as programs write them: families that move, and look-alikes that do not, in the frames and the digits of many writers.
 //!
 //! A family draws a linkage in world coordinates to the last digit of doubles (`families.rs`), frames say where links have their own
-//! (`frames.rs`), and a writer prints every number in its manner (`writers.rs`). The file is read again, and its verdict has to be that of
+//! (`frames.rs`), and a writer prints every number in its manner (`printing.rs`). The file is read again, and its verdict has to be that of
 //! the linkage drawn: what the digits took away was not meant to be there. Look-alikes are spoiled by far more than any writer rounds.
 
 mod families;
 mod frames;
-mod writers;
+mod printing;
 
 use crate::support::{analysis, in_parallel};
 use families::{FAMILIES, Family};
 use frames::{FRAMES, Setting, written};
 use kutzbach::matrix::SplitMix64;
 use kutzbach::mobility::Verdict;
+use printing::{WRITERS, Writer};
 use std::collections::BTreeMap;
 use std::time::Instant;
-use writers::{WRITERS, Writer};
 
 /// One file.
 struct Case {
