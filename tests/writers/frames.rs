@@ -125,7 +125,6 @@ pub fn written(
     for link in 0..links {
         let _ = writeln!(text, "<link name=\"l{link}\"/>");
     }
-    let mut residue = writer.residue;
     for (index, joint) in drawn.joints.iter().enumerate() {
         let point = placed(&turn, joint.point);
         let point = [0, 1, 2].map(|i| point[i] + shift[i]);
@@ -135,16 +134,12 @@ pub fn written(
             Frames::Axis => with_axis(axis, random),
             Frames::Turned => with_axis(any_direction(random), random),
         };
-        let mut origin = |link: usize, random: &mut SplitMix64| {
+        let origin = |link: usize, random: &mut SplitMix64| {
             let (frame, place) = &frames[link];
             let way = seen(frame, [0, 1, 2].map(|i| point[i] - place[i]));
             let mut print = |what: What, values: Vector| -> String {
                 let each = values.map(|value| {
                     let small = value.abs() < 1e-12;
-                    if small && residue && what == What::Length && random.symmetric() > 0.5 {
-                        residue = false;
-                        return format!("{}e-06", 3 + (9.0 * random.symmetric().abs()) as i32);
-                    }
                     writer.number(what, if small { 0.0 } else { value }, random)
                 });
                 each.join(" ")

@@ -34,8 +34,6 @@ pub struct Writer {
     pub name: &'static str,
     /// Of lengths, angles and directions.
     pub styles: [Style; 3],
-    /// Whether some zero of a length is written as some micrometres.
-    pub residue: bool,
     /// Whether the quick tier asks.
     pub quick: bool,
 }
@@ -44,7 +42,6 @@ const fn alike(name: &'static str, style: Style, quick: bool) -> Writer {
     Writer {
         name,
         styles: [style; 3],
-        residue: false,
         quick,
     }
 }
@@ -53,7 +50,6 @@ const fn mixed(name: &'static str, styles: [Style; 3]) -> Writer {
     Writer {
         name,
         styles,
-        residue: false,
         quick: false,
     }
 }
@@ -71,12 +67,7 @@ pub const WRITERS: [Writer; 16] = [
     alike("noise 1e-9", Style::Noisy(1e-9), true),
     alike("single", Style::Single, false),
     alike("single %.9g", Style::SingleShort, false),
-    Writer {
-        name: "round 6, residue",
-        styles: [Style::Shortest(6); 3],
-        residue: true,
-        quick: false,
-    },
+    alike("round 6", Style::Shortest(6), false),
     mixed(
         "lengths 6, rest full",
         [Style::Fixed(6), Style::Double, Style::Double],
