@@ -7,7 +7,7 @@ use kutzbach::mobility::{Analysis, AnalysisOptions, Depth, analyse};
 use kutzbach::number::Number;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use support::combine::mounted;
 use support::rewrite::Draft;
 use support::{assert_none, folder, in_parallel, mechanism_files};
@@ -91,6 +91,77 @@ fn check_cameras(files: &[PathBuf], places: &[&str], depth: Depth) {
 fn a_camera_changes_no_answer() {
     let sample: Vec<PathBuf> = files().into_iter().step_by(5).collect();
     check_cameras(&sample, &["0.123 0 0"], Depth::Verdict);
+}
+
+/// What a command says of a file, the columns and fields that a camera may not change.
+fn answered(command: &str, file: &Path) -> String {
+    let more: &[&str] = match command {
+        "trace" => &["--samples", "20", "--format", "csv"],
+        _ => &["--format", "json"],
+    };
+    let run = support::program()
+        .arg(command)
+        .arg(file)
+        .args(more)
+        .output();
+    let told = String::from_utf8(run.unwrap().stdout).unwrap();
+    let field = |value: &serde_json::Value, names: &[&str]| {
+        let of = |name: &&str| format!("{name} {:?}", value.get(*name));
+        names.iter().map(of).collect::<Vec<_>>().join(", ")
+    };
+    match command {
+        // A column more for every number of the camera's pose.
+        "trace" => {
+            let kept = |head: &str| !head.starts_with("a_camera.");
+            let heads: Vec<&str> = told.lines().next().unwrap_or_default().split(',').collect();
+            let row = |line: &str| {
+                let cells = line.split(',').zip(&heads).filter(|(_, head)| kept(head));
+                cells
+                    .map(|(cell, _)| format!("{cell},"))
+                    .collect::<String>()
+            };
+            told.lines().map(|line| row(line) + "\n").collect()
+        }
+        "exact" => field(
+            &serde_json::from_str(&told).unwrap(),
+            &["dimension", "outcome"],
+        ),
+        _ => {
+            let answer: serde_json::Value = serde_json::from_str(&told).unwrap();
+            let joints = answer["solutions"].as_array().into_iter().flatten();
+            let joints: Vec<String> = joints.map(|s| s["joints"].to_string()).collect();
+            field(&answer, &["complete", "moves"]) + &joints.join("\n")
+        }
+    }
+}
+
+#[test]
+fn a_camera_changes_neither_traces_nor_configurations_nor_proofs() {
+    let folder = support::empty_folder("cameras");
+    // Quick enough for all three.
+    let names = [
+        "bennett",
+        "planar_four_bar",
+        "sarrus",
+        "slider_crank",
+        "oldham",
+    ];
+    let wrong = in_parallel(&names, |name| {
+        let text = std::fs::read_to_string(support::folder(&format!("mechanisms/{name}.urdf")));
+        let text = text.unwrap();
+        let mechanism = kutzbach::format::read(&text, name, &[]).unwrap().mechanism;
+        let ground = &mechanism.link(mechanism.ground()).name;
+        let [plain, with] =
+            ["plain", "camera"].map(|kind| folder.join(format!("{name}_{kind}.urdf")));
+        std::fs::write(&plain, &text).unwrap();
+        std::fs::write(&with, with_camera(&text, ground, "0.123 0 0")).unwrap();
+        let differs = |command: &&str| answered(command, &plain) != answered(command, &with);
+        let commands = ["trace", "assemble", "exact"].into_iter().filter(differs);
+        commands
+            .map(|command| format!("{command} of {name}"))
+            .collect::<Vec<_>>()
+    });
+    assert_none(&wrong.concat());
 }
 
 fn upright() -> Direction {

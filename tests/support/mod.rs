@@ -170,7 +170,7 @@ pub fn at_least(of_all: usize) -> usize {
 pub fn sample<T>(items: impl IntoIterator<Item = T>, one_in: u64) -> Vec<T> {
     let seed = std::env::var("KUTZBACH_SEED").map_or(20260, |seed| seed.parse().unwrap());
     let mut lots = SplitMix64::new(seed);
-    let mut drawn = |_: &T| whole() || lots.next_u64() % one_in == 0;
+    let mut drawn = |_: &T| whole() || lots.next_u64().is_multiple_of(one_in);
     let chosen: Vec<T> = items.into_iter().filter(&mut drawn).collect();
     assert!(!chosen.is_empty(), "nothing was drawn");
     chosen
