@@ -80,7 +80,11 @@ fn tangents(mechanism: &Mechanism, here: &CycleJacobian<f64>) -> Vec<Vec<f64>> {
     let mut matrix = here.matrix.clone();
     let scales = matrix.scale_columns();
     let decision = decide(&matrix, stated + rounding).unwrap();
-    assert!(decision.rank.is_some(), "{decision:?}");
+    assert!(
+        decision.rank.is_some(),
+        "{}: {decision:?}",
+        mechanism.name()
+    );
     let null = null_basis(&matrix, &decision).unwrap();
     let lift = |vector: Vec<f64>| -> Vec<f64> {
         let scaled = vector.iter().zip(&scales).enumerate();

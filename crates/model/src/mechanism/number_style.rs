@@ -115,6 +115,11 @@ impl Group {
         self.designed = self.designed.saturating_add(self.decade);
     }
 
+    /// Whether all lengths of the group are below 10⁻⁴ m.
+    pub fn is_minute(&self) -> bool {
+        self.decade < -4
+    }
+
     /// How far a number of the group may be from the number meant; zero for exact ones.
     pub fn uncertainty(&self, number: &Number) -> f64 {
         let (Some(stated), Some(most), false) = (number.stated(), self.decimals, self.is_exact())
@@ -147,7 +152,9 @@ impl Group {
             Style::Significant => by_digits,
             Style::Either | Style::Single(_) => by_decimals.max(by_digits),
         };
-        let natural = bare(number, stated).significant <= NATURAL;
+        // A designer's number among computed ones: short, or of no more decimals than chosen numbers have.
+        let bare = bare(number, stated);
+        let natural = bare.significant <= NATURAL || bare.decimals <= EXACT_DECIMALS;
         let lost = self.style.short_by(stated, most, self.significant);
         let by_other_hand = written > 0 && !natural && lost > i64::from(self.lost);
         0.5 * match by_other_hand {

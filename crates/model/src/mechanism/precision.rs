@@ -130,8 +130,9 @@ impl Precision {
         let [lengths, angles, directions] = &literals;
         let (angles, directions) = (angles.group(padded), directions.group(padded));
         let mut lengths = lengths.group(padded);
-        // Whoever chose directions chose lengths to the millimetre. Beside rounded directions these are rounded as well.
-        if angles.is_exact() && directions.is_exact() {
+        // Whoever chose directions chose lengths to the millimetre. Beside rounded directions these are rounded as well, but where
+        // the longest is below a tenth of a millimetre: then the zeros are those of the unit, and none of them was rounded to.
+        if angles.is_exact() && directions.is_exact() || lengths.is_minute() {
             lengths.count_from_first_digit();
         }
         let groups = [lengths, angles, directions];

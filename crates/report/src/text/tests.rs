@@ -92,7 +92,7 @@ fn rounded_numbers_are_named_as_the_reason() {
     let page = page(&report);
     assert!(
         page.starts_with(
-            "Rigid: 0 degrees of freedom, and no infinitesimal motion.\nIt moves within 300 nm of the numbers written"
+            "Rigid: 0 degrees of freedom, and no infinitesimal motion.\nAs written its loops miss by up to 300 nm along"
         ),
         "{page}"
     );

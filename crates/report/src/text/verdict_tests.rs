@@ -231,7 +231,7 @@ fn rounded_numbers_are_told() {
     report.home.as_written = Some(0);
     assert_eq!(
         super::nominal(&report).unwrap(),
-        "It moves within 300 nm of the numbers written (D13): they are probably rounded; taken literally they leave it rigid."
+        "As written its loops miss by up to 300 nm along the motion (D13): the numbers are probably rounded; taken literally they leave it rigid."
     );
     report.home.as_written = Some(1);
     assert!(
