@@ -296,9 +296,14 @@ mod corpus {
     fn every_field_that_a_definition_names_is_in_a_report() {
         // Several definitions name the same command.
         let mut asked: BTreeMap<Vec<&str>, Value> = BTreeMap::new();
-        // One at a singular pose, and one with the facts of four-bars.
-        let reports = ["kite_equal_bars", "planar_four_bar"].map(|name| -> Value {
-            let file = format!("mechanisms/{name}.urdf");
+        // One at a singular pose, one with the facts of four-bars, and one of rounded numbers.
+        let files = [
+            "mechanisms/kite_equal_bars",
+            "mechanisms/planar_four_bar",
+            "tests/zoo/bennett_ratio2",
+        ];
+        let reports = files.map(|name| -> Value {
+            let file = format!("{name}.urdf");
             let report = printed(&["report", &file, "--format", "json", "--evidence"]);
             serde_json::from_str(&report).unwrap()
         });

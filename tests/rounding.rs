@@ -230,6 +230,12 @@ const EXPORTED: [(&str, usize); 8] = [
     ("/waldron_six_bar", 5),
 ];
 
+/// What is left open of them.
+const KNOWN_TO_BE_OPEN: [&str; 2] = [
+    "bricard_octahedron_I, 3 decimals",
+    "bricard_octahedron_I, 4 decimals",
+];
+
 /// The finite mobility that is told of an exported mechanism.
 fn told(written: &Mechanism) -> Option<usize> {
     analysis(written).mobility.finite()
@@ -311,13 +317,10 @@ mod corpus {
             cases.into_iter().map(|(text, ..)| text.clone()).collect()
         };
         assert_none(&text(all.iter().filter(wrong).collect()));
-        let open = text(all.iter().filter(|(_, said, _)| said.is_none()).collect());
-        assert!(
-            50 * open.len() <= all.len(),
-            "{} of {} are open: {open:?}",
-            open.len(),
-            all.len()
-        );
+        let mut open: Vec<_> = all.iter().filter(|(_, said, _)| said.is_none()).collect();
+        // The search for the dimensions meant draws near too slowly there, and gives up.
+        open.retain(|(text, ..)| !KNOWN_TO_BE_OPEN.iter().any(|known| text.starts_with(known)));
+        assert_none(&text(open));
     }
 
     #[test]

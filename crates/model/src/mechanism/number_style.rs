@@ -7,7 +7,7 @@
 //!
 //! | style | known by | `u(x)` |
 //! |---|---|---|
-//! | chosen | no literal has more than [`EXACT_DECIMALS`] decimals (lengths beside chosen directions: in the decade of the longest, if below 1 m) | 0 |
+//! | chosen | no literal has more than [`EXACT_DECIMALS`] decimals (lengths beside chosen directions, or of one digit: in the decade of the longest, if below 1 m) | 0 |
 //! | fixed decimals | literals fall short of `D` by fewer zeros than of `S` | `½ 10⁻ᴰ` |
 //! | significant digits | of `S` by fewer than of `D`, and `S ≥ 3` | `½ 10ᵉ⁻ˢ` |
 //! | either | neither is a thousand times likelier | the larger |
@@ -115,9 +115,10 @@ impl Group {
         self.designed = self.designed.saturating_add(self.decade);
     }
 
-    /// Whether all lengths of the group are below 10⁻⁴ m.
-    pub fn is_minute(&self) -> bool {
-        self.decade < -4
+    /// Whether the zeros before the first digits are those of a unit, such as millimetres in metres: all lengths are below 10⁻⁴ m,
+    /// or have one significant digit, to which no program rounds.
+    pub fn is_of_a_small_unit(&self) -> bool {
+        self.decade < -4 || self.significant <= 1
     }
 
     /// How far a number of the group may be from the number meant; zero for exact ones.

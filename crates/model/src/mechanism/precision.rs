@@ -131,8 +131,8 @@ impl Precision {
         let (angles, directions) = (angles.group(padded), directions.group(padded));
         let mut lengths = lengths.group(padded);
         // Whoever chose directions chose lengths to the millimetre. Beside rounded directions these are rounded as well, but where
-        // the longest is below a tenth of a millimetre: then the zeros are those of the unit, and none of them was rounded to.
-        if angles.is_exact() && directions.is_exact() || lengths.is_minute() {
+        // their zeros are those of the unit, and none of them was rounded to.
+        if angles.is_exact() && directions.is_exact() || lengths.is_of_a_small_unit() {
             lengths.count_from_first_digit();
         }
         let groups = [lengths, angles, directions];
@@ -360,6 +360,28 @@ mod tests {
             (found - expected).abs() <= 1e-12 * expected,
             "{text}: {found:e} instead of {expected:e}"
         );
+    }
+
+    #[test]
+    fn beside_rounded_directions_lengths_of_one_digit_are_chosen() {
+        let direction = (0..)
+            .find(|place| Joint::kind_of_number(*place) == 2)
+            .unwrap();
+        let beside = |lengths: &[&str]| {
+            let lengths: Vec<Number> = lengths.iter().map(|text| number(text)).collect();
+            let third = number("0.333333333333");
+            let all = lengths
+                .iter()
+                .map(|length| (LiteralPlace::Joint(0, 0), length));
+            let precision = Precision::of(all.chain([(LiteralPlace::Joint(0, direction), &third)]));
+            lengths
+                .iter()
+                .map(|length| precision.uncertainty(0, length))
+                .fold(0.0, f64::max)
+        };
+        assert_eq!(beside(&["0.002", "0.003", "0.001"]), 0.0);
+        assert_eq!(beside(&["0.00002", "0.000035"]), 0.0);
+        assert_eq!(beside(&["0.025", "0.013", "0.01"]), 0.5e-3);
     }
 
     #[test]
