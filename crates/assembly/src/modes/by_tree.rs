@@ -58,7 +58,12 @@ pub(super) fn answer(mechanism: &Mechanism, slack: &Slack, budget: &Budget) -> O
         }
         Err(why) => return Outcome::NotByTree(why.to_string()),
     };
-    let system = match ReducedSystem::within(&placed, slack.share) {
+    if !place::are_spread(&placed) {
+        return Outcome::NotByTree(
+            "some of a body's points are the same within rounding".to_owned(),
+        );
+    }
+    let system = match ReducedSystem::within(&placed, slack.share * placed.lever) {
         Ok(system) => system,
         Err(why) => return Outcome::NotByTree(why.to_string()),
     };

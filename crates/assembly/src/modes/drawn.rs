@@ -7,8 +7,12 @@ use kutzbach_model::mechanism::Mechanism;
 /// Part of a mechanism's size that two poses of one configuration may differ: the drawn one is closed in doubles.
 const SAME: f64 = 1e-6;
 /// The same for singular ones, since an error of e in the equations moves a double solution by √e, and for unproven ones, which
-/// may be those of rounded numbers; there no less than what these leave open.
+/// may be those of rounded numbers.
 const SAME_SINGULAR: f64 = 1e-3;
+/// The same where numbers are rounded: the drawn pose closes within the digits and solutions solve the equations as they are written, so that
+/// the two differ by what the digits leave open times the condition of the equations, of which nothing is known but that the pose is where a
+/// draughtsman saw it close. Two configurations nearer to each other than this are told apart by which is nearer.
+const SAME_ROUNDED: f64 = 1e-2;
 
 /// Says of an answer what is known of the drawn configuration. An answer that is not complete lists it where it closes, with
 /// the freedoms that the mobility analysis leaves it: whether something moves elsewhere does not tell whether it does here.
@@ -72,7 +76,8 @@ fn mark(modes: &mut Modes, drawn: Option<&Drawn>, share: f64) {
     if let Some((distance, configuration)) = nearest {
         let singular = configuration.multiplicity.is_some_and(|times| times > 1);
         let same = match singular || !configuration.proven {
-            true => SAME_SINGULAR.max(share),
+            _ if share > 0.0 => SAME_ROUNDED.max(share),
+            true => SAME_SINGULAR,
             false => SAME,
         };
         if distance <= same {

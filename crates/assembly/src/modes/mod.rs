@@ -15,6 +15,7 @@
 mod by_construction;
 mod by_polynomials;
 mod by_tree;
+mod closing;
 mod drawn;
 mod exact;
 mod half_turn;
@@ -25,7 +26,7 @@ mod rounded;
 pub use half_turn::{HalfTurn, WITHIN};
 pub use place::Pose;
 
-use crate::placed::Placed;
+use crate::placed::{Gap, Placed};
 use crate::reduced::{Exported, ReducedSystem};
 use kutzbach_algebra::{Budget, Limits};
 use kutzbach_math::number::Number;
@@ -123,6 +124,35 @@ pub struct Configuration {
     pub drawn: bool,
 }
 
+/// Why a solution of the equations is no configuration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Why {
+    /// A joint is open there.
+    Open {
+        /// The joint that is most open.
+        joint: JointId,
+        /// By how much.
+        gap: Gap,
+    },
+    /// A joint is beyond its limits there.
+    Limit {
+        /// The joint.
+        joint: JointId,
+        /// Where it stands (rad, m), for a hinge with the whole turns by which it is nearest to its range.
+        value: f64,
+    },
+}
+
+/// A solution that was found and is no configuration.
+#[derive(Clone, Debug)]
+pub struct LeftOut {
+    /// Where everything stands there.
+    pub configuration: Configuration,
+    /// Why it is none.
+    pub why: Why,
+}
+
 /// All configurations, as far as they are known.
 #[derive(Clone, Debug)]
 pub struct Modes {
@@ -132,8 +162,10 @@ pub struct Modes {
     pub held_near: Vec<(JointId, HalfTurn)>,
     /// Finite freedoms of the mechanism with nothing held, at the drawn pose; `None` where that was not asked or is not known.
     pub freedom: Option<usize>,
-    /// The configurations.
+    /// The configurations: every joint closes there, and is within its limits.
     pub configurations: Vec<Configuration>,
+    /// Solutions that failed when they were tried: poses at which a joint is open, or beyond its limits.
+    pub left_out: Vec<LeftOut>,
     /// How many there are, such as `2^40`, where they are more than those listed.
     pub in_all: Option<String>,
     /// Whether these are all.
@@ -193,10 +225,14 @@ pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Mode
     modes.held = held;
     modes.held_near = held_near;
     modes.freedom = freedom;
+    let test = closing::Test::new(&fixed, &slack);
+    test.leave_open_ones_out(&mut modes);
     let in_time = budget.left().is_none_or(|left| !left.is_zero());
     drawn::tell(&mut modes, &fixed, drawn.as_ref(), slack.share, in_time);
+    test.leave_those_beyond_limits_out(&mut modes);
     // Joints by the mechanism as it was asked about: those held have their values.
-    for configuration in &mut modes.configurations {
+    let left_out = modes.left_out.iter_mut().map(|out| &mut out.configuration);
+    for configuration in modes.configurations.iter_mut().chain(left_out) {
         configuration.joints =
             place::joint_values(mechanism, &fixed, &modes.held, &configuration.poses);
     }
@@ -232,6 +268,7 @@ impl Modes {
             held_near: Vec::new(),
             freedom: None,
             configurations: Vec::new(),
+            left_out: Vec::new(),
             in_all: None,
             complete: Complete::Proven,
             moves: Some(0),

@@ -1,9 +1,9 @@
 //! Poses of links.
 
 use crate::placed::{Placed, PlacedLink};
-use kutzbach_closure::{Arithmetic, Geometry, JointState};
+use kutzbach_closure::{Arithmetic, Geometry, JointState, least_length};
 use kutzbach_math::number::Number;
-use kutzbach_math::space::{Rigid, cross, dot, scale, subtract, unit};
+use kutzbach_math::space::{Rigid, cross, dot, length, scale, subtract, unit};
 use kutzbach_mobility::{AnalysisOptions, Depth, analyse};
 use kutzbach_model::mechanism::{JointId, Mechanism};
 
@@ -119,6 +119,26 @@ pub(super) fn link_poses(
     }
     onto_ground(mechanism, &mut poses);
     poses
+}
+
+/// Whether the points of every body span a triangle: of rounded numbers points that are meant to be one may be many, a digit apart.
+pub(super) fn are_spread(placed: &Placed) -> bool {
+    let places = placed.bodies.iter().map(|body| -> Vec<[f64; 3]> {
+        let at = body.points.iter().map(|(_, at)| at);
+        at.map(|at| [0, 1, 2].map(|i| at[i].value())).collect()
+    });
+    let places: Vec<Vec<[f64; 3]>> = places.collect();
+    let far = |m: f64, x: &f64| m.max(x.abs());
+    let size = places.iter().flatten().flatten().fold(0.0, far);
+    let least = least_length(size);
+    places.iter().all(|points| {
+        let pairs: Vec<_> = points.iter().map(|at| (*at, *at)).collect();
+        let area = spread(&pairs).map(|[a, b, c]| {
+            let [u, v] = [b, c].map(|i| subtract(&points[i], &points[a]));
+            length(&cross(&u, &v)) / length(&u).max(length(&v))
+        });
+        area.is_some_and(|height| height > least)
+    })
 }
 
 /// Poses of all links, which are one body.

@@ -168,3 +168,78 @@ fn what_cannot_close_is_proven_not_to() {
     assert!(contradicted.configurations.is_empty());
     assert!(contradicted.contradiction.unwrap().contains("m apart in"));
 }
+
+fn told(text: &str) -> Modes {
+    let mechanism = kutzbach_format::read(text, "x.urdf", &[])
+        .unwrap()
+        .mechanism;
+    let question = Question {
+        held: Some(Vec::new()),
+        limits: Limits::seconds(60.0),
+    };
+    assembly_modes(&mechanism, &question).unwrap()
+}
+
+/// A ball beside the axis of a hinge holds a flap, although both balls of the strut could be reached from another angle. Two hinges through
+/// one point hold that point in a third body, so that no hinge beside it turns.
+#[test]
+fn three_shared_points_leave_nothing_free() {
+    let flap = "<robot name=\"flap\"><link name=\"frame\"/><link name=\"flap\"/><link name=\"strut\"/>\
+         <joint name=\"pin\" type=\"continuous\"><parent link=\"frame\"/><child link=\"flap\"/><axis xyz=\"1 0 0\"/></joint>\
+         <loop name=\"ball\" type=\"spherical\"><predecessor link=\"frame\"><origin xyz=\"0 2 1\"/></predecessor>\
+         <successor link=\"flap\"><origin xyz=\"0 2 1\"/></successor></loop>\
+         <joint name=\"foot\" type=\"spherical\"><parent link=\"frame\"/><child link=\"strut\"/><origin xyz=\"2 -1 1\"/></joint>\
+         <loop name=\"head\" type=\"spherical\"><predecessor link=\"flap\"><origin xyz=\"1 3 2\"/></predecessor>\
+         <successor link=\"strut\"><origin xyz=\"-1 4 1\"/></successor></loop></robot>";
+    let turns = "<robot name=\"turns\"><link name=\"a\"/><link name=\"b\"/><link name=\"c\"/>\
+         <joint name=\"p\" type=\"continuous\"><parent link=\"a\"/><child link=\"b\"/><axis xyz=\"1 1 0\"/></joint>\
+         <joint name=\"q\" type=\"continuous\"><parent link=\"b\"/><child link=\"c\"/><origin xyz=\"0 1 0\"/><axis xyz=\"0 0 1\"/></joint>\
+         <loop name=\"r\" type=\"continuous\"><predecessor link=\"c\"><origin xyz=\"0 -1 0\"/></predecessor>\
+         <successor link=\"a\"/><axis xyz=\"1 0 1\"/></loop></robot>";
+    for text in [flap, turns] {
+        let modes = told(text);
+        assert_eq!(modes.complete, Complete::Proven);
+        assert_eq!(modes.configurations.len(), 1);
+        let only = &modes.configurations[0];
+        assert!(only.drawn && only.proven);
+        assert_eq!((only.multiplicity, only.finite), (Some(1), Some(0)));
+    }
+    let longer = flap.replace("-1 4 1", "-1 5 1");
+    let open = told(&longer);
+    assert_eq!(open.complete, Complete::Proven);
+    assert!(open.configurations.is_empty());
+    assert!(open.contradiction.unwrap().contains("`strut`"));
+}
+
+/// A crank held upright: the rocker stands to either side, and one of them is beyond its stop.
+#[test]
+fn configurations_beyond_a_limit_are_left_out_and_told() {
+    let four_bar = |limit: &str| {
+        format!(
+            "<robot name=\"four\"><link name=\"g\"/><link name=\"a\"/><link name=\"b\"/><link name=\"c\"/>\
+             <joint name=\"crank\" type=\"fixed\"><parent link=\"g\"/><child link=\"a\"/></joint>\
+             <joint name=\"p\" type=\"continuous\"><parent link=\"a\"/><child link=\"b\"/><origin xyz=\"0 2 0\"/><axis xyz=\"0 0 1\"/></joint>\
+             <joint name=\"rocker\" type=\"revolute\"><parent link=\"g\"/><child link=\"c\"/><origin xyz=\"4 0 0\"/><axis xyz=\"0 0 1\"/>{limit}</joint>\
+             <loop name=\"q\" type=\"continuous\"><predecessor link=\"b\"><origin xyz=\"4 1 0\"/></predecessor>\
+             <successor link=\"c\"><origin xyz=\"0 3 0\"/></successor><axis xyz=\"0 0 1\"/></loop></robot>"
+        )
+    };
+    assert_eq!(told(&four_bar("")).configurations.len(), 2);
+    let stopped = told(&four_bar("<limit lower=\"-1\" upper=\"1\"/>"));
+    assert_eq!(stopped.complete, Complete::Proven);
+    assert_eq!(
+        (stopped.configurations.len(), stopped.left_out.len()),
+        (1, 1)
+    );
+    assert!(stopped.configurations[0].drawn);
+    let mechanism_joint = match stopped.left_out[0].why {
+        Why::Limit { joint, value } => (joint.0, value.abs() > 1.0),
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(mechanism_joint, (2, true));
+    // The drawn one may be beyond as well.
+    let away = told(&four_bar("<limit lower=\"2\" upper=\"3\"/>"));
+    assert_eq!(away.complete, Complete::Proven);
+    assert!(away.configurations.iter().all(|c| !c.drawn));
+    assert!(away.left_out.iter().any(|out| out.configuration.drawn));
+}

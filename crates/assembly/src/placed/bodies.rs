@@ -1,6 +1,7 @@
 //! Links that are one body.
 
 use super::nodes::Nodes;
+use super::one_body::Joined;
 use super::{Exact3, Gap, Mismatch, Placed, Slack, Unsuited, collection, cross, minus, square};
 use crate::collection::{Bar, Body};
 use kutzbach_math::number::Number;
@@ -31,6 +32,8 @@ pub(super) struct Groups {
     places: Vec<(usize, ExactPose)>,
     /// Names of the bodies: that of a first link, or of a joint.
     names: Vec<String>,
+    /// Joint, body and `body_from_cross` of every cross of a universal joint.
+    crosses: Vec<(String, usize, ExactPose)>,
 }
 
 impl Groups {
@@ -73,6 +76,7 @@ impl Groups {
         Self {
             places: places.into_iter().flatten().collect(),
             names,
+            crosses: Vec::new(),
         }
     }
 
@@ -81,9 +85,70 @@ impl Groups {
         &self.names[group]
     }
 
-    /// The links, where they are one body; made before crosses are added.
-    pub(super) fn only_body(&self) -> Option<Vec<PlacedLink>> {
-        (self.names.len() == 1).then(|| self.links_of(0))
+    /// The links of the only body there is, apart from rods between two balls of it; `None` where there are more.
+    ///
+    /// # Errors
+    /// A rod that is longer or shorter than the way between its balls.
+    pub(super) fn only_body(
+        &self,
+        mechanism: &Mechanism,
+        slack: &Slack,
+    ) -> Result<Option<Vec<PlacedLink>>, Unsuited> {
+        let is_rod = |group: usize| is_rod(mechanism, &self.links_of(group));
+        let mut bodies = self.places.iter().map(|place| place.0);
+        let Some(body) = bodies.clone().find(|&group| !is_rod(group)) else {
+            return Ok(None);
+        };
+        if bodies.any(|group| group != body && !is_rod(group)) {
+            return Ok(None);
+        }
+        for (link, &(rod, _)) in self.places.iter().enumerate() {
+            if rod == body {
+                continue;
+            }
+            // Where its balls are in the rod and in the body, and their joints.
+            let mut balls: Vec<([Exact3; 2], &str)> = Vec::new();
+            for joint in mechanism.joints() {
+                let sides = [&joint.predecessor, &joint.successor];
+                let Some(near) = sides.iter().position(|side| side.link.0 == link) else {
+                    continue;
+                };
+                let at = [near, 1 - near].map(|i| {
+                    let (group, pose) = &self.places[sides[i].link.0];
+                    (*group, pose.apply(&sides[i].frame.position))
+                });
+                if at[1].0 != body {
+                    return Ok(None);
+                }
+                balls.push((at.map(|(_, at)| at), &joint.name));
+            }
+            let [(one, first), (other, second)] = balls.as_slice() else {
+                return Ok(None);
+            };
+            let long = [0, 1].map(|i| square(&minus(&one[i], &other[i])));
+            if long[0].is_zero() {
+                return Ok(None);
+            }
+            if differ(&long[0], &long[1], slack) {
+                let points = [first, second].map(|name| (*name).to_owned());
+                let bodies = [rod, body].map(|group| self.names[group].clone());
+                return Err(unequal(points, bodies, [&long[0], &long[1]]));
+            }
+        }
+        Ok(Some(self.links_of(body)))
+    }
+
+    /// Two bodies become one; the second is empty from then on.
+    pub(super) fn merge(&mut self, joined: &Joined) {
+        let [into, from] = joined.groups;
+        let links = self.places.iter_mut().map(|(group, pose)| (group, pose));
+        let crosses = self.crosses.iter_mut();
+        for (group, pose) in links.chain(crosses.map(|(_, group, pose)| (group, pose))) {
+            if *group == from {
+                *group = into;
+                *pose = joined.pose.then(pose);
+            }
+        }
     }
 
     /// Whether a joint that is not needed for that joins two sides of one body.
@@ -130,10 +195,16 @@ impl Groups {
         self.places[link.0].clone()
     }
 
-    /// A body without links.
-    pub(super) fn add_cross(&mut self, joint: &str) -> usize {
+    /// Body and `body_from_cross` of the cross of a universal joint: a body without links, as long as it is none with another.
+    pub(super) fn cross(&mut self, joint: &str) -> (usize, ExactPose) {
+        if let Some((_, group, pose)) = self.crosses.iter().find(|(name, ..)| name == joint) {
+            return (*group, pose.clone());
+        }
+        let group = self.names.len();
         self.names.push(joint.to_owned());
-        self.names.len() - 1
+        let pose = ExactPose::identity();
+        self.crosses.push((joint.to_owned(), group, pose.clone()));
+        (group, pose)
     }
 
     /// Bodies, bars and points put together.
@@ -170,6 +241,9 @@ impl Groups {
             points.sort_by_key(|(p, _)| *p);
             points.dedup_by_key(|(p, _)| *p);
             let links = self.links_of(group);
+            if links.is_empty() && points.is_empty() {
+                continue;
+            }
             if points.len() == 2 && is_rod(mechanism, &links) {
                 let way = minus(&points[0].1, &points[1].1);
                 bars.push((
@@ -217,6 +291,7 @@ impl Groups {
             collection,
             bodies: placed,
             redundant: self.redundant(mechanism),
+            lever: 1.0,
             bar_squares,
         };
         placed.check_distances(slack)?;
@@ -238,6 +313,21 @@ fn is_rod(mechanism: &Mechanism, links: &[PlacedLink]) -> bool {
     balls && joints == 2 && link.link != mechanism.ground()
 }
 
+/// Whether two squared distances (m²) are those of different distances, as far as the numbers are known.
+fn differ(one: &Number, other: &Number, slack: &Slack) -> bool {
+    let off = (one.value().sqrt() - other.value().sqrt()).abs();
+    one != other && (slack.metres == 0.0 || off > slack.metres)
+}
+
+/// Two points that are not equally far apart in two bodies, by the squares of the distances (m²).
+fn unequal(points: [String; 2], bodies: [String; 2], squares: [&Number; 2]) -> Unsuited {
+    Unsuited::Contradiction(Box::new(Mismatch::Distances {
+        points,
+        bodies,
+        distances: squares.map(|square| format!("{:.6}", square.value().sqrt())),
+    }))
+}
+
 fn on_one_line(points: &[(usize, Exact3)]) -> bool {
     let first = minus(&points[1].1, &points[0].1);
     points[2..].iter().all(|(_, p)| {
@@ -249,23 +339,16 @@ fn on_one_line(points: &[(usize, Exact3)]) -> bool {
 impl Placed {
     /// Two points that two bodies, or a body and a bar, share must be equally far apart in both.
     fn check_distances(&self, slack: &Slack) -> Result<(), Unsuited> {
-        let apart = |one: &Number, other: &Number| {
-            let off = (one.value().sqrt() - other.value().sqrt()).abs();
-            one != other && (slack.metres == 0.0 || off > slack.metres)
-        };
         let mut known: std::collections::BTreeMap<[usize; 2], (String, Number)> =
             std::collections::BTreeMap::new();
         let mut check = |ends: [usize; 2], name: &str, value: Number| {
             let ends = [ends[0].min(ends[1]), ends[0].max(ends[1])];
             match known.get(&ends) {
-                Some((body, other)) if apart(other, &value) => {
-                    Err(Unsuited::Contradiction(Box::new(Mismatch::Distances {
-                        points: ends.map(|p| self.collection.points()[p].clone()),
-                        bodies: [body.clone(), name.to_owned()],
-                        distances: [other, &value]
-                            .map(|square| format!("{:.6}", square.value().sqrt())),
-                    })))
-                }
+                Some((body, other)) if differ(other, &value, slack) => Err(unequal(
+                    ends.map(|p| self.collection.points()[p].clone()),
+                    [body.clone(), name.to_owned()],
+                    [other, &value],
+                )),
                 Some(_) => Ok(()),
                 None => {
                     known.insert(ends, (name.to_owned(), value));

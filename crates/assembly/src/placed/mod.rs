@@ -10,6 +10,7 @@
 mod axes;
 mod bodies;
 mod nodes;
+mod one_body;
 mod within;
 
 pub use bodies::{PlacedBody, PlacedLink};
@@ -163,6 +164,9 @@ pub struct Placed {
     pub bar_squares: Vec<Number>,
     /// Whether some joint closes within a body: with other numbers it might not.
     pub redundant: bool,
+    /// How much farther than the points by which bodies became one other points of theirs move at most, where the former are off
+    /// by a little.
+    pub lever: f64,
 }
 
 impl Placed {
@@ -181,80 +185,102 @@ impl Placed {
     /// [`Unsuited`].
     pub fn within(mechanism: &Mechanism, slack: &Slack) -> Result<Self, Unsuited> {
         let mut groups = Groups::of(mechanism);
-        let sides = |joint: &Joint, groups: &Groups| {
-            [&joint.predecessor, &joint.successor].map(|side| {
-                let (group, pose) = groups.place(side.link);
-                (group, pose.then(&ExactPose::of(&side.frame)))
-            })
-        };
-        let mut left = Vec::new();
-        for joint in mechanism.joints() {
-            let [one, other] = sides(joint, &groups);
-            if one.0 != other.0 || within::leaves_a_freedom(joint) {
-                left.push((joint, one, other));
+        let mut lever = 1.0;
+        // Every body that becomes one with another may bring more points together.
+        loop {
+            let (nodes, bars) = shared(mechanism, &mut groups, slack)?;
+            if let Some(joined) = one_body::joined(&nodes, slack) {
+                lever *= joined.lever;
+                groups.merge(&joined);
                 continue;
             }
-            let square = bar_square(mechanism, joint);
-            let gap = within::gap(joint, [&one.1, &other.1], &square);
-            if let Some(gap) = gap.filter(|gap| gap.is_beyond(slack)) {
-                return Err(Unsuited::Contradiction(Box::new(Mismatch::Within {
-                    joint: joint.name.clone(),
-                    link: groups.name(one.0).to_owned(),
-                    gap,
-                })));
-            }
+            groups.check_torn(&nodes)?;
+            let placed = groups.finish(mechanism, &nodes, bars, slack)?;
+            return Ok(Self { lever, ..placed });
         }
-        if let Some(coupling) = mechanism.couplings().first() {
-            return Err(Unsuited::Coupling {
-                name: coupling.name.clone(),
-            });
-        }
-        if let Some(links) = groups.only_body() {
-            return Err(Unsuited::OneBody(links));
-        }
-        let mut nodes = Nodes::default();
-        let mut bars: Vec<(String, [usize; 2], Number)> = Vec::new();
-        let mut hinges = Vec::new();
-        for (joint, one, other) in left {
-            let name = &joint.name;
-            match joint.kind {
-                JointKind::Spherical => {
-                    let a = nodes.add(one.0, one.1.translation, name);
-                    let b = nodes.add(other.0, other.1.translation, name);
-                    nodes.join(a, b);
-                }
-                JointKind::Distance => {
-                    let square = bar_square(mechanism, joint);
-                    let a = nodes.add(one.0, one.1.translation, &format!("{name}.1"));
-                    let b = nodes.add(other.0, other.1.translation, &format!("{name}.2"));
-                    bars.push((name.clone(), [a, b], square));
-                }
-                JointKind::Revolute => {
-                    let axis = [&one.1, &other.1].map(|pose| pose.rotate(&joint.axis.0));
-                    hinges.push(axes::Hinge::new(name, one, other, axis));
-                }
-                JointKind::Universal => {
-                    // The cross: its frame is the joint's, at the joint's home.
-                    let cross = groups.add_cross(name);
-                    let at = ExactPose::identity();
-                    for (side, axis) in [(one, &joint.axis.0), (other, &joint.axis2.0)] {
-                        let axis = [side.1.rotate(axis), axis.clone()];
-                        hinges.push(axes::Hinge::new(name, side, (cross, at.clone()), axis));
-                    }
-                }
-                other => {
-                    return Err(Unsuited::Kind {
-                        joint: name.clone(),
-                        kind: other.word(),
-                    });
-                }
-            }
-        }
-        let size = (slack.share > 0.0).then(|| slack.metres / slack.share);
-        axes::share_points(&hinges, &mut nodes, size);
-        groups.check_torn(&nodes)?;
-        groups.finish(mechanism, &nodes, bars, slack)
     }
+}
+
+/// Names, ends and squared lengths of bars.
+type Bars = Vec<(String, [usize; 2], Number)>;
+
+/// The points of all bodies, joined where bodies share them, and the bars; where what holds within one body closes.
+fn shared(
+    mechanism: &Mechanism,
+    groups: &mut Groups,
+    slack: &Slack,
+) -> Result<(Nodes, Bars), Unsuited> {
+    let sides = |joint: &Joint, groups: &Groups| {
+        [&joint.predecessor, &joint.successor].map(|side| {
+            let (group, pose) = groups.place(side.link);
+            (group, pose.then(&ExactPose::of(&side.frame)))
+        })
+    };
+    let mut left = Vec::new();
+    for joint in mechanism.joints() {
+        let [one, other] = sides(joint, groups);
+        if one.0 != other.0 || within::leaves_a_freedom(joint) {
+            left.push((joint, one, other));
+            continue;
+        }
+        let square = bar_square(mechanism, joint);
+        let gap = within::gap(joint, [&one.1, &other.1], &square);
+        if let Some(gap) = gap.filter(|gap| gap.is_beyond(slack)) {
+            return Err(Unsuited::Contradiction(Box::new(Mismatch::Within {
+                joint: joint.name.clone(),
+                link: groups.name(one.0).to_owned(),
+                gap,
+            })));
+        }
+    }
+    if let Some(coupling) = mechanism.couplings().first() {
+        return Err(Unsuited::Coupling {
+            name: coupling.name.clone(),
+        });
+    }
+    if let Some(links) = groups.only_body(mechanism, slack)? {
+        return Err(Unsuited::OneBody(links));
+    }
+    let mut nodes = Nodes::default();
+    let mut bars: Bars = Vec::new();
+    let mut hinges = Vec::new();
+    for (joint, one, other) in left {
+        let name = &joint.name;
+        match joint.kind {
+            JointKind::Spherical => {
+                let a = nodes.add(one.0, one.1.translation, name);
+                let b = nodes.add(other.0, other.1.translation, name);
+                nodes.join(a, b);
+            }
+            JointKind::Distance => {
+                let square = bar_square(mechanism, joint);
+                let a = nodes.add(one.0, one.1.translation, &format!("{name}.1"));
+                let b = nodes.add(other.0, other.1.translation, &format!("{name}.2"));
+                bars.push((name.clone(), [a, b], square));
+            }
+            JointKind::Revolute => {
+                let axis = [&one.1, &other.1].map(|pose| pose.rotate(&joint.axis.0));
+                hinges.push(axes::Hinge::new(name, one, other, axis));
+            }
+            JointKind::Universal => {
+                // The cross: its frame is the joint's, at the joint's home.
+                let (cross, at) = groups.cross(name);
+                for (side, axis) in [(one, &joint.axis.0), (other, &joint.axis2.0)] {
+                    let axis = [side.1.rotate(axis), at.rotate(axis)];
+                    hinges.push(axes::Hinge::new(name, side, (cross, at.clone()), axis));
+                }
+            }
+            other => {
+                return Err(Unsuited::Kind {
+                    joint: name.clone(),
+                    kind: other.word(),
+                });
+            }
+        }
+    }
+    let size = (slack.share > 0.0).then(|| slack.metres / slack.share);
+    axes::share_points(&hinges, &mut nodes, size);
+    Ok((nodes, bars))
 }
 
 /// The squared length of a bar (zero of any other joint): as stated, or between its points where the file draws them.

@@ -117,6 +117,7 @@ impl Problem {
             bodies,
             bar_squares,
             redundant: false,
+            lever: 1.0,
         }
     }
 

@@ -1,8 +1,8 @@
 //! Configurations as text and as data.
 
 use super::count;
-use crate::modes::{Complete, Configuration, Modes, Pose, WITHIN, Way};
-use kutzbach_model::mechanism::{Joint, JointKind, Mechanism};
+use crate::modes::{Complete, Configuration, LeftOut, Modes, Pose, WITHIN, Way, Why};
+use kutzbach_model::mechanism::{Joint, JointId, JointKind, Mechanism};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
@@ -56,6 +56,21 @@ fn solution(mechanism: &Mechanism, configuration: &Configuration) -> Value {
         "proven": configuration.proven,
         "drawn": configuration.drawn,
     })
+}
+
+/// A solution that is no configuration, and why.
+fn left_out(mechanism: &Mechanism, out: &LeftOut) -> Value {
+    let mut data = solution(mechanism, &out.configuration);
+    let name = |joint: &JointId| mechanism.joint(*joint).name.clone();
+    data["why"] = match &out.why {
+        Why::Open { joint, gap } => json!({
+            "open": name(joint),
+            "metres": plain(gap.metres),
+            "radians": plain(gap.radians),
+        }),
+        Why::Limit { joint, value } => json!({"limit": name(joint), "value": plain(*value)}),
+    };
+    data
 }
 
 /// Links that have no definite pose: rods that spin about themselves between two balls, one freedom each.
@@ -150,6 +165,7 @@ pub fn data(mechanism: &Mechanism, modes: &Modes) -> Value {
         "held": held,
         "held_near": held_near,
         "solutions": modes.configurations.iter().map(|c| solution(mechanism, c)).collect::<Vec<_>>(),
+        "left_out": modes.left_out.iter().map(|out| left_out(mechanism, out)).collect::<Vec<_>>(),
         "in_all": modes.in_all,
         "complete": complete,
         "why": why,
@@ -175,6 +191,9 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
         "proved to first order in what the digits leave open"
     };
     let first = match (&modes.complete, found) {
+        (Complete::Proven, 0) if beyond_limits(modes) > 0 => {
+            format!("No configuration is within the limits of all joints, which is {proved}.")
+        }
         (Complete::Proven, 0) => {
             let held = if modes.held.is_empty() {
                 ""
@@ -228,6 +247,7 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
     if let Complete::Unknown(why) = &modes.complete {
         let _ = writeln!(text, "  • {why}.");
     }
+    left_out_lines(&mut text, mechanism, modes);
     if unproven > 0 && modes.complete == Complete::Proven {
         let _ = writeln!(
             text,
@@ -273,6 +293,47 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
         link_lines(&mut text, mechanism, configuration);
     }
     text
+}
+
+/// How many solutions close, and are beyond a limit.
+fn beyond_limits(modes: &Modes) -> usize {
+    let beyond = |out: &&LeftOut| matches!(out.why, Why::Limit { .. });
+    modes.left_out.iter().filter(beyond).count()
+}
+
+/// What was found and is no configuration.
+fn left_out_lines(text: &mut String, mechanism: &Mechanism, modes: &Modes) {
+    let name = |joint: &JointId| mechanism.joint(*joint).name.as_str();
+    for out in &modes.left_out {
+        let drawn = match out.configuration.drawn {
+            true => " (the drawn one)",
+            false => "",
+        };
+        let why = match &out.why {
+            Why::Open { joint, gap } => {
+                format!(
+                    "a solution of the equations, since it leaves `{}` {gap}",
+                    name(joint)
+                )
+            }
+            Why::Limit { joint, value } => {
+                let held = &mechanism.joint(*joint);
+                let (lower, upper) = held.bounds().unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+                format!(
+                    "a configuration{drawn} that closes with `{}` at {:.5}, beyond its limits {lower:.5} to {upper:.5}",
+                    name(joint),
+                    plain(*value)
+                )
+            }
+        };
+        let _ = writeln!(text, "  • Left out: {why}.");
+    }
+    if modes.in_all.is_some() && beyond_limits(modes) > 0 {
+        let _ = writeln!(
+            text,
+            "  • The number of all counts those beyond limits too."
+        );
+    }
 }
 
 /// Which joints are held beside the angle asked for.
