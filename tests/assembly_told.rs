@@ -128,11 +128,11 @@ fn nothing_is_called_impossible_without_a_proof() {
         text.contains("one side is longer than all the others together"),
         "{text}"
     );
-    // A step along the axes, far beyond what numbers of two decimals could have been rounded from.
-    let reading = four_bar(OPEN, [0.0, 0.0, 0.1], "", "");
+    // A step along the axes.
+    let reading = four_bar(OPEN, [0.0, 0.0, 0.01], "", "");
     let (report, _, text) = at_home(&reading);
     assert!(
-        report.assembly.proven_open && text.contains("100 mm along them"),
+        report.assembly.proven_open && text.contains("10 mm along them"),
         "{text}"
     );
     for word in ["however the joints", "stays open by"] {
@@ -301,6 +301,10 @@ fn a_tolerance_of_ones_own_takes_a_gap_as_closed() {
     let wide = four_bar(OPEN, [0.0, 0.0, 1.001234567891e-3], "", "");
     let (report, _, text) = within(&wide, 2e-3);
     assert_eq!(report.mobility.finite, Some(1), "{text}");
+    // A quarter of the step at each of four places.
+    let nominal = report.mobility.nominal.as_ref().unwrap();
+    assert!((nominal.distance.unwrap() - 2.5e-4).abs() < 1e-5, "{text}");
+    assert!(text.contains("within the 2 mm asked for"), "{text}");
     assert!(text.contains("stays open by 1 mm and 0°"), "{text}");
     assert!(
         text.contains("up to 2 mm does, as `--closure-tolerance` allows"),

@@ -136,7 +136,7 @@ fn faults(
     dimension: usize,
     curves: &[Curve],
     size: f64,
-    none: f64,
+    [none, reach]: [f64; 2],
 ) -> Vec<String> {
     let seen = |poses: &[Pose]| poses[motion.relative_to].inverse() * poses[motion.link];
     let mut wrong = Vec::new();
@@ -207,7 +207,9 @@ fn faults(
         if (least, greatest) == (0.0, 0.0) && from.abs().max(to.abs()) > slack {
             wrong.push(format!("screws with pitch {from:.3} to {to:.3}"));
         }
-        if dimension == 1 && (least < from - slack || greatest > to + slack) {
+        // Curves that are followed a little way only do not come to all poses of the branch.
+        let whole = reach >= REACH[0];
+        if whole && dimension == 1 && (least < from - slack || greatest > to + slack) {
             wrong.push(format!(
                 "pitch {least:.3} to {greatest:.3}, seen {from:.3} to {to:.3}"
             ));
@@ -251,7 +253,7 @@ fn checked(
             if is_open(motion) {
                 open.push(format!("{name} {} {link}: {motion:?}", branch.name));
             }
-            let faults = faults(motion, branch.dimension, &curves, size, none);
+            let faults = faults(motion, branch.dimension, &curves, size, [none, reach]);
             wrong.extend(
                 faults
                     .iter()

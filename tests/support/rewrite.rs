@@ -228,16 +228,30 @@ impl Draft {
 
     /// Every number of the geometry, each by itself: coordinates, angles, directions, leads, distances.
     #[must_use]
-    pub fn each_number(mut self, change: &dyn Fn(&Number) -> Number) -> Self {
+    pub fn each_number(self, change: &dyn Fn(&Number) -> Number) -> Self {
+        self.each_number_of_a_kind(&mut |_, number| change(number))
+    }
+
+    /// The same, told the kind of each: 0 for lengths, 1 for angles, 2 for components of directions.
+    #[must_use]
+    pub fn each_number_of_a_kind(
+        mut self,
+        change: &mut dyn FnMut(usize, &Number) -> Number,
+    ) -> Self {
         for frame in self.frames() {
-            for number in frame.position.iter_mut().chain(&mut frame.roll_pitch_yaw) {
-                *number = change(number);
+            for number in &mut frame.position {
+                *number = change(0, number);
+            }
+            for number in &mut frame.roll_pitch_yaw {
+                *number = change(1, number);
             }
         }
         for joint in &mut self.joints {
-            let directions = joint.axis.0.iter_mut().chain(&mut joint.axis2.0);
-            for number in directions.chain(&mut joint.lead).chain(&mut joint.distance) {
-                *number = change(number);
+            for number in joint.axis.0.iter_mut().chain(&mut joint.axis2.0) {
+                *number = change(2, number);
+            }
+            for number in joint.lead.iter_mut().chain(&mut joint.distance) {
+                *number = change(0, number);
             }
         }
         self

@@ -6,6 +6,7 @@
 
 mod families;
 mod frames;
+mod known;
 mod printing;
 
 use crate::support::{analysis, in_parallel};
@@ -213,7 +214,7 @@ mod corpus {
     fn every_writer_decides() {
         let seeds = std::env::var("KUTZBACH_WRITERS").ok();
         let seeds = seeds.and_then(|n| n.parse().ok()).unwrap_or(1);
-        let outcomes = in_parallel(&all_cases(0..seeds), tried);
+        let outcomes = in_parallel(&crate::support::sample(all_cases(0..seeds), 2), tried);
         let told = table(&outcomes);
         println!("{told}");
         if let Some(out) = std::env::var_os("KUTZBACH_WRITERS_OUT") {
@@ -226,5 +227,12 @@ mod corpus {
         let wrong = outcomes.iter().filter(|o| o.confident());
         let wrong: Vec<String> = wrong.map(Outcome::line).collect();
         crate::support::assert_none(&wrong);
+        // Two in a hundred of each writer's files may be left open, or one of a sample.
+        for writer in &WRITERS {
+            let of_it = || outcomes.iter().filter(|o| o.writer == writer.name);
+            let open = of_it().filter(|outcome| !outcome.right()).count();
+            let allowed = (of_it().count() / 50).max(1);
+            assert!(open <= allowed, "{}: {open} open\n{told}", writer.name);
+        }
     }
 }

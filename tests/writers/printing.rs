@@ -27,6 +27,8 @@ pub enum Style {
     SingleShort,
     /// Doubles off by up to so much.
     Noisy(f64),
+    /// As [`Shortest`](Self::Shortest), but every other zero is left as three to twelve millionths.
+    Residues(usize),
 }
 
 /// A program.
@@ -54,7 +56,7 @@ const fn mixed(name: &'static str, styles: [Style; 3]) -> Writer {
     }
 }
 
-pub const WRITERS: [Writer; 16] = [
+pub const WRITERS: [Writer; 17] = [
     alike("%.4f", Style::Fixed(4), false),
     alike("%.5f", Style::Fixed(5), true),
     alike("%.6f", Style::Fixed(6), true),
@@ -77,6 +79,10 @@ pub const WRITERS: [Writer; 16] = [
         [Style::Fixed(4), Style::Fixed(6), Style::Fixed(6)],
     ),
     mixed(
+        "lengths 3 with residues, rest 6",
+        [Style::Residues(3), Style::Shortest(6), Style::Shortest(6)],
+    ),
+    mixed(
         "lengths full, rest 5",
         [Style::Double, Style::Fixed(5), Style::Fixed(5)],
     ),
@@ -91,7 +97,10 @@ impl Writer {
         };
         match style {
             Style::Fixed(decimals) => bare_zero(format!("{value:.decimals$}")),
-            Style::Shortest(decimals) => {
+            Style::Residues(_) if value.abs() < NOTHING && random.symmetric() > 0.0 => {
+                residue(random)
+            }
+            Style::Shortest(decimals) | Style::Residues(decimals) => {
                 let unit = 10f64.powi(decimals as i32);
                 format!("{}", (value * unit).round() / unit + 0.0)
             }
@@ -101,6 +110,18 @@ impl Writer {
             Style::SingleShort => general(f64::from(value as f32), 9),
             Style::Noisy(size) => format!("{}", value + size * random.symmetric()),
         }
+    }
+}
+
+/// What is a zero to a program that rounds.
+const NOTHING: f64 = 1e-12;
+
+/// What is left of a zero, as it is printed: `3e-06` … `1.2e-05`.
+fn residue(random: &mut SplitMix64) -> String {
+    let sign = if random.symmetric() < 0.0 { "-" } else { "" };
+    match 3 + random.next_u64() % 10 {
+        few @ ..10 => format!("{sign}{few}e-06"),
+        many => format!("{sign}1.{}e-05", many - 10),
     }
 }
 

@@ -386,6 +386,9 @@ fn close(
             if task.tolerance.is_none() {
                 outcome = nearest::mended(task, states, outcome)?;
             }
+            if size == 0.0 && outcome.steps > 0 {
+                outcome = nearest::no_worse_than_drawn(task, &drawn, states, outcome)?;
+            }
             if outcome.steps > 0 && limits::excess(task, states) > 0.0 {
                 outcome = within_limits(task, states, reference, outcome, work, &mut done)?;
             }

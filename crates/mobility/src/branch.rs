@@ -104,6 +104,9 @@ pub struct RelativeMotion {
     /// Of a motion of one freedom that turns: the least and the greatest pitch of its screws (m/rad) at the poses seen; both zero
     /// where it turns without sliding.
     pub pitches: Option<[f64; 2]>,
+    /// Of a motion of several freedoms that translates but for a tilt, less than half a degree while it goes the mechanism's length:
+    /// the most it turns at the poses seen (rad/m). The tilt does not count among its rotations.
+    pub tilts: Option<f64>,
 }
 
 /// One branch through the pose (D8).

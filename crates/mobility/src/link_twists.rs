@@ -20,6 +20,8 @@ pub(super) struct LinkTwists {
     pub tangents: TangentSpace,
     /// Limits for singular values of twists, rotations in radians and translations in lengths of the mechanism.
     pub limits: Limits,
+    /// The same where the numbers are taken as they are written.
+    pub as_written: Limits,
     /// RMS distance of the joints from their centroid (m).
     pub length: f64,
     /// The centroid, in the world (m).
@@ -78,15 +80,14 @@ impl LinkTwists {
         if !length.is_finite() || !centre.iter().all(|x| x.is_finite()) {
             return None;
         }
-        let limits = Limits::new(
-            tangents.limits.error * (1.0 + farthest / length),
-            match tangents.dimension() {
-                0 => 1,
-                _ => tangents.length(),
-            },
-        );
+        let count = match tangents.dimension() {
+            0 => 1,
+            _ => tangents.length(),
+        };
+        let limits = |error: f64| Limits::new(error * (1.0 + farthest / length), count);
         let mut found = Self {
-            limits,
+            limits: limits(tangents.limits.error),
+            as_written: limits(tangents.as_written),
             length,
             centre,
             steps: vec![None; poses.len()],

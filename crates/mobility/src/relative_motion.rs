@@ -58,7 +58,7 @@ pub fn relative_motions(
             .iter()
             .filter_map(|there| {
                 let twists = there.relative(link, relative_to, &point);
-                Span::of(&twists, first.length, &there.limits)
+                Span::of(&twists, first.length, there)
             })
             .collect();
         motion(first, &across, (link, relative_to), &spans)
@@ -110,7 +110,7 @@ pub(super) fn motions_seen_from_ground(
     for there in seen {
         there.each_link(|link, columns| {
             let twists = there.seen_from(ground, &point, columns);
-            spans[link].extend(Span::of(&twists, first.length, &there.limits));
+            spans[link].extend(Span::of(&twists, first.length, there));
         });
     }
     links
@@ -131,6 +131,7 @@ fn unknown((link, relative_to): (usize, usize)) -> RelativeMotion {
         rotations: None,
         translations: None,
         pitches: None,
+        tilts: None,
     }
 }
 
@@ -215,6 +216,15 @@ fn by_velocities(pair: (usize, usize), first: &LinkTwists, spans: &[Span]) -> Re
     if (freedom, rotations) == (3, Some(0)) {
         return is_subgroup(pair, DisplacementSubgroup::SpatialTranslation);
     }
+    if let Some(tilts) = tilts(&full, rotations, first.length) {
+        return RelativeMotion {
+            freedom: Some(freedom),
+            rotations: Some(0),
+            translations: Some(freedom),
+            tilts: Some(tilts),
+            ..unknown(pair)
+        };
+    }
     let point = first.centre_in(pair.1);
     let found = enclosing(spans, freedom, first.length).ok().flatten();
     let (error, placed) = found.as_ref().map_or((0.0, None), |found| {
@@ -242,17 +252,37 @@ fn by_velocities(pair: (usize, usize), first: &LinkTwists, spans: &[Span]) -> Re
     }
 }
 
+/// Turning by less than this beside sliding by the mechanism's length (rad) is a tilt: half a degree.
+const TILT: f64 = 0.01;
+
+/// By how much a link that translates in several ways tilts meanwhile (rad/m), where it does.
+fn tilts(spans: &[&Span], rotations: Option<usize>, length: f64) -> Option<f64> {
+    let first = spans.first()?;
+    if first.basis.len() < 2 || rotations == Some(0) {
+        return None;
+    }
+    let mut most = 0.0f64;
+    for span in spans {
+        most = most.max(*span.angular()?.first()?);
+    }
+    (most < TILT && most > AS_WRITTEN).then_some(most / length)
+}
+
 /// What one pose lets a link do relative to another.
 struct Span {
     /// Orthonormal, in radians and lengths of the mechanism.
     basis: Vec<[f64; 6]>,
     /// Bound on the error of each.
     error: f64,
+    /// The same of the numbers as they are written.
+    as_written: f64,
 }
 
 impl Span {
     /// `None` where the dimension is doubtful.
-    fn of(twists: &[Twist], length: f64, limits: &Limits) -> Option<Self> {
+    ///
+    /// What the digits leave open is asked of the numbers as they are: where they close, their motion is one that they stand for.
+    fn of(twists: &[Twist], length: f64, there: &LinkTwists) -> Option<Self> {
         let mut rows = vec![Vec::new(); 6];
         for twist in twists {
             for (row, x) in rows.iter_mut().zip(coordinates(twist, length)) {
@@ -260,7 +290,10 @@ impl Span {
             }
         }
         let found = OneSided::of(rows)?;
-        let dimension = limits.rank(&found.values)?;
+        let asked = [&there.limits, &there.as_written];
+        let (limits, dimension) = asked
+            .into_iter()
+            .find_map(|limits| Some((limits, limits.rank(&found.values)?)))?;
         let smallest = dimension.checked_sub(1).map_or(1.0, |k| found.values[k]);
         Some(Self {
             basis: found.combinations[..dimension]
@@ -269,14 +302,21 @@ impl Span {
                 .collect(),
             // Wedin (1972): the space of singular vectors turns by the error over the smallest value kept.
             error: limits.error / smallest,
+            as_written: there.as_written.error / smallest,
         })
     }
 
     /// Rank of the angular parts; `None` where it is doubtful.
     fn rotations(&self) -> Option<usize> {
+        let values = self.angular()?;
+        let rank = |error: f64| Limits::new(error, 6).rank(&values);
+        rank(self.error).or_else(|| rank(self.as_written))
+    }
+
+    /// Singular values of the angular parts, largest first.
+    fn angular(&self) -> Option<Vec<f64>> {
         let angular = self.basis.iter().map(|twist| twist[..3].to_vec());
-        let found = OneSided::of(angular.collect())?;
-        Limits::new(self.error, 6).rank(&found.values)
+        OneSided::of(angular.collect()).map(|found| found.values)
     }
 
     fn twists(&self, length: f64) -> impl Iterator<Item = Twist> + '_ {

@@ -91,6 +91,9 @@ pub(super) struct TangentSpace {
     home: Vec<(usize, usize)>,
     /// Limits for what comes from all components together.
     pub limits: Limits,
+    /// Bound on the error of a unit vector where the numbers are taken as they are written; infinite where the tangents are not all of
+    /// the kernel then.
+    pub as_written: f64,
     /// First variable of every joint, and the number of all.
     first: Vec<usize>,
     /// Radians or metres per unit of every variable.
@@ -186,12 +189,19 @@ impl TangentSpace {
         };
         let whole_kernel = freedom(|part| &part.simple) == Some(dimension)
             && freedom(|part| &part.multiple).is_none_or(|freedom| freedom == dimension);
+        let as_written = freedom(|part| &part.as_written[0]) == Some(dimension)
+            && freedom(|part| &part.as_written[1]).is_none_or(|freedom| freedom == dimension);
         let own = |length| Limits::new(8.0 * f64::EPSILON, length);
         let mut found = Self {
             groups,
             place,
             home,
             limits: own(count),
+            as_written: if as_written {
+                8.0 * f64::EPSILON
+            } else {
+                f64::INFINITY
+            },
             joint_limits: vec![own(1); mechanism.joints().len()],
             first,
             units,
@@ -202,7 +212,9 @@ impl TangentSpace {
                 .iter()
                 .flat_map(|&joint| found.variables(joint))
                 .collect();
-            let error = equations.tangent_error(&found, &variables, whole_kernel)?;
+            let left = equations.left_by(&found, &variables)?;
+            let error = equations.tangent_error(left, whole_kernel);
+            found.as_written = found.as_written.max(equations.error_as_written(left));
             // Written so that an error that is not a number stays one.
             if !(error <= found.limits.error) {
                 found.limits = Limits::new(error, count);
@@ -372,10 +384,14 @@ struct PartEquations {
     /// The kernel if the equations have a simple zero here, and if they have a double one.
     simple: Kernel,
     multiple: Kernel,
+    /// What they are uncertain by as they are written, and both kernels then.
+    rounding: f64,
+    as_written: [Kernel; 2],
     matrix: SparseMatrix<f64>,
 }
 
 /// What a rank decision says of the kernel.
+#[derive(Clone, Copy)]
 struct Kernel {
     /// Smallest kept singular value, relative to the largest.
     kept: f64,
@@ -409,22 +425,31 @@ impl PartEquations {
         let uncertainty = rounding + residual + if coarse { 0.0 } else { stated };
         let mut scaled = here.matrix.clone();
         scaled.scale_columns();
+        let kernels = |uncertainty: f64| -> Result<[Kernel; 2], MatrixError> {
+            Ok([
+                Kernel::within(&scaled, uncertainty)?,
+                Kernel::within(&scaled, uncertainty.sqrt())?,
+            ])
+        };
+        let [simple, multiple] = kernels(uncertainty)?;
+        let as_written = match rounding + residual < uncertainty {
+            true => kernels(rounding + residual)?,
+            false => [simple, multiple],
+        };
         Ok(Self {
             length: here.length,
             uncertainty,
-            simple: Kernel::within(&scaled, uncertainty)?,
-            multiple: Kernel::within(&scaled, uncertainty.sqrt())?,
+            simple,
+            multiple,
+            rounding: rounding + residual,
+            as_written,
             matrix: here.matrix,
         })
     }
 
-    /// The error of unit tangents in the components of this part, whose variables are given in the order of its columns.
-    fn tangent_error(
-        &self,
-        tangents: &TangentSpace,
-        variables: &[usize],
-        whole_kernel: bool,
-    ) -> Option<f64> {
+    /// What is left of the equations for unit tangents in the components of this part, whose variables are given in the order of its
+    /// columns.
+    fn left_by(&self, tangents: &TangentSpace, variables: &[usize]) -> Option<f64> {
         let mut left: f64 = 0.0;
         for vector in tangents.vectors_of(variables.iter().copied()) {
             let own: Vec<f64> = variables
@@ -433,12 +458,22 @@ impl PartEquations {
                 .collect();
             left = left.max(norm(&self.matrix.multiply(&own).ok()?));
         }
+        Some(left)
+    }
+
+    /// The error of such tangents.
+    fn tangent_error(&self, left: f64, whole_kernel: bool) -> f64 {
         let uncertainty = self.uncertainty + left;
-        Some(if whole_kernel {
+        if whole_kernel {
             uncertainty / self.simple.kept
         } else {
             uncertainty.sqrt() / self.multiple.kept
-        })
+        }
+    }
+
+    /// The same of the whole kernel of the equations as they are written.
+    fn error_as_written(&self, left: f64) -> f64 {
+        (self.rounding + left) / self.as_written[0].kept
     }
 }
 

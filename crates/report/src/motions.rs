@@ -25,6 +25,7 @@ pub(super) fn motion_row(mechanism: &Mechanism, branch: &str, motion: &RelativeM
         rotations: motion.rotations,
         translations: motion.translations,
         pitches: motion.pitches,
+        tilts: motion.tilts,
         whole_branch: false,
         asked: false,
     }
@@ -55,6 +56,7 @@ fn text(motion: &RelativeMotion) -> String {
         (Some(1), None, _) => format!("whether it rotates is not decided{within}"),
         (Some(1), Some(0), _) => curve(motion),
         (Some(1), Some(_), _) => moving_axis(motion),
+        (Some(freedom), Some(0), _) if motion.tilts.is_some() => tilting(freedom, motion.tilts),
         (_, Some(0), _) => format!("translates over a surface{within}"),
         (Some(_), Some(r), Some(0)) => format!("{}{within}", counted(r, "rotation")),
         (Some(_), Some(r), Some(t)) => {
@@ -63,6 +65,16 @@ fn text(motion: &RelativeMotion) -> String {
         }
         (Some(_), ..) => format!("how it rotates is not decided{within}"),
     }
+}
+
+/// Translations that come with a tilt.
+fn tilting(freedom: usize, tilts: Option<f64>) -> String {
+    let degrees = tilts.unwrap_or(0.0).to_degrees();
+    format!(
+        "{}, tilting by up to {}° per metre",
+        counted(freedom, "translation"),
+        figure(degrees)
+    )
 }
 
 fn counted(number: usize, what: &str) -> String {

@@ -169,6 +169,7 @@ pub(crate) fn mobile() -> Report {
             within: None,
             joint: None,
             pitches: None,
+            tilts: None,
             whole_branch: false,
             translations: Some(0),
             branch: "A".to_owned(),

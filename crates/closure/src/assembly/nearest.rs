@@ -306,6 +306,28 @@ pub(super) fn mended(
     Ok(outcome)
 }
 
+/// The drawn pose, where it counts as closed and its joints are less far open than after it was closed further: residuals count lengths
+/// in those of the loop, and where all axes nearly meet in a point these are short, so that a small step there is closed by turning the
+/// whole loop about that point.
+pub(super) fn no_worse_than_drawn(
+    task: &Task<'_>,
+    drawn: &Kept<f64>,
+    states: &mut [JointState<f64>],
+    outcome: PartOutcome,
+) -> Result<PartOutcome, MatrixError> {
+    if outcome.residual <= outcome.rounding {
+        return Ok(outcome);
+    }
+    let moved = Kept::of(task.part, states);
+    drawn.put_back(states);
+    let as_drawn = descend(task, states, Effort::NONE)?;
+    if as_drawn.closed() && as_drawn.gap(task.mechanism) < outcome.gap(task.mechanism) {
+        return Ok(as_drawn);
+    }
+    moved.put_back(states);
+    Ok(outcome)
+}
+
 /// Takes back whole turns of hinges: to within half a turn of the reference, or to where the limits allow it. What a
 /// coupling relates counts its turns.
 pub(super) fn unwind(

@@ -46,6 +46,35 @@ impl<'a> Dimensions<'a> {
         })
     }
 
+    /// The same numbers, in units that mean one distance: so much for lengths (m), and for angles what moves a point at the part's
+    /// `length` by it.
+    pub fn alike(&self, unit: f64, length: f64) -> Self {
+        let all = self.all.iter().map(|dimension| Dimension {
+            unit: match turns(dimension.place) {
+                true => unit / length,
+                false => unit,
+            },
+            ..*dimension
+        });
+        Self {
+            mechanism: self.mechanism,
+            all: all.collect(),
+            written: self.written.clone(),
+        }
+    }
+
+    /// How far changes of so many units move points at most (m), angles counted at a part's length.
+    pub fn distance(&self, z: &[f64], length: f64) -> f64 {
+        let moved = |(dimension, z): (&Dimension, &f64)| {
+            let change = (z * dimension.unit).abs();
+            match turns(dimension.place) {
+                true => change * length,
+                false => change,
+            }
+        };
+        self.all.iter().zip(z).map(moved).fold(0.0, f64::max)
+    }
+
     fn by(
         mechanism: &'a Mechanism,
         part: &Part,
@@ -68,16 +97,22 @@ impl<'a> Dimensions<'a> {
         }
     }
 
+    /// The units (rad, or shares of a length).
+    fn shares(&self, length: f64) -> impl Iterator<Item = f64> {
+        self.all.iter().map(move |d| match turns(d.place) {
+            true => d.unit,
+            false => d.unit / length,
+        })
+    }
+
+    /// The largest unit (rad, or shares of a length).
+    pub fn coarsest(&self, length: f64) -> f64 {
+        self.shares(length).fold(0.0, f64::max)
+    }
+
     /// About how far the equations may be from those meant, relative to their own size.
     pub fn noise(&self, length: f64) -> f64 {
-        let share = |d: &Dimension| {
-            if turns(d.place) {
-                d.unit
-            } else {
-                d.unit / length
-            }
-        };
-        let squares: f64 = self.all.iter().map(|d| share(d).powi(2)).sum();
+        let squares: f64 = self.shares(length).map(|share| share.powi(2)).sum();
         squares.sqrt().max(f64::EPSILON)
     }
 

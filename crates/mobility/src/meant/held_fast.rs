@@ -80,6 +80,12 @@ pub(super) fn held_fast(
 /// Why a part does not move whatever its digits stand for.
 fn certificate(part: &PartMeant) -> String {
     let least = part.at_least;
+    if part.rigid {
+        return format!(
+            "no velocity satisfies the closure equations at this pose; for one to do so some number has to change, to first order, by \
+             at least {least:.1} times what its digits leave open"
+        );
+    }
     let open = part.nearest.as_ref().map_or(String::new(), |nearest| {
         format!(" by up to {:.1e} m", nearest.misfit * part.length)
     });

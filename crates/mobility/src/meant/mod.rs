@@ -10,6 +10,7 @@
 //! Where several numbers of freedoms are possible, that with the widest gap in the singular values is tried first.
 
 mod dimensions;
+mod giving_way;
 mod held_fast;
 mod least_largest;
 mod nearest;
@@ -30,6 +31,7 @@ use super::verdict::{Nominal, judge, unassembled};
 use super::vocabulary::Verdict;
 use dimensions::turns;
 use held_fast::held_fast;
+use kutzbach_closure::Part;
 use kutzbach_model::mechanism::{Configuration, JointId, Mechanism, Precision};
 use parts::{PartMeant, parts_meant};
 pub use relations::Kept;
@@ -129,6 +131,10 @@ fn within_digits(
         stated.mobility.verdict,
         Verdict::Undecided | Verdict::Unassembled
     );
+    // What its reader lets count as closed is known to so much, whatever its digits say.
+    let asked_for = options.closure_tolerance.filter(|_| !open);
+    let read = asked_for.map(|tolerance| mechanism.clone().with_precision(tolerance));
+    let mechanism = read.as_ref().unwrap_or(mechanism);
     let chosen = stated.mobility.verdict == Verdict::Rigid && mechanism.precision().is_exact();
     let asked = open || chosen || !mechanism.precision().is_exact();
     let mut parts = stated.structure.parts.iter();
@@ -146,16 +152,40 @@ fn within_digits(
     }
     let closing = parts.iter().filter_map(|part| part.closing);
     let closing = closing.fold(0.0, f64::max);
-    if closing > 0.0 {
+    if closing > 0.0 && options.closure_tolerance.is_none() {
         // What the digits leave open at this pose, and not what they leave open of any walk around a loop.
         let assembly = &mut stated.assembly;
         let explained = assembly.residual * WITHIN / closing;
         assembly.tolerance = assembly.tolerance.min(explained);
     }
     let all: Vec<&PartMeant> = parts.iter().collect();
-    if parts.iter().all(|part| part.nearest.is_some()) {
+    let known = parts.iter().all(|part| part.nearest.is_some());
+    if known {
         let nearest = Meant::of(mechanism, &all);
         stated.nearest = (!nearest.changes.is_empty()).then(|| Box::new(nearest));
+    }
+    let typed = |part: &PartMeant| is_typed(mechanism, &stated.structure.parts[part.index]);
+    if stated.mobility.verdict == Verdict::Unassembled && known && parts.iter().all(typed) {
+        // Taken at its word, with the nearest mechanism beside it.
+        let finite = parts.iter().map(|part| part.freedom).sum();
+        stated.mobility.nominal = Some(Nominal {
+            within_digits: false,
+            ..nominal(&all, finite)
+        });
+        return Ok(stated);
+    }
+    if let Some(tolerance) = asked_for {
+        if known && stated.nearest.is_some() {
+            let mut nominal = nominal(&all, parts.iter().map(|part| part.freedom).sum());
+            nominal.within_digits = nominal.distance.is_some_and(|d| d <= tolerance);
+            nominal.known_to = Some(tolerance);
+            stated.mobility.nominal = Some(nominal);
+            stated.mobility.as_written = Some(AsWritten {
+                verdict: Verdict::Unassembled,
+                finite: None,
+            });
+        }
+        return Ok(stated);
     }
     let within = |part: &PartMeant| part.nearest.is_some() && part.units() <= WITHIN;
     let refuted = |part: &PartMeant| part.excluded || part.is_open();
@@ -350,6 +380,14 @@ fn rounding(mechanism: &Mechanism, joint: usize) -> Option<Precision> {
     let decimals = precision.decimals.filter(|d| *d >= ROUNDED_DECIMALS)?;
     let by_hand = precision.by_hand().is_some();
     (!by_hand).then(|| precision.known_to(0.5 * 10f64.powi(-decimals)))
+}
+
+/// Whether the numbers of a part are somebody's choice and not rounded to their decimals.
+fn is_typed(mechanism: &Mechanism, part: &Part) -> bool {
+    part.joints.first().is_some_and(|&joint| {
+        let precision = mechanism.precision_of(JointId(joint));
+        precision.is_exact() && !precision.may_be_rounded_to(ROUNDED_DECIMALS)
+    })
 }
 
 /// What the literal numbers leave, as far as it is known.

@@ -118,6 +118,12 @@ const STENCIL: [(f64, f64); 4] = [
     (-2.0, 1.0 / 12.0),
 ];
 
+/// The share of the `most` that numbers do below which directions tell nothing: numbers within their digits leave over, to second order,
+/// about the square of what they do to first order.
+pub(super) fn drowned(most: f64) -> f64 {
+    (SECOND_ORDER * most).clamp(DEPENDENT, COARSEST)
+}
+
 /// Dimensions at which a part closes along a motion.
 #[derive(Clone, Debug)]
 pub(super) struct Nearest {
@@ -193,10 +199,7 @@ impl Search<'_> {
         if norm(&misfit) <= STALLED {
             return Ok(0.0);
         }
-        // Numbers within their digits leave over, to second order, about the square of what they do to first order: directions in which
-        // the equations answer to them by no more than so many times that tell nothing.
-        let dependent = |most: f64| (SECOND_ORDER * most).clamp(DEPENDENT, COARSEST);
-        let found = least_largest(&matrix, &misfit, dependent);
+        let found = least_largest(&matrix, &misfit, drowned);
         Ok(found.map_or(0.0, |found| found.at_least))
     }
 
@@ -458,14 +461,18 @@ impl Search<'_> {
             let Some(found) = least_largest(&matrix, &wanted, |_| DEPENDENT) else {
                 break;
             };
-            if before <= MET * found.at_least {
+            // The way to a solution may have led through changes of other numbers that it does not need.
+            let idle = norm(&nearest.0) > MET * norm(&found.z);
+            if before <= MET * found.at_least && !idle {
                 break;
             }
             z.clone_from(&found.z);
             let closed = self.is_near(z)
                 && self.follow(samples, z)?
                 && self.solve(samples, z, first)?.is_some();
-            if !closed || largest(z) >= before {
+            let now = largest(z);
+            let nearer = now < before || now <= MET * before && norm(z) < norm(&nearest.0);
+            if !closed || !nearer {
                 break;
             }
             nearest = (z.clone(), states_of(samples));

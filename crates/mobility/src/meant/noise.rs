@@ -13,7 +13,7 @@ use super::relations::Relations;
 use crate::analysis::{Analysis, AnalysisError, AnalysisOptions};
 use crate::depth::Depth;
 use crate::vocabulary::Verdict;
-use kutzbach_closure::{Arithmetic, Geometry, Metric, Part, linearised};
+use kutzbach_closure::{Arithmetic, CycleJacobian, Geometry, Metric, Part, linearised};
 use kutzbach_math::matrix::{DENSE_COLUMNS, MatrixError, relative_singular_values};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Configuration, Mechanism};
@@ -93,6 +93,20 @@ pub(super) fn but_for_noise(
     Ok(analysis)
 }
 
+/// How far the loops of a part are open (rad, or lengths of how far they reach).
+fn misfit(here: &CycleJacobian<f64>) -> f64 {
+    let share = here.length / reach(here);
+    let size = |(row, residual): (usize, &f64)| match row % 6 < 3 {
+        true => residual.abs(),
+        false => residual.abs() * share,
+    };
+    here.residual
+        .iter()
+        .enumerate()
+        .map(size)
+        .fold(0.0, f64::max)
+}
+
 /// The nearest mechanism of one part, where it is within noise.
 fn of_part(
     mechanism: &Mechanism,
@@ -100,14 +114,22 @@ fn of_part(
     stated: &Analysis,
     (index, part): (usize, &Part),
 ) -> Result<Option<PartMeant>, MatrixError> {
-    let states = &stated.assembly.states;
-    let here = linearised(geometry, states, part)?;
+    let unassembled = stated.mobility.verdict == Verdict::Unassembled;
+    // What does not close was sought everywhere: as it is drawn it may miss by no more than noise.
+    let drawn = linearised(geometry, &geometry.states, part)?;
+    let (states, here) = match unassembled && misfit(&drawn) <= NOISE {
+        true => (&geometry.states, drawn),
+        false => {
+            let states = &stated.assembly.states;
+            (states, linearised(geometry, states, part)?)
+        }
+    };
     let mut matrix = here.matrix.clone();
     let scales = matrix.scale_columns();
     if matrix.columns() > DENSE_COLUMNS || !is_printed(mechanism, part) {
         return Ok(None);
     }
-    let misfit = here.residual.iter().fold(0.0f64, |m, r| r.abs().max(m));
+    let misfit = misfit(&here);
     let values = relative_singular_values(&matrix)?.unwrap_or_default();
     let rank = values.iter().filter(|value| **value > NOISE).count();
     let next = values.get(rank).copied().unwrap_or(0.0).max(misfit);
@@ -154,7 +176,7 @@ fn of_part(
         kept.clear();
     }
     let moves = found.is_some();
-    if found.is_none() && stated.mobility.verdict == Verdict::Unassembled {
+    if found.is_none() && unassembled {
         // It closes, and moves or not as what closes does.
         found = search(&none, false)?.filter(within);
     }

@@ -2,6 +2,7 @@
 //! satisfy, then without.
 
 use super::dimensions::{Dimension, Dimensions};
+use super::giving_way::least_change_to_give_way;
 use super::nearest::{Nearest, Search};
 use super::poses::Loops;
 use super::relations::{Kept, Relations};
@@ -25,6 +26,13 @@ pub(super) const MOST_DIMENSIONS: usize = 600;
 /// A gap is none of rounding where it is so many times what that may leave.
 const GAP: f64 = 8.0;
 
+/// What holds fast to first order is clearly beyond the digits where it is so many times what these leave open: the second order of such
+/// changes is less than their first.
+const CLEARLY: f64 = 1.5;
+
+/// Of numbers that may be off by more than this (rad, or of how far the loops reach) the first order says too little.
+const COARSE: f64 = 0.01;
+
 /// Numbers that may well have been chosen are searched where there are no more of them.
 const MOST_CHOSEN: usize = 200;
 
@@ -41,6 +49,8 @@ pub(super) struct PartMeant {
     pub excluded: bool,
     /// What some number has to change by at least for it to move so, in units of what the digits leave open.
     pub at_least: f64,
+    /// Whether that is for it to have any velocity, to first order.
+    pub rigid: bool,
     /// Whether its loops as written stay open at the pose by more than rounding.
     pub gap: bool,
     /// What some number has to change by at least for its loops to close at the pose, in units of what the digits leave open, where
@@ -63,6 +73,7 @@ impl PartMeant {
             accepted: None,
             excluded: false,
             at_least: 0.0,
+            rigid: false,
             gap: false,
             closing: None,
             length: 0.0,
@@ -132,6 +143,7 @@ pub(super) fn parts_meant(
         {
             of_part.excluded = found.excluded.is_some();
             of_part.at_least = found.excluded.unwrap_or(0.0);
+            of_part.rigid = found.rigid;
             of_part.length = found.length;
             if let Some((nearest, freedom)) = found.nearest {
                 of_part.freedom = freedom;
@@ -141,7 +153,7 @@ pub(super) fn parts_meant(
                 of_part.kept = found.kept;
             }
         }
-        let still = rigid || of_part.excluded && of_part.accepted.is_some();
+        let still = rigid || of_part.rigid || of_part.excluded && of_part.accepted.is_some();
         if still && of_part.gap {
             of_part.closing = Some(closing(mechanism, &geometry, states, part, &dimensions)?);
         }
@@ -268,6 +280,57 @@ impl<'a> Asked<'a> {
     }
 }
 
+impl Asked<'_> {
+    /// What some number has to change by at least for the part to have a velocity at its pose, where that is clearly more than the
+    /// digits leave open; `possible` is how many freedoms it may have within them.
+    fn holds_fast(
+        &self,
+        states: &[JointState<f64>],
+        possible: Option<usize>,
+    ) -> Result<Option<f64>, MatrixError> {
+        let none = Relations::default();
+        if self.dimensions.coarsest(self.reach) > COARSE {
+            return Ok(None);
+        }
+        let least = least_change_to_give_way(
+            &self.search(0, &none).loops,
+            self.dimensions,
+            (self.geometry, states),
+            self.length,
+            possible.unwrap_or(1),
+        )?;
+        Ok(least.filter(|least| *least > CLEARLY * WITHIN))
+    }
+
+    /// Beyond the digits, nearest is what changes least in metres, however precisely single numbers are written.
+    fn draw_near_in_metres(
+        &self,
+        states: &[JointState<f64>],
+        nearest: &mut Nearest,
+        freedom: usize,
+    ) -> Result<(), MatrixError> {
+        let distance = self.dimensions.distance(&nearest.z, self.length);
+        let alike = self.dimensions.alike(distance, self.length);
+        let relations = Relations::default();
+        let asked = Asked {
+            dimensions: &alike,
+            geometry: self.geometry,
+            metric: self.metric,
+            ..*self
+        };
+        let found = asked.search(freedom, &relations).nearest(states)?;
+        if let Some(found) = found.filter(|found| alike.distance(&found.z, self.length) < distance)
+        {
+            let both = alike.all.iter().zip(&self.dimensions.all).zip(&found.z);
+            nearest.z = both
+                .map(|((to, from), z)| z * to.unit / from.unit)
+                .collect();
+            nearest.misfit = found.misfit;
+        }
+        Ok(())
+    }
+}
+
 /// What was found of one part.
 struct Found {
     /// The nearest dimensions, and how many freedoms they have.
@@ -277,6 +340,8 @@ struct Found {
     /// What some number has to change by at least (units), where no numbers within the digits let it move: where the pose allows
     /// one motion at most, or has a number of freedoms within the digits.
     excluded: Option<f64>,
+    /// Whether that is what it has to change by to have any velocity, to first order.
+    rigid: bool,
     /// The relations that it was found by.
     kept: Vec<Kept>,
 }
@@ -342,6 +407,7 @@ fn nearest_of_part(
                     nearest: Some((nearest, freedom)),
                     length: here.length,
                     excluded: None,
+                    rigid: false,
                     kept: relations.kept(),
                 }));
             }
@@ -369,10 +435,29 @@ fn nearest_of_part(
             break;
         }
     }
+    let nearer = best.as_ref().is_some_and(|(best, _)| units(best) <= WITHIN);
+    let mut rigid = false;
+    if excluded.is_none() && !nearer && known.known.is_none() && known.literal == 0 {
+        excluded = asked.holds_fast(states, known.possible)?;
+        rigid = excluded.is_some();
+    }
+    if rigid && known.open_to.is_none() {
+        // Its digits close it, though as they are its loops stay open by more than what is usual.
+        let closed = asked.search(0, &none).nearest_at_one_pose(states)?;
+        if let Some(closed) = closed.filter(|closed| units(closed) <= WITHIN) {
+            best = Some((closed, 0));
+        }
+    }
+    if let Some((beyond, freedom)) = &mut best
+        && units(beyond) > WITHIN
+    {
+        asked.draw_near_in_metres(states, beyond, *freedom)?;
+    }
     Ok(Some(Found {
         nearest: best,
         length: here.length,
         excluded: excluded.filter(|e| e.is_finite()),
+        rigid,
         kept: Vec::new(),
     }))
 }

@@ -7,7 +7,7 @@
 //!
 //! | style | known by | `u(x)` |
 //! |---|---|---|
-//! | chosen | no literal has more than [`EXACT_DECIMALS`] decimals (lengths beside chosen directions, or of one digit: in the decade of the longest, if below 1 m) | 0 |
+//! | chosen | no literal has more than [`EXACT_DECIMALS`] decimals (lengths beside chosen directions, or in a [small unit](Group::is_of_a_small_unit): in the decade of the longest, if below 1 m) | 0 |
 //! | fixed decimals | literals fall short of `D` by fewer zeros than of `S` | `½ 10⁻ᴰ` |
 //! | significant digits | of `S` by fewer than of `D`, and `S ≥ 3` | `½ 10ᵉ⁻ˢ` |
 //! | either | neither is a thousand times likelier | the larger |
@@ -37,6 +37,9 @@ const LIKELIER: i64 = 3;
 
 /// So improbable are zeros at the end that are not believed to have been left out.
 const IMPROBABLE: f64 = 1e-3;
+
+/// Short numbers are somebody's choice, as they mostly are, where so few of them are as long as that by chance.
+const UNLIKELY: f64 = 0.05;
 
 /// Significant digits that tell doubles apart.
 pub(super) const OF_A_DOUBLE: u32 = 17;
@@ -76,6 +79,8 @@ pub(super) struct Group {
     style: Style,
     /// So many zeros at the end may a shorter literal have lost.
     lost: i32,
+    /// Whether so few literals are shorter than the longest that all may be rounded to its decimals.
+    alike: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,6 +104,7 @@ impl Default for Group {
             doubles: false,
             style: Style::Either,
             lost: i32::MAX,
+            alike: true,
         }
     }
 }
@@ -109,16 +115,23 @@ impl Group {
         self.designed <= EXACT_DECIMALS
     }
 
+    /// Whether literals that count as exact may all be rounded to the decimals of the longest: no more of them are shorter than zeros
+    /// at the end make by chance.
+    pub fn may_be_rounded(&self) -> bool {
+        self.alike
+    }
+
     /// Counts decimals from the first digit of the largest literal, if that is below 1: `0.125` says of metres what `1.25` says
     /// of decimetres.
     pub fn count_from_first_digit(&mut self) {
         self.designed = self.designed.saturating_add(self.decade);
     }
 
-    /// Whether the zeros before the first digits are those of a unit, such as millimetres in metres: all lengths are below 10⁻⁴ m,
-    /// or have one significant digit, to which no program rounds.
+    /// Whether the zeros before the first digits are those of a unit, such as millimetres in metres: lengths of less than 10⁻⁴ m, and
+    /// of less than a centimetre stated to two digits, or all to one digit. No program rounds so coarsely.
     pub fn is_of_a_small_unit(&self) -> bool {
-        self.decade < -4 || self.significant <= 1
+        let digits = self.designed.saturating_add(self.decade).saturating_add(1);
+        self.decade < -4 || self.decade < -2 && digits <= 2 || self.significant <= 1
     }
 
     /// How far a number of the group may be from the number meant; zero for exact ones.
@@ -275,6 +288,7 @@ impl<'a> Literals<'a> {
             None => self.style(&group),
         };
         group.lost = self.lost(&group);
+        group.alike = self.are_alike(&group);
         group
     }
 
@@ -339,6 +353,20 @@ impl<'a> Literals<'a> {
             2 * shorter > short.len() && !plausible(*zeros)
         };
         (1..=30).find(by_others).map_or(i32::MAX, |zeros| zeros - 1)
+    }
+
+    /// Whether literals shorter than the longest are as few as chance makes them, once in ten.
+    fn are_alike(&self, group: &Group) -> bool {
+        let decimals = self.all.iter().filter_map(|(_, number, stated)| {
+            let stated = group.stated(number, *stated);
+            (stated.significant > 0).then_some(stated.decimals)
+        });
+        let (mut count, mut shorter) = (0, 0);
+        for decimals in decimals {
+            count += 1;
+            shorter += usize::from(Some(decimals) < group.decimals);
+        }
+        shorter == 0 || at_least(shorter, 0.1 * f64::from(count)) >= UNLIKELY
     }
 
     /// The largest size of any literal, if they are single-precision numbers as they are printed.

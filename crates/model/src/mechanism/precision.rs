@@ -63,6 +63,15 @@ impl Precision {
         }
     }
 
+    /// Whether exact numbers of this many decimals or more may nevertheless be rounded ones: in every kind that has so many, no more are
+    /// shorter than zeros at the end make by chance. `0.01` among tenths was typed.
+    #[must_use]
+    pub fn may_be_rounded_to(&self, decimals: i32) -> bool {
+        let long = |group: &&Group| group.decimals.is_some_and(|most| most >= decimals);
+        let mut long = self.groups.iter().filter(long).peekable();
+        long.peek().is_some() && long.all(Group::may_be_rounded)
+    }
+
     /// Whether the digits of all numbers that are not exact are those of doubles that some program printed. They say how the program computes, not how
     /// well it knows its numbers.
     #[must_use]
@@ -363,7 +372,7 @@ mod tests {
     }
 
     #[test]
-    fn beside_rounded_directions_lengths_of_one_digit_are_chosen() {
+    fn beside_rounded_directions_lengths_in_a_small_unit_are_chosen() {
         let direction = (0..)
             .find(|place| Joint::kind_of_number(*place) == 2)
             .unwrap();
@@ -381,7 +390,20 @@ mod tests {
         };
         assert_eq!(beside(&["0.002", "0.003", "0.001"]), 0.0);
         assert_eq!(beside(&["0.00002", "0.000035"]), 0.0);
+        assert_eq!(beside(&["0.0012", "0.0007"]), 0.0);
+        assert_eq!(beside(&["0.0123", "0.0007"]), 0.5e-4);
         assert_eq!(beside(&["0.025", "0.013", "0.01"]), 0.5e-3);
+    }
+
+    #[test]
+    fn a_longer_number_among_short_ones_was_typed() {
+        let rounded = of(&["0.35", "0.71", "0.4", "1.27", "0.28", "0.93"]);
+        assert!(
+            rounded.is_exact() && rounded.may_be_rounded_to(2) && !rounded.may_be_rounded_to(3)
+        );
+        assert!(of(&["0.10", "0.20", "0.30", "0.01", "0.50", "0.60"]).may_be_rounded_to(2));
+        let typed = of(&["0.1", "0.2", "0.3", "0.01", "0.5", "0.6"]);
+        assert!(typed.is_exact() && !typed.may_be_rounded_to(2));
     }
 
     #[test]

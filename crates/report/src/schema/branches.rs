@@ -67,6 +67,9 @@ pub struct Motion {
     /// were looked at; zeros where it turns without sliding.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pitches: Option<[f64; 2]>,
+    /// Of a motion of several freedoms that translates but for a tilt: the most it turns at the poses seen (rad/m), which does not
+    /// count among its rotations.
+    pub tilts: Option<f64>,
     /// Whether [`pitches`](Self::pitches) are the extremes of the whole branch, which was followed from end to end.
     #[serde(default, skip_serializing_if = "is_false")]
     pub whole_branch: bool,

@@ -6,7 +6,7 @@
 //!
 //! What `kutzbach-report-1` had not: `freedoms`, `inputs`, `four_bars`, `change_sets`, `play`,
 //! `mobility.as_written`, `mobility.nominal.{distance, within_digits, changes, relations, known_to}`, `joints[].{ranges,
-//! redundant_directions, block}`, `motions[].{pitches, whole_branch, rotations, translations, within, joint}`,
+//! redundant_directions, block}`, `motions[].{pitches, tilts, whole_branch, rotations, translations, within, joint}`,
 //! `branches[].nearly_idle`, `home.weakest` and `home.blocks[].{label, finite, pose, kind, class}`, `assembly.{tolerance_asked, starts,
 //! work_limited, held, corrected, joints, outside_limits, proven_open, proof, released, reversal, dimensions_changed}`. What changed
 //! its meaning: `advice[].to` may be `none`, for a joint to remove; `motions[].freedom` may be `null`, and counts the

@@ -126,9 +126,14 @@ pub(super) fn left_open(assembly: &Assembly) -> Option<String> {
         true => "as `--closure-tolerance` allows",
         false => "since the numbers are stated so coarsely",
     };
-    let tolerance = assembly.tolerance.map_or(String::new(), |tolerance| {
-        format!(": up to {} does, {source}", metres(tolerance))
-    });
+    // The tolerance holds where the loop's axes come nearest; at a joint far from there a gap may be larger.
+    let there = assembly
+        .tolerance
+        .filter(|tolerance| *tolerance >= worst.left_position);
+    let tolerance = match there {
+        Some(tolerance) => format!(": up to {} does, {source}", metres(tolerance)),
+        None => format!(", {source}"),
+    };
     Some(format!(
         "As written it does not close: loop `{}` stays open by {} and {}°{others}. This counts as closed{tolerance}.",
         worst.cycle,

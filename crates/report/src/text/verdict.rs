@@ -362,18 +362,29 @@ fn noise(nominal: &Nominal) -> String {
 }
 
 /// How far the numbers are from those of the mechanism meant, and what they leave as written.
-fn meant(nominal: &Nominal, distance: f64, written: &AsWritten, finite: Option<usize>) -> String {
+fn meant(
+    nominal: &Nominal,
+    distance: f64,
+    written: &AsWritten,
+    (finite, asked): (Option<usize>, bool),
+) -> String {
     let within = match nominal.known_to {
         Some(known_to) => format!("the {} asked for", metres(known_to)),
         None => "their precision".to_owned(),
     };
+    let do_what = if nominal.finite > 0 { "move" } else { "close" };
     let away = format!(
-        "dimensions that move differ from them by up to {}, within {within} ({})",
+        "dimensions that {do_what} differ from them by up to {}, within {within} ({})",
         metres(distance),
         cite::NOMINAL
     );
     let misfit = metres(nominal.tolerance);
     match (written.verdict, written.finite) {
+        // What is open as written was told of the assembly.
+        _ if asked => format!("The nearest {away}."),
+        _ if nominal.finite == 0 => format!(
+            "As written it does not close: its loops miss by up to {misfit}. The nearest {away}."
+        ),
         (Verdict::Rigid, _) if finite == Some(0) => format!(
             "The numbers are taken as exact. If they are rounded, it is meant to move with {}: the nearest {away}; as written its \
              loops miss by up to {misfit} along that motion.",
@@ -401,7 +412,8 @@ pub(super) fn nominal(report: &Report) -> Option<String> {
         return Some(not_drawn(nominal, distance));
     }
     if let (Some(distance), Some(written)) = (nominal.distance, &report.mobility.as_written) {
-        return Some(meant(nominal, distance, written, report.mobility.finite));
+        let told = (report.mobility.finite, report.assembly.tolerance_asked);
+        return Some(meant(nominal, distance, written, told));
     }
     let mut text = format!(
         "As written its loops miss by up to {} along the motion ({}): the numbers are probably rounded",
