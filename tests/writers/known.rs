@@ -2,15 +2,15 @@
 
 use super::printing::{WRITERS, What, Writer};
 use crate::support::rewrite::Draft;
-use crate::support::{analysis, in_parallel, sample, zoo};
+use crate::support::{analysis, assert_none, in_parallel, sample, zoo};
 use kutzbach::matrix::SplitMix64;
 use kutzbach::mechanism::Mechanism;
 use kutzbach::mobility::PoseKind;
 use kutzbach::number::Number;
-use std::collections::BTreeMap;
 
-/// Of a hundred files of a writer so many may be left open.
-const OPEN: usize = 15;
+/// Mechanisms that other writers than exact ones turn into others: Bennett's loop with one length a millionth off is rigid, and to
+/// fewer digits, or but for the noise of printed numbers, it is Bennett's loop.
+const ANOTHER_TO_WRITERS: [&str; 1] = ["bennett_perturbed_1e-6"];
 
 /// A mechanism as a writer prints it, read again.
 fn printed(mechanism: &Mechanism, writer: &Writer, seed: u64) -> Mechanism {
@@ -36,37 +36,31 @@ mod corpus {
     fn known_mechanisms_are_what_they_were() {
         let known = zoo().into_iter().filter_map(|(name, mechanism)| {
             let mobility = analysis(&mechanism).mobility;
-            let regular = mobility.pose == Some(PoseKind::Regular);
+            let regular = mobility.pose == Some(PoseKind::Regular)
+                && !ANOTHER_TO_WRITERS.contains(&&name[..]);
             Some((name, mobility.finite().filter(|_| regular)?, mechanism))
         });
         let known: Vec<_> = known.collect();
         let cases = WRITERS
             .iter()
             .flat_map(|writer| known.iter().map(move |of| (writer, of)));
-        let outcomes = in_parallel(&sample(cases, 12), |(writer, (name, finite, mechanism))| {
+        let outcomes = in_parallel(&sample(cases, 24), |(writer, (name, finite, mechanism))| {
             let said = analysis(&printed(mechanism, writer, 1)).mobility.finite();
             (writer.name, name, *finite, said)
         });
-        let mut table: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
-        let mut wrong = Vec::new();
-        for (writer, name, finite, said) in outcomes {
-            let row = table.entry(writer).or_default();
-            row[0] += usize::from(said.is_none());
-            row[1] += 1;
-            if said.is_none_or(|said| said != finite) {
-                println!("{name}, {writer}: {said:?} instead of {finite}");
-            }
-            if said.is_some_and(|said| said != finite) {
-                wrong.push(format!("{name}, {writer}: {said:?} instead of {finite}"));
-            }
-        }
-        println!("writer: open, of\n{table:#?}");
-        crate::support::assert_none(&wrong);
-        for (writer, [open, of]) in table {
-            assert!(
-                100 * open <= OPEN * of.max(20),
-                "{writer}: {open} of {of} are open"
-            );
-        }
+        let told = |right: fn(Option<usize>, usize) -> bool| -> Vec<String> {
+            let those = outcomes
+                .iter()
+                .filter(|(.., finite, said)| !right(*said, *finite));
+            those
+                .map(|(writer, name, finite, said)| {
+                    format!("{name}, {writer}: {said:?} instead of {finite}")
+                })
+                .collect()
+        };
+        assert_none(&told(|said, finite| said.is_none_or(|said| said == finite)));
+        let open = told(|said, _| said.is_some());
+        println!("{} of {} are open: {open:#?}", open.len(), outcomes.len());
+        assert!(20 * open.len() <= outcomes.len());
     }
 }

@@ -4,7 +4,7 @@
 //! are read as 0, and told of. In an independent sub-mechanism, among the literals of one kind (lengths, angles, components of
 //! directions), a literal `x` is a residue if
 //!
-//! - it is at most [`SMALL`] of the shortest of the others (angles: of a radian; directions: of their largest component);
+//! - it is at most [`SMALL`] of the shortest step between two places (angles: of a radian; directions: of their largest component);
 //! - it has more decimals than any of the others and fewer significant digits than the longest of them, or two at most: it belongs to no
 //!   finer measure;
 //! - a program wrote it, with an exponent (`3e-06`, which nobody types for a measure), or it is below [`NOBODYS`];
@@ -18,7 +18,7 @@ use super::model::Mechanism;
 use super::number_style::is_print_of_single;
 use kutzbach_math::number::Number;
 
-/// The largest residue, relative to the shortest measure: 25 µm beside five centimetres.
+/// The largest residue, relative to the shortest step: 25 µm beside five centimetres.
 const SMALL: f64 = 5e-4;
 
 /// Programs print numbers below this with an exponent, where they choose the form (m, rad).
@@ -77,7 +77,7 @@ struct Literal<'a> {
 fn among(literals: &[Literal<'_>], measure: Option<f64>) -> Vec<(usize, usize)> {
     let (small, others): (Vec<&Literal<'_>>, Vec<&Literal<'_>>) =
         literals.iter().partition(|literal| literal.may_be_one());
-    let shortest = others.iter().map(|o| o.value).fold(f64::INFINITY, f64::min);
+    let shortest = shortest(&others);
     let largest = others.iter().map(|o| o.value).fold(0.0, f64::max);
     // A single one among zeros alone is held against what no machine is smaller than.
     let measure = measure.or((others.is_empty() && small.len() == 1).then_some(NOBODYS / SMALL));
@@ -102,6 +102,14 @@ fn among(literals: &[Literal<'_>], measure: Option<f64>) -> Vec<(usize, usize)> 
         .filter(is_one)
         .map(|literal| literal.at)
         .collect()
+}
+
+/// The shortest of the steps that some lengths are coordinates of, which says how small the mechanism is: a coordinate may be short by
+/// chance.
+fn shortest(literals: &[&Literal<'_>]) -> f64 {
+    let steps = literals.chunk_by(|a, b| a.at.0 == b.at.0 && a.at.1 / 3 == b.at.1 / 3);
+    let length = |step: &[&Literal<'_>]| step.iter().map(|x| x.value * x.value).sum::<f64>().sqrt();
+    steps.map(length).fold(f64::INFINITY, f64::min)
 }
 
 impl Literal<'_> {
@@ -162,13 +170,18 @@ mod tests {
         assert_eq!(read(&["0", "3e-06", "0"]), ["3e-06"]);
         let single = "-4.371138828673793e-08";
         assert_eq!(read(&["0.5", single, "1"]), [single]);
+        // A short coordinate of a long step.
+        assert_eq!(
+            read(&["0.567", "-0.008", "5e-06", "0.2", "0.3", "0"]),
+            ["5e-06"]
+        );
     }
 
     #[test]
     fn what_may_be_a_measure_is_none() {
         for texts in [
             // Too large beside the shortest; as many decimals as others; with digits of its own; typed; chosen.
-            &["0.1", "0.3", "9e-05"][..],
+            &["0.1", "0", "0", "0.3", "9e-05"][..],
             &["0.123456", "0.3", "3e-06"],
             &["0.1", "0.2", "1.2345e-06"],
             &["0.5", "0.3", "0.00004"],
