@@ -2,8 +2,8 @@
 
 use crate::format_support;
 
-use format_support::{chain, robot};
-use kutzbach::format::{ReadOptions, Reading, read, read_with};
+use format_support::{chain, difference, robot};
+use kutzbach::format::{ReadOptions, Reading, read, read_with, write};
 use kutzbach::mechanism::{CouplingOrigin, JointKind, Placement};
 
 fn reading(text: &str) -> Reading {
@@ -97,7 +97,8 @@ fn loops_couplings_and_mimics() {
            <mimic joint='j' multiplier='-2'/></joint>\n\
          <loop name='l' type='cylindrical'><predecessor link='c'><origin xyz='1 2 3'/></predecessor>\
            <successor link='a'/><axis xyz='0 0 2'/></loop>\n\
-         <coupling name='g'><predecessor link='b'/><successor link='c'/><ratio value='6.0'/></coupling>",
+         <coupling name='g'><predecessor link='a'/><successor link='c'/><ratio value='6.0'/>\
+           <carrier link='b'/></coupling>",
     );
     let mechanism = reading(&text).mechanism;
     assert_eq!(mechanism.joints().len(), 3);
@@ -115,10 +116,20 @@ fn loops_couplings_and_mimics() {
             } => {
                 assert_eq!((multiplier.value(), offset.value()), (-2.0, 0.0));
             }
-            CouplingOrigin::Ratio { ratio, .. } => assert_eq!(ratio.value(), 6.0),
+            CouplingOrigin::Ratio { ratio, carrier, .. } => {
+                assert_eq!((ratio.value(), carrier.map(|link| link.0)), (6.0, Some(1)));
+            }
         }
     }
-    let urdf_plus = text.replace("cylindrical", "revolute");
+    assert_eq!(
+        difference(&mechanism, &reading(&write(&mechanism)).mechanism),
+        None
+    );
+    let urdf_plus = text
+        .replace("cylindrical", "revolute")
+        .replace("link='a'/><successor link='c'", "link='d'/><successor link='c'")
+        .replace("<carrier link='b'/>", "")
+        .replace("<loop", "<link name='d'/><joint name='d' type='continuous'><parent link='b'/><child link='d'/></joint><loop");
     assert_eq!(reading(&urdf_plus).format, "urdf+");
 }
 

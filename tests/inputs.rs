@@ -398,7 +398,7 @@ fn limbs_have_their_own_freedoms() {
             "0 1 0",
         );
     }
-    let tie = r#"<coupling name="c"><predecessor link="left_thigh"/><successor link="left_shin"/><ratio value="2"/></coupling>"#;
+    let tie = r#"<coupling name="c"><predecessor link="left_thigh"/><successor link="left_shin"/><ratio value="0"/></coupling>"#;
     let report = reported(&format!(r#"<robot name="biped">{text}{tie}</robot>"#));
     let found = inputs(&report);
     assert_eq!(
@@ -522,7 +522,7 @@ fn a_limb_that_branches_is_named_by_its_start() {
     chain("left_arm", &["1 0 0", "0 1 0", "0 1 0"]);
     chain("right_arm", &["1 0 0", "0 1 0", "0 1 0"]);
     chain("neck", &["0 1 0", "1 0 0"]);
-    let tie = r#"<coupling name="c"><predecessor link="left_arm_0"/><successor link="left_arm_1"/><ratio value="2"/></coupling>"#;
+    let tie = r#"<coupling name="c"><predecessor link="left_arm_0"/><successor link="left_arm_1"/><ratio value="0"/></coupling>"#;
     let report = reported(&format!(r#"<robot name="r">{text}{tie}</robot>"#));
     let found: Vec<(&str, usize, bool)> = inputs(&report)
         .limbs

@@ -46,6 +46,7 @@ mod four_bars;
 mod frames;
 mod fuzz_format;
 mod gallery;
+mod gear_trains;
 #[path = "germs/main.rs"]
 mod germs;
 mod grippers;

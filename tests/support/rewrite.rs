@@ -52,6 +52,7 @@ pub struct DraftRatio {
     pub name: String,
     pub ends: [String; 2],
     pub ratio: Number,
+    pub carrier: Option<String>,
 }
 
 /// The name of a pose, and joints with their values.
@@ -125,10 +126,13 @@ impl Draft {
                     predecessor,
                     successor,
                     ratio,
+                    carrier,
+                    ..
                 } => draft.ratios.push(DraftRatio {
                     name: coupling.name.clone(),
                     ends: [link(*predecessor), link(*successor)],
                     ratio: ratio.clone(),
+                    carrier: carrier.map(link),
                 }),
                 CouplingOrigin::Mimic {
                     follower,
@@ -185,10 +189,11 @@ impl Draft {
             builder.mimic(&mimic.follower, &mimic.leader, multiplier, offset);
         }
         for ratio in &self.ratios {
-            builder.coupling(
+            let [one, other] = &ratio.ends;
+            builder.coupling_on(
+                ratio.carrier.as_deref(),
                 &ratio.name,
-                &ratio.ends[0],
-                &ratio.ends[1],
+                [one, other],
                 ratio.ratio.clone(),
             );
         }
@@ -433,6 +438,7 @@ impl Draft {
         }
         for ratio in &mut self.ratios {
             ratio.ends = ratio.ends.clone().map(|end| links[&end].clone());
+            ratio.carrier = ratio.carrier.as_ref().map(|link| links[link].clone());
         }
         for (joint, _) in self.poses.iter_mut().flat_map(|(_, values)| values) {
             *joint = joints[joint].clone();

@@ -4,8 +4,11 @@ use super::element::{Attribute, Element};
 use super::error::Outcome;
 use super::names::Named;
 use super::reader::{Dialect, Reader};
+use super::told::{SAME_DIRECTION, SEEN_FROM};
 use super::words::{alternatives, did_you_mean, quoted};
-use kutzbach_model::mechanism::{Expectation, Scene};
+use kutzbach_model::mechanism::{
+    Assumption, CouplingOrigin, Expectation, LinkId, Mechanism, Scene,
+};
 use std::str::FromStr;
 
 /// Kinds of singular poses that an expectation can name.
@@ -19,7 +22,7 @@ const SINGULARITIES: [&str; 6] = [
 ];
 
 impl<'a> Reader<'a> {
-    /// `<coupling name>` with `<predecessor link/>`, `<successor link/>` and `<ratio value/>`.
+    /// `<coupling name>` with `<predecessor link/>`, `<successor link/>`, `<ratio value/>` and, where it is stated, `<carrier link/>`.
     pub(super) fn read_coupling(&mut self, coupling: Element<'a>) -> Outcome<()> {
         self.uses(Dialect::UrdfPlus);
         self.other_closures = true;
@@ -28,8 +31,13 @@ impl<'a> Reader<'a> {
         // word is optional.
         one_of(coupling, "type", &["rolling"])?;
         let name = self.directory.add(Named::Coupling, coupling)?;
-        let parts = self.parts(coupling, &["predecessor", "successor", "ratio"], &[], &[])?;
-        let (mut predecessor, mut successor, mut ratio) = (None, None, None);
+        let parts = self.parts(
+            coupling,
+            &["predecessor", "successor", "ratio", "carrier"],
+            &[],
+            &[],
+        )?;
+        let (mut predecessor, mut successor, mut ratio, mut carrier) = (None, None, None, None);
         for part in parts {
             if part.name() == "ratio" {
                 self.leaf(part, &["value"])?;
@@ -40,6 +48,7 @@ impl<'a> Reader<'a> {
             let link = self.directory.refer(Named::Link, part, "link")?;
             match part.name() {
                 "predecessor" => predecessor = Some(link),
+                "carrier" => carrier = Some(link),
                 _ => successor = Some(link),
             }
         }
@@ -52,8 +61,49 @@ impl<'a> Reader<'a> {
         let ratio = ratio.ok_or_else(|| {
             needs("ratio").help("<ratio value=\"successor's rate per predecessor's rate\"/>")
         })?;
-        self.builder.coupling(name, predecessor, successor, ratio);
+        if carrier.is_some() {
+            self.uses(Dialect::Own);
+        }
+        self.builder
+            .coupling_on(carrier, name, [predecessor, successor], ratio);
         Ok(())
+    }
+
+    /// Warns of couplings whose carrier is taken for granted.
+    pub(super) fn warn_of_assumptions(&mut self, mechanism: &Mechanism) {
+        let link = |id: &LinkId| mechanism.link(*id).name.clone();
+        for coupling in mechanism.couplings() {
+            let CouplingOrigin::Ratio { assumed, .. } = &coupling.origin else {
+                continue;
+            };
+            let place = self.directory.place(Named::Coupling, &coupling.name);
+            let at = place.map_or(0, |place| place.start);
+            let name = quoted(&coupling.name);
+            for assumption in assumed {
+                let message = match assumption {
+                    Assumption::SeenFrom { link: from, other } => {
+                        let other = other.iter().map(|other| {
+                            format!(
+                                ", or <carrier link=\"{}\"/> if the wheels sit on that",
+                                link(other)
+                            )
+                        });
+                        let from = link(from);
+                        format!(
+                            "coupling {name} names no carrier, and {SEEN_FROM} {}; write <carrier link=\"{from}\"/> if that is meant{}",
+                            quoted(&from),
+                            other.collect::<String>()
+                        )
+                    }
+                    Assumption::SameDirection => format!(
+                        "coupling {name} joins joints whose axes point in opposite directions, and {SAME_DIRECTION}, whatever \
+                         the axes; <carrier link=\"...\"/> says that this is meant"
+                    ),
+                    _ => continue,
+                };
+                self.warn(at, message);
+            }
+        }
     }
 
     /// `<ground link/>`.

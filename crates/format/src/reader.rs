@@ -484,6 +484,7 @@ impl<'a> Reader<'a> {
             let message = error.to_string();
             vec![Fault::new(self.place_of(&error.entity, root), message).maybe_help(error.help)]
         })?;
+        self.warn_of_assumptions(&mechanism);
         let apart = self.points_apart(&mechanism);
         if !apart.is_empty() {
             return Err(apart);

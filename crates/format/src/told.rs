@@ -34,8 +34,14 @@ pub(super) const AT_ORIGIN: &str = "both hold it at its origin";
 /// Says that a limit without bounds would let nothing move.
 pub(super) const NO_BOUNDS: &str = "which is 0…0 in URDF";
 
+/// Says from where the rates of a coupling are seen.
+pub(super) const SEEN_FROM: &str = "the rates are taken as seen from";
+
+/// Says in which direction the rates of a coupling count.
+pub(super) const SAME_DIRECTION: &str = "both rates count in the same direction";
+
 /// Parts of the warnings that are told first.
-const FIRST: [&str; 11] = [
+const FIRST: [&str; 13] = [
     MAY_JOIN,
     IS_GROUND,
     FLOATS,
@@ -47,6 +53,8 @@ const FIRST: [&str; 11] = [
     LIKE_SIDES,
     AT_ORIGIN,
     NO_BOUNDS,
+    SEEN_FROM,
+    SAME_DIRECTION,
 ];
 
 /// Whether a warning of a reading is to be told before everything else.

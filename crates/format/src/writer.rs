@@ -220,10 +220,14 @@ impl Writer {
                 predecessor,
                 successor,
                 ratio,
+                carrier,
+                ..
             } = &coupling.origin
             {
                 self.line(1, &format!("<coupling{}>", pair("name", &coupling.name)));
-                for (element, link) in [("predecessor", predecessor), ("successor", successor)] {
+                let ends = [("predecessor", predecessor), ("successor", successor)];
+                let carrier = carrier.iter().map(|link| ("carrier", link));
+                for (element, link) in ends.into_iter().chain(carrier) {
                     self.line(
                         2,
                         &format!("<{element}{}/>", pair("link", &mechanism.link(*link).name)),

@@ -502,7 +502,7 @@ mod tests {
         for extra in [
             r#"<transmission name="t"><joint name="j0"/></transmission>"#,
             r#"<link name="tool"/><joint name="wrist" type="revolute"><parent link="l1"/><child link="tool"/></joint>"#,
-            r#"<coupling name="c"><predecessor link="l1"/><successor link="l3"/><ratio value="2"/></coupling>"#,
+            r#"<coupling name="c"><predecessor link="l1"/><successor link="l3"/><ratio value="2"/><carrier link="l2"/></coupling>"#,
         ] {
             assert!(between(&gimbal, extra).is_empty(), "{extra}");
         }

@@ -12,10 +12,26 @@ pub struct CouplingTerm {
     pub factor: Number,
 }
 
+/// What is taken for granted of a ratio whose file names no carrier.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Assumption {
+    /// More than two joints move between the two links, so that others could bear the wheels.
+    SeenFrom {
+        /// The nearest common link, from which rates are taken to be seen.
+        link: LinkId,
+        /// The link that bears the one which moves by several joints.
+        other: Option<LinkId>,
+    },
+    /// Some axes point in opposite directions; rates are taken to count in the same one.
+    SameDirection,
+}
+
 /// What the file wrote.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CouplingOrigin {
-    /// `<coupling>`: successor rate = ratio times predecessor rate, each summed from the nearest common ancestor.
+    /// `<coupling>`: successor rate = ratio times predecessor rate, each seen from the carrier. Of links that turn about parallel axes, or
+    /// slide along such, both count in the same direction; of others each about the axis of the joint that bears it.
     Ratio {
         /// The driving link.
         predecessor: LinkId,
@@ -23,6 +39,10 @@ pub enum CouplingOrigin {
         successor: LinkId,
         /// Successor rate per predecessor rate.
         ratio: Number,
+        /// The link from which both rates are seen; `None`: the nearest common link in the tree.
+        carrier: Option<LinkId>,
+        /// What may have been meant otherwise; nothing where the carrier is named.
+        assumed: Vec<Assumption>,
     },
     /// `<mimic>`: follower = multiplier × leader + offset.
     Mimic {

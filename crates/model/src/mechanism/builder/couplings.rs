@@ -24,6 +24,7 @@ pub(super) enum Relation {
         predecessor: String,
         successor: String,
         ratio: Number,
+        carrier: Option<String>,
     },
     /// Variables of two joints.
     Mimic {
@@ -55,18 +56,26 @@ pub(super) fn resolve_couplings(
                 predecessor,
                 successor,
                 ratio,
+                carrier,
             } => {
                 check_finite(&entity, "ratio", &ratio)?;
                 let predecessor = names.link(&entity, &predecessor)?;
                 let successor = names.link(&entity, &successor)?;
+                let carrier = carrier
+                    .map(|carrier| names.link(&entity, &carrier))
+                    .transpose()?;
+                let ends = [predecessor, successor];
+                let (terms, assumed) = tree.ratio_terms(&entity, ends, carrier, &ratio)?;
                 Coupling {
                     name,
-                    terms: tree.ratio_terms(&entity, predecessor, successor, &ratio)?,
+                    terms,
                     offset: Number::zero(),
                     origin: CouplingOrigin::Ratio {
                         predecessor,
                         successor,
                         ratio,
+                        carrier,
+                        assumed,
                     },
                 }
             }

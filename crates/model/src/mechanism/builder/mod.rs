@@ -146,7 +146,7 @@ impl MechanismBuilder {
         self
     }
 
-    /// Couples two links by a ratio of rates.
+    /// Couples two links by a ratio of rates, seen from their nearest common link in the tree.
     pub fn coupling(
         &mut self,
         name: &str,
@@ -154,10 +154,23 @@ impl MechanismBuilder {
         successor: &str,
         ratio: Number,
     ) -> &mut Self {
+        self.coupling_on(None, name, [predecessor, successor], ratio)
+    }
+
+    /// Couples two links, the driving one first, by a ratio of their rates seen from a link that bears them both, such as the
+    /// carrier of a planetary gear.
+    pub fn coupling_on(
+        &mut self,
+        carrier: Option<&str>,
+        name: &str,
+        [predecessor, successor]: [&str; 2],
+        ratio: Number,
+    ) -> &mut Self {
         let relation = Relation::Ratio {
             predecessor: predecessor.to_owned(),
             successor: successor.to_owned(),
             ratio,
+            carrier: carrier.map(str::to_owned),
         };
         self.couplings.push(CouplingSpec {
             name: name.to_owned(),

@@ -62,7 +62,8 @@ fn long_chain(links: usize) -> MechanismBuilder {
         }
         if index % 3 == 2 {
             let before = format!("l{}", index - 2);
-            builder.coupling(&format!("g{index}"), &before, &link, Number::one());
+            let (name, ends) = (format!("g{index}"), [&before[..], &link]);
+            builder.coupling_on(Some(&previous), &name, ends, Number::one());
         }
         positions.push((joint.clone(), vec![Number::zero()]));
         locked.push(format!("{joint}.rot"));
