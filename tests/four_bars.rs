@@ -147,6 +147,70 @@ fn two_hundred_random_four_bars_go_as_far_as_the_formulas_say() {
     assert_none(&results.concat());
 }
 
+/// With limits on one joint or two the linkage goes as far as its trace does, and says what stops it.
+#[test]
+fn limits_stop_four_bars_where_the_trace_stops() {
+    let mut random = SplitMix64::new(57);
+    let mut cases: Vec<([f64; 4], String)> = Vec::new();
+    while cases.len() < 60 {
+        let lengths = [0; 4].map(|_| length(&mut random));
+        let mut sorted = lengths;
+        sorted.sort_by(f64::total_cmp);
+        if (sorted[1] + sorted[2] - sorted[0] - sorted[3]).abs() < 0.05 {
+            continue;
+        }
+        let crank = length(&mut random) * TAU;
+        let Some(mut text) = drawn(lengths, crank) else {
+            continue;
+        };
+        for _ in 0..1 + random.next_u64() % 2 {
+            let joint = ["A", "B", "D", "C"][(random.next_u64() % 4) as usize];
+            let mut bound = || 0.05 + (random.next_u64() % 2000) as f64 / 1000.0;
+            let limit = format!(
+                " type='revolute'><limit lower='-{}' upper='{}'/>",
+                bound(),
+                bound()
+            );
+            text = text.replace(
+                &format!("name='{joint}' type='continuous'>"),
+                &format!("name='{joint}'{limit}"),
+            );
+        }
+        cases.push((lengths, text));
+    }
+    let results = in_parallel(&cases, |(lengths, text)| {
+        (wrong(lengths, text), report_on(text))
+    });
+    let wrong: Vec<String> = results
+        .iter()
+        .flat_map(|(wrong, _)| wrong.clone())
+        .collect();
+    assert_none(&wrong);
+    let stopped = results
+        .iter()
+        .filter(|(_, report)| !report.four_bars[0].stopped_by.is_empty());
+    assert!(stopped.count() > 40);
+}
+
+/// A leg of two four-bars on one crank: each has its class, beside those that hang on it.
+#[test]
+fn four_bars_within_larger_mechanisms_are_classed() {
+    let (_, leg) = support::own_mechanisms()
+        .into_iter()
+        .find(|(name, _)| name == "jansen_leg")
+        .unwrap_or_else(|| (String::new(), support::zoo_mechanism("jansen_leg")));
+    let text = kutzbach::format::write(&leg);
+    let bars = report_on(&text).four_bars;
+    assert_eq!(bars.len(), 2, "{bars:#?}");
+    for bar in bars {
+        assert_eq!(
+            (bar.class, bar.kind),
+            (GrashofClass::Grashof, FourBarKind::CrankRocker)
+        );
+        assert!(bar.within_larger && bar.swings[0].extremes.is_none());
+    }
+}
+
 /// Linkages of textbooks: ground, crank, coupler and rocker. Fourteen are the rows of table P4-1 in R. L. Norton, Design of
 /// Machinery, chapter 4; the others have names of their own (the same book, chapter 3, on straight-line linkages and
 /// inversions): Hoeken's straight-line linkage, Galloway's deltoid, Watt's, Roberts's, a drag link and a parallelogram; row i has
@@ -261,4 +325,41 @@ fn the_linkages_of_textbooks_are_classed_and_go_as_far_as_the_formulas_say() {
         all
     });
     assert_none(&failed.concat());
+}
+
+/// Two rods beside a bar, their tops turned by a little: nearly a parallelogram, of which it is not decided whether it moves. A flap beside them
+/// does.
+#[test]
+fn joints_outside_loops_move_whatever_the_loops_do() {
+    let (bar, out, turned) = (0.05, 0.01, 0.004_f64);
+    let rod = |name: &str, side: f64| {
+        let top = [bar - side * out * turned.sin(), side * out * turned.cos()];
+        let hinge = "<axis xyz='0 0 1'/>";
+        format!(
+            "<link name='{name}'/><joint name='{name}_foot' type='continuous'><parent link='g'/><child link='{name}'/>\
+             <origin xyz='0 {} 0'/>{hinge}</joint><loop name='{name}_top' type='continuous'>\
+             <predecessor link='{name}'><origin xyz='{} {} 0'/></predecessor>\
+             <successor link='plate'><origin xyz='{} {} 0'/></successor>{hinge}</loop>",
+            side * out,
+            top[0],
+            top[1] - side * out,
+            top[0] - bar,
+            top[1]
+        )
+    };
+    let text = format!(
+        "<robot name='r'><link name='g'/><link name='bar'/><link name='plate'/><link name='flap'/>\
+         <joint name='foot' type='continuous'><parent link='g'/><child link='bar'/><axis xyz='0 0 1'/></joint>\
+         <joint name='top' type='continuous'><parent link='bar'/><child link='plate'/><origin xyz='{bar} 0 0'/><axis xyz='0 0 1'/></joint>\
+         <joint name='lid' type='continuous'><parent link='g'/><child link='flap'/><axis xyz='0 0 1'/></joint>{}{}</robot>",
+        rod("one", 1.0),
+        rod("other", -1.0)
+    );
+    let reading = kutzbach::format::read(&text, "r", &[]).unwrap();
+    let report = kutzbach::report::report(&reading, "r", &Options::default()).unwrap();
+    let text = kutzbach::report::text::render(&report, Default::default());
+    let mut rows = text.lines().map(str::trim);
+    let lid = rows.find(|row| row.starts_with("lid ") && row.contains("revolute"));
+    assert!(lid.is_some_and(|row| row.contains("moves")), "{text}");
+    assert!(!lid.unwrap_or_default().contains("infinitesimal"), "{text}");
 }

@@ -69,7 +69,7 @@ pub struct Report {
     pub branches: Option<Vec<Branch>>,
     /// One row per joint, loops included, in natural order of names.
     pub joints: Vec<JointRow>,
-    /// Four-bar linkages on the ground that are a part of their own.
+    /// Four-bar linkages on the ground, those within larger mechanisms too.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub four_bars: Vec<FourBar>,
     /// One row per coupling, in natural order of names.

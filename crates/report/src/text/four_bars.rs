@@ -27,13 +27,31 @@ fn told(bar: &FourBar, units: Units) -> String {
         GrashofClass::NonGrashof => "not Grashof",
     };
     let swings: Vec<String> = bar.swings.iter().map(|one| swing(one, units)).collect();
-    let [least, greatest] = bar.transmission;
+    let what = match bar.without_limits {
+        None => bar.kind.word().to_owned(),
+        Some(kind) => format!(
+            "{} by its lengths, stopped by the limit of {}",
+            kind.word(),
+            bar.stopped_by.join(" and that of ")
+        ),
+    };
+    let which = match bar.within_larger {
+        true => format!(
+            "four-bar of {}, {} and {}",
+            bar.links[1], bar.links[2], bar.links[3]
+        ),
+        false => "four-bar".to_owned(),
+    };
     format!(
-        "four-bar: {} ({class}); {}; transmission angle {}, driven at {}",
-        bar.kind.word(),
+        "{which}: {what} ({class}); {}; transmission angle {}, driven at {}{}",
         swings.join(", "),
-        between([least, greatest], units),
-        bar.swings[0].joint
+        between(bar.transmission, units),
+        bar.swings[0].joint,
+        if bar.within_larger {
+            "; as far as the other loops let it"
+        } else {
+            ""
+        }
     )
 }
 

@@ -172,6 +172,24 @@ fn summed_up(report: &Report, rows: &mut Vec<&JointRow>) -> Vec<String> {
     lines
 }
 
+/// What a joint does that is not locked at the pose. A velocity that is not known to lead anywhere is no motion; what is known is
+/// known of each sub-mechanism, and a joint in none moves by itself.
+fn moves(report: &Report, joint: &JointRow) -> &'static str {
+    let blocks = &report.home.blocks;
+    let own = joint.block.as_ref();
+    let block = own.and_then(|label| blocks.iter().find(|block| block.label == *label));
+    let mobile = match (own, block.and_then(|block| block.finite)) {
+        (None, _) => true,
+        (_, Some(finite)) => finite > 0,
+        (_, None) => report.mobility.verdict == Verdict::Mobile,
+    };
+    if mobile {
+        "moves"
+    } else {
+        "infinitesimal motion"
+    }
+}
+
 fn role(joint: &JointRow, branches: &[Branch], moves: &str) -> Cell {
     let rests: Vec<&str> = branches
         .iter()
@@ -235,11 +253,6 @@ fn joint_table(
         };
         table = table.column(title, Column::Shrinking);
     }
-    // A velocity that is not known to lead anywhere is no motion.
-    let moves = match report.mobility.verdict {
-        Verdict::Mobile => "moves",
-        _ => "infinitesimal motion",
-    };
     if wrenches {
         table = table.column("indeterminate reactions", Column::Words);
     }
@@ -263,7 +276,7 @@ fn joint_table(
         if roles || followed {
             row.push(match ranges.get(&joint.name) {
                 Some(range) => Cell::new(with_locked(range, joint, branches)),
-                None => role(joint, branches, moves),
+                None => role(joint, branches, moves(report, joint)),
             });
         }
         if wrenches {

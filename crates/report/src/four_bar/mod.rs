@@ -1,14 +1,17 @@
 //! Four-bar linkages: which of their links turn fully, how far the others swing, and the transmission angle.
 //!
-//! Four revolute joints with parallel axes, in a part of their own, one of whose links is the ground. Seen along the axes it is a
+//! Four revolute joints with parallel axes in a ring, one of whose links is the ground. Seen along the axes it is a
 //! quadrilateral of ground g, input a, coupler c and output b; everything follows from the triangle that its diagonal d, between
 //! the far ends of a ground link and of the ground, makes on either side. A ground link of length a turns fully where every d from
 //! |g − a| to g + a closes a triangle with b and c; otherwise it stops where b and c are in line. Source: Grashof's criterion as in
-//! J. J. Uicker, G. R. Pennock, J. E. Shigley, Theory of Machines and Mechanisms, chapter 1.
+//! J. J. Uicker, G. R. Pennock, J. E. Shigley, Theory of Machines and Mechanisms, chapter 1. What limits leave of that is followed from
+//! the pose drawn (`reach.rs`).
 
-use kutzbach_closure::{Arithmetic, Geometry, Part, spanning_poses};
-use kutzbach_mobility::Analysis;
-use kutzbach_model::mechanism::{Configuration, JointKind, Mechanism};
+mod found;
+mod reach;
+
+pub(super) use found::four_bars;
+
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -24,8 +27,17 @@ pub struct FourBar {
     pub lengths: [f64; 4],
     /// By Grashof's criterion.
     pub class: GrashofClass,
-    /// What the two links on the ground do.
+    /// What the two links on the ground do, within the limits of the four joints.
     pub kind: FourBarKind,
+    /// What they would do without limits; `null` where no limit stops them.
+    #[serde(default)]
+    pub without_limits: Option<FourBarKind>,
+    /// The joints whose limits stop it.
+    #[serde(default)]
+    pub stopped_by: Vec<String>,
+    /// Whether other joints hold its links as well: other loops may stop it, of which nothing is said here.
+    #[serde(default)]
+    pub within_larger: bool,
     /// Input and output.
     pub swings: [Swing; 2],
     /// Least and greatest angle between coupler and output (rad), of all that the input reaches: 0 or π where it stops.
@@ -80,71 +92,6 @@ pub struct Swing {
     pub extremes: Option<[f64; 2]>,
 }
 
-/// All of a mechanism's, in the order of its parts.
-pub(super) fn four_bars(
-    mechanism: &Mechanism,
-    analysis: &Analysis,
-    configuration: Option<&Configuration>,
-) -> Vec<FourBar> {
-    let candidates: Vec<&Part> = analysis
-        .structure
-        .parts
-        .iter()
-        .filter(|part| is_four_bar(mechanism, part))
-        .collect();
-    if candidates.is_empty() || analysis.home.is_none() {
-        return Vec::new();
-    }
-    let geometry = Geometry::new(mechanism, configuration, &Arithmetic::double());
-    let (poses, _) = spanning_poses(mechanism, &geometry, &analysis.assembly.states);
-    let place = |joint: usize| {
-        let link = mechanism.joints()[joint].predecessor.link.0;
-        let frame = poses[link].compose(&geometry.sides[joint][0]);
-        let axis = frame.rotate(geometry.displacements[joint].axis());
-        (frame.translation, axis)
-    };
-    let of = |part: &&Part| {
-        // From the ground around, so that the first and the last joint are the ground's.
-        let walk = part.cycles.first()?;
-        let ground = mechanism.ground().0;
-        let start = walk.iter().position(|&(joint, forward)| {
-            let joint = &mechanism.joints()[joint];
-            let from = if forward {
-                &joint.predecessor
-            } else {
-                &joint.successor
-            };
-            from.link.0 == ground
-        })?;
-        let around: Vec<(usize, bool)> = (0..4).map(|i| walk[(start + i) % 4]).collect();
-        let places: Vec<_> = around.iter().map(|&(joint, _)| place(joint)).collect();
-        let lengths = lengths(&places)?;
-        let link = |i: usize| {
-            let (joint, forward) = around[i];
-            let joint = &mechanism.joints()[joint];
-            let to = if forward {
-                &joint.successor
-            } else {
-                &joint.predecessor
-            };
-            mechanism.link(to.link).name.clone()
-        };
-        let links = [
-            mechanism.links()[ground].name.clone(),
-            link(0),
-            link(1),
-            link(2),
-        ];
-        let joint = |i: usize| mechanism.joints()[around[i].0].name.clone();
-        Some(FourBar::new(links, lengths, [joint(0), joint(3)]))
-    };
-    candidates
-        .iter()
-        .filter_map(of)
-        .filter(FourBar::turns)
-        .collect()
-}
-
 /// A link that swings by no more (rad) is at rest: the others are stretched to their full length.
 const AT_REST: f64 = 1e-6;
 
@@ -154,31 +101,6 @@ impl FourBar {
         let swings = |one: &Swing| one.extremes.is_none_or(|[from, to]| to - from > AT_REST);
         self.swings.iter().any(swings)
     }
-}
-
-fn is_four_bar(mechanism: &Mechanism, part: &Part) -> bool {
-    let revolute = |&joint: &usize| mechanism.joints()[joint].kind == JointKind::Revolute;
-    let one_loop = part.cycles.len() == 1 && part.couplings.is_empty();
-    one_loop && part.joints.len() == 4 && part.joints.iter().all(revolute)
-}
-
-/// Ground, and the links in the order of the walk; `None` where the axes are not parallel, or two of them are one.
-fn lengths(places: &[([f64; 3], [f64; 3])]) -> Option<[f64; 4]> {
-    let (_, axis) = places.first()?;
-    let cross = |a: &[f64; 3], b: &[f64; 3]| {
-        let c: [f64; 3] = kutzbach_closure::cross_product(a, b);
-        c.iter().map(|x| x * x).sum::<f64>().sqrt()
-    };
-    let parallel = places.iter().all(|(_, other)| cross(axis, other) < EQUAL);
-    // Across the axes, which are unit vectors.
-    let between = |i: usize, j: usize| {
-        let difference: [f64; 3] = std::array::from_fn(|k| places[j].0[k] - places[i].0[k]);
-        cross(axis, &difference)
-    };
-    let lengths = [between(3, 0), between(0, 1), between(1, 2), between(2, 3)];
-    let longest = lengths.into_iter().fold(0.0, f64::max);
-    let proper = lengths.iter().all(|length| *length > EQUAL * longest);
-    (parallel && proper).then_some(lengths)
 }
 
 impl FourBar {
@@ -202,20 +124,27 @@ impl FourBar {
             swing(&input, on_input, extremes(g, a, c, b)),
             swing(&output, on_output, extremes(g, b, c, a)),
         ];
-        let kind = match swings.each_ref().map(|swing| swing.extremes.is_none()) {
-            [true, true] => FourBarKind::DoubleCrank,
-            [false, false] => FourBarKind::DoubleRocker,
-            _ => FourBarKind::CrankRocker,
-        };
+        let kind = kind(&swings);
         let [least, greatest] = diagonals(g, a, c, b);
         Self {
             class: class(&lengths),
             kind,
+            without_limits: None,
+            stopped_by: Vec::new(),
+            within_larger: false,
             transmission: [angle(b, c, least), angle(b, c, greatest)],
             swings,
             lengths,
             links: [ground, input, coupler, output],
         }
+    }
+}
+
+fn kind(swings: &[Swing; 2]) -> FourBarKind {
+    match swings.each_ref().map(|swing| swing.extremes.is_none()) {
+        [true, true] => FourBarKind::DoubleCrank,
+        [false, false] => FourBarKind::DoubleRocker,
+        _ => FourBarKind::CrankRocker,
     }
 }
 
