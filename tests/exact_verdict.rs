@@ -4,8 +4,8 @@ use crate::support;
 
 use kutzbach::mechanism::Mechanism;
 use kutzbach::mobility::{
-    Analysis, AnalysisOptions, CertificateLevel, ExactBudget, Mobility, SingularKind, Verdict,
-    analyse,
+    Analysis, AnalysisOptions, Bounds, CertificateLevel, EngineName, ExactBudget, SingularKind,
+    Verdict, analyse,
 };
 use support::{assert_none, in_parallel, own_mechanisms, zoo, zoo_mechanism};
 
@@ -18,12 +18,11 @@ fn with(mechanism: &Mechanism, exact: ExactBudget) -> Analysis {
 }
 
 /// What the engine said, part by part.
-fn said(mobility: &Mobility) -> Vec<String> {
-    mobility
-        .evidence
-        .iter()
-        .filter(|(_, e)| e.engine == "exact")
-        .map(|(_, e)| e.text.clone())
+fn said(analysis: &Analysis) -> Vec<String> {
+    analysis
+        .claims()
+        .filter(|(_, claim)| claim.engine == EngineName::Exact)
+        .map(|(_, claim)| claim.text.clone())
         .collect()
 }
 
@@ -58,20 +57,19 @@ fn compared(name: &str, mechanism: &Mechanism) -> (Vec<String>, bool) {
             facts(&default)
         ));
     }
-    if !said(&without.mobility).is_empty() {
+    if !said(&without).is_empty() {
         wrong.push(format!("{name}: asked without a budget"));
     }
     for found in &default.findings {
-        if let Some(text) = &found.contradiction {
+        for text in found.contradictions() {
             wrong.push(format!("{name}: {text}"));
         }
-        if found.level == CertificateLevel::Exact && found.nominal.is_some() {
+        if found.level() == CertificateLevel::Exact && found.nominal().is_some() {
             wrong.push(format!("{name}: exact about rounded numbers"));
         }
     }
     let again = with(mechanism, ExactBudget::default());
-    if said(&again.mobility) != said(&default.mobility)
-        || again.mobility.certificate != default.mobility.certificate
+    if said(&again) != said(&default) || again.mobility.certificate != default.mobility.certificate
     {
         wrong.push(format!("{name}: another run says something else"));
     }
@@ -108,7 +106,8 @@ fn what_stands_is_proved_to_stand() {
 #[test]
 fn complex_solutions_are_not_motions() {
     for name in ["planar_4r_stretched_isolated", "ppsrr_plane_torus_isolated"] {
-        let found = with(&zoo_mechanism(name), ExactBudget::default()).mobility;
+        let analysis = with(&zoo_mechanism(name), ExactBudget::default());
+        let found = &analysis.mobility;
         assert_eq!(
             (found.verdict, found.finite(), found.complex_dimension),
             (Verdict::Rigid, Some(0), Some(1)),
@@ -120,7 +119,7 @@ fn complex_solutions_are_not_motions() {
             "{:?}",
             found.why
         );
-        let said = said(&found).concat();
+        let said = said(&analysis).concat();
         assert!(
             said.contains("at most 1") && said.contains("no less"),
             "{said}"
@@ -149,23 +148,23 @@ fn rounded_numbers_are_not_taken_for_fractions() {
     let found = with(
         &zoo_mechanism("bennett_perturbed_1e-6"),
         ExactBudget::seconds(10.0),
-    )
-    .mobility;
-    assert_eq!(found.level, CertificateLevel::Numeric);
+    );
+    assert_eq!(found.mobility.level, CertificateLevel::Numeric);
     assert!(said(&found).iter().all(|text| text.contains("rounded")));
 }
 
 #[test]
 fn a_budget_is_kept() {
     let mechanism = zoo_mechanism("dixon_I_K33");
-    let small = with(&mechanism, ExactBudget::seconds(0.001)).mobility;
-    assert_eq!(small.level, CertificateLevel::Numeric);
+    let small = with(&mechanism, ExactBudget::seconds(0.001));
+    assert_eq!(small.mobility.level, CertificateLevel::Numeric);
     assert!(said(&small)[0].contains("work limit"), "{:?}", said(&small));
     // What is known without the rest is kept.
-    let exact = small.evidence.iter().find(|(_, e)| e.engine == "exact");
-    assert_eq!(exact.unwrap().1.bounds, (0, Some(1)));
-    let little = with(&mechanism, ExactBudget::default().within(1_000)).mobility;
-    assert_eq!(little.level, CertificateLevel::Numeric);
+    let mut claims = small.claims().map(|(_, claim)| claim);
+    let exact = claims.find(|claim| claim.engine == EngineName::Exact);
+    assert_eq!(exact.unwrap().finite, Bounds::at_most(1));
+    let little = with(&mechanism, ExactBudget::default().within(1_000));
+    assert_eq!(little.mobility.level, CertificateLevel::Numeric);
     assert!(said(&little)[0].contains("memory"), "{:?}", said(&little));
     for none in [0.0, -1.0, f64::NAN] {
         assert_eq!(ExactBudget::seconds(none), ExactBudget::none());

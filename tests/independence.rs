@@ -248,12 +248,15 @@ fn parts_of(mechanism: &Mechanism, own: &dyn Fn(&str) -> Option<String>) -> Vec<
         names.sort();
         let mut said = format!("{names:?}");
         if let Some(found) = analysis.findings.get(index) {
-            let bounds = (found.lower, found.upper, found.open.is_some());
-            let branches = found.branches.as_ref().map(Vec::len);
+            let bounds = (found.lower(), found.upper(), found.open().is_some());
+            let branches = found.branches().map(<[_]>::len);
             let _ = write!(
                 said,
                 " {bounds:?} {:?} {:?} {:?} {branches:?} {:?}",
-                found.pose, found.kind, found.class, found.nominal
+                found.pose(),
+                found.kind(),
+                found.class(),
+                found.nominal()
             );
         }
         if let Some(rank) = analysis.parts.get(index) {

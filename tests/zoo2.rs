@@ -51,8 +51,9 @@ fn plane_germs_of_exact_numbers_are_decided() {
             "{name}: {:?}",
             found.kind
         );
-        let polygon = |e: &kutzbach::mobility::Evidence| e.engine == "Newton polygon";
-        assert!(analysis.findings[0].evidence.iter().any(polygon), "{name}");
+        let mut claims = analysis.claims();
+        let polygon = kutzbach::mobility::EngineName::NewtonPolygon;
+        assert!(claims.any(|(_, claim)| claim.engine == polygon), "{name}");
     }
 }
 

@@ -243,7 +243,7 @@ fn outcome(known: Known, analysis: &Analysis) -> Outcome {
 
 /// The engines tell the bits they used in words: `…; 106 bits; …`.
 fn most_bits(analysis: &Analysis) -> u32 {
-    let texts = analysis.mobility.evidence.iter().map(|(_, e)| &e.text);
+    let texts = analysis.claims().map(|(_, claim)| &claim.text);
     let told = texts.flat_map(|text| {
         let before = text.match_indices(" bits").map(|(at, _)| &text[..at]);
         before

@@ -4,16 +4,18 @@ use super::advice::{Advice, advice_for_part};
 use super::alike::treat_alike;
 use super::branch::Branch;
 use super::chart::moving_far;
+use super::claim::Claim;
 use super::cycles::{CycleFacts, cycle_facts};
 use super::depth::Depth;
 use super::exact::{ExactAllowance, ExactBudget, ask_exact};
 use super::exact_constraint::{ChangeSets, NoChangeSet, change_sets};
 use super::generic::{GenericCount, generic_count};
+use super::judge::PartFinding;
 use super::kutzbach::kutzbach_count;
 use super::loops_at_rest::with_loops_at_rest;
 use super::meant::{Meant, completed};
 use super::more_digits::MoreDigits;
-use super::part_mobility::{PartFinding, part_mobility};
+use super::part_mobility::part_mobility;
 use super::pose_rank::{PartRank, Pose, Trial, rank_part_with};
 use super::redundancy::SelfStresses;
 use super::redundant_directions::{JointDirections, redundant_directions};
@@ -224,6 +226,23 @@ pub(super) fn analyse_as_stated(
     Ok(analysis)
 }
 
+/// What the engines find of one part.
+pub(super) fn finding_of(
+    pose: &Pose<'_>,
+    more: &mut MoreDigits,
+    structure: &Structure,
+    (part, rank): (&Part, &PartRank),
+    options: &AnalysisOptions,
+    allowance: &mut ExactAllowance,
+) -> Result<PartFinding, AnalysisError> {
+    let mut found = part_mobility(pose, more, structure, part, rank, options.depth)?;
+    with_loops_at_rest(pose, more, structure, (part, rank), options, &mut found)?;
+    if found.open().is_some() || options.depth == Depth::Everything {
+        ask_exact(pose, part, rank, &mut found, allowance);
+    }
+    Ok(found)
+}
+
 /// How far the values of a configuration may be from those meant (rad, m), by joint index: half a unit of its finest decimal, if
 /// its literals have more decimals than somebody would choose.
 fn rounded(configuration: &Configuration) -> BTreeMap<usize, f64> {
@@ -264,6 +283,12 @@ fn known_configurations(mechanism: &Mechanism) -> String {
 }
 
 impl Analysis {
+    /// What every engine claims, with the index of the part: part by part, in the order asked.
+    pub fn claims(&self) -> impl Iterator<Item = (usize, &Claim)> {
+        let parts = self.findings.iter().enumerate();
+        parts.flat_map(|(index, found)| found.claims().iter().map(move |claim| (index, claim)))
+    }
+
     /// The mechanism that everything here is said of: the one meant, or the one given.
     #[must_use]
     pub fn of<'a>(&'a self, given: &'a Mechanism) -> &'a Mechanism {
@@ -303,19 +328,10 @@ impl Analysis {
         } else {
             let mut allowance = ExactAllowance::new(options.exact);
             for (part, rank) in self.structure.parts.iter().zip(&parts) {
-                let mut found =
-                    part_mobility(&pose, &mut more, &self.structure, part, rank, options.depth)?;
-                with_loops_at_rest(
-                    &pose,
-                    &mut more,
-                    &self.structure,
-                    (part, rank),
-                    options,
-                    &mut found,
-                )?;
-                if found.open.is_some() || options.depth == Depth::Everything {
-                    ask_exact(&pose, part, rank, &mut found, &mut allowance);
-                }
+                let asked = (part, rank);
+                let structure = &self.structure;
+                let found =
+                    finding_of(&pose, &mut more, structure, asked, options, &mut allowance)?;
                 self.findings.push(found);
             }
             self.mobility = judge(mechanism, &self.structure, &self.findings);
@@ -334,7 +350,7 @@ impl Analysis {
             let mut seen = Vec::with_capacity(parts.len());
             for ((part, rank), found) in self.structure.parts.iter().zip(&parts).zip(&self.findings)
             {
-                let regular = found.pose == Some(PoseKind::Regular);
+                let regular = found.pose() == Some(PoseKind::Regular);
                 let moving = if regular {
                     moving_far(&pose, &mut more, part, rank)?
                 } else {
@@ -342,7 +358,7 @@ impl Analysis {
                 };
                 seen.push(match moving {
                     Some(moving) => Seen::Moving(moving),
-                    None if found.open.is_some() => Seen::Open,
+                    None if found.open().is_some() => Seen::Open,
                     None => Seen::Here,
                 });
             }

@@ -28,6 +28,7 @@ mod branch_roles;
 mod branch_samples;
 mod change_search;
 mod chart;
+mod claim;
 mod coupling_locks;
 mod cycles;
 mod depth;
@@ -40,6 +41,7 @@ mod germ_zeros;
 mod hidden;
 mod idle;
 mod idle_directions;
+mod judge;
 mod kutzbach;
 mod leftover;
 mod lifting;
@@ -84,6 +86,7 @@ pub use branch::{Branch, BranchPose, IdleLink, RelativeMotion, Tangent};
 pub use branch_facts::{BranchFacts, branch_facts};
 pub use branch_roles::branch_roles;
 pub use chart::{ChartOutcome, ChartTest, Kernel, chart_test};
+pub use claim::{Answer, Bounds, Claim, PartBranch, Says};
 pub use coupling_locks::freedom_locked_by_couplings;
 pub use cycles::{CycleFacts, cycle_facts};
 pub use depth::Depth;
@@ -95,6 +98,7 @@ pub use germ::{
 };
 pub use germ_zeros::{GermBranch, GermZeroOptions, GermZeros, HalfBranch, Isolation, germ_zeros};
 pub use idle::idle_links;
+pub use judge::{Contradiction, PartFinding, Quantity};
 pub use kutzbach::kutzbach_count;
 pub use kutzbach_closure::{Structure, constraint_graph};
 pub use limbs::{Limb, Limbs, limbs};
@@ -105,7 +109,7 @@ pub use near_singular::{ClearerPose, NearSingular, dead_centres, near_singular, 
 pub use one_engine::{
     OneEngine, chart_alone, exact_alone, germ_alone, kernel_of, rank_alone, subgroups_alone,
 };
-pub use part_mobility::{Evidence, PartBranch, PartFinding, part_mobility};
+pub use part_mobility::part_mobility;
 pub use pose_rank::{Doubt, LADDER, PartRank, Pose, Trial, rank_part};
 pub use redundancy::SelfStresses;
 pub use redundant_directions::{JointDirections, ReactionDirection};
@@ -116,5 +120,6 @@ pub use tracing::tangents_at;
 pub use tracing::{PartPose, poses_of_regular_part};
 pub use verdict::{Mobility, Nominal, judge, unassembled};
 pub use vocabulary::{
-    CertificateLevel, MobilityClass, PoseKind, RelationKind, SingularKind, Verdict,
+    CertificateLevel, EngineName, MobilityClass, PoseKind, RelationKind, Scope, SingularKind,
+    Verdict,
 };

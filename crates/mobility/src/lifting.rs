@@ -8,11 +8,11 @@
 //! than the branch, and tangents are secants between computed poses: see [`secant_poses`].
 
 use super::chart::Kernel;
+use super::claim::PartBranch;
 use super::germ::Germ;
 use super::germ_zeros::GermBranch;
 use super::idle_directions::idle_directions;
 use super::more_digits::MoreDigits;
-use super::part_mobility::PartBranch;
 use super::pose_rank::{LADDER, PartRank, Pose, TALL, height_at};
 use super::tracing::{
     APPROACHES, FAR, POSES, PartPose, Tangents, natural, orthonormal, tangents_at, walk,

@@ -15,13 +15,15 @@
 use super::analysis::{AnalysisError, AnalysisOptions, analyse_as_stated};
 use super::branch::{Branch, BranchPose, Tangent};
 use super::chart::Kernel;
+use super::claim::{Answer, Bounds, Claim, PartBranch};
 use super::depth::Depth;
 use super::idle_directions::{AT_REST, idle_directions};
+use super::judge::PartFinding;
 use super::more_digits::MoreDigits;
-use super::part_mobility::{Evidence, PartBranch, PartFinding, part_mobility};
+use super::part_mobility::part_mobility;
 use super::pose_rank::{PartRank, Pose, TALL, height_at, rank_part_with};
 use super::tracing::{KERNEL_LIMIT, PartPose, tangents_at};
-use super::vocabulary::{PoseKind, SingularKind};
+use super::vocabulary::{EngineName, PoseKind, Scope, SingularKind};
 use kutzbach_closure::{JointState, Part, Section, Structure};
 use kutzbach_math::matrix::MatrixError;
 use kutzbach_model::mechanism::{JointId, JointKind, Mechanism};
@@ -40,7 +42,7 @@ pub(super) fn with_loops_at_rest(
     found: &mut PartFinding,
 ) -> Result<(), AnalysisError> {
     let exact = rank.stated <= rank.accuracy && pose.as_drawn && pose.configuration.is_none();
-    let open = found.open.is_some() && found.pose == Some(PoseKind::Singular);
+    let open = found.open().is_some() && found.pose() == Some(PoseKind::Singular);
     if !exact || !open || part.cycles.len() < 2 {
         return Ok(());
     }
@@ -71,17 +73,18 @@ pub(super) fn with_loops_at_rest(
         .mobility
         .finite()
         .and_then(|all| all.checked_sub(loose));
-    found.evidence.push(Evidence {
-        engine: "loops at rest",
-        scope: "a neighbourhood, real",
-        bounds: finite.map_or((0, None), |finite| (finite, Some(finite))),
-        text: format!(
+    let claim = Claim::of(
+        EngineName::LoopsAtRest,
+        Scope::RealNeighbourhood,
+        Bounds::ANY,
+        format!(
             "single loops keep joints as drawn: {}; with these fixed: {}",
             names.join(", "),
             answer.mobility.certificate
         ),
-    });
+    );
     let Some(finite) = finite.filter(|_| answer.assembly.steps == 0) else {
+        found.take(claim);
         return Ok(());
     };
     let branches = match &answer.branches {
@@ -89,20 +92,25 @@ pub(super) fn with_loops_at_rest(
         Some(branches) if loose == 0 => branches_of_part(pose, &left, part, rank, branches)?,
         _ => None,
     };
-    found.kind = match branches.as_deref() {
+    let kind = match branches.as_deref() {
         _ if finite == 0 => Some(SingularKind::Shaky),
         Some([only]) if shaky(only) => Some(SingularKind::PermanentlyShaky),
         _ => answer.mobility.kind,
     };
-    (found.lower, found.upper) = (finite, finite);
-    found.certificate = format!(
+    let certificate = format!(
         "single loops stand still and keep {} of the joints as drawn; with these fixed: {}",
         still.len(),
         answer.mobility.certificate
     );
-    found.complex_dimension = found.complex_dimension.filter(|complex| *complex >= finite);
-    found.branches = branches;
-    found.open = None;
+    let claim = Claim {
+        finite: Bounds::exactly(finite),
+        ..claim
+    };
+    found.take(claim.decides(Answer {
+        kind,
+        branches,
+        ..Answer::numeric(certificate)
+    }));
     Ok(())
 }
 
@@ -137,7 +145,7 @@ fn joints_at_rest(
             continue;
         }
         let found = part_mobility(pose, more, structure, &own, &rank, Depth::Verdict)?;
-        if found.open.is_some() || found.upper != idle.len() {
+        if found.open().is_some() || found.upper() != idle.len() {
             continue;
         }
         let mut column = 0;

@@ -8,8 +8,8 @@ use super::exact::{ExactAllowance, ExactBudget, ask_exact};
 use super::germ::{Germ, complex_dimension, prestress_certificate};
 use super::germ_zeros::{GermZeroOptions, germ_zeros};
 use super::idle_directions::idle_directions;
+use super::judge::PartFinding;
 use super::more_digits::MoreDigits;
-use super::part_mobility::PartFinding;
 use super::pose_rank::{PartRank, Pose, TALL, height_at, known_to};
 use super::singular::most_starts;
 use super::{ChartOutcome, subgroup_finding};
@@ -269,17 +269,17 @@ pub fn exact_alone(
     rank: &PartRank,
     budget: ExactBudget,
 ) -> OneEngine {
-    let mut found = PartFinding::open(0, rank.candidates.1, String::new());
+    let mut found = PartFinding::new(rank.unknowns());
     let mut allowance = ExactAllowance::new(budget);
     ask_exact(pose, part, rank, &mut found, &mut allowance);
-    match found.evidence.pop() {
-        Some(evidence) => OneEngine {
-            lower: evidence.bounds.0,
-            upper: evidence.bounds.1,
+    match found.claims().last() {
+        Some(claim) => OneEngine {
+            lower: claim.finite.lower,
+            upper: claim.finite.upper,
             instantaneous: None,
             margin: None,
             asked: true,
-            text: evidence.text,
+            text: claim.text.clone(),
         },
         None => OneEngine::silent("not asked"),
     }

@@ -17,130 +17,19 @@
 use super::chart::{
     ChartOutcome, ChartTest, Kernel, LADDER_UNKNOWNS, chart_test, far_chart, literal_leftover,
 };
+use super::claim::{Answer, Bounds, Claim, PartBranch, Says};
 use super::depth::Depth;
+use super::judge::PartFinding;
 use super::more_digits::MoreDigits;
 use super::pose_rank::{PartRank, Pose};
-use super::singular::{SingularFinding, singular_finding};
+use super::singular::by_branches;
 use super::subgroup::{hidden_offset, subgroup_finding};
-use super::tracing::{KERNEL_LIMIT, PartPose, WALKED_UNKNOWNS, poses_of_regular_part, walk};
+use super::tracing::{KERNEL_LIMIT, WALKED_UNKNOWNS, poses_of_regular_part, walk};
 use super::tree_bound::most_by_joints;
-use super::vocabulary::{CertificateLevel, MobilityClass, PoseKind, SingularKind};
+use super::vocabulary::{CertificateLevel, EngineName, MobilityClass, PoseKind, Scope};
 use kutzbach_closure::Structure;
 use kutzbach_closure::{Part, Section};
 use kutzbach_math::matrix::{MatrixError, RankDecision, Real};
-
-/// What one engine contributed.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Evidence {
-    /// Its name.
-    pub engine: &'static str,
-    /// What it looked at: the pose, a neighbourhood of it, all poses.
-    pub scope: &'static str,
-    /// The bounds it gives on the finite mobility of the part.
-    pub bounds: (usize, Option<usize>),
-    /// Figures: margins, orders, radii, seeds.
-    pub text: String,
-}
-
-/// A branch of one part.
-#[derive(Clone, Debug)]
-pub struct PartBranch {
-    /// Dimension.
-    pub dimension: usize,
-    /// Ways of leaving the pose, for dimension 1.
-    pub half_branches: Option<usize>,
-    /// Generic poses on it.
-    pub poses: Vec<PartPose>,
-}
-
-/// The finite mobility of one part.
-#[derive(Clone, Debug)]
-pub struct PartFinding {
-    /// At least so many finite freedoms.
-    pub lower: usize,
-    /// At most so many.
-    pub upper: usize,
-    /// Regular or singular.
-    pub pose: Option<PoseKind>,
-    /// In which way singular.
-    pub kind: Option<SingularKind>,
-    /// Hervé's class.
-    pub class: Option<MobilityClass>,
-    /// How strong the certificate is.
-    pub level: CertificateLevel,
-    /// What it proves.
-    pub certificate: String,
-    /// Dimension over the complex numbers, where it was found.
-    pub complex_dimension: Option<usize>,
-    /// The branches; `None` while not decided.
-    pub branches: Option<Vec<PartBranch>>,
-    /// Instantaneous freedom at the pose, where the part stays there.
-    pub at_rest: usize,
-    /// What stays open, and what would decide it.
-    pub open: Option<String>,
-    /// What the engines found, in the order they were asked.
-    pub evidence: Vec<Evidence>,
-    /// How far the numbers, taken literally, miss a mobile mechanism (m), where they do.
-    pub nominal: Option<f64>,
-    /// No component of the complex solution set through the pose has more dimensions: proven, where exact algebra was asked.
-    pub complex_upper: Option<usize>,
-    /// Where engines contradict one another: which, and on what.
-    pub contradiction: Option<String>,
-}
-
-impl PartFinding {
-    pub(super) fn open(lower: usize, upper: usize, why: String) -> Self {
-        Self {
-            lower,
-            upper,
-            pose: None,
-            kind: None,
-            class: None,
-            level: CertificateLevel::Numeric,
-            certificate:
-                "the rank of the closure equations at this pose bounds the freedom from above"
-                    .to_owned(),
-            complex_dimension: None,
-            branches: None,
-            at_rest: upper,
-            open: Some(why),
-            evidence: Vec::new(),
-            nominal: None,
-            complex_upper: None,
-            contradiction: None,
-        }
-    }
-
-    fn regular(
-        freedom: usize,
-        class: Option<MobilityClass>,
-        level: CertificateLevel,
-        certificate: String,
-    ) -> Self {
-        Self {
-            lower: freedom,
-            upper: freedom,
-            pose: Some(PoseKind::Regular),
-            kind: None,
-            class,
-            level,
-            certificate,
-            complex_dimension: Some(freedom),
-            branches: None,
-            at_rest: freedom,
-            open: None,
-            evidence: Vec::new(),
-            nominal: None,
-            complex_upper: None,
-            contradiction: None,
-        }
-    }
-
-    fn with(mut self, evidence: Vec<Evidence>) -> Self {
-        self.evidence = evidence;
-        self
-    }
-}
 
 /// The class of a regular part that subgroups within the precision of its numbers do not explain: paradoxical where such subgroups were
 /// looked for in exact numbers, or in those that were taken literally; in rounded ones they may be there and not show.
@@ -178,6 +67,15 @@ fn unexplained(
     Ok(Some(found.class.unwrap_or(MobilityClass::Paradoxical)))
 }
 
+/// What is asked about one part.
+struct Question<'a> {
+    pose: &'a Pose<'a>,
+    structure: &'a Structure,
+    part: &'a Part,
+    rank: &'a PartRank,
+    depth: Depth,
+}
+
 /// Asks the engines about one part. Below [`Depth::Motions`] the branch of a regular pose comes without poses on it.
 ///
 /// # Errors
@@ -190,7 +88,41 @@ pub fn part_mobility(
     rank: &PartRank,
     depth: Depth,
 ) -> Result<PartFinding, MatrixError> {
-    let surplus = rank.unknowns() as i64 - rank.equations() as i64;
+    let question = Question {
+        pose,
+        structure,
+        part,
+        rank,
+        depth,
+    };
+    let mut found = PartFinding::new(rank.unknowns());
+    let Some(freedom) = by_rank(&question, &mut found) else {
+        return Ok(found);
+    };
+    let subgroups = by_subgroups(&question, more, freedom, &mut found)?;
+    if found.open().is_none() {
+        return Ok(found);
+    }
+    let Some(kernel) = question.kernel()?.filter(|k| k.basis.complete) else {
+        let why = format!(
+            "{freedom} instantaneous freedoms in one block are too many to follow; driving or fixing some joints would decide"
+        );
+        found.amend(|claim| claim.says = Says::Open(why));
+        return Ok(found);
+    };
+    let chart = by_chart(&question, more, &kernel, subgroups, &mut found)?;
+    if matches!(chart.outcome, ChartOutcome::Singular { .. }) {
+        by_branches(pose, part, rank, &kernel, &chart, &mut found)?;
+    }
+    Ok(found)
+}
+
+/// What the rank says: the instantaneous freedom, unless it leaves that or the finite freedom open.
+fn by_rank(question: &Question<'_>, found: &mut PartFinding) -> Option<usize> {
+    let Question {
+        pose, part, rank, ..
+    } = *question;
+    let surplus = question.surplus();
     // A special mechanism written with too few digits is, taken literally, a generic one: that more equations than unknowns
     // then hold it fast may be due to the digits left out.
     let held_by_rounding = rank.taken_literally && rank.instantaneous == Some(0) && surplus < 0;
@@ -199,139 +131,132 @@ pub fn part_mobility(
     } else {
         rank.candidates.1
     };
-    let rank_evidence = Evidence {
-        engine: "rank",
-        scope: "this pose",
-        bounds: (0, Some(upper)),
-        text: format!(
-            "{} equations in {} unknowns; smallest singular value kept {:.2e}, largest dropped {:.2e}, tolerance {:.2e}; \
-             {} bits",
-            rank.equations(),
-            rank.unknowns(),
-            rank.decision.kept,
-            rank.decision.dropped,
-            rank.decision.tolerance,
-            rank.bits
-        ),
-    };
-    let Some(freedom) = rank.instantaneous.filter(|_| !held_by_rounding) else {
-        let why = match &rank.note {
-            Some(note) if (rank.stated == 0.0 || rank.doubt.is_some()) && !held_by_rounding => {
-                note.clone()
-            }
-            _ => "the numbers as they are stated leave the rank at this pose open; more digits would decide it".to_owned(),
-        };
-        return Ok(PartFinding::open(0, upper, why).with(vec![rank_evidence]));
-    };
-    // The rank was decided one way, but the precision stated allows another: the numbers have to be better.
-    if rank.candidates.0 != rank.candidates.1
+    let text = format!(
+        "{} equations in {} unknowns; smallest singular value kept {:.2e}, largest dropped {:.2e}, tolerance {:.2e}; {} bits",
+        rank.equations(),
+        rank.unknowns(),
+        rank.decision.kept,
+        rank.decision.dropped,
+        rank.decision.tolerance,
+        rank.bits
+    );
+    let mut claim = Claim::of(EngineName::Rank, Scope::Pose, Bounds::at_most(upper), text);
+    let known = rank.instantaneous.filter(|_| !held_by_rounding);
+    // The rank was decided one way, but the precision stated may allow another: then the numbers have to be better.
+    let other = rank.candidates.0 != rank.candidates.1
         && rank
             .as_written
-            .is_none_or(|w| Some(w) == rank.instantaneous)
-    {
-        let why = match &rank.note {
-            Some(note) if rank.doubt.is_some() => note.clone(),
-            _ => "within the precision of its numbers the mechanism could have another rank at this pose; more digits would decide"
-                .to_owned(),
-        };
-        let upper = freedom.max(rank.candidates.1);
-        return Ok(PartFinding::open(0, upper, why).with(vec![rank_evidence]));
-    }
-    let mut evidence = vec![rank_evidence];
-    if freedom == 0 {
-        let text = "no velocity at all satisfies the closure equations at this pose, so no motion starts from it";
-        let mut found = PartFinding::regular(0, None, CertificateLevel::Numeric, text.to_owned());
-        found.branches = Some(Vec::new());
-        return Ok(found.with(evidence));
-    }
-    let kernel_here = || Kernel::of(pose, rank, KERNEL_LIMIT);
-    let one_branch = |found: &mut PartFinding,
-                      more: &mut MoreDigits,
-                      known: Option<&Kernel>|
-     -> Result<(), MatrixError> {
-        if rank.settled().is_none() {
-            return Ok(());
+            .is_none_or(|w| Some(w) == rank.instantaneous);
+    let note = |clear: bool| rank.note.clone().filter(|_| clear);
+    match known {
+        None => {
+            let clear = (rank.stated == 0.0 || rank.doubt.is_some()) && !held_by_rounding;
+            claim.says = Says::Open(note(clear).unwrap_or_else(|| {
+                "the numbers as they are stated leave the rank at this pose open; more digits would decide it".to_owned()
+            }));
         }
-        let followed = depth >= Depth::Motions;
-        let rounded = rank.stated > 0.0 && surplus < freedom as i64;
-        let own = match known {
-            None if followed || rounded => kernel_here()?,
-            _ => None,
-        };
-        let kernel = known.or(own.as_ref());
-        found.branches = Some(vec![PartBranch {
-            dimension: freedom,
-            half_branches: (freedom == 1).then_some(2),
-            poses: match kernel {
-                Some(kernel) if followed => poses_of_regular_part(pose, part, rank, kernel)?,
-                _ => Vec::new(),
-            },
-        }]);
-        if rounded && let Some(kernel) = kernel.filter(|kernel| kernel.basis.complete) {
-            found.nominal = literal_leftover(pose, more, part, rank, kernel)?
-                .map(|left| left * rank.jacobian.length);
+        Some(freedom) if other => {
+            claim.finite = Bounds::at_most(freedom.max(rank.candidates.1));
+            claim.says = Says::Open(note(rank.doubt.is_some()).unwrap_or_else(|| {
+                "within the precision of its numbers the mechanism could have another rank at this pose; more digits would decide"
+                    .to_owned()
+            }));
         }
-        Ok(())
-    };
+        Some(0) => {
+            let text = "no velocity at all satisfies the closure equations at this pose, so no motion starts from it";
+            claim.instantaneous = Bounds::exactly(0);
+            claim = claim.regular(
+                0,
+                Answer {
+                    branches: Some(Vec::new()),
+                    ..Answer::numeric(text)
+                },
+            );
+        }
+        Some(freedom) => claim.instantaneous = Bounds::exactly(freedom),
+    }
+    let goes_on = matches!(claim.says, Says::Bounds);
+    found.take(claim);
+    known.filter(|_| goes_on)
+}
+
+/// What subgroups say, or else the implicit function theorem; gives the class that subgroups explain.
+fn by_subgroups(
+    question: &Question<'_>,
+    more: &mut MoreDigits,
+    freedom: usize,
+    found: &mut PartFinding,
+) -> Result<Option<MobilityClass>, MatrixError> {
+    let Question {
+        pose, part, rank, ..
+    } = *question;
+    let independent = question.surplus() == freedom as i64;
     let mut subgroups = subgroup_finding(
         pose.mechanism,
         pose.geometry,
         pose.states,
-        structure,
+        question.structure,
         part,
         rank,
     )?;
-    if surplus != freedom as i64
+    if !independent
         && subgroups.finite.is_some()
         && let Some(offset) = hidden_offset(pose, more, part, rank)?
     {
         subgroups = subgroups.withdrawn(offset, Some(freedom));
     }
-    evidence.push(Evidence {
-        engine: "subgroup",
-        scope: "every pose",
-        bounds: (subgroups.lower, subgroups.upper),
-        text: format!(
-            "{}{}",
-            subgroups.text,
-            subgroups
-                .steps
-                .iter()
-                .map(|s| format!("; {s}"))
-                .collect::<String>()
-        ),
-    });
+    let steps: String = subgroups.steps.iter().map(|s| format!("; {s}")).collect();
+    let mut claim = Claim::of(
+        EngineName::Subgroup,
+        Scope::EveryPose,
+        Bounds {
+            lower: subgroups.lower,
+            upper: subgroups.upper,
+        },
+        format!("{}{steps}", subgroups.text),
+    );
     if subgroups.finite == Some(freedom) {
-        let mut found = PartFinding::regular(
-            freedom,
-            subgroups.class,
-            CertificateLevel::Subgroup,
-            subgroups.text.clone(),
-        );
-        one_branch(&mut found, more, None)?;
-        return Ok(found.with(evidence));
+        let answer = Answer {
+            class: subgroups.class,
+            level: CertificateLevel::Subgroup,
+            ..Answer::numeric(subgroups.text)
+        };
+        claim = claim.regular(freedom, question.one_branch(more, freedom, None, answer)?);
     }
-    if surplus == freedom as i64 {
+    let explained = claim.answer().is_some();
+    found.take(claim);
+    if independent && !explained {
+        // Fewer equations than unknowns leave a motion over the complex numbers, but not always a real one (x² + y² = 0).
         let text = "the closure equations at this pose are independent, so its motions form a manifold of exactly this \
                     dimension (implicit function theorem)";
-        let mut found = PartFinding::regular(
-            freedom,
-            Some(subgroups.class.unwrap_or(MobilityClass::Trivial)),
-            CertificateLevel::Numeric,
-            text.to_owned(),
+        let answer = Answer {
+            class: Some(subgroups.class.unwrap_or(MobilityClass::Trivial)),
+            ..Answer::numeric(text)
+        };
+        let answer = question.one_branch(more, freedom, None, answer)?;
+        let claim = Claim::of(
+            EngineName::Rank,
+            Scope::Pose,
+            Bounds::ANY,
+            question.counts(),
         );
-        one_branch(&mut found, more, None)?;
-        return Ok(found.with(evidence));
+        found.take(claim.regular(freedom, answer));
     }
-    // Fewer equations than unknowns leave a motion over the complex numbers, but not always a real one (x² + y² = 0).
-    let lower = subgroups.lower;
-    let kernel = kernel_here()?;
-    let Some(kernel) = kernel.as_ref().filter(|k| k.basis.complete) else {
-        let why = format!(
-            "{freedom} instantaneous freedoms in one block are too many to follow; driving or fixing some joints would decide"
-        );
-        return Ok(PartFinding::open(lower, freedom, why).with(evidence));
-    };
+    Ok(subgroups.class)
+}
+
+/// What the chart test says.
+fn by_chart(
+    question: &Question<'_>,
+    more: &mut MoreDigits,
+    kernel: &Kernel,
+    class: Option<MobilityClass>,
+    found: &mut PartFinding,
+) -> Result<ChartTest, MatrixError> {
+    let Question {
+        pose, part, rank, ..
+    } = *question;
+    let freedom = kernel.basis.nullity;
     let mut chart = chart_test(pose, more, part, rank, kernel)?;
     // More digits would show a leftover near the pose; neither rounded numbers nor large parts have them. One of high order shows
     // farther away only.
@@ -342,7 +267,7 @@ pub fn part_mobility(
     } else if chart.outcome == ChartOutcome::Regular && (rank.stated == 0.0 || chart.literal) {
         chart = far_chart(pose, more, part, rank, kernel, chart)?;
     }
-    evidence.push(chart_evidence(&chart, freedom));
+    let mut claim = chart_claim(&chart, freedom);
     match chart.outcome {
         ChartOutcome::Regular => {
             let text = format!(
@@ -357,25 +282,20 @@ pub fn part_mobility(
                     ""
                 }
             );
-            let class = match subgroups.class {
-                None => unexplained(pose, structure, part, rank, &chart)?,
+            let class = match class {
+                None => unexplained(pose, question.structure, part, rank, &chart)?,
                 explained => explained,
             };
-            let mut found = PartFinding::regular(freedom, class, CertificateLevel::Numeric, text);
-            one_branch(&mut found, more, Some(kernel))?;
-            Ok(found.with(evidence))
+            let answer = Answer {
+                class,
+                ..Answer::numeric(text)
+            };
+            let answer = question.one_branch(more, freedom, Some(kernel), answer)?;
+            claim = claim.regular(freedom, answer);
         }
-        ChartOutcome::Singular { .. } => {
-            let SingularFinding {
-                mut found,
-                more_evidence,
-            } = singular_finding(pose, part, rank, kernel, &chart, lower)?;
-            evidence.extend(more_evidence);
-            found.class = None;
-            Ok(found.with(evidence))
-        }
+        ChartOutcome::Singular { .. } => claim.pose = Some(PoseKind::Singular),
         ChartOutcome::Thin => {
-            let why = format!(
+            claim.says = Says::Open(format!(
                 "whether this pose is regular is open, since the margin is too thin: at a distance of {:.1e} the misfit is {:.1e}, \
                  and the noise may be {:.1e}; {}",
                 chart.radius,
@@ -386,9 +306,64 @@ pub fn part_mobility(
                 } else {
                     "a pose farther from other branches would decide"
                 }
-            );
-            Ok(PartFinding::open(lower, freedom, why).with(evidence))
+            ));
         }
+    }
+    found.take(claim);
+    Ok(chart)
+}
+
+impl Question<'_> {
+    fn surplus(&self) -> i64 {
+        self.rank.unknowns() as i64 - self.rank.equations() as i64
+    }
+
+    fn counts(&self) -> String {
+        format!(
+            "{} independent equations in {} unknowns",
+            self.rank.equations(),
+            self.rank.unknowns()
+        )
+    }
+
+    fn kernel(&self) -> Result<Option<Kernel>, MatrixError> {
+        Kernel::of(self.pose, self.rank, KERNEL_LIMIT)
+    }
+
+    /// The answer of a regular pose, with its one branch.
+    fn one_branch(
+        &self,
+        more: &mut MoreDigits,
+        freedom: usize,
+        known: Option<&Kernel>,
+        mut answer: Answer,
+    ) -> Result<Answer, MatrixError> {
+        let Self {
+            pose, part, rank, ..
+        } = *self;
+        if rank.settled().is_none() {
+            return Ok(answer);
+        }
+        let followed = self.depth >= Depth::Motions;
+        let rounded = rank.stated > 0.0 && self.surplus() < freedom as i64;
+        let own = match known {
+            None if followed || rounded => self.kernel()?,
+            _ => None,
+        };
+        let kernel = known.or(own.as_ref());
+        answer.branches = Some(vec![PartBranch {
+            dimension: freedom,
+            half_branches: (freedom == 1).then_some(2),
+            poses: match kernel {
+                Some(kernel) if followed => poses_of_regular_part(pose, part, rank, kernel)?,
+                _ => Vec::new(),
+            },
+        }]);
+        if rounded && let Some(kernel) = kernel.filter(|kernel| kernel.basis.complete) {
+            answer.nominal = literal_leftover(pose, more, part, rank, kernel)?
+                .map(|left| left * rank.jacobian.length);
+        }
+        Ok(answer)
     }
 }
 
@@ -456,39 +431,35 @@ fn confirm_on_the_way(
     Ok(())
 }
 
-fn chart_evidence(chart: &ChartTest, freedom: usize) -> Evidence {
+fn chart_claim(chart: &ChartTest, freedom: usize) -> Claim {
     let (bounds, what) = match chart.outcome {
-        ChartOutcome::Regular => ((freedom, Some(freedom)), "regular".to_owned()),
+        ChartOutcome::Regular => (Bounds::exactly(freedom), "regular".to_owned()),
         ChartOutcome::Singular { order } => (
-            (0, Some(freedom - 1)),
+            Bounds::at_most(freedom - 1),
             format!("singular, leftover of order {order:.2}"),
         ),
-        ChartOutcome::Thin => ((0, Some(freedom)), "margin too thin".to_owned()),
+        ChartOutcome::Thin => (Bounds::at_most(freedom), "margin too thin".to_owned()),
     };
-    Evidence {
-        engine: "chart",
-        scope: "a neighbourhood",
-        bounds,
-        text: format!(
-            "{what}; radius {:.2e}, {} directions, left over {:.2e}, noise {:.2e}; {} bits; seed {}{}{}",
-            chart.radius,
-            chart.directions,
-            chart.leftover,
-            chart.noise,
-            chart.bits,
-            super::chart::SEED,
-            if chart.followed > 0.0 {
-                format!("; followed for {:.2}", chart.followed)
-            } else {
-                String::new()
-            },
-            if chart.literal {
-                "; numbers taken literally"
-            } else {
-                ""
-            }
-        ),
-    }
+    let text = format!(
+        "{what}; radius {:.2e}, {} directions, left over {:.2e}, noise {:.2e}; {} bits; seed {}{}{}",
+        chart.radius,
+        chart.directions,
+        chart.leftover,
+        chart.noise,
+        chart.bits,
+        super::chart::SEED,
+        if chart.followed > 0.0 {
+            format!("; followed for {:.2}", chart.followed)
+        } else {
+            String::new()
+        },
+        if chart.literal {
+            "; numbers taken literally"
+        } else {
+            ""
+        }
+    );
+    Claim::of(EngineName::Chart, Scope::Neighbourhood, bounds, text)
 }
 
 #[cfg(test)]

@@ -25,18 +25,22 @@ pub struct Posed {
 
 impl Posed {
     pub fn new(mechanism: Mechanism) -> Self {
+        Self::closed(mechanism).unwrap()
+    }
+
+    /// `None` where the loops do not close.
+    pub fn closed(mechanism: Mechanism) -> Option<Self> {
         let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
         let structure = Structure::new(&mechanism);
         let held = BTreeSet::new();
-        let assembly = assemble(&mechanism, &geometry, &structure.parts, &held).unwrap();
-        assert!(assembly.closed, "{assembly:?}");
-        Self {
+        let assembly = assemble(&mechanism, &geometry, &structure.parts, &held).ok()?;
+        assembly.closed.then_some(Self {
             mechanism,
             geometry,
             structure,
             assembly,
             held,
-        }
+        })
     }
 
     /// One of the known mechanisms.

@@ -27,51 +27,28 @@ use self::by_search::by_search;
 use self::by_splitting::by_splitting;
 pub(super) use self::search::most_starts;
 use super::chart::{ChartTest, Kernel};
+use super::claim::{Answer, Bounds, Claim, Says};
 use super::idle_directions::idle_directions;
+use super::judge::PartFinding;
 use super::lifting::{Start, idle_branch};
-use super::part_mobility::{Evidence, PartFinding};
 use super::pose_rank::{PartRank, Pose, TALL, height_at};
-use super::vocabulary::{CertificateLevel, PoseKind, SingularKind};
+use super::vocabulary::{EngineName, Scope, SingularKind};
 use kutzbach_closure::Part;
 use kutzbach_math::matrix::MatrixError;
-
-/// What is known of a singular pose.
-pub(super) struct SingularFinding {
-    pub found: PartFinding,
-    pub more_evidence: Vec<Evidence>,
-}
 
 /// Looks for the branches through a pose that the chart test calls singular.
 ///
 /// # Errors
 /// [`MatrixError`] where numbers overflow.
-pub(super) fn singular_finding(
+pub(super) fn by_branches(
     pose: &Pose<'_>,
     part: &Part,
     rank: &PartRank,
     kernel: &Kernel,
     chart: &ChartTest,
-    lower: usize,
-) -> Result<SingularFinding, MatrixError> {
+    found: &mut PartFinding,
+) -> Result<(), MatrixError> {
     let freedom = kernel.basis.nullity;
-    let mut evidence = Vec::new();
-    let mut found = PartFinding {
-        lower,
-        upper: freedom - 1,
-        pose: Some(PoseKind::Singular),
-        kind: None,
-        class: None,
-        level: CertificateLevel::Numeric,
-        certificate: String::new(),
-        complex_dimension: None,
-        branches: None,
-        at_rest: freedom,
-        open: None,
-        evidence: Vec::new(),
-        nominal: None,
-        complex_upper: None,
-        contradiction: None,
-    };
     // Numbers taken literally close the loops exactly. The coefficients of the series are not for that reason beyond doubt:
     // rounding shifts them by its share of the curvature, of which hardly a tenth remains.
     let doubtful = PartRank {
@@ -104,78 +81,86 @@ pub(super) fn singular_finding(
         idle: &idle,
     };
     if freedom == 1 + idle.len() {
-        "along the only direction that the equations allow to first order they fail at higher order, and an equation in one \
-         variable that does not vanish identically has an isolated solution"
-            .clone_into(&mut found.certificate);
-        isolated(&mut found, &start)?;
-        found.complex_dimension = Some(idle.len());
-        return Ok(SingularFinding {
-            found,
-            more_evidence: evidence,
+        let text = "along the only direction that the equations allow to first order they fail at higher order, and an equation in one \
+                    variable that does not vanish identically has an isolated solution";
+        let claim = isolated(
+            &start,
+            EngineName::Chart,
+            "one equation in one variable",
+            text,
+        )?;
+        found.take(Claim {
+            scope: Scope::Neighbourhood,
+            complex: Bounds::exactly(idle.len()),
+            ..claim
         });
+        return Ok(());
     }
-    let open = by_search(&mut found, &mut evidence, &start, &doubtful)?;
-    let mut decided = open.is_none();
+    let open = by_search(found, &start, &doubtful)?;
+    let decided = |found: &PartFinding| found.open().is_none();
     let mut why = open.unwrap_or_default();
     // What double precision takes for multiple may be several that hardly differ, or a cusp.
     let multiple = |found: &PartFinding| {
-        found.branches.iter().flatten().any(|branch| {
+        found.branches().into_iter().flatten().any(|branch| {
             let generic = branch.poses.first().and_then(|pose| pose.instantaneous);
             generic.is_some_and(|freedom| freedom > branch.dimension)
         })
     };
-    let unsure = !decided || multiple(&found);
-    if unsure && !rounded && rank.instantaneous == Some(2 + idle.len()) {
-        match by_polygon(&mut found, &mut evidence, &start, &doubtful)? {
-            None => decided = true,
-            Some(_) if decided => {}
-            Some(reason) => why = reason,
-        }
+    let unsure = !decided(found) || multiple(found);
+    if unsure
+        && !rounded
+        && rank.instantaneous == Some(2 + idle.len())
+        && let Some(reason) = by_polygon(found, &start, &doubtful)?
+        && !decided(found)
+    {
+        why = reason;
     }
-    if decided && multiple(&found) && !rounded {
-        by_splitting(&mut found, &mut evidence, &start, &doubtful)?;
+    if multiple(found) && !rounded {
+        by_splitting(found, &start, &doubtful)?;
     }
-    if !decided
+    if !decided(found)
         && !rounded
         && rank
             .instantaneous
             .is_some_and(|freedom| freedom > 2 + idle.len())
     {
-        decided = by_form(&mut found, &mut evidence, &start, &doubtful)?
-            || by_arrangement(&mut found, &mut evidence, &start, &doubtful)?
-            || by_splitting(&mut found, &mut evidence, &start, &doubtful)?;
+        let _ = by_form(found, &start, &doubtful)?
+            || by_arrangement(found, &start, &doubtful)?
+            || by_splitting(found, &start, &doubtful)?;
     }
-    if !decided {
-        found.certificate =
-            "the pose is singular, so that the finite freedom is below the instantaneous one"
-                .to_owned();
-        found.open = Some(format!(
-            "which branches pass through this singular pose is not settled: {why}; a pose beside it would be easier"
-        ));
-        if let Some(complex) = found.complex_dimension {
-            found.upper = found.upper.min(complex).max(found.lower);
-        }
-    }
-    Ok(SingularFinding {
-        found,
-        more_evidence: evidence,
-    })
-}
-
-/// Nothing moves but what is idle.
-fn isolated(found: &mut PartFinding, start: &Start<'_>) -> Result<(), MatrixError> {
-    let dimension = start.idle.len();
-    found.lower = dimension;
-    found.upper = dimension;
-    if dimension == 0 {
-        found.kind = Some(SingularKind::Shaky);
-        found.branches = Some(Vec::new());
-    } else {
-        found.kind = Some(SingularKind::PermanentlyShaky);
-        found.certificate.push_str("; only what is idle moves");
-        found.branches = Some(vec![idle_branch(start)?]);
+    if !decided(found) && found.contradictions().is_empty() {
+        let complex = found.complex_dimension();
+        found.amend(|claim| {
+            if let Some(complex) = complex {
+                claim.finite.upper = Some(complex.max(claim.finite.lower));
+            }
+            claim.says = Says::Open(format!(
+                "which branches pass through this singular pose is not settled: {why}; a pose beside it would be easier"
+            ));
+        });
     }
     Ok(())
+}
+
+/// The claim that nothing moves but what is idle.
+fn isolated(
+    start: &Start<'_>,
+    engine: EngineName,
+    text: impl Into<String>,
+    certificate: impl Into<String>,
+) -> Result<Claim, MatrixError> {
+    let dimension = start.idle.len();
+    let mut answer = Answer::numeric(certificate);
+    if dimension == 0 {
+        answer.kind = Some(SingularKind::Shaky);
+        answer.branches = Some(Vec::new());
+    } else {
+        answer.kind = Some(SingularKind::PermanentlyShaky);
+        answer.certificate.push_str("; only what is idle moves");
+        answer.branches = Some(vec![idle_branch(start)?]);
+    }
+    let finite = Bounds::exactly(dimension);
+    Ok(Claim::of(engine, Scope::RealNeighbourhood, finite, text).decides(answer))
 }
 
 #[cfg(test)]

@@ -1,11 +1,10 @@
-//! The one place where engines meet: each gives bounds on the finite mobility of a part, and what they agree on is the
-//! verdict on the whole.
+//! The verdict on the whole, from what the claims about each part come to ([`PartFinding`]).
 //!
 //! Parts do not influence one another, so that the configuration space near the pose is a product: freedoms add, a branch
 //! of the whole is one branch of every part, and the pose is singular where that of some part is.
 
+use super::judge::PartFinding;
 use super::meant::{AsWritten, Change, Kept};
-use super::part_mobility::{Evidence, PartFinding};
 use super::vocabulary::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
 use kutzbach_closure::Assembly;
 use kutzbach_closure::Structure;
@@ -58,8 +57,6 @@ pub struct Mobility {
     pub as_written: Option<AsWritten>,
     /// Why not more, why not less, or what would decide.
     pub why: Vec<String>,
-    /// What every engine found: part by part, in the order asked.
-    pub evidence: Vec<(usize, Evidence)>,
 }
 
 impl Mobility {
@@ -99,7 +96,6 @@ pub fn unassembled(assembly: &Assembly) -> Mobility {
         nominal: None,
         as_written: None,
         why: vec!["a mechanism that does not close has no motions to count".to_owned()],
-        evidence: Vec::new(),
     }
 }
 
@@ -119,7 +115,6 @@ pub(super) fn not_asked(most: Option<usize>) -> Mobility {
         nominal: None,
         as_written: None,
         why: vec!["only the rank at this pose was asked for".to_owned()],
-        evidence: Vec::new(),
     }
 }
 
@@ -132,11 +127,11 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, parts: &[PartFinding]
         .map(|&j| mechanism.joints()[j].freedom())
         .sum();
     let base = free + 6 * structure.loose_pieces;
-    let low = base + parts.iter().map(|p| p.lower).sum::<usize>();
-    let high = base + parts.iter().map(|p| p.upper).sum::<usize>();
+    let low = base + parts.iter().map(|p| p.lower()).sum::<usize>();
+    let high = base + parts.iter().map(|p| p.upper()).sum::<usize>();
     let names = &structure.part_names[..];
-    let open: Vec<(usize, &str)> = each(parts, |p| p.open.as_deref());
-    let poses: Vec<Option<PoseKind>> = parts.iter().map(|p| p.pose).collect();
+    let open: Vec<(usize, &str)> = each(parts, |p| p.open());
+    let poses: Vec<Option<PoseKind>> = parts.iter().map(|p| p.pose()).collect();
     let pose = if poses.contains(&Some(PoseKind::Singular)) {
         Some(PoseKind::Singular)
     } else if poses.contains(&None) {
@@ -149,18 +144,27 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, parts: &[PartFinding]
         (true, 0) => Verdict::Rigid,
         (true, _) => Verdict::Mobile,
     };
-    let weakest = parts.iter().min_by_key(|p| (p.open.is_none(), p.level));
-    let level = weakest.map_or(CertificateLevel::Subgroup, |p| p.level);
+    let weakest = parts.iter().min_by_key(|p| (p.open().is_none(), p.level()));
+    let level = weakest.map_or(CertificateLevel::Subgroup, |p| p.level());
     let certificate = certificate(names, parts, level);
-    let contradictions = each(parts, |p| p.contradiction.as_deref());
-    let mut why = with_owners(names, contradictions.into_iter().chain(open));
+    let contradictions: Vec<(usize, String)> = parts
+        .iter()
+        .enumerate()
+        .flat_map(|(index, p)| {
+            p.contradictions()
+                .iter()
+                .map(move |c| (index, c.to_string()))
+        })
+        .collect();
+    let contradictions = contradictions.iter().map(|(index, c)| (*index, &c[..]));
+    let mut why = with_owners(names, contradictions.chain(open));
     why.extend(singular_parts(names, parts));
     let class = (verdict == Verdict::Mobile && pose == Some(PoseKind::Regular))
         .then(|| {
             parts
                 .iter()
-                .filter(|p| p.upper > 0)
-                .map(|p| p.class)
+                .filter(|p| p.upper() > 0)
+                .map(|p| p.class())
                 .try_fold(MobilityClass::Trivial, |worst, class| {
                     Some(worst.max(class?))
                 })
@@ -168,7 +172,7 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, parts: &[PartFinding]
         .flatten();
     let complex_dimension = parts
         .iter()
-        .map(|p| p.complex_dimension)
+        .map(|p| p.complex_dimension())
         .sum::<Option<usize>>()
         .map(|dimension| dimension + base);
     if verdict != Verdict::Undecided {
@@ -176,7 +180,7 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, parts: &[PartFinding]
     }
     let nominal = parts
         .iter()
-        .filter_map(|p| p.nominal)
+        .filter_map(|p| p.nominal())
         .reduce(f64::max)
         .filter(|_| verdict != Verdict::Undecided)
         .map(|tolerance| Nominal {
@@ -202,11 +206,6 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, parts: &[PartFinding]
         nominal,
         as_written: None,
         why,
-        evidence: parts
-            .iter()
-            .enumerate()
-            .flat_map(|(index, p)| p.evidence.iter().map(move |e| (index, e.clone())))
-            .collect(),
     }
 }
 
@@ -231,15 +230,15 @@ fn certificate(names: &[String], parts: &[PartFinding], level: CertificateLevel)
         return "no loop constrains any joint".to_owned();
     }
     let mut order: Vec<usize> = (0..parts.len()).collect();
-    order.sort_by_key(|&index| (parts[index].open.is_none(), parts[index].level));
+    order.sort_by_key(|&index| (parts[index].open().is_none(), parts[index].level()));
     let texts: Vec<String> = parts
         .iter()
         .map(|part| {
-            let text = part.certificate.trim_end_matches('.');
+            let text = part.certificate().trim_end_matches('.');
             // Stronger than the whole is said to be.
-            match part.level == level {
+            match part.level() == level {
                 true => text.to_owned(),
-                false => format!("{text} ({})", part.level),
+                false => format!("{text} ({})", part.level()),
             }
         })
         .collect();
@@ -259,7 +258,7 @@ fn certificate(names: &[String], parts: &[PartFinding], level: CertificateLevel)
 /// Which parts are at a singular pose, where others are not.
 fn singular_parts(names: &[String], parts: &[PartFinding]) -> Option<String> {
     let singular: Vec<usize> = (0..parts.len())
-        .filter(|&index| parts[index].pose == Some(PoseKind::Singular))
+        .filter(|&index| parts[index].pose() == Some(PoseKind::Singular))
         .collect();
     if singular.is_empty() || singular.len() == parts.len() {
         return None;
@@ -268,7 +267,7 @@ fn singular_parts(names: &[String], parts: &[PartFinding]) -> Option<String> {
         .into_iter()
         .map(|index| {
             let kind = parts[index]
-                .kind
+                .kind()
                 .map_or("of a kind not known", SingularKind::word);
             (index, kind.replace('_', " "))
         })
@@ -295,17 +294,17 @@ fn complex_remark(
              more than {finite} can be real: as x² + y² = 0 has two complex lines and a single real point"
         ));
     }
-    let numeric = |p: &&PartFinding| p.level == CertificateLevel::Numeric;
+    let numeric = |p: &&PartFinding| p.level() == CertificateLevel::Numeric;
     if !parts
         .iter()
-        .any(|p| numeric(&p) && p.complex_upper.is_some())
+        .any(|p| numeric(&p) && p.complex_upper().is_some())
     {
         return None;
     }
     // Other certificates hold for the complex solutions too.
-    let bound = |p: &PartFinding| match p.level {
-        CertificateLevel::Numeric => p.complex_upper,
-        _ => Some(p.upper),
+    let bound = |p: &PartFinding| match p.level() {
+        CertificateLevel::Numeric => p.complex_upper(),
+        _ => Some(p.upper()),
     };
     let most = base + parts.iter().map(bound).sum::<Option<usize>>()?;
     (most == finite).then(|| {
@@ -323,8 +322,8 @@ fn complex_remark(
 fn kind_of_whole(verdict: Verdict, parts: &[PartFinding]) -> Option<SingularKind> {
     let mut kinds: Vec<Option<SingularKind>> = parts
         .iter()
-        .filter(|p| p.pose == Some(PoseKind::Singular))
-        .map(|p| p.kind)
+        .filter(|p| p.pose() == Some(PoseKind::Singular))
+        .map(|p| p.kind())
         .collect();
     if verdict == Verdict::Rigid {
         return kinds.first().copied().flatten();
@@ -348,6 +347,8 @@ fn kind_of_whole(verdict: Verdict, parts: &[PartFinding]) -> Option<SingularKind
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use crate::claim::{Bounds, Claim, Says};
+    use crate::vocabulary::{EngineName, Scope};
     use crate::{Analysis, AnalysisOptions, analyse};
     use kutzbach_closure::samples::{
         CRANK_ROCKER, Place, Written, add_ring, four_bar, general_four, planar, ring,
@@ -456,10 +457,10 @@ mod tests {
     fn a_doubtful_part_makes_all_doubtful() {
         let mechanism = general_four();
         let mut analysis = analysed(&mechanism);
-        let part = &mut analysis.findings[0];
-        part.open = Some("not plain".to_owned());
-        part.pose = None;
-        part.upper = 2;
+        analysis.findings[0].read_anew(Claim {
+            says: Says::Open("not plain".to_owned()),
+            ..Claim::of(EngineName::Rank, Scope::Pose, Bounds::at_most(2), "")
+        });
         let found = judge(&mechanism, &analysis.structure, &analysis.findings);
         assert_eq!((found.verdict, found.finite()), (Verdict::Undecided, None));
         assert_eq!(found.bounds, (Some(0), Some(2)));

@@ -122,6 +122,48 @@ words! {
     }
 }
 
+words! {
+    /// What claims something about the mobility of a part.
+    EngineName {
+        /// The rank of the closure equations at the pose.
+        Rank => "rank",
+        /// Displacement subgroups.
+        Subgroup => "subgroup",
+        /// The chart test.
+        Chart => "chart",
+        /// The equations' terms of second order.
+        SecondOrder => "second order",
+        /// Real zeros of the equations' power series.
+        Germ => "germ",
+        /// Newton's polygon of one equation in two variables.
+        NewtonPolygon => "Newton polygon",
+        /// The splitting lemma on one equation.
+        SplittingLemma => "splitting lemma",
+        /// Loops that stand still by themselves.
+        LoopsAtRest => "loops at rest",
+        /// Exact algebra.
+        Exact => "exact",
+        /// The mechanisms that rounded numbers may stand for.
+        Digits => "digits",
+    }
+}
+
+words! {
+    /// Where a claim holds.
+    Scope {
+        /// At the pose.
+        Pose => "this pose",
+        /// At the pose, of complex solutions, of which the real ones are some.
+        PoseComplex => "this pose, complex",
+        /// Near the pose.
+        Neighbourhood => "a neighbourhood",
+        /// Near the pose, of real solutions only.
+        RealNeighbourhood => "a neighbourhood, real",
+        /// At every pose of the same ranks.
+        EveryPose => "every pose",
+    }
+}
+
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {

@@ -2,7 +2,8 @@
 
 use super::branch::{Branch, BranchPose, Tangent};
 use super::branch_facts::branch_facts;
-use super::part_mobility::{PartBranch, PartFinding};
+use super::claim::PartBranch;
+use super::judge::PartFinding;
 use super::vocabulary::PoseKind;
 use kutzbach_closure::Structure;
 use kutzbach_closure::{Geometry, JointState};
@@ -37,7 +38,7 @@ pub(super) fn whole_branches(
     let base = free + 6 * structure.loose_pieces;
     let mut choices: Vec<Vec<Option<&PartBranch>>> = vec![Vec::new()];
     for finding in findings {
-        let branches = finding.branches.as_ref()?;
+        let branches = finding.branches()?;
         // A part that cannot move stays where it is.
         let own: Vec<Option<&PartBranch>> = if branches.is_empty() {
             vec![None]
@@ -76,9 +77,9 @@ pub(super) fn whole_branches(
                 .map(|(branch, finding)| match branch {
                     Some(branch) => branch.poses.first().and_then(|p| p.instantaneous).or(
                         // Near a regular pose all poses are regular.
-                        (finding.pose == Some(PoseKind::Regular)).then_some(branch.dimension),
+                        (finding.pose() == Some(PoseKind::Regular)).then_some(branch.dimension),
                     ),
-                    None => Some(finding.at_rest),
+                    None => Some(finding.at_rest()),
                 })
                 .sum::<Option<usize>>()
                 .map(|i| i + base);
@@ -194,7 +195,7 @@ fn whole_poses(
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::{Analysis, AnalysisOptions, analyse, kutzbach_count};
+    use crate::{Analysis, AnalysisOptions, Bounds, Says, analyse, kutzbach_count};
     use kutzbach_closure::samples::{
         CRANK_ROCKER, Written, add_ring, flat_parallelogram, four_bar, planar, ring,
     };
@@ -354,7 +355,7 @@ mod tests {
             branches_of(&mechanism, &analysis, &findings).unwrap().len(),
             2
         );
-        findings[1].branches = None;
+        findings[1].amend(|claim| claim.says = Says::Open(String::new()));
         assert!(branches_of(&mechanism, &analysis, &findings).is_none());
     }
 
@@ -388,7 +389,13 @@ mod tests {
         let mechanism = ring(&planar(&FLAT), [0.0; 3], Written::Exactly);
         let analysis = analysed(&mechanism);
         let mut findings = analysis.findings.clone();
-        findings[0].branches.as_mut().unwrap()[1].dimension = 2;
+        let mut claims = findings[0].claims().iter();
+        let mut claim = claims.rfind(|c| c.answer().is_some()).unwrap().clone();
+        claim.finite = Bounds::exactly(2);
+        if let Says::Decides(answer) = &mut claim.says {
+            answer.branches.as_mut().unwrap()[1].dimension = 2;
+        }
+        findings[0].read_anew(claim);
         let branches = branches_of(&mechanism, &analysis, &findings).unwrap();
         let seen: Vec<(&str, usize)> = branches
             .iter()

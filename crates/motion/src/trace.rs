@@ -140,7 +140,7 @@ impl<'a> Tracer<'a> {
         for (index, part) in analysis.structure.parts.iter().enumerate() {
             let dimension = match branch.poses.first() {
                 Some(pose) => pose.tangents.iter().filter(|t| moves(part, t)).count(),
-                None => analysis.findings.get(index).map_or(0, |f| f.upper),
+                None => analysis.findings.get(index).map_or(0, |f| f.upper()),
             };
             stages.push(Stage {
                 part: part.clone(),

@@ -105,18 +105,16 @@ pub(super) fn ask_between(
 /// What every engine found, block by block, in the order they were asked.
 pub(super) fn evidence(report: &Report, analysis: &Analysis) -> Vec<Evidence> {
     analysis
-        .mobility
-        .evidence
-        .iter()
+        .claims()
         .map(|(part, found)| Evidence {
             block: report
                 .home
                 .blocks
-                .get(*part)
+                .get(part)
                 .map_or_else(String::new, |block| block.name.clone()),
-            engine: found.engine.to_owned(),
-            scope: found.scope.to_owned(),
-            bounds: [Some(found.bounds.0), found.bounds.1],
+            engine: found.engine.word().to_owned(),
+            scope: found.scope.word().to_owned(),
+            bounds: [Some(found.finite.lower), found.finite.upper],
             text: found.text.clone(),
         })
         .collect()

@@ -168,7 +168,8 @@ fn blocks(analysis: &Analysis) -> Vec<Block> {
         .enumerate()
         .map(|(index, ((part, label), rank))| {
             let found = analysis.findings.get(index);
-            let decided = |found: &&PartFinding| found.open.is_none() && found.lower == found.upper;
+            let decided =
+                |found: &&PartFinding| found.open().is_none() && found.lower() == found.upper();
             Block {
                 name: part.joints.first().map_or_else(String::new, |joint| {
                     structure.graph.edge_name(*joint).to_owned()
@@ -178,10 +179,10 @@ fn blocks(analysis: &Analysis) -> Vec<Block> {
                 unknowns: rank.unknowns(),
                 rank: rank.instantaneous.map(|freedom| rank.unknowns() - freedom),
                 instantaneous: rank.instantaneous,
-                finite: found.filter(decided).map(|found| found.upper),
-                pose: found.and_then(|found| found.pose),
-                kind: found.and_then(|found| found.kind),
-                class: found.filter(|f| f.upper > 0).and_then(|f| f.class),
+                finite: found.filter(decided).map(PartFinding::upper),
+                pose: found.and_then(PartFinding::pose),
+                kind: found.and_then(PartFinding::kind),
+                class: found.filter(|f| f.upper() > 0).and_then(PartFinding::class),
             }
         })
         .collect()

@@ -1,98 +1,61 @@
-//! What a proof changes about what the other engines found, and what excludes it.
+//! What a proof or a bound of exact algebra claims.
 
 use super::ExactFinding;
-use crate::part_mobility::PartFinding;
+use crate::claim::{Answer, Bounds, Claim, Says};
+use crate::judge::PartFinding;
 use crate::pose_rank::PartRank;
-use crate::vocabulary::{CertificateLevel, MobilityClass, PoseKind, SingularKind};
+use crate::vocabulary::{
+    CertificateLevel, EngineName, MobilityClass, PoseKind, Scope, SingularKind,
+};
 
-/// Puts a proof or a bound together with what the other engines found. What contradicts is said, and nothing is decided then.
-pub(super) fn combine(found: &mut PartFinding, rank: &PartRank, exact: ExactFinding) {
-    if let Some(text) = contradiction(found, rank, &exact) {
-        found.open = Some(text.clone());
-        found.contradiction = Some(text);
-        found.lower = exact.proven.unwrap_or(0).min(found.lower);
-        found.upper = exact.upper.max(found.upper);
-        found.level = CertificateLevel::Numeric;
-        found.pose = None;
-        found.kind = None;
-        found.class = None;
-        found.complex_dimension = None;
-        found.branches = None;
-        return;
-    }
-    let was_open = found.open.is_some();
-    found.upper = found.upper.min(exact.upper);
-    found.complex_upper = Some(exact.upper);
-    if let Some(freedom) = exact.proven {
-        found.lower = freedom;
-        found.upper = freedom;
-        found.level = CertificateLevel::Exact;
-        found.certificate = exact.certificate;
-        found.open = None;
-        if was_open {
-            settle(found, rank, exact.tangent, freedom);
-        }
-    } else if was_open && found.lower == found.upper {
-        found.open = None;
-        "other engines leave no fewer freedoms, and no component of the complex solution set through this pose has more \
-         dimensions, in exact arithmetic"
-            .clone_into(&mut found.certificate);
-    }
-    let meets = (exact.upper == found.lower).then_some(exact.upper);
-    let complex = exact.complex_dimension.or(meets);
-    // Where it is not known, the bound still is one.
-    let excluded = |germ: usize| complex.map_or(germ > exact.upper, |algebra| algebra != germ);
-    match (found.complex_dimension, complex) {
-        // The real freedom keeps its bounds, whichever of the two is wrong.
-        (Some(germ), _) if excluded(germ) => {
-            let algebra = complex.map_or_else(
-                || format!("at most {}", exact.upper),
-                |dimension| dimension.to_string(),
-            );
-            found.complex_dimension = None;
-            found.contradiction = Some(format!(
-                "two engines contradict each other, please report this: the dimension over the complex numbers is {germ} by \
-                 the power series at this pose and {algebra} by exact algebra"
-            ));
-        }
-        (before, now) => found.complex_dimension = now.or(before),
-    }
-}
-
-/// What a part is that only exact algebra decided.
-fn settle(found: &mut PartFinding, rank: &PartRank, tangent: usize, freedom: usize) {
-    let regular = tangent == freedom;
-    let surplus = rank.unknowns() as i64 - rank.equations() as i64;
-    found.at_rest = rank.instantaneous.unwrap_or(tangent);
-    found.branches = (freedom == 0).then(Vec::new);
-    if regular {
-        found.pose = Some(PoseKind::Regular);
-        found.kind = None;
-        found.class = (freedom > 0 && surplus == freedom as i64).then_some(MobilityClass::Trivial);
-    } else if freedom == 0 && rank.instantaneous.is_some_and(|velocities| velocities > 0) {
-        found.pose = Some(PoseKind::Singular);
-        found.kind = Some(SingularKind::Shaky);
-    }
-}
-
-/// Where a proof and what the other engines found exclude each other.
-fn contradiction(found: &PartFinding, rank: &PartRank, exact: &ExactFinding) -> Option<String> {
-    let text = match (rank.instantaneous, exact.proven) {
-        (Some(velocities), _) if exact.tangent < velocities => format!(
-            "numeric rank leaves {velocities} instantaneous freedoms, exact arithmetic at most {}",
-            exact.tangent
-        ),
-        (_, Some(proven)) if proven > found.upper => format!(
-            "numeric engines find at most {} finite freedoms, exact algebra proves {proven}",
-            found.upper
-        ),
-        _ if exact.upper < found.lower => format!(
-            "numeric engines find {} finite freedoms, exact algebra proves that there are at most {}",
-            found.lower, exact.upper
-        ),
-        _ => return None,
+/// The claim about a part of which other engines found something before.
+pub(super) fn claim(found: &PartFinding, rank: &PartRank, exact: ExactFinding) -> Claim {
+    let finite = Bounds::between(exact.proven.unwrap_or(0), exact.upper);
+    let claim = Claim {
+        instantaneous: Bounds::at_most(exact.tangent),
+        complex: exact
+            .complex_dimension
+            .map_or(Bounds::at_most(exact.upper), Bounds::exactly),
+        ..Claim::of(EngineName::Exact, Scope::PoseComplex, finite, exact.text)
     };
-    Some(format!(
-        "two engines contradict each other, please report this: {text}"
-    ))
+    let undecided = found.open().is_some();
+    match exact.proven {
+        Some(_) if !undecided => Claim {
+            says: Says::Proves {
+                level: CertificateLevel::Exact,
+                certificate: exact.certificate,
+            },
+            ..claim
+        },
+        Some(freedom) => alone(claim, rank, exact.tangent, freedom, exact.certificate),
+        None if undecided && found.lower() == exact.upper => claim.decides(Answer::numeric(
+            "other engines leave no fewer freedoms, and no component of the complex solution set through this pose has more \
+             dimensions, in exact arithmetic",
+        )),
+        None => claim,
+    }
+}
+
+/// The claim about a part that only exact algebra decides.
+fn alone(
+    mut claim: Claim,
+    rank: &PartRank,
+    tangent: usize,
+    freedom: usize,
+    certificate: String,
+) -> Claim {
+    let surplus = rank.unknowns() as i64 - rank.equations() as i64;
+    let mut answer = Answer {
+        level: CertificateLevel::Exact,
+        branches: (freedom == 0).then(Vec::new),
+        ..Answer::numeric(certificate)
+    };
+    if tangent == freedom {
+        claim.pose = Some(PoseKind::Regular);
+        answer.class = (freedom > 0 && surplus == freedom as i64).then_some(MobilityClass::Trivial);
+    } else if freedom == 0 && rank.instantaneous.is_some_and(|velocities| velocities > 0) {
+        claim.pose = Some(PoseKind::Singular);
+        answer.kind = Some(SingularKind::Shaky);
+    }
+    claim.decides(answer)
 }

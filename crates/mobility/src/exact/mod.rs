@@ -39,10 +39,11 @@ mod question;
 
 pub use budget::{ExactAllowance, ExactBudget};
 
-use super::part_mobility::{Evidence, PartFinding};
+use super::claim::{Bounds, Claim};
+use super::judge::PartFinding;
 use super::pose_rank::{PartRank, Pose};
-use super::vocabulary::CertificateLevel;
-use agreement::combine;
+use super::vocabulary::{CertificateLevel, EngineName, Scope};
+use agreement::claim;
 use kutzbach_algebra::{
     Budget, Formulation, Limits, Stop, SystemOptions, entries_in, polynomial_system,
 };
@@ -85,7 +86,7 @@ pub(super) fn ask_exact(
     found: &mut PartFinding,
     allowance: &mut ExactAllowance,
 ) {
-    let undecided = found.open.is_some() || found.level == CertificateLevel::Numeric;
+    let undecided = found.open().is_some() || found.level() == CertificateLevel::Numeric;
     if !undecided || allowance.each == 0 || part.joints.is_empty() {
         return;
     }
@@ -103,20 +104,15 @@ pub(super) fn ask_exact(
     allowance.left -= budget.work().min(work);
     match answer {
         Ok(exact) => {
-            let bounds = (exact.proven.unwrap_or(0), Some(exact.upper));
-            found.evidence.push(evidence(bounds, exact.text.clone()));
-            combine(found, rank, exact);
+            let claim = claim(found, rank, exact);
+            found.take(claim);
         }
-        Err(why) => found.evidence.push(evidence((0, None), why)),
-    }
-}
-
-fn evidence(bounds: (usize, Option<usize>), text: String) -> Evidence {
-    Evidence {
-        engine: "exact",
-        scope: "this pose, complex",
-        bounds,
-        text,
+        Err(why) => found.take(Claim::of(
+            EngineName::Exact,
+            Scope::PoseComplex,
+            Bounds::ANY,
+            why,
+        )),
     }
 }
 

@@ -1,7 +1,7 @@
 //! The solutions of a polynomial system near the pose drawn: their tangent space and their dimension.
 
 use super::{ExactFinding, stopped};
-use crate::part_mobility::PartFinding;
+use crate::judge::PartFinding;
 use crate::pose_rank::PartRank;
 use kutzbach_algebra::{
     Budget, Limits, ModularSystem, MonomialOrder, Polynomial, PolynomialSystem, Rational, Stop,
@@ -93,7 +93,7 @@ impl Question<'_> {
         let least = usize::try_from(least).unwrap_or(0);
         // That a bound is not exceeded is known before the dimension is. Where the tangent space is no larger, the dimension
         // itself is worth knowing: it could be less than the others think.
-        let expected = self.found.lower.max(least);
+        let expected = self.found.lower().max(least);
         answer.upper = if expected < answer.tangent && self.is_at_most(expected)? {
             expected
         } else {
@@ -136,7 +136,7 @@ impl Question<'_> {
             }
         }
         if answer.complex_dimension.is_none()
-            && answer.upper > self.found.lower
+            && answer.upper > self.found.lower()
             && let Some(second) = self.system.home_modulo(1, self.most.memory)
         {
             let again = self.dimension(&second)?;

@@ -1,5 +1,6 @@
 use super::question::tangent_dimension;
 use super::*;
+use crate::claim::Answer;
 use crate::depth::Depth;
 use crate::part_mobility::part_mobility;
 use crate::part_samples::{Posed, fresh};
@@ -34,18 +35,24 @@ fn asked(posed: &Posed, mut found: PartFinding) -> PartFinding {
     found
 }
 
-/// As if the numeric engines had given up.
-fn left_open(mut found: PartFinding, upper: usize) -> PartFinding {
-    found.open = Some("a thin margin".to_owned());
-    found.upper = upper;
-    found.pose = None;
-    found.kind = None;
-    found.branches = None;
+/// As if the numeric engines had given up, and left these bounds.
+fn left_open(posed: &Posed, finite: Bounds) -> PartFinding {
+    let rank = posed.rank();
+    let mut found = PartFinding::new(rank.unknowns());
+    found.take(Claim {
+        instantaneous: rank.instantaneous.map_or(Bounds::ANY, Bounds::exactly),
+        says: crate::claim::Says::Open("a thin margin".to_owned()),
+        ..numeric_claim(finite)
+    });
     found
 }
 
-fn last(found: &PartFinding) -> &Evidence {
-    found.evidence.last().unwrap()
+fn numeric_claim(finite: Bounds) -> Claim {
+    Claim::of(EngineName::Germ, Scope::Neighbourhood, finite, "")
+}
+
+fn last(found: &PartFinding) -> &Claim {
+    found.claims().last().unwrap()
 }
 
 #[test]
@@ -57,13 +64,13 @@ fn what_is_proved_gets_the_exact_level() {
         let posed = Posed::known(name);
         let found = asked(&posed, numeric(&posed));
         assert_eq!(
-            (found.level, found.lower, found.upper, found.pose),
+            (found.level(), found.lower(), found.upper(), found.pose()),
             (CertificateLevel::Exact, 0, 0, Some(pose)),
             "{name}"
         );
         assert_eq!(
-            (last(&found).engine, last(&found).bounds),
-            ("exact", (0, Some(0)))
+            (last(&found).engine, last(&found).finite),
+            (EngineName::Exact, Bounds::exactly(0))
         );
     }
 }
@@ -71,73 +78,68 @@ fn what_is_proved_gets_the_exact_level() {
 #[test]
 fn what_others_leave_open_is_decided() {
     let posed = Posed::known("collinear_3r_shaky");
-    let found = asked(&posed, left_open(numeric(&posed), 1));
-    assert_eq!(
-        (found.lower, found.upper, found.open.as_ref()),
-        (0, 0, None)
-    );
-    assert_eq!(found.kind, Some(SingularKind::Shaky));
-    assert_eq!(found.branches.map(|b| b.len()), Some(0));
+    let found = asked(&posed, left_open(&posed, Bounds::at_most(1)));
+    assert_eq!((found.lower(), found.upper(), found.open()), (0, 0, None));
+    assert_eq!(found.kind(), Some(SingularKind::Shaky));
+    assert_eq!(found.branches().map(<[_]>::len), Some(0));
     // A motion that is known, and a bound that excludes more: decided, and no more than numeric.
     let posed = Posed::known("double_watt_cusp");
-    let mut open = left_open(numeric(&posed), 2);
-    open.lower = 1;
-    let found = asked(&posed, open);
-    assert_eq!(
-        (found.lower, found.upper, found.open.as_ref()),
-        (1, 1, None)
-    );
-    assert_eq!(found.level, CertificateLevel::Numeric);
+    let found = asked(&posed, left_open(&posed, Bounds::between(1, 2)));
+    assert_eq!((found.lower(), found.upper(), found.open()), (1, 1, None));
+    assert_eq!(found.level(), CertificateLevel::Numeric);
     // The bound alone.
-    let mut open = left_open(numeric(&posed), 2);
-    open.lower = 0;
-    let found = asked(&posed, open);
-    assert_eq!((found.lower, found.upper), (0, 1));
-    assert!(found.open.is_some());
+    let found = asked(&posed, left_open(&posed, Bounds::at_most(2)));
+    assert_eq!((found.lower(), found.upper()), (0, 1));
+    assert!(found.open().is_some());
 }
 
 #[test]
 fn a_contradiction_is_said_and_decides_nothing() {
     let posed = Posed::known("planar_4r_stretched_isolated");
-    let mut wrong = numeric(&posed);
-    wrong.lower = 2;
-    wrong.upper = 2;
+    let mut wrong = PartFinding::new(posed.rank().unknowns());
+    wrong.take(numeric_claim(Bounds::exactly(2)).decides(Answer::numeric("wrong")));
     let found = asked(&posed, wrong);
-    assert!(found.contradiction.as_ref().unwrap().contains("at most 1"));
-    assert_eq!((found.lower, found.upper, found.pose), (0, 2, None));
+    let said: Vec<String> = found
+        .contradictions()
+        .iter()
+        .map(ToString::to_string)
+        .collect();
+    assert!(
+        said[0].contains("2 by engine `germ` and at most 1 by engine `exact`"),
+        "{said:?}"
+    );
+    assert_eq!((found.lower(), found.upper(), found.pose()), (0, 2, None));
     let verdict = judge(&posed.mechanism, &posed.structure, &[found]);
     assert_eq!(verdict.verdict, Verdict::Undecided);
     assert_eq!(verdict.why.len(), 1);
     assert!(verdict.why[0].contains("please report"));
     // A rank that is too small, and a motion where there is none.
     let posed = Posed::known("triangle_3r_rigid");
-    let mut rank = posed.rank();
-    rank.instantaneous = Some(1);
     let mut found = numeric(&posed);
-    let exact = ExactFinding {
-        tangent: 0,
-        upper: 0,
-        proven: Some(0),
-        complex_dimension: Some(0),
-        certificate: "proof".to_owned(),
-        text: String::new(),
-    };
-    combine(&mut found, &rank, exact);
-    assert!(found.contradiction.unwrap().contains("numeric rank"));
+    let rank = Claim::of(EngineName::Rank, Scope::Pose, Bounds::ANY, "");
+    found.take(Claim {
+        instantaneous: Bounds::exactly(1),
+        ..rank
+    });
+    let said = found.contradictions()[0].to_string();
+    assert!(
+        said.contains("the instantaneous freedom is 0 by engine `rank`"),
+        "{said}"
+    );
 }
 
 #[test]
 fn complex_dimensions_are_compared() {
     let posed = Posed::known("planar_4r_stretched_isolated");
     let found = asked(&posed, numeric(&posed));
-    assert_eq!((found.complex_dimension, found.upper), (Some(1), 0));
-    assert!(found.contradiction.is_none());
+    assert_eq!((found.complex_dimension(), found.upper()), (Some(1), 0));
+    assert_eq!(found.contradictions(), []);
     let mut wrong = numeric(&posed);
-    wrong.complex_dimension = Some(0);
+    wrong.amend(|claim| claim.complex = Bounds::exactly(0));
     let found = asked(&posed, wrong);
-    assert!(found.contradiction.is_some() && found.complex_dimension.is_none());
+    assert!(found.contradictions().len() == 1 && found.complex_dimension().is_none());
     // The real answer rests on neither.
-    assert_eq!((found.lower, found.upper, found.open), (0, 0, None));
+    assert_eq!((found.lower(), found.upper(), found.open()), (0, 0, None));
 }
 
 #[test]
@@ -148,14 +150,14 @@ fn only_exact_numbers_are_asked_about() {
         Written::Decimals(6),
     ));
     let found = asked(&decimals, numeric(&decimals));
-    assert_eq!(found.level, CertificateLevel::Numeric);
-    assert!(last(&found).text.contains("rounded") && last(&found).bounds == (0, None));
+    assert_eq!(found.level(), CertificateLevel::Numeric);
+    assert!(last(&found).text.contains("rounded") && last(&found).finite == Bounds::ANY);
     let posed = Posed::new(general_four());
     let found = asked(&posed, numeric(&posed));
-    assert_eq!(found.level, CertificateLevel::Exact);
+    assert_eq!(found.level(), CertificateLevel::Exact);
     // No budget, no question.
     let mut found = numeric(&posed);
-    let evidence = found.evidence.len();
+    let evidence = found.claims().len();
     let mut none = ExactAllowance::new(ExactBudget::none());
     ask_exact(
         &posed.pose(),
@@ -164,7 +166,7 @@ fn only_exact_numbers_are_asked_about() {
         &mut found,
         &mut none,
     );
-    assert_eq!(found.evidence.len(), evidence);
+    assert_eq!(found.claims().len(), evidence);
 }
 
 #[test]

@@ -3,9 +3,10 @@
 use super::nominal;
 use super::parts::PartMeant;
 use crate::analysis::Analysis;
+use crate::claim::{Answer, Bounds, Claim};
 use crate::roles::JointRole;
 use crate::verdict::judge;
-use crate::vocabulary::{CertificateLevel, PoseKind, SingularKind, Verdict};
+use crate::vocabulary::{EngineName, PoseKind, Scope, SingularKind, Verdict};
 use crate::whole_branches::whole_branches;
 use kutzbach_closure::{Arithmetic, Geometry};
 use kutzbach_model::mechanism::{Configuration, Mechanism};
@@ -29,22 +30,24 @@ pub(super) fn held_fast(
             let rank = &stated.parts[part.index];
             as_before &= rank.as_written.is_some() && rank.as_written == rank.instantaneous;
             let finding = &mut stated.findings[part.index];
-            finding.lower = 0;
-            finding.upper = 0;
-            finding.at_rest = 0;
-            finding.open = None;
-            finding.nominal = None;
-            finding.class = None;
-            finding.branches = Some(Vec::new());
-            finding.complex_dimension = None;
             // What gives way to first order as written, and does not move, is a singular pose.
-            (finding.pose, finding.kind) = match (rank.as_written, as_before) {
+            let (pose, kind) = match (rank.as_written, as_before) {
                 (Some(0), _) => (Some(PoseKind::Regular), None),
                 (_, true) => (Some(PoseKind::Singular), Some(SingularKind::Shaky)),
-                _ => (finding.pose, finding.kind),
+                _ => (finding.pose(), finding.kind()),
             };
-            finding.level = CertificateLevel::Numeric;
-            finding.certificate = certificate(part);
+            let certificate = certificate(part);
+            let text = certificate.clone();
+            let claim = Claim {
+                pose,
+                instantaneous: Bounds::at_most(0),
+                ..Claim::of(EngineName::Digits, Scope::Pose, Bounds::exactly(0), text)
+            };
+            finding.read_anew(claim.decides(Answer {
+                kind,
+                branches: Some(Vec::new()),
+                ..Answer::numeric(certificate)
+            }));
             // Of equations whose rank is open, joints that move to first order are not known to be locked.
             let holds = stated.parts[part.index].as_written == Some(0);
             for &joint in &stated.structure.parts[part.index].joints {

@@ -23,12 +23,13 @@ mod relations;
 mod tests;
 
 use super::analysis::{Analysis, AnalysisError, AnalysisOptions, analyse_as_stated};
+use super::claim::{Bounds, Claim, Says};
 use super::depth::Depth;
 use super::exact_constraint::NoChangeSet;
 use super::redundant_directions::JointDirections;
 use super::roles::JointRole;
 use super::verdict::{Nominal, judge, unassembled};
-use super::vocabulary::Verdict;
+use super::vocabulary::{EngineName, Scope, Verdict};
 use dimensions::turns;
 use held_fast::held_fast;
 use kutzbach_closure::Part;
@@ -315,14 +316,14 @@ fn left_open(mut stated: Analysis, parts: &[PartMeant]) -> Analysis {
 fn opened(mechanism: &Mechanism, mut stated: Analysis, parts: &[PartMeant]) -> Analysis {
     for part in parts.iter().filter(|part| part.excluded) {
         let finding = &mut stated.findings[part.index];
-        finding.lower = 0;
-        finding.nominal = None;
-        finding.branches = None;
-        finding.open = Some(
-            "no numbers within the digits let it move with as many degrees of freedom as its rank within them; with how many fewer it \
-             moves is open"
-                .to_owned(),
-        );
+        let why = "no numbers within the digits let it move with as many degrees of freedom as its rank within them; with how many \
+                   fewer it moves is open";
+        let finite = Bounds::at_most(finding.upper());
+        finding.read_anew(Claim {
+            pose: finding.pose(),
+            says: Says::Open(why.to_owned()),
+            ..Claim::of(EngineName::Digits, Scope::Pose, finite, why)
+        });
     }
     stated.mobility = judge(mechanism, &stated.structure, &stated.findings);
     stated.branches = None;

@@ -67,8 +67,8 @@ pub(super) fn but_for_noise(
     let mut parts = Vec::new();
     for (index, part) in stated.structure.parts.iter().enumerate() {
         let finding = stated.findings.get(index);
-        let open = finding.is_none_or(|finding| finding.open.is_some());
-        if !open && finding.is_some_and(|finding| finding.upper > 0) {
+        let open = finding.is_none_or(|finding| finding.open().is_some());
+        if !open && finding.is_some_and(|finding| finding.upper() > 0) {
             continue;
         }
         match of_part(mechanism, &geometry, &stated, (index, part))? {

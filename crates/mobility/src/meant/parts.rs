@@ -8,6 +8,7 @@ use super::poses::Loops;
 use super::relations::{Kept, Relations};
 use super::{Change, WITHIN};
 use crate::analysis::Analysis;
+use crate::judge::PartFinding;
 use crate::pose_rank::{BEYOND_FIRST_ORDER, PartRank};
 use crate::tree_bound::most_by_joints;
 use kutzbach_closure::{
@@ -109,10 +110,10 @@ pub(super) fn parts_meant(
         let asked = finding.is_none_or(|finding| {
             let nearly = rank.is_some_and(|rank| nearly_moves(&dimensions, rank));
             let else_as_written = rank.is_some_and(is_else_as_written);
-            finding.open.is_some()
-                || finding.nominal.is_some()
+            finding.open().is_some()
+                || finding.nominal().is_some()
                 || else_as_written
-                || finding.upper == 0 && nearly
+                || finding.upper() == 0 && nearly
         });
         if !asked {
             continue;
@@ -121,10 +122,10 @@ pub(super) fn parts_meant(
         of_part.gap = rank.is_some_and(leaves_a_gap);
         let states = &stated.assembly.states;
         let freedom = finding
-            .filter(|finding| finding.open.is_none() && finding.upper > 0)
-            .map(|finding| finding.upper);
+            .filter(|finding| finding.open().is_none() && finding.upper() > 0)
+            .map(PartFinding::upper);
         of_part.accepted = freedom;
-        let rigid = finding.is_some_and(|finding| finding.open.is_none() && finding.upper == 0);
+        let rigid = finding.is_some_and(|finding| finding.open().is_none() && finding.upper() == 0);
         let literal = rank.and_then(|rank| rank.as_written);
         let open_to = rank.map_or(0.0, |rank| rank.stated);
         let most = rank

@@ -7,12 +7,13 @@
 //! branches, whatever the terms of higher degree are. That the branches exist shows where the mechanism is closed on them and
 //! followed.
 
+use super::super::claim::{Answer, Bounds, Claim};
 use super::super::germ::{Germ, linear_arrangement, quadratic_form};
 use super::super::germ_zeros::GermBranch;
+use super::super::judge::PartFinding;
 use super::super::lifting::{Start, lift_all};
-use super::super::part_mobility::{Evidence, PartFinding};
 use super::super::pose_rank::PartRank;
-use super::super::vocabulary::SingularKind;
+use super::super::vocabulary::{EngineName, Scope, SingularKind};
 use super::known_branches::{RADII, curve_along, scaled, sheet};
 use kutzbach_math::matrix::{MatrixError, SplitMix64};
 use nalgebra::{DMatrix, DVector};
@@ -26,7 +27,6 @@ const CLEARANCE: f64 = 1e4;
 /// [`MatrixError`] where numbers overflow.
 pub(super) fn by_arrangement(
     found: &mut PartFinding,
-    evidence: &mut Vec<Evidence>,
     start: &Start<'_>,
     rank: &PartRank,
 ) -> Result<bool, MatrixError> {
@@ -52,32 +52,38 @@ pub(super) fn by_arrangement(
     let mut dimensions: Vec<usize> = lifted.iter().map(|l| l.branch.dimension).collect();
     dimensions.sort_unstable();
     let finite = dimensions.last().copied().unwrap_or(0);
-    evidence.push(Evidence {
-        engine: "second order",
-        scope: "a neighbourhood, real",
-        bounds: (finite, Some(finite)),
-        text: format!(
-            "{} quadratic forms in {} variables, whose zeros are {} linear spaces, of dimensions {dimensions:?} with what is idle; each is \
-             tangent to a branch",
-            forms.len(),
-            germ.freedom(),
-            spaces.len()
-        ),
-    });
-    found.lower = finite;
-    found.upper = finite;
-    found.kind = match dimensions.as_slice() {
-        [] | [_] => None,
-        [least, .., most] if least == most => Some(SingularKind::Bifurcation),
-        _ => Some(SingularKind::Kinematotropic),
-    };
-    found.certificate = format!(
-        "the quadratic terms that the equations leave over vanish on {} linear spaces only; the loops close along a branch tangent to \
-         each, so that there are no others (equal Hilbert functions)",
+    let text = format!(
+        "{} quadratic forms in {} variables, whose zeros are {} linear spaces, of dimensions {dimensions:?} with what is idle; each is \
+         tangent to a branch",
+        forms.len(),
+        germ.freedom(),
         spaces.len()
     );
-    found.complex_dimension = Some(spaces.iter().map(DMatrix::ncols).max().unwrap_or(0) + idle);
-    found.branches = Some(lifted.into_iter().map(|l| l.branch).collect());
+    let answer = Answer {
+        kind: match dimensions.as_slice() {
+            [] | [_] => None,
+            [least, .., most] if least == most => Some(SingularKind::Bifurcation),
+            _ => Some(SingularKind::Kinematotropic),
+        },
+        branches: Some(lifted.into_iter().map(|l| l.branch).collect()),
+        ..Answer::numeric(format!(
+            "the quadratic terms that the equations leave over vanish on {} linear spaces only; the loops close along a branch tangent \
+             to each, so that there are no others (equal Hilbert functions)",
+            spaces.len()
+        ))
+    };
+    let finite = Bounds::exactly(finite);
+    let claim = Claim::of(
+        EngineName::SecondOrder,
+        Scope::RealNeighbourhood,
+        finite,
+        text,
+    );
+    let complex = spaces.iter().map(DMatrix::ncols).max().unwrap_or(0) + idle;
+    found.take(Claim {
+        complex: Bounds::exactly(complex),
+        ..claim.decides(answer)
+    });
     Ok(true)
 }
 

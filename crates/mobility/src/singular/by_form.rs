@@ -5,10 +5,12 @@
 //! flat vertices are of this kind. Other equations might still cut the cone down; that a point of it closes on all of them, and
 //! moves with that dimension, shows that none does, since an irreducible germ has no other part of its dimension.
 
+use super::super::claim::{Answer, Bounds, Claim};
 use super::super::germ::{Germ, quadratic_form, signature};
+use super::super::judge::PartFinding;
 use super::super::lifting::{Start, lift_all};
-use super::super::part_mobility::{Evidence, PartFinding};
 use super::super::pose_rank::PartRank;
+use super::super::vocabulary::{EngineName, Scope};
 use super::known_branches::{cone, sheet};
 use kutzbach_math::matrix::MatrixError;
 
@@ -18,7 +20,6 @@ use kutzbach_math::matrix::MatrixError;
 /// [`MatrixError`] where numbers overflow.
 pub(super) fn by_form(
     found: &mut PartFinding,
-    evidence: &mut Vec<Evidence>,
     start: &Start<'_>,
     rank: &PartRank,
 ) -> Result<bool, MatrixError> {
@@ -46,20 +47,24 @@ pub(super) fn by_form(
         return Ok(false);
     }
     let idle = start.idle.len();
-    evidence.push(Evidence {
-        engine: "second order",
-        scope: "a neighbourhood, real",
-        bounds: (dimension + idle, Some(dimension + idle)),
-        text: format!(
-            "one quadratic form of full rank in {} variables, signature ({plus}, {minus}): its cone is irreducible (Morse's lemma)",
-            germ.freedom()
-        ),
-    });
-    found.lower = dimension + idle;
-    found.upper = dimension + idle;
-    "what the equations leave over is one quadratic form of full rank, so that near this pose the solutions are its cone, one branch \
-     (Morse's lemma), which the loops close along"
-        .clone_into(&mut found.certificate);
-    found.branches = Some(lifted.into_iter().map(|l| l.branch).collect());
+    let text = format!(
+        "one quadratic form of full rank in {} variables, signature ({plus}, {minus}): its cone is irreducible (Morse's lemma)",
+        germ.freedom()
+    );
+    let answer = Answer {
+        branches: Some(lifted.into_iter().map(|l| l.branch).collect()),
+        ..Answer::numeric(
+            "what the equations leave over is one quadratic form of full rank, so that near this pose the solutions are its cone, one \
+             branch (Morse's lemma), which the loops close along",
+        )
+    };
+    let finite = Bounds::exactly(dimension + idle);
+    let claim = Claim::of(
+        EngineName::SecondOrder,
+        Scope::RealNeighbourhood,
+        finite,
+        text,
+    );
+    found.take(claim.decides(answer));
     Ok(true)
 }

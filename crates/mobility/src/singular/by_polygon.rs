@@ -1,12 +1,13 @@
 //! Singular poses where two coordinates are free to first order, by Newton's polygon.
 
+use super::super::claim::{Answer, Bounds, Claim};
 use super::super::germ::Germ;
+use super::super::judge::PartFinding;
 use super::super::leftover::Doubt;
 use super::super::lifting::{Start, lift_all};
-use super::super::part_mobility::{Evidence, PartFinding};
 use super::super::plane_germ::{ORDERS, PlaneCurve, plane_curve};
 use super::super::pose_rank::PartRank;
-use super::super::vocabulary::SingularKind;
+use super::super::vocabulary::{EngineName, Scope, SingularKind};
 use super::isolated;
 use kutzbach_math::matrix::MatrixError;
 
@@ -19,29 +20,34 @@ const DEGREE: usize = 8;
 /// [`MatrixError`] where numbers overflow.
 pub(super) fn by_polygon(
     found: &mut PartFinding,
-    evidence: &mut Vec<Evidence>,
     start: &Start<'_>,
     rank: &PartRank,
 ) -> Result<Option<String>, MatrixError> {
     let idle = start.idle.len();
     // What is decided already is looked at once more, and not for long.
-    let curve = match plane_curve(start, found.branches.is_none()) {
+    let curve = match plane_curve(start, found.branches().is_none()) {
         Ok(curve) => curve,
         Err(doubt) => return Ok(Some(reason(doubt).to_owned())),
     };
-    evidence.push(Evidence {
-        engine: "Newton polygon",
-        scope: "a neighbourhood, real",
-        bounds: (0, Some(idle + usize::from(!curve.branches.is_empty()))),
-        text: text(&curve),
-    });
+    let text = text(&curve);
     if curve.branches.is_empty() {
-        "near this pose the closure equations have no other real solution: Newton's polygon leaves no half-branch"
-            .clone_into(&mut found.certificate);
-        isolated(found, start)?;
+        let certificate = "near this pose the closure equations have no other real solution: Newton's polygon leaves no half-branch";
+        found.take(isolated(
+            start,
+            EngineName::NewtonPolygon,
+            text,
+            certificate,
+        )?);
         return Ok(None);
     }
+    let claim = Claim::of(
+        EngineName::NewtonPolygon,
+        Scope::RealNeighbourhood,
+        Bounds::at_most(1 + idle),
+        text,
+    );
     let Some(germ) = Germ::of_part_across(start.pose.mechanism, rank, DEGREE, start.idle)? else {
+        found.take(claim);
         return Ok(Some("its power series are too many to follow".to_owned()));
     };
     let lifted = lift_all(start, &germ, &curve.branches)?.and_then(|lifted| {
@@ -52,22 +58,25 @@ pub(super) fn by_polygon(
         }
         Ok(lifted)
     });
+    let mut claim = claim;
     let branches = match lifted {
         Ok(lifted) => Some(lifted.into_iter().map(|l| l.branch).collect()),
-        Err(why) if !curve.sole => return Ok(Some(why)),
+        Err(why) if !curve.sole => {
+            found.take(claim);
+            return Ok(Some(why));
+        }
         Err(why) => {
             // That they exist is proved; where they lead was not found.
-            if let Some(last) = evidence.last_mut() {
-                last.text.push_str(&format!("; {why}"));
-            }
+            claim.text.push_str(&format!("; {why}"));
             None
         }
     };
-    found.lower = 1 + idle;
-    found.upper = 1 + idle;
-    found.kind = kind(&curve);
-    found.certificate = certificate(&curve);
-    found.branches = branches;
+    claim.finite = Bounds::exactly(1 + idle);
+    found.take(claim.decides(Answer {
+        kind: kind(&curve),
+        branches,
+        ..Answer::numeric(certificate(&curve))
+    }));
     Ok(None)
 }
 

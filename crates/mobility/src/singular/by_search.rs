@@ -5,13 +5,15 @@ use super::isolated;
 use super::kinds::kind_of;
 use super::resolution::Resolution;
 use super::search::{agrees_with, germ_text, zeros_within};
+use crate::claim::{Answer, Bounds, Claim, Says};
 use crate::germ::{
     ComplexDimension, Germ, complex_dimension, isolated_by_leading_terms, prestress_certificate,
 };
 use crate::germ_zeros::GermZeros;
+use crate::judge::PartFinding;
 use crate::lifting::{Lifted, Start, lift_all};
-use crate::part_mobility::{Evidence, PartFinding};
 use crate::pose_rank::{PartRank, height_at, is_computed};
+use crate::vocabulary::{EngineName, Scope};
 use kutzbach_math::matrix::MatrixError;
 
 /// Degrees to which the series are computed: the first, and the last tried. A germ in the plane is cheap enough for more.
@@ -33,7 +35,6 @@ const UNPROVED: usize = 2;
 /// [`MatrixError`] where numbers overflow.
 pub(super) fn by_search(
     found: &mut PartFinding,
-    evidence: &mut Vec<Evidence>,
     start: &Start<'_>,
     doubtful: &PartRank,
 ) -> Result<Option<String>, MatrixError> {
@@ -46,7 +47,6 @@ pub(super) fn by_search(
     };
     let mut searches = Searches {
         found,
-        evidence,
         start,
         rounded: doubtful.stated > start.rank.accuracy,
         before: None,
@@ -96,7 +96,6 @@ enum Outcome {
 /// The searches at one pose.
 struct Searches<'a> {
     found: &'a mut PartFinding,
-    evidence: &'a mut Vec<Evidence>,
     start: &'a Start<'a>,
     rounded: bool,
     /// What the last search found.
@@ -130,7 +129,6 @@ impl Searches<'_> {
         let complex_dimension = complex
             .as_ref()
             .map(|c| c.dimension + self.start.idle.len());
-        self.found.complex_dimension = complex_dimension;
         if let Some(reason) = doubted(germ, &zeros, complex.as_ref()) {
             return Ok(self.refused(reason));
         }
@@ -140,9 +138,12 @@ impl Searches<'_> {
                 self.unproved += 1;
                 return Ok(self.refused(NOT_PROVED.to_owned()));
             }
-            "near this pose the closure equations have no other solution, even over the complex numbers"
-                .clone_into(&mut self.found.certificate);
-            isolated(self.found, self.start)?;
+            let certificate = "near this pose the closure equations have no other solution, even over the complex numbers";
+            let alone = isolated(self.start, EngineName::Germ, String::new(), certificate)?;
+            self.found.amend(|claim| {
+                claim.finite = alone.finite;
+                claim.says = alone.says;
+            });
             return Ok(Outcome::Settled);
         }
         match lift_all(self.start, germ, &zeros.branches)? {
@@ -151,29 +152,33 @@ impl Searches<'_> {
         }
     }
 
+    /// Takes the claim of a search. What an earlier one, in shorter series, said of complex solutions is none any more.
+    fn claim(&mut self, claim: Claim, complex: Option<&ComplexDimension>) {
+        self.found.amend(|last| {
+            if last.engine == EngineName::Germ {
+                last.complex = Bounds::ANY;
+            }
+        });
+        let idle = self.start.idle.len();
+        let complex = complex.map_or(Bounds::ANY, |c| Bounds::exactly(c.dimension + idle));
+        self.found.take(Claim { complex, ..claim });
+    }
+
     /// Whether a self-stress blocks every motion.
     fn blocked_by_stress(&mut self, germ: &Germ) -> Result<bool, MatrixError> {
         let Some(stress) = prestress_certificate(germ) else {
             return Ok(false);
         };
-        let idle = self.start.idle.len();
-        self.evidence.push(Evidence {
-            engine: "second order",
-            scope: "a neighbourhood, real",
-            bounds: (0, Some(idle)),
-            text: format!(
-                "a self-stress makes the second-order form definite: smallest eigenvalue {:.2e}, noise {:.2e}{}",
-                stress.smallest_eigenvalue,
-                stress.noise,
-                taken_out(idle)
-            ),
-        });
-        "a self-stress blocks every motion at second order (its quadratic form on the velocities is definite)"
-            .clone_into(&mut self.found.certificate);
-        isolated(self.found, self.start)?;
-        self.found.complex_dimension =
-            complex_dimension(germ.equations(), germ.freedom(), germ.noise_by_degree())
-                .map(|c| c.dimension + idle);
+        let text = format!(
+            "a self-stress makes the second-order form definite: smallest eigenvalue {:.2e}, noise {:.2e}{}",
+            stress.smallest_eigenvalue,
+            stress.noise,
+            taken_out(self.start.idle.len())
+        );
+        let certificate = "a self-stress blocks every motion at second order (its quadratic form on the velocities is definite)";
+        let claim = isolated(self.start, EngineName::SecondOrder, text, certificate)?;
+        let complex = complex_dimension(germ.equations(), germ.freedom(), germ.noise_by_degree());
+        self.claim(claim, complex.as_ref());
         Ok(true)
     }
 
@@ -187,21 +192,15 @@ impl Searches<'_> {
         if !isolated_by_leading_terms(germ.equations(), germ.noise_by_degree()) {
             return Ok(false);
         }
-        let idle = self.start.idle.len();
-        self.evidence.push(Evidence {
-            engine: "germ",
-            scope: "a neighbourhood, real",
-            bounds: (0, Some(idle)),
-            text: format!(
-                "the lowest terms of the equations, of order {order}, have no common zero in series to degree {}{}",
-                germ.degree(),
-                taken_out(idle)
-            ),
-        });
-        "near this pose the closure equations have no other real solution: the lowest terms of what they leave over have none"
-            .clone_into(&mut self.found.certificate);
-        isolated(self.found, self.start)?;
-        self.found.complex_dimension = complex.map(|c| c.dimension + idle);
+        let text = format!(
+            "the lowest terms of the equations, of order {order}, have no common zero in series to degree {}{}",
+            germ.degree(),
+            taken_out(self.start.idle.len())
+        );
+        let certificate = "near this pose the closure equations have no other real solution: the lowest terms of what they leave over \
+                           have none";
+        let claim = isolated(self.start, EngineName::Germ, text, certificate)?;
+        self.claim(claim, complex);
         Ok(true)
     }
 
@@ -213,18 +212,20 @@ impl Searches<'_> {
         zeros: &GermZeros,
         complex: Option<&ComplexDimension>,
     ) {
+        let idle = self.start.idle.len();
         let dimensions = zeros.branches.iter().map(|b| b.dimension);
-        let upper = dimensions.max().unwrap_or(0);
-        self.evidence.push(Evidence {
-            engine: "germ",
-            scope: "a neighbourhood",
-            bounds: (0, zeros.thin.is_none().then_some(upper)),
-            text: format!(
-                "{}{}",
-                germ_text(germ, order, germ.degree(), zeros, complex),
-                taken_out(self.start.idle.len())
-            ),
-        });
+        let upper = dimensions.max().unwrap_or(0) + idle;
+        let text = format!(
+            "{}{}",
+            germ_text(germ, order, germ.degree(), zeros, complex),
+            taken_out(idle)
+        );
+        let finite = Bounds {
+            lower: 0,
+            upper: zeros.thin.is_none().then_some(upper),
+        };
+        let claim = Claim::of(EngineName::Germ, Scope::Neighbourhood, finite, text);
+        self.claim(claim, complex);
     }
 
     /// Takes branches that were brought to the mechanism for all there are, unless something is missing.
@@ -246,7 +247,7 @@ impl Searches<'_> {
                 "the dimension over the complex numbers contradicts the branches found".to_owned(),
             );
         }
-        self.found.lower = top;
+        self.found.amend(|claim| claim.finite.lower = top);
         // Where the complex dimension is larger real branches may have been overlooked, or there are none: y² + z² = 0.
         if let Some(complex) = complex.filter(|complex| *complex > top) {
             self.unproved += 1;
@@ -261,39 +262,40 @@ impl Searches<'_> {
         if !again && let Some(reason) = not_yet(complex.is_some(), multiple, self.rounded) {
             return self.refused(reason.to_owned());
         }
-        self.found.upper = top;
         let Start { pose, part, .. } = *self.start;
         let resolution = Resolution::of(
             germ,
             height_at(pose, part),
             is_computed(pose.mechanism, part),
         );
-        self.found.kind = kind_of(&lifted, &zeros.branches, &resolution);
-        self.found.certificate = format!(
+        let mut answer = Answer::numeric(format!(
             "the real zeros of the equations' power series give {} the loops close at finite distances from this pose",
             if lifted.len() == 1 {
                 "one branch, and on it".to_owned()
             } else {
                 format!("{} branches, and on each of them", lifted.len())
             }
-        );
-        self.found.branches = Some(lifted.into_iter().map(|l| l.branch).collect());
+        ));
+        answer.kind = kind_of(&lifted, &zeros.branches, &resolution);
+        answer.branches = Some(lifted.into_iter().map(|l| l.branch).collect());
+        self.found.amend(|claim| {
+            claim.finite = Bounds::exactly(top);
+            claim.says = Says::Decides(Box::new(answer));
+        });
         Outcome::Settled
     }
 
+    /// Marks the last search as one that nothing rests on, but that branches which the loops close along are some.
     fn refused(&mut self, reason: String) -> Outcome {
-        refuse(self.evidence, &reason);
+        self.found.amend(|claim| refuse(claim, &reason));
         Outcome::Open(reason)
     }
 }
 
-/// Marks the last search as one that nothing rests on.
-fn refuse(evidence: &mut [Evidence], reason: &str) {
-    if let Some(last) = evidence.last_mut() {
-        last.bounds = (0, None);
-        last.text.push_str("; not taken: ");
-        last.text.push_str(reason);
-    }
+fn refuse(claim: &mut Claim, reason: &str) {
+    claim.finite.upper = None;
+    claim.text.push_str("; not taken: ");
+    claim.text.push_str(reason);
 }
 
 /// Why the zeros found may not be those there are, if they may not.
@@ -356,18 +358,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_refused_search_bounds_nothing() {
-        let evidence = |high| Evidence {
-            engine: "germ",
-            scope: "a neighbourhood",
-            bounds: (0, Some(high)),
-            text: "found".to_owned(),
-        };
-        let mut all = [evidence(1), evidence(2)];
-        refuse(&mut all, "why");
-        assert_eq!(all[0], evidence(1));
-        assert_eq!(all[1].bounds, (0, None));
-        assert_eq!(all[1].text, "found; not taken: why");
-        refuse(&mut [], "why");
+    fn a_refused_search_bounds_nothing_from_above() {
+        let finite = Bounds::between(1, 2);
+        let mut claim = Claim::of(EngineName::Germ, Scope::Neighbourhood, finite, "found");
+        refuse(&mut claim, "why");
+        assert_eq!((claim.finite.lower, claim.finite.upper), (1, None));
+        assert_eq!(claim.text, "found; not taken: why");
     }
 }

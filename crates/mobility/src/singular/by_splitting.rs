@@ -1,16 +1,17 @@
 //! Singular poses at which one equation is left over whose quadratic terms have rank two or more, by the splitting lemma in many digits.
 
+use super::super::claim::{Answer, Bounds, Claim};
 use super::super::germ::Germ;
 use super::super::germ_zeros::GermBranch;
+use super::super::judge::PartFinding;
 use super::super::leftover::{ABSOLUTE, Doubt, Leftover, ORDERS, power_of_two};
 use super::super::lifting::{Start, lift_all};
 use super::super::more_digits::MoreDigits;
-use super::super::part_mobility::{Evidence, PartFinding};
 use super::super::pose_rank::{PartRank, TALL, height_at};
 use super::super::splitting_lemma::{
     Equation, Look, Rest, Squares, bits_of_squares, rest, squares,
 };
-use super::super::vocabulary::SingularKind;
+use super::super::vocabulary::{EngineName, Scope, SingularKind};
 use super::isolated;
 use super::known_branches::{POINTS, RADII, cone, curve_along, scaled, sheet};
 use kutzbach_math::matrix::{Extended, MatrixError, Real, Ring, SplitMix64};
@@ -49,7 +50,6 @@ enum Germs {
 /// [`MatrixError`] where numbers overflow.
 pub(super) fn by_splitting(
     found: &mut PartFinding,
-    evidence: &mut Vec<Evidence>,
     start: &Start<'_>,
     rank: &PartRank,
 ) -> Result<bool, MatrixError> {
@@ -95,32 +95,36 @@ pub(super) fn by_splitting(
             ),
         ),
     };
-    evidence.push(Evidence {
-        engine: "splitting lemma",
-        scope: "a neighbourhood, real",
-        bounds: (dimension + idle, Some(dimension + idle)),
-        text,
-    });
-    found.certificate = certificate;
     if germs == Germs::Isolated {
-        isolated(found, start)?;
+        found.take(isolated(
+            start,
+            EngineName::SplittingLemma,
+            text,
+            certificate,
+        )?);
         return Ok(true);
     }
-    found.lower = dimension + idle;
-    found.upper = dimension + idle;
-    found.kind = match germs {
+    let mut answer = Answer::numeric(certificate);
+    answer.kind = match germs {
         Germs::Two => Some(SingularKind::Bifurcation),
         Germs::Line => Some(SingularKind::PermanentlyShaky),
         _ => None,
     };
-    found.branches = None;
     // The branches exist in any case. Where they lead is told if double precision distinguishes them.
     if let Some(germ) = Germ::of_part_across(start.pose.mechanism, rank, DEGREE, start.idle)?
         && let Ok(lifted) = lift_all(start, &germ, &branches)?
         && lifted.iter().all(|l| l.shaky == (germs == Germs::Line))
     {
-        found.branches = Some(lifted.into_iter().map(|l| l.branch).collect());
+        answer.branches = Some(lifted.into_iter().map(|l| l.branch).collect());
     }
+    let finite = Bounds::exactly(dimension + idle);
+    let claim = Claim::of(
+        EngineName::SplittingLemma,
+        Scope::RealNeighbourhood,
+        finite,
+        text,
+    );
+    found.take(claim.decides(answer));
     Ok(true)
 }
 

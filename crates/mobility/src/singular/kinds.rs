@@ -64,8 +64,8 @@ fn angle(a: &[f64], b: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::claim::PartBranch;
     use crate::germ_zeros::HalfBranch;
-    use crate::part_mobility::PartBranch;
 
     /// A lifted branch, and the germ's own with half-branches along these directions.
     fn branch(dimension: usize, shaky: bool, halves: &[[f64; 2]]) -> (Lifted, GermBranch) {

@@ -1,38 +1,44 @@
 use super::super::chart::chart_test;
 use super::super::part_samples::{Posed, fresh, shaky_triangle, stretched};
+use super::super::vocabulary::PoseKind;
 use super::*;
 use kutzbach_closure::samples::flat_parallelogram;
 
-/// What is found of a singular pose, its rank changed on the way.
-fn found_with(posed: &Posed, lower: usize, change: impl Fn(&mut PartRank)) -> SingularFinding {
+/// What is found of a singular pose that so many freedoms are known of, its rank changed on the way.
+fn found_with(posed: &Posed, lower: usize, change: impl Fn(&mut PartRank)) -> PartFinding {
     let mut rank = posed.rank();
     let kernel = posed.kernel(&rank);
     let pose = posed.pose();
     let chart = chart_test(&pose, &mut fresh(), posed.part(), &rank, &kernel).unwrap();
     change(&mut rank);
-    singular_finding(&pose, posed.part(), &rank, &kernel, &chart, lower).unwrap()
+    let freedom = kernel.basis.nullity;
+    let mut found = PartFinding::new(rank.unknowns());
+    found.take(Claim {
+        pose: Some(PoseKind::Singular),
+        instantaneous: Bounds::exactly(freedom),
+        ..Claim::of(
+            EngineName::Chart,
+            Scope::Neighbourhood,
+            Bounds::between(lower, freedom - 1),
+            "",
+        )
+    });
+    by_branches(&pose, posed.part(), &rank, &kernel, &chart, &mut found).unwrap();
+    found
 }
 
-fn found(posed: &Posed) -> SingularFinding {
+fn found(posed: &Posed) -> PartFinding {
     found_with(posed, 0, |_| ())
 }
 
 /// What holds of every finding, whatever it says.
-fn check(finding: &SingularFinding, freedom: usize) {
-    let found = &finding.found;
-    assert_eq!(found.pose, Some(PoseKind::Singular));
-    assert_eq!(found.at_rest, freedom);
-    assert!(found.lower <= found.upper && found.upper < freedom);
+fn check(found: &PartFinding, freedom: usize) {
+    assert_eq!(found.pose(), Some(PoseKind::Singular));
+    assert_eq!(found.at_rest(), freedom);
+    assert!(found.lower() <= found.upper() && found.upper() < freedom);
     // Either it is settled, and then all of it, or it says why not.
-    assert_eq!(found.branches.is_none(), found.open.is_some());
-    if let Some(branches) = &found.branches {
-        let top = branches.iter().map(|b| b.dimension).max().unwrap_or(0);
-        assert_eq!((found.lower, found.upper), (top, top));
-    }
-    for evidence in &finding.more_evidence {
-        let (low, high) = evidence.bounds;
-        assert!(low <= found.upper && high.is_none_or(|high| found.lower <= high));
-    }
+    assert_eq!(found.branches().is_none(), found.open().is_some());
+    assert_eq!(found.contradictions(), []);
 }
 
 #[test]
@@ -44,12 +50,12 @@ fn one_direction_that_fails_is_no_motion() {
     ] {
         let finding = found(&posed);
         check(&finding, 1);
-        let found = finding.found;
-        assert_eq!((found.lower, found.upper), (0, 0));
-        assert_eq!(found.kind, Some(SingularKind::Shaky));
-        assert_eq!(found.complex_dimension, Some(0));
-        assert!(found.branches.unwrap().is_empty());
-        assert!(finding.more_evidence.is_empty(), "no series were needed");
+        let found = finding;
+        assert_eq!((found.lower(), found.upper()), (0, 0));
+        assert_eq!(found.kind(), Some(SingularKind::Shaky));
+        assert_eq!(found.complex_dimension(), Some(0));
+        assert!(found.branches().unwrap().is_empty());
+        assert_eq!(found.claims().len(), 2, "no series were needed");
     }
 }
 
@@ -57,17 +63,17 @@ fn one_direction_that_fails_is_no_motion() {
 fn a_definite_form_is_a_certificate() {
     let finding = found(&Posed::new(stretched()));
     check(&finding, 2);
-    assert_eq!(finding.more_evidence.len(), 1);
-    let evidence = &finding.more_evidence[0];
+    assert_eq!(finding.claims().len(), 2);
+    let claim = &finding.claims()[1];
     assert_eq!(
-        (evidence.engine, evidence.bounds),
-        ("second order", (0, Some(0)))
+        (claim.engine, claim.finite),
+        (EngineName::SecondOrder, Bounds::exactly(0))
     );
-    assert!(finding.found.certificate.contains("self-stress"));
-    assert_eq!(finding.found.kind, Some(SingularKind::Shaky));
-    assert!(finding.found.branches.unwrap().is_empty());
+    assert!(finding.certificate().contains("self-stress"));
+    assert_eq!(finding.kind(), Some(SingularKind::Shaky));
+    assert!(finding.branches().unwrap().is_empty());
     // x² + y² = 0 has two lines of complex solutions.
-    assert_eq!(finding.found.complex_dimension, Some(1));
+    assert_eq!(finding.complex_dimension(), Some(1));
 }
 
 #[test]
@@ -102,18 +108,18 @@ fn kinds_of_known_poses() {
     ] {
         let finding = found(&Posed::known(name));
         check(&finding, freedom);
-        let found = finding.found;
-        assert_eq!(found.kind, Some(kind), "{name}");
-        let branches = found.branches.unwrap();
+        let found = finding;
+        assert_eq!(found.kind(), Some(kind), "{name}");
+        let branches = found.branches().unwrap();
         let mut found_dimensions: Vec<usize> = branches.iter().map(|b| b.dimension).collect();
         found_dimensions.sort_unstable_by(|a, b| b.cmp(a));
         let mut expected = dimensions;
         expected.sort_unstable_by(|a, b| b.cmp(a));
         assert_eq!(found_dimensions, expected, "{name}");
-        let germ = finding.more_evidence.last().unwrap();
+        let germ = found.claims().last().unwrap();
         assert_eq!(
-            (germ.engine, germ.bounds),
-            ("germ", (0, Some(found.upper))),
+            (germ.engine, germ.finite),
+            (EngineName::Germ, Bounds::exactly(found.upper())),
             "{name}"
         );
         assert!(!germ.text.contains("not taken"), "{name}: {}", germ.text);
@@ -127,10 +133,10 @@ fn what_the_noise_drowns_stays_open_with_valid_bounds() {
         // A mechanism stated so coarsely that nothing of its series is above the noise.
         let finding = found_with(&flat, lower, |rank| rank.stated = 10.0);
         check(&finding, 2);
-        let found = finding.found;
-        assert_eq!((found.lower, found.upper), (lower, 1));
-        assert!(found.open.unwrap().contains("higher order"));
-        assert_eq!(found.kind, None);
+        let found = finding;
+        assert_eq!((found.lower(), found.upper()), (lower, 1));
+        assert!(found.open().unwrap().contains("higher order"));
+        assert_eq!(found.kind(), None);
     }
 }
 
@@ -140,15 +146,15 @@ fn too_many_series_stay_open_with_valid_bounds() {
     // A rank that is not decided has no series at all.
     let finding = found_with(&flat, 1, |rank| rank.instantaneous = None);
     check(&finding, 2);
-    assert_eq!((finding.found.lower, finding.found.upper), (1, 1));
-    assert!(finding.found.open.unwrap().contains("too many"));
-    assert!(finding.more_evidence.is_empty());
+    assert_eq!((finding.lower(), finding.upper()), (1, 1));
+    assert!(finding.open().unwrap().contains("too many"));
+    assert_eq!(finding.claims().len(), 1);
 }
 
 #[test]
 fn the_text_of_a_search_has_its_figures() {
     let finding = found(&Posed::new(flat_parallelogram()));
-    let text = &finding.more_evidence[0].text;
+    let text = &finding.claims()[1].text;
     for part in [
         "1 equation of order 2 in 2 variables to degree 4",
         "a branch of dimension 1, a branch of dimension 1",

@@ -14,9 +14,9 @@ impl Tracer<'_> {
             return (home, true);
         };
         let finding = &self.analysis.findings[index];
-        let regular = finding.pose == Some(PoseKind::Regular)
-            || finding.kind == Some(SingularKind::PermanentlyShaky)
-                && finding.branches.as_ref().is_some_and(|b| b.len() == 1);
+        let regular = finding.pose() == Some(PoseKind::Regular)
+            || finding.kind() == Some(SingularKind::PermanentlyShaky)
+                && finding.branches().is_some_and(|b| b.len() == 1);
         match self.branch.poses.first() {
             Some(pose) if !regular => {
                 let mut states = home;
@@ -35,7 +35,7 @@ impl Tracer<'_> {
         let finding = &self.analysis.findings[index];
         let first = stage.part.joints.first().copied();
         let own = self.branch.poses.first().zip(first).and_then(|(pose, j)| {
-            finding.branches.iter().flatten().find(|b| {
+            finding.branches().into_iter().flatten().find(|b| {
                 b.poses
                     .first()
                     .and_then(|p| p.states.first())

@@ -38,14 +38,15 @@ impl Subject<'_> {
             text: String::new(),
             timing,
         };
-        let mobility = match answer {
-            Ok(analysis) => &analysis.mobility,
+        let analysis = match answer {
+            Ok(analysis) => analysis,
             Err(error) => {
                 way.text = error.to_string();
                 return way;
             }
         };
-        let engines: BTreeSet<&str> = mobility.evidence.iter().map(|(_, e)| e.engine).collect();
+        let mobility = &analysis.mobility;
+        let engines: BTreeSet<&str> = analysis.claims().map(|(_, c)| c.engine.word()).collect();
         let engines: Vec<&str> = engines.into_iter().collect();
         way.text = match engines.as_slice() {
             [] => "no engine is needed".to_owned(),
