@@ -7,16 +7,16 @@ use super::chart::moving_far;
 use super::claim::Claim;
 use super::cycles::{CycleFacts, cycle_facts};
 use super::depth::Depth;
-use super::exact::{ExactAllowance, ExactBudget, ask_exact};
+use super::engines::ask_all;
+use super::exact::{ExactAllowance, ExactBudget};
 use super::exact_constraint::{ChangeSets, NoChangeSet, change_sets};
 use super::generic::{GenericCount, generic_count};
 use super::judge::PartFinding;
 use super::kutzbach::kutzbach_count;
-use super::loops_at_rest::with_loops_at_rest;
 use super::meant::{Meant, completed};
 use super::more_digits::MoreDigits;
-use super::part_mobility::part_mobility;
 use super::pose_rank::{PartRank, Pose, Trial, rank_part_with};
+use super::question::{Means, Question};
 use super::redundancy::SelfStresses;
 use super::redundant_directions::{JointDirections, redundant_directions};
 use super::roles::{JointRole, Seen, roles_seen_closer};
@@ -231,16 +231,13 @@ pub(super) fn finding_of(
     pose: &Pose<'_>,
     more: &mut MoreDigits,
     structure: &Structure,
-    (part, rank): (&Part, &PartRank),
+    asked: (&Part, &PartRank),
     options: &AnalysisOptions,
     allowance: &mut ExactAllowance,
 ) -> Result<PartFinding, AnalysisError> {
-    let mut found = part_mobility(pose, more, structure, part, rank, options.depth)?;
-    with_loops_at_rest(pose, more, structure, (part, rank), options, &mut found)?;
-    if found.open().is_some() || options.depth == Depth::Everything {
-        ask_exact(pose, part, rank, &mut found, allowance);
-    }
-    Ok(found)
+    let question = Question::new(pose, structure, asked, options.depth);
+    let whole = Some((options, allowance));
+    ask_all(&question, &mut Means { more, whole })
 }
 
 /// How far the values of a configuration may be from those meant (rad, m), by joint index: half a unit of its finest decimal, if

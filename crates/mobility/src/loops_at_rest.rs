@@ -120,7 +120,7 @@ fn joints_at_rest(
     more: &mut MoreDigits,
     structure: &Structure,
     part: &Part,
-) -> Result<BTreeSet<usize>, MatrixError> {
+) -> Result<BTreeSet<usize>, AnalysisError> {
     let mut still = BTreeSet::new();
     for cycle in &part.cycles {
         let passed: BTreeSet<usize> = cycle.iter().map(|(joint, _)| *joint).collect();

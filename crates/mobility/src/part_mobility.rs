@@ -1,30 +1,24 @@
-//! The finite mobility of one part: engines in order of cost, until their bounds meet.
-//!
-//! | engine | says | costs |
-//! |---|---|---|
-//! | rank | finite ≤ δ; = δ where no equation is redundant (implicit function theorem); = 0 where δ = 0 | done already |
-//! | subgroup | exact, at every pose, where displacement subgroups explain the motion | a few brackets a cycle |
-//! | chart | regular: finite = δ; singular: finite ≤ δ − 1 | some dozen closures |
-//! | second order | finite = 0 at a singular pose with a definite form | power series |
-//! | germ and its zeros | the branches through a singular pose, each confirmed by closing all equations on it | power series |
-//!
-//! Exact algebra is asked afterwards: `crates/mobility/src/exact/`.
+//! The finite mobility of one part by engines that look at regular poses: rank, closed forms, subgroups, chart. The order of all
+//! engines is in `engines.rs`.
 //!
 //! Of rounded numbers, a chart is believed only where the part can be followed farther away as well.
 //!
 //! A verdict is never given on a thin margin: what an engine cannot tell, it leaves open and says why.
 
+use super::analysis::AnalysisError;
 use super::chart::{
     ChartOutcome, ChartTest, Kernel, LADDER_UNKNOWNS, chart_test, far_chart, literal_leftover,
 };
 use super::claim::{Answer, Bounds, Claim, PartBranch, Says};
+use super::closed_form::closed_form;
 use super::depth::Depth;
+use super::engines::ask_all;
 use super::judge::PartFinding;
 use super::more_digits::MoreDigits;
 use super::pose_rank::{PartRank, Pose};
-use super::singular::by_branches;
+use super::question::{Means, Question};
 use super::subgroup::{hidden_offset, subgroup_finding};
-use super::tracing::{KERNEL_LIMIT, WALKED_UNKNOWNS, poses_of_regular_part, walk};
+use super::tracing::{WALKED_UNKNOWNS, poses_of_regular_part, walk};
 use super::tree_bound::most_by_joints;
 use super::vocabulary::{CertificateLevel, EngineName, MobilityClass, PoseKind, Scope};
 use kutzbach_closure::Structure;
@@ -67,19 +61,11 @@ fn unexplained(
     Ok(Some(found.class.unwrap_or(MobilityClass::Paradoxical)))
 }
 
-/// What is asked about one part.
-struct Question<'a> {
-    pose: &'a Pose<'a>,
-    structure: &'a Structure,
-    part: &'a Part,
-    rank: &'a PartRank,
-    depth: Depth,
-}
-
-/// Asks the engines about one part. Below [`Depth::Motions`] the branch of a regular pose comes without poses on it.
+/// Asks the engines about one part, but for those that ask others again or have a budget. Below [`Depth::Motions`] the branch of a
+/// regular pose comes without poses on it.
 ///
 /// # Errors
-/// [`MatrixError`] where numbers overflow.
+/// [`AnalysisError`] where numbers overflow.
 pub fn part_mobility(
     pose: &Pose<'_>,
     more: &mut MoreDigits,
@@ -87,38 +73,19 @@ pub fn part_mobility(
     part: &Part,
     rank: &PartRank,
     depth: Depth,
-) -> Result<PartFinding, MatrixError> {
-    let question = Question {
-        pose,
-        structure,
-        part,
-        rank,
-        depth,
-    };
-    let mut found = PartFinding::new(rank.unknowns());
-    let Some(freedom) = by_rank(&question, &mut found) else {
-        return Ok(found);
-    };
-    let subgroups = by_subgroups(&question, more, freedom, &mut found)?;
-    if found.open().is_none() {
-        return Ok(found);
-    }
-    let Some(kernel) = question.kernel()?.filter(|k| k.basis.complete) else {
-        let why = format!(
-            "{freedom} instantaneous freedoms in one block are too many to follow; driving or fixing some joints would decide"
-        );
-        found.amend(|claim| claim.says = Says::Open(why));
-        return Ok(found);
-    };
-    let chart = by_chart(&question, more, &kernel, subgroups, &mut found)?;
-    if matches!(chart.outcome, ChartOutcome::Singular { .. }) {
-        by_branches(pose, part, rank, &kernel, &chart, &mut found)?;
-    }
-    Ok(found)
+) -> Result<PartFinding, AnalysisError> {
+    let question = Question::new(pose, structure, (part, rank), depth);
+    ask_all(&question, &mut Means { more, whole: None })
 }
 
+type Asked = Result<(), AnalysisError>;
+
 /// What the rank says: the instantaneous freedom, unless it leaves that or the finite freedom open.
-fn by_rank(question: &Question<'_>, found: &mut PartFinding) -> Option<usize> {
+pub(super) fn by_rank(
+    question: &Question<'_>,
+    _: &mut Means<'_>,
+    found: &mut PartFinding,
+) -> Asked {
     let Question {
         pose, part, rank, ..
     } = *question;
@@ -175,22 +142,40 @@ fn by_rank(question: &Question<'_>, found: &mut PartFinding) -> Option<usize> {
         }
         Some(freedom) => claim.instantaneous = Bounds::exactly(freedom),
     }
-    let goes_on = matches!(claim.says, Says::Bounds);
+    if matches!(claim.says, Says::Bounds) {
+        question.freedom.set(known);
+    }
     found.take(claim);
-    known.filter(|_| goes_on)
+    Ok(())
 }
 
-/// What subgroups say, or else the implicit function theorem; gives the class that subgroups explain.
-fn by_subgroups(
+/// What the places of the axes say.
+pub(super) fn by_closed_form(
     question: &Question<'_>,
-    more: &mut MoreDigits,
-    freedom: usize,
+    _: &mut Means<'_>,
     found: &mut PartFinding,
-) -> Result<Option<MobilityClass>, MatrixError> {
+) -> Asked {
     let Question {
         pose, part, rank, ..
     } = *question;
-    let independent = question.surplus() == freedom as i64;
+    if let Some(claim) = closed_form(pose, part, rank) {
+        found.take(claim);
+    }
+    Ok(())
+}
+
+/// What subgroups say.
+pub(super) fn by_subgroups(
+    question: &Question<'_>,
+    means: &mut Means<'_>,
+    found: &mut PartFinding,
+) -> Asked {
+    let Question {
+        pose, part, rank, ..
+    } = *question;
+    let Some(freedom) = question.freedom.get() else {
+        return Ok(());
+    };
     let mut subgroups = subgroup_finding(
         pose.mechanism,
         pose.geometry,
@@ -199,9 +184,9 @@ fn by_subgroups(
         part,
         rank,
     )?;
-    if !independent
+    if !question.is_independent()
         && subgroups.finite.is_some()
-        && let Some(offset) = hidden_offset(pose, more, part, rank)?
+        && let Some(offset) = hidden_offset(pose, means.more, part, rank)?
     {
         subgroups = subgroups.withdrawn(offset, Some(freedom));
     }
@@ -221,42 +206,61 @@ fn by_subgroups(
             level: CertificateLevel::Subgroup,
             ..Answer::numeric(subgroups.text)
         };
-        claim = claim.regular(freedom, question.one_branch(more, freedom, None, answer)?);
+        claim = claim.regular(freedom, one_branch(question, means, freedom, answer)?);
     }
-    let explained = claim.answer().is_some();
+    question.class.set(subgroups.class);
     found.take(claim);
-    if independent && !explained {
-        // Fewer equations than unknowns leave a motion over the complex numbers, but not always a real one (x² + y² = 0).
-        let text = "the closure equations at this pose are independent, so its motions form a manifold of exactly this \
-                    dimension (implicit function theorem)";
-        let answer = Answer {
-            class: Some(subgroups.class.unwrap_or(MobilityClass::Trivial)),
-            ..Answer::numeric(text)
-        };
-        let answer = question.one_branch(more, freedom, None, answer)?;
-        let claim = Claim::of(
-            EngineName::Rank,
-            Scope::Pose,
-            Bounds::ANY,
-            question.counts(),
-        );
-        found.take(claim.regular(freedom, answer));
-    }
-    Ok(subgroups.class)
+    Ok(())
+}
+
+/// What the implicit function theorem says of independent equations.
+pub(super) fn by_independence(
+    question: &Question<'_>,
+    means: &mut Means<'_>,
+    found: &mut PartFinding,
+) -> Asked {
+    let Some(freedom) = question.freedom.get() else {
+        return Ok(());
+    };
+    let answer = Answer {
+        class: Some(question.class.get().unwrap_or(MobilityClass::Trivial)),
+        ..Answer::numeric(
+            "the closure equations at this pose are independent, so its motions form a manifold of exactly this dimension \
+             (implicit function theorem)",
+        )
+    };
+    let answer = one_branch(question, means, freedom, answer)?;
+    let text = format!(
+        "{} independent equations in {} unknowns",
+        question.rank.equations(),
+        question.rank.unknowns()
+    );
+    let claim = Claim::of(EngineName::Rank, Scope::Pose, Bounds::ANY, text);
+    found.take(claim.regular(freedom, answer));
+    Ok(())
 }
 
 /// What the chart test says.
-fn by_chart(
+pub(super) fn by_chart(
     question: &Question<'_>,
-    more: &mut MoreDigits,
-    kernel: &Kernel,
-    class: Option<MobilityClass>,
+    means: &mut Means<'_>,
     found: &mut PartFinding,
-) -> Result<ChartTest, MatrixError> {
+) -> Asked {
     let Question {
         pose, part, rank, ..
     } = *question;
-    let freedom = kernel.basis.nullity;
+    let Some(freedom) = question.freedom.get() else {
+        return Ok(());
+    };
+    // Fewer equations than unknowns leave a motion over the complex numbers, but not always a real one (x² + y² = 0).
+    let Some(kernel) = question.of_kernel()?.filter(|k| k.basis.complete) else {
+        let why = format!(
+            "{freedom} instantaneous freedoms in one block are too many to follow; driving or fixing some joints would decide"
+        );
+        found.amend(|claim| claim.says = Says::Open(why));
+        return Ok(());
+    };
+    let more = &mut *means.more;
     let mut chart = chart_test(pose, more, part, rank, kernel)?;
     // More digits would show a leftover near the pose; neither rounded numbers nor large parts have them. One of high order shows
     // farther away only.
@@ -282,7 +286,7 @@ fn by_chart(
                     ""
                 }
             );
-            let class = match class {
+            let class = match question.class.get() {
                 None => unexplained(pose, question.structure, part, rank, &chart)?,
                 explained => explained,
             };
@@ -290,8 +294,7 @@ fn by_chart(
                 class,
                 ..Answer::numeric(text)
             };
-            let answer = question.one_branch(more, freedom, Some(kernel), answer)?;
-            claim = claim.regular(freedom, answer);
+            claim = claim.regular(freedom, one_branch(question, means, freedom, answer)?);
         }
         ChartOutcome::Singular { .. } => claim.pose = Some(PoseKind::Singular),
         ChartOutcome::Thin => {
@@ -310,61 +313,42 @@ fn by_chart(
         }
     }
     found.take(claim);
-    Ok(chart)
+    let _ = question.chart.set(chart);
+    Ok(())
 }
 
-impl Question<'_> {
-    fn surplus(&self) -> i64 {
-        self.rank.unknowns() as i64 - self.rank.equations() as i64
+/// The answer of a regular pose, with its one branch.
+fn one_branch(
+    question: &Question<'_>,
+    means: &mut Means<'_>,
+    freedom: usize,
+    mut answer: Answer,
+) -> Result<Answer, MatrixError> {
+    let Question {
+        pose, part, rank, ..
+    } = *question;
+    if rank.settled().is_none() {
+        return Ok(answer);
     }
-
-    fn counts(&self) -> String {
-        format!(
-            "{} independent equations in {} unknowns",
-            self.rank.equations(),
-            self.rank.unknowns()
-        )
+    let followed = question.depth >= Depth::Motions;
+    let rounded = rank.stated > 0.0 && question.surplus() < freedom as i64;
+    let kernel = match followed || rounded {
+        true => question.of_kernel()?,
+        false => None,
+    };
+    answer.branches = Some(vec![PartBranch {
+        dimension: freedom,
+        half_branches: (freedom == 1).then_some(2),
+        poses: match kernel {
+            Some(kernel) if followed => poses_of_regular_part(pose, part, rank, kernel)?,
+            _ => Vec::new(),
+        },
+    }]);
+    if rounded && let Some(kernel) = kernel.filter(|kernel| kernel.basis.complete) {
+        answer.nominal = literal_leftover(pose, means.more, part, rank, kernel)?
+            .map(|left| left * rank.jacobian.length);
     }
-
-    fn kernel(&self) -> Result<Option<Kernel>, MatrixError> {
-        Kernel::of(self.pose, self.rank, KERNEL_LIMIT)
-    }
-
-    /// The answer of a regular pose, with its one branch.
-    fn one_branch(
-        &self,
-        more: &mut MoreDigits,
-        freedom: usize,
-        known: Option<&Kernel>,
-        mut answer: Answer,
-    ) -> Result<Answer, MatrixError> {
-        let Self {
-            pose, part, rank, ..
-        } = *self;
-        if rank.settled().is_none() {
-            return Ok(answer);
-        }
-        let followed = self.depth >= Depth::Motions;
-        let rounded = rank.stated > 0.0 && self.surplus() < freedom as i64;
-        let own = match known {
-            None if followed || rounded => self.kernel()?,
-            _ => None,
-        };
-        let kernel = known.or(own.as_ref());
-        answer.branches = Some(vec![PartBranch {
-            dimension: freedom,
-            half_branches: (freedom == 1).then_some(2),
-            poses: match kernel {
-                Some(kernel) if followed => poses_of_regular_part(pose, part, rank, kernel)?,
-                _ => Vec::new(),
-            },
-        }]);
-        if rounded && let Some(kernel) = kernel.filter(|kernel| kernel.basis.complete) {
-            answer.nominal = literal_leftover(pose, more, part, rank, kernel)?
-                .map(|left| left * rank.jacobian.length);
-        }
-        Ok(answer)
-    }
+    Ok(answer)
 }
 
 /// A rounded part is followed so many steps of a quarter radian.

@@ -26,120 +26,138 @@ use self::by_polygon::by_polygon;
 use self::by_search::by_search;
 use self::by_splitting::by_splitting;
 pub(super) use self::search::most_starts;
-use super::chart::{ChartTest, Kernel};
+use super::analysis::AnalysisError;
 use super::claim::{Answer, Bounds, Claim, Says};
-use super::idle_directions::idle_directions;
 use super::judge::PartFinding;
 use super::lifting::{Start, idle_branch};
-use super::pose_rank::{PartRank, Pose, TALL, height_at};
-use super::vocabulary::{EngineName, Scope, SingularKind};
-use kutzbach_closure::Part;
+use super::question::{Means, Question};
+use super::vocabulary::{EngineName, PoseKind, Scope, SingularKind};
 use kutzbach_math::matrix::MatrixError;
 
-/// Looks for the branches through a pose that the chart test calls singular.
-///
-/// # Errors
-/// [`MatrixError`] where numbers overflow.
-pub(super) fn by_branches(
-    pose: &Pose<'_>,
-    part: &Part,
-    rank: &PartRank,
-    kernel: &Kernel,
-    chart: &ChartTest,
-    found: &mut PartFinding,
-) -> Result<(), MatrixError> {
-    let freedom = kernel.basis.nullity;
-    // Numbers taken literally close the loops exactly. The coefficients of the series are not for that reason beyond doubt:
-    // rounding shifts them by its share of the curvature, of which hardly a tenth remains.
-    let doubtful = PartRank {
-        stated: if chart.literal {
-            0.1 * rank.stated
-        } else {
-            rank.stated
-        },
-        ..rank.clone()
-    };
-    let literal;
-    let rank = if chart.literal {
-        literal = PartRank {
-            stated: 0.0,
-            ..rank.clone()
-        };
-        &literal
-    } else {
-        rank
-    };
-    let rounded = doubtful.stated > rank.accuracy;
-    // What is idle at all poses is a factor of the configuration space.
-    let by_kind = height_at(pose, part) > TALL;
-    let idle = idle_directions(pose.mechanism, part, kernel, by_kind);
-    let start = Start {
-        pose,
-        part,
-        rank,
-        kernel,
-        idle: &idle,
-    };
-    if freedom == 1 + idle.len() {
-        let text = "along the only direction that the equations allow to first order they fail at higher order, and an equation in one \
-                    variable that does not vanish identically has an isolated solution";
-        let claim = isolated(
-            &start,
-            EngineName::Chart,
-            "one equation in one variable",
-            text,
-        )?;
-        found.take(Claim {
-            scope: Scope::Neighbourhood,
-            complex: Bounds::exactly(idle.len()),
-            ..claim
-        });
-        return Ok(());
-    }
-    let open = by_search(found, &start, &doubtful)?;
-    let decided = |found: &PartFinding| found.open().is_none();
-    let mut why = open.unwrap_or_default();
-    // What double precision takes for multiple may be several that hardly differ, or a cusp.
-    let multiple = |found: &PartFinding| {
-        found.branches().into_iter().flatten().any(|branch| {
+type Asked = Result<(), AnalysisError>;
+
+/// Coordinates that are free to first order and not idle; `None` where the kernel is not known.
+pub(super) fn variables(question: &Question<'_>) -> Result<Option<usize>, AnalysisError> {
+    let start = question.start()?;
+    Ok(start.map(|start| start.kernel.basis.nullity - start.idle.len()))
+}
+
+/// Whether more moves to first order along some branch than finitely: what double precision takes for multiple may be several
+/// branches that hardly differ, or a cusp.
+pub(super) fn is_multiple(found: &PartFinding) -> bool {
+    let mut branches = found.branches().into_iter().flatten();
+    found.pose() == Some(PoseKind::Singular)
+        && branches.any(|branch| {
             let generic = branch.poses.first().and_then(|pose| pose.instantaneous);
             generic.is_some_and(|freedom| freedom > branch.dimension)
         })
+}
+
+/// One equation in one variable has an isolated solution.
+pub(super) fn one_variable(
+    question: &Question<'_>,
+    _: &mut Means<'_>,
+    found: &mut PartFinding,
+) -> Asked {
+    let Some(start) = question.start()? else {
+        return Ok(());
     };
-    let unsure = !decided(found) || multiple(found);
-    if unsure
-        && !rounded
-        && rank.instantaneous == Some(2 + idle.len())
-        && let Some(reason) = by_polygon(found, &start, &doubtful)?
-        && !decided(found)
+    let text = "along the only direction that the equations allow to first order they fail at higher order, and an equation in one \
+                variable that does not vanish identically has an isolated solution";
+    let claim = isolated(
+        &start,
+        EngineName::Chart,
+        "one equation in one variable",
+        text,
+    )?;
+    found.take(Claim {
+        scope: Scope::Neighbourhood,
+        complex: Bounds::exactly(start.idle.len()),
+        ..claim
+    });
+    Ok(())
+}
+
+/// The real zeros of power series.
+pub(super) fn search(question: &Question<'_>, _: &mut Means<'_>, found: &mut PartFinding) -> Asked {
+    if let Some(start) = question.start()?
+        && let Some(why) = by_search(found, &start, question.doubtful()?)?
     {
-        why = reason;
+        unsettled(found, &why);
     }
-    if multiple(found) && !rounded {
-        by_splitting(found, &start, &doubtful)?;
-    }
-    if !decided(found)
-        && !rounded
-        && rank
-            .instantaneous
-            .is_some_and(|freedom| freedom > 2 + idle.len())
+    Ok(())
+}
+
+/// Newton's polygon.
+pub(super) fn polygon(
+    question: &Question<'_>,
+    _: &mut Means<'_>,
+    found: &mut PartFinding,
+) -> Asked {
+    if let Some(start) = question.start()?
+        && let Some(why) = by_polygon(found, &start, question.doubtful()?)?
     {
-        let _ = by_form(found, &start, &doubtful)?
-            || by_arrangement(found, &start, &doubtful)?
-            || by_splitting(found, &start, &doubtful)?;
+        unsettled(found, &why);
     }
-    if !decided(found) && found.contradictions().is_empty() {
-        let complex = found.complex_dimension();
+    Ok(())
+}
+
+/// The splitting lemma.
+pub(super) fn splitting(
+    question: &Question<'_>,
+    _: &mut Means<'_>,
+    found: &mut PartFinding,
+) -> Asked {
+    if let Some(start) = question.start()? {
+        by_splitting(found, &start, question.doubtful()?)?;
+    }
+    Ok(())
+}
+
+/// One quadratic form of full rank.
+pub(super) fn form(question: &Question<'_>, _: &mut Means<'_>, found: &mut PartFinding) -> Asked {
+    if let Some(start) = question.start()? {
+        by_form(found, &start, question.doubtful()?)?;
+    }
+    Ok(())
+}
+
+/// Quadratic forms that vanish on linear spaces.
+pub(super) fn arrangement(
+    question: &Question<'_>,
+    _: &mut Means<'_>,
+    found: &mut PartFinding,
+) -> Asked {
+    if let Some(start) = question.start()? {
+        by_arrangement(found, &start, question.doubtful()?)?;
+    }
+    Ok(())
+}
+
+/// What stays open is bounded by the dimension of complex solutions.
+pub(super) fn complex_bound(_: &Question<'_>, _: &mut Means<'_>, found: &mut PartFinding) -> Asked {
+    if let Some(complex) = found.complex_dimension() {
+        let finite = Bounds::at_most(complex);
+        let text = "real solutions are among the complex ones";
+        found.take(Claim::of(
+            EngineName::Germ,
+            Scope::Neighbourhood,
+            finite,
+            text,
+        ));
+    }
+    Ok(())
+}
+
+/// Leaves a singular pose open, unless others have settled it.
+fn unsettled(found: &mut PartFinding, why: &str) {
+    if found.open().is_some() && found.contradictions().is_empty() {
         found.amend(|claim| {
-            if let Some(complex) = complex {
-                claim.finite.upper = Some(complex.max(claim.finite.lower));
-            }
             claim.says = Says::Open(format!(
                 "which branches pass through this singular pose is not settled: {why}; a pose beside it would be easier"
             ));
         });
     }
-    Ok(())
 }
 
 /// The claim that nothing moves but what is idle.

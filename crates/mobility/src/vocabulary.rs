@@ -127,6 +127,8 @@ words! {
     EngineName {
         /// The rank of the closure equations at the pose.
         Rank => "rank",
+        /// Closed forms of planar and spherical loops of hinges.
+        ClosedForm => "closed form",
         /// Displacement subgroups.
         Subgroup => "subgroup",
         /// The chart test.

@@ -100,7 +100,10 @@ fn engines_are_asked_from_cheap_to_dear_until_one_knows() {
     ] {
         let found = found(&Posed::new(mechanism));
         check(name, &found);
-        assert_eq!(&engines(&found), asked, "{name}");
+        let mut engines = engines(&found);
+        // Asked of every part, it checks and decides nothing.
+        engines.retain(|engine| *engine != "closed form");
+        assert_eq!(&engines, asked, "{name}");
         assert_eq!((found.lower(), found.upper()), (finite, finite), "{name}");
         assert_eq!((found.level(), found.class()), (level, class), "{name}");
         assert_eq!(
@@ -195,7 +198,7 @@ fn rounded_numbers_move_as_meant_and_say_how_far_they_miss() {
 
 #[test]
 fn an_open_rank_is_said_to_be_open() {
-    let posed = Posed::new(four_bar());
+    let posed = Posed::new(cylinders());
     let found = found_with(&posed, |rank| {
         rank.instantaneous = None;
         rank.candidates = (1, 3);
@@ -218,7 +221,7 @@ fn an_open_rank_is_said_to_be_open() {
 
 #[test]
 fn a_rank_that_precision_allows_to_differ_is_open() {
-    let posed = Posed::new(four_bar());
+    let posed = Posed::new(cylinders());
     let found = found_with(&posed, |rank| {
         rank.stated = 1e-4;
         rank.candidates = (1, 2);
@@ -284,7 +287,7 @@ fn rank_is_evidence_with_its_figures() {
         (EngineName::Rank, Scope::Pose, Bounds::at_most(1))
     );
     assert!(rank.text.starts_with("6 equations in 4 unknowns") && rank.text.ends_with("53 bits"));
-    assert_eq!(found.claims()[1].scope, Scope::EveryPose);
+    assert_eq!(found.claims()[2].scope, Scope::EveryPose);
 }
 
 #[test]
