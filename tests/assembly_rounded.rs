@@ -80,7 +80,7 @@ mod corpus {
     #[test]
     #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn proofs_for_rounded_numbers_hold_of_exact_ones() {
-        let all: Vec<(String, Mechanism)> = support::sample(zoo(), 3);
+        let all: Vec<(String, Mechanism)> = support::sample(zoo(), 6);
         let found = in_parallel(&all, |(name, mechanism)| {
             let exact = answer(mechanism, None);
             let proven = exact.complete == Complete::Proven && !exact.configurations.is_empty();

@@ -302,7 +302,7 @@ mod corpus {
     #[test]
     #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn exported_files_are_decided_and_never_wrong() {
-        let each = in_parallel(&sample(SPECIAL, 2), |&(name, finite)| {
+        let each = in_parallel(&sample(SPECIAL, 3), |&(name, finite)| {
             let meant = special(name);
             let cases = (3..=6).map(|decimals| (decimals, told(&exported(&meant, decimals, 2))));
             cases
@@ -326,7 +326,7 @@ mod corpus {
     #[test]
     #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn a_verdict_at_a_rounded_singular_pose_is_the_known_one_or_none() {
-        let wrong = in_parallel(&sample(SINGULAR, 2), |&(name, finite)| {
+        let wrong = in_parallel(&sample(SINGULAR, 3), |&(name, finite)| {
             let meant = special(name);
             let each = (3..=10).filter(|&decimals| {
                 let written = Draft::of(&meant)

@@ -33,7 +33,7 @@ mod corpus {
     fn reports_do_not_depend_on_the_run_or_the_threads() {
         let mut all = files("tests/zoo");
         all.extend(files("mechanisms"));
-        let all = crate::support::sample(all, 3);
+        let all = crate::support::sample(all, 6);
         let differing = in_parallel(&all, |file| {
             let differs = report(file, "json", "1") != report(file, "json", "4")
                 || report(file, "text", "4") != report(file, "text", "1");

@@ -18,6 +18,8 @@ pub struct Joint {
 pub struct Drawn {
     pub joints: Vec<Joint>,
     pub finite: usize,
+    /// By how much a look-alike is spoiled (m, rad).
+    pub spoiled: Option<f64>,
 }
 
 /// A rule by which linkages are drawn by lot.
@@ -114,7 +116,7 @@ fn between(random: &mut SplitMix64, low: f64, high: f64) -> f64 {
 
 /// Of 0.1 to 10 %, evenly in its logarithm, with a sign by lot.
 fn spoiling(random: &mut SplitMix64) -> f64 {
-    let size = 10f64.powf(between(random, -2.0, -1.0));
+    let size = 10f64.powf(between(random, -3.0, -1.0));
     if random.symmetric() < 0.0 {
         -size
     } else {
@@ -138,6 +140,7 @@ fn ring(joints: Vec<(&'static str, Vector, Vector)>, finite: usize) -> Drawn {
     Drawn {
         joints: joints.collect(),
         finite,
+        spoiled: None,
     }
 }
 
@@ -258,7 +261,11 @@ fn three_rrr(random: &mut SplitMix64) -> Drawn {
         joints.push(hinge([first, second], at(0.5, knee), Z, false));
         joints.push(hinge([second, platform], at(0.15, 0.3), Z, closes));
     }
-    Drawn { joints, finite: 3 }
+    Drawn {
+        joints,
+        finite: 3,
+        spoiled: None,
+    }
 }
 
 fn hinge(ends: [usize; 2], point: Vector, axis: Vector, closes: bool) -> Joint {
@@ -304,6 +311,7 @@ fn door(random: &mut SplitMix64) -> Drawn {
     Drawn {
         joints: joints.collect(),
         finite: 1,
+        spoiled: None,
     }
 }
 
@@ -338,7 +346,11 @@ fn hexapod(random: &mut SplitMix64) -> Drawn {
         joints.push(ball([second, platform], above, leg > 0));
     }
     // Each leg spins.
-    Drawn { joints, finite: 12 }
+    Drawn {
+        joints,
+        finite: 12,
+        spoiled: None,
+    }
 }
 
 /// A bar on three equal, parallel cranks.
@@ -363,7 +375,11 @@ fn cranks(random: &mut SplitMix64, change: f64) -> Drawn {
             k > 0,
         ));
     }
-    Drawn { joints, finite: 1 }
+    Drawn {
+        joints,
+        finite: 1,
+        spoiled: None,
+    }
 }
 
 fn three_cranks(random: &mut SplitMix64) -> Drawn {
@@ -375,6 +391,7 @@ fn cranks_unequal(random: &mut SplitMix64) -> Drawn {
     let change = spoiling(random);
     Drawn {
         finite: 0,
+        spoiled: Some(0.3 * change.abs()),
         ..cranks(random, change)
     }
 }
@@ -386,6 +403,7 @@ fn tilted(mut drawn: Drawn, random: &mut SplitMix64) -> Drawn {
     let axis = &mut drawn.joints[1].axis;
     *axis = unit([tilt * way.cos(), tilt * way.sin(), 1.0]);
     drawn.finite = 0;
+    drawn.spoiled = Some(tilt.abs());
     drawn
 }
 
@@ -395,6 +413,7 @@ fn sarrus_tilted(random: &mut SplitMix64) -> Drawn {
     let tilt = spoiling(random);
     drawn.joints[1].axis = unit([1.0, tilt, 0.6 * tilt]);
     drawn.finite = 0;
+    drawn.spoiled = Some(tilt.abs());
     drawn
 }
 
@@ -405,6 +424,7 @@ fn shifted(mut drawn: Drawn, random: &mut SplitMix64) -> Drawn {
     let across = unit(cross(joint.axis, unit([0.3, -0.5, 0.2])));
     joint.point = [0, 1, 2].map(|i| joint.point[i] + size * across[i]);
     drawn.finite = 0;
+    drawn.spoiled = Some(size.abs());
     drawn
 }
 

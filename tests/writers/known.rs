@@ -44,7 +44,7 @@ mod corpus {
         let cases = WRITERS
             .iter()
             .flat_map(|writer| known.iter().map(move |of| (writer, of)));
-        let outcomes = in_parallel(&sample(cases, 24), |(writer, (name, finite, mechanism))| {
+        let outcomes = in_parallel(&sample(cases, 36), |(writer, (name, finite, mechanism))| {
             let said = analysis(&printed(mechanism, writer, 1)).mobility.finite();
             (writer.name, name, *finite, said)
         });

@@ -97,6 +97,19 @@ pub const WRITERS: [Writer; 17] = [
 ];
 
 impl Writer {
+    /// How far a number may be from the one printed (m, rad; numbers of about 1).
+    pub fn off_by(&self) -> f64 {
+        let each = self.styles.map(|style| match style {
+            Style::Fixed(n) | Style::Shortest(n) | Style::General(n) | Style::Residues(n) => {
+                0.5 * 10f64.powi(-(n as i32))
+            }
+            Style::Double => 1e-16,
+            Style::Single | Style::SingleShort => 6e-8,
+            Style::Noisy(size) => size,
+        });
+        each.into_iter().fold(0.0, f64::max)
+    }
+
     pub fn number(&self, what: What, value: f64, random: &mut SplitMix64) -> String {
         let style = match what {
             What::Length => self.styles[0],

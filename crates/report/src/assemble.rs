@@ -7,7 +7,7 @@ use super::natural::natural_order;
 use super::play::PlayAsked;
 use super::schema::{
     Assembly, Constants, CouplingRow, Home, JointRow, LiteralAt, LiteralReading, Mobility, Report,
-    SCHEMA, Size, Source, Timing,
+    SCHEMA, Size, Source, Timing, WrittenKind, WrittenStyle,
 };
 use kutzbach_format::Reading;
 use kutzbach_math::number::Number;
@@ -15,7 +15,7 @@ use kutzbach_mobility::Verdict;
 use kutzbach_mobility::{
     Analysis, AnalysisError, AnalysisOptions, Depth, ExactBudget, analyse, kutzbach_count,
 };
-use kutzbach_model::mechanism::{Coupling, LiteralPlace, Mechanism, Placement};
+use kutzbach_model::mechanism::{Coupling, LiteralPlace, Mechanism, Placement, Precision, Written};
 use petgraph::unionfind::UnionFind;
 use std::time::Instant;
 use thiserror::Error;
@@ -263,6 +263,33 @@ fn configuration_of<'a>(mechanism: &Mechanism, name: &'a str) -> Option<&'a str>
     (name != HOME || mechanism.configuration(HOME).is_some()).then_some(name)
 }
 
+/// How the kinds of numbers are written that are not exact.
+fn written(precision: &Precision) -> Vec<WrittenKind> {
+    let kinds = ["lengths", "angles", "directions"].into_iter();
+    let row = |(kind, written): (&str, Option<Written>)| {
+        let (style, decimals, significant) = match written? {
+            Written::Chosen => return None,
+            Written::Decimals(decimals) => (WrittenStyle::Decimals, Some(decimals), None),
+            Written::Significant(digits) => (WrittenStyle::Significant, None, Some(digits)),
+            Written::Either(decimals, digits) => {
+                (WrittenStyle::Either, Some(decimals), Some(digits))
+            }
+            Written::SinglePrecision => (WrittenStyle::Single, None, None),
+            Written::DoublePrecision => (WrittenStyle::Double, None, None),
+        };
+        Some(WrittenKind {
+            kind: kind.to_owned(),
+            style,
+            decimals,
+            significant,
+        })
+    };
+    match precision.by_hand() {
+        Some(_) => Vec::new(),
+        None => kinds.zip(precision.written()).filter_map(row).collect(),
+    }
+}
+
 fn rounded_by(mechanism: &Mechanism) -> Option<LiteralAt> {
     let (number, owner) = match mechanism.precision().rounded_by()? {
         LiteralPlace::Joint(joint, place) => {
@@ -330,6 +357,7 @@ fn counted(input: &Input<'_>, configuration: &str) -> Report {
             format: input.format.to_owned(),
             digits: precision.decimals,
             exact: precision.is_exact(),
+            written: written(precision),
             precision: precision.by_hand(),
             constants: constants(mechanism),
             rounded_by: rounded_by(mechanism),

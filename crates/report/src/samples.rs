@@ -52,6 +52,7 @@ pub(crate) fn mobile() -> Report {
             exact: false,
             precision: None,
             constants: None,
+            written: Vec::new(),
             rounded_by: None,
             residues: Vec::new(),
         },
@@ -204,6 +205,7 @@ pub(crate) fn rigid() -> Report {
         exact: true,
         precision: None,
         constants: None,
+        written: Vec::new(),
         rounded_by: None,
         residues: Vec::new(),
     };

@@ -47,5 +47,6 @@ pub use joint::{Dynamics, Joint, Limit, Side};
 pub use kind::{FreedomPart, JointKind};
 pub use link::{Geometry, Inertial, Link, Placement, Shape};
 pub use model::{JointId, LinkId, Mechanism};
+pub use number_style::Written;
 pub use precision::{LiteralPlace, Precision};
 pub use scene::{Drive, Expectation, Scene};

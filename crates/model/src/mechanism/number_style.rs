@@ -83,6 +83,23 @@ pub(super) struct Group {
     alike: bool,
 }
 
+/// How the numbers of one kind were written, as far as their digits tell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Written {
+    /// In few digits, which are exact.
+    Chosen,
+    /// Rounded to so many decimals.
+    Decimals(i32),
+    /// Rounded to so many significant digits.
+    Significant(u32),
+    /// Rounded, to so many decimals or significant digits at most; the literals do not tell which.
+    Either(i32, u32),
+    /// All digits of single precision.
+    SinglePrecision,
+    /// All digits of doubles.
+    DoublePrecision,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Style {
     Decimals,
@@ -119,6 +136,19 @@ impl Group {
     /// at the end make by chance.
     pub fn may_be_rounded(&self) -> bool {
         self.alike
+    }
+
+    /// How its numbers are written; `None` where there are none.
+    pub fn written(&self) -> Option<Written> {
+        let decimals = self.decimals?;
+        Some(match self.style {
+            _ if self.is_exact() => Written::Chosen,
+            Style::Single(_) => Written::SinglePrecision,
+            _ if self.doubles || self.significant >= OF_A_DOUBLE => Written::DoublePrecision,
+            Style::Decimals => Written::Decimals(decimals),
+            Style::Significant => Written::Significant(self.significant),
+            Style::Either => Written::Either(decimals, self.significant),
+        })
     }
 
     /// Counts decimals from the first digit of the largest literal, if that is below 1: `0.125` says of metres what `1.25` says

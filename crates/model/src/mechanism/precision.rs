@@ -3,7 +3,7 @@
 use super::joint::Joint;
 use super::link::Placement;
 use super::model::Mechanism;
-use super::number_style::{EXACT_DECIMALS, Group, Literals, OF_A_DOUBLE};
+use super::number_style::{EXACT_DECIMALS, Group, Literals, OF_A_DOUBLE, Written};
 use crate::graph::{Block, ConstraintGraph};
 use kutzbach_math::number::Number;
 
@@ -124,6 +124,12 @@ impl Precision {
             false => one,
         });
         finest?.finest
+    }
+
+    /// How the lengths, the angles and the components of directions are written; `None` for a kind without literals.
+    #[must_use]
+    pub fn written(&self) -> [Option<Written>; 3] {
+        self.groups.map(|group| group.written())
     }
 
     /// The precision of some numbers that one file states of one sub-mechanism.

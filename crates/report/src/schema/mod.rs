@@ -27,7 +27,10 @@ pub use inputs::{DependentInput, Follower, Freedoms, InputSource, Inputs, Limb};
 pub use joints::{Advice, CouplingRow, JointRange, JointRow};
 pub use mobility::{AsWritten, Certificate, Change, Evidence, Mobility, Nominal, Relation};
 pub use pose::{Block, Home};
-pub use source::{Constants, GenericCount, LiteralAt, LiteralReading, Size, Source, Stage, Timing};
+pub use source::{
+    Constants, GenericCount, LiteralAt, LiteralReading, Size, Source, Stage, Timing, WrittenKind,
+    WrittenStyle,
+};
 pub use structure::{Cycle, Tree, TreeLink};
 
 use super::change_sets::ChangeSets;

@@ -13,6 +13,9 @@ pub struct Source {
     pub digits: Option<i32>,
     /// Whether every number is taken as exact (D13).
     pub exact: bool,
+    /// How lengths, angles and directions are written, those that are not exact.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub written: Vec<WrittenKind>,
     /// How well the literals were said to be known (m, rad), where that was said by hand instead of by digits.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub precision: Option<f64>,
@@ -25,6 +28,37 @@ pub struct Source {
     /// Literals that were read as 0 because they are what rounding left of one.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub residues: Vec<LiteralAt>,
+}
+
+/// How the numbers of one kind are written.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct WrittenKind {
+    /// `lengths`, `angles` or `directions`.
+    pub kind: String,
+    /// How they were rounded.
+    pub style: WrittenStyle,
+    /// To so many decimals, where that is the style.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub decimals: Option<i32>,
+    /// To so many significant digits, where that is the style.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub significant: Option<u32>,
+}
+
+/// How numbers were rounded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum WrittenStyle {
+    /// To a number of decimals.
+    Decimals,
+    /// To a number of significant digits.
+    Significant,
+    /// To decimals or significant digits: the numbers do not tell which.
+    Either,
+    /// All digits of single precision.
+    Single,
+    /// All digits of doubles.
+    Double,
 }
 
 /// A literal and where it stands.

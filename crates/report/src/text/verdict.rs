@@ -7,7 +7,7 @@ use super::cite;
 use super::page::Page;
 use super::style::Tint;
 use super::words::{capitalised, counted, degrees, figure, metres, names};
-use crate::schema::{AsWritten, Branch, Nominal, Report};
+use crate::schema::{AsWritten, Branch, Nominal, Report, WrittenKind, WrittenStyle};
 use kutzbach_format::MAY_JOIN;
 use kutzbach_mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
 
@@ -28,7 +28,12 @@ pub(super) fn answer(report: &Report, page: &mut Page) {
         Verdict::Unassembled => Tint::Bad,
     };
     page.paragraph(&sentence(report), tint, "", "");
-    if let Some(text) = assembly::left_open(&report.assembly) {
+    // Of a gap that rounding explains, the distance to numbers that move says more.
+    let explained = report.mobility.nominal.as_ref().is_some_and(|nominal| {
+        nominal.noise || nominal.within_digits && nominal.distance.is_some()
+    });
+    let asked = report.assembly.tolerance_asked;
+    if let Some(text) = assembly::left_open(&report.assembly).filter(|_| asked || !explained) {
         page.paragraph(&text, Tint::Doubtful, "", "");
     }
     if let Some(text) = nominal(report) {
@@ -397,7 +402,7 @@ fn meant(
             "As written it binds: its loops miss by up to {misfit} along the motion. The nearest {away}."
         ),
         _ => format!(
-            "As written it binds or moves less: its loops miss by up to {misfit} along the motion. The nearest {away}."
+            "As written its loops miss by up to {misfit} along the motion. The nearest {away}."
         ),
     }
 }
@@ -561,11 +566,44 @@ fn freedoms(report: &Report) -> String {
     }
 }
 
-/// Literals of so many decimals hold all that double precision holds.
-const DOUBLE_PRECISION: i32 = 15;
-
 fn optional(count: Option<usize>) -> String {
     count.map_or_else(|| "?".to_owned(), |n| n.to_string())
+}
+
+/// How numbers are written that are not exact: all alike, or kind by kind.
+fn written(kinds: &[WrittenKind]) -> String {
+    let count = |number: u32, what: &str| counted(usize::try_from(number).unwrap_or(0), what);
+    let style = |kind: &WrittenKind| {
+        let decimals = count(kind.decimals.unwrap_or(0).unsigned_abs(), "decimal");
+        let significant = count(kind.significant.unwrap_or(0), "significant digit");
+        match kind.style {
+            WrittenStyle::Decimals | WrittenStyle::Either => format!("to {decimals}"),
+            WrittenStyle::Significant => format!("to {significant}"),
+            WrittenStyle::Single => "in full single precision".to_owned(),
+            WrittenStyle::Double => "in full double precision".to_owned(),
+        }
+    };
+    let each: Vec<String> = kinds.iter().map(style).collect();
+    match each.first() {
+        None => "numbers rounded".to_owned(),
+        Some(first) if each.iter().all(|style| style == first) => {
+            let in_full =
+                |of: &WrittenKind| matches!(of.style, WrittenStyle::Single | WrittenStyle::Double);
+            let stated = if kinds.iter().any(in_full) {
+                ""
+            } else {
+                "stated "
+            };
+            format!("numbers {stated}{first}")
+        }
+        _ => {
+            let named = kinds.iter().zip(&each);
+            let named: Vec<String> = named
+                .map(|(of, style)| format!("{} {style}", of.kind))
+                .collect();
+            names(&named, named.len())
+        }
+    }
 }
 
 fn identity(report: &Report, verbose: bool) -> String {
@@ -585,14 +623,7 @@ fn identity(report: &Report, verbose: bool) -> String {
             "numbers known to {:e} m or rad (`--precision`)",
             source.precision.unwrap_or_default()
         ),
-        (false, Some(digits)) if digits >= DOUBLE_PRECISION => {
-            "numbers in full double precision".to_owned()
-        }
-        (false, Some(digits)) => format!(
-            "numbers stated to {}",
-            counted(usize::try_from(digits).unwrap_or(0), "decimal")
-        ),
-        (false, None) => "numbers rounded".to_owned(),
+        (false, _) => written(&source.written),
     };
     let constants = report.source.constants.as_ref();
     let rounded_by = source
