@@ -74,3 +74,79 @@ fn every_joint_and_link_of_a_gripper_moves_whatever_command_is_asked() {
     assert_eq!(branch["finding"]["outcome"], "confirmed");
     assert!(answer("trace").is_object());
 }
+
+/// The hinges of a gripper that follow the left crank, and how: both fingers are parallelograms.
+const FOLLOWERS: [(&str, i32); 5] = [
+    ("left_rod", 1),
+    ("left_pad", -1),
+    ("right_crank", -1),
+    ("right_rod", -1),
+    ("right_pad", 1),
+];
+
+/// A gripper of whole millimetres with loops and mimics, of which one may have the wrong sign.
+fn geared(random: &mut kutzbach::matrix::SplitMix64, wrong: Option<&str>) -> String {
+    let mut below = |most: u64| (random.next_u64() % most) as f64 / 1000.0;
+    let (foot, rise) = (
+        [0.02 + below(20), 0.05 + below(20)],
+        [0.005 + below(15), 0.01 + below(15)],
+    );
+    let crank = [0.02 + below(30), 0.03 + below(30)];
+    let mut text = String::from("<robot name=\"gripper\"><link name=\"palm\"/>");
+    for (side, way) in [("left", 1.0), ("right", -1.0)] {
+        let mut hinge = |part: &str, parent: &str, [x, z]: [f64; 2]| {
+            let name = format!("{side}_{part}");
+            let follows = FOLLOWERS.iter().find(|(own, _)| *own == name);
+            let mimic = follows.map_or(String::new(), |(_, factor)| {
+                let factor = if wrong == Some(&name[..]) {
+                    -factor
+                } else {
+                    *factor
+                };
+                format!("<mimic joint=\"left_crank\" multiplier=\"{factor}\"/>")
+            });
+            text += &format!(
+                "<link name=\"l_{name}\"/><joint name=\"{name}\" type=\"continuous\"><parent link=\"{parent}\"/>\
+                 <child link=\"l_{name}\"/><origin xyz=\"{:.3} 0 {z:.3}\"/><axis xyz=\"0 1 0\"/>{mimic}</joint>",
+                way * x
+            );
+        };
+        hinge("crank", "palm", foot);
+        hinge("rod", "palm", [foot[0] - rise[0], foot[1] + rise[1]]);
+        hinge("pad", &format!("l_{side}_crank"), crank);
+        text += &format!(
+            "<loop name=\"{side}_pin\" type=\"continuous\"><predecessor link=\"l_{side}_rod\"><origin xyz=\"{:.3} 0 {:.3}\"/></predecessor>\
+             <successor link=\"l_{side}_pad\"><origin xyz=\"{:.3} 0 {:.3}\"/></successor><axis xyz=\"0 1 0\"/></loop>",
+            way * crank[0],
+            crank[1],
+            -way * rise[0],
+            rise[1]
+        );
+    }
+    text + "</robot>"
+}
+
+/// Of 24 grippers half have one wrong sign: it is named, and nothing is said of the others.
+#[test]
+fn a_wrong_sign_of_a_gripper_is_named() {
+    let mut random = kutzbach::matrix::SplitMix64::new(71);
+    for case in 0..24 {
+        let wrong = (case % 2 == 1).then_some(FOLLOWERS[case / 2 % FOLLOWERS.len()].0);
+        let text = geared(&mut random, wrong);
+        let reading = kutzbach::format::read(&text, "gripper", &[]).unwrap();
+        let report = kutzbach::report::report(&reading, "gripper", &Default::default()).unwrap();
+        let told = report
+            .warnings
+            .iter()
+            .find(|text| text.contains("lock it together"));
+        match wrong {
+            None => assert_eq!((told, report.mobility.finite), (None, Some(1)), "{text}"),
+            Some(name) => {
+                assert_eq!(report.mobility.finite, Some(0), "{text}");
+                let told = told.map_or("", |text| text.as_str());
+                let wanted = format!("; with the other sign of `{name}.mimic` it has 1");
+                assert!(told.ends_with(&wanted), "{told}\n{text}");
+            }
+        }
+    }
+}

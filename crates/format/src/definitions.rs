@@ -16,7 +16,7 @@ use std::ops::Range;
 const MOST_WAITING: usize = 64;
 
 /// Names that expressions know themselves.
-const BUILT_IN: [&str; 12] = [
+pub(super) const BUILT_IN: [&str; 12] = [
     "pi", "sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "abs", "radians", "degrees",
 ];
 

@@ -17,13 +17,67 @@ pub fn freedom_locked_by_couplings(part: &Part, rank: &PartRank) -> Option<usize
     }
     // The equations of the couplings are the last ones.
     let rows = rank.matrix.rows().checked_sub(part.couplings.len())?;
-    let entries = rank.matrix.triplets();
-    let of_loops: Vec<(usize, usize, f64)> = entries
-        .filter(|(row, _, _)| *row < rows)
-        .map(|(row, column, entry)| (row, column, *entry))
-        .collect();
-    let matrix = SparseMatrix::from_triplets(rows, rank.matrix.columns(), 0.0, of_loops).ok()?;
-    let accuracy = rank.decision.accuracy.max(rank.accuracy);
-    let freedom = decide(&matrix, accuracy).ok()?.nullity()?;
+    let freedom = nullity(rank, |row, _, entry| (row < rows).then_some(entry))?;
     (freedom > 0).then_some(freedom)
+}
+
+/// A coupling of a block that is locked, without which it would move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LockingCoupling {
+    /// Its index among the mechanism's couplings.
+    pub coupling: usize,
+    /// The instantaneous freedom that is left without it.
+    pub freedom: usize,
+    /// Whether as much is left where its ratio or multiplier has the other sign: then the others agree with that.
+    pub other_sign: bool,
+}
+
+/// The couplings that lock a part of which [`freedom_locked_by_couplings`] says that couplings and loops do it together: each is left
+/// out by itself. Cost: two ranks of the part a coupling.
+#[must_use]
+pub fn locking_couplings(part: &Part, rank: &PartRank) -> Vec<LockingCoupling> {
+    let Some(rows) = rank.matrix.rows().checked_sub(part.couplings.len()) else {
+        return Vec::new();
+    };
+    let of_one = |(number, &coupling): (usize, &usize)| {
+        let own = rows + number;
+        let freedom = nullity(rank, |row, _, entry| (row != own).then_some(entry))?;
+        // Of two terms one is turned over.
+        let mut terms = rank.matrix.row(own).iter();
+        let turned = match (terms.next(), terms.next(), terms.next()) {
+            (Some((column, _)), Some(_), None) => Some(*column),
+            _ => None,
+        };
+        let with_other = turned.and_then(|turned| {
+            nullity(rank, |row, column, entry| {
+                Some(if row == own && column == turned {
+                    -entry
+                } else {
+                    entry
+                })
+            })
+        });
+        (freedom > 0).then_some(LockingCoupling {
+            coupling,
+            freedom,
+            other_sign: with_other == Some(freedom),
+        })
+    };
+    part.couplings
+        .iter()
+        .enumerate()
+        .filter_map(of_one)
+        .collect()
+}
+
+/// The nullity of a part's matrix with some entries changed or left out; `None` where a margin does not tell.
+fn nullity(rank: &PartRank, changed: impl Fn(usize, usize, f64) -> Option<f64>) -> Option<usize> {
+    let entries = rank.matrix.triplets();
+    let kept: Vec<(usize, usize, f64)> = entries
+        .filter_map(|(row, column, entry)| Some((row, column, changed(row, column, *entry)?)))
+        .collect();
+    let (rows, columns) = (rank.matrix.rows(), rank.matrix.columns());
+    let matrix = SparseMatrix::from_triplets(rows, columns, 0.0, kept).ok()?;
+    let accuracy = rank.decision.accuracy.max(rank.accuracy);
+    decide(&matrix, accuracy).ok()?.nullity()
 }

@@ -90,7 +90,7 @@ pub use branch_facts::{BranchFacts, branch_facts};
 pub use branch_roles::branch_roles;
 pub use chart::{ChartOutcome, ChartTest, Kernel, chart_test};
 pub use claim::{Answer, Bounds, Claim, PartBranch, Says};
-pub use coupling_locks::freedom_locked_by_couplings;
+pub use coupling_locks::{LockingCoupling, freedom_locked_by_couplings, locking_couplings};
 pub use cycles::{CycleFacts, cycle_facts};
 pub use depth::Depth;
 pub use engines::engines;

@@ -11,7 +11,8 @@ use super::text::words::counted;
 use kutzbach_closure::{owners, with_owners};
 use kutzbach_math::matrix::Method;
 use kutzbach_mobility::{
-    Analysis, IdleLink, JointRole, PartFinding, PartRank, freedom_locked_by_couplings,
+    Analysis, IdleLink, JointRole, LockingCoupling, PartFinding, PartRank,
+    freedom_locked_by_couplings, locking_couplings,
 };
 use kutzbach_model::mechanism::{Joint, JointKind, Mechanism};
 use std::collections::BTreeSet;
@@ -71,7 +72,7 @@ pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &An
                 )
             });
     }
-    locked_by_couplings(report, analysis);
+    locked_by_couplings(report, mechanism, analysis);
     if analysis.structure.loose_pieces > 0 {
         report
             .warnings
@@ -105,18 +106,41 @@ fn known_better(mechanism: &Mechanism, assembly: &Assembly) -> String {
 }
 
 /// Names the blocks that would move without their couplings.
-fn locked_by_couplings(report: &mut Report, analysis: &Analysis) {
+fn locked_by_couplings(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis) {
     let structure = &analysis.structure;
     for (index, (part, rank)) in structure.parts.iter().zip(&analysis.parts).enumerate() {
         let Some(freedom) = freedom_locked_by_couplings(part, rank) else {
             continue;
         };
         report.warnings.push(format!(
-            "{}{LOCKED_TOGETHER} {} at this pose",
+            "{}{LOCKED_TOGETHER} {} at this pose{}",
             owners(&structure.part_names, &[index]),
             counted(freedom, "instantaneous freedom"),
+            culprits(mechanism, &locking_couplings(part, rank)),
         ));
     }
+}
+
+/// Couplings that are named as what locks a block.
+const CULPRITS: usize = 4;
+
+/// Which couplings lock a block: those with which the others agree once their sign is turned over, else those that free it by
+/// themselves where these are few.
+fn culprits(mechanism: &Mechanism, found: &[LockingCoupling]) -> String {
+    let wrong: Vec<&LockingCoupling> = found.iter().filter(|one| one.other_sign).collect();
+    let (told, how) = match wrong.is_empty() {
+        true => (found.iter().collect(), "without"),
+        false => (wrong, "with the other sign of"),
+    };
+    let freedom = told.iter().map(|one| one.freedom).max().unwrap_or(0);
+    if told.is_empty() || told.len() > CULPRITS {
+        return String::new();
+    }
+    let names: Vec<String> = told
+        .iter()
+        .map(|one| format!("`{}`", mechanism.couplings()[one.coupling].name))
+        .collect();
+    format!("; {how} {} it has {freedom}", names.join(", or of "))
 }
 
 fn fill_home(home: &mut Home, analysis: &Analysis) {

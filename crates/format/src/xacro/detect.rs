@@ -4,6 +4,9 @@
 //! numbers or expressions, used where numbers are. The reader evaluates these itself: in any order, and with expressions
 //! that xacro would take for text (`3/5` without `${}`).
 
+use super::functions::builtin;
+use super::value::Value;
+use crate::definitions::BUILT_IN;
 use crate::element::XACRO;
 use crate::number_text::is_identifier;
 use kutzbach_math::number::Number;
@@ -25,7 +28,7 @@ pub(super) fn needs_expansion(document: &Document<'_>) -> bool {
             definitions.push(node);
         } else if node
             .attributes()
-            .any(|own| is_name_with_marks(own.name(), own.value()))
+            .any(|own| is_name_with_marks(own.name(), own.value()) || computes_beyond(own.value()))
         {
             return true;
         }
@@ -98,7 +101,7 @@ fn is_beyond_numbers(value: &str, known: &dyn Fn(&str) -> bool) -> bool {
         return true;
     }
     let foreign = |word: &str| word.contains("$(") && !word.contains("$(arg ");
-    if foreign(value) || value.contains("//") || value.contains("$$") {
+    if foreign(value) || value.contains("//") || value.contains("$$") || computes_beyond(value) {
         return true;
     }
     const WORDS: [&str; 9] = [
@@ -121,6 +124,33 @@ fn is_beyond_numbers(value: &str, known: &dyn Fn(&str) -> bool) -> bool {
                 .is_some_and(|(object, name)| is_identifier(object) && is_identifier(name))
         });
     is_one_word || is_phrase || has_member || joins_text(value)
+}
+
+/// Whether an expression has what xacro knows and numbers here do not: whole quotients and remainders, functions such as `int`, digits
+/// grouped by `_`.
+fn computes_beyond(value: &str) -> bool {
+    let inside = value.split("${").skip(1);
+    let mut inside = inside.filter_map(|rest| rest.split_once('}').map(|(inside, _)| inside));
+    inside.any(|inside| {
+        let is_word = |c: char| c.is_alphanumeric() || c == '_' || c == '.';
+        let is_foreign = |(at, word): (usize, &str)| {
+            let called = inside[at + word.len()..].trim_start().starts_with('(');
+            let digits = word.as_bytes();
+            let number = digits.first().is_some_and(u8::is_ascii_digit);
+            let function = || matches!(builtin(word), Some(Value::Function(_)));
+            called && !BUILT_IN.contains(&word) && function()
+                || word == "tau"
+                || word.starts_with("math.")
+                || number && word.contains('_')
+        };
+        let mut words = inside
+            .split(|c: char| !is_word(c))
+            .filter(|word| !word.is_empty());
+        let start = inside.as_ptr() as usize;
+        inside.contains("//")
+            || inside.contains('%')
+            || words.any(|word| is_foreign((word.as_ptr() as usize - start, word)))
+    })
 }
 
 /// Whether a letter or digit touches `${...}` or `$(...)`: a name put together.

@@ -383,6 +383,10 @@ fn files_of_named_numbers_are_read_as_before() {
         "true",
         "$(find x)/y",
         "${1 if 1 else 2}",
+        "${int(3.7)}",
+        "${7//2}",
+        "${7 % 2}",
+        "${math.sqrt(2)}",
     ] {
         let text = robot(&format!("<xacro:property name='a' value=\"{value}\"/>"));
         let document = crate::xml::parse(&text).unwrap();
@@ -400,6 +404,7 @@ fn files_of_named_numbers_are_read_as_before() {
         "a",
         "${atan2(1, 2)}",
         "acos(4/5)",
+        "${sqrt (2)*pi}",
     ] {
         let text = robot(&format!(
             "<xacro:property name='a' value=\"{value}\"/><xacro:property name='b' value='2'/>"

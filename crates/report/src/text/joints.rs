@@ -179,7 +179,7 @@ fn moves(report: &Report, joint: &JointRow) -> &'static str {
     let own = joint.block.as_ref();
     let block = own.and_then(|label| blocks.iter().find(|block| block.label == *label));
     let mobile = match (own, block.and_then(|block| block.finite)) {
-        (None, _) => true,
+        (None, _) if !in_a_loop(report, &joint.name) => true,
         (_, Some(finite)) => finite > 0,
         (_, None) => report.mobility.verdict == Verdict::Mobile,
     };
@@ -188,6 +188,11 @@ fn moves(report: &Report, joint: &JointRow) -> &'static str {
     } else {
         "infinitesimal motion"
     }
+}
+
+fn in_a_loop(report: &Report, joint: &str) -> bool {
+    let mut loops = report.cycles.iter();
+    loops.any(|cycle| cycle.joints.iter().any(|own| own == joint))
 }
 
 fn role(joint: &JointRow, branches: &[Branch], moves: &str) -> Cell {
