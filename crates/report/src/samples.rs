@@ -52,7 +52,12 @@ pub(crate) fn mobile() -> Report {
             exact: false,
             precision: None,
             constants: None,
-            written: Vec::new(),
+            written: vec![crate::schema::WrittenKind {
+                kind: "lengths".to_owned(),
+                style: crate::schema::WrittenStyle::Decimals,
+                decimals: Some(12),
+                significant: None,
+            }],
             rounded_by: None,
             residues: Vec::new(),
         },
