@@ -138,12 +138,12 @@ fn a_wrong_sign_of_a_gripper_is_named() {
         let told = report
             .warnings
             .iter()
-            .find(|text| text.contains("lock it together"));
+            .find(|text| text.text.contains("lock it together"));
         match wrong {
             None => assert_eq!((told, report.mobility.finite), (None, Some(1)), "{text}"),
             Some(name) => {
                 assert_eq!(report.mobility.finite, Some(0), "{text}");
-                let told = told.map_or("", |text| text.as_str());
+                let told = told.map_or("", |text| text.text.as_str());
                 let wanted = format!("; with the other sign of `{name}.mimic` it has 1");
                 assert!(told.ends_with(&wanted), "{told}\n{text}");
             }

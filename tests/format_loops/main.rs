@@ -14,7 +14,7 @@ mod told;
 use crate::format_support;
 
 use format_support::difference;
-use kutzbach::format::{ReadOptions, Reading, is_told_first, read, read_with, write};
+use kutzbach::format::{ReadOptions, Reading, read, read_with, write};
 use kutzbach::mechanism::{Joint, JointKind};
 use kutzbach::number::Number;
 
@@ -71,7 +71,7 @@ fn fault(more: &str) -> String {
 fn told_first(text: &str) -> Vec<String> {
     let warnings = reading(text).warnings.into_iter();
     warnings
+        .filter(|warning| warning.kind.is_told_first())
         .map(|warning| warning.message)
-        .filter(|message| is_told_first(message))
         .collect()
 }

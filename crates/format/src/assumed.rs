@@ -7,9 +7,9 @@
 //! - A `<limit>` without bounds is 0…0 in URDF, by which the joint could not move.
 //! - A joint that is named as if it closed a loop, in a file that closes none: some exporters leave the loop to other tools.
 
+use super::WarningKind;
 use super::element::Attribute;
 use super::reader::Reader;
-use super::told::{IS_TREE, LOOKS_LIKE, NO_BOUNDS, TAKEN_AS_X};
 use super::words::listed;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Direction, JointKind};
@@ -80,25 +80,25 @@ impl<'a> Reader<'a> {
         let assumed = std::mem::take(&mut self.assumed);
         let closes = self.other_closures || !self.in_gazebo.is_empty();
         self.tell_of(&assumed.no_axis, |names, has| {
-            format!("{names} {has} no <axis>: {TAKEN_AS_X}, as URDF says")
+            format!("{names} {has} no <axis>: x is taken, as URDF says")
         });
         self.tell_of(&assumed.no_axis2, |names, has| {
-            format!("{names} {has} no <axis2>: {TAKEN_AS_X}")
+            format!("{names} {has} no <axis2>: x is taken")
         });
         self.tell_of(&assumed.no_bounds, |names, has| {
-            format!("{names} {has} a <limit> without `lower` and `upper`, {NO_BOUNDS}: by that no joint can move, here each counts as free")
+            format!("{names} {has} a <limit> without `lower` and `upper`, which is 0…0 in URDF: by that no joint can move, here each counts as free")
         });
         for (at, written, meant) in assumed.angles.into_iter().filter(|_| closes && !literal) {
             let message = format!(
-                "`{written}` {LOOKS_LIKE} ${{{meant}}} and is read as {written} rad; write what is meant, or more digits"
+                "`{written}` in `rpy` looks like ${{{meant}}} and is read as {written} rad; write what is meant, or more digits"
             );
-            self.warn(at, message);
+            self.warn_of(at, WarningKind::Guessed, message);
         }
         for (at, written) in assumed.degrees {
             let message = format!(
-                "`{written}` {LOOKS_LIKE} degrees and is read as {written} rad; for degrees write ${{{written}*pi/180}}"
+                "`{written}` in `rpy` looks like degrees and is read as {written} rad; for degrees write ${{{written}*pi/180}}"
             );
-            self.warn(at, message);
+            self.warn_of(at, WarningKind::Guessed, message);
         }
         if !closes && !self.closing_frames_told {
             let announced: Vec<(usize, &'a str)> = self
@@ -108,7 +108,7 @@ impl<'a> Reader<'a> {
                 .map(|(name, place)| (place.start, name))
                 .collect();
             self.tell_of(&announced, |names, has| {
-                format!("{names} {has} the name of what closes a loop, and the file states none: {IS_TREE}")
+                format!("{names} {has} the name of what closes a loop, and the file states none: it is read as a tree")
             });
         }
     }
@@ -119,7 +119,7 @@ impl<'a> Reader<'a> {
         };
         let names: Vec<&str> = joints.iter().map(|(_, name)| *name).collect();
         let has = if names.len() == 1 { "has" } else { "have" };
-        self.warn(at, told(&listed(&names), has));
+        self.warn_of(at, WarningKind::Guessed, told(&listed(&names), has));
     }
 }
 

@@ -1,10 +1,10 @@
 //! What a file says beside links and joints: couplings, the ground, poses, the scene and the expectation.
 
+use super::WarningKind;
 use super::element::{Attribute, Element};
 use super::error::Outcome;
 use super::names::Named;
 use super::reader::{Dialect, Reader};
-use super::told::{SAME_DIRECTION, SEEN_FROM};
 use super::words::{alternatives, did_you_mean, quoted};
 use kutzbach_model::mechanism::{
     Assumption, CouplingOrigin, Expectation, LinkId, Mechanism, Scene,
@@ -90,18 +90,18 @@ impl<'a> Reader<'a> {
                         });
                         let from = link(from);
                         format!(
-                            "coupling {name} names no carrier, and {SEEN_FROM} {}; write <carrier link=\"{from}\"/> if that is meant{}",
+                            "coupling {name} names no carrier, and the rates are taken as seen from {}; write <carrier link=\"{from}\"/> if that is meant{}",
                             quoted(&from),
                             other.collect::<String>()
                         )
                     }
                     Assumption::SameDirection => format!(
-                        "coupling {name} joins joints whose axes point in opposite directions, and {SAME_DIRECTION}, whatever \
+                        "coupling {name} joins joints whose axes point in opposite directions, and both rates count in the same direction, whatever \
                          the axes; <carrier link=\"...\"/> says that this is meant"
                     ),
                     _ => continue,
                 };
-                self.warn(at, message);
+                self.warn_of(at, WarningKind::Guessed, message);
             }
         }
     }

@@ -3,11 +3,11 @@
 //! `<constraint name type><parent link/><parent_origin/><parent_axis/><child link/><child_origin/><child_axis/></constraint>` is proposed
 //! for urdfdom (pull request 264); each side has its frame and axis.
 
+use super::WarningKind;
 use super::element::Element;
 use super::error::Outcome;
 use super::names::Named;
 use super::reader::{Dialect, Reader};
-use super::told::LIKE_SIDES;
 use super::unread::Parts;
 use super::words::quoted;
 use kutzbach_model::mechanism::{Direction, Frame, JointBuilder, JointKind};
@@ -146,7 +146,7 @@ impl<'a> Reader<'a> {
                 open.push((
                     place.start,
                     format!(
-                        "the frames {} and {} {LIKE_SIDES}: it is read without that loop",
+                        "the frames {} and {} look like the two sides of a loop, which the file does not state: it is read without that loop",
                         quoted(link),
                         quoted(&other)
                     ),
@@ -155,7 +155,7 @@ impl<'a> Reader<'a> {
         }
         self.closing_frames_told = !open.is_empty();
         for (at, message) in open {
-            self.warn(at, message);
+            self.warn_of(at, WarningKind::Guessed, message);
         }
     }
 }

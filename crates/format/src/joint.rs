@@ -1,12 +1,12 @@
 //! `<joint>` and `<loop>`: the same kinds of joint, placed by their child or closing a loop.
 
+use super::WarningKind;
 use super::element::Element;
 use super::error::{Fault, Outcome};
 use super::gazebo::ordered;
 use super::hints;
 use super::names::Named;
 use super::reader::{Dialect, Reader};
-use super::told::AT_ORIGIN;
 use super::unread::{OF_JOINTS, Parts, truth};
 use super::words::{did_you_mean, quoted};
 use super::world::WORLD;
@@ -117,11 +117,15 @@ impl<'a> Reader<'a> {
                 );
                 if !own_frame {
                     message += &format!(
-                        "; {AT_ORIGIN}, as <child> has no <origin> inside that says where {} is in it",
+                        "; both hold it at its origin, as <child> has no <origin> inside that says where {} is in it",
                         quoted(name)
                     );
                 }
-                self.warn(joint.start(), message);
+                let kind = match own_frame {
+                    true => WarningKind::Other,
+                    false => WarningKind::Guessed,
+                };
+                self.warn_of(joint.start(), kind, message);
                 self.other_closures = true;
             }
             None => {
@@ -281,10 +285,7 @@ impl<'a> Reader<'a> {
             }
         }
         if joint.attribute("independent").is_some() {
-            self.warn(
-                joint.start(),
-                "`independent` means nothing for a floating joint and is ignored",
-            );
+            self.meaningless(joint.start(), "`independent`", "floating");
         }
         self.floating.insert(child);
         self.builder.floating(name, parent, child, origin);
@@ -358,10 +359,9 @@ impl<'a> Reader<'a> {
                     }
                     has_dynamics = true;
                     if part.name() == "joint_properties" {
-                        self.warn(
-                            part.start(),
-                            "<joint_properties> is the old name of <dynamics> and read as such",
-                        );
+                        let [old, new] = ["<joint_properties>", "<dynamics>"].map(str::to_owned);
+                        let message = format!("{old} is the old name of {new} and read as such");
+                        self.warn_of(part.start(), WarningKind::OldName { old, new }, message);
                     }
                     match self.read_dynamics(part) {
                         Ok(dynamics) => builder = builder.dynamics(dynamics),
@@ -441,13 +441,14 @@ impl<'a> Reader<'a> {
 
     /// Passes over a part that says nothing for this type of joint, with a warning.
     fn ignore(&mut self, part: Element<'a>, word: &str) {
-        self.warn(
-            part.start(),
-            format!(
-                "<{}> means nothing for a {word} joint and is ignored",
-                part.name()
-            ),
-        );
+        self.meaningless(part.start(), &format!("<{}>", part.name()), word);
+    }
+
+    fn meaningless(&mut self, at: usize, what: &str, word: &str) {
+        let of = format!("a {word} joint");
+        let message = format!("{what} means nothing for {of} and is ignored");
+        let what = what.to_owned();
+        self.warn_of(at, WarningKind::Meaningless { what, of }, message);
     }
 }
 

@@ -62,7 +62,6 @@ mod reader;
 mod relax;
 mod restated;
 mod sketch;
-mod told;
 mod unread;
 mod values;
 mod words;
@@ -72,9 +71,7 @@ mod xacro;
 mod xml;
 
 pub use error::FormatError;
-pub use mentions::MAY_JOIN;
 pub use sketch::{is_sketch, read_sketch, read_sketch_file};
-pub use told::is_told_first;
 pub use writer::write;
 
 use error::{Fault, located};
@@ -104,10 +101,46 @@ pub struct Warning {
     pub line: usize,
     /// Column in characters, counted from 1.
     pub column: usize,
+    /// What it is about.
+    pub kind: WarningKind,
     /// What is done, and why.
     pub message: String,
     /// How often the file gives cause for it; the place is that of the first time.
     pub count: usize,
+}
+
+/// What a warning is about.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum WarningKind {
+    /// Anything else.
+    #[default]
+    Other,
+    /// Something was taken for granted that the file does not say.
+    Guessed,
+    /// Something is not read that names two joints or links: the answer may be about another mechanism than the one meant.
+    MayJoin,
+    /// Something that has no meaning where it stands, and is ignored.
+    Meaningless {
+        /// The element or attribute.
+        what: String,
+        /// What it has no meaning for.
+        of: String,
+    },
+    /// An element with a name that it had once.
+    OldName {
+        /// The name.
+        old: String,
+        /// Today's.
+        new: String,
+    },
+}
+
+impl WarningKind {
+    /// Whether the warning belongs before everything else.
+    #[must_use]
+    pub fn is_told_first(&self) -> bool {
+        matches!(self, Self::Guessed | Self::MayJoin)
+    }
 }
 
 /// A kind of element or attribute that is not read.

@@ -7,11 +7,11 @@
 //!   exporter of Fusion 360. It writes one point in both links, and the axis in the parent link, all at the pose that the file draws; how
 //!   the joint's frame is turned in the child follows from that pose. Without `frame` both sides are frames, as those of a `<constraint>`.
 
+use super::WarningKind;
 use super::element::Element;
 use super::error::{Fault, Outcome};
 use super::names::Named;
 use super::reader::Reader;
-use super::told::IS_REVOLUTE;
 use super::unread::{OF_JOINTS, Parts};
 use super::values::no_other_turn;
 use super::words::quoted;
@@ -141,10 +141,10 @@ impl<'a> Reader<'a> {
                 });
         }
         let message = format!(
-            "loop {} has an <axis> and no type: {IS_REVOLUTE}",
+            "loop {} has an <axis> and no type: it is read as revolute",
             quoted(name)
         );
-        self.warn(joint.start(), message);
+        self.warn_of(joint.start(), WarningKind::Guessed, message);
         Ok(JointKind::Revolute)
     }
 

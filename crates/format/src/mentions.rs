@@ -4,14 +4,12 @@
 //! Simulators' plugins, `<ros2_control>` and MuJoCo's elements do so in many words. Two names in different places of one element are
 //! told; a list of joints, as every controller has one, is not.
 
+use super::WarningKind;
 use super::element::Element;
 use super::names::Named;
 use super::reader::Reader;
 use super::words::{cut, quoted};
 use std::collections::BTreeSet;
-
-/// What every warning of an element that may couple or join what it names says.
-pub const MAY_JOIN: &str = "is not read: if it couples or joins them, the answer is not about that";
 
 /// Parts of the names of elements that name several joints or links without joining them.
 const HARMLESS: [&str; 9] = [
@@ -60,12 +58,12 @@ impl<'a> Reader<'a> {
                     continue;
                 }
                 let message = format!(
-                    "<{}> names the {what} {} and {}, and {MAY_JOIN}; <mimic>, <coupling> or <loop> say so",
+                    "<{}> names the {what} {} and {}, and is not read: if it couples or joins them, the answer is not about that; <mimic>, <coupling> or <loop> say so",
                     cut(next.written_name()),
                     quoted(a),
                     quoted(b)
                 );
-                self.warn(next.start(), message);
+                self.warn_of(next.start(), WarningKind::MayJoin, message);
             }
         }
     }

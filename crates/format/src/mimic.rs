@@ -8,11 +8,11 @@
 //!
 //! Where several of them speak of one joint they must agree: followed up to the joints that follow nothing, they are one equation.
 
+use super::WarningKind;
 use super::element::Element;
 use super::error::{Fault, Outcome};
 use super::names::Named;
 use super::reader::Reader;
-use super::told::NO_LEADER;
 use super::words::{cut, did_you_mean, quoted};
 use kutzbach_math::number::Number;
 
@@ -80,12 +80,12 @@ impl<'a> Reader<'a> {
         let known = self.joint_names.iter().copied();
         let help = did_you_mean(leader, known, ("`", "`"));
         let message = format!(
-            "joint {} follows {}, {NO_LEADER}{}",
+            "joint {} follows {}, which the file does not have: it is free, as in ROS{}",
             quoted(follower),
             quoted(leader),
             help.map_or_else(String::new, |help| format!(" ({help})"))
         );
-        self.warn(mimic.start(), message);
+        self.warn_of(mimic.start(), WarningKind::Guessed, message);
         Ok(None)
     }
 

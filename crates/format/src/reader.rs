@@ -12,7 +12,7 @@ use super::names::{Directory, Named};
 use super::restated::Restated;
 use super::unread::{Parts, Tally, Unread};
 use super::words::{alternatives, cut, did_you_mean};
-use super::{ReadOptions, Reading, Skipped, Warning, relax, xml};
+use super::{ReadOptions, Reading, Skipped, Warning, WarningKind, relax, xml};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Entity, Frame, JointKind, MechanismBuilder};
 use std::cell::OnceCell;
@@ -37,7 +37,7 @@ pub(super) struct Reader<'a> {
     pub(super) literals: HashMap<&'a str, Number>,
     pub(super) root: Element<'a>,
     pub(super) root_namespace: Option<&'a str>,
-    warnings: Vec<(usize, String)>,
+    warnings: Vec<(usize, WarningKind, String)>,
     pub(super) unread: Tally<'a>,
     /// Elements that are not read, until all names are known.
     pub(super) set_aside: Vec<Element<'a>>,
@@ -361,7 +361,11 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn warn(&mut self, at: usize, message: impl Into<String>) {
-        self.warnings.push((at, message.into()));
+        self.warn_of(at, WarningKind::Other, message);
+    }
+
+    pub(super) fn warn_of(&mut self, at: usize, kind: WarningKind, message: impl Into<String>) {
+        self.warnings.push((at, kind, message.into()));
     }
 
     /// Records an element that is not read.
@@ -503,9 +507,11 @@ impl<'a> Reader<'a> {
 }
 
 /// Warnings with lines and columns in file order, those that say the same counted.
-fn counted_warnings(text: &str, warnings: Vec<(usize, String)>) -> Vec<Warning> {
+fn counted_warnings(text: &str, warnings: Vec<(usize, WarningKind, String)>) -> Vec<Warning> {
     let mut tally = Tally::default();
-    for (start, message) in warnings {
+    let mut kind_of = HashMap::new();
+    for (start, kind, message) in warnings {
+        kind_of.insert(message.clone(), kind);
         tally.text(start, message);
     }
     let kinds = tally.kinds();
@@ -515,6 +521,7 @@ fn counted_warnings(text: &str, warnings: Vec<(usize, String)>) -> Vec<Warning> 
         .map(|((line, column), kind)| Warning {
             line,
             column,
+            kind: kind_of.remove(&kind.what).unwrap_or_default(),
             message: kind.what,
             count: kind.count,
         })

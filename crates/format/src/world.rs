@@ -7,9 +7,9 @@
 //! Elsewhere a link that nothing places is most often a joint that was forgotten, and stays an error: links float only where a file
 //! shows that it is Drake's, by such a world or by one of Drake's elements.
 
+use super::WarningKind;
 use super::gazebo::IN_GAZEBO;
 use super::reader::Reader;
-use super::told::{FLOATS, IS_GROUND};
 use super::unread::slip_of;
 use super::words::listed;
 use kutzbach_model::mechanism::{Frame, JointBuilder, JointKind};
@@ -35,9 +35,10 @@ impl<'a> Reader<'a> {
         if self.ground.is_none() {
             self.builder.ground(WORLD);
         }
-        self.warn(
+        self.warn_of(
             at,
-            format!("no link of the file is called `{WORLD}`: {IS_GROUND}"),
+            WarningKind::Guessed,
+            format!("no link of the file is called `{WORLD}`: it is the ground, as in Drake"),
         );
     }
 
@@ -77,7 +78,14 @@ impl<'a> Reader<'a> {
             self.floating.insert(link);
         }
         let names: Vec<&str> = loose.iter().map(|(link, _)| *link).collect();
-        self.warn(at, format!("no joint places {}: {FLOATS}", listed(&names)));
+        self.warn_of(
+            at,
+            WarningKind::Guessed,
+            format!(
+                "no joint places {}: such a link floats, as in Drake",
+                listed(&names)
+            ),
+        );
     }
 
     /// Adds the world as a link where joints inside `<gazebo>` connect to it, placed so that nothing holds the robot in it but they.

@@ -7,7 +7,7 @@ use super::natural::natural_order;
 use super::play::PlayAsked;
 use super::schema::{
     Assembly, Constants, CouplingRow, Home, JointRow, LiteralAt, LiteralReading, Mobility, Report,
-    SCHEMA, Size, Source, Timing, WrittenKind, WrittenStyle,
+    SCHEMA, Size, Source, Timing, Warning, WrittenKind, WrittenStyle,
 };
 use kutzbach_format::Reading;
 use kutzbach_math::number::Number;
@@ -33,7 +33,7 @@ pub struct Input<'a> {
     /// The file's format, such as `urdf`.
     pub format: &'a str,
     /// What its reader wants to be known.
-    pub warnings: &'a [String],
+    pub warnings: &'a [Warning],
     /// What of the file was not read.
     pub skipped: &'a [String],
 }
@@ -148,17 +148,7 @@ pub fn analysed_report(
     file: &str,
     options: &Options,
 ) -> Result<(Report, Analysis), ReportError> {
-    let warnings: Vec<String> = reading
-        .warnings
-        .iter()
-        .map(|warning| {
-            let place = format!("line {}, column {}", warning.line, warning.column);
-            match warning.count {
-                1 => format!("{place}: {}", warning.message),
-                count => format!("{} ({count} times, first at {place})", warning.message),
-            }
-        })
-        .collect();
+    let warnings: Vec<Warning> = reading.warnings.iter().map(Warning::from).collect();
     let skipped: Vec<String> = reading
         .skipped
         .iter()

@@ -3,7 +3,7 @@
 use super::assemble::ReportError;
 use super::definitions::closest;
 use super::motions::motion_row;
-use super::schema::{Evidence, Motion, Report};
+use super::schema::{Evidence, Motion, Report, Warning, WarningKind};
 use kutzbach_closure::{Arithmetic, Geometry};
 use kutzbach_mobility::{Analysis, relative_motions};
 use kutzbach_model::mechanism::Mechanism;
@@ -99,7 +99,9 @@ pub(super) fn ask_between(
     };
     report.motions.retain(|row| !already(row));
     report.motions.splice(0..0, asked);
-    report.warnings.extend(unanswered);
+    let unanswered = unanswered.into_iter();
+    let warnings = unanswered.map(|text| Warning::new(WarningKind::Unanswered, text));
+    report.warnings.extend(warnings);
 }
 
 /// What every engine found, block by block, in the order they were asked.

@@ -5,7 +5,8 @@ use super::motions::motion_row;
 use super::natural::natural_order;
 use super::schema::{
     Advice, AsWritten, Assembly, Block, Branch, Certificate, Change, Cycle, Gap, GenericCount,
-    Home, Idle, JointRow, Mobility, Motion, Nominal, Relation, Report, Tree, TreeLink,
+    Home, Idle, JointRow, Mobility, Motion, Nominal, Relation, Report, Tree, TreeLink, Warning,
+    WarningKind,
 };
 use super::text::words::counted;
 use kutzbach_closure::{owners, with_owners};
@@ -18,10 +19,10 @@ use kutzbach_model::mechanism::{Joint, JointKind, Mechanism};
 use std::collections::BTreeSet;
 
 /// The end of the warning of pieces that nothing holds; what they count for stands in [`Report::freedoms`] too.
-pub(super) const LOOSE: &str = "of the links are connected to the ground by no joint at all; each such piece counts with six freedoms";
+const LOOSE: &str = "of the links are connected to the ground by no joint at all; each such piece counts with six freedoms";
 
 /// What follows the name of a block in the warning that it would move without its couplings.
-pub(super) const LOCKED_TOGETHER: &str =
+const LOCKED_TOGETHER: &str =
     ": its couplings and its loops lock it together; by the loops alone it would have";
 
 /// Fills in everything that the analysis decided. Linear in the size of both.
@@ -49,9 +50,10 @@ pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &An
     report.advice.sort_by_key(|a| a.redundant_after);
     report.change_sets = change_sets(mechanism, analysis);
     if !analysis.structure.cycles_are_fundamental {
-        report.warnings.push(
-            "the fundamental cycles of the spanning tree are too long to list; the cycles shown are a shortest basis".to_owned(),
-        );
+        let text = "the fundamental cycles of the spanning tree are too long to list; the cycles shown are a shortest basis";
+        report
+            .warnings
+            .push(Warning::new(WarningKind::Cycles, text));
     }
     let literal: Vec<usize> = (0..analysis.parts.len())
         .filter(|&index| analysis.parts[index].taken_literally)
@@ -61,22 +63,21 @@ pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &An
                     open; they were taken literally";
         let text = &format!("{text}{}", known_better(mechanism, &report.assembly));
         // Of all blocks or of the only one: then the whole mechanism is meant.
-        report
-            .warnings
-            .push(if literal.len() == analysis.parts.len() {
-                text.to_owned()
-            } else {
-                format!(
-                    "{}: {text}",
-                    owners(&analysis.structure.part_names, &literal)
-                )
-            });
+        let text = if literal.len() == analysis.parts.len() {
+            text.to_owned()
+        } else {
+            let owners = owners(&analysis.structure.part_names, &literal);
+            format!("{owners}: {text}")
+        };
+        let warning = Warning::new(WarningKind::TakenLiterally, text);
+        report.warnings.push(warning);
     }
     locked_by_couplings(report, mechanism, analysis);
     if analysis.structure.loose_pieces > 0 {
+        let text = format!("{} {LOOSE}", analysis.structure.loose_pieces);
         report
             .warnings
-            .push(format!("{} {LOOSE}", analysis.structure.loose_pieces));
+            .push(Warning::new(WarningKind::LooseLinks, text));
     }
 }
 
@@ -112,12 +113,14 @@ fn locked_by_couplings(report: &mut Report, mechanism: &Mechanism, analysis: &An
         let Some(freedom) = freedom_locked_by_couplings(part, rank) else {
             continue;
         };
-        report.warnings.push(format!(
+        let text = format!(
             "{}{LOCKED_TOGETHER} {} at this pose{}",
             owners(&structure.part_names, &[index]),
             counted(freedom, "instantaneous freedom"),
             culprits(mechanism, &locking_couplings(part, rank)),
-        ));
+        );
+        let warning = Warning::new(WarningKind::LockedTogether, text);
+        report.warnings.push(warning);
     }
 }
 

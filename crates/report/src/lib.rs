@@ -81,5 +81,6 @@ pub use schema::{
     Advice, Assembly, Block, Branch, Certificate, Constants, CouplingRow, Cycle, DependentInput,
     Evidence, Follower, Freedoms, Gap, GenericCount, Home, Idle, InputSource, Inputs, JointPlace,
     JointRange, JointRow, Limb, LiteralReading, Mobility, Motion, Nominal, OutsideLimit, Relation,
-    Report, Reversal, SCHEMA, Size, Source, Stage, Timing, Tree, TreeLink,
+    Report, Reversal, SCHEMA, Size, Source, Stage, Timing, Tree, TreeLink, Warning, WarningKind,
+    WarningPlace,
 };

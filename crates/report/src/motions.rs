@@ -2,7 +2,7 @@
 
 use super::schema::Motion;
 use super::text::words::figure;
-use kutzbach_math::group::DisplacementSubgroup;
+use kutzbach_math::group::{DisplacementSubgroup, coordinates};
 use kutzbach_mobility::RelativeMotion;
 use kutzbach_model::mechanism::Mechanism;
 
@@ -107,20 +107,21 @@ fn moving_axis(motion: &RelativeMotion) -> String {
         return format!("whether its axis moves is not decided{within}");
     }
     match motion.within {
-        Some(within @ G::Planar { .. }) => {
-            let place = within.to_string();
-            let normal = place.strip_prefix("planar motion normal to ").unwrap_or("");
+        Some(G::Planar { normal }) => {
+            let normal = coordinates(&normal);
             format!("planar: rotates about a moving axis along {normal}")
         }
-        Some(within @ G::Spherical { .. }) => {
-            let place = within.to_string();
-            let point = place.strip_prefix("rotation about the ").unwrap_or("");
-            format!("rotates about a moving axis through the fixed {point}")
+        Some(G::Spherical { centre }) => {
+            let point = coordinates(&centre);
+            format!("rotates about a moving axis through the fixed point {point}")
         }
         Some(within @ G::Cylindrical { .. }) => format!("{within}, both at once"),
-        _ => screwing(motion.pitches, " at the poses looked at"),
+        _ => screwing(motion.pitches, SEEN),
     }
 }
+
+/// Where pitches of a branch that was not followed were looked at.
+pub(super) const SEEN: &str = " at the poses looked at";
 
 /// How a link screws about a moving axis; `over`: where its pitches were looked at.
 pub(super) fn screwing(pitches: Option<[f64; 2]>, over: &str) -> String {

@@ -1,7 +1,7 @@
 //! The play that joints need for a motion which the numbers as written bind.
 
 use super::assemble::Options;
-use super::schema::Report;
+use super::schema::{Report, Warning, WarningKind};
 use kutzbach_mobility::{Analysis, AnalysisOptions, Verdict, analyse};
 use kutzbach_model::mechanism::Mechanism;
 use kutzbach_motion::{NoPlay, PlayOptions};
@@ -80,7 +80,12 @@ pub(super) fn lay_over(
     let Some(asked) = options.play else { return };
     match found(given, analysis, configuration, options, asked) {
         Ok(play) => report.play = Some(play),
-        Err(why) => report.warnings.push(format!("no play can be told: {why}")),
+        Err(why) => {
+            let text = format!("no play can be told: {why}");
+            report
+                .warnings
+                .push(Warning::new(WarningKind::Unanswered, text));
+        }
     }
 }
 

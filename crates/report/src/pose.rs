@@ -1,11 +1,9 @@
 //! What a careful owner should know of the pose: limits, dead centres, singular poses nearby. Sentences for the warnings.
 
 use super::assemble::HOME;
-use super::findings::LOCKED_TOGETHER;
-use super::schema::Report;
+use super::schema::{Report, Warning, WarningKind};
 use super::text::words::{counted, figure, names};
 use kutzbach_closure::{Arithmetic, Geometry};
-use kutzbach_format::is_told_first;
 use kutzbach_mobility::{
     Analysis, LimitFact, NearSingular, PoseKind, dead_centres, limit_facts, near_singular,
     pose_of_branch,
@@ -17,17 +15,6 @@ const OUTSIDE: &str = "this pose is outside joint limits: ";
 const DEAD: &str = "extreme position: ";
 const SINGULAR: &str = "singular pose: ";
 const NEARLY: &str = "nearly singular: the smallest singular value kept";
-
-/// Whether a warning belongs to the first lines: what is wrong with the pose, or with what holds there, or may hold, and what the
-/// file left to be guessed.
-pub(super) fn is_about_the_pose(warning: &str) -> bool {
-    warning.starts_with(OUTSIDE)
-        || warning.starts_with(DEAD)
-        || warning.starts_with(SINGULAR)
-        || warning.contains(NEARLY)
-        || warning.contains(LOCKED_TOGETHER)
-        || is_told_first(warning)
-}
 
 /// A middle of limits farther than this (rad, m) from the pose drawn is another pose.
 const WELL_AWAY: f64 = 1e-3;
@@ -68,7 +55,9 @@ pub(super) fn warn(
             .map_or(String::new(), |block| {
                 format!("the sub-mechanism of `{}` is ", block.name)
             });
-        report.warnings.push(near_text(mechanism, &found, &block));
+        let text = near_text(mechanism, &found, &block);
+        let warning = Warning::new(WarningKind::NearlySingular, text);
+        report.warnings.push(warning);
     }
 }
 
@@ -127,22 +116,26 @@ fn limits(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis, confi
             texts.push(format!("and {} more", outside.len() - NAMED));
         }
         let offer = if configuration == HOME { OFFER } else { "" };
-        report
-            .warnings
-            .push(format!("{OUTSIDE}{}{offer}", texts.join("; ")));
+        let text = format!("{OUTSIDE}{}{offer}", texts.join("; "));
+        let warning = Warning::new(WarningKind::OutsideLimits, text);
+        report.warnings.push(warning);
     }
     if !no_range.is_empty() {
         no_range.sort_by(|a, b| super::natural_order(a, b));
         let quoted: Vec<String> = no_range.iter().map(|name| format!("`{name}`")).collect();
-        report.warnings.push(format!(
+        let text = format!(
             "{} {} a range of zero between the limits ({}); by them it cannot move, here it counts as free",
             counted(no_range.len(), "joint"),
             if no_range.len() == 1 { "has" } else { "have" },
             names(&quoted, NAMED)
-        ));
+        );
+        let warning = Warning::new(WarningKind::Limits, text);
+        report.warnings.push(warning);
     }
     couplings.sort_by(|a, b| super::natural_order(a, b));
-    report.warnings.extend(couplings);
+    let couplings = couplings.into_iter();
+    let warnings = couplings.map(|text| Warning::new(WarningKind::Limits, text));
+    report.warnings.extend(warnings);
 }
 
 fn dead(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis, geometry: &Geometry<f64>) {
@@ -163,7 +156,7 @@ fn dead(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis, geometr
     resting.sort_by(|a, b| super::natural_order(a, b));
     if !resting.is_empty() {
         let quoted: Vec<String> = resting.iter().map(|name| format!("`{name}`")).collect();
-        report.warnings.push(format!(
+        let text = format!(
             "{DEAD}{} at this pose; driving {} cannot start the motion",
             names(&quoted, NAMED),
             if quoted.len() == 1 {
@@ -171,7 +164,9 @@ fn dead(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis, geometr
             } else {
                 "any of them"
             },
-        ));
+        );
+        let warning = Warning::new(WarningKind::ExtremePosition, text);
+        report.warnings.push(warning);
     }
 }
 
@@ -179,9 +174,9 @@ fn dead(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis, geometr
 fn singular(report: &mut Report, mechanism: &Mechanism) {
     let elsewhere = |(_, middle): &(_, f64)| middle.abs() > WELL_AWAY;
     if mechanism.middle_of_limits().iter().any(elsewhere) {
-        report.warnings.push(format!(
-            "{SINGULAR}what is said here need not hold elsewhere{OFFER}"
-        ));
+        let text = format!("{SINGULAR}what is said here need not hold elsewhere{OFFER}");
+        let warning = Warning::new(WarningKind::SingularPose, text);
+        report.warnings.push(warning);
     }
 }
 

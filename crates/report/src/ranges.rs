@@ -2,7 +2,7 @@
 //!
 //! Ranges of a branch of several degrees of freedom depend on what is held, so nothing is said of them.
 
-use super::motions::screwing;
+use super::motions::{SEEN, screwing};
 use super::schema::{JointRange, Motion as Row, Report};
 use kutzbach_closure::Rigid;
 use kutzbach_mobility::Analysis;
@@ -99,9 +99,10 @@ fn pitches(report: &mut Report, mechanism: &Mechanism, motion: &mut Motion) {
         let Some(found) = extremes(motion, moving, seen_from) else {
             continue;
         };
+        let looked_at = screwing(row.pitches, SEEN);
         row.pitches = Some(found);
         row.whole_branch = true;
-        if row.text.starts_with("screws about a moving axis") {
+        if row.text == looked_at {
             row.text = screwing(row.pitches, "");
         }
     }

@@ -339,7 +339,8 @@ pub(crate) fn hostile() -> Report {
     report.joints[3].name = "x".repeat(5000);
     report.joints[3].links[0] = "关节".repeat(100);
     report.cycles[0].joints = report.joints.iter().map(|j| j.name.clone()).collect();
-    report.warnings = vec!["link `\u{9b}31m` \r\n has no mass".to_owned()];
+    let text = "link `\u{9b}31m` \r\n has no mass";
+    report.warnings = vec![Warning::new(WarningKind::File, text)];
     report
 }
 
@@ -356,6 +357,7 @@ pub(crate) fn large() -> Report {
         })
         .collect();
     report.cycles[0].joints = report.joints.iter().map(|j| j.name.clone()).collect();
-    report.warnings = (0..20).map(|n| format!("warning {n}")).collect();
+    let warning = |n| Warning::new(WarningKind::File, format!("warning {n}"));
+    report.warnings = (0..20).map(warning).collect();
     report
 }

@@ -7,10 +7,10 @@
 use super::Trouble;
 use super::detect::is_xacro;
 use super::element::Element;
-use crate::Warning;
 use crate::element::XACRO;
 use crate::error::{Fault, FormatError, lines_and_columns, located};
 use crate::words::{cut, did_you_mean, quoted};
+use crate::{Warning, WarningKind};
 use roxmltree::{Document, Node};
 use std::path::Path;
 
@@ -91,6 +91,7 @@ pub(super) fn calls(
         .map(|((line, column), (_, message, count))| Warning {
             line,
             column,
+            kind: WarningKind::Other,
             message,
             count,
         })

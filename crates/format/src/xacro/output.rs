@@ -8,7 +8,7 @@ use super::element::{Attribute, Element, Node};
 use super::map::{Map, Span};
 use super::text::Text;
 use super::{Outcome, Place, Run, Trouble};
-use crate::{Reading, Warning};
+use crate::{Reading, Warning, WarningKind};
 use kutzbach_math::number::Number;
 use std::ops::Range;
 use std::rc::Rc;
@@ -87,6 +87,7 @@ impl Expanded {
             .extend(own.into_iter().map(|(noted, said)| Warning {
                 line: noted.line,
                 column: noted.column,
+                kind: WarningKind::Other,
                 message: format!("{said}{}", noted.beside),
                 count: 1,
             }));

@@ -61,6 +61,7 @@ pub use span::{SpanDescription, describe_span};
 pub use subalgebra::{Subalgebra, product_is_subgroup};
 pub use system::ScrewSystem;
 pub use twist::{Twist, Wrench};
+pub use words::coordinates;
 
 /// What can go wrong in this module. None of these arises from well-formed, finite geometry.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

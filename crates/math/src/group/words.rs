@@ -14,7 +14,7 @@ impl fmt::Display for DisplacementSubgroup {
             Self::Identity => write!(f, "no motion"),
             Self::Rotation { axis } => write!(f, "rotation about {}", line(axis)),
             Self::Translation { direction } => {
-                write!(f, "translation along {}", figures(direction))
+                write!(f, "translation along {}", coordinates(direction))
             }
             Self::Helical { axis, pitch } => write!(
                 f,
@@ -26,23 +26,27 @@ impl fmt::Display for DisplacementSubgroup {
                 write!(f, "rotation about and translation along {}", line(axis))
             }
             Self::PlanarTranslation { normal } => {
-                write!(f, "translation in the plane normal to {}", figures(normal))
+                write!(
+                    f,
+                    "translation in the plane normal to {}",
+                    coordinates(normal)
+                )
             }
             Self::Spherical { centre } => {
-                write!(f, "rotation about the point {}", figures(centre))
+                write!(f, "rotation about the point {}", coordinates(centre))
             }
-            Self::Planar { normal } => write!(f, "planar motion normal to {}", figures(normal)),
+            Self::Planar { normal } => write!(f, "planar motion normal to {}", coordinates(normal)),
             Self::SpatialTranslation => write!(f, "translation in every direction"),
             Self::TranslatingScrew { direction, pitch } => write!(
                 f,
                 "translation in the plane normal to {} with screw motion of pitch {} m/rad along it",
-                figures(direction),
+                coordinates(direction),
                 figure(*pitch)
             ),
             Self::Schoenflies { direction } => write!(
                 f,
                 "translation in every direction and rotation about {}",
-                figures(direction)
+                coordinates(direction)
             ),
             Self::General => write!(f, "unrestricted motion"),
         }
@@ -50,12 +54,12 @@ impl fmt::Display for DisplacementSubgroup {
 }
 
 fn line(axis: &Axis) -> String {
-    let (direction, point) = (figures(&axis.direction), figures(&axis.point));
+    let (direction, point) = (coordinates(&axis.direction), coordinates(&axis.point));
     format!("the axis along {direction} through {point}")
 }
 
 /// A vector to six significant digits of its largest component.
-fn figures(v: &Vector3<f64>) -> String {
+pub fn coordinates(v: &Vector3<f64>) -> String {
     let digits = decimals(v.amax());
     let [x, y, z] = [v.x, v.y, v.z].map(|x| rounded(x, digits));
     format!("({x}, {y}, {z})")

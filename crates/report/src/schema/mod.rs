@@ -9,7 +9,7 @@
 //! redundant_directions, block}`, `motions[].{pitches, tilts, whole_branch, rotations, translations, within, joint}`,
 //! `branches[].nearly_idle`, `home.weakest` and `home.blocks[].{label, finite, pose, kind, class}`, `assembly.{tolerance_asked, starts,
 //! work_limited, held, corrected, joints, outside_limits, proven_open, proof, released, reversal, dimensions_changed}`. What changed
-//! its meaning: `advice[].to` may be `none`, for a joint to remove; `motions[].freedom` may be `null`, and counts the
+//! its meaning: `warnings[]` are objects with a kind, a place and a text; `advice[].to` may be `none`, for a joint to remove; `motions[].freedom` may be `null`, and counts the
 //! dimension of the set of displacements along the whole branch.
 
 mod assembly;
@@ -20,6 +20,7 @@ mod mobility;
 mod pose;
 mod source;
 mod structure;
+mod warnings;
 
 pub use assembly::{Assembly, Gap, JointPlace, OutsideLimit, Reversal};
 pub use branches::{Branch, Idle, Motion};
@@ -32,6 +33,7 @@ pub use source::{
     WrittenStyle,
 };
 pub use structure::{Cycle, Tree, TreeLink};
+pub use warnings::{Warning, WarningKind, WarningPlace};
 
 use super::change_sets::ChangeSets;
 use super::four_bar::FourBar;
@@ -93,7 +95,7 @@ pub struct Report {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub play: Option<super::play::Play>,
     /// What a careful reader should know: oddities of the file, short margins.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
     /// What of the file was not read, because it says nothing about motion.
     pub skipped: Vec<String>,
     /// What every engine found; only where asked for, since its figures differ from machine to machine in their last

@@ -8,9 +8,7 @@ use super::style::Tint;
 use super::table::{Cell, Column, Subject, Table};
 use super::words::{capitalised, counted, figure, mirrored_runs, names, one_side, runs};
 use crate::change_sets::ChangeSets;
-use crate::findings::{LOCKED_TOGETHER, LOOSE};
-use crate::pose::is_about_the_pose;
-use crate::schema::{Advice, CouplingRow, Cycle, Report};
+use crate::schema::{Advice, CouplingRow, Cycle, Report, Warning, WarningKind};
 use std::collections::BTreeSet;
 
 /// Lists of names in a table show this many.
@@ -304,28 +302,30 @@ const ADVICE: usize = 8;
 /// What is wrong with the pose.
 pub(super) fn pose(report: &Report, page: &mut Page) {
     let all = report.warnings.iter();
-    let told: Vec<String> = all.filter(|w| is_about_the_pose(w)).cloned().collect();
-    let told = match page.layout().verbose {
-        true => told,
+    let told: Vec<&Warning> = all.filter(|w| w.kind.is_told_first()).collect();
+    // A block's name has no capital.
+    let of_block = |text: &str| {
+        told.iter()
+            .any(|w| w.kind == WarningKind::LockedTogether && w.text == text)
+    };
+    let texts: Vec<String> = match page.layout().verbose {
+        true => told.iter().map(ToString::to_string).collect(),
         false => repeated_once(&told),
     };
-    for warning in told {
-        page.paragraph(&sentence(&warning), Tint::Doubtful, "", "");
-    }
-}
-
-/// A warning with a full stop, and a capital unless it begins with the name of a block.
-fn sentence(warning: &str) -> String {
-    match warning.contains(LOCKED_TOGETHER) {
-        true => format!("{warning}."),
-        false => capitalised(warning),
+    for text in texts {
+        let sentence = match of_block(&text) {
+            true => format!("{text}."),
+            false => capitalised(&text),
+        };
+        page.paragraph(&sentence, Tint::Doubtful, "", "");
     }
 }
 
 /// What to beware of.
 #[cfg(feature = "html")]
 pub(crate) fn warnings(report: &Report, page: &mut Page) {
-    list(&report.warnings, page);
+    let all: Vec<Warning> = report.warnings.clone();
+    list(&all, page);
 }
 
 /// What to beware of besides the pose; on a first screen without what the answer says already, and without what in the file
@@ -333,51 +333,37 @@ pub(crate) fn warnings(report: &Report, page: &mut Page) {
 pub(super) fn other_warnings(report: &Report, page: &mut Page) {
     let verbose = page.layout().verbose;
     let floats = report.freedoms.as_ref().is_some_and(|f| f.floating > 0);
-    let told = |warning: &str| {
-        let of_file = meaningless(warning).is_some() || old_name(warning).is_some();
-        !verbose && (floats && warning.ends_with(LOOSE) || of_file)
+    let told = |kind: WarningKind| match kind {
+        WarningKind::Meaningless | WarningKind::OldName => !verbose,
+        WarningKind::LooseLinks => floats && !verbose,
+        kind => kind.is_told_first(),
     };
-    let others: Vec<String> = report
+    let others: Vec<Warning> = report
         .warnings
         .iter()
-        .filter(|warning| !is_about_the_pose(warning) && !told(warning))
+        .filter(|warning| !told(warning.kind))
+        .cloned()
         .map(|warning| match verbose {
-            true => warning.clone(),
-            false => without_folders(warning),
+            true => warning,
+            false => Warning {
+                text: without_folders(&warning.text),
+                ..warning
+            },
         })
         .collect();
     list(&others, page);
 }
 
-/// `15 × <axis> of a fixed joint`, of `<axis> means nothing for a fixed joint and is ignored (15 times, …)`.
-fn meaningless(warning: &str) -> Option<String> {
-    let (_, text) = without_place(warning);
-    let (element, rest) = text.split_once(" means nothing for ")?;
-    let (joint, rest) = rest.split_once(" and is ignored")?;
-    Some(format!("{}{element} of {joint}", times(rest)))
-}
-
-/// `6 × <joint_properties> for <dynamics>`, of `<joint_properties> is the old name of <dynamics> and read as such (6 times, …)`.
-fn old_name(warning: &str) -> Option<String> {
-    let (_, text) = without_place(warning);
-    let (old, rest) = text.split_once(" is the old name of ")?;
-    let (new, rest) = rest.split_once(" and read as such")?;
-    Some(format!("{}{old} for {new}", times(rest)))
-}
-
-/// `6 × `, of ` (6 times, first at line 90, column 5)`.
-fn times(rest: &str) -> String {
-    rest.split_once(" times, first at ")
-        .and_then(|(before, _)| before.rsplit('(').next())
-        .map_or_else(String::new, |times| format!("{times} × "))
-}
-
-/// A warning as `line 35, column 5` and what it says of that place; an empty place where it names none.
-fn without_place(warning: &str) -> (&str, &str) {
-    match warning.split_once(": ") {
-        Some((place, text)) if place.starts_with("line ") => (place, text),
-        _ => ("", warning),
-    }
+/// `15 × <axis> of a fixed joint`, or `6 × <joint_properties> for <dynamics>`.
+fn short(warning: &Warning, kind: WarningKind, between: &str) -> Option<String> {
+    let [one, other] = &warning.names[..] else {
+        return None;
+    };
+    let times = match warning.place.map_or(1, |place| place.count) {
+        1 => String::new(),
+        many => format!("{many} × "),
+    };
+    (warning.kind == kind).then(|| format!("{times}{one} {between} {other}"))
 }
 
 /// A warning whose ` (at /a/long/way/to/file.xacro:3:1)` names the file alone.
@@ -391,14 +377,15 @@ fn without_folders(warning: &str) -> String {
     format!("{before}{AT}{file}{}", &rest[end..])
 }
 
-fn list(warnings: &[String], page: &mut Page) {
+fn list(warnings: &[Warning], page: &mut Page) {
     if warnings.is_empty() {
         return;
     }
     page.heading("Warnings");
-    let warnings = match page.layout().verbose {
-        true => warnings.to_vec(),
-        false => repeated_once(warnings),
+    let all: Vec<&Warning> = warnings.iter().collect();
+    let warnings: Vec<String> = match page.layout().verbose {
+        true => all.iter().map(ToString::to_string).collect(),
+        false => repeated_once(&all),
     };
     let shown = match page.layout().verbose {
         true => warnings.len(),
@@ -411,23 +398,23 @@ fn list(warnings: &[String], page: &mut Page) {
 }
 
 /// Warnings that differ only in the place they speak of, or in the side of the machine, once, with the number of places: `14 × …, first in line 35`.
-fn repeated_once(warnings: &[String]) -> Vec<String> {
+fn repeated_once(warnings: &[&Warning]) -> Vec<String> {
+    let placed: Vec<(String, String)> = warnings.iter().map(|warning| warning.placed()).collect();
     let mut counted: Vec<(&str, &str, usize)> = Vec::new();
     let mut mirrored: BTreeSet<String> = BTreeSet::new();
-    for warning in warnings {
-        let (place, text) = without_place(warning);
+    for (place, text) in &placed {
         let sides = one_side(text);
         match counted
             .iter_mut()
             .find(|(_, known, _)| one_side(known) == sides)
         {
             Some((_, known, count)) => {
-                if *known != text {
+                if *known != text.as_str() {
                     mirrored.insert((*known).to_owned());
                 }
                 *count += 1;
             }
-            None => counted.push((place, text, 1)),
+            None => counted.push((place.as_str(), text.as_str(), 1)),
         }
     }
     counted
@@ -451,15 +438,25 @@ fn repeated_once(warnings: &[String]) -> Vec<String> {
 /// What of the file was not read, in one line; a verbose page lists it with places.
 fn unread(report: &Report, page: &mut Page) {
     const KINDS: usize = 6;
-    let short = |line: &String| {
-        let (_, what) = without_place(line);
+    let of_skipped = |line: &String| {
+        let what = match line.split_once(": ") {
+            Some((place, what)) if place.starts_with("line ") => what,
+            _ => line,
+        };
         let what = what.split(" (first at ").next().unwrap_or(what);
         let what = what.split(" (at ").next().unwrap_or(what);
         what.to_owned()
     };
-    let ignored = report.warnings.iter().filter_map(|w| meaningless(w));
-    let mut kinds: Vec<String> = report.skipped.iter().map(short).chain(ignored).collect();
-    let old: Vec<String> = report.warnings.iter().filter_map(|w| old_name(w)).collect();
+    let all = || report.warnings.iter();
+    let ignored = all().filter_map(|w| short(w, WarningKind::Meaningless, "of"));
+    let mut kinds: Vec<String> = report
+        .skipped
+        .iter()
+        .map(of_skipped)
+        .chain(ignored)
+        .collect();
+    let old = all().filter_map(|w| short(w, WarningKind::OldName, "for"));
+    let old: Vec<String> = old.collect();
     if kinds.is_empty() && old.is_empty() {
         return;
     }
@@ -594,20 +591,33 @@ pub(super) fn limit(page: &Page) -> usize {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use crate::schema::WarningPlace;
 
     #[test]
     fn notes_on_the_file_are_told_in_short() {
-        let axis = "<axis> means nothing for a fixed joint and is ignored";
-        let many = format!("{axis} (15 times, first at line 156, column 1)");
-        assert_eq!(meaningless(&many).unwrap(), "15 × <axis> of a fixed joint");
-        let once = format!("line 169, column 5: {axis}");
-        assert_eq!(meaningless(&once).unwrap(), "<axis> of a fixed joint");
-        let old = "<joint_properties> is the old name of <dynamics> and read as such (6 times, first at line 9, column 5)";
+        let of = |names: [&str; 2], kind: WarningKind, count: usize| Warning {
+            place: Some(WarningPlace {
+                line: 156,
+                column: 1,
+                count,
+            }),
+            names: names.map(str::to_owned).to_vec(),
+            ..Warning::new(kind, "text")
+        };
+        let [kind, old] = [WarningKind::Meaningless, WarningKind::OldName];
+        let axis = |count| short(&of(["<axis>", "a fixed joint"], kind, count), kind, "of");
+        assert_eq!(axis(15).unwrap(), "15 × <axis> of a fixed joint");
+        assert_eq!(axis(1).unwrap(), "<axis> of a fixed joint");
+        let renamed = of(["<joint_properties>", "<dynamics>"], old, 6);
         assert_eq!(
-            old_name(old).unwrap(),
+            short(&renamed, old, "for").unwrap(),
             "6 × <joint_properties> for <dynamics>"
         );
-        assert_eq!((meaningless(old), old_name(&many)), (None, None));
+        assert_eq!(short(&renamed, kind, "of"), None);
+        assert_eq!(
+            renamed.to_string(),
+            "text (6 times, first at line 156, column 1)"
+        );
         let at = "line 4, column 3: 15 joints (at /a/b/torso.xacro:23:7) (3 times)";
         assert_eq!(
             without_folders(at),
@@ -617,13 +627,21 @@ mod tests {
 
     #[test]
     fn warnings_of_both_sides_are_told_once() {
+        let at = |line, text| Warning {
+            place: Some(WarningPlace {
+                line,
+                column: 2,
+                count: 1,
+            }),
+            ..Warning::new(WarningKind::File, text)
+        };
         let warnings = [
-            "line 1, column 2: joint `r_grip` twice",
-            "line 5, column 2: joint `l_grip` twice",
-            "other",
+            at(1, "joint `r_grip` twice"),
+            at(5, "joint `l_grip` twice"),
+            Warning::new(WarningKind::File, "other"),
         ];
         assert_eq!(
-            repeated_once(&warnings.map(str::to_owned)),
+            repeated_once(&warnings.iter().collect::<Vec<_>>()),
             [
                 "2 × joint `r_grip` twice (left and right alike, first in line 1, column 2)",
                 "other"

@@ -7,8 +7,7 @@ use super::cite;
 use super::page::Page;
 use super::style::Tint;
 use super::words::{capitalised, counted, degrees, figure, metres, names};
-use crate::schema::{AsWritten, Branch, Nominal, Report, WrittenKind, WrittenStyle};
-use kutzbach_format::MAY_JOIN;
+use crate::schema::{AsWritten, Branch, Nominal, Report, WarningKind, WrittenKind, WrittenStyle};
 use kutzbach_mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
 
 /// Writes the verdict, its reasons and the line that says what was read.
@@ -133,7 +132,11 @@ fn mobile(report: &Report) -> String {
         text.push_str(&format!(": {}.", singular(report)));
         return text;
     }
-    if report.warnings.iter().any(|w| w.contains(MAY_JOIN)) {
+    if report
+        .warnings
+        .iter()
+        .any(|w| w.kind == WarningKind::MayJoin)
+    {
         text.push_str(", going by the part of the file that was read.");
         return text;
     }
