@@ -56,11 +56,11 @@ const SEEDS: [&str; 8] = [
     r#"<robot name="beside">
   <link name="a"/><link name="b"/><link name="c"/>
   <joint name="j" type="revolute"><parent link="a"/><child link="b"/></joint>
-  <joint name="k" type="prismatic"><parent link="b"/><child link="c"/><joint_properties damping="1"/></joint>
-  <coupling name="belt"><predecessor link="a"/><successor link="b"/><ratio value="-2"/></coupling>
+  <joint name="k" type="continuous"><parent link="a"/><child link="c"/><joint_properties damping="1"/></joint>
+  <coupling name="belt"><predecessor link="b"/><successor link="c"/><ratio value="-2"/></coupling>
   <configuration name="open"><position joint="j" value="0.3"/><position joint="k" value="-1e-2"/></configuration>
   <scene><gravity xyz="0 0 -9.81"/><contact/><limits/><friction/><damping/><drive joint="j" velocity="1.0" torque="10"/></scene>
-  <expect finite="1" instantaneous="1" redundant="3" kutzbach="-2" pose="singular" kind="cusp" locked="j k.trans" idle="b" branches="2" branch_dimensions="1 2"/>
+  <expect finite="1" instantaneous="1" redundant="3" kutzbach="-2" pose="singular" kind="cusp" locked="j k.rot" idle="b" branches="2" branch_dimensions="1 2"/>
 </robot>
 "#,
     // What other tools add, and how they write loops.
