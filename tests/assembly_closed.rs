@@ -629,7 +629,7 @@ mod corpus {
     fn configurations_of_all_files_close() {
         let mut all = own_mechanisms();
         all.extend(zoo());
-        let all = support::sample(all, 3);
+        let all = support::sample(all, 6);
         let found = in_parallel(&all, |(name, mechanism)| {
             checked(name, mechanism, &answer(mechanism, None, 2.0))
         });
@@ -644,7 +644,7 @@ mod corpus {
     #[test]
     #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn configurations_of_many_random_loops_close_and_are_all() {
-        let cases = support::sample(24..500, 3);
+        let cases = support::sample(24..500, 6);
         assert!(random_cases(&cases, 40) > support::at_least(100));
     }
 }

@@ -88,7 +88,9 @@ const SEEDS: [&str; 8] = [
   <drake:distance_constraint><drake:distance_constraint_body_A name="a"/><drake:distance_constraint_body_B name="c"/><drake:distance_constraint_p_AP value="0 1 0"/><drake:distance_constraint_p_BQ value="0 0 0.5"/><drake:distance_constraint_distance value="0.5"/></drake:distance_constraint>
   <loop_joint name="l" type="spherical"><link1 link="a" xyz="0 1 0" rpy="0 0 0"/><link2 link="c" xyz="0 0 0"/></loop_joint>
   <constraint name="m" type="universal"><parent link="a"/><parent_origin xyz="0 1 0"/><parent_axis xyz="0 0 1"/><child link="c"/><child_origin xyz="0 0 3"/><child_axis xyz="1 0 0"/></constraint>
-  <coupling name="h" type="rolling"><predecessor link="a"/><successor link="b"/><ratio value="6.0"/></coupling>
+  <link name="d"/><joint name="n" type="continuous"><parent link="a"/><child link="d"/></joint>
+  <link name="e"/><joint name="o" type="continuous"><parent link="a"/><child link="e"/></joint>
+  <coupling name="h" type="rolling"><predecessor link="d"/><successor link="e"/><ratio value="6.0"/></coupling>
   <undeclared:thing undeclared:x="1"/>
   <mujoco><actuator><motor joint="j"/></actuator></mujoco>
 </robot>
