@@ -629,7 +629,7 @@ mod corpus {
     fn configurations_of_all_files_close() {
         let mut all = own_mechanisms();
         all.extend(zoo());
-        let all = support::sample(all, 6);
+        let all = support::sample(all, 3);
         let found = in_parallel(&all, |(name, mechanism)| {
             checked(name, mechanism, &answer(mechanism, None, 2.0))
         });
