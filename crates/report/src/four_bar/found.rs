@@ -5,6 +5,7 @@ use kutzbach_closure::{Arithmetic, Geometry, cross_product, spanning_poses};
 use kutzbach_math::space::dot;
 use kutzbach_mobility::Analysis;
 use kutzbach_model::mechanism::{Configuration, JointKind, Mechanism};
+use std::collections::BTreeMap;
 
 /// A joint of a ring: its index, whether the ring passes it from its predecessor, its point (m) and the direction of its axis at the pose.
 #[derive(Clone, Copy)]
@@ -61,30 +62,35 @@ pub(in super::super) fn four_bars(
             .filter(|&joint| mechanism.joints()[joint].kind == JointKind::Revolute)
             .filter(|&joint| analysis.roles[joint].locked != Some(true))
             .collect();
-        let pin = |joint: usize, from: usize| {
+        // The hinges at every body, with the body beyond: each is looked at where a ring may pass it, and nowhere else.
+        let mut at: BTreeMap<usize, Vec<(Pin, usize)>> = BTreeMap::new();
+        for &joint in &hinges {
             let sides = [
                 &mechanism.joints()[joint].predecessor,
                 &mechanism.joints()[joint].successor,
             ];
-            let near = sides.iter().position(|side| body[side.link.0] == from)?;
             let frame = poses[sides[0].link.0].compose(&geometry.sides[joint][0]);
-            let pin = Pin {
-                joint,
-                forward: near == 0,
-                point: frame.translation,
-                axis: frame.rotate(geometry.displacements[joint].axis()),
-            };
-            Some((pin, body[sides[1 - near].link.0]))
-        };
-        let from = |start: usize| hinges.iter().filter_map(move |&joint| pin(joint, start));
+            let [near, far] = sides.map(|side| body[side.link.0]);
+            for (forward, from, to) in [(true, near, far), (false, far, near)] {
+                let pin = Pin {
+                    joint,
+                    forward,
+                    point: frame.translation,
+                    axis: frame.rotate(geometry.displacements[joint].axis()),
+                };
+                if from != to {
+                    at.entry(from).or_default().push((pin, to));
+                }
+            }
+        }
+        let from = |start: usize| at.get(&start).into_iter().flatten().copied();
         let alone = hinges.len() == 4 && part.cycles.len() == 1 && part.joints.len() == 4;
         for (first, input) in from(ground) {
-            for (second, coupler) in from(input) {
-                for (third, output) in from(coupler) {
-                    for (last, end) in from(output) {
-                        let links = [ground, input, coupler, output];
-                        let apart = (0..4).all(|i| !links[..i].contains(&links[i]));
-                        if !apart || end != ground || last.joint < first.joint {
+            for (second, coupler) in from(input).filter(|(_, coupler)| *coupler != ground) {
+                let beyond = from(coupler).filter(|(_, output)| ![ground, input].contains(output));
+                for (third, output) in beyond {
+                    for (last, _) in from(output).filter(|(_, end)| *end == ground) {
+                        if last.joint < first.joint {
                             continue;
                         }
                         let ring = Ring {
