@@ -5,6 +5,7 @@
 //! that xacro would take for text (`3/5` without `${}`).
 
 use super::functions::builtin;
+use super::token::base;
 use super::value::Value;
 use crate::definitions::BUILT_IN;
 use crate::element::XACRO;
@@ -12,6 +13,13 @@ use crate::number_text::is_identifier;
 use kutzbach_math::number::Number;
 use roxmltree::{Document, Node};
 use std::collections::BTreeSet;
+
+/// Words of conditions.
+const WORDS: [&str; 9] = [
+    "if", "else", "and", "or", "not", "True", "False", "true", "false",
+];
+/// Signs that no expression of numbers has.
+const BEYOND: [char; 8] = ['%', '\'', '"', '[', '<', '>', '=', '!'];
 
 pub(super) fn needs_expansion(document: &Document<'_>) -> bool {
     let root = document.root_element();
@@ -104,9 +112,6 @@ fn is_beyond_numbers(value: &str, known: &dyn Fn(&str) -> bool) -> bool {
     if foreign(value) || value.contains("//") || value.contains("$$") || computes_beyond(value) {
         return true;
     }
-    const WORDS: [&str; 9] = [
-        "if", "else", "and", "or", "not", "True", "False", "true", "false",
-    ];
     let words: Vec<&str> = value
         .split(|c: char| !(c.is_alphanumeric() || c == '_' || c == '.'))
         .filter(|word| !word.is_empty())
@@ -126,8 +131,8 @@ fn is_beyond_numbers(value: &str, known: &dyn Fn(&str) -> bool) -> bool {
     is_one_word || is_phrase || has_member || joins_text(value)
 }
 
-/// Whether an expression has what xacro knows and numbers here do not: whole quotients and remainders, functions such as `int`, digits
-/// grouped by `_`.
+/// Whether an expression has what xacro knows and numbers here do not: whole quotients and remainders, comparisons, choices, texts, lists,
+/// functions such as `int`, digits grouped by `_`, integers in another base.
 fn computes_beyond(value: &str) -> bool {
     let inside = value.split("${").skip(1);
     let mut inside = inside.filter_map(|rest| rest.split_once('}').map(|(inside, _)| inside));
@@ -142,13 +147,15 @@ fn computes_beyond(value: &str) -> bool {
                 || word == "tau"
                 || word.starts_with("math.")
                 || number && word.contains('_')
+                || base(word).is_some()
+                || WORDS.contains(&word)
         };
         let mut words = inside
             .split(|c: char| !is_word(c))
             .filter(|word| !word.is_empty());
         let start = inside.as_ptr() as usize;
         inside.contains("//")
-            || inside.contains('%')
+            || inside.contains(BEYOND)
             || words.any(|word| is_foreign((word.as_ptr() as usize - start, word)))
     })
 }

@@ -6,6 +6,7 @@ use super::comparison::{extreme, sorted};
 use super::keyed::Keyed;
 use super::syntax::Binary;
 use super::text::Text;
+use super::token::base;
 use super::value::{Kind, Num, Value};
 use super::{Outcome, Run, Trouble};
 use crate::words::quoted;
@@ -436,6 +437,31 @@ fn tokenized(text: &Text, separators: &str, keep_empty: bool) -> Vec<Value> {
         .collect()
 }
 
+/// `int(text, base)` for bases 2 to 36, and 0 for the one that the text's first digits tell.
+fn based(text: &str, wanted: &Value) -> Option<Num> {
+    let Kind::Int(wanted) = wanted.number()?.kind else {
+        return None;
+    };
+    let wanted = u32::try_from(wanted).ok()?;
+    let plain = text.trim();
+    let digits = plain.strip_prefix(['+', '-']).unwrap_or(plain);
+    let told = base(digits).filter(|told| wanted == 0 || wanted == *told);
+    let digits = match told {
+        Some(_) => &digits[2..],
+        None => digits,
+    };
+    let used = told.unwrap_or(if wanted == 0 { 10 } else { wanted });
+    let is_read = digits.starts_with(|c: char| c.is_ascii_alphanumeric());
+    if !(2..=36).contains(&used) || !is_read {
+        return None;
+    }
+    let value = i128::from_str_radix(digits, used).ok()?;
+    Some(Num::int(match plain.starts_with('-') {
+        true => -value,
+        false => value,
+    }))
+}
+
 /// Functions of numbers; `None` where the values do not fit.
 fn numeric(name: &str, values: &[Value], budget: &mut Budget) -> Outcome<Option<Value>> {
     let made = |kind, exact: Option<Number>| {
@@ -451,6 +477,16 @@ fn numeric(name: &str, values: &[Value], budget: &mut Budget) -> Outcome<Option<
                 Some(number) => Ok(Some(Value::Number(number))),
                 None => Err(Trouble::new(format!(
                     "int() finds no integer in {}",
+                    quoted(text.as_str())
+                ))),
+            };
+        }
+        ("int", [Value::Text(text), base]) => {
+            let digits = based(text.as_str(), base);
+            return match digits {
+                Some(number) => Ok(Some(Value::Number(number))),
+                None => Err(Trouble::new(format!(
+                    "int() finds no integer of this base in {}",
                     quoted(text.as_str())
                 ))),
             };

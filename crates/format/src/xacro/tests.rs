@@ -385,6 +385,12 @@ fn files_of_named_numbers_are_read_as_before() {
         "${1 if 1 else 2}",
         "${int(3.7)}",
         "${7//2}",
+        "${0x1F}",
+        "${1 + 0b11}",
+        "${2 if 1 else 3}",
+        "${(1 != 2)*3}",
+        "${len('ab')}",
+        "${[4, 5][0]}",
         "${7 % 2}",
         "${math.sqrt(2)}",
     ] {
@@ -411,6 +417,32 @@ fn files_of_named_numbers_are_read_as_before() {
         ));
         let document = crate::xml::parse(&text).unwrap();
         assert!(!super::detect::needs_expansion(&document), "{value}");
+    }
+}
+
+/// The values are Python's, of the same expressions.
+#[test]
+fn integers_in_other_bases_are_pythons_with_a_macro_and_without() {
+    let with_macro = "<xacro:macro name='m' params=''/>";
+    for (expression, value) in [
+        ("0x1F", 31),
+        ("0XfF + 0o17", 270),
+        ("0b1_01", 5),
+        ("-0b11//2", -2),
+        ("int('0x10', 16) + int('z', 36) + int('-0b11', 0)", 48),
+        ("(3 if 0x10 == 16 else 4) + int(3.7)", 6),
+        ("[7, 8][1]", 8),
+    ] {
+        for before in ["", with_macro] {
+            let body = format!("{before}{CHAIN}<origin xyz=\"${{{expression}}} 0 0\"/></joint>");
+            let [x, ..] = position(&body, &[]);
+            assert_eq!(x.value(), f64::from(value), "{expression}");
+            assert!(x.stated().is_none(), "{expression}");
+        }
+    }
+    for wrong in ["0b12", "0x", "0o8", "int('12', 2)", "int('', 16)"] {
+        let body = format!("{CHAIN}<origin xyz=\"${{{wrong}}} 0 0\"/></joint>");
+        message(&body);
     }
 }
 

@@ -72,7 +72,22 @@ pub(super) fn tokens(text: &Text) -> Result<Vec<(Token, usize)>, String> {
     Ok(all)
 }
 
+/// The base of an integer such as `0x1F`, `0o17`, `0b11`, told by its second character.
+pub(super) fn base(literal: &str) -> Option<u32> {
+    match literal.as_bytes() {
+        [b'0', b'x' | b'X', ..] => Some(16),
+        [b'0', b'o' | b'O', ..] => Some(8),
+        [b'0', b'b' | b'B', ..] => Some(2),
+        _ => None,
+    }
+}
+
 fn number_length(rest: &str) -> usize {
+    if base(rest).is_some() {
+        // To the end of the word, so that a digit beyond the base is told, not read as a name.
+        let ends = |c: char| !(c.is_ascii_alphanumeric() || c == '_');
+        return rest.find(ends).unwrap_or(rest.len());
+    }
     let bytes = rest.as_bytes();
     let digits = |from: usize| {
         let more = bytes.get(from..).unwrap_or_default();
@@ -99,6 +114,10 @@ fn number_length(rest: &str) -> usize {
 fn number(text: &Text, range: Range<usize>) -> Result<Num, String> {
     let written = text.as_str()[range.clone()].replace('_', "");
     let fault = || format!("`{written}` is not a number");
+    if let Some(base) = base(&written) {
+        let value = i128::from_str_radix(&written[2..], base);
+        return value.map(Num::int).map_err(|_| fault());
+    }
     let exact = match text.number_at(range) {
         Some(number) => Some(number.clone()),
         None => Number::expression(&written, &mut |_| Ok(None)).ok(),
