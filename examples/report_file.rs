@@ -26,6 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         warnings,
         skipped,
         format,
+        ..
     } = read_file(&file, &[])?;
     for warning in &warnings {
         eprintln!("{file}:{}: {}", warning.line, warning.message);

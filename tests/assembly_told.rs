@@ -1,7 +1,7 @@
 //! What a report says of how loops close: gaps of every size, how far and where joints had to move, what is held, what was
 //! corrected, and what is proven.
 
-use kutzbach::format::{Reading, read};
+use kutzbach::format::{Reading, WriteOptions, read};
 use kutzbach::mobility::{Analysis, Verdict};
 use kutzbach::report::text::{Layout, render};
 use kutzbach::report::{Options, Report, analysed_report, assembled_file};
@@ -248,7 +248,12 @@ fn measured_values_are_closed_to_the_nearest_pose() {
 fn what_is_written_back_closes_at_once() {
     let reading = four_bar(OPEN, [0.02, -0.03, 0.0], "", "");
     let (report, analysis, _) = at_home(&reading);
-    let file = assembled_file(&reading.mechanism, &analysis.assembly).unwrap();
+    let file = assembled_file(
+        &reading.mechanism,
+        &analysis.assembly,
+        &WriteOptions::default(),
+    )
+    .unwrap();
     let again = read(&file, "four_bar.urdf", &[]).unwrap();
     let (back, _, text) = at(&again, "assembled");
     assert_eq!(back.assembly.closed, Some(true), "{text}");
@@ -269,7 +274,14 @@ fn what_is_written_back_closes_at_once() {
     assert!((home.assembly.gaps[0].position - report.assembly.gaps[0].position).abs() < 1e-12);
     // Nothing is written of what does not close.
     let open = four_bar(OPEN, [2.0, 0.0, 0.0], "", "");
-    assert!(assembled_file(&open.mechanism, &at_home(&open).1.assembly).is_none());
+    assert!(
+        assembled_file(
+            &open.mechanism,
+            &at_home(&open).1.assembly,
+            &WriteOptions::default()
+        )
+        .is_none()
+    );
 }
 
 #[test]

@@ -270,7 +270,7 @@ fn what_was_assembled_closes_again() {
         );
         let reading = read(&text, "r.urdf", &[]).unwrap_or_else(|error| panic!("{error}"));
         let found = closed_from(&reading.mechanism, None);
-        let Some(file) = assembled_file(&reading.mechanism, &found) else {
+        let Some(file) = assembled_file(&reading.mechanism, &found, &Default::default()) else {
             continue;
         };
         let again = read(&file, "again.urdf", &[]).unwrap().mechanism;

@@ -8,7 +8,7 @@ use super::{DONE, UNDECIDED, load, output, terminal};
 use clap::{Args, ValueEnum};
 use kutzbach::accuracy::AccuracyOptions;
 use kutzbach::closure::{Arithmetic, Geometry};
-use kutzbach::format::Reading;
+use kutzbach::format::{Numbers, Reading, WriteOptions, write_with};
 use kutzbach::mechanism::{FreedomPart, Mechanism};
 use kutzbach::mobility::{Analysis, ExactBudget};
 use kutzbach::report::html::{Assets, Facts, Prepared};
@@ -39,6 +39,10 @@ pub struct Arguments {
     /// Where the verdict hangs on how the file's numbers were rounded, write the nearest mechanism found that moves to a file too
     #[arg(long, value_name = "OUT")]
     nearest: Option<std::path::PathBuf>,
+    /// Write these files without expressions, for programs that read none: numbers that do not end are rounded to
+    /// double precision, and an answer that hangs on less changes
+    #[arg(long)]
+    decimal: bool,
     /// End with exit code 2 where anything unusual of the file is not read, and with 3 where the verdict or the motion of a
     /// link is undecided, or the mechanism does not assemble
     #[arg(long)]
@@ -116,6 +120,17 @@ impl From<RangeUnits> for Units {
 }
 
 impl Arguments {
+    /// How files are written back.
+    fn written<'a>(&self, reading: &'a Reading) -> WriteOptions<'a> {
+        WriteOptions {
+            kept: Some(&reading.kept),
+            numbers: match self.decimal {
+                true => Numbers::Decimals,
+                false => Numbers::Short,
+            },
+        }
+    }
+
     fn play_asked(&self) -> Option<PlayAsked> {
         let asked = self.play || self.clearance.is_some() || self.bearing.is_some();
         asked.then_some(PlayAsked {
@@ -200,15 +215,15 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         }
     };
     arguments.destination.put(&text)?;
+    let written = arguments.written(&reading);
     if let Some(out) = &arguments.write_assembled {
-        let file = assembled_file(&reading.mechanism, &analysis.assembly).ok_or_else(|| {
-            Failure::Plain {
-                message: format!(
-                    "{}: it does not assemble, so there is no pose to write",
-                    arguments.source.file.display()
-                ),
-                help: None,
-            }
+        let file = assembled_file(&reading.mechanism, &analysis.assembly, &written);
+        let file = file.ok_or_else(|| Failure::Plain {
+            message: format!(
+                "{}: it does not assemble, so there is no pose to write",
+                arguments.source.file.display()
+            ),
+            help: None,
         })?;
         output::put(&file, Some(out))?;
     }
@@ -223,7 +238,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
                     .to_owned(),
             ),
         })?;
-        output::put(&kutzbach::format::write(&nearest.mechanism), Some(out))?;
+        output::put(&write_with(&nearest.mechanism, &written), Some(out))?;
     }
     Ok(if arguments.strict && !report.is_decided() {
         UNDECIDED

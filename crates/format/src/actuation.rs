@@ -12,6 +12,7 @@
 
 use super::element::Element;
 use super::gazebo::IN_GAZEBO;
+use super::kept::KeptMotors;
 use super::reader::Reader;
 use super::words::{cut, quoted};
 
@@ -38,6 +39,7 @@ impl<'a> Reader<'a> {
     /// Notes the motors of an element; which joints there are is known only at the end.
     pub(super) fn read_actuation(&mut self, element: Element<'a>) {
         self.skip(element);
+        let known = self.motors.len();
         match element.name() {
             "transmission" => {
                 for part in element.elements() {
@@ -63,6 +65,18 @@ impl<'a> Reader<'a> {
                 }
             }
         }
+        let named = self.motors[known..].iter();
+        let joints = named.map(|motor| motor.joint.to_owned()).collect();
+        let text = match element.name() {
+            // The rest of it is not about motors, or has become loops.
+            "mujoco" => {
+                let actuators = element.elements().filter(|part| part.name() == "actuator");
+                let inside: String = actuators.map(|part| part.written()).collect();
+                format!("<mujoco>{inside}</mujoco>")
+            }
+            _ => element.written().to_owned(),
+        };
+        self.kept_motors.extend(KeptMotors::of(text, joints));
     }
 
     fn note_motor(&mut self, element: Element<'a>, attribute: &str) {

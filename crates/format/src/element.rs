@@ -100,6 +100,24 @@ impl<'a> Element<'a> {
             .unwrap_or_default()
     }
 
+    /// The whole element as written.
+    pub(super) fn written(&self) -> &'a str {
+        self.text.get(self.node.range()).unwrap_or_default()
+    }
+
+    /// The comments right before this element, or before its root element, in file order.
+    pub(super) fn comments_before(&self) -> Vec<&'a str> {
+        let before = std::iter::successors(self.node.prev_sibling(), Node::prev_sibling);
+        let near = before.take_while(|node| {
+            let blank = |text: &str| text.trim().is_empty();
+            node.is_comment() || node.is_text() && node.text().is_some_and(blank)
+        });
+        let comments = near.filter(Node::is_comment);
+        let mut found: Vec<&str> = comments.filter_map(|node| node.text()).collect();
+        found.reverse();
+        found
+    }
+
     /// A fault about this element.
     pub(super) fn fault(&self, message: impl Into<String>) -> Fault {
         Fault::new(self.range(), message)

@@ -50,6 +50,7 @@ mod gazebo;
 mod guard;
 mod hints;
 mod joint;
+mod kept;
 mod link;
 mod loop_joint;
 mod mentions;
@@ -71,8 +72,9 @@ mod xacro;
 mod xml;
 
 pub use error::FormatError;
+pub use kept::Kept;
 pub use sketch::{is_sketch, read_sketch, read_sketch_file};
-pub use writer::write;
+pub use writer::{Numbers, WriteOptions, write, write_with};
 
 use error::{Fault, located};
 use kutzbach_model::mechanism::Mechanism;
@@ -92,6 +94,8 @@ pub struct Reading {
     pub skipped: Vec<Skipped>,
     /// The smallest dialect that the file belongs to: `urdf`, `urdf+` or `kutzbach-urdf`; `xacro` for one that was expanded.
     pub format: &'static str,
+    /// What is kept of the rest for writing it back.
+    pub kept: Kept,
 }
 
 /// Something that is read differently from how it may have been meant.

@@ -6,6 +6,7 @@ use super::definitions::Definitions;
 use super::element::{Element, Owner};
 use super::error::{Fault, MOST_FAULTS, Outcome, lines_and_columns};
 use super::hints;
+use super::kept::{Kept, KeptMotors};
 use super::loop_joint::SecondPoint;
 use super::mimic::{Follows, joint_names};
 use super::names::{Directory, Named};
@@ -47,6 +48,8 @@ pub(super) struct Reader<'a> {
     pub(super) kinds: HashMap<&'a str, JointKind>,
     /// What the file says of motors.
     pub(super) motors: Vec<Motor<'a>>,
+    /// The elements that say so.
+    pub(super) kept_motors: Vec<KeptMotors>,
     /// The links of each joint of the tree.
     pub(super) sides_of: HashMap<&'a str, [&'a str; 2]>,
     /// The first joint or loop between two links, by their names in order.
@@ -199,6 +202,7 @@ impl<'a> Reader<'a> {
             placed_by: HashMap::new(),
             kinds: HashMap::new(),
             motors: Vec::new(),
+            kept_motors: Vec::new(),
             sides_of: HashMap::new(),
             joined: HashMap::new(),
             late: Vec::new(),
@@ -502,6 +506,7 @@ impl<'a> Reader<'a> {
                 Dialect::UrdfPlus => "urdf+",
                 Dialect::Own => "kutzbach-urdf",
             },
+            kept: Kept::of(root, self.kept_motors),
         })
     }
 }

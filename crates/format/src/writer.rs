@@ -1,26 +1,92 @@
 //! From a mechanism to text.
 //!
-//! The text reads back as the same mechanism: same names and order, same numbers with the same stated precision. What the
-//! dialect cannot say is what the reader never makes: control characters in names (written as U+FFFD), limits on joints
+//! The text reads back as the same mechanism: same names and order, same numbers with the same stated precision, unless decimals are asked
+//! for. What the dialect cannot say is what the reader never makes: control characters in names (written as U+FFFD), limits on joints
 //! of more than one freedom, and a tree joint whose frame differs from its child's.
 
+use super::kept::{Kept, Owner};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{
-    Configuration, Coupling, CouplingOrigin, Direction, Frame, Geometry, Joint, JointKind, Link,
-    Mechanism, Placement, Scene, Shape,
+    Configuration, Coupling, CouplingOrigin, Direction, Frame, Geometry, Joint, JointId, JointKind,
+    Link, Mechanism, Placement, Precision, Scene, Shape,
 };
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
-/// A mechanism as a file that [`read`](super::read) reads back.
+/// What a file with loops says of other programs.
+pub(super) const LOOPS_ARE_LOST: &str = " Other programs do not read <loop> and <coupling>: without a word they load the open tree, whose joints all move by themselves. ";
+
+/// How a mechanism is written.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct WriteOptions<'a> {
+    /// What the file that the mechanism was read from says beside it.
+    pub kept: Option<&'a Kept>,
+    /// How exact numbers are written.
+    pub numbers: Numbers,
+}
+
+/// How exact numbers are written; decimals that were read stay as they were read in any case.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Numbers {
+    /// As expressions (`${1/5}`), which states that they are exact.
+    #[default]
+    Expressions,
+    /// As decimals where these say the same: of at most three places, in a file whose decimals are all exact, with them as without.
+    Short,
+    /// As decimals, for programs that read no expressions: rounded to double precision where they have no shorter end.
+    Decimals,
+}
+
+/// A mechanism as a file that [`read`](super::read) reads back, exact numbers as expressions.
 ///
 /// Names defined in the original file are gone; their values stand where they were used. A mechanism that plain URDF can
 /// say is written as plain URDF, as long as its numbers are decimals.
 #[must_use]
 pub fn write(mechanism: &Mechanism) -> String {
-    let mut writer = Writer::default();
+    write_with(mechanism, &WriteOptions::default())
+}
+
+/// A mechanism as a file, numbers as wanted, with what its file says beside it. Otherwise as [`write`].
+#[must_use]
+pub fn write_with(mechanism: &Mechanism, options: &WriteOptions<'_>) -> String {
+    let text = |numbers| written(mechanism, options.kept, numbers);
+    if options.numbers != Numbers::Short {
+        return text(options.numbers);
+    }
+    let (exact, short) = (text(Numbers::Expressions), text(Numbers::Short));
+    match exact_digits(&exact) {
+        said @ Some(_) if exact_digits(&short) == said => short,
+        _ => exact,
+    }
+}
+
+/// Where all decimals of a text are exact, what reading says of their digits, joint by joint. Beside rounded numbers a decimal is a
+/// rounded one.
+fn exact_digits(text: &str) -> Option<Vec<bool>> {
+    let mechanism = super::read(text, "", &[]).ok()?.mechanism;
+    let mut joints = (0..mechanism.joints().len()).map(JointId);
+    joints.try_fold(Vec::new(), |mut said, joint| {
+        let precision = mechanism.precision_of(joint);
+        said.push(precision.may_be_rounded_to(Precision::EXACT_DECIMALS));
+        precision.is_exact().then_some(said)
+    })
+}
+
+fn written(mechanism: &Mechanism, kept: Option<&Kept>, numbers: Numbers) -> String {
+    let mut writer = Writer {
+        text: String::new(),
+        kept,
+        style: Style(numbers),
+    };
     writer.line(0, "<?xml version=\"1.0\"?>");
+    writer.comments(0, kept.map_or(&[], |kept| &kept.head));
+    let ratio = |coupling: &Coupling| matches!(coupling.origin, CouplingOrigin::Ratio { .. });
+    if mechanism.joints().iter().any(|joint| joint.closes_loop)
+        || mechanism.couplings().iter().any(ratio)
+    {
+        writer.comments(0, &[LOOPS_ARE_LOST.to_owned()]);
+    }
     writer.line(0, &format!("<robot{}>", pair("name", mechanism.name())));
     let root = mechanism.placement_order().first();
     if root.is_some_and(|root| *root != mechanism.ground()) {
@@ -53,12 +119,13 @@ pub fn write(mechanism: &Mechanism) -> String {
     writer.text
 }
 
-#[derive(Default)]
-struct Writer {
+struct Writer<'a> {
     text: String,
+    kept: Option<&'a Kept>,
+    style: Style,
 }
 
-impl Writer {
+impl Writer<'_> {
     fn line(&mut self, depth: usize, line: &str) {
         for _ in 0..depth {
             self.text.push_str("  ");
@@ -67,7 +134,21 @@ impl Writer {
         self.text.push('\n');
     }
 
+    fn comments(&mut self, depth: usize, comments: &[String]) {
+        for comment in comments {
+            self.line(depth, &format!("<!--{comment}-->"));
+        }
+    }
+
+    fn comments_of(&mut self, owner: Owner, name: &str) {
+        if let Some(kept) = self.kept {
+            self.comments(1, kept.before(owner, name));
+        }
+    }
+
     fn link(&mut self, link: &Link) {
+        self.comments_of(Owner::Link, &link.name);
+        let style = self.style;
         let name = pair("name", &link.name);
         if link.inertial.is_none() && link.collisions.is_empty() && link.visuals.is_empty() {
             return self.line(1, &format!("<link{name}/>"));
@@ -78,13 +159,13 @@ impl Writer {
             self.origin(3, &inertial.origin);
             self.line(
                 3,
-                &format!("<mass{}/>", pair("value", &number(&inertial.mass))),
+                &format!("<mass{}/>", pair("value", &style.number(&inertial.mass))),
             );
             let names = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
             let components: String = names
                 .iter()
                 .zip(&inertial.inertia)
-                .map(|(name, component)| pair(name, &number(component)))
+                .map(|(name, component)| pair(name, &style.number(component)))
                 .collect();
             self.line(3, &format!("<inertia{components}/>"));
             self.line(2, "</inertial>");
@@ -99,16 +180,21 @@ impl Writer {
     }
 
     fn shape(&mut self, element: &str, shape: &Shape) {
+        let style = self.style;
         let name = shape.name.as_ref().map(|name| pair("name", name));
         self.line(2, &format!("<{element}{}>", name.unwrap_or_default()));
         self.origin(3, &shape.origin);
         let solid = match &shape.geometry {
-            Geometry::Box(size) => format!("<box{}/>", pair("size", &numbers(size))),
-            Geometry::Cylinder { radius, length } => round("cylinder", radius, length),
-            Geometry::Capsule { radius, length } => round("capsule", radius, length),
-            Geometry::Sphere(radius) => format!("<sphere{}/>", pair("radius", &number(radius))),
+            Geometry::Box(size) => format!("<box{}/>", pair("size", &style.numbers(size))),
+            Geometry::Cylinder { radius, length } => style.round("cylinder", radius, length),
+            Geometry::Capsule { radius, length } => style.round("capsule", radius, length),
+            Geometry::Sphere(radius) => {
+                format!("<sphere{}/>", pair("radius", &style.number(radius)))
+            }
             Geometry::Mesh { filename, scale } => {
-                let scale = scale.as_ref().map(|scale| pair("scale", &numbers(scale)));
+                let scale = scale
+                    .as_ref()
+                    .map(|scale| pair("scale", &style.numbers(scale)));
                 let filename = pair("filename", filename);
                 format!("<mesh{filename}{}/>", scale.unwrap_or_default())
             }
@@ -118,6 +204,8 @@ impl Writer {
     }
 
     fn joint(&mut self, mechanism: &Mechanism, joint: &Joint, mimic: Option<&Coupling>) {
+        self.comments_of(Owner::Joint, &joint.name);
+        let style = self.style;
         let element = if joint.closes_loop { "loop" } else { "joint" };
         let independent = joint
             .independent
@@ -127,7 +215,7 @@ impl Writer {
             &format!(
                 "<{element}{}{}{}>",
                 pair("name", &joint.name),
-                pair("type", type_word(joint)),
+                pair("type", self.type_word(joint)),
                 independent.unwrap_or_default()
             ),
         );
@@ -148,24 +236,24 @@ impl Writer {
             self.direction("axis2", &joint.axis2);
         }
         if let Some(lead) = &joint.lead {
-            self.line(2, &format!("<screw{}/>", pair("lead", &number(lead))));
+            self.line(2, &format!("<screw{}/>", pair("lead", &style.number(lead))));
         }
         if let Some(distance) = &joint.distance {
             self.line(
                 2,
-                &format!("<distance{}/>", pair("value", &number(distance))),
+                &format!("<distance{}/>", pair("value", &style.number(distance))),
             );
         }
         if let Some(limit) = joint.limit.as_ref().filter(|_| joint.freedom() == 1) {
-            let attributes = optional("lower", limit.lower.as_ref())
-                + &optional("upper", limit.upper.as_ref())
-                + &optional("effort", limit.effort.as_ref())
-                + &optional("velocity", limit.velocity.as_ref());
+            let attributes = style.optional("lower", limit.lower.as_ref())
+                + &style.optional("upper", limit.upper.as_ref())
+                + &style.optional("effort", limit.effort.as_ref())
+                + &style.optional("velocity", limit.velocity.as_ref());
             self.line(2, &format!("<limit{attributes}/>"));
         }
         if let Some(dynamics) = &joint.dynamics {
-            let attributes = optional("damping", dynamics.damping.as_ref())
-                + &optional("friction", dynamics.friction.as_ref());
+            let attributes = style.optional("damping", dynamics.damping.as_ref())
+                + &style.optional("friction", dynamics.friction.as_ref());
             self.line(2, &format!("<dynamics{attributes}/>"));
         }
         if let Some(CouplingOrigin::Mimic {
@@ -176,18 +264,33 @@ impl Writer {
         }) = mimic.map(|coupling| &coupling.origin)
         {
             let leader = pair("joint", &mechanism.joint(*leader).name);
-            let multiplier = pair("multiplier", &number(multiplier));
-            let offset = pair("offset", &number(offset));
+            let multiplier = pair("multiplier", &style.number(multiplier));
+            let offset = pair("offset", &style.number(offset));
             self.line(2, &format!("<mimic{leader}{multiplier}{offset}/>"));
         }
         self.line(1, &format!("</{element}>"));
     }
 
     fn side(&mut self, element: &str, link: &str, frame: &Frame) {
+        let style = self.style;
         let link = pair("link", link);
-        match frame_attributes(frame) {
+        match style.frame_attributes(frame) {
             None => self.line(2, &format!("<{element}{link}/>")),
             Some(frame) => self.line(2, &format!("<{element}{link}><origin{frame}/></{element}>")),
+        }
+    }
+
+    /// `revolute` without a range is `continuous`, which plain URDF readers need to leave it free; but where a file has a word for it, it
+    /// keeps that.
+    fn type_word(&self, joint: &Joint) -> &'static str {
+        let has_range = joint
+            .limit
+            .as_ref()
+            .is_some_and(|limit| limit.lower.is_some() || limit.upper.is_some());
+        let read = self.kept.and_then(|kept| kept.type_of(&joint.name));
+        match joint.kind {
+            JointKind::Revolute if !has_range => read.unwrap_or("continuous"),
+            kind => kind.word(),
         }
     }
 
@@ -215,6 +318,7 @@ impl Writer {
     }
 
     fn couplings(&mut self, mechanism: &Mechanism) {
+        let style = self.style;
         for coupling in mechanism.couplings() {
             if let CouplingOrigin::Ratio {
                 predecessor,
@@ -233,15 +337,28 @@ impl Writer {
                         &format!("<{element}{}/>", pair("link", &mechanism.link(*link).name)),
                     );
                 }
-                self.line(2, &format!("<ratio{}/>", pair("value", &number(ratio))));
+                self.line(
+                    2,
+                    &format!("<ratio{}/>", pair("value", &style.number(ratio))),
+                );
                 self.line(1, "</coupling>");
             }
         }
     }
 
     fn actuation(&mut self, mechanism: &Mechanism) {
-        for joint in mechanism.actuated() {
-            let joint = &mechanism.joint(*joint).name;
+        let driven = mechanism.actuated().iter();
+        let mut driven: Vec<&str> = driven
+            .map(|joint| mechanism.joint(*joint).name.as_str())
+            .collect();
+        for motors in self.kept.map_or(&[][..], |kept| &kept.motors) {
+            let drives = |joint: &&str| motors.joints.iter().any(|own| own == joint);
+            if driven.iter().any(|joint| drives(joint)) {
+                self.line(1, &motors.text);
+                driven.retain(|joint| !drives(joint));
+            }
+        }
+        for joint in driven {
             let name = pair("name", &format!("{joint}_transmission"));
             let joint = pair("name", joint);
             self.line(
@@ -252,6 +369,7 @@ impl Writer {
     }
 
     fn configurations(&mut self, mechanism: &Mechanism) {
+        let style = self.style;
         // One with joints that assembly may move is a wish of the moment, not of the file.
         let stated = |c: &&Configuration| c.free.is_empty();
         for configuration in mechanism.configurations().iter().filter(stated) {
@@ -265,7 +383,10 @@ impl Writer {
                     let joint = pair("joint", &mechanism.joint(*joint).name);
                     self.line(
                         2,
-                        &format!("<position{joint}{}/>", pair("value", &numbers(values))),
+                        &format!(
+                            "<position{joint}{}/>",
+                            pair("value", &style.numbers(values))
+                        ),
                     );
                 }
             }
@@ -274,9 +395,13 @@ impl Writer {
     }
 
     fn scene(&mut self, mechanism: &Mechanism, scene: &Scene) {
+        let style = self.style;
         self.line(1, "<scene>");
         if let Some(gravity) = &scene.gravity {
-            self.line(2, &format!("<gravity{}/>", pair("xyz", &numbers(gravity))));
+            self.line(
+                2,
+                &format!("<gravity{}/>", pair("xyz", &style.numbers(gravity))),
+            );
         }
         for (effect, wanted) in [
             ("<contact/>", scene.contact),
@@ -290,8 +415,8 @@ impl Writer {
         }
         for drive in &scene.drives {
             let joint = pair("joint", &mechanism.joint(drive.joint).name);
-            let velocity = pair("velocity", &number(&drive.velocity));
-            let torque = optional("torque", drive.torque.as_ref());
+            let velocity = pair("velocity", &style.number(&drive.velocity));
+            let torque = style.optional("torque", drive.torque.as_ref());
             self.line(2, &format!("<drive{joint}{velocity}{torque}/>"));
         }
         self.line(1, "</scene>");
@@ -327,70 +452,84 @@ impl Writer {
     }
 
     fn origin(&mut self, depth: usize, frame: &Frame) {
-        if let Some(attributes) = frame_attributes(frame) {
+        let style = self.style;
+        if let Some(attributes) = style.frame_attributes(frame) {
             self.line(depth, &format!("<origin{attributes}/>"));
         }
     }
 
     fn direction(&mut self, element: &str, direction: &Direction) {
+        let style = self.style;
         let left_out =
             *direction == Direction::x() && direction.0.iter().all(|n| n.stated().is_none());
         if !left_out {
             self.line(
                 2,
-                &format!("<{element}{}/>", pair("xyz", &numbers(&direction.0))),
+                &format!("<{element}{}/>", pair("xyz", &style.numbers(&direction.0))),
             );
         }
     }
 }
 
-/// `revolute` without a range is `continuous`, which plain URDF readers need to leave it free.
-fn type_word(joint: &Joint) -> &'static str {
-    let has_range = joint
-        .limit
-        .as_ref()
-        .is_some_and(|limit| limit.lower.is_some() || limit.upper.is_some());
-    match joint.kind {
-        JointKind::Revolute if !has_range => "continuous",
-        kind => kind.word(),
+/// How numbers are written.
+#[derive(Clone, Copy)]
+struct Style(Numbers);
+
+impl Style {
+    /// A number so that it reads back with the same value: literals as they were read, exact ones as the style says.
+    fn number(self, number: &Number) -> String {
+        if number.literal_text().is_some() {
+            return number.source();
+        }
+        match self.0 {
+            Numbers::Expressions => number.source(),
+            Numbers::Short => {
+                let places = Precision::EXACT_DECIMALS.unsigned_abs();
+                number
+                    .decimal_text(places)
+                    .unwrap_or_else(|| number.source())
+            }
+            Numbers::Decimals => {
+                let short = number.decimal_text(DOUBLE_PLACES);
+                short.unwrap_or_else(|| format!("{:?}", number.value()))
+            }
+        }
+    }
+
+    fn numbers(self, values: &[Number]) -> String {
+        let words: Vec<String> = values.iter().map(|value| self.number(value)).collect();
+        words.join(" ")
+    }
+
+    fn optional(self, name: &str, value: Option<&Number>) -> String {
+        value
+            .map(|value| pair(name, &self.number(value)))
+            .unwrap_or_default()
+    }
+
+    fn round(self, element: &str, radius: &Number, length: &Number) -> String {
+        let radius = pair("radius", &self.number(radius));
+        let length = pair("length", &self.number(length));
+        format!("<{element}{radius}{length}/>")
+    }
+
+    /// `xyz` and `rpy`, each left out where it is zero by default; `None` where both are.
+    fn frame_attributes(self, frame: &Frame) -> Option<String> {
+        let written = |name: &str, values: &[Number; 3]| {
+            let left_out = values.iter().all(|n| n.is_zero() && n.stated().is_none());
+            (!left_out).then(|| pair(name, &self.numbers(values)))
+        };
+        let xyz = written("xyz", &frame.position);
+        let rpy = written("rpy", &frame.roll_pitch_yaw);
+        if xyz.is_none() && rpy.is_none() {
+            return None;
+        }
+        Some(xyz.unwrap_or_default() + &rpy.unwrap_or_default())
     }
 }
 
-fn round(element: &str, radius: &Number, length: &Number) -> String {
-    let radius = pair("radius", &number(radius));
-    format!("<{element}{radius}{}/>", pair("length", &number(length)))
-}
-
-fn optional(name: &str, value: Option<&Number>) -> String {
-    value
-        .map(|value| pair(name, &number(value)))
-        .unwrap_or_default()
-}
-
-/// `xyz` and `rpy`, each left out where it is zero by default; `None` where both are.
-fn frame_attributes(frame: &Frame) -> Option<String> {
-    let written = |name: &str, values: &[Number; 3]| {
-        let left_out = values.iter().all(|n| n.is_zero() && n.stated().is_none());
-        (!left_out).then(|| pair(name, &numbers(values)))
-    };
-    let xyz = written("xyz", &frame.position);
-    let rpy = written("rpy", &frame.roll_pitch_yaw);
-    if xyz.is_none() && rpy.is_none() {
-        return None;
-    }
-    Some(xyz.unwrap_or_default() + &rpy.unwrap_or_default())
-}
-
-fn numbers(values: &[Number]) -> String {
-    let words: Vec<String> = values.iter().map(number).collect();
-    words.join(" ")
-}
-
-/// A number so that it reads back with the same value and the same stated precision: literals as they were read, exact
-/// ones as `${...}`.
-fn number(number: &Number) -> String {
-    number.source()
-}
+/// Decimals that end within so many places are written whole: as many as a double has digits.
+const DOUBLE_PLACES: u32 = 17;
 
 /// ` name="value"`.
 fn pair(name: &str, value: &str) -> String {

@@ -4,6 +4,7 @@ use super::natural::natural_order;
 use super::schema::{Assembly, Gap, JointPlace, OutsideLimit, Reversal};
 use super::text::words::{counted, figure, metres};
 use kutzbach_closure::{self as closure, Obstacle};
+use kutzbach_format::{WriteOptions, write_with};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Configuration, FreedomPart, JointId, Mechanism};
 use std::collections::BTreeSet;
@@ -121,7 +122,11 @@ fn plain_zero(x: f64) -> f64 {
 ///
 /// Where a piece stands that no joint connects with the rest, no joint value says; it stays where the file draws it.
 #[must_use]
-pub fn assembled_file(mechanism: &Mechanism, found: &closure::Assembly) -> Option<String> {
+pub fn assembled_file(
+    mechanism: &Mechanism,
+    found: &closure::Assembly,
+    options: &WriteOptions<'_>,
+) -> Option<String> {
     if !found.closed {
         return None;
     }
@@ -136,11 +141,10 @@ pub fn assembled_file(mechanism: &Mechanism, found: &closure::Assembly) -> Optio
             Some((JointId(place.joint), values.collect::<Option<Vec<_>>>()?))
         })
         .collect();
-    Some(kutzbach_format::write(&mechanism.with_configuration(
-        Configuration {
-            name: ASSEMBLED.to_owned(),
-            positions: positions?,
-            free: BTreeSet::new(),
-        },
-    )))
+    let assembled = mechanism.with_configuration(Configuration {
+        name: ASSEMBLED.to_owned(),
+        positions: positions?,
+        free: BTreeSet::new(),
+    });
+    Some(write_with(&assembled, options))
 }

@@ -106,6 +106,7 @@ fn at(reading: &Reading, file: &Path, found: &Found, number: usize) -> Result<An
         warnings: Vec::new(),
         skipped: Vec::new(),
         format: reading.format,
+        kept: reading.kept.clone(),
     };
     let (report, analysis) = load::analysed(&here, file, &options)?;
     Ok(Analysed {

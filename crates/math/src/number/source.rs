@@ -34,6 +34,23 @@ impl Number {
         }
     }
 
+    /// The exact value as a plain decimal of at most so many places, where it has one (`0.2` for 1/5).
+    #[must_use]
+    pub fn decimal_text(&self, places: u32) -> Option<String> {
+        let value = self.rational()?;
+        // A fraction in lowest terms ends after as many places as its denominator has factors of 2 or of 5.
+        let (places, scaled) = (0..=places).find_map(|places| {
+            let scaled = value * RBig::from(IBig::from(10).pow(places as usize));
+            scaled.is_int().then(|| (places as usize, scaled))
+        })?;
+        let sign = if scaled < RBig::ZERO { "-" } else { "" };
+        let digits = scaled.numerator().to_string();
+        let digits = format!("{:0>1$}", digits.trim_start_matches('-'), places + 1);
+        let (whole, decimals) = digits.split_at(digits.len() - places);
+        let point = if places > 0 { "." } else { "" };
+        Some(format!("{sign}{whole}{point}{decimals}"))
+    }
+
     /// For messages: the beginning of the text, and the value where the text does not say it.
     pub(super) fn shown(&self) -> String {
         let text = match &self.0.literal {

@@ -496,3 +496,21 @@ fn nested_roots_are_known_as_well_as_one() {
     assert!(ball.is_accurate(evaluate::COARSE - 4));
     assert!((limit.value() - (1.0 + 5f64.sqrt()) / 2.0).abs() < 1e-15);
 }
+
+#[test]
+fn decimals_that_end_are_written_whole() {
+    let of = |text: &str| Number::expression(text, &mut |_| Ok(None)).unwrap();
+    for (text, decimal) in [
+        ("0", Some("0")),
+        ("-1", Some("-1")),
+        ("1/5", Some("0.2")),
+        ("-1/8", Some("-0.125")),
+        ("-125/4", Some("-31.25")),
+        ("1/16", None),
+        ("1/3", None),
+        ("sqrt(2)", None),
+    ] {
+        assert_eq!(of(text).decimal_text(3).as_deref(), decimal, "{text}");
+    }
+    assert_eq!(of("1/16").decimal_text(4).unwrap(), "0.0625");
+}
