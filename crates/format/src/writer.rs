@@ -353,7 +353,7 @@ impl Writer<'_> {
             .collect();
         for motors in self.kept.map_or(&[][..], |kept| &kept.motors) {
             let drives = |joint: &&str| motors.joints.iter().any(|own| own == joint);
-            if driven.iter().any(|joint| drives(joint)) {
+            if driven.iter().any(&drives) {
                 self.line(1, &motors.text);
                 driven.retain(|joint| !drives(joint));
             }

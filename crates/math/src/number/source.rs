@@ -41,7 +41,7 @@ impl Number {
         // A fraction in lowest terms ends after as many places as its denominator has factors of 2 or of 5.
         let (places, scaled) = (0..=places).find_map(|places| {
             let scaled = value * RBig::from(IBig::from(10).pow(places as usize));
-            scaled.is_int().then(|| (places as usize, scaled))
+            scaled.is_int().then_some((places as usize, scaled))
         })?;
         let sign = if scaled < RBig::ZERO { "-" } else { "" };
         let digits = scaled.numerator().to_string();
