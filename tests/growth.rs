@@ -26,11 +26,11 @@ const SHAPES: [Shape; 11] = [
     ("parallelograms", |n| parallelograms(n).unwrap(), 20),
     ("Bennett row", |n| bennett_row(n).unwrap(), 60),
     ("scissor lift", |n| scissor_lift(n).unwrap(), 100),
-    ("Miura strip", |n| miura_sheet(6, n).unwrap(), 10),
+    ("Miura strip", |n| miura_sheet(4, n).unwrap(), 15),
     ("ring of hinges", |n| hinge_ring(n).unwrap(), 200),
-    // Of side² bodies, nearly: sides of 7, 10 and 14.
-    ("grid of limbs", |n| limb_grid(n.isqrt()).unwrap(), 50),
-    ("tower of layers", |n| layer_tower(n).unwrap(), 9),
+    // Of side² bodies, nearly: sides of 5, 7 and 10.
+    ("grid of limbs", |n| limb_grid(n.isqrt()).unwrap(), 25),
+    ("tower of layers", |n| layer_tower(n).unwrap(), 6),
 ];
 
 /// Shapes that are known to cost more, with what they may cost at most: roles are looked at closer by an iterative solver, whose

@@ -50,6 +50,25 @@ fn first_screens_are_short_and_whole() {
     }
 }
 
+/// Links that slide on where they stop turning have no greatest pitch; Steffen's, which stand still altogether there, have one.
+#[test]
+fn a_pitch_that_goes_to_infinity_is_none_of_the_whole_branch() {
+    for (file, link, whole) in [
+        ("mechanisms/hexapod_on_conic.urdf", 0, false),
+        ("tests/zoo/csrr_cusp.urdf", 0, false),
+        ("tests/zoo/steffen_polyhedron.urdf", 1, true),
+    ] {
+        let json = printed(&["report", file, "--format", "json"]);
+        let report: serde_json::Value = serde_json::from_str(&json).unwrap();
+        let row = &report["motions"][link];
+        assert_eq!(row["whole_branch"] == true, whole, "{file}: {row}");
+        let pitches = row["pitches"].as_array().unwrap();
+        for pitch in pitches.iter().filter_map(serde_json::Value::as_f64) {
+            assert!(pitch.abs() < 10.0, "{file}: {row}");
+        }
+    }
+}
+
 /// Bennett's coupler turns with its crank in a closed cycle; its pitch runs from -1 to -1/2 m/rad.
 #[test]
 fn pitches_and_ranges_are_those_of_the_whole_cycle() {

@@ -133,13 +133,7 @@ impl Curve {
         if !(wanted >= first - slack && wanted <= last + slack) {
             return None;
         }
-        let segment = self.segment_at(wanted)?;
-        let gap = self.nodes[segment + 1].arc - self.nodes[segment].arc;
-        let u = if gap > 0.0 {
-            ((wanted - self.nodes[segment].arc) / gap).clamp(0.0, 1.0)
-        } else {
-            0.0
-        };
+        let (segment, u) = self.place_of(wanted)?;
         let mut found = self.pose_between(segment, u)?;
         found.arclength = arclength;
         if turns != 0.0 {
@@ -164,6 +158,38 @@ impl Curve {
                 .collect(),
             _ => vec![0.0; self.solver.system.unknowns()],
         }
+    }
+
+    /// The pose that the curve predicts at an arclength between its ends, without closing it: off by some 1e-7 in the metric
+    /// where nodes stand as far apart as they may, and as cheap as it is rough. `None` beyond the ends.
+    #[must_use]
+    pub fn predicted_at(&self, arclength: f64) -> Option<SystemPose> {
+        let (first, last) = self.arclengths();
+        if !(first..=last).contains(&arclength) {
+            return None;
+        }
+        let (segment, u) = self.place_of(arclength)?;
+        Some(match &self.shapes[segment] {
+            Shape::Bridge(bridge) => bridge.pose(&self.solver, u),
+            Shape::Cubic(cubic) => {
+                let mut pose = self.nodes[segment].pose.clone();
+                self.solver.system.advance(&mut pose, &cubic.at(u));
+                pose
+            }
+        })
+    }
+
+    /// The segment of an arclength, and the place in it from 0 to 1.
+    fn place_of(&self, arclength: f64) -> Option<(usize, f64)> {
+        let segment = self.segment_at(arclength)?;
+        let (from, to) = (self.nodes[segment].arc, self.nodes[segment + 1].arc);
+        let gap = to - from;
+        let u = if gap > 0.0 {
+            ((arclength - from) / gap).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        Some((segment, u))
     }
 
     fn segment_at(&self, arclength: f64) -> Option<usize> {

@@ -3,7 +3,7 @@
 use super::budget::{Budget, Limits, Stop};
 use super::certificate::Certificate;
 use super::dimension::Supports;
-use super::f4::{normal_forms, reduced_basis};
+use super::f4::{is_basis, normal_forms, reduced_basis};
 use super::hilbert::{HilbertSeries, small};
 use super::modular::rational_basis;
 use super::order::MonomialOrder;
@@ -204,6 +204,16 @@ impl GroebnerBasis {
     #[must_use]
     pub fn contains(&self, polynomial: &Polynomial) -> bool {
         self.normal_form(polynomial).is_zero()
+    }
+
+    /// Whether these polynomials are a basis of what they generate, shown over the rationals: their S-polynomials reduce to zero
+    /// (Buchberger's criterion). That they generate the ideal of the equations is another question: see
+    /// [`Self::certificate`].
+    ///
+    /// # Errors
+    /// [`Stop`] where the budget does not suffice.
+    pub fn is_basis(&self, budget: &Budget) -> Result<bool, Stop> {
+        is_basis(&self.monic, self.variables, &self.order, budget)
     }
 
     /// Computes the basis again over the rationals. `true`: it is the same, and the certificate says from now on that

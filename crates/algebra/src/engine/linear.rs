@@ -4,9 +4,11 @@
 //! piece takes (about half a second).
 
 use super::budget::{Budget, Stop};
+use super::fraction_free::{Pivot, Primitive, Reduction};
 use crate::polynomial::Rational;
 use groebner::{F4Field, Reducers, SparseRow, Zp};
 use num_traits::{One, Zero};
+use std::cell::OnceCell;
 
 /// Rows that are known to be independent, with leading coefficient 1, and rows to be reduced by them.
 pub(super) struct Matrix<C> {
@@ -118,18 +120,27 @@ impl Coefficient for Rational {
         order.sort_by_key(|&i| (matrix.rows[i].columns[0], matrix.rows[i].columns.len()));
         let known = Known::new(&matrix);
         let mut found: Vec<SparseRow<Self>> = Vec::new();
-        let mut found_at = vec![usize::MAX; matrix.columns];
+        let mut primitive: Vec<Primitive> = Vec::new();
+        let mut found_at = vec![NOWHERE; matrix.columns];
         let mut live = Vec::new();
         for i in order {
-            let mut row = known.reduce(&matrix.rows[i], &found, &found_at, budget)?;
+            let new = |column: usize| {
+                let columns = &*found.get(found_at[column])?.columns;
+                let values = &primitive[found_at[column]];
+                Some(Pivot { columns, values })
+            };
+            let row = Reduction {
+                pivot: |column| known.pivot(column).or_else(|| new(column)),
+                width: matrix.columns,
+                monic: true,
+                budget,
+            }
+            .of(&matrix.rows[i])?;
             let Some(&first) = row.columns.first() else {
                 continue;
             };
-            let inverse = row.coefficients[0].recip();
-            for value in &mut row.coefficients {
-                *value *= &inverse;
-            }
             found_at[first as usize] = found.len();
+            primitive.push(Primitive::of(&row.coefficients));
             found.push(row);
             live.push(i);
         }
@@ -138,80 +149,48 @@ impl Coefficient for Rational {
 
     fn reduce(matrix: Matrix<Self>, budget: &Budget) -> Result<Vec<SparseRow<Self>>, Stop> {
         let known = Known::new(&matrix);
-        matrix
-            .rows
-            .iter()
-            .map(|row| known.reduce(row, &[], &[], budget))
-            .collect()
+        let reduction = Reduction {
+            pivot: |column| known.pivot(column),
+            width: matrix.columns,
+            monic: false,
+            budget,
+        };
+        matrix.rows.iter().map(|row| reduction.of(row)).collect()
     }
 }
+
+/// No row has this number.
+const NOWHERE: usize = usize::MAX;
 
 /// The pivots of a rational matrix by their leading columns.
 struct Known<'a> {
     matrix: &'a Matrix<Rational>,
     at: Vec<usize>,
+    /// Their numbers, where they have been asked for.
+    primitive: Vec<OnceCell<Primitive>>,
 }
 
 impl<'a> Known<'a> {
     fn new(matrix: &'a Matrix<Rational>) -> Self {
-        let mut at = vec![usize::MAX; matrix.columns];
+        let mut at = vec![NOWHERE; matrix.columns];
         for (i, (_, columns)) in matrix.pivots.rows.iter().enumerate() {
             if let Some(&first) = columns.first() {
                 at[first as usize] = i;
             }
         }
-        Self { matrix, at }
+        let primitive = matrix.pivots.coefficients.iter().map(|_| OnceCell::new());
+        Self {
+            matrix,
+            at,
+            primitive: primitive.collect(),
+        }
     }
 
-    /// A row reduced by the pivots and by the rows found already.
-    fn reduce(
-        &self,
-        row: &SparseRow<Rational>,
-        found: &[SparseRow<Rational>],
-        found_at: &[usize],
-        budget: &Budget,
-    ) -> Result<SparseRow<Rational>, Stop> {
-        let mut cells: Vec<Option<Rational>> = vec![None; self.matrix.columns];
-        for (&column, value) in row.columns.iter().zip(&row.coefficients) {
-            cells[column as usize] = Some(value.clone());
-        }
-        let mut rest = SparseRow {
-            columns: Vec::new(),
-            coefficients: Vec::new(),
-        };
-        let start = row.columns.first().map_or(cells.len(), |&c| c as usize);
-        for column in start..cells.len() {
-            let Some(value) = cells[column].take().filter(|v| !v.is_zero()) else {
-                continue;
-            };
-            let pivot = match (self.at[column], found_at.get(column)) {
-                (i, _) if i != usize::MAX => {
-                    let (number, columns) = &self.matrix.pivots.rows[i];
-                    Some((columns, &self.matrix.pivots.coefficients[*number]))
-                }
-                (_, Some(&i)) if i != usize::MAX => {
-                    Some((&found[i].columns, &found[i].coefficients))
-                }
-                _ => None,
-            };
-            let Some((columns, coefficients)) = pivot else {
-                rest.columns.push(column as u32);
-                rest.coefficients.push(value);
-                continue;
-            };
-            // The work of a product grows with the digits of the number.
-            let digits = (value.numer().bits() + value.denom().bits()) / 64 + 1;
-            budget.spend(columns.len() as u64 * digits)?;
-            for (&at, coefficient) in columns.iter().zip(coefficients).skip(1) {
-                let product = coefficient * &value;
-                let cell = &mut cells[at as usize];
-                *cell = Some(match cell.take() {
-                    Some(old) => old - product,
-                    None => -product,
-                });
-            }
-        }
-        Ok(rest)
+    fn pivot(&self, column: usize) -> Option<Pivot<'_>> {
+        let (number, columns) = self.matrix.pivots.rows.get(self.at[column])?;
+        let coefficients = &self.matrix.pivots.coefficients[*number];
+        let values = self.primitive[*number].get_or_init(|| Primitive::of(coefficients));
+        Some(Pivot { columns, values })
     }
 }
 

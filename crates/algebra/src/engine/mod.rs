@@ -5,6 +5,7 @@ mod budget;
 mod certificate;
 mod dimension;
 mod f4;
+mod fraction_free;
 mod hilbert;
 mod ideal;
 mod linear;

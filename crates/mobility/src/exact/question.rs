@@ -238,16 +238,11 @@ impl Question<'_> {
             .map(|equation| homogenised(&equation.polynomial.substitute(&shifts)))
             .collect();
         let order = MonomialOrder::Elimination(1);
-        let mut basis = groebner_basis(&forms, variables + 1, &order, budget)?;
-        // The basis may rest on primes; what is needed of it is proved here. Its zeros solve all equations:
-        for form in &forms {
-            if !basis.normal_form_within(form, budget)?.is_zero() {
-                return Ok(None);
-            }
-        }
-        // and it is a basis of what it generates, so that its leading monomials tell the dimension of these zeros.
-        let polynomials = basis.polynomials().to_vec();
-        if !polynomials.iter().all(is_form) || !basis.prove(&polynomials, budget)? {
+        // The basis may rest on primes. That every form reduces to zero by it does not (see its certificate): its zeros solve all
+        // equations. What else is needed is proved here: it is a basis of what it generates, so that its leading monomials tell the
+        // dimension of these zeros.
+        let basis = groebner_basis(&forms, variables + 1, &order, budget)?;
+        if !basis.polynomials().iter().all(is_form) || !basis.is_basis(budget)? {
             return Ok(None);
         }
         let one = Rational::new(1.into(), 1.into());
