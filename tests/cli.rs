@@ -440,3 +440,111 @@ fn a_reader_that_leaves_is_no_error() {
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     assert!(output.stderr.is_empty());
 }
+
+#[test]
+fn shells_and_manuals_are_told_all_commands() {
+    let folder = folder("shells");
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let output = kutzbach(&folder, &["completions", shell]);
+        assert_eq!(output.status.code(), Some(0), "{shell}");
+        let script = text(&output.stdout);
+        for word in ["assemble", "write-assembled", "closure-tolerance"] {
+            assert!(script.contains(word), "{shell}: {word}");
+        }
+        // Values of options are completed where the shell lets them be.
+        let values = matches!(shell, "bash" | "zsh" | "fish");
+        assert!(!values || script.contains("junit"), "{shell}");
+    }
+    let page = text(&kutzbach(&folder, &["man"]).stdout);
+    assert!(
+        page.starts_with(".ie") && page.contains("kutzbach\\-report"),
+        "{page}"
+    );
+    let page = text(&kutzbach(&folder, &["man", "report"]).stdout);
+    assert!(
+        page.contains(".SH \"READING THE FILE\"") && page.contains("\\-\\-literal"),
+        "{page}"
+    );
+    let unknown = kutzbach(&folder, &["man", "reprot"]);
+    assert_eq!(unknown.status.code(), Some(2));
+}
+
+#[test]
+fn everyday_options_stand_before_the_groups_of_others() {
+    let folder = folder("help");
+    let help = text(&kutzbach(&folder, &["report", "--help"]).stdout);
+    let at = |part: &str| help.find(part).unwrap_or_else(|| panic!("{part}: {help}"));
+    assert!(at("\nOptions:") < at("--format") && at("--units") < at("\nReading the file:"));
+    assert!(at("\nReading the file:") < at("--literal"));
+    assert!(at("\nFurther questions:") < at("--between"));
+}
+
+#[test]
+fn a_check_as_junit_has_a_case_for_every_file_and_the_lines() {
+    let folder = folder("junit");
+    fs::write(folder.join("right.urdf"), BAR).unwrap();
+    fs::write(
+        folder.join("wrong.urdf"),
+        BAR.replace("kutzbach=\"-2\"", "kutzbach=\"7\""),
+    )
+    .unwrap();
+    fs::write(
+        folder.join("beside.urdf"),
+        BAR.replace("<expect kutzbach=\"-2\"/>", ""),
+    )
+    .unwrap();
+    fs::write(
+        folder.join("unknown.urdf"),
+        BAR.replace("<expect kutzbach=\"-2\"/>", ""),
+    )
+    .unwrap();
+    fs::write(folder.join("broken.urdf"), "<robot>").unwrap();
+    fs::write(
+        folder.join("expected.json"),
+        "{\n  \"beside\": {\n    \"finite\": 5}\n}\n",
+    )
+    .unwrap();
+    let output = kutzbach(&folder, &["check", ".", "--format", "junit"]);
+    assert_eq!(output.status.code(), Some(2));
+    let junit = text(&output.stdout);
+    let document = roxmltree::Document::parse(&junit).unwrap();
+    let suites = document.root_element();
+    let counts = ["tests", "failures", "errors", "skipped"].map(|name| suites.attribute(name));
+    assert_eq!(counts, ["5", "2", "1", "1"].map(Some), "{junit}");
+    let cases = document
+        .descendants()
+        .filter(|node| node.has_tag_name("testcase"));
+    let said: Vec<_> = cases
+        .map(|case| {
+            let what = case.first_element_child().map(|inner| {
+                let text = inner.text().or(inner.attribute("message"));
+                (
+                    inner.tag_name().name().to_owned(),
+                    text.unwrap_or_default().to_owned(),
+                )
+            });
+            (
+                case.attribute("name").unwrap(),
+                case.attribute("line"),
+                what,
+            )
+        })
+        .collect();
+    let what = |tag: &str, text: &str| Some((tag.to_owned(), text.to_owned()));
+    let known = "./expected.json:2: finite: expected 5, found 1";
+    let own = "./wrong.urdf:12: kutzbach: expected 7, found -2";
+    assert_eq!(said[0], ("beside", None, what("failure", known)), "{junit}");
+    assert_eq!(said[2], ("right", Some("12"), None));
+    assert_eq!(
+        said[3],
+        ("unknown", None, what("skipped", "nothing is known of it"))
+    );
+    assert_eq!(said[4], ("wrong", Some("12"), what("failure", own)));
+    assert!(matches!(&said[1], ("broken", None, Some((tag, _))) if tag == "error"));
+    // The table tells the line too.
+    let table = text(&kutzbach(&folder, &["check", "wrong.urdf", "beside.urdf"]).stdout);
+    assert!(
+        table.contains("wrong.urdf:12") && table.contains("5 (expected.json:2)"),
+        "{table}"
+    );
+}

@@ -4,6 +4,7 @@
 //! from folders by their extension, in order of their paths, and analysed in parallel; the answer does not depend on how
 //! many processors there are.
 
+mod junit;
 mod known;
 mod table;
 mod update;
@@ -45,6 +46,8 @@ enum Format {
     Text,
     /// Everything, for a program
     Json,
+    /// A case for every file, for programs that build and test
+    Junit,
 }
 
 /// Everything a check finds.
@@ -63,6 +66,33 @@ struct Checked {
     fields: BTreeMap<&'static str, Tally>,
     disagreements: Vec<Row>,
     notes: Vec<String>,
+    #[serde(skip)]
+    cases: Vec<Case>,
+}
+
+/// One file.
+#[derive(Debug, Default)]
+struct Case {
+    file: String,
+    /// Where it stands what is known of it; `None` where nothing is.
+    place: Option<Place>,
+    /// Fields that the report leaves open.
+    open: Vec<&'static str>,
+    /// Why it could not be read.
+    unreadable: Option<String>,
+}
+
+/// A line of a file, counted from 1.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+struct Place {
+    file: String,
+    line: usize,
+}
+
+impl std::fmt::Display for Place {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}:{}", self.file, self.line)
+    }
 }
 
 #[derive(Debug, Serialize)]
@@ -81,6 +111,9 @@ struct Tally {
 #[derive(Debug, Serialize)]
 struct Row {
     file: String,
+    /// Where it stands what is expected.
+    #[serde(rename = "expected_at")]
+    place: Option<Place>,
     #[serde(flatten)]
     disagreement: Disagreement,
 }
@@ -89,7 +122,7 @@ struct Row {
 enum Outcome {
     Unreadable(Failure),
     NothingKnown(Option<Box<Report>>),
-    Compared(Vec<Comparison>, Box<Report>),
+    Compared(Vec<(Comparison, Option<Place>)>, Box<Report>),
 }
 
 /// Runs the command.
@@ -110,15 +143,25 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     };
     for (file, outcome) in files.iter().zip(outcomes) {
         let name = file.display().to_string();
+        let case = Case {
+            file: name.clone(),
+            ..Case::default()
+        };
         match outcome {
             Outcome::NothingKnown(report) => {
                 checked.without_expectation.push(name);
+                checked.cases.push(case);
                 found.extend(report.map(|report| (file.as_path(), report)));
             }
             Outcome::Unreadable(failure) => {
+                let message = failure.line();
+                checked.cases.push(Case {
+                    unreadable: Some(message.clone()),
+                    ..case
+                });
                 checked.unreadable.push(Unreadable {
                     file: name,
-                    message: failure.line(),
+                    message,
                 });
                 failures.push(failure);
             }
@@ -131,6 +174,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let text = match arguments.format {
         Format::Text => table::render(&checked, terminal::layout(false, true)),
         Format::Json => output::json(&checked)?,
+        Format::Junit => junit::render(&checked, arguments.strict),
     };
     output::put(&text, None)?;
     failures.iter().for_each(Failure::tell);
@@ -154,18 +198,25 @@ impl Checked {
     }
 
     /// Adds the comparisons of one file. What its two sources agree on counts once.
-    fn add(&mut self, file: &str, comparisons: Vec<Comparison>) {
+    fn add(&mut self, file: &str, comparisons: Vec<(Comparison, Option<Place>)>) {
         let (mut right, mut open) = (BTreeSet::new(), BTreeSet::new());
-        let mut wrong: Vec<Disagreement> = Vec::new();
-        for comparison in comparisons {
+        let mut wrong: Vec<(Disagreement, Option<Place>)> = Vec::new();
+        let place = comparisons.iter().find_map(|(_, place)| place.clone());
+        for (comparison, place) in comparisons {
             right.extend(comparison.right);
             open.extend(comparison.open);
             for disagreement in comparison.wrong {
-                if !wrong.contains(&disagreement) {
-                    wrong.push(disagreement);
+                if !wrong.iter().any(|(known, _)| *known == disagreement) {
+                    wrong.push((disagreement, place.clone()));
                 }
             }
         }
+        self.cases.push(Case {
+            file: file.to_owned(),
+            place,
+            open: open.iter().copied().collect(),
+            unreadable: None,
+        });
         self.right += right.len();
         self.wrong += wrong.len();
         self.open += open.len();
@@ -175,10 +226,11 @@ impl Checked {
         for field in open {
             self.fields.entry(field).or_default().open += 1;
         }
-        for disagreement in wrong {
+        for (disagreement, place) in wrong {
             self.fields.entry(disagreement.what).or_default().wrong += 1;
             self.disagreements.push(Row {
                 file: file.to_owned(),
+                place,
                 disagreement,
             });
         }
@@ -191,13 +243,15 @@ fn outcome(file: &Path, known: &Known, arguments: &Arguments) -> Outcome {
         Ok(reading) => reading,
         Err(failure) => return Outcome::Unreadable(failure),
     };
-    let expectations: Vec<Expectation> = reading
-        .mechanism
-        .expectation()
-        .cloned()
-        .into_iter()
-        .chain(known.of(file))
-        .collect();
+    let own = reading.mechanism.expectation().cloned().map(|expected| {
+        let place = reading.expect_at.map(|(line, _)| Place {
+            file: file.display().to_string(),
+            line,
+        });
+        (expected, place)
+    });
+    let beside = known.of(file).map(|(expected, at)| (expected, Some(at)));
+    let expectations: Vec<(Expectation, Option<Place>)> = own.into_iter().chain(beside).collect();
     if expectations.is_empty() && !arguments.update {
         return Outcome::NothingKnown(None);
     }
@@ -213,7 +267,7 @@ fn outcome(file: &Path, known: &Known, arguments: &Arguments) -> Outcome {
         return Outcome::NothingKnown(Some(report));
     }
     let comparisons = expectations
-        .iter()
-        .map(|expectation| compare(&report, expectation));
+        .into_iter()
+        .map(|(expectation, place)| (compare(&report, &expectation), place));
     Outcome::Compared(comparisons.collect(), report)
 }

@@ -31,13 +31,13 @@ pub struct Arguments {
     #[command(flatten)]
     source: load::Source,
     /// Unknowns of the equations
-    #[arg(long, value_enum)]
+    #[arg(long, value_enum, help_heading = "How it is computed")]
     variables: Option<Variables>,
     /// How the basis is computed [default: divide where the equations fall into parts that share no unknown, else brute]
-    #[arg(long, value_enum)]
+    #[arg(long, value_enum, help_heading = "How it is computed")]
     method: Option<Way>,
     /// Order of the basis
-    #[arg(long, value_enum, default_value_t = Order::Degrevlex)]
+    #[arg(long, value_enum, default_value_t = Order::Degrevlex, help_heading = "How it is computed")]
     order: Order,
     /// Add the relations one by one: which are accepted, redundant, inconsistent
     #[arg(long)]
@@ -49,16 +49,21 @@ pub struct Arguments {
     #[arg(long, value_name = "JOINT", requires = "symbolic")]
     moving: Option<String>,
     /// Relations of lines and planes without regard to sense (positional and tree form)
-    #[arg(long)]
+    #[arg(long, help_heading = "How it is computed")]
     unoriented: bool,
     /// List the equations or the basis; may be repeated
     #[arg(long, value_enum)]
     print: Vec<Print>,
     /// Stop after so many seconds and say what is known
-    #[arg(long, value_name = "SECONDS", default_value_t = 30.0)]
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        default_value_t = 30.0,
+        help_heading = "Limits of work"
+    )]
     time: f64,
     /// Fill at most so many gigabytes of memory; what would not fit is not computed
-    #[arg(long, value_name = "GIGABYTES", default_value = "2", value_parser = load::gigabytes)]
+    #[arg(long, value_name = "GIGABYTES", default_value = "2", value_parser = load::gigabytes, help_heading = "Limits of work")]
     memory: u64,
     /// Exit with code 3 if it stopped before everything was answered
     #[arg(long)]
@@ -74,7 +79,7 @@ pub struct Arguments {
     #[arg(long)]
     verbose: bool,
     /// Say how long the steps took
-    #[arg(long)]
+    #[arg(long, help_heading = "How it is computed")]
     timing: bool,
 }
 

@@ -15,16 +15,16 @@ pub struct Source {
     /// Mechanism file; `-` for standard input
     pub file: PathBuf,
     /// Give a property of the file another value, a number or an expression; may be repeated
-    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = setting)]
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = setting, help_heading = "Reading the file")]
     pub settings: Vec<(String, String)>,
     /// Take decimals as written: `1.5707963267948966` is not read as π/2, nor `6.123e-17` as 0
-    #[arg(long)]
+    #[arg(long, help_heading = "Reading the file")]
     pub literal: bool,
     /// State how well the file's decimals are known, in metres and radians, whatever their digits say; 0 for exactly
-    #[arg(long, value_name = "SIZE", value_parser = precision)]
+    #[arg(long, value_name = "SIZE", value_parser = precision, help_heading = "Reading the file")]
     pub precision: Option<f64>,
     /// Say where a ROS package is that a xacro file includes from; may be repeated
-    #[arg(long = "package", value_name = "NAME=PATH", value_parser = package)]
+    #[arg(long = "package", value_name = "NAME=PATH", value_parser = package, help_heading = "Reading the file")]
     pub packages: Vec<(String, PathBuf)>,
 }
 
@@ -95,7 +95,7 @@ pub fn standard_input() -> Result<String, Failure> {
 pub struct Closing {
     /// Take loops with gaps up to this as closed (m; angles count by the length of the loop), instead of what the digits of
     /// the file say; ranks are then only as certain as that
-    #[arg(long, value_name = "METRES", value_parser = gap)]
+    #[arg(long, value_name = "METRES", value_parser = gap, help_heading = "Reading the file")]
     pub closure_tolerance: Option<f64>,
 }
 

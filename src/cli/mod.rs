@@ -18,12 +18,13 @@ mod output;
 mod pose;
 mod progress;
 mod report;
+mod shells;
 mod simulate;
 mod sketch;
 mod terminal;
 mod trace;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use failure::Failure;
 use std::process::ExitCode;
 
@@ -59,6 +60,8 @@ enum Command {
     Accuracy(accuracy::Arguments),
     Gallery(gallery::Arguments),
     Explain(explain::Arguments),
+    Completions(shells::Completions),
+    Man(shells::Manual),
 }
 
 /// Reads the arguments, runs the command and tells what went wrong.
@@ -74,6 +77,8 @@ pub fn run() -> ExitCode {
         Command::Accuracy(arguments) => accuracy::run(&arguments),
         Command::Gallery(arguments) => gallery::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
+        Command::Completions(arguments) => shells::completions(&arguments, Arguments::command()),
+        Command::Man(arguments) => shells::manual(&arguments, Arguments::command()),
     };
     match outcome {
         Ok(code) => ExitCode::from(code),

@@ -34,14 +34,14 @@ pub struct Arguments {
     #[command(flatten)]
     closing: load::Closing,
     /// Write the mechanism to a file too, with a configuration `assembled` that holds the joint values at the pose analysed
-    #[arg(long, value_name = "OUT")]
+    #[arg(long, value_name = "OUT", help_heading = "Files written besides")]
     write_assembled: Option<std::path::PathBuf>,
     /// Where the verdict hangs on how the file's numbers were rounded, write the nearest mechanism found that moves to a file too
-    #[arg(long, value_name = "OUT")]
+    #[arg(long, value_name = "OUT", help_heading = "Files written besides")]
     nearest: Option<std::path::PathBuf>,
     /// Write these files without expressions, for programs that read none: numbers that do not end are rounded to
     /// double precision, and an answer that hangs on less changes
-    #[arg(long)]
+    #[arg(long, help_heading = "Files written besides")]
     decimal: bool,
     /// End with exit code 2 where anything unusual of the file is not read, and with 3 where the verdict or the motion of a
     /// link is undecided, or the mechanism does not assemble
@@ -54,40 +54,45 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value_t = RangeUnits::DegMm)]
     units: RangeUnits,
     /// Say how long the stages took
-    #[arg(long)]
+    #[arg(long, help_heading = "Proofs and limits of work")]
     timing: bool,
     /// Tell what every engine found, with its figures
-    #[arg(long)]
+    #[arg(long, help_heading = "Proofs and limits of work")]
     evidence: bool,
     /// Work budget for exact proofs, per independent sub-mechanism, in seconds of a usual machine (deterministic); 0 leaves
     /// them out [default: 0.2]
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, help_heading = "Proofs and limits of work")]
     exact: Option<f64>,
     /// Let exact algebra, which takes most of it, fill at most so many gigabytes; what would not fit stays undecided
-    #[arg(long, value_name = "GIGABYTES", default_value = "2", value_parser = load::gigabytes)]
+    #[arg(long, value_name = "GIGABYTES", default_value = "2", value_parser = load::gigabytes, help_heading = "Proofs and limits of work")]
     memory: u64,
     /// Say how link A moves, seen from link B, on every branch; may be repeated
-    #[arg(long, num_args = 2, value_names = ["A", "B"])]
+    #[arg(long, num_args = 2, value_names = ["A", "B"], help_heading = "Further questions")]
     between: Vec<String>,
     /// Take these joints, or single freedoms such as `slider.trans`, for the inputs, and say what they do [default: those
     /// that the file names]
-    #[arg(long, value_name = "JOINT,...", value_delimiter = ',')]
+    #[arg(
+        long,
+        value_name = "JOINT,...",
+        value_delimiter = ',',
+        help_heading = "Further questions"
+    )]
     inputs: Vec<String>,
     /// Say what play the joints need for the motion to go through with the numbers as written
-    #[arg(long)]
+    #[arg(long, help_heading = "Further questions")]
     play: bool,
     /// Say whether a clearance of the joints suffices for that (`0.1mm`; metres without a unit)
-    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    #[arg(long, value_name = "LENGTH", value_parser = length, help_heading = "Further questions")]
     clearance: Option<f64>,
     /// Distance of the two ends of every joint's bearing, by half of which tilts count as play [default: the length of the
     /// loops for half of it]
-    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    #[arg(long, value_name = "LENGTH", value_parser = length, help_heading = "Further questions")]
     bearing: Option<f64>,
     /// Let the physics engine put the prediction to the test too, and show what it says (with `--format html`)
-    #[arg(long)]
+    #[arg(long, help_heading = "In the page")]
     verify: bool,
     /// Measure what every way to an answer costs, and show it in the page (with `--format html`)
-    #[arg(long)]
+    #[arg(long, help_heading = "In the page")]
     accuracy: bool,
 }
 

@@ -27,7 +27,7 @@ pub struct Arguments {
     #[command(flatten)]
     closing: load::Closing,
     /// Write predicted and simulated motion to this MCAP log
-    #[arg(long, value_name = "LOG")]
+    #[arg(long, value_name = "LOG", help_heading = "The log")]
     mcap: Option<PathBuf>,
     /// Verify this branch only
     #[arg(long)]
@@ -36,46 +36,64 @@ pub struct Arguments {
     #[arg(long, value_name = "JOINT")]
     drive: Option<String>,
     /// How trees of joints are held; `auto` tries multibodies, then impulses
-    #[arg(long, value_enum, default_value_t = SolverChoice::Auto)]
+    #[arg(long, value_enum, default_value_t = SolverChoice::Auto, help_heading = "The verification")]
     solver: SolverChoice,
     /// Substeps of a step, ascending: the ladder of the verification
-    #[arg(long, value_name = "N,N,…", value_parser = substeps, default_value = "4,8,16,32,64,128,256")]
+    #[arg(long, value_name = "N,N,…", value_parser = substeps, default_value = "4,8,16,32,64,128,256", help_heading = "The verification")]
     substeps: choices::Ladder,
     /// Go on to the end of the ladder after it has decided
-    #[arg(long)]
+    #[arg(long, help_heading = "The verification")]
     whole_ladder: bool,
     /// Length of a step (s)
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", help_heading = "The verification")]
     time_step: Option<f64>,
     /// Simulate with the cheapest setting that stays within this error (characteristic lengths, rad), found by trying
-    #[arg(
-        long,
+    #[arg(long,
         value_name = "ERROR",
         value_parser = super::accuracy::error,
-        conflicts_with_all = ["substeps", "time_step"]
-    )]
+        conflicts_with_all = ["substeps", "time_step"], help_heading = "The verification")]
     accuracy: Option<f64>,
     /// Seed of the random impulses that count degrees of freedom
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, help_heading = "The verification")]
     seed: u64,
     /// Spend about so many seconds of work on the verification, counted in steps and not by the clock, so that the answer
     /// is the same on every machine; what does not fit is named as not tested
-    #[arg(long, value_name = "SECONDS", value_parser = budget, default_value_t = 30.0)]
+    #[arg(long, value_name = "SECONDS", value_parser = budget, default_value_t = 30.0, help_heading = "The verification")]
     budget: f64,
     /// Add an effect to those of the file's scene; may be repeated
-    #[arg(long = "with", value_enum, value_name = "EFFECT")]
+    #[arg(
+        long = "with",
+        value_enum,
+        value_name = "EFFECT",
+        help_heading = "The scene"
+    )]
     with: Vec<Effect>,
     /// Leave an effect of the file's scene out; may be repeated
-    #[arg(long = "without", value_enum, value_name = "EFFECT")]
+    #[arg(
+        long = "without",
+        value_enum,
+        value_name = "EFFECT",
+        help_heading = "The scene"
+    )]
     without: Vec<Effect>,
     /// Simulated seconds of the scene
-    #[arg(long, value_name = "SECONDS", default_value_t = 2.0)]
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        default_value_t = 2.0,
+        help_heading = "The scene"
+    )]
     duration: f64,
     /// Say what each effect costs
-    #[arg(long)]
+    #[arg(long, help_heading = "The scene")]
     cost: bool,
     /// Poses of the predicted motion in the log
-    #[arg(long, value_name = "N", default_value_t = 200)]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 200,
+        help_heading = "The log"
+    )]
     samples: usize,
     /// Form of the answer
     #[arg(long, value_enum, default_value_t = Format::Text)]
@@ -91,7 +109,7 @@ pub struct Arguments {
     #[arg(long)]
     verbose: bool,
     /// Say in JSON too how long each simulation took
-    #[arg(long)]
+    #[arg(long, help_heading = "The verification")]
     timing: bool,
 }
 

@@ -29,14 +29,15 @@ pub struct Arguments {
     #[arg(long = "hold", value_name = "JOINT")]
     hold: Vec<String>,
     /// Number of poses
-    #[arg(long, default_value_t = 100)]
+    #[arg(long, default_value_t = 100, help_heading = "How it is traced")]
     samples: usize,
     /// How well the loops of each pose have to close (rad, loop lengths); as well as numbers allow if not given
     #[arg(
         long,
         value_name = "TOLERANCE",
         default_value_t = 0.0,
-        hide_default_value = true
+        hide_default_value = true,
+        help_heading = "How it is traced"
     )]
     tolerance: f64,
     #[command(flatten)]

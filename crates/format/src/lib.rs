@@ -96,6 +96,8 @@ pub struct Reading {
     pub format: &'static str,
     /// What is kept of the rest for writing it back.
     pub kept: Kept,
+    /// Line and column of `<expect>`, counted from 1.
+    pub expect_at: Option<(usize, usize)>,
 }
 
 /// Something that is read differently from how it may have been meant.

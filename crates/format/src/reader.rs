@@ -507,6 +507,9 @@ impl<'a> Reader<'a> {
                 Dialect::Own => "kutzbach-urdf",
             },
             kept: Kept::of(root, self.kept_motors),
+            expect_at: self
+                .expectation
+                .and_then(|range| lines_and_columns(text, &[range.start]).first().copied()),
         })
     }
 }

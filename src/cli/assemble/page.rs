@@ -107,6 +107,7 @@ fn at(reading: &Reading, file: &Path, found: &Found, number: usize) -> Result<An
         skipped: Vec::new(),
         format: reading.format,
         kept: reading.kept.clone(),
+        expect_at: reading.expect_at,
     };
     let (report, analysis) = load::analysed(&here, file, &options)?;
     Ok(Analysed {

@@ -63,10 +63,16 @@ fn disagreements(checked: &Checked, page: &mut Page) {
         .column("expected", Column::Shrinking)
         .column("found", Column::Shrinking);
     for row in &checked.disagreements {
+        let (mut file, mut expected) = (row.file.clone(), row.disagreement.expected.clone());
+        match &row.place {
+            Some(place) if place.file == file => file = place.to_string(),
+            Some(place) => expected = format!("{expected} ({place})"),
+            None => {}
+        }
         table.row(vec![
-            Cell::new(&row.file),
+            Cell::new(file),
             Cell::new(row.disagreement.what),
-            Cell::new(&row.disagreement.expected).tint(Tint::Good),
+            Cell::new(expected).tint(Tint::Good),
             Cell::new(&row.disagreement.found).tint(Tint::Bad),
         ]);
     }

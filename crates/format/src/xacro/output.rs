@@ -70,6 +70,7 @@ impl Expanded {
         let of_skipped = reading.skipped.iter().map(|own| (own.line, own.column));
         let offsets: Vec<usize> = of_warnings
             .chain(of_skipped)
+            .chain(reading.expect_at)
             .map(|(line, column)| offset(line, column))
             .collect();
         let (noted, own) = self.map.notes(&offsets);
@@ -78,9 +79,12 @@ impl Expanded {
             (warning.line, warning.column) = (noted.line, noted.column);
             warning.message.push_str(&noted.beside);
         }
-        for (skipped, noted) in reading.skipped.iter_mut().zip(noted) {
+        for (skipped, noted) in reading.skipped.iter_mut().zip(&mut noted) {
             (skipped.line, skipped.column) = (noted.line, noted.column);
             skipped.what.push_str(&noted.beside);
+        }
+        if let (Some(place), Some(noted)) = (&mut reading.expect_at, noted.next()) {
+            *place = (noted.line, noted.column);
         }
         reading
             .warnings
