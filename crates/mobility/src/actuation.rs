@@ -97,7 +97,7 @@ pub fn actuation(
     here: Option<&BranchPose>,
     given: &[Freedom],
 ) -> Option<Actuation> {
-    let poses: Vec<Rows> = idle_spaces(mechanism, geometry, structure, &branch.poses)
+    let poses: Vec<Rows> = idle_spaces(mechanism, geometry, structure, branch)
         .into_iter()
         .map(Rows::of)
         .collect::<Option<_>>()?;

@@ -3,9 +3,11 @@
 //! What a joint does, which links are idle and how links move relative to one another is never asked at the pose itself,
 //! which may be special, but at generic poses of the branch ([`BranchPose`]).
 
+use super::link_twists::LinkTwists;
 use super::roles::JointRole;
 use kutzbach_closure::JointState;
 use kutzbach_math::group::DisplacementSubgroup;
+use std::sync::Arc;
 
 /// A tangent of a branch: one rate per variable of the mechanism, joints by index, the variables of each in their own order, in rad
 /// or m per unit. A tangent of one part of a large mechanism is nearly all zeros, which are not stored.
@@ -132,4 +134,6 @@ pub struct Branch {
     pub motions: Vec<RelativeMotion>,
     /// Generic poses of the branch: never the pose itself.
     pub poses: Vec<BranchPose>,
+    /// How links move at the usable ones of these poses: what the facts above were read off, and others are.
+    pub(super) seen: Arc<Vec<LinkTwists>>,
 }

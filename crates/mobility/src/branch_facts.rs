@@ -3,6 +3,7 @@
 use super::branch::{BranchPose, IdleLink, RelativeMotion};
 use super::branch_roles::roles_seen;
 use super::idle::idle_seen;
+use super::link_twists::LinkTwists;
 use super::relative_motion::{link_twists, motions_seen_from_ground};
 use super::roles::JointRole;
 use kutzbach_closure::Geometry;
@@ -31,10 +32,19 @@ pub fn branch_facts(
     poses: &[BranchPose],
 ) -> BranchFacts {
     let seen = link_twists(mechanism, geometry, structure, poses);
-    let idle = idle_seen(mechanism, geometry, structure, (poses, &seen));
-    let roles = roles_seen(mechanism, &seen);
+    facts_seen(mechanism, geometry, structure, (poses, &seen))
+}
+
+pub(super) fn facts_seen(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    structure: &Structure,
+    (poses, seen): (&[BranchPose], &[LinkTwists]),
+) -> BranchFacts {
+    let idle = idle_seen(mechanism, geometry, structure, (poses, seen));
+    let roles = roles_seen(mechanism, seen);
     BranchFacts {
-        motions: motions_seen_from_ground(mechanism, geometry, &roles, &seen),
+        motions: motions_seen_from_ground(mechanism, geometry, &roles, seen),
         roles,
         idle: idle.idle,
         nearly_idle: idle.nearly,

@@ -15,7 +15,7 @@
 //!
 //! Cost: linear in the mechanism for links of few joints, times the square of the freedoms of a link's joints.
 
-use super::branch::{BranchPose, IdleLink};
+use super::branch::{Branch, BranchPose, IdleLink};
 use super::link_twists::LinkTwists;
 use super::one_sided::{OneSided, dot};
 use super::point_chains::{Bodies, Connection, Connections, heaviest_first};
@@ -241,26 +241,23 @@ impl IdleSpace {
     }
 }
 
-/// The tangent spaces at the usable ones of some poses of a branch, with the idle motions in them.
+/// The tangent spaces at the usable ones of the poses of a branch, with the idle motions in them.
 pub(super) fn idle_spaces(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
     structure: &Structure,
-    poses: &[BranchPose],
+    branch: &Branch,
 ) -> Vec<IdleSpace> {
-    let seen = link_twists(mechanism, geometry, structure, poses);
+    let seen = &*branch.seen;
     // Without a pose nothing bounds what might move alone.
     if seen.is_empty() {
         return Vec::new();
     }
-    let around = Around::new(mechanism, geometry, structure, poses);
+    let around = Around::new(mechanism, geometry, structure, &branch.poses);
     let clusters = around.clusters();
-    let (freedoms, moving) = moving_alone(&seen, (&around, &clusters), false);
-    if seen.is_empty() {
-        return Vec::new();
-    }
+    let (freedoms, moving) = moving_alone(seen, (&around, &clusters), false);
     let dimension: usize = freedoms.iter().sum();
-    seen.into_iter()
+    seen.iter()
         .zip(moving)
         .filter_map(|(there, moving)| {
             let idle: Vec<Combinations> = moving
@@ -294,7 +291,7 @@ pub(super) fn idle_spaces(
             }
             // Poses that show more than others do are not generic.
             (units.iter().map(Vec::len).sum::<usize>() == dimension).then_some(IdleSpace {
-                tangents: there.tangents,
+                tangents: there.tangents.clone(),
                 blocks,
                 idle: units,
             })

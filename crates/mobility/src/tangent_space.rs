@@ -19,7 +19,7 @@ use super::one_sided::{dot, norm};
 use super::pose_rank::known_to;
 use kutzbach_closure::Structure;
 use kutzbach_closure::{Geometry, Part, jacobian, least_length};
-use kutzbach_math::matrix::{MatrixError, Real, SparseMatrix, decide};
+use kutzbach_math::matrix::{MatrixError, RankDecision, Real, SparseMatrix, decide_each};
 use kutzbach_model::mechanism::{FreedomPart, Mechanism};
 use petgraph::unionfind::UnionFind;
 
@@ -398,17 +398,16 @@ struct Kernel {
     nullity: Option<usize>,
 }
 
-impl Kernel {
-    fn within(matrix: &SparseMatrix<f64>, uncertainty: f64) -> Result<Self, MatrixError> {
-        let decision = decide(matrix, uncertainty)?;
-        Ok(Self {
+impl From<&RankDecision> for Kernel {
+    fn from(decision: &RankDecision) -> Self {
+        Self {
             kept: if decision.kept > 0.0 {
                 decision.kept.min(1.0)
             } else {
                 1.0
             },
             nullity: decision.nullity(),
-        })
+        }
     }
 }
 
@@ -425,23 +424,21 @@ impl PartEquations {
         let uncertainty = rounding + residual + if coarse { 0.0 } else { stated };
         let mut scaled = here.matrix.clone();
         scaled.scale_columns();
-        let kernels = |uncertainty: f64| -> Result<[Kernel; 2], MatrixError> {
-            Ok([
-                Kernel::within(&scaled, uncertainty)?,
-                Kernel::within(&scaled, uncertainty.sqrt())?,
-            ])
-        };
-        let [simple, multiple] = kernels(uncertainty)?;
-        let as_written = match rounding + residual < uncertainty {
-            true => kernels(rounding + residual)?,
-            false => [simple, multiple],
-        };
+        let written = rounding + residual;
+        let mut accuracies = vec![uncertainty, uncertainty.sqrt()];
+        if written < uncertainty {
+            accuracies.extend([written, written.sqrt()]);
+        }
+        let found = decide_each(&scaled, &accuracies)?;
+        let kernels: Vec<Kernel> = found.iter().map(Kernel::from).collect();
+        let [simple, multiple] = [kernels[0], kernels[1]];
+        let as_written = [kernels[kernels.len() - 2], kernels[kernels.len() - 1]];
         Ok(Self {
             length: here.length,
             uncertainty,
             simple,
             multiple,
-            rounding: rounding + residual,
+            rounding: written,
             as_written,
             matrix: here.matrix,
         })

@@ -1,14 +1,16 @@
 //! The branches of the whole mechanism: one branch of every part, and everything else free.
 
 use super::branch::{Branch, BranchPose, Tangent};
-use super::branch_facts::branch_facts;
+use super::branch_facts::facts_seen;
 use super::claim::PartBranch;
 use super::judge::PartFinding;
+use super::relative_motion::link_twists;
 use super::vocabulary::PoseKind;
 use kutzbach_closure::Structure;
 use kutzbach_closure::{Geometry, JointState};
 use kutzbach_math::matrix::SplitMix64;
 use kutzbach_model::mechanism::Mechanism;
+use std::sync::Arc;
 
 /// More combinations than this are not listed one by one.
 const MOST_BRANCHES: usize = 256;
@@ -84,7 +86,8 @@ pub(super) fn whole_branches(
                 .sum::<Option<usize>>()
                 .map(|i| i + base);
             let poses = whole_poses(mechanism, geometry, structure, states, chosen);
-            let facts = branch_facts(mechanism, geometry, structure, &poses);
+            let seen = link_twists(mechanism, geometry, structure, &poses);
+            let facts = facts_seen(mechanism, geometry, structure, (&poses, &seen));
             Some(Branch {
                 name: String::new(),
                 dimension,
@@ -96,6 +99,7 @@ pub(super) fn whole_branches(
                 nearly_idle: facts.nearly_idle,
                 motions: facts.motions,
                 poses,
+                seen: Arc::new(seen),
             })
         })
         .collect();

@@ -139,11 +139,7 @@ pub fn decide<R: Real>(
     matrix: &SparseMatrix<R>,
     accuracy: f64,
 ) -> Result<RankDecision, MatrixError> {
-    let side = matrix.rows().min(matrix.columns());
-    let doubles = matrix.zero().bits() == 53;
-    if side <= JACOBI_SIDE
-        || (doubles && matrix.columns() <= DENSE_COLUMNS && matrix.rows() <= DENSE_ROWS)
-    {
+    if is_small(matrix) {
         return decide_by_singular_values(matrix, accuracy);
     }
     let upright =
@@ -169,6 +165,31 @@ pub fn decide<R: Real>(
     Ok(if second.rank.is_some() { second } else { first })
 }
 
+/// Whether all singular values are found in little time.
+fn is_small<R: Real>(matrix: &SparseMatrix<R>) -> bool {
+    let doubles = matrix.zero().bits() == 53;
+    matrix.rows().min(matrix.columns()) <= JACOBI_SIDE
+        || (doubles && matrix.columns() <= DENSE_COLUMNS && matrix.rows() <= DENSE_ROWS)
+}
+
+/// The decisions of [`decide`] for several accuracies: of a small matrix at the cost of one.
+///
+/// # Errors
+/// As [`decide`].
+pub fn decide_each<R: Real>(
+    matrix: &SparseMatrix<R>,
+    accuracies: &[f64],
+) -> Result<Vec<RankDecision>, MatrixError> {
+    if is_small(matrix) {
+        let values = RelativeValues::of(matrix)?;
+        return accuracies
+            .iter()
+            .map(|&a| values.decide(matrix, a))
+            .collect();
+    }
+    accuracies.iter().map(|&a| decide(matrix, a)).collect()
+}
+
 /// [`decide`] by singular values whatever the size.
 ///
 /// # Errors
@@ -177,31 +198,65 @@ pub fn decide_by_singular_values<R: Real>(
     matrix: &SparseMatrix<R>,
     accuracy: f64,
 ) -> Result<RankDecision, MatrixError> {
-    let (mut decision, scale) = undecided(matrix, accuracy)?;
-    if scale == 0.0 {
-        return Ok(decision);
+    RelativeValues::of(matrix)?.decide(matrix, accuracy)
+}
+
+/// All singular values of a matrix.
+struct RelativeValues {
+    /// The largest, absolute, cut off at the largest double.
+    largest: f64,
+    /// In falling order, the first 1; none of a matrix of zeros.
+    values: Vec<f64>,
+    method: Method,
+}
+
+impl RelativeValues {
+    fn of<R: Real>(matrix: &SparseMatrix<R>) -> Result<Self, MatrixError> {
+        let scale = matrix.largest_entry()?;
+        let (method, values) = if scale == 0.0 {
+            (Method::Svd, Vec::new())
+        } else {
+            all_singular_values(matrix, scale)?
+        };
+        let first = values.first().copied().unwrap_or(0.0);
+        Ok(Self {
+            largest: (first * scale).min(f64::MAX),
+            values: values.iter().map(|value| value / first).collect(),
+            method,
+        })
     }
-    let mut values = None;
-    if decision.bits == 53 {
-        values = svd::singular_values(matrix, scale);
-        decision.method = Method::Svd;
-    }
-    let values = match values {
-        Some(values) => values,
-        None => {
-            decision.method = Method::Jacobi;
-            svd::jacobi_values(matrix, scale).ok_or(MatrixError::Decomposition {
-                rows: matrix.rows(),
-                columns: matrix.columns(),
-                reason: "the rotations did not converge",
-            })?
+
+    fn decide<R: Real>(
+        &self,
+        matrix: &SparseMatrix<R>,
+        accuracy: f64,
+    ) -> Result<RankDecision, MatrixError> {
+        let (mut decision, scale) = undecided(matrix, accuracy)?;
+        if scale != 0.0 {
+            decision.method = self.method;
+            decision.largest = self.largest;
+            decision.settle(&self.values);
         }
-    };
-    let first = values.first().copied().unwrap_or(0.0);
-    decision.largest = (first * scale).min(f64::MAX);
-    let relative: Vec<f64> = values.iter().map(|value| value / first).collect();
-    decision.settle(&relative);
-    Ok(decision)
+        Ok(decision)
+    }
+}
+
+/// All singular values of the matrix divided by its largest entry, and what found them.
+fn all_singular_values<R: Real>(
+    matrix: &SparseMatrix<R>,
+    scale: f64,
+) -> Result<(Method, Vec<f64>), MatrixError> {
+    if matrix.zero().bits() == 53
+        && let Some(values) = svd::singular_values(matrix, scale)
+    {
+        return Ok((Method::Svd, values));
+    }
+    let values = svd::jacobi_values(matrix, scale).ok_or(MatrixError::Decomposition {
+        rows: matrix.rows(),
+        columns: matrix.columns(),
+        reason: "the rotations did not converge",
+    })?;
+    Ok((Method::Jacobi, values))
 }
 
 /// All singular values in double precision, relative to the largest, in falling order: as many as the shorter side is long.
