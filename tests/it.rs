@@ -55,6 +55,7 @@ mod house;
 mod html_page;
 mod independence;
 mod inputs;
+mod inputs_alike;
 mod invariance;
 mod known_mechanisms;
 mod log_readers;

@@ -11,10 +11,11 @@
 //! less. A row counts as dependent or independent only with the margins of [`Limits`]; the error of what is left of a row
 //! after the others are taken out is that of a tangent times (1 + Σ |coefficients|). Where a margin is thin there is no answer.
 //!
-//! The joints proposed are the first independent ones in an order that a designer would ask in: joints of one freedom before others,
-//! no intermediate links of balls, tree joints before those that close loops, near the ground before far from it, with limits
-//! before without, and by name. Those that are independent at the pose itself come before all others: nobody starts from a dead
-//! centre if there is a choice.
+//! The joints proposed are the first independent ones in an order that a designer would ask in: no follower of a `mimic`, joints of one
+//! freedom before others, no intermediate links of balls, tree joints before those that close loops, no end of a ram before others,
+//! near the ground before far from it, cranks that go round before what turns back, rams before hinges, with limits before without, and
+//! by name. The slider of a ram counts as at the ground wherever the ram is: it is there to be driven. Those that are independent at
+//! the pose itself come before all others: nobody starts from a dead centre if there is a choice.
 //!
 //! Everything is asked part by part, or for several parts together where idle motion reaches across them.
 //!
@@ -23,6 +24,7 @@
 use super::branch::{Branch, BranchPose};
 use super::idle::{IdleSpace, idle_spaces};
 use super::one_sided::{OneSided, dot, norm};
+use super::passive::{Rams, followers_of_mimics};
 use super::point_chains::Connections;
 use super::tangent_space::{Limits, TangentSpace};
 use kutzbach_closure::Geometry;
@@ -87,7 +89,7 @@ const MOST_WORK: usize = 2_000_000_000;
 const FAIR_SHARE: f64 = 0.1;
 
 /// What the inputs do along a branch; `None` where its poses, or the margins, do not tell. `here` is the pose itself, if it is one
-/// of the branch.
+/// of the branch; `turning` are freedoms known to go round without dead centre, where the branch is a curve.
 #[must_use]
 pub fn actuation(
     mechanism: &Mechanism,
@@ -95,7 +97,7 @@ pub fn actuation(
     structure: &Structure,
     branch: &Branch,
     here: Option<&BranchPose>,
-    given: &[Freedom],
+    (given, turning): (&[Freedom], &BTreeSet<Freedom>),
 ) -> Option<Actuation> {
     let poses: Vec<Rows> = idle_spaces(mechanism, geometry, structure, branch)
         .into_iter()
@@ -111,7 +113,8 @@ pub fn actuation(
         })?;
     let left = reference.left(&chosen.spans)?;
     let taken: BTreeSet<Freedom> = given.iter().copied().collect();
-    let candidates = candidates(mechanism, geometry, structure, reference, &taken);
+    let asked = (&taken, turning);
+    let candidates = candidates(mechanism, geometry, structure, reference, asked);
     let here = here
         .and_then(|here| TangentSpace::at(mechanism, geometry, structure, here))
         .and_then(|tangents| Rows::of(IdleSpace::without_idle(tangents)));
@@ -406,15 +409,21 @@ fn candidates(
     geometry: &Geometry<f64>,
     structure: &Structure,
     rows: &Rows,
-    taken: &BTreeSet<Freedom>,
+    (taken, turning): (&BTreeSet<Freedom>, &BTreeSet<Freedom>),
 ) -> Vec<(Freedom, Row)> {
     let connections = Connections::of(mechanism, geometry, structure);
     let steps = connections.bodies.steps_from_ground(mechanism);
+    let rams = Rams::of(mechanism, &connections.bodies);
+    let followers = followers_of_mimics(mechanism);
     let mut found: Vec<_> = Vec::new();
     for (index, joint) in mechanism.joints().iter().enumerate() {
         let ends = [joint.predecessor.link.0, joint.successor.link.0]
             .map(|link| connections.bodies.of[link]);
-        let depth = ends.map(|body| steps[body]);
+        let slides = rams.sliders.contains(&index);
+        let depth = match slides {
+            true => 1,
+            false => steps[ends[0]].max(steps[ends[1]]),
+        };
         let limited = joint
             .limit
             .as_ref()
@@ -432,11 +441,13 @@ fn candidates(
             }
             let row = rows.row(freedom);
             let key = (
-                !rows.is_clean(&row),
+                (!rows.is_clean(&row), followers.contains(&index)),
                 joint.freedom() != 1,
                 ends.iter().any(|&body| connections.intermediate[body]),
                 joint.closes_loop,
-                depth[0].max(depth[1]),
+                rams.ends.contains(&index),
+                depth,
+                (!turning.contains(&freedom), !slides),
                 !limited,
                 structure.graph.edge_rank(index),
                 variable,

@@ -60,6 +60,7 @@ mod part_mobility;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod part_samples;
+mod passive;
 mod plane_germ;
 mod point_chains;
 mod pose_rank;

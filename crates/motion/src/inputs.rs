@@ -3,7 +3,7 @@
 //! A branch of dimension d is cut down to a curve by holding d − 1 joint variables; a d-th one moves. The d inputs have to
 //! be coordinates of the branch near the start: the rows of its tangent basis that belong to them must be independent.
 //! They are chosen by QR with column pivoting of the transposed tangents (Businger & Golub 1965), what was asked for first,
-//! then motors and variables marked `independent`, then other hinges and slides, then balls. A row depends on the tangent *space*
+//! then the inputs, then other hinges and slides, then balls. A row depends on the tangent *space*
 //! only, so that neither the basis nor the order of the file matters; equal rows are told apart by name.
 
 use super::system::LoopSystem;
@@ -42,24 +42,17 @@ impl Variable {
             .collect()
     }
 
-    /// The smaller, the sooner a variable is driven: motors of the file, then joints marked `independent`, then other hinges
-    /// and slides, those of dummy links and followers of couplings last, then joints of several freedoms.
+    /// The smaller, the sooner a variable that is no input is driven or held: hinges and slides, those of dummy links and followers of
+    /// couplings last, then joints of several freedoms.
     pub fn rank(&self, mechanism: &Mechanism) -> usize {
         let joint = &mechanism.joints()[self.joint];
-        if mechanism.actuated().iter().any(|id| id.0 == self.joint) {
-            return 0;
-        }
-        match (joint.independent == Some(true), joint.freedom()) {
-            (true, _) => 1,
-            (false, 1) => 2 + usize::from(passive(mechanism, self.joint)),
-            (false, _) if joint.kind.class() == "S·S" => 6,
-            (false, _) => 4 + usize::from(several_turns(joint)),
+        match joint.freedom() {
+            1 => usize::from(passive(mechanism, self.joint)),
+            _ if joint.kind.class() == "S·S" => 4,
+            _ => 2 + usize::from(several_turns(joint)),
         }
     }
 }
-
-/// Ranks up to this are what the file itself says is driven.
-pub(super) const SAID: usize = 1;
 
 /// Whether no motor sits at a joint, by all that a file without motors tells: it follows another by a `mimic`, or one of its
 /// links is a dummy, without mass and shape, while the mechanism has links with them.

@@ -65,5 +65,5 @@ pub use result::{
     TraceError, TraceOptions, Unreached,
 };
 pub use system::{Evaluation, LoopSystem, SystemPose};
-pub use trace::trace;
+pub use trace::{InputSource, Inputs, inputs, trace};
 pub use words::value_text;

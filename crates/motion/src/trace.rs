@@ -2,8 +2,11 @@
 
 mod answer;
 mod choice;
+mod driven;
 mod one_curve;
 mod start;
+
+pub use driven::{InputSource, Inputs, inputs};
 
 use super::curve::Curve;
 use super::dead_centres::DeadCentre;
@@ -202,7 +205,8 @@ impl<'a> Tracer<'a> {
                 branch: Some(self.branch.name.clone()),
             }))
         };
-        // What is driven: as asked, as the scene has it, or what serves best.
+        let inputs = self.inputs_for(requested, options);
+        // What is driven: as asked, as the scene has it, or the input that serves best.
         let scene = self
             .mechanism
             .scene()
@@ -224,8 +228,8 @@ impl<'a> Tracer<'a> {
             ));
         }
         let found = match &asked {
-            Some(drive) => self.curve_driven_by(drive, &requested.hold)?,
-            None => self.best_curve(&requested.hold)?,
+            Some(drive) => self.curve_driven_by(drive, (&requested.hold, &inputs))?,
+            None => self.best_curve(&requested.hold, &inputs)?,
         };
         let Some((found, drive)) = found else {
             return still(format!(
@@ -233,10 +237,53 @@ impl<'a> Tracer<'a> {
                 self.branch.name
             ));
         };
+        if asked.is_none() && inputs.is_empty() {
+            notes.push(format!(
+                "which joints suffice as inputs is not decided; `{}` is driven, which goes farthest",
+                drive.name
+            ));
+        }
+        notes.extend(self.held_beside(&found, &inputs, &requested.hold));
         notes.extend(found.notes.iter().cloned());
         Ok(Trace::Moving(Box::new(
             self.motion(found, drive, branches, notes, options),
         )))
+    }
+
+    /// The inputs, where it matters what they are: something is driven without being asked for, or something is held.
+    fn inputs_for(&self, requested: &RequestedVariables, options: &TraceOptions) -> Vec<Variable> {
+        let drive = requested.drive.as_ref();
+        let stage = drive.and_then(|drive| self.stage_of(drive.joint));
+        if drive.is_some() && stage.is_none_or(|stage| stage.dimension < 2) {
+            return Vec::new();
+        }
+        let configuration = options.configuration.as_deref();
+        let (mechanism, analysis) = (self.mechanism, self.analysis);
+        let found = inputs(mechanism, analysis, self.branch, configuration, Vec::new());
+        found.variables(mechanism)
+    }
+
+    /// What is held although it is no input and nobody asked for it: what the inputs leave free, such as idle motion, or what stands in
+    /// for one that fixes nothing at the start.
+    fn held_beside(
+        &self,
+        found: &Found,
+        inputs: &[Variable],
+        asked: &[Variable],
+    ) -> Option<String> {
+        let variables = found.curve.solver.system.variables();
+        let held = found.holds.iter().map(|&unknown| {
+            let (joint, freedom) = variables[unknown];
+            Variable::of(self.mechanism, joint, freedom)
+        });
+        let beside = held.filter(|held| !inputs.contains(held) && !asked.contains(held));
+        let names: Vec<String> = beside.map(|held| format!("`{}`", held.name)).collect();
+        (!names.is_empty() && !inputs.is_empty()).then(|| {
+            format!(
+                "held beside the inputs, which leave more free at the start: {}",
+                names.join(", ")
+            )
+        })
     }
 
     /// Whether a variable rests on the branch.

@@ -4,10 +4,9 @@ use super::assemble::ReportError;
 use super::definitions::closest;
 use super::schema::{DependentInput, Follower, Freedoms, InputSource, Inputs, Limb, Report};
 use kutzbach_closure::{Arithmetic, Geometry};
-use kutzbach_mobility::{
-    Actuation, Analysis, Branch, Freedom, PoseKind, actuation, limbs, pose_of_branch,
-};
+use kutzbach_mobility::{Actuation, Analysis, Branch, Freedom, limbs};
 use kutzbach_model::mechanism::{Mechanism, Placement};
+use kutzbach_motion::inputs;
 
 /// Names of a root link that stands for the surroundings, not for a body of the machine.
 const SURROUNDINGS: [&str; 5] = ["world", "map", "odom", "ground", "universe"];
@@ -97,36 +96,6 @@ fn all_freedoms(mechanism: &Mechanism) -> impl Iterator<Item = Freedom> {
         .flat_map(|(joint, it)| (0..it.freedom()).map(move |variable| Freedom { joint, variable }))
 }
 
-/// The inputs of a mechanism, and who names them: the caller, or the file by its motors or by its marks of independent
-/// coordinates.
-///
-/// URDF+ takes every joint for independent that is not marked. So its marks say something only where some joint is marked as
-/// dependent, and something ties joints together.
-fn given(mechanism: &Mechanism, asked: Vec<Freedom>) -> (Vec<Freedom>, Option<InputSource>) {
-    if !asked.is_empty() {
-        return (asked, Some(InputSource::Asked));
-    }
-    if !mechanism.actuated().is_empty() {
-        let driven = all_freedoms(mechanism).filter(|freedom| {
-            mechanism
-                .actuated()
-                .iter()
-                .any(|joint| joint.0 == freedom.joint)
-        });
-        return (driven.collect(), Some(InputSource::File));
-    }
-    let joints = mechanism.joints();
-    let tied = !mechanism.couplings().is_empty() || joints.iter().any(|joint| joint.closes_loop);
-    if tied && joints.iter().any(|joint| joint.independent == Some(false)) {
-        let marked = all_freedoms(mechanism).filter(|freedom| {
-            let joint = &joints[freedom.joint];
-            !joint.closes_loop && joint.independent != Some(false)
-        });
-        return (marked.collect(), Some(InputSource::Independent));
-    }
-    (Vec::new(), None)
-}
-
 /// Fills in what inputs do, where there is motion whose branch is known.
 pub(super) fn lay_over(
     report: &mut Report,
@@ -147,29 +116,15 @@ pub(super) fn lay_over(
         mechanism.configuration(configuration),
         &Arithmetic::double(),
     );
-    let (given, source) = given(mechanism, asked);
+    let named = mechanism
+        .configuration(configuration)
+        .map(|_| configuration);
+    let found = inputs(mechanism, analysis, branch, named, asked);
+    let (given, source) = (found.given, found.source.map(InputSource::from));
+    let found = found.actuation;
     let name = |freedom: &Freedom| mechanism.joints()[freedom.joint].freedom_name(freedom.variable);
     let names = |freedoms: &[Freedom]| freedoms.iter().map(name).collect::<Vec<_>>();
     let link = |index: usize| mechanism.links()[index].name.clone();
-    let here = match analysis.mobility.pose {
-        Some(PoseKind::Regular) => pose_of_branch(
-            mechanism,
-            &analysis.structure,
-            &analysis.assembly.states,
-            &analysis.parts,
-            branch,
-        ),
-        _ => None,
-    };
-    let structure = &analysis.structure;
-    let found = actuation(
-        mechanism,
-        &geometry,
-        structure,
-        branch,
-        here.as_ref(),
-        &given,
-    );
     let limbs = limbs(mechanism, &geometry, &analysis.structure, branch);
     report.inputs = Some(Inputs {
         given: names(&given),

@@ -233,7 +233,7 @@ mod tests {
         let zoo = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/zoo");
         let of_zoo = |name: &str| {
             let drawn = samples::read(&zoo.join(name).with_extension("urdf"), &[]);
-            let held = inputs::proposed(&drawn).0;
+            let held = inputs::proposed(&drawn).held;
             drawn.with_joints_held(&held).unwrap()
         };
         for (mechanism, count) in [
@@ -283,7 +283,9 @@ mod tests {
     #[test]
     fn what_is_solved_at_once_agrees_with_the_tree() {
         let drawn = samples::own("planar_3rrr");
-        let mechanism = drawn.with_joints_held(&inputs::proposed(&drawn).0).unwrap();
+        let mechanism = drawn
+            .with_joints_held(&inputs::proposed(&drawn).held)
+            .unwrap();
         let budget = Budget::new(Limits::seconds(60.0));
         assert!(answer(&mechanism, &Slack::default(), 0).is_none());
         let found = at_once(&mechanism, &budget).unwrap();

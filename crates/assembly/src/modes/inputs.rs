@@ -1,13 +1,24 @@
 //! Which joints to hold where nobody says so.
 
 use super::half_turn::HalfTurn;
-use kutzbach_closure::{Arithmetic, Geometry};
 use kutzbach_math::number::Number;
-use kutzbach_mobility::{AnalysisOptions, Depth, actuation, analyse};
+use kutzbach_mobility::{AnalysisOptions, Depth, Freedom, analyse};
 use kutzbach_model::mechanism::{JointId, JointKind, Mechanism};
+use kutzbach_motion::inputs;
 
-/// Joint and index of the freedom, of freedoms that together hold a mechanism as drawn; and how many there are.
-fn freedoms(mechanism: &Mechanism) -> (Vec<(usize, usize)>, Option<usize>) {
+/// What is held where nobody says it.
+#[derive(Default)]
+pub(super) struct Proposed {
+    /// The inputs that turn or slide, and hold the mechanism where it is drawn.
+    pub held: Vec<(JointId, Number)>,
+    /// Names of the other inputs, which no number holds.
+    pub not_held: Vec<String>,
+    /// Its finite freedoms there; `None` where that is not decided.
+    pub finite: Option<usize>,
+}
+
+/// The inputs of a mechanism as drawn, which are those that its report names; and how many finite freedoms it has.
+fn freedoms(mechanism: &Mechanism) -> (Vec<Freedom>, Option<usize>) {
     let options = AnalysisOptions {
         depth: Depth::Motions,
         ..AnalysisOptions::default()
@@ -19,38 +30,35 @@ fn freedoms(mechanism: &Mechanism) -> (Vec<(usize, usize)>, Option<usize>) {
     let Some(branch) = analysis.branches.as_ref().and_then(|all| all.first()) else {
         return (Vec::new(), finite);
     };
-    let geometry = Geometry::new(mechanism, None, &Arithmetic::double());
-    let found = actuation(mechanism, &geometry, &analysis.structure, branch, None, &[]);
-    let proposed = found.map(|found| found.proposed).unwrap_or_default();
-    (
-        proposed.iter().map(|f| (f.joint, f.variable)).collect(),
-        finite,
-    )
+    let found = inputs(analysis.of(mechanism), &analysis, branch, None, Vec::new());
+    (found.driven(), finite)
 }
 
-/// The joints that hold a mechanism where it is drawn, as far as they turn or slide; and its finite freedoms there.
-pub(super) fn proposed(mechanism: &Mechanism) -> (Vec<(JointId, Number)>, Option<usize>) {
-    let holds = |joint: usize| {
-        matches!(
-            mechanism.joints()[joint].kind,
-            JointKind::Revolute | JointKind::Prismatic
-        )
-    };
+/// The joints that hold a mechanism where it is drawn.
+pub(super) fn proposed(mechanism: &Mechanism) -> Proposed {
     let (all, finite) = freedoms(mechanism);
-    let held = all.into_iter().filter(|(joint, _)| holds(*joint));
-    (
-        held.map(|(joint, _)| (JointId(joint), Number::zero()))
-            .collect(),
+    let mut proposed = Proposed {
         finite,
-    )
+        ..Proposed::default()
+    };
+    for input in all {
+        let joint = &mechanism.joints()[input.joint];
+        match joint.kind {
+            JointKind::Revolute | JointKind::Prismatic => {
+                proposed.held.push((JointId(input.joint), Number::zero()));
+            }
+            _ => proposed.not_held.push(joint.freedom_name(input.variable)),
+        }
+    }
+    proposed
 }
 
 /// Names of the freedoms that would have to be held as well, and how many freedoms are left where the mechanism is drawn;
 /// `None` where that is not decided.
 pub(super) fn freedoms_left(mechanism: &Mechanism) -> (Vec<String>, Option<usize>) {
-    let name = |(joint, variable): (usize, usize)| mechanism.joints()[joint].freedom_name(variable);
-    let (proposed, finite) = freedoms(mechanism);
-    (proposed.into_iter().map(name).collect(), finite)
+    let name = |input: &Freedom| mechanism.joints()[input.joint].freedom_name(input.variable);
+    let (inputs, finite) = freedoms(mechanism);
+    (inputs.iter().map(name).collect(), finite)
 }
 
 /// Turning joints that are held at an angle without an algebraic cosine, and the angle near it.

@@ -158,6 +158,8 @@ pub struct LeftOut {
 pub struct Modes {
     /// The joints held, and where.
     pub held: Vec<(JointId, Number)>,
+    /// Inputs that were to be held, since nobody says what is, and that no number holds: those of balls, and the like.
+    pub not_held: Vec<String>,
     /// Joints that are held within [`WITHIN`] of that value instead: its cosine is not algebraic.
     pub held_near: Vec<(JointId, HalfTurn)>,
     /// Finite freedoms of the mechanism with nothing held, at the drawn pose; `None` where that was not asked or is not known.
@@ -192,8 +194,15 @@ const MANY_STEPS: usize = 4;
 /// [`ModesError`] for joints that cannot be held; everything else is an answer.
 pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Modes, ModesError> {
     let began = Instant::now();
-    let (held, freedom) = match &question.held {
-        Some(held) => (held.clone(), None),
+    let inputs::Proposed {
+        held,
+        not_held,
+        finite: freedom,
+    } = match &question.held {
+        Some(held) => inputs::Proposed {
+            held: held.clone(),
+            ..inputs::Proposed::default()
+        },
         None => inputs::proposed(mechanism),
     };
     let held_near = inputs::held_near(mechanism, &held);
@@ -223,6 +232,7 @@ pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Mode
     };
     rounded::doubt(&mut modes, &fixed, stays, never_closes);
     modes.held = held;
+    modes.not_held = not_held;
     modes.held_near = held_near;
     modes.freedom = freedom;
     let test = closing::Test::new(&fixed, &slack);
@@ -249,7 +259,7 @@ pub fn reduced_equations(
 ) -> Result<Exported, String> {
     let held = match held {
         Some(held) => held.to_vec(),
-        None => inputs::proposed(mechanism).0,
+        None => inputs::proposed(mechanism).held,
     };
     let held_near = inputs::held_near(mechanism, &held);
     let fixed = mechanism
@@ -265,6 +275,7 @@ impl Modes {
     fn new(way: Way) -> Self {
         Self {
             held: Vec::new(),
+            not_held: Vec::new(),
             held_near: Vec::new(),
             freedom: None,
             configurations: Vec::new(),

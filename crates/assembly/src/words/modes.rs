@@ -164,6 +164,7 @@ pub fn data(mechanism: &Mechanism, modes: &Modes) -> Value {
         "freedom": modes.freedom,
         "held": held,
         "held_near": held_near,
+        "not_held": modes.not_held,
         "solutions": modes.configurations.iter().map(|c| solution(mechanism, c)).collect::<Vec<_>>(),
         "left_out": modes.left_out.iter().map(|out| left_out(mechanism, out)).collect::<Vec<_>>(),
         "in_all": modes.in_all,
@@ -272,6 +273,13 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
             text,
             "  • At any angle about the line through its two balls, in every configuration: {}.",
             spinning.join(", ")
+        );
+    }
+    if !modes.not_held.is_empty() {
+        let _ = writeln!(
+            text,
+            "  • Inputs that no number holds: {}; hold other joints with --hold.",
+            modes.not_held.join(", ")
         );
     }
     if !modes.held.is_empty() {

@@ -1,17 +1,17 @@
 //! Which curve answers the question: the one asked for, or the one that serves best.
 
 use super::{CANDIDATES, Found, Tracer};
-use crate::inputs::{SAID, Variable, choose_inputs};
+use crate::inputs::{Variable, choose_inputs};
 use crate::result::TraceError;
 use crate::system::LoopSystem;
 use std::sync::Arc;
 
 impl Tracer<'_> {
-    /// The curve on which a variable moves while the wanted others are held.
+    /// The curve on which a variable moves while the wanted others are held, and of the rest the other inputs.
     pub(super) fn curve_driven_by(
         &self,
         drive: &Variable,
-        hold: &[Variable],
+        (hold, inputs): (&[Variable], &[Variable]),
     ) -> Result<Option<(Found, Variable)>, TraceError> {
         let Some(stage) = self.stage_of(drive.joint) else {
             return Ok(None);
@@ -49,22 +49,29 @@ impl Tracer<'_> {
         if let Some(&out) = idle.first() {
             return Err(TraceError::HoldsNothing { name: name(out) });
         }
-        let held_first: Vec<usize> = std::iter::once(driven)
-            .chain(first.iter().copied())
-            .collect();
-        let (chosen, left_out) = choose_inputs(self.mechanism, &system, &tangents, &held_first);
-        if left_out.first().is_some_and(|&out| out != driven) {
-            let held: Vec<&str> = hold.iter().map(|v| v.name.as_str()).collect();
-            return Err(TraceError::NothingLeft {
-                drive: drive.name.clone(),
-                held: held.join(", "),
-            });
+        // Of the rest the inputs are held, as far as that holds anything.
+        let mut preferred = first.clone();
+        for unknown in inputs.iter().filter_map(&unknown) {
+            if unknown != driven && !preferred.contains(&unknown) {
+                preferred.push(unknown);
+            }
         }
+        let driven_first: Vec<usize> = std::iter::once(driven)
+            .chain(preferred.iter().copied())
+            .collect();
+        let (chosen, _) = choose_inputs(self.mechanism, &system, &tangents, &driven_first);
         let holds: Vec<usize> = if chosen.first() == Some(&driven) {
+            if first.iter().any(|held| !chosen.contains(held)) {
+                let held: Vec<&str> = hold.iter().map(|v| v.name.as_str()).collect();
+                return Err(TraceError::NothingLeft {
+                    drive: drive.name.clone(),
+                    held: held.join(", "),
+                });
+            }
             chosen[1..].to_vec()
         } else {
             // At a dead centre of the driven variable: its rate is zero at the start, and the others suffice to go on.
-            let (chosen, _) = choose_inputs(self.mechanism, &system, &tangents, &first);
+            let (chosen, _) = choose_inputs(self.mechanism, &system, &tangents, &preferred);
             chosen
                 .into_iter()
                 .take(stage.dimension.saturating_sub(1))
@@ -74,12 +81,58 @@ impl Tracer<'_> {
         Ok(found.map(|f| (f, drive.clone())))
     }
 
-    /// The curve that serves best where nothing is asked for: one whose driven variable goes round without dead centre, or
-    /// else the one that is moved farthest.
+    /// The curve that serves best where nothing is asked for: that of the input which goes round without dead centre, or else of
+    /// the one that is moved farthest. Where there is no input to drive, of any joint that could be one.
     pub(super) fn best_curve(
         &self,
         hold: &[Variable],
+        inputs: &[Variable],
     ) -> Result<Option<(Found, Variable)>, TraceError> {
+        let can_move = |input: &&Variable| {
+            let stage = self.stage_of(input.joint);
+            !hold.contains(input) && stage.is_some() && self.locked(input) != Some(true)
+        };
+        let mut candidates: Vec<Variable> = inputs.iter().filter(can_move).cloned().collect();
+        if candidates.is_empty() {
+            candidates = self.independent_of(hold)?;
+        }
+        if let (true, Some(last)) = (candidates.is_empty(), hold.last()) {
+            return Err(TraceError::HoldsTooMuch {
+                name: last.name.clone(),
+            });
+        }
+        let mut best: Option<(f64, Found, Variable)> = None;
+        let mut refused = None;
+        for candidate in candidates.into_iter().take(CANDIDATES) {
+            let (found, variable) = match self.curve_driven_by(&candidate, (hold, inputs)) {
+                Ok(Some(found)) => found,
+                Ok(None) => continue,
+                Err(error @ TraceError::NothingLeft { .. }) => {
+                    refused.get_or_insert(error);
+                    continue;
+                }
+                Err(error) => return Err(error),
+            };
+            let score = self.score(&found, &variable);
+            if best
+                .as_ref()
+                .is_none_or(|(known, _, _)| score > known * (1.0 + 1e-9))
+            {
+                best = Some((score, found, variable));
+                if score.is_infinite() {
+                    break;
+                }
+            }
+        }
+        match (best, refused) {
+            (Some((_, found, variable)), _) => Ok(Some((found, variable))),
+            (None, Some(error)) => Err(error),
+            (None, None) => Ok(None),
+        }
+    }
+
+    /// Variables that can be driven while others are held, of every part.
+    fn independent_of(&self, hold: &[Variable]) -> Result<Vec<Variable>, TraceError> {
         let mut candidates: Vec<Variable> = Vec::new();
         for stage in &self.stages {
             let (states, _) = self.start(stage);
@@ -98,52 +151,8 @@ impl Tracer<'_> {
                 Variable::of(self.mechanism, joint, freedom)
             }));
         }
-        if let (true, Some(last)) = (candidates.is_empty(), hold.last()) {
-            return Err(TraceError::HoldsTooMuch {
-                name: last.name.clone(),
-            });
-        }
-        // What the file says is driven is driven.
-        let rank = |variable: &Variable| variable.rank(self.mechanism);
-        candidates.sort_by_key(rank);
-        let first = candidates.first().map_or(usize::MAX, rank);
-        if first <= SAID {
-            candidates.retain(|candidate| rank(candidate) == first);
-        }
-        let mut best: Option<(f64, Found, Variable)> = None;
-        for candidate in candidates.into_iter().take(CANDIDATES) {
-            let Some((found, variable)) = self.curve_driven_by(&candidate, hold)? else {
-                continue;
-            };
-            let single = self
-                .stage_of(candidate.joint)
-                .is_some_and(|s| s.dimension == 1);
-            let (score, variable) = if single {
-                self.best_variable(&found, hold).unwrap_or((0.0, variable))
-            } else {
-                (self.score(&found, &variable), variable)
-            };
-            if best
-                .as_ref()
-                .is_none_or(|(known, _, _)| score > known * (1.0 + 1e-9))
-            {
-                let done = score.is_infinite();
-                best = Some((score, found, variable));
-                if done {
-                    break;
-                }
-            }
-        }
-        let Some((_, found, variable)) = best else {
-            return Ok(None);
-        };
-        let own = found.curve.solver.system.unknowns_of(variable.joint);
-        if own.is_some_and(|r| r.start + variable.freedom == found.curve.drive) {
-            return Ok(Some((found, variable)));
-        }
-        // Followed anew, so that the driven variable grows along the curve and its dead centres part the stretches.
-        let again = self.curve_driven_by(&variable, hold)?;
-        Ok(again.or(Some((found, variable))))
+        candidates.sort_by_key(|variable| variable.rank(self.mechanism));
+        Ok(candidates)
     }
 
     /// How well a variable serves as the driven one: infinitely where it goes round without dead centre, else its range.
@@ -162,46 +171,5 @@ impl Tracer<'_> {
             (l.min(v), h.max(v))
         });
         (high - low) * found.curve.solver.system.weights()[unknown]
-    }
-
-    pub(super) fn best_variable(
-        &self,
-        found: &Found,
-        hold: &[Variable],
-    ) -> Option<(f64, Variable)> {
-        let system = &found.curve.solver.system;
-        let mut all: Vec<(usize, Variable)> = system
-            .variables()
-            .into_iter()
-            .enumerate()
-            .map(|(u, (joint, freedom))| (u, Variable::of(self.mechanism, joint, freedom)))
-            .filter(|(u, v)| system.is_scalar(*u) && !hold.contains(v))
-            .collect();
-        // Marked ones first, then by name; the first of equals is kept.
-        all.sort_by_key(|(_, v)| {
-            let several = self.mechanism.joints()[v.joint].freedom() > 1;
-            let rank = v.rank(self.mechanism);
-            (
-                if rank <= SAID { rank } else { SAID + 1 },
-                several,
-                v.name.clone(),
-            )
-        });
-        let mut best: Option<(f64, Variable)> = None;
-        for (_, variable) in all {
-            let marked = variable.rank(self.mechanism) <= SAID;
-            let score = self.score(found, &variable);
-            if score > 0.0
-                && best
-                    .as_ref()
-                    .is_none_or(|(known, _)| score > known * (1.0 + 1e-6) && !known.is_infinite())
-            {
-                best = Some((score, variable));
-                if marked {
-                    break;
-                }
-            }
-        }
-        best
     }
 }

@@ -6,8 +6,8 @@
 
 use kutzbach_closure::{JointState, Rigid};
 use kutzbach_mobility::{Analysis, Branch};
-use kutzbach_model::mechanism::{FreedomPart, Mechanism};
-use kutzbach_motion::{EndReason, Motion, Trace, TraceOptions, Variable, trace};
+use kutzbach_model::mechanism::{FreedomPart, JointKind, Mechanism};
+use kutzbach_motion::{EndReason, Motion, Trace, TraceOptions, Variable, inputs, trace};
 use kutzbach_scene::Roles;
 
 /// Samples of a motion, at least and at most, whatever the number of links.
@@ -131,7 +131,7 @@ pub(super) fn repertoire(
             ..options.clone()
         };
         let mut still = None;
-        for options in ways(mechanism, branch, &options) {
+        for options in ways(mechanism, analysis, branch, &options) {
             match trace(mechanism, analysis, &options) {
                 Ok(Trace::Moving(motion)) => found.push((index, *motion)),
                 Ok(Trace::Still(why)) => still = still.or(Some(why.reason)),
@@ -163,25 +163,36 @@ pub(super) fn repertoire(
 
 /// Whether one number says where a variable is: the turns of a ball are no inputs.
 fn can_drive(mechanism: &Mechanism, variable: &Variable) -> bool {
-    let freedoms = mechanism.joints()[variable.joint].kind.freedoms();
+    let kind = mechanism.joints()[variable.joint].kind;
+    let freedoms = kind.freedoms();
     let turns = freedoms
         .iter()
         .filter(|f| **f == FreedomPart::Rotation)
         .count();
-    turns <= 1 || freedoms[variable.freedom] != FreedomPart::Rotation
+    turns <= 1
+        || kind == JointKind::Universal
+        || freedoms[variable.freedom] != FreedomPart::Rotation
 }
 
-/// What to trace of a branch: one curve, or for several freedoms one for each of some joints that are driven. Motors and
-/// marked inputs come first, then joints of one freedom that are not of dummy links, those at the ground, and names.
-fn ways(mechanism: &Mechanism, branch: &Branch, options: &TraceOptions) -> Vec<TraceOptions> {
+/// What to trace of a branch: one curve, or for several freedoms one for each of some joints that are driven. Inputs
+/// come first, then joints of one freedom that are not of dummy links, those at the ground, and names.
+fn ways(
+    mechanism: &Mechanism,
+    analysis: &Analysis,
+    branch: &Branch,
+    options: &TraceOptions,
+) -> Vec<TraceOptions> {
     let Some(pose) = branch.poses.first().filter(|_| branch.dimension > 1) else {
         return vec![options.clone()];
     };
-    let driven_by_scene = |variable: &Variable| {
-        let drives = mechanism.scene().map(|scene| &scene.drives[..]);
-        drives.is_some_and(|drives| drives.iter().any(|d| d.joint.0 == variable.joint))
+    let configuration = options.configuration.as_deref();
+    let inputs = inputs(mechanism, analysis, branch, configuration, Vec::new());
+    let inputs = inputs.variables(mechanism);
+    let place = |variable: &Variable| {
+        let place = inputs.iter().position(|input| input == variable);
+        place.unwrap_or(inputs.len())
     };
-    let mut variables: Vec<((bool, usize, bool), Variable)> = Variable::all(mechanism)
+    let mut variables: Vec<((usize, usize, bool), Variable)> = Variable::all(mechanism)
         .into_iter()
         .enumerate()
         .filter(|(column, variable)| {
@@ -192,7 +203,7 @@ fn ways(mechanism: &Mechanism, branch: &Branch, options: &TraceOptions) -> Vec<T
             let joint = &mechanism.joints()[variable.joint];
             let ends = [joint.predecessor.link, joint.successor.link];
             let order = (
-                !driven_by_scene(&variable),
+                place(&variable),
                 variable.rank(mechanism),
                 !ends.contains(&mechanism.ground()),
             );
@@ -221,8 +232,7 @@ fn ways(mechanism: &Mechanism, branch: &Branch, options: &TraceOptions) -> Vec<T
         .collect()
 }
 
-/// What can be driven. On a curve that is any joint that moves, and nobody has said which: one at the ground that never
-/// turns back comes first, as a motor would sit there.
+/// What can be driven: the input first, and on a curve any other joint that moves.
 fn drives(mechanism: &Mechanism, motion: &Motion) -> Vec<Variable> {
     let mut drives = vec![motion.driven.clone()];
     if motion.dimension > 1 {
@@ -234,23 +244,6 @@ fn drives(mechanism: &Mechanism, motion: &Motion) -> Vec<Variable> {
             .map(|range| range.variable.clone())
             .filter(|v| *v != motion.driven && can_drive(mechanism, v)),
     );
-    let at_ground = |variable: &Variable| {
-        let joint = &mechanism.joints()[variable.joint];
-        [joint.predecessor.link, joint.successor.link].contains(&mechanism.ground())
-    };
-    let never_turns_back = |variable: &Variable| {
-        let mut ranges = motion.ranges.iter();
-        ranges.any(|range| range.variable == *variable && range.dead_centres == 0)
-    };
-    let said = mechanism
-        .scene()
-        .is_some_and(|scene| !scene.drives.is_empty());
-    let suited = |variable: &Variable| at_ground(variable) && never_turns_back(variable);
-    if let Some(first) = drives.iter().position(suited)
-        && !said
-    {
-        drives[..=first].rotate_right(1);
-    }
     drives
 }
 

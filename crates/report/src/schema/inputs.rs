@@ -58,10 +58,20 @@ pub struct Inputs {
 pub enum InputSource {
     /// The caller.
     Asked,
-    /// The file, by its motors.
+    /// The file, by the drives of its scene and then by its other motors.
     File,
     /// The file, by its marks of independent coordinates.
     Independent,
+}
+
+impl From<kutzbach_motion::InputSource> for InputSource {
+    fn from(source: kutzbach_motion::InputSource) -> Self {
+        match source {
+            kutzbach_motion::InputSource::Asked => Self::Asked,
+            kutzbach_motion::InputSource::File => Self::File,
+            kutzbach_motion::InputSource::Independent => Self::Independent,
+        }
+    }
 }
 
 /// An input that others determine.

@@ -5,11 +5,11 @@
 //! At such poses a drive either cannot go on or a simulation may leave the branch, and nothing would be learnt of the
 //! prediction.
 
-use kutzbach_closure::{Geometry, JointState, variable_unit};
+use kutzbach_closure::{Geometry, JointState, Part, variable_unit};
 use kutzbach_mobility::{Analysis, Branch};
 use kutzbach_model::mechanism::{FreedomPart, JointKind, Mechanism};
 use kutzbach_motion::{
-    Curve, End, EndReason, EventKind, Motion, Trace, TraceOptions, Variable, trace,
+    Curve, End, EndReason, EventKind, Motion, Trace, TraceOptions, Variable, inputs, trace,
 };
 use std::f64::consts::TAU;
 
@@ -118,29 +118,18 @@ pub(super) fn ways_along(
     if drive.is_some() {
         return Ok(ways);
     }
-    let offsets = mechanism.variable_offsets();
+    let inputs = inputs(mechanism, analysis, branch, configuration, Vec::new());
+    let inputs = inputs.variables(mechanism);
     for part in &analysis.structure.parts {
         if part.joints.contains(&ways[0].driven.joint) {
             continue;
         }
-        // The variable of the part that moves most at a generic pose, by name where several do.
-        let Some(pose) = branch.poses.first() else {
-            continue;
-        };
-        let mut best: Option<(f64, Variable)> = None;
-        for &joint in &part.joints {
-            for freedom in 0..mechanism.joints()[joint].freedom() {
-                let column = offsets[joint] + freedom;
-                let size = pose
-                    .tangents
-                    .iter()
-                    .fold(0.0f64, |m, t| m.max(t[column].abs()));
-                if size > 1.001 * best.as_ref().map_or(1e-9, |(most, _)| *most) {
-                    best = Some((size, Variable::of(mechanism, joint, freedom)));
-                }
-            }
-        }
-        let Some((_, variable)) = best else { continue };
+        let mut inputs = inputs.iter();
+        let input = inputs.find(|input| part.joints.contains(&input.joint));
+        let input = input
+            .cloned()
+            .or_else(|| moves_most(mechanism, branch, part));
+        let Some(variable) = input else { continue };
         if !wanted(Some(&variable.name)) {
             continue;
         }
@@ -154,6 +143,27 @@ pub(super) fn ways_along(
         ways.push(way_of(mechanism, geometry, (length, longest), motion)?);
     }
     Ok(ways)
+}
+
+/// The variable of a part that moves most at a generic pose, by name where several do: what is driven where it is not known which
+/// joints suffice.
+fn moves_most(mechanism: &Mechanism, branch: &Branch, part: &Part) -> Option<Variable> {
+    let offsets = mechanism.variable_offsets();
+    let pose = branch.poses.first()?;
+    let mut best: Option<(f64, Variable)> = None;
+    for &joint in &part.joints {
+        for freedom in 0..mechanism.joints()[joint].freedom() {
+            let column = offsets[joint] + freedom;
+            let size = pose
+                .tangents
+                .iter()
+                .fold(0.0f64, |m, t| m.max(t[column].abs()));
+            if size > 1.001 * best.as_ref().map_or(1e-9, |(most, _)| *most) {
+                best = Some((size, Variable::of(mechanism, joint, freedom)));
+            }
+        }
+    }
+    best.map(|(_, variable)| variable)
 }
 
 fn motion_of(
