@@ -3,7 +3,7 @@
 use crate::format_support;
 
 use format_support::{chain, fault, robot};
-use kutzbach::format::read;
+use kutzbach::format::{WarningKind, read};
 
 /// Input, line, column, a part of the message, a part of the help (empty: any).
 type Row = (String, usize, usize, &'static str, &'static str);
@@ -356,4 +356,55 @@ fn words_of_other_languages_are_translated() {
     );
     let radians = joint("revolute", &placed("rpy='3 0 6.5'"));
     assert!(!warnings(&radians).contains("degrees"));
+}
+
+#[test]
+fn limits_that_may_not_be_meant_are_told() {
+    // Of joint `j`, beside a loop of fixed joints or none.
+    let told = |kind: &str, range: [&str; 2], closes: bool| {
+        let [lower, upper] = range;
+        let close = match closes {
+            true => {
+                "<loop name='l' type='fixed'><predecessor link='a'/><successor link='b'/></loop>"
+            }
+            false => "",
+        };
+        let text = format!(
+            "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='{kind}'><parent link='a'/><child link='b'/>
+             <origin xyz='0.3 0 0'/><axis xyz='0 0 1'/><limit lower='{lower}' upper='{upper}'/></joint>{close}</robot>"
+        );
+        let reading = read(&text, "file", &[]).unwrap();
+        let guessed = reading
+            .warnings
+            .iter()
+            .filter(|w| w.kind == WarningKind::Guessed);
+        guessed.map(|w| w.message.clone()).collect::<Vec<_>>()
+    };
+    for range in [
+        ["-3.14", "3.14"],
+        ["-3.1416", "3.1416"],
+        ["0", "6.28"],
+        ["-3.12", "3.12"],
+    ] {
+        assert_eq!(told("revolute", range, true).len(), 1, "{range:?}");
+        assert!(told("revolute", range, false).is_empty(), "{range:?}");
+    }
+    for range in [["-180", "180"], ["0", "90"], ["-179", "179"]] {
+        assert!(
+            told("revolute", range, false)[0].contains("degrees"),
+            "{range:?}"
+        );
+    }
+    for range in [
+        ["-3", "3"],
+        ["0", "3.14"],
+        ["-1.57", "1.57"],
+        ["-12.5", "12.5"],
+    ] {
+        assert!(told("revolute", range, true).is_empty(), "{range:?}");
+    }
+    assert!(told("prismatic", ["0", "120"], false)[0].contains("millimetres"));
+    for range in [["0", "0.12"], ["0", "5"], ["-3.14", "3.14"]] {
+        assert!(told("prismatic", range, true).is_empty(), "{range:?}");
+    }
 }

@@ -371,7 +371,7 @@ proptest! {
         };
         prop_assert_eq!(difference(&mechanism, &reading.mechanism), None, "{}", text);
         // What is left out, or odd, is told.
-        let left_out = ["without `lower` and `upper`", "x is taken", "looks like degrees"];
+        let left_out = ["without `lower` and `upper`", "x is taken", "looks like degrees", "the limits of"];
         let told = |message: &str| left_out.iter().any(|part| message.contains(part));
         prop_assert!(
             reading.warnings.iter().all(|w| told(&w.message)),

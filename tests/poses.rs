@@ -323,3 +323,98 @@ fn a_tilted_axis_is_told_without_a_gap_that_is_not_drawn() {
         );
     }
 }
+
+/// A crank `A` of 1 and a rocker `B` of √10 on the ground, 4 apart, with a coupler of √13: the crank goes round, the rocker swings.
+const CRANK_ROCKER: &str = r#"<robot name="cr"><link name="g"/><link name="r"/><link name="c"/><link name="k"/>
+    <joint name="B" type="continuous"><parent link="g"/><child link="r"/><origin xyz="4 0 0"/><axis xyz="0 0 1"/></joint>
+    <joint name="A" type="continuous"><parent link="g"/><child link="c"/><axis xyz="0 0 1"/></joint>
+    <joint name="pin" type="continuous"><parent link="c"/><child link="k"/><origin xyz="0 1 0"/><axis xyz="0 0 1"/></joint>
+    <loop name="close" type="revolute"><predecessor link="k"><origin xyz="3 2 0"/></predecessor>
+    <successor link="r"><origin xyz="-1 3 0"/></successor><axis xyz="0 0 1"/></loop></robot>"#;
+
+/// By the law of cosines: the rocker's angle on the circuit drawn, from the crank's (degrees).
+fn rocker(crank: f64) -> f64 {
+    let (sine, cosine) = crank.to_radians().sin_cos();
+    let pin = (-sine, cosine);
+    let (x, y) = (4.0 - pin.0, -pin.1);
+    let diagonal = x.hypot(y);
+    let along = (13.0 - 10.0 + diagonal * diagonal) / (2.0 * diagonal);
+    let across = (13.0 - along * along).sqrt();
+    let (u, v) = (x / diagonal, y / diagonal);
+    let close = (
+        pin.0 + along * u - across * v,
+        pin.1 + along * v + across * u,
+    );
+    (close.1.atan2(close.0 - 4.0) - 3f64.atan2(-1.0)).to_degrees()
+}
+
+/// How far apart two angles are (degrees), whole turns aside.
+fn apart(one: f64, other: f64) -> f64 {
+    ((one - other + 180.0).rem_euclid(360.0) - 180.0).abs()
+}
+
+#[test]
+fn a_joint_put_elsewhere_stays_on_the_branch_drawn() {
+    for crank in (-180..=180).step_by(30) {
+        let report = json("branch", CRANK_ROCKER, &[&format!("A={crank}deg")]);
+        let found = angle(&report, "B");
+        assert!(
+            apart(found, rocker(f64::from(crank))) < 1e-6,
+            "{crank}: {found}"
+        );
+    }
+    // The rocker turns back on either side of where it is drawn.
+    for wanted in ["-7deg", "-3deg", "15deg", "30deg"] {
+        let report = json("branch", CRANK_ROCKER, &[&format!("B={wanted}")]);
+        let (crank, found) = (angle(&report, "A"), angle(&report, "B"));
+        assert!(
+            apart(found, rocker(crank)) < 1e-6,
+            "{wanted}: {crank} {found}"
+        );
+        assert_eq!(report["warnings"], serde_json::json!([]), "{wanted}");
+    }
+}
+
+#[test]
+fn sarrus_lifts_its_plate_wherever_a_foot_is_put() {
+    // The lower link stands at 126.87° when drawn: its knee turns twice as far, back.
+    let text = std::fs::read_to_string(crate::support::folder("mechanisms/sarrus.urdf")).unwrap();
+    for foot in (-120..=45).step_by(11) {
+        let report = json("sarrus", &text, &[&format!("front_foot={foot}deg")]);
+        assert_eq!(report["mobility"]["finite"], 1, "{foot}");
+        let knee = angle(&report, "front_knee");
+        assert!(apart(knee, -2.0 * f64::from(foot)) < 1e-4, "{foot}: {knee}");
+    }
+}
+
+#[test]
+fn another_configuration_than_the_one_drawn_is_told() {
+    let report = json("other", CRANK_ROCKER, &["B=144deg"]);
+    let warnings = report["warnings"].as_array().unwrap();
+    assert_eq!(warnings[0]["kind"], "other_configuration");
+    let text = warnings[0]["text"].as_str().unwrap();
+    assert!(text.contains("2 in all"), "{text}");
+    // Here no pose closes at all: that is said, and nothing of another configuration.
+    let report = json("none", CRANK_ROCKER, &["B=60deg"]);
+    let told = report["warnings"].to_string();
+    assert!(!told.contains("other_configuration"), "{told}");
+}
+
+#[test]
+fn exact_equations_hold_what_a_pose_names() {
+    let file = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("poses_exact.urdf");
+    std::fs::write(&file, CRANK_ROCKER).unwrap();
+    let exact = |more: &[&str]| {
+        let program = crate::support::program()
+            .args(["exact", "--format", "json"])
+            .arg(&file)
+            .args(more)
+            .output()
+            .unwrap();
+        serde_json::from_slice::<serde_json::Value>(&program.stdout).unwrap()
+    };
+    assert_eq!(exact(&[])["dimension"], 1);
+    let held = exact(&["--pose", "A=30deg"]);
+    assert_eq!(held["dimension"], 0);
+    assert_eq!(held["held"], serde_json::json!(["A=30deg"]));
+}

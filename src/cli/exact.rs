@@ -145,7 +145,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             help: Some("`report --pose limits --write-assembled OUT` writes one".to_owned()),
         });
     }
-    let configuration = arguments.pose.configure(&mut reading)?;
+    reading.mechanism = arguments.pose.hold(&reading.mechanism)?;
+    let configuration = arguments.pose.named();
     let request = arguments.request(configuration);
     let refused = |error: SystemError| Failure::Plain {
         message: format!("{}: {error}", arguments.source.file.display()),
@@ -234,6 +235,7 @@ impl Arguments {
         };
         Request {
             file: self.source.file.display().to_string(),
+            held: self.pose.items(),
             options: ExactOptions {
                 system: SystemOptions {
                     formulation,

@@ -14,6 +14,7 @@ use kutzbach::mobility::{Analysis, ExactBudget};
 use kutzbach::report::html::{Assets, Facts, Prepared};
 use kutzbach::report::text::{Layout, Units, render};
 use kutzbach::report::{Options, PlayAsked, Report, assembled_file};
+use kutzbach::report::{Warning, WarningKind};
 use kutzbach::simulate::verification::{
     Moment, Observer, Passage, Verification, VerificationOptions, verify,
 };
@@ -168,8 +169,9 @@ fn seconds(text: &str) -> Result<f64, String> {
 /// Where the file cannot be read, has no such configuration, or the output cannot be written.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let mut reading = arguments.source.read_strictly(arguments.strict)?;
+    let (configuration, elsewhere) = arguments.pose.configured(&mut reading)?;
     let options = Options {
-        configuration: arguments.pose.configure(&mut reading)?,
+        configuration,
         exact: arguments
             .exact
             .map_or_else(ExactBudget::default, ExactBudget::seconds)
@@ -203,7 +205,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             ),
         });
     }
-    let (report, analysis) = load::analysed(&reading, &arguments.source.file, &options)?;
+    let (mut report, analysis) = load::analysed(&reading, &arguments.source.file, &options)?;
+    let elsewhere = elsewhere.map(|told| Warning::new(WarningKind::OtherConfiguration, told));
+    report.warnings.extend(elsewhere);
     let text = match arguments.format {
         Format::Text => {
             let to_file = arguments.destination.file().is_some();

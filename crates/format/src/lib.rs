@@ -51,6 +51,7 @@ mod guard;
 mod hints;
 mod joint;
 mod kept;
+mod limits;
 mod link;
 mod loop_joint;
 mod mentions;

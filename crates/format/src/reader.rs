@@ -493,6 +493,7 @@ impl<'a> Reader<'a> {
             vec![Fault::new(self.place_of(&error.entity, root), message).maybe_help(error.help)]
         })?;
         self.warn_of_assumptions(&mechanism);
+        self.warn_of_limits(&mechanism);
         let apart = self.points_apart(&mechanism);
         if !apart.is_empty() {
             return Err(apart);

@@ -305,7 +305,30 @@ impl Curve {
             let (low, high) = (goes_on(a.1, b.1), goes_on(b.1, a.1));
             return (low.min(high), low.max(high));
         }
-        (a.1.min(b.1), a.1.max(b.1))
+        let before = self.stretch_before().map(|begin| {
+            let around = self.milestones[last].1 - self.milestones[0].1;
+            self.milestones[begin].1 - around
+        });
+        let begin = before.unwrap_or(a.1);
+        (begin.min(b.1), begin.max(b.1))
+    }
+
+    /// Where the stretch around the start begins behind the end of a closed curve: the curve is told from its start, which need not
+    /// be a place where the driven variable turns back.
+    fn stretch_before(&self) -> Option<usize> {
+        let m = &self.milestones;
+        let (from, to) = self.stretch();
+        let last = m.len().saturating_sub(1);
+        if !self.closed || from > 0 || to == last {
+            return None;
+        }
+        let rising = m[to].1 > m[from].1;
+        let mut begin = last;
+        while begin > to && (m[begin].1 > m[begin - 1].1) == rising && m[begin].1 != m[begin - 1].1
+        {
+            begin -= 1;
+        }
+        (begin < last).then_some(begin)
     }
 
     /// The milestones between which the driven variable is monotonic, around the start of the curve.
@@ -339,7 +362,7 @@ impl Curve {
         if !(value >= low - 1e-12 && value <= high + 1e-12) {
             return None;
         }
-        let (from, to) = self.stretch();
+        let (mut from, mut to) = self.stretch();
         let (a, b) = (self.milestones[from], self.milestones[to]);
         let mut wanted = value;
         let mut turns = 0.0;
@@ -347,9 +370,16 @@ impl Curve {
             let around = b.1 - a.1;
             turns = ((value - a.1) / around).floor();
             wanted = value - turns * around;
+        } else if let Some(begin) = self
+            .stretch_before()
+            .filter(|_| (value < a.1) == (b.1 > a.1) && value != a.1)
+        {
+            (from, to) = (begin, self.milestones.len() - 1);
+            wanted = value + self.milestones[to].1 - self.milestones[0].1;
+            turns = -1.0;
         }
-        let rising = b.1 > a.1;
         let inside = &self.milestones[from..=to];
+        let rising = inside[inside.len() - 1].1 > inside[0].1;
         let place = inside
             .partition_point(|m| if rising { m.1 <= wanted } else { m.1 >= wanted })
             .clamp(1, inside.len() - 1);

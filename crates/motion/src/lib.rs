@@ -21,6 +21,7 @@
 //! | `curve` | poses by arclength and by drive value ([`Curve`]) |
 //! | `dead_centres`, `ranges`, `sampling` | what is read off a curve |
 //! | `inputs`, `requested` | what is driven and held |
+//! | `approach` | the pose where joints have given values, along the branch drawn ([`approach()`]) |
 //! | `play`, `play/…` | the play that joints need where dimensions as written bind ([`play()`]) |
 //! | `words` | what is met and where it ends, for people |
 //! | `trace`, `trace/…` | from an analysis to a [`Trace`]: where a part starts, which curve serves, what is told of it |
@@ -28,6 +29,7 @@
 //! Cost: one pose of a single loop takes some microseconds; dense factorizations grow with the cube of a part's unknowns
 //! up to 150, sparse ones serve beyond.
 
+mod approach;
 mod bridge;
 mod cubic;
 mod curve;
@@ -56,6 +58,7 @@ mod vectors;
 mod walk;
 mod words;
 
+pub use approach::{NotReached, approach};
 pub use curve::{Curve, CurvePose};
 pub use inputs::Variable;
 pub use play::{Deviation, NoPlay, Play, PlayOptions, play};

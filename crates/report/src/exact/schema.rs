@@ -17,6 +17,8 @@ pub const EXACT_SCHEMA: &str = "kutzbach-exact-1";
 pub struct Request {
     /// The file as it was named.
     pub file: String,
+    /// Joints that are held, with their values, as they were asked for.
+    pub held: Vec<String>,
     /// What was asked.
     pub options: ExactOptions,
     /// List the equations.
@@ -139,6 +141,8 @@ pub struct ExactReport {
     pub mechanism: String,
     /// The file.
     pub file: String,
+    /// Joints that are held, with their values, as they were asked for; all that is said is of the mechanism held so.
+    pub held: Vec<String>,
     /// `canonical`, `tree` or `positional`.
     pub formulation: &'static str,
     /// `brute`, `divide` or `incremental`.
@@ -219,6 +223,7 @@ pub fn exact_report(mechanism: &Mechanism, answer: &ExactAnswer, request: &Reque
         schema: EXACT_SCHEMA,
         mechanism: mechanism.name().to_owned(),
         file: request.file.clone(),
+        held: request.held.clone(),
         formulation: formulation_word(request.options.system.formulation),
         method: match answer.method {
             Method::Brute => "brute",

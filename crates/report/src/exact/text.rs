@@ -50,9 +50,13 @@ pub fn render(report: &ExactReport, layout: Layout) -> String {
         );
     }
     page.gap();
+    let held = match report.held.as_slice() {
+        [] => String::new(),
+        held => format!(", held: {}", held.join(", ")),
+    };
     page.paragraph(
         &format!(
-            "{} ({}): {} and {} in {} form; basis by {}, {}.",
+            "{} ({}{held}): {} and {} in {} form; basis by {}, {}.",
             report.mechanism,
             report.file,
             counted(report.variables.len(), "variable"),

@@ -16,6 +16,8 @@ pub enum WarningKind {
     OldName,
     /// Anything else about the file.
     File,
+    /// The pose asked for closes in another configuration than the one drawn.
+    OtherConfiguration,
     /// The pose is outside joint limits.
     OutsideLimits,
     /// Joint limits that let something stand still.
@@ -47,6 +49,7 @@ impl WarningKind {
             self,
             Self::Guessed
                 | Self::MayJoin
+                | Self::OtherConfiguration
                 | Self::OutsideLimits
                 | Self::ExtremePosition
                 | Self::SingularPose
