@@ -4,7 +4,7 @@ use crate::format_support;
 
 use format_support::{chain, difference, robot};
 use kutzbach::format::{ReadOptions, Reading, read, read_with, write};
-use kutzbach::mechanism::{CouplingOrigin, JointKind, Placement};
+use kutzbach::mechanism::{CouplingOrigin, JointKind, Limit, Placement};
 
 fn reading(text: &str) -> Reading {
     read(text, "file", &[]).unwrap_or_else(|error| panic!("{error} {:?}\n{text}", error.help))
@@ -517,6 +517,125 @@ fn motors_are_read_in_every_form() {
     assert!(reading.mechanism.actuated().is_empty());
     let told = |part: &str| reading.skipped.iter().any(|s| s.what.contains(part));
     assert!(told("`j` cannot move") && told("`x` does not exist"));
+    assert_eq!(reading.skipped.len(), 2, "{:?}", reading.skipped);
+}
+
+/// Two links on a base, with more inside the robot.
+fn two_joints(inside: &str) -> String {
+    robot(&format!(
+        "<joint name='j' type='continuous'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/></joint>\
+         <joint name='k' type='prismatic'><parent link='b'/><child link='c'/><origin xyz='0 2 0'/><axis xyz='0 0 -3'/></joint>{inside}"
+    ))
+}
+
+#[test]
+fn what_was_read_is_not_told_as_not_read() {
+    for read in [
+        "<transmission name='t'><type>x</type><joint name='k'/></transmission>",
+        "<mujoco><actuator><motor joint='j'/></actuator></mujoco>",
+        "<mujoco><equality><connect body1='b' body2='a' anchor='0 0 0'/></equality></mujoco>",
+        "<mujoco><equality><joint joint1='j' joint2='k'/></equality></mujoco>",
+        "<ros2_control name='r'><joint name='j'><command_interface name='position'/></joint></ros2_control>",
+    ] {
+        let reading = reading(&two_joints(read));
+        assert!(reading.skipped.is_empty(), "{read}: {:?}", reading.skipped);
+        let first = reading.warnings.iter().find(|w| w.kind.is_told_first());
+        assert!(first.is_none(), "{read}: {first:?}");
+    }
+    // Parts that are not read are told by their own names.
+    let text = two_joints(
+        "<mujoco><compiler angle='radian'/><actuator><motor joint='j'/></actuator></mujoco>",
+    );
+    let skipped: Vec<String> = reading(&text).skipped.into_iter().map(|s| s.what).collect();
+    assert_eq!(skipped, ["<compiler> inside <mujoco>"]);
+}
+
+#[test]
+fn every_equality_constrains_or_is_told_first() {
+    let with = |equality: &str| {
+        reading(&two_joints(&format!(
+            "<mujoco><equality>{equality}</equality></mujoco>"
+        )))
+    };
+    // Held where the coefficient says, as the joint would stand there: q = 0.3 about z, 0.5 m along -z.
+    for (equality, joint, frame) in [
+        ("<joint joint1='j' polycoef='0 0 0 0 0'/>", "j", [0.0, 0.0]),
+        ("<joint joint1='j'/>", "j", [0.0, 0.0]),
+        ("<joint joint1='j' polycoef='0.3'/>", "j", [-0.3, 0.0]),
+        ("<joint joint1='k' polycoef='0.5 1'/>", "k", [0.0, 0.5]),
+    ] {
+        let reading = with(equality);
+        let mechanism = &reading.mechanism;
+        let held = mechanism.joint(mechanism.joint_named(joint).unwrap());
+        assert_eq!(held.kind, JointKind::Fixed, "{equality}");
+        assert_eq!(mechanism.freedom(), 1, "{equality}");
+        let side = &held.successor.frame;
+        let found = [side.roll_pitch_yaw[2].value(), side.position[2].value()];
+        assert_eq!(found, frame, "{equality}");
+        assert!(
+            reading
+                .warnings
+                .iter()
+                .any(|w| w.message.contains("read as fixed"))
+        );
+        assert!(reading.skipped.is_empty());
+    }
+    for equality in [
+        "<tendon tendon1='t'/>",
+        "<distance geom1='x' geom2='y'/>",
+        "<joint joint1='j' joint2='k' polycoef='0 1 2'/>",
+        "<joint joint1='nobody'/>",
+    ] {
+        let reading = with(equality);
+        assert_eq!(reading.mechanism.freedom(), 2);
+        let first: Vec<_> = reading
+            .warnings
+            .iter()
+            .filter(|w| w.kind.is_told_first())
+            .collect();
+        assert_eq!(first.len(), 1, "{equality}: {:?}", reading.warnings);
+    }
+    let idle = with("<joint joint1='j' active='false'/>");
+    assert_eq!(idle.mechanism.freedom(), 2);
+    assert!(idle.warnings.is_empty() && idle.skipped[0].what.contains("not active"));
+}
+
+#[test]
+fn limits_beyond_all_numbers_are_none() {
+    let limit = "<limit lower='-1.79769e+308' upper='1.79769e+308' effort='1.79769e+308' velocity='1e400'/>";
+    let reading = reading(&chain("revolute", limit));
+    let joint = &reading.mechanism.joints()[0];
+    assert!(joint.bounds().is_none() && joint.limit == Some(Limit::default()));
+    assert!(reading.warnings.iter().all(|w| !w.message.contains("0…0")));
+    let mechanism =
+        self::reading(&chain("revolute", "<limit lower='-1e101' upper='2'/>")).mechanism;
+    assert_eq!(
+        mechanism.joints()[0].bounds(),
+        Some((f64::NEG_INFINITY, 2.0))
+    );
+}
+
+#[test]
+fn quaternions_before_version_1_1_are_read_and_told() {
+    let text = chain("revolute", "<origin quat_xyzw='0 0 1 0'/>");
+    for (version, told) in [
+        ("", true),
+        (" version='1.0'", true),
+        (" version='1.1'", false),
+        (" version='1.2'", false),
+    ] {
+        let reading = reading(&text.replacen("<robot", &format!("<robot{version}"), 1));
+        let turned = &reading.mechanism.joints()[0]
+            .predecessor
+            .frame
+            .roll_pitch_yaw[2];
+        assert!((turned.value() - std::f64::consts::PI).abs() < 1e-12);
+        let said = reading
+            .warnings
+            .iter()
+            .any(|w| w.message.contains("version 1.1"));
+        assert_eq!(said, told, "{version}");
+    }
 }
 
 #[test]

@@ -5,9 +5,10 @@ mod page;
 use super::failure::Failure;
 use super::interrupt::{self, INTERRUPTED};
 use super::pose::measured;
+use super::progress::Sign;
+use super::units::ValueUnits;
 use super::{DONE, UNDECIDED, load, output};
 use clap::{Args, ValueEnum};
-use indicatif::{ProgressBar, ProgressDrawTarget};
 use kutzbach::algebra::{Limits, Reader};
 use kutzbach::assembly::modes::{
     Complete, Modes, ModesError, Question, assembly_modes, reduced_equations,
@@ -18,7 +19,7 @@ use kutzbach::number::Number;
 use kutzbach::report::text::visible;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, mpsc};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Find every configuration in which the mechanism closes, with proof that there is no other
 #[derive(Debug, Args)]
@@ -40,6 +41,9 @@ pub struct Arguments {
     /// Form of the answer
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    /// Units of values in the text; data are in radians and metres
+    #[arg(long, value_enum, default_value_t = ValueUnits::RadM)]
+    units: ValueUnits,
     #[command(flatten)]
     destination: output::Destination,
 }
@@ -104,7 +108,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         }
     })?;
     let text = match arguments.format {
-        Format::Text => words::text(mechanism, &modes)
+        Format::Text => words::text(mechanism, &modes, arguments.units.into())
             .lines()
             .map(|line| format!("{}\n", visible(line)))
             .collect(),
@@ -139,36 +143,20 @@ fn watched(
         // Nobody may be listening any more.
         let _ = send.send(assembly_modes(&own, &asked));
     });
-    let began = Instant::now();
-    let mut sign: Option<ProgressBar> = None;
+    let mut sign = Sign::new(budget);
     loop {
         match receive.recv_timeout(Duration::from_millis(50)) {
-            Ok(result) => {
-                if let Some(sign) = sign {
-                    sign.finish_and_clear();
-                }
-                return result;
-            }
+            Ok(result) => return result,
             Err(mpsc::RecvTimeoutError::Disconnected) => return Ok(Modes::out_of_time(&question)),
             Err(mpsc::RecvTimeoutError::Timeout) => {}
         }
         if interrupt::asked() {
             cancelled.store(true, Ordering::Relaxed);
         }
-        let seconds = began.elapsed().as_secs_f64();
-        if seconds > budget * (1.0 + GRACE.0) + GRACE.1 {
-            if let Some(sign) = sign {
-                sign.finish_and_clear();
-            }
+        if sign.seconds() > budget * (1.0 + GRACE.0) + GRACE.1 {
             return Ok(Modes::out_of_time(&question));
         }
-        if seconds > 1.0 {
-            let sign = sign.get_or_insert_with(|| {
-                ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr_with_hz(10))
-            });
-            sign.set_message("looking for configurations");
-            sign.tick();
-        }
+        sign.tick(|| "looking for configurations".to_owned());
     }
 }
 

@@ -3,9 +3,9 @@
 use super::failure::Failure;
 use super::interrupt::{self, INTERRUPTED};
 use super::pose::Pose;
+use super::progress::Sign;
 use super::{BAD_INPUT, DONE, UNDECIDED, load, output, terminal};
 use clap::{Args, ValueEnum};
-use indicatif::{ProgressBar, ProgressDrawTarget};
 use kutzbach::algebra::{
     BlockAnswer, BlockFinding, Budget, ExactOptions, Formulation, Limits, Method, MonomialOrder,
     Progress, Reader, Stop, SystemError, SystemOptions, assembly_conditions, entries_in,
@@ -459,21 +459,14 @@ fn watched<T>(arguments: &Arguments, work: impl FnOnce(&Budget) -> T) -> T {
     std::thread::scope(|scope| {
         scope.spawn(|| {
             let began = Instant::now();
-            let mut sign: Option<ProgressBar> = None;
+            let mut sign = Sign::new(seconds);
             let mut silent = !std::io::stderr().is_terminal();
             while !over.load(Ordering::Relaxed) {
                 std::thread::park_timeout(Duration::from_millis(100));
                 if interrupt::asked() {
                     cancelled.store(true, Ordering::Relaxed);
                 }
-                if began.elapsed() > Duration::from_secs(1) {
-                    let sign = sign.get_or_insert_with(|| {
-                        let target = ProgressDrawTarget::stderr_with_hz(10);
-                        ProgressBar::with_draw_target(None, target)
-                    });
-                    sign.set_message(format!("{}, {} entries", progress.phase(), progress.work()));
-                    sign.tick();
-                }
+                sign.tick(|| format!("{}, {} entries", progress.phase(), progress.work()));
                 if silent && began.elapsed() > SILENCE && !over.load(Ordering::Relaxed) {
                     silent = false;
                     eprintln!(
@@ -485,9 +478,6 @@ fn watched<T>(arguments: &Arguments, work: impl FnOnce(&Budget) -> T) -> T {
                 if began.elapsed().as_secs_f64() > GRACE.0 * seconds + GRACE.1 {
                     give_up(arguments, &progress.phase());
                 }
-            }
-            if let Some(sign) = sign {
-                sign.finish_and_clear();
             }
         });
         let result = work(&Budget::new(limits));

@@ -23,6 +23,7 @@ mod simulate;
 mod sketch;
 mod terminal;
 mod trace;
+mod units;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use failure::Failure;

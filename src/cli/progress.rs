@@ -58,6 +58,63 @@ impl Drop for Progress {
     }
 }
 
+/// How far work has come that says no share of the whole, only what it is about: the time that it may take fills the bar.
+pub struct Sign {
+    bar: Option<ProgressBar>,
+    began: Instant,
+    most: f64,
+}
+
+/// What is shown of it.
+const SIGN: &str = "{msg} [{bar:30}] {elapsed}, {prefix} at most";
+
+impl Sign {
+    /// Work begins that ends after so many seconds at the latest.
+    #[must_use]
+    pub fn new(most: f64) -> Self {
+        Self {
+            bar: None,
+            began: Instant::now(),
+            most,
+        }
+    }
+
+    /// Seconds since it began.
+    #[must_use]
+    pub fn seconds(&self) -> f64 {
+        self.began.elapsed().as_secs_f64()
+    }
+
+    /// Shows what the work is about, once it has taken long.
+    pub fn tick(&mut self, what: impl FnOnce() -> String) {
+        const PARTS: f64 = 1000.0;
+        if self.began.elapsed() < PATIENCE {
+            return;
+        }
+        let (began, most) = (self.began, self.most);
+        let share = (self.seconds() / most).clamp(0.0, 1.0);
+        let bar = self.bar.get_or_insert_with(|| {
+            let target = ProgressDrawTarget::stderr_with_hz(10);
+            let bar = ProgressBar::with_draw_target(Some(PARTS as u64), target);
+            bar.set_style(
+                ProgressStyle::with_template(SIGN).unwrap_or_else(|_| ProgressStyle::default_bar()),
+            );
+            bar.with_elapsed(began.elapsed())
+                .with_prefix(format!("{most} s"))
+        });
+        bar.set_message(what());
+        bar.set_position((share * PARTS) as u64);
+    }
+}
+
+impl Drop for Sign {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
 fn bar(what: &'static str, elapsed: Duration) -> ProgressBar {
     // Draws nothing where standard error is not a terminal; ten times a second where it is.
     let target = ProgressDrawTarget::stderr_with_hz(10);
@@ -92,7 +149,34 @@ mod tests {
     }
 
     #[test]
-    fn the_template_is_one() {
+    fn the_templates_are_some() {
         assert!(ProgressStyle::with_template("{msg} [{bar:30}] {percent}% ({eta} left)").is_ok());
+        assert!(ProgressStyle::with_template(SIGN).is_ok());
+    }
+
+    #[test]
+    fn a_sign_says_what_it_is_about_and_fills_as_time_goes() {
+        let mut sign = Sign::new(10.0);
+        sign.tick(|| panic!("not yet"));
+        assert!(sign.bar.is_none());
+        sign.began -= Duration::from_secs(5);
+        sign.tick(|| "looking".to_owned());
+        let bar = sign.bar.as_ref();
+        let shown = bar.map(|bar| {
+            (
+                bar.message(),
+                bar.prefix(),
+                bar.position() / 10,
+                bar.length(),
+            )
+        });
+        assert_eq!(
+            shown,
+            Some(("looking".to_owned(), "10 s".to_owned(), 50, Some(1000)))
+        );
+        // Longer than it may take: full, not beyond.
+        sign.began -= Duration::from_secs(20);
+        sign.tick(String::new);
+        assert_eq!(sign.bar.as_ref().map(ProgressBar::position), Some(1000));
     }
 }

@@ -4,6 +4,7 @@ use super::accuracy::measured;
 use super::failure::Failure;
 use super::pose::{self, Pose};
 use super::progress::Progress;
+use super::units::ValueUnits;
 use super::{DONE, UNDECIDED, load, output, terminal};
 use clap::{Args, ValueEnum};
 use kutzbach::accuracy::AccuracyOptions;
@@ -12,7 +13,7 @@ use kutzbach::format::{Numbers, Reading, WriteOptions, write_with};
 use kutzbach::mechanism::{FreedomPart, Mechanism};
 use kutzbach::mobility::{Analysis, ExactBudget};
 use kutzbach::report::html::{Assets, Facts, Prepared};
-use kutzbach::report::text::{Layout, Units, render};
+use kutzbach::report::text::{Layout, render};
 use kutzbach::report::{Options, PlayAsked, Report, assembled_file};
 use kutzbach::report::{Warning, WarningKind};
 use kutzbach::simulate::verification::{
@@ -52,8 +53,8 @@ pub struct Arguments {
     #[arg(long)]
     verbose: bool,
     /// Units of ranges in the text
-    #[arg(long, value_enum, default_value_t = RangeUnits::DegMm)]
-    units: RangeUnits,
+    #[arg(long, value_enum, default_value_t = ValueUnits::DegMm)]
+    units: ValueUnits,
     /// Say how long the stages took
     #[arg(long, help_heading = "Proofs and limits of work")]
     timing: bool,
@@ -105,24 +106,6 @@ enum Format {
     Json,
     /// One page that shows how the mechanism moves, for any browser
     Html,
-}
-
-/// Units of ranges.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum RangeUnits {
-    /// Degrees and millimetres
-    DegMm,
-    /// Radians and metres
-    RadM,
-}
-
-impl From<RangeUnits> for Units {
-    fn from(units: RangeUnits) -> Self {
-        match units {
-            RangeUnits::DegMm => Self::Drawing,
-            RangeUnits::RadM => Self::Si,
-        }
-    }
 }
 
 impl Arguments {

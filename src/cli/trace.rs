@@ -5,6 +5,7 @@ mod table;
 
 use super::failure::Failure;
 use super::pose::{Pose, measured};
+use super::units::ValueUnits;
 use super::{DONE, load, output};
 use clap::{Args, ValueEnum};
 use kutzbach::mechanism::{FreedomPart, Mechanism};
@@ -45,6 +46,9 @@ pub struct Arguments {
     /// Form of the answer
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    /// Units of values in the text; data are in radians and metres
+    #[arg(long, value_enum, default_value_t = ValueUnits::RadM)]
+    units: ValueUnits,
     #[command(flatten)]
     destination: output::Destination,
     #[command(flatten)]
@@ -169,7 +173,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let traced = trace(mechanism, &analysis, &options)
         .map_err(|error| plain(error.to_string(), error.help()))?;
     let text = match arguments.format {
-        Format::Text => table::text(mechanism, &traced, &drawn.points),
+        Format::Text => table::text(mechanism, &traced, &drawn.points, arguments.units),
         Format::Csv => table::csv(mechanism, &traced, &drawn.points),
         Format::Json => output::json(&table::json(mechanism, &traced, &drawn.points))?,
         Format::Svg => drawn.svg(mechanism, &traced)?,

@@ -38,7 +38,6 @@ pub(super) struct Motor<'a> {
 impl<'a> Reader<'a> {
     /// Notes the motors of an element; which joints there are is known only at the end.
     pub(super) fn read_actuation(&mut self, element: Element<'a>) {
-        self.skip(element);
         let known = self.motors.len();
         match element.name() {
             "transmission" => {
@@ -58,12 +57,26 @@ impl<'a> Reader<'a> {
                 }
             }
             _ => {
-                let actuators = element.elements().filter(|part| part.name() == "actuator");
-                for motor in actuators.flat_map(|actuator| actuator.elements()) {
-                    self.note_motor(motor, "joint");
-                    self.note_motor(motor, "jointinparent");
+                for part in element.elements() {
+                    match part.name() {
+                        "actuator" => {
+                            for motor in part.elements() {
+                                self.note_motor(motor, "joint");
+                                self.note_motor(motor, "jointinparent");
+                            }
+                        }
+                        // Told when all of it has been looked at.
+                        "equality" => {}
+                        _ => {
+                            let name = cut(part.written_name());
+                            self.skip_because(part, format!("<{name}> inside <mujoco>"));
+                        }
+                    }
                 }
             }
+        }
+        if self.motors.len() == known && element.name() != "mujoco" {
+            self.skip(element);
         }
         let named = self.motors[known..].iter();
         let joints = named.map(|motor| motor.joint.to_owned()).collect();

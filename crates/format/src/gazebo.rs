@@ -400,13 +400,15 @@ impl<'a> Reader<'a> {
         let free = joints + LOOSE * self.floating.len();
         let tied = self.followers.len() - self.followers_in_gazebo;
         let count = self.in_gazebo.len();
+        let are = if count == 1 { "is" } else { "are" };
         let message = match self.other_closures {
             false => format!(
-                "{} inside <gazebo> and read; without what stands there the file is a tree with {}",
+                "{} inside <gazebo> and {} read; without what stands there the file is a tree with {}",
                 counted_joints(count),
+                are,
                 freedoms(free.saturating_sub(tied))
             ),
-            true => format!("{} inside <gazebo> and read", counted_joints(count)),
+            true => format!("{} inside <gazebo> and {are} read", counted_joints(count)),
         };
         self.warn(at, message);
     }

@@ -8,8 +8,10 @@ use super::hints;
 use super::names::Named;
 use super::reader::{Dialect, Reader};
 use super::unread::{OF_JOINTS, Parts, truth};
+use super::values::LARGEST;
 use super::words::{did_you_mean, quoted};
 use super::world::WORLD;
+use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Direction, Dynamics, Frame, JointBuilder, JointKind, Limit};
 
 /// What may stand inside `<joint>`.
@@ -131,6 +133,13 @@ impl<'a> Reader<'a> {
             None => {
                 self.placed_by.insert(child, name);
             }
+        }
+        if let Some(frame) = self.held_frame(name, kind, &child_frame, &body)? {
+            let held = JointBuilder::tree(name, JointKind::Fixed, parent, child);
+            self.builder
+                .joint(held.origin(origin).successor_origin(frame));
+            self.kinds.insert(name, JointKind::Fixed);
+            return Ok(());
         }
         let builder = JointBuilder::tree(name, kind, parent, child)
             .origin(origin)
@@ -406,10 +415,10 @@ impl<'a> Reader<'a> {
     fn read_limit(&mut self, limit: Element<'a>, word: &str) -> Outcome<Limit> {
         self.leaf_of(limit, &["lower", "upper", "effort", "velocity"], true)?;
         let mut read = Limit {
-            lower: self.optional_number(limit, "lower")?,
-            upper: self.optional_number(limit, "upper")?,
-            effort: self.number_if_readable(limit, "effort"),
-            velocity: self.number_if_readable(limit, "velocity"),
+            lower: self.bound(limit, "lower")?,
+            upper: self.bound(limit, "upper")?,
+            effort: self.rate(limit, "effort"),
+            velocity: self.rate(limit, "velocity"),
         };
         if word == "continuous" && (read.lower.is_some() || read.upper.is_some()) {
             self.warn(
@@ -431,6 +440,21 @@ impl<'a> Reader<'a> {
         Ok(read)
     }
 
+    /// A bound; numbers beyond all that are read stand for none, as `1.79769e+308` of exporters.
+    fn bound(&mut self, limit: Element<'a>, name: &str) -> Outcome<Option<Number>> {
+        match is_endless(limit, name) {
+            true => Ok(None),
+            false => self.optional_number(limit, name),
+        }
+    }
+
+    fn rate(&mut self, limit: Element<'a>, name: &str) -> Option<Number> {
+        match is_endless(limit, name) {
+            true => None,
+            false => self.number_if_readable(limit, name),
+        }
+    }
+
     fn read_dynamics(&mut self, dynamics: Element<'a>) -> Outcome<Dynamics> {
         self.leaf_of(dynamics, &["damping", "friction"], false)?;
         Ok(Dynamics {
@@ -450,6 +474,15 @@ impl<'a> Reader<'a> {
         let what = what.to_owned();
         self.warn_of(at, WarningKind::Meaningless { what, of }, message);
     }
+}
+
+fn is_endless(limit: Element<'_>, name: &str) -> bool {
+    limit.attribute(name).is_some_and(|text| {
+        let value: Result<f64, _> = text.value.trim().parse();
+        // A word such as `inf` is no number of a file.
+        let digits = text.value.contains(|c: char| c.is_ascii_digit());
+        digits && value.is_ok_and(|value| value.abs() > LARGEST)
+    })
 }
 
 fn useless(part: Element<'_>, word: &str) -> super::error::Fault {

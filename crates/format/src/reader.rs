@@ -83,6 +83,8 @@ pub(super) struct Reader<'a> {
     pub(super) taken: HashSet<usize>,
     /// MuJoCo's loops, which are read when all links are known.
     pub(super) connects: Vec<Element<'a>>,
+    /// Joints that MuJoCo's equalities hold, and what says so.
+    pub(super) held: HashMap<&'a str, Element<'a>>,
     /// What joints leave out.
     pub(super) assumed: Assumed<'a>,
     /// Whether links were told that look like the sides of a loop.
@@ -158,6 +160,7 @@ pub(super) fn read(
     reader.resolve_motors();
     reader.note_closing_frames();
     reader.tell_assumed(options.literal);
+    reader.note_equalities();
     reader.note_mentions();
     if options.strict {
         faults.extend(reader.unread.faults(text));
@@ -220,6 +223,7 @@ impl<'a> Reader<'a> {
             joint_names: joint_names(root).collect(),
             taken: HashSet::new(),
             connects: Vec::new(),
+            held: Self::held_joints(root),
             assumed: Assumed::default(),
             closing_frames_told: false,
             second_points: Vec::new(),

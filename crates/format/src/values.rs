@@ -12,7 +12,7 @@ use kutzbach_model::mechanism::{Direction, Frame};
 use std::ops::Range;
 
 /// Exact numbers have no largest one, but floating-point geometry does: products of a few of them must stay finite.
-const LARGEST: f64 = 1e100;
+pub(super) const LARGEST: f64 = 1e100;
 
 /// Numbers and expressions of up to so many bytes are shared; longer ones seldom repeat.
 const LONGEST_SHARED: usize = 24;
@@ -163,11 +163,25 @@ impl<'a> Reader<'a> {
                     .fault("the frame is turned twice, by `rpy` and by `quat_xyzw`")
                     .help("remove one of the two"));
             }
+            if !self.knows_quaternions() {
+                let at = turned.range().start;
+                self.warn(at, "`quat_xyzw` is read; other readers of URDF heed it from version 1.1 on (<robot version=\"1.1\">), and take the frame as not turned here");
+            }
             let quaternion = self.numbers(turned)?;
             frame.roll_pitch_yaw = roll_pitch_yaw(&quaternion)
                 .ok_or_else(|| turned.fault("the zero quaternion is no rotation"))?;
         }
         Ok(frame)
+    }
+
+    /// Whether the file is of a version of URDF that has `quat_xyzw` (1.1; a file without version is of 1.0).
+    fn knows_quaternions(&self) -> bool {
+        let version = self.root.attribute("version");
+        let version = version.and_then(|text| {
+            let (major, minor) = text.value.trim().split_once('.')?;
+            Some((major.parse::<u32>().ok()?, minor.parse::<u32>().ok()?))
+        });
+        version.is_some_and(|version| version >= (1, 1))
     }
 
     /// `<axis xyz/>` or `<axis2 xyz/>`, any length but zero.

@@ -31,20 +31,24 @@ impl Variable {
     }
 }
 
-impl Display for EndReason {
-    fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
+impl EndReason {
+    /// The reason in words, with values as they are to be shown.
+    #[must_use]
+    pub fn told(&self, shown: &dyn Fn(&Variable, f64) -> String) -> String {
         match self {
             Self::JointLimit { variable, value } => {
-                write!(
-                    out,
-                    "joint limit of {} at {}",
-                    variable.name,
-                    value_text(*value)
-                )
+                let value = shown(variable, *value);
+                format!("joint limit of {} at {value}", variable.name)
             }
-            Self::GoesOn => out.write_str("it goes on; followed far enough"),
-            Self::CannotGoOn => out.write_str("no pose is found beyond"),
+            Self::GoesOn => "it goes on; followed far enough".to_owned(),
+            Self::CannotGoOn => "no pose is found beyond".to_owned(),
         }
+    }
+}
+
+impl Display for EndReason {
+    fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
+        out.write_str(&self.told(&|_, value| value_text(value)))
     }
 }
 
@@ -81,48 +85,52 @@ impl EventKind {
     }
 }
 
-impl Display for EventKind {
-    fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
-        match self {
+impl EventKind {
+    /// The event in words, with values as they are to be shown.
+    #[must_use]
+    pub fn told(&self, shown: &dyn Fn(&Variable, f64) -> String) -> String {
+        let mut text = match self {
             Self::DeadCentre {
                 variable,
                 value,
                 greatest,
-            } => write!(
-                out,
+            } => format!(
                 "{} at its {}, {}",
                 variable.name,
                 if *greatest { "maximum" } else { "minimum" },
-                value_text(*value)
-            )?,
-            Self::JointLimit { variable, value } => write!(
-                out,
+                shown(variable, *value)
+            ),
+            Self::JointLimit { variable, value } => format!(
                 "joint limit of {}: {}",
                 variable.name,
-                value_text(*value)
-            )?,
+                shown(variable, *value)
+            ),
             Self::Singular {
                 freedom, excess: 0, ..
-            } => write!(
-                out,
+            } => format!(
                 "input singularity: the joints held do not determine the motion here (freedom {freedom})"
-            )?,
+            ),
             Self::Singular {
                 freedom, crosses, ..
-            } => write!(
-                out,
+            } => format!(
                 "singular pose, freedom {freedom}: {}",
                 if *crosses {
                     "branches cross (bifurcation)"
                 } else {
                     "branches touch (tangential)"
                 }
-            )?,
-            Self::Cusp { .. } => out.write_str("cusp: the motion turns back on its other half")?,
-        }
+            ),
+            Self::Cusp { .. } => "cusp: the motion turns back on its other half".to_owned(),
+        };
         if self.is_home() {
-            out.write_str(", the pose analysed")?;
+            text.push_str(", the pose analysed");
         }
-        Ok(())
+        text
+    }
+}
+
+impl Display for EventKind {
+    fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
+        out.write_str(&self.told(&|_, value| value_text(value)))
     }
 }

@@ -2,7 +2,7 @@
 
 use super::natural::natural_order;
 use super::schema::{Assembly, Gap, JointPlace, OutsideLimit, Reversal};
-use super::text::words::{counted, figure, metres};
+use super::text::words::{counted, in_degrees, metres};
 use kutzbach_closure::{self as closure, Obstacle};
 use kutzbach_format::{WriteOptions, write_with};
 use kutzbach_math::number::Number;
@@ -100,7 +100,7 @@ fn proof(cycle: &str, obstacle: Obstacle, held: usize) -> String {
         ),
         Obstacle::Directions(miss) => format!(
             "the angles between the axes of the loop through `{cycle}`{held_then} miss those of a closed loop by {}°",
-            figure(miss.to_degrees())
+            in_degrees(miss)
         ),
         Obstacle::Offset(along) => format!(
             "all axes of the loop through `{cycle}` are parallel, and its links step {} along them in all{held}",

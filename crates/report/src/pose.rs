@@ -2,7 +2,7 @@
 
 use super::assemble::HOME;
 use super::schema::{Report, Warning, WarningKind};
-use super::text::words::{counted, figure, names};
+use super::text::words::{counted, figure, in_degrees, names};
 use kutzbach_closure::{Arithmetic, Geometry};
 use kutzbach_mobility::{
     Analysis, LimitFact, NearSingular, PoseKind, dead_centres, limit_facts, near_singular,
@@ -205,6 +205,6 @@ fn near_text(mechanism: &Mechanism, found: &NearSingular, block: &str) -> String
 fn measure(part: FreedomPart, value: f64) -> String {
     match part {
         FreedomPart::Translation => format!("{} mm", figure(1e3 * value)),
-        FreedomPart::Rotation | FreedomPart::Screw => format!("{}°", figure(value.to_degrees())),
+        FreedomPart::Rotation | FreedomPart::Screw => format!("{}°", in_degrees(value)),
     }
 }

@@ -31,9 +31,16 @@ impl Roles {
         for motion in links.iter().filter(|motion| motion.freedom == Some(0)) {
             roles.links[motion.link] = Role::Locked;
         }
+        // A rod that carries the platform along and spins besides is not idle: all that an idle link does must be its own.
+        let freedom = |link: usize| {
+            let motion = links.iter().find(|motion| motion.link == link);
+            motion.and_then(|motion| motion.freedom)
+        };
         for idle in idle {
             for &link in idle.with.iter().chain([&idle.link]) {
-                roles.links[link] = Role::Idle;
+                if freedom(link) == Some(idle.freedom) {
+                    roles.links[link] = Role::Idle;
+                }
             }
         }
         if let Some(joint) = driven {

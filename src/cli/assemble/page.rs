@@ -55,7 +55,7 @@ pub(super) fn page(reading: &Reading, file: &Path, modes: &Modes) -> Result<Stri
             values: values(mechanism, &modes.configurations[one.number]),
         })
         .collect();
-    let mut sentences: Vec<String> = words::text(mechanism, modes)
+    let mut sentences: Vec<String> = words::text(mechanism, modes, words::Units::Si)
         .lines()
         .take_while(|line| !line.starts_with("Configuration "))
         .map(|line| line.trim().trim_start_matches("• ").to_owned())

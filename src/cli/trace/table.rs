@@ -1,10 +1,9 @@
 //! A trace as text, as comma-separated rows and as JSON.
 
+use crate::cli::units::ValueUnits;
 use kutzbach::closure::Rigid;
-use kutzbach::mechanism::Mechanism;
-use kutzbach::motion::{
-    EndReason, EventKind, Motion, Spacing, Trace, Variable, value_text as short,
-};
+use kutzbach::mechanism::{FreedomPart, Mechanism};
+use kutzbach::motion::{EndReason, EventKind, Motion, Spacing, Trace, Variable, value_text};
 use kutzbach::report::picture::traced::LinkPoint;
 use kutzbach::report::text::visible;
 use serde_json::{Value, json};
@@ -13,9 +12,32 @@ use std::fmt::Write;
 /// The version of the JSON.
 const SCHEMA: &str = "kutzbach-trace-1";
 
-fn extent(motion: &Motion) -> String {
+/// A mechanism and the units in which its values are told.
+struct Told<'a> {
+    mechanism: &'a Mechanism,
+    units: ValueUnits,
+}
+
+impl Told<'_> {
+    fn part(&self, variable: &Variable) -> FreedomPart {
+        self.mechanism.joints()[variable.joint].kind.freedoms()[variable.freedom]
+    }
+
+    fn value(&self, variable: &Variable, value: f64) -> String {
+        self.units.value(self.part(variable), value)
+    }
+
+    fn unit(&self, variable: &Variable) -> &'static str {
+        self.units.of(self.part(variable)).0
+    }
+}
+
+fn extent(motion: &Motion, told: &Told<'_>) -> String {
     match motion.closed {
-        Some(length) => format!("closed curve, one cycle of arclength {}", short(length)),
+        Some(length) => format!(
+            "closed curve, one cycle of arclength {}",
+            value_text(length)
+        ),
         None => {
             let ends: Vec<String> = motion
                 .ends
@@ -24,8 +46,9 @@ fn extent(motion: &Motion) -> String {
                     format!(
                         "at {} = {}: {}",
                         motion.driven.name,
-                        short(end.drive),
+                        told.value(&motion.driven, end.drive),
                         end.reason
+                            .told(&|variable, value| told.value(variable, value))
                     )
                 })
                 .collect();
@@ -35,7 +58,13 @@ fn extent(motion: &Motion) -> String {
 }
 
 /// A page for a person.
-pub fn text(mechanism: &Mechanism, trace: &Trace, points: &[LinkPoint]) -> String {
+pub fn text(
+    mechanism: &Mechanism,
+    trace: &Trace,
+    points: &[LinkPoint],
+    units: ValueUnits,
+) -> String {
+    let told = Told { mechanism, units };
     let mut page = String::new();
     // Writing into a string does not fail.
     let mut line = |text: String| {
@@ -54,7 +83,7 @@ pub fn text(mechanism: &Mechanism, trace: &Trace, points: &[LinkPoint]) -> Strin
         motion.branch,
         motion.branches.len(),
         motion.dimension,
-        extent(motion)
+        extent(motion, &told)
     ));
     for note in &motion.notes {
         line(format!("  • {note}"));
@@ -62,14 +91,14 @@ pub fn text(mechanism: &Mechanism, trace: &Trace, points: &[LinkPoint]) -> Strin
     line(format!(
         "  • driven: {} ({})",
         motion.driven.name,
-        motion.driven.unit(mechanism)
+        told.unit(&motion.driven)
     ));
     for held in &motion.held {
         line(format!(
             "  • held: {} = {} {}",
             held.variable.name,
-            short(held.value),
-            held.variable.unit(mechanism)
+            told.value(&held.variable, held.value),
+            told.unit(&held.variable)
         ));
     }
     if !motion.starts_at_home {
@@ -81,19 +110,22 @@ pub fn text(mechanism: &Mechanism, trace: &Trace, points: &[LinkPoint]) -> Strin
         line(format!(
             "  • {} = {} is not reached, only {}: {}",
             motion.driven.name,
-            short(unreached.wanted),
-            short(unreached.reached),
+            told.value(&motion.driven, unreached.wanted),
+            told.value(&motion.driven, unreached.reached),
             unreached.reason
         ));
     }
     line(format!(
-        "  • {} samples, equidistant in {}; largest closure {:.0e} of a loop's length (allowed {:.0e})",
+        "  • {} samples, equidistant in {}; largest closure {} of a loop's length (allowed {:.0e})",
         motion.samples.len(),
         match motion.spacing {
             Spacing::Drive => motion.driven.name.as_str(),
             Spacing::Arclength => "arclength",
         },
-        round_up(motion.largest_closure),
+        match round_up(motion.largest_closure) {
+            0.0 => "0".to_owned(),
+            closure => format!("{closure:.0e}"),
+        },
         motion.allowed_closure
     ));
     line(String::new());
@@ -108,9 +140,11 @@ pub fn text(mechanism: &Mechanism, trace: &Trace, points: &[LinkPoint]) -> Strin
         ])
         .chain(motion.events.iter().map(|event| {
             vec![
-                short(event.arclength),
-                short(event.drive),
-                event.kind.to_string(),
+                value_text(event.arclength),
+                told.value(&motion.driven, event.drive),
+                event
+                    .kind
+                    .told(&|variable, value| told.value(variable, value)),
             ]
         }))
         .collect();
@@ -133,10 +167,10 @@ pub fn text(mechanism: &Mechanism, trace: &Trace, points: &[LinkPoint]) -> Strin
         .chain(motion.ranges.iter().map(|range| {
             let mut row = vec![
                 range.variable.name.clone(),
-                range.variable.unit(mechanism).to_owned(),
-                short(range.min),
-                short(range.max),
-                short(range.travel),
+                told.unit(&range.variable).to_owned(),
+                told.value(&range.variable, range.min),
+                told.value(&range.variable, range.max),
+                told.value(&range.variable, range.travel),
                 range.turns.to_string(),
                 range.dead_centres.to_string(),
             ];
@@ -151,8 +185,9 @@ pub fn text(mechanism: &Mechanism, trace: &Trace, points: &[LinkPoint]) -> Strin
         .for_each(&mut line);
     if !points.is_empty() {
         line(String::new());
-        line("Paths of points (m)".to_owned());
-        aligned(&extents(motion, points), &[false, false, true, true])
+        let (unit, _) = units.of(FreedomPart::Translation);
+        line(format!("Paths of points ({unit})"));
+        aligned(&extents(motion, points, units), &[false, false, true, true])
             .into_iter()
             .for_each(&mut line);
     }
@@ -160,7 +195,7 @@ pub fn text(mechanism: &Mechanism, trace: &Trace, points: &[LinkPoint]) -> Strin
 }
 
 /// How far the paths of points reach along the axes of the world.
-fn extents(motion: &Motion, points: &[LinkPoint]) -> Vec<Vec<String>> {
+fn extents(motion: &Motion, points: &[LinkPoint], units: ValueUnits) -> Vec<Vec<String>> {
     let mut rows = vec![["point", "axis", "from", "to"].map(str::to_owned).to_vec()];
     for point in points {
         let path = point.path(motion);
@@ -169,8 +204,14 @@ fn extents(motion: &Motion, points: &[LinkPoint]) -> Vec<Vec<String>> {
             rows.push(vec![
                 point.name.clone(),
                 axis.to_owned(),
-                short(values().fold(f64::INFINITY, f64::min)),
-                short(values().fold(f64::NEG_INFINITY, f64::max)),
+                units.value(
+                    FreedomPart::Translation,
+                    values().fold(f64::INFINITY, f64::min),
+                ),
+                units.value(
+                    FreedomPart::Translation,
+                    values().fold(f64::NEG_INFINITY, f64::max),
+                ),
             ]);
         }
     }

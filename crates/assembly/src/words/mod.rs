@@ -5,7 +5,7 @@ mod modes;
 mod seams;
 
 pub use incidence::IncidenceWords;
-pub use modes::{SCHEMA, data, note, text};
+pub use modes::{SCHEMA, Units, data, note, text};
 pub use seams::SeamWords;
 
 /// A number with its word.

@@ -2,7 +2,7 @@
 
 use super::count;
 use crate::modes::{Complete, Configuration, LeftOut, Modes, Pose, WITHIN, Way, Why};
-use kutzbach_model::mechanism::{Joint, JointId, JointKind, Mechanism};
+use kutzbach_model::mechanism::{FreedomPart, Joint, JointId, JointKind, Mechanism};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
@@ -179,9 +179,39 @@ pub fn data(mechanism: &Mechanism, modes: &Modes) -> Value {
     })
 }
 
+/// The units of values in a text.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Units {
+    /// Radians and metres.
+    #[default]
+    Si,
+    /// Degrees and millimetres.
+    Drawing,
+}
+
+impl Units {
+    /// A value (rad, m) in its unit, and the unit's name.
+    fn of(self, part: FreedomPart, value: f64) -> (f64, &'static str) {
+        match (self, part) {
+            (Self::Si, _) => (value, ""),
+            (Self::Drawing, FreedomPart::Translation) => (1000.0 * value, " mm"),
+            (Self::Drawing, _) => (value.to_degrees(), "°"),
+        }
+    }
+
+    /// Numbers in columns, each with the unit of its freedom where that is not plain.
+    fn columns(self, values: &[f64], parts: impl Fn(usize) -> FreedomPart) -> String {
+        let shown = values.iter().enumerate().map(|(index, value)| {
+            let (value, unit) = self.of(parts(index), *value);
+            format!("{:9.5}{unit}", (value * 1e5).round() / 1e5 + 0.0)
+        });
+        shown.collect::<Vec<_>>().join(" ")
+    }
+}
+
 /// Lines for a person.
 #[must_use]
-pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
+pub fn text(mechanism: &Mechanism, modes: &Modes, units: Units) -> String {
     let mut text = String::new();
     let found = modes.configurations.len();
     let unproven = modes.configurations.iter().filter(|c| !c.proven).count();
@@ -248,7 +278,7 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
     if let Complete::Unknown(why) = &modes.complete {
         let _ = writeln!(text, "  • {why}.");
     }
-    left_out_lines(&mut text, mechanism, modes);
+    left_out_lines(&mut text, mechanism, modes, units);
     if unproven > 0 && modes.complete == Complete::Proven {
         let _ = writeln!(
             text,
@@ -285,7 +315,13 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
     if !modes.held.is_empty() {
         let held = modes.held.iter();
         let held: Vec<String> = held
-            .map(|(j, v)| format!("{} = {}", mechanism.joint(*j).name, plain(v.value())))
+            .map(|(j, v)| {
+                let joint = mechanism.joint(*j);
+                let part = joint.kind.freedoms().first();
+                let part = part.copied().unwrap_or(FreedomPart::Rotation);
+                let (value, unit) = units.of(part, v.value());
+                format!("{} = {}{unit}", joint.name, plain(value))
+            })
             .collect();
         let _ = writeln!(text, "\nHeld: {}", held.join(", "));
         held_near(&mut text, mechanism, modes);
@@ -297,8 +333,8 @@ pub fn text(mechanism: &Mechanism, modes: &Modes) -> String {
             note => format!(" ({note})"),
         };
         let _ = writeln!(text, "\nConfiguration {}{marks}", number + 1);
-        joint_lines(&mut text, mechanism, configuration);
-        link_lines(&mut text, mechanism, configuration);
+        joint_lines(&mut text, mechanism, configuration, units);
+        link_lines(&mut text, mechanism, configuration, units);
     }
     text
 }
@@ -310,7 +346,7 @@ fn beyond_limits(modes: &Modes) -> usize {
 }
 
 /// What was found and is no configuration.
-fn left_out_lines(text: &mut String, mechanism: &Mechanism, modes: &Modes) {
+fn left_out_lines(text: &mut String, mechanism: &Mechanism, modes: &Modes, units: Units) {
     let name = |joint: &JointId| mechanism.joint(*joint).name.as_str();
     for out in &modes.left_out {
         let drawn = match out.configuration.drawn {
@@ -327,10 +363,17 @@ fn left_out_lines(text: &mut String, mechanism: &Mechanism, modes: &Modes) {
             Why::Limit { joint, value } => {
                 let held = &mechanism.joint(*joint);
                 let (lower, upper) = held.bounds().unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+                let part = held.kind.freedoms().first().copied();
+                let shown = |value: f64| {
+                    let (value, unit) = units.of(part.unwrap_or(FreedomPart::Rotation), value);
+                    format!("{value:.5}{unit}")
+                };
                 format!(
-                    "a configuration{drawn} that closes with `{}` at {:.5}, beyond its limits {lower:.5} to {upper:.5}",
+                    "a configuration{drawn} that closes with `{}` at {}, beyond its limits {} to {}",
                     name(joint),
-                    plain(*value)
+                    shown(plain(*value)),
+                    shown(lower),
+                    shown(upper)
                 )
             }
         };
@@ -378,26 +421,30 @@ fn is_shown(joint: &Joint) -> bool {
     joint.freedom() > 0 && joint.kind != JointKind::Distance
 }
 
-/// Numbers (m, rad) in columns.
-fn columns(values: &[f64]) -> String {
-    let shown: Vec<String> = values
-        .iter()
-        .map(|v| format!("{:9.5}", (v * 1e5).round() / 1e5 + 0.0))
-        .collect();
-    shown.join(" ")
-}
-
-fn joint_lines(text: &mut String, mechanism: &Mechanism, configuration: &Configuration) {
+fn joint_lines(
+    text: &mut String,
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    units: Units,
+) {
     for (joint, values) in &configuration.joints {
         let joint = mechanism.joint(*joint);
         if let Some(values) = values.as_ref().filter(|_| is_shown(joint)) {
-            let _ = writeln!(text, "  {:<20} {}", joint.name, columns(values));
+            let parts = joint.kind.freedoms();
+            let part = |index: usize| parts.get(index).copied().unwrap_or(FreedomPart::Rotation);
+            let values = units.columns(values, part);
+            let _ = writeln!(text, "  {:<20} {values}", joint.name);
         }
     }
 }
 
 /// Links that bars alone hold have no joint values that would tell where they are.
-fn link_lines(text: &mut String, mechanism: &Mechanism, configuration: &Configuration) {
+fn link_lines(
+    text: &mut String,
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    units: Units,
+) {
     for (index, (link, pose)) in mechanism
         .links()
         .iter()
@@ -416,8 +463,8 @@ fn link_lines(text: &mut String, mechanism: &Mechanism, configuration: &Configur
                 text,
                 "  {:<20} at {}, turned by {}",
                 link.name,
-                columns(&pose.translation),
-                columns(&pose.rotation_vector())
+                units.columns(&pose.translation, |_| FreedomPart::Translation),
+                units.columns(&pose.rotation_vector(), |_| FreedomPart::Rotation)
             );
         }
     }

@@ -8,13 +8,13 @@ use super::names::Names;
 use super::ranges::ranges;
 use super::{Assets, Facts, Stage, plots};
 use crate::definitions;
-use crate::picture::pictogram::{self, Pictogram};
+use crate::picture::pictogram::{self, Build, Pictogram};
 use crate::picture::plot;
 use crate::picture::sketch::{self, Sketch};
 use crate::schema::{Cycle, Report};
 use crate::text::words::metres;
 use crate::text::{
-    Block, Layout, Page, Units, assembly, branches, counts, explanation, four_bars, joints,
+    Block, Layout, Page, Units, assembly, branches, counts, explanation, four_bars, inputs, joints,
     sections, verdict,
 };
 use base64::Engine;
@@ -125,12 +125,14 @@ fn verbose() -> Page {
 
 fn body(facts: &Facts<'_>, stage: &Stage, names: &Names, out: &mut String) {
     let report = facts.report;
-    let mut page = verbose();
-    verdict::write(report, &mut page);
-    let is_reason = |block: &Block| matches!(block, Block::Item { .. } | Block::Gap);
-    let all = page.blocks();
-    let (answer, reasons) = all.split_at(all.iter().position(is_reason).unwrap_or(all.len()));
-    header(report, answer, names, out);
+    let mut answer = verbose();
+    verdict::answer(report, &mut answer);
+    inputs::inputs(report, &mut answer);
+    sections::pose(report, &mut answer);
+    header(report, answer.blocks(), names, out);
+    let mut reasons = verbose();
+    verdict::reasons(report, &mut reasons);
+    verdict::source(report, &mut reasons);
     out.push_str("<section id=\"motion\"><h2>Motion</h2>\n<div id=\"stage\">");
     out.push_str(&still(facts.mechanism, stage, STILL));
     out.push_str("</div>\n<div id=\"controls\"></div>\n");
@@ -142,7 +144,7 @@ fn body(facts: &Facts<'_>, stage: &Stage, names: &Names, out: &mut String) {
         ));
     }
     out.push_str("</section>\n<section id=\"reasons\">\n");
-    blocks::write(reasons, names, out);
+    blocks::write(reasons.blocks(), names, out);
     out.push_str("</section>\n");
     let section = |id: &str, write: &dyn Fn(&mut Page), out: &mut String| {
         let mut page = verbose();
@@ -182,7 +184,11 @@ fn body(facts: &Facts<'_>, stage: &Stage, names: &Names, out: &mut String) {
         accuracy::section(accuracy, names, out);
     }
     section("advice", &|page| sections::advice(report, page), out);
-    section("warnings", &|page| sections::warnings(report, page), out);
+    section(
+        "warnings",
+        &|page| sections::other_warnings(report, page),
+        out,
+    );
     section("evidence", &|page| branches::evidence(report, page), out);
     section("details", &|page| sections::details(report, page), out);
     definition_list(names, out);
@@ -191,7 +197,12 @@ fn body(facts: &Facts<'_>, stage: &Stage, names: &Names, out: &mut String) {
 /// What to read first; the reasons stand below the mechanism.
 fn header(report: &Report, answer: &[Block], names: &Names, out: &mut String) {
     let mobility = &report.mobility;
-    let sign = Pictogram::of(mobility.verdict, mobility.class, report.home.kind);
+    let build = match report.four_bars.as_slice() {
+        _ if report.size.loops == 0 => Build::Tree,
+        [bar] if !bar.within_larger => Build::FourBar,
+        _ => Build::Other,
+    };
+    let sign = Pictogram::of(mobility.verdict, mobility.class, report.home.kind, build);
     out.push_str(&format!(
         "<header id=\"verdict\">\n{}\n<h1>{}</h1>\n",
         sign.fragment(),

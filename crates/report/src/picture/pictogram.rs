@@ -16,10 +16,25 @@ svg.pictogram .j{fill:#fff;stroke:#223;stroke:var(--sign-ink);stroke-width:1.8}\
 svg.pictogram .k{fill:#c4501b;fill:var(--sign-other)}\
 @media screen and (prefers-color-scheme:dark){svg.pictogram .j{fill:#161b22}}";
 
+/// How a mechanism is built, as far as its sign shows it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Build {
+    /// Without loops.
+    Tree,
+    /// One loop of four bars on the ground.
+    FourBar,
+    /// In any other way.
+    Other,
+}
+
 /// The kinds of answer that have a sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Pictogram {
-    /// Mobile, and all displacements lie in one subgroup: a planar four-bar linkage.
+    /// An open chain.
+    Tree,
+    /// Mobile as its count predicts, with a loop of four bars on the ground.
+    FourBar,
+    /// Mobile as its count predicts: a platform on legs.
     Trivial,
     /// Mobile by the subgroups of its chains: two planes that share a slide.
     Exceptional,
@@ -51,7 +66,9 @@ pub enum Pictogram {
 
 impl Pictogram {
     /// Every sign.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 16] = [
+        Self::Tree,
+        Self::FourBar,
         Self::Trivial,
         Self::Exceptional,
         Self::Paradoxical,
@@ -68,10 +85,15 @@ impl Pictogram {
         Self::Unassembled,
     ];
 
-    /// The sign of an answer. `class` is known at regular poses of mobile mechanisms, `kind` at singular poses; the kind
+    /// The sign of an answer about a mechanism of this build. `class` is known at regular poses of mobile mechanisms, `kind` at singular poses; the kind
     /// is what is worth showing where there is one.
     #[must_use]
-    pub fn of(verdict: Verdict, class: Option<MobilityClass>, kind: Option<SingularKind>) -> Self {
+    pub fn of(
+        verdict: Verdict,
+        class: Option<MobilityClass>,
+        kind: Option<SingularKind>,
+        build: Build,
+    ) -> Self {
         match (verdict, kind, class) {
             (Verdict::Undecided, ..) => Self::Undecided,
             (Verdict::Unassembled, ..) => Self::Unassembled,
@@ -85,7 +107,9 @@ impl Pictogram {
                 SingularKind::PermanentlyShaky => Self::PermanentlyShaky,
                 SingularKind::Shaky => Self::Singular,
             },
+            (Verdict::Mobile, None, _) if build == Build::Tree => Self::Tree,
             (Verdict::Mobile, None, Some(class)) => match class {
+                MobilityClass::Trivial if build == Build::FourBar => Self::FourBar,
                 MobilityClass::Trivial => Self::Trivial,
                 MobilityClass::Exceptional => Self::Exceptional,
                 MobilityClass::Paradoxical => Self::Paradoxical,
@@ -98,7 +122,9 @@ impl Pictogram {
     #[must_use]
     pub fn title(self) -> &'static str {
         match self {
-            Self::Trivial => "mobile: all displacements lie in one subgroup",
+            Self::Tree => "mobile: an open chain",
+            Self::FourBar => "mobile, as the count predicts: a four-bar linkage",
+            Self::Trivial => "mobile, as the count predicts",
             Self::Exceptional => "mobile: explained by the subgroups of its chains",
             Self::Paradoxical => "mobile: paradoxical, explained by no subgroup",
             Self::Mobile => "mobile",
@@ -158,7 +184,20 @@ impl Pictogram {
     /// Classes and paths, back to front.
     fn lines(self) -> &'static [(&'static str, &'static str)] {
         match self {
+            Self::Tree => &[
+                ("g thin", "M6 54H26M9 54L6 58M15 54L12 58M21 54L18 58"),
+                ("a", "M16 50L22 26L42 16L56 30"),
+                ("b thin", "M52 12A18 18 0 0 1 60 22M61 16L60 23L54 20"),
+            ],
             Self::Trivial => &[
+                ("g thin", "M6 56H58"),
+                ("a", "M12 14H52"),
+                (
+                    "g",
+                    "M12 52L20 32L16 14M32 52L40 32L32 14M52 52L58 32L48 14",
+                ),
+            ],
+            Self::FourBar => &[
                 (
                     "g thin",
                     "M6 54H22M42 54H58M9 54L6 58M15 54L12 58M21 54L18 58M45 54L42 58M51 54L48 58M57 54L54 58",
@@ -240,7 +279,16 @@ impl Pictogram {
     /// Classes and centres of joints.
     fn points(self) -> &'static [(&'static str, f64, f64)] {
         match self {
+            Self::Tree => &[("j", 16.0, 50.0), ("j", 22.0, 26.0), ("j", 42.0, 16.0)],
             Self::Trivial => &[
+                ("j", 12.0, 52.0),
+                ("j", 32.0, 52.0),
+                ("j", 52.0, 52.0),
+                ("j", 16.0, 14.0),
+                ("j", 32.0, 14.0),
+                ("j", 48.0, 14.0),
+            ],
+            Self::FourBar => &[
                 ("j", 14.0, 50.0),
                 ("j", 20.0, 22.0),
                 ("j", 48.0, 14.0),
@@ -298,7 +346,9 @@ mod tests {
         for verdict in Verdict::ALL {
             for class in MobilityClass::ALL.iter().copied().map(Some).chain([None]) {
                 for kind in SingularKind::ALL.iter().copied().map(Some).chain([none]) {
-                    found.push(Pictogram::of(*verdict, class, kind));
+                    for build in [Build::Tree, Build::FourBar, Build::Other] {
+                        found.push(Pictogram::of(*verdict, class, kind, build));
+                    }
                 }
             }
         }
@@ -308,7 +358,12 @@ mod tests {
         all.sort();
         assert_eq!(found, all);
         assert_eq!(
-            Pictogram::of(Verdict::Rigid, None, Some(SingularKind::Shaky)),
+            Pictogram::of(
+                Verdict::Rigid,
+                None,
+                Some(SingularKind::Shaky),
+                Build::Other
+            ),
             Pictogram::Shaky
         );
     }

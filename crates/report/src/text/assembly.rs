@@ -5,7 +5,7 @@ use super::page::Page;
 use super::sections::{more, rows_of};
 use super::style::Tint;
 use super::table::{Cell, Column, Subject, Table};
-use super::words::{counted, figure, metres, names};
+use super::words::{counted, figure, in_degrees, metres, names};
 use crate::assemble::HOME;
 use crate::schema::{Assembly, Gap, JointPlace, Report};
 use kutzbach_mobility::Verdict;
@@ -76,7 +76,7 @@ fn how_far(report: &Report) -> String {
             "{drawn}, loop `{}` is open by {} and {}°.",
             gap.cycle,
             metres(gap.position),
-            figure(gap.angle.to_degrees())
+            in_degrees(gap.angle)
         ),
         None => "The file's pose does not satisfy its couplings.".to_owned(),
     };
@@ -99,7 +99,7 @@ fn how_far(report: &Report) -> String {
             .filter(|place| by(place) > SHOWN)
     };
     let turned = farthest(|place| place.turned)
-        .map(|place| format!("`{}` by {}°", place.name, figure(place.turned.to_degrees())));
+        .map(|place| format!("`{}` by {}°", place.name, in_degrees(place.turned)));
     let shifted = farthest(|place| place.shifted)
         .map(|place| format!("`{}` by {}", place.name, metres(place.shifted)));
     let corrections: Vec<String> = turned.into_iter().chain(shifted).collect();
@@ -138,7 +138,7 @@ pub(super) fn left_open(assembly: &Assembly) -> Option<String> {
         "As written it does not close: loop `{}` stays open by {} and {}°{others}. This counts as closed{tolerance}.",
         worst.cycle,
         metres(worst.left_position),
-        figure(worst.left_angle.to_degrees()),
+        in_degrees(worst.left_angle),
     ))
 }
 
@@ -166,7 +166,7 @@ fn held(assembly: &Assembly) -> Option<String> {
 fn outside(assembly: &Assembly) -> Option<String> {
     let worst = assembly.outside_limits.first()?;
     let by = if worst.angle {
-        format!("{}°", figure(worst.by.abs().to_degrees()))
+        format!("{}°", in_degrees(worst.by.abs()))
     } else {
         metres(worst.by.abs())
     };
@@ -229,7 +229,7 @@ fn values(place: &JointPlace, values: &[f64]) -> String {
 }
 
 fn amount(place: &JointPlace) -> String {
-    let turned = (place.turned > SHOWN).then(|| format!("{}°", figure(place.turned.to_degrees())));
+    let turned = (place.turned > SHOWN).then(|| format!("{}°", in_degrees(place.turned)));
     let shifted = (place.shifted > SHOWN).then(|| metres(place.shifted));
     let both: Vec<String> = turned.into_iter().chain(shifted).collect();
     both.join(", ")
@@ -268,7 +268,7 @@ fn open(assembly: &Assembly, page: &mut Page) {
             vec![
                 Cell::new(&gap.cycle),
                 Cell::new(metres(gap.left_position)).tint(Tint::Bad),
-                Cell::new(figure(gap.left_angle.to_degrees())),
+                Cell::new(in_degrees(gap.left_angle)),
             ],
         );
     }
@@ -330,7 +330,7 @@ pub(super) fn unassembled(assembly: &Assembly) -> String {
         format!(
             " (nearest: {} and {}° at loop `{}`)",
             metres(gap.left_position),
-            figure(gap.left_angle.to_degrees()),
+            in_degrees(gap.left_angle),
             gap.cycle
         )
     });

@@ -55,16 +55,11 @@ fn told(bar: &FourBar, units: Units) -> String {
     )
 }
 
-/// `crank turns fully`, `rocker swings 66.3° (41.4 … 108°)`.
+/// `crank turns fully`, `rocker swings by 66.3°`: between which values its joint goes, the table of joints says from where that is counted.
 fn swing(one: &Swing, units: Units) -> String {
     match one.extremes {
         None => format!("{} turns fully", one.link),
-        Some([from, to]) => format!(
-            "{} swings by {} ({} from the ground line)",
-            one.link,
-            angle(to - from, units),
-            between([from, to], units)
-        ),
+        Some([from, to]) => format!("{} swings by {}", one.link, angle(to - from, units)),
     }
 }
 

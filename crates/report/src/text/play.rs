@@ -3,7 +3,7 @@
 use super::page::Page;
 use super::style::Tint;
 use super::table::{Cell, Column, Subject, Table};
-use super::words::{counted, figure, metres, names};
+use super::words::{counted, figure, in_degrees, metres, names, times};
 use crate::play::Play;
 use crate::schema::Report;
 
@@ -39,7 +39,7 @@ pub(super) fn play(report: &Report, page: &mut Page) {
             vec![
                 Cell::new(&joint.name).tint(Tint::Strong),
                 Cell::new(metres(joint.shift)),
-                Cell::new(figure(joint.tilt.to_degrees())),
+                Cell::new(in_degrees(joint.tilt)),
             ],
         );
     }
@@ -64,7 +64,7 @@ fn needed(play: &Play) -> String {
         );
     }
     let at = match play.angle {
-        true => format!("{}°", figure(play.at.to_degrees())),
+        true => format!("{}°", in_degrees(play.at)),
         false => metres(play.at),
     };
     let left_out = match play.left_out {
@@ -90,8 +90,8 @@ fn clearance(play: &Play) -> Option<String> {
     };
     Some(match play.passes? {
         true => format!(
-            "A clearance of {clearance} suffices, and would for {} times this misalignment.",
-            figure(forgiven)
+            "A clearance of {clearance} suffices, and would for {} this misalignment.",
+            times(forgiven)
         ),
         false => format!(
             "A clearance of {clearance} does not suffice: it forgives {} of this misalignment.",

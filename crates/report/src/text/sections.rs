@@ -300,7 +300,7 @@ const CHANGES: usize = 4;
 const ADVICE: usize = 8;
 
 /// What is wrong with the pose.
-pub(super) fn pose(report: &Report, page: &mut Page) {
+pub(crate) fn pose(report: &Report, page: &mut Page) {
     let all = report.warnings.iter();
     let told: Vec<&Warning> = all.filter(|w| w.kind.is_told_first()).collect();
     // A block's name has no capital.
@@ -321,16 +321,9 @@ pub(super) fn pose(report: &Report, page: &mut Page) {
     }
 }
 
-/// What to beware of.
-#[cfg(feature = "html")]
-pub(crate) fn warnings(report: &Report, page: &mut Page) {
-    let all: Vec<Warning> = report.warnings.clone();
-    list(&all, page);
-}
-
 /// What to beware of besides the pose; on a first screen without what the answer says already, and without what in the file
 /// has no meaning, which counts as not read.
-pub(super) fn other_warnings(report: &Report, page: &mut Page) {
+pub(crate) fn other_warnings(report: &Report, page: &mut Page) {
     let verbose = page.layout().verbose;
     let floats = report.freedoms.as_ref().is_some_and(|f| f.floating > 0);
     let told = |kind: WarningKind| match kind {

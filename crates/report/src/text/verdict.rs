@@ -10,16 +10,8 @@ use super::words::{capitalised, counted, degrees, figure, metres, names};
 use crate::schema::{AsWritten, Branch, Nominal, Report, WarningKind, WrittenKind, WrittenStyle};
 use kutzbach_mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
 
-/// Writes the verdict, its reasons and the line that says what was read.
-#[cfg(feature = "html")]
-pub(crate) fn write(report: &Report, page: &mut Page) {
-    answer(report, page);
-    reasons(report, page);
-    source(report, page);
-}
-
 /// The verdict, and what is held.
-pub(super) fn answer(report: &Report, page: &mut Page) {
+pub(crate) fn answer(report: &Report, page: &mut Page) {
     let tint = match report.mobility.verdict {
         Verdict::Mobile => Tint::Good,
         Verdict::Rigid => Tint::Notable,
@@ -47,7 +39,7 @@ pub(super) fn answer(report: &Report, page: &mut Page) {
 }
 
 /// Why it is not more and not less: in a line each, with proofs where everything is asked for.
-pub(super) fn reasons(report: &Report, page: &mut Page) {
+pub(crate) fn reasons(report: &Report, page: &mut Page) {
     let verbose = page.layout().verbose;
     let open = report.mobility.verdict == Verdict::Undecided;
     for reason in [not_more(report, verbose), not_less(report, verbose)]
@@ -67,7 +59,7 @@ pub(super) fn reasons(report: &Report, page: &mut Page) {
 }
 
 /// What was read.
-pub(super) fn source(report: &Report, page: &mut Page) {
+pub(crate) fn source(report: &Report, page: &mut Page) {
     page.gap();
     let verbose = page.layout().verbose;
     page.paragraph(&identity(report, verbose), Tint::Quiet, "", "");

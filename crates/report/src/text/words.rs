@@ -189,6 +189,27 @@ pub fn figure(value: f64) -> String {
     }
 }
 
+/// Angles below this (rad) are what rounding of double precision leaves of none: a thousand times the last bit of 2π.
+const NO_ANGLE: f64 = 1e-12;
+
+/// An angle (rad) in degrees, without its unit; nothing but rounding is 0.
+#[must_use]
+pub fn in_degrees(angle: f64) -> String {
+    match angle.abs() < NO_ANGLE {
+        true => figure(0.0),
+        false => figure(angle.to_degrees()),
+    }
+}
+
+/// How many times, where beyond a thousand times nobody counts.
+#[must_use]
+pub fn times(factor: f64) -> String {
+    match factor > 1000.0 {
+        true => "more than 1000 times".to_owned(),
+        false => format!("{} times", figure(factor)),
+    }
+}
+
 /// A length in the unit that fits, from nanometres to metres: `9.6 µm`, `1.2 mm`.
 #[must_use]
 pub fn metres(value: f64) -> String {
