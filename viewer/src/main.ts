@@ -7,6 +7,7 @@ import { branchChoice, driveChoice, loopChoice, speedChoice, toggles, viewButton
 import { Transport } from "./controls/transport";
 import { element } from "./dom";
 import { Frames } from "./frames";
+import { makeSearchable } from "./gallery";
 import { fitGraphs } from "./graph";
 import { Lights, followPage } from "./lights";
 import { readPageData, type PageData } from "./page_data";
@@ -90,6 +91,7 @@ function options(stage: Stage | null, player: Player): HTMLElement {
 }
 
 makeSortable(document);
+makeSearchable(document);
 fitGraphs(document);
 const data = readPageData();
 const host = document.getElementById("stage");

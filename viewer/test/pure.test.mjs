@@ -16,6 +16,7 @@ const { nearestVertex } = await source("plots.ts");
 const { neededPoints } = await source("stage/paths.ts");
 const { rgb, hex, onPage } = await source("colours.ts");
 const { numericOrder } = await source("tables.ts");
+const { isFound, familiesOf } = await source("gallery.ts");
 
 test("base64 gives back little-endian floats", () => {
   const numbers = [0, -1.5, Math.fround(Math.PI), 2 ** 100, -0];
@@ -192,4 +193,18 @@ test("the picture turns about the axis that stands upright", async () => {
   assert.deepEqual(turned([0, 0, 1], [0, 1, 0]), [0, 1, 0]);
   const leaning = turned([0, 0, 1], [1, 1, 0]);
   assert.ok(Math.abs(leaning[0] - Math.SQRT1_2) < 1e-12 && leaning[2] === 0);
+});
+
+test("a gallery is narrowed by words and families", () => {
+  const card = { text: "bennett mobile: 1 degree of freedom", families: ["one loop", "paradoxical"] };
+  assert.ok(isFound(card, "", new Set()));
+  assert.ok(isFound(card, " Free  benn", new Set(["one loop"])));
+  assert.ok(!isFound(card, "benn rigid", new Set()));
+  assert.ok(!isFound(card, "benn", new Set(["one loop", "four-bar"])));
+});
+
+test("families that narrow nothing are not offered", () => {
+  const families = (...all) => ({ families: all });
+  const cards = [families("a", "b", "c"), families("a", "b"), families("a", "d", "b"), families("a", "d")];
+  assert.deepEqual(familiesOf(cards), [["b", 3], ["d", 2]]);
 });

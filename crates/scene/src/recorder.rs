@@ -247,6 +247,21 @@ impl<'a, W: Write> Recorder<'a, W> {
         Ok(())
     }
 
+    /// Gives every frame a place before anything moves: both motions at one pose. Viewers that draw nothing until all frames have one
+    /// then show the mechanism from the beginning.
+    ///
+    /// # Errors
+    /// As [`moment`](Self::moment).
+    pub fn rest(&mut self, time: f64, pose: &Motion<'_>) -> Result<(), RecordError> {
+        let at = nanoseconds(time)?;
+        pose.check(self.mechanism)?;
+        let mut transforms = Vec::new();
+        for (index, stream) in Stream::BOTH.into_iter().enumerate() {
+            self.transforms(at, index, stream, pose, &mut transforms);
+        }
+        self.send(|c| &mut c.transforms, at, &FrameTransforms { transforms })
+    }
+
     /// Shows links and joints in other roles from a moment on.
     ///
     /// # Errors

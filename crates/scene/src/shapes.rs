@@ -94,6 +94,45 @@ const RADIUS_BY_DISTANCE: f64 = 0.07;
 /// However far or close joints are: bounds of the radius in units of the mechanism's extent.
 const RADIUS_BY_EXTENT: [f64; 2] = [0.002, 0.02];
 
+/// A link with one joint only, of which nothing else is known, reaches on in the direction in which the link before it came: half as far.
+/// The ground needs no end.
+fn reach_on(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    own: &[Option<Vec<Solid>>],
+    incident: &mut [Vec<Point>],
+) {
+    let place = |link: usize, point: Point| {
+        let point = Rigid::translation(point);
+        geometry.home[link].compose(&point).translation
+    };
+    let ends: Vec<(usize, Point)> = mechanism
+        .joints()
+        .iter()
+        .flat_map(|joint| {
+            let [a, b] = [joint.predecessor.link.0, joint.successor.link.0];
+            [[a, b], [b, a]]
+        })
+        .filter(|[before, last]| {
+            let single = incident[*last].len() == 1 && incident[*before].len() > 1;
+            let bare = own[*last].is_none() && mechanism.links()[*last].inertial.is_none();
+            single && bare && *last != mechanism.ground().0
+        })
+        .filter_map(|[before, last]| {
+            let here = place(last, *incident[last].first()?);
+            let others = incident[before].iter().map(|point| place(before, *point));
+            let ways = others.map(|other| difference(here, other));
+            let way = ways.max_by(|a, b| norm(*a).total_cmp(&norm(*b)))?;
+            let end = Rigid::translation(sum(here, times(way, 0.5)));
+            let inside = geometry.home[last].inverse().compose(&end).translation;
+            Some((last, inside))
+        })
+        .collect();
+    for (link, point) in ends {
+        incident[link].push(point);
+    }
+}
+
 impl Drawing {
     /// Draws every link and joint of a mechanism at its home pose.
     ///
@@ -109,6 +148,7 @@ impl Drawing {
             incident[joint.predecessor.link.0].push(sides[0]);
             incident[joint.successor.link.0].push(sides[1]);
         }
+        reach_on(mechanism, geometry, &own, &mut incident);
         let bounds = bounds(geometry, &incident, &own);
         let mut extent = norm(difference(bounds[1], bounds[0]));
         if !(extent > least_length(geometry.size_of(0..geometry.sides.len())) && extent.is_finite())

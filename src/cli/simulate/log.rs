@@ -11,7 +11,8 @@ use kutzbach::mechanism::Mechanism;
 use kutzbach::mobility::{Analysis, Branch};
 use kutzbach::motion::{Trace, TraceOptions, trace};
 use kutzbach::record::{
-    Header, Level, LogFile, RecordError, Recorder, Roles, SimulationLog, Summary, record_motion,
+    Header, Level, LogFile, Motion, RecordError, Recorder, Roles, SimulationLog, Summary,
+    record_motion,
 };
 use kutzbach::report::Options;
 use kutzbach::report::text::visible;
@@ -92,6 +93,10 @@ impl<'a> Log<'a> {
             },
         )
         .map_err(|error| unwritten(path, &error))?;
+        let mut recorder = recorder;
+        recorder
+            .rest(0.0, &Motion::of_links(&geometry.home))
+            .map_err(|error| unwritten(path, &error))?;
         log.recorder = Some(recorder);
         log.play(arguments, options)?;
         Ok(log)

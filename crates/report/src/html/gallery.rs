@@ -5,7 +5,7 @@ use super::escape::escaped;
 use super::{Assets, Stage};
 use crate::Report;
 use crate::text::{verdict, words::counted};
-use kutzbach_mobility::Verdict;
+use kutzbach_mobility::{MobilityClass, SingularKind, Verdict};
 use kutzbach_model::mechanism::Mechanism;
 
 /// A thumbnail has room for this many pixels.
@@ -21,6 +21,33 @@ pub struct Entry {
     figures: String,
     picture: String,
     group: Group,
+    families: Vec<&'static str>,
+}
+
+/// What the mechanism is like, in words by which the index can be narrowed.
+fn families(report: &Report) -> Vec<&'static str> {
+    let mut families = Vec::new();
+    match report.size.loops {
+        0 => families.push("open chain"),
+        1 => families.push("one loop"),
+        _ => families.push("several loops"),
+    }
+    if report.four_bars.iter().any(|bar| !bar.within_larger) {
+        families.push("four-bar");
+    }
+    if report.size.couplings > 0 {
+        families.push("gears and couplings");
+    }
+    families.extend(report.mobility.class.map(MobilityClass::word));
+    families.extend(report.home.kind.map(SingularKind::word));
+    let freedoms = report.freedoms.as_ref();
+    if freedoms.is_some_and(|freedoms| freedoms.idle > 0) {
+        families.push("idle freedoms");
+    }
+    if report.home.redundant.is_some_and(|redundant| redundant > 0) {
+        families.push("overconstrained");
+    }
+    families
 }
 
 /// What mechanisms are sorted by.
@@ -74,6 +101,7 @@ impl Entry {
                 Verdict::Undecided => Group::Undecided,
                 Verdict::Unassembled => Group::Unassembled,
             },
+            families: families(report),
         }
     }
 
@@ -87,6 +115,7 @@ impl Entry {
             figures: String::new(),
             picture: String::new(),
             group: Group::Unreadable,
+            families: Vec::new(),
         }
     }
 }
@@ -114,7 +143,10 @@ pub fn index(title: &str, entries: &[Entry]) -> String {
             members.len()
         ));
         for entry in members {
-            content.push_str("<li>");
+            content.push_str(&format!(
+                "<li data-families=\"{}\">",
+                entry.families.join("|")
+            ));
             if let Some(page) = &entry.page {
                 content.push_str(&format!("<a href=\"{}\">", escaped(page)));
             }
