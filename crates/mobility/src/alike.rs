@@ -5,7 +5,7 @@
 //! kept in one leg and dropped in the other, and one would be told to be locked while the other moves. Nothing in the file
 //! means that: so both are open then.
 
-use super::pose_rank::{Doubt, PartRank};
+use super::pose_rank::{Doubt, PartRank, RankNote};
 use super::rounded::LARGEST;
 use kutzbach_closure::Part;
 use kutzbach_math::matrix::{DENSE_COLUMNS, MatrixError, relative_singular_values};
@@ -87,9 +87,7 @@ fn open(rank: &mut PartRank, candidates: (usize, usize)) {
     rank.instantaneous = None;
     rank.doubt = Some(Doubt::Unlike);
     rank.candidates = candidates;
-    rank.note = Some(format!(
-        "undecided between {} and {}: two parts of the mechanism have the same joints and, within the precision of the numbers, \
-         the same singular values, but what is zero in one of them is not in the other",
-        candidates.0, candidates.1
-    ));
+    rank.note = Some(RankNote::Unlike {
+        possible: candidates,
+    });
 }

@@ -115,7 +115,7 @@ pub use one_engine::{
     OneEngine, chart_alone, exact_alone, germ_alone, kernel_of, rank_alone, subgroups_alone,
 };
 pub use part_mobility::part_mobility;
-pub use pose_rank::{Doubt, LADDER, PartRank, Pose, Trial, rank_part};
+pub use pose_rank::{Doubt, LADDER, PartRank, Pose, RankNote, Trial, rank_part};
 pub use redundancy::SelfStresses;
 pub use redundant_directions::{JointDirections, ReactionDirection};
 pub use relative_motion::{motions_to_ground, relative_motions};

@@ -161,35 +161,12 @@ fn lift(
             away,
         )?
     } else {
-        // Near the pose branches that touch to a high order are one double zero; farther away they are two.
-        let Some(Extended {
-            states: there,
-            blur,
-            far,
-        }) = extended(&section, pose.states, states, blur, rank.stated)?
+        let Some(poses) =
+            multiple_poses(start, &section, states, blur, (dimension, instantaneous))?
         else {
             return Ok(None);
         };
-        let stated = rank.stated + 10.0 * blur;
-        let Some((tangents, _)) = tangents_at(&section, &there, stated, instantaneous)? else {
-            return Ok(None);
-        };
-        if !multiple_farther(&section, pose.states, &there, rank.stated, instantaneous)? {
-            return Ok(None);
-        }
-        if tangents.instantaneous != Some(instantaneous)
-            || !stays_multiple(start, &section, &there, instantaneous, far)?
-        {
-            return Ok(None);
-        }
-        secant_poses(
-            &section,
-            &there,
-            &tangents.basis,
-            dimension,
-            instantaneous,
-            rank.stated,
-        )?
+        poses
     };
     if poses.is_empty() {
         return Ok(None);
@@ -205,6 +182,54 @@ fn lift(
         },
         shaky,
     }))
+}
+
+/// Poses of a branch along which the equations have a double zero, farther than the point that was found: branches that touch to a high
+/// order are one double zero near the pose, and two farther away. `None` where it does not stay one, or nothing tells.
+fn multiple_poses(
+    start: &Start<'_>,
+    section: &Section<'_, f64>,
+    states: Vec<JointState<f64>>,
+    blur: f64,
+    (dimension, instantaneous): (usize, usize),
+) -> Result<Option<Vec<PartPose>>, MatrixError> {
+    let rank = start.rank;
+    // Near the pose branches that touch to a high order are one double zero; farther away they are two.
+    let Some(Extended {
+        states: there,
+        blur,
+        far,
+    }) = extended(section, start.pose.states, states, blur, rank.stated)?
+    else {
+        return Ok(None);
+    };
+    let stated = rank.stated + 10.0 * blur;
+    let Some((tangents, _)) = tangents_at(section, &there, stated, instantaneous)? else {
+        return Ok(None);
+    };
+    if !multiple_farther(
+        section,
+        start.pose.states,
+        &there,
+        rank.stated,
+        instantaneous,
+    )? {
+        return Ok(None);
+    }
+    if tangents.instantaneous != Some(instantaneous)
+        || !stays_multiple(start, section, &there, instantaneous, far)?
+    {
+        return Ok(None);
+    }
+    secant_poses(
+        section,
+        &there,
+        &tangents.basis,
+        dimension,
+        instantaneous,
+        rank.stated,
+    )
+    .map(Some)
 }
 
 /// A pose farther along a branch, and how uncertain it is if an equation enters squared.

@@ -114,7 +114,12 @@ pub(super) fn by_rank(
         && rank
             .as_written
             .is_none_or(|w| Some(w) == rank.instantaneous);
-    let note = |clear: bool| rank.note.clone().filter(|_| clear);
+    let note = |clear: bool| {
+        rank.note
+            .as_ref()
+            .filter(|_| clear)
+            .map(ToString::to_string)
+    };
     match known {
         None => {
             let clear = (rank.stated == 0.0 || rank.doubt.is_some()) && !held_by_rounding;

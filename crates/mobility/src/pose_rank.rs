@@ -21,25 +21,21 @@
 //! A pose that is drawn closed within the stated precision, but not beyond, is moved by closing it exactly. What it was
 //! meant to be is then as open as the way it moved.
 
-use super::hidden::bits_for_ratios;
 use super::more_digits::MoreDigits;
-use super::rounded::{OtherRank, if_rounded};
-use super::tree_bound::most_by_joints;
-use faer::Mat;
+mod note;
+mod readings;
+
 use kutzbach_closure::{CycleJacobian, Geometry, JointState, Part, entry_accuracy, jacobian};
-use kutzbach_math::matrix::{
-    CLEARANCE, DENSE_COLUMNS, MatrixError, Method, RankDecision, Real, SparseMatrix, decide,
-};
+use kutzbach_math::matrix::{MatrixError, RankDecision, SparseMatrix};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Configuration, Mechanism};
+pub use note::RankNote;
+use readings::Readings;
 use std::cell::Cell;
 use std::collections::BTreeSet;
 
 /// The bits tried in turn after double precision.
 pub const LADDER: [u32; 4] = [106, 212, 424, 848];
-
-/// A part of more unknowns is not ranked in many digits, which would take minutes: it stays undecided.
-const LADDER_UNKNOWNS: usize = 2000;
 
 /// A stated precision that makes the Jacobian uncertain by more than this separates nothing: a kept singular value would
 /// have to be ten times as large. Unless even so the rank is clear, the numbers are taken literally, which the report says.
@@ -48,16 +44,6 @@ const COARSEST_STATED: f64 = 0.05;
 /// The stated precision bounds a Jacobian's uncertainty to first order. At 5 %, the coarsest that is used, the second order
 /// is a twentieth of that; half as much again leaves room for it and for the estimate in the bound itself.
 pub(super) const BEYOND_FIRST_ORDER: f64 = 1.5;
-
-/// Parts of at most so many unknowns are ranked in more digits though double precision is content with them, where their
-/// numbers call for it.
-const CHECKED_UNKNOWNS: usize = 400;
-
-/// A singular value smaller than this share of what stated digits leave open is not rounding: ratios that multiply make such values.
-const FAR_BELOW_ROUNDING: f64 = 1e-6;
-
-/// Rounding leaves a zero at some per cent of its bound at most. What exceeds that share is looked at with more digits.
-const SUSPICIOUS: f64 = 0.05;
 
 /// Numbers of more bits than this (8 decimals) can hold offsets that double precision takes for rounding.
 pub(super) const TALL: usize = 27;
@@ -162,8 +148,8 @@ pub struct PartRank {
     pub doubt: Option<Doubt>,
     /// Bits of the arithmetic that decided.
     pub bits: u32,
-    /// Why the answer is not plain, in one sentence.
-    pub note: Option<String>,
+    /// Why the answer is not plain.
+    pub note: Option<RankNote>,
     /// The Jacobian in double precision, columns of unit length, for everything that needs vectors.
     pub matrix: SparseMatrix<f64>,
     /// Norms by which the columns were divided.
@@ -249,114 +235,6 @@ impl Pose<'_> {
     }
 }
 
-/// How a part's pose came about.
-struct Standing {
-    /// Whether assembly moved a joint of the part.
-    moved: bool,
-    /// What is left of the cycles (rad, cycle lengths), if more than a drawn pose's own rounding.
-    residual: f64,
-    /// How far joints moved (rad, part lengths) from a drawn pose that closes within the stated precision.
-    shift: f64,
-}
-
-impl Standing {
-    fn of(
-        pose: &Pose<'_>,
-        part: &Part,
-        here: &CycleJacobian<f64>,
-        closing: f64,
-    ) -> Result<Self, MatrixError> {
-        let mut standing = Self {
-            moved: false,
-            residual: 0.0,
-            shift: 0.0,
-        };
-        if pose.as_drawn {
-            return Ok(standing);
-        }
-        let ways: Vec<f64> = here
-            .variables
-            .iter()
-            .enumerate()
-            .map(|(column, &(joint, variable))| {
-                let way = pose.states[joint].values[variable]
-                    - pose.geometry.states[joint].values[variable];
-                way / here.unit(pose.mechanism, column)
-            })
-            .collect();
-        // A pose that is closed only because a coarser tolerance was asked for stands beside a closed one, as a moved one does.
-        let open = here.residual.iter().any(|r| r.abs() > closing);
-        standing.moved = open || ways.iter().any(|way| *way != 0.0);
-        if standing.moved {
-            standing.residual = 0.0.norm(&here.residual);
-            let drawn = jacobian(pose.mechanism, pose.geometry, &pose.geometry.states, part)?;
-            if drawn.residual.iter().all(|r| r.abs() <= closing) {
-                standing.shift = 0.0.norm(&ways);
-            }
-        }
-        Ok(standing)
-    }
-}
-
-/// The share of a residual in the range of the equations (rad, cycle lengths): what the joints could mend to first order. `None` of
-/// matrices that are not decomposed.
-fn share_in_range(
-    matrix: &SparseMatrix<f64>,
-    residual: &[f64],
-) -> Result<Option<f64>, MatrixError> {
-    if matrix.columns() > DENSE_COLUMNS {
-        return Ok(None);
-    }
-    let mut dense = Mat::<f64>::zeros(matrix.rows(), matrix.columns());
-    for (row, column, entry) in matrix.triplets() {
-        dense[(row, column)] += entry;
-    }
-    let Ok(svd) = dense.thin_svd() else {
-        return Ok(None);
-    };
-    let u = svd.U();
-    let along = |j: usize| -> f64 { (0..u.nrows()).map(|i| u[(i, j)] * residual[i]).sum() };
-    Ok(Some(
-        (0..u.ncols()).map(|j| along(j).powi(2)).sum::<f64>().sqrt(),
-    ))
-}
-
-/// Decides a rank that has to come out the same with the poorer of two accuracies.
-fn decide_twice<R: Real>(
-    matrix: &SparseMatrix<R>,
-    accuracy: f64,
-    poorer: f64,
-) -> Result<RankDecision, MatrixError> {
-    let mut decision = decide(matrix, accuracy)?;
-    if poorer > accuracy && decision.rank.is_some() {
-        let second = decide(matrix, poorer)?;
-        if second.rank != decision.rank {
-            decision.rank = None;
-            decision.candidates.0 = decision.candidates.0.min(second.candidates.0);
-            decision.candidates.1 = decision.candidates.1.max(second.candidates.1);
-        }
-    }
-    Ok(decision)
-}
-
-/// The decision within the stated precision, where full rank is provable: singular values move by no more than the norm of
-/// the perturbation (Weyl), so that a smallest one above it cannot be a rounded zero, and no gap has to separate it from
-/// anything. `other` is what else the entries are uncertain by, of which there is only an estimate.
-fn full_within(decision: RankDecision, stated: f64, other: f64) -> RankDecision {
-    let side = decision.rows.min(decision.columns);
-    let all_kept = decision.candidates.1 == side && decision.dropped == 0.0;
-    let bound = BEYOND_FIRST_ORDER * stated + CLEARANCE * other;
-    let proved = stated > 0.0 && all_kept && decision.kept > bound;
-    if decision.rank.is_some() || decision.method != Method::Svd || !proved {
-        return decision;
-    }
-    RankDecision {
-        rank: Some(side),
-        candidates: (side, side),
-        ..decision
-    }
-}
-
 /// Decides the rank of one part. Parts that double precision leaves open are evaluated anew each time; see [`MoreDigits`]
 /// for ranking many.
 ///
@@ -372,22 +250,6 @@ pub(super) fn known_to(jacobian: &CycleJacobian<f64>) -> (f64, f64, bool) {
     (stated, rounding, stated > COARSEST_STATED)
 }
 
-/// The rank of the numbers as written, in as many digits as their ratios ask for; `None` where doubles suffice. What rounding leaves
-/// of a zero is about as large as rounding is, or nothing: a value far below it comes from the mechanism.
-fn in_digits_of_ratios(
-    pose: &Pose<'_>,
-    more: &mut MoreDigits,
-    part: &Part,
-    moved: bool,
-) -> Result<Option<RankDecision>, MatrixError> {
-    let Some(needed) = bits_for_ratios(pose.mechanism, pose.geometry, part) else {
-        return Ok(None);
-    };
-    let rung = LADDER.into_iter().find(|bits| *bits as usize >= needed);
-    let finer = more.matrix(pose, part, moved, rung.unwrap_or(LADDER[LADDER.len() - 1]))?;
-    decide(&finer.matrix, finer.rounding + finer.residual).map(Some)
-}
-
 /// [`rank_part`], sharing what is evaluated in many digits with other parts. `known` are the part's equations at the pose,
 /// where somebody has evaluated them before.
 pub(super) fn rank_part_with(
@@ -400,207 +262,11 @@ pub(super) fn rank_part_with(
         Some(known) => known,
         None => jacobian(pose.mechanism, pose.geometry, pose.states, part)?,
     };
-    let (mut stated, rounding, mut coarse) = known_to(&double);
-    let standing = Standing::of(pose, part, &double, stated + rounding)?;
-    let rounding_alone = rounding;
-    let rounding = rounding + standing.residual;
-    let mut matrix = double.matrix.clone();
-    let column_scales = matrix.scale_columns();
-    let columns = matrix.columns();
-    // An assembled pose: see the module's text. What no step of the joints can mend is a misfit of dimensions, and says nothing of how far
-    // the pose is from a closed one.
-    let poorer = match standing.moved {
-        true if standing.residual > rounding_alone => {
-            let mendable = share_in_range(&matrix, &double.residual)?;
-            (rounding_alone + mendable.unwrap_or(standing.residual)).sqrt()
-        }
-        true => rounding.sqrt(),
-        false => 0.0,
-    };
-    let nominal = decide_twice(&matrix, stated + rounding + 2.0 * standing.shift, poorer)?;
-    let mut nominal = full_within(nominal, stated, rounding + poorer + 2.0 * standing.shift);
-    coarse &= nominal.rank.is_none();
-    let mut possible = None;
-    if coarse {
-        possible = Some(nominal.candidates);
-        // Numbers so coarse that they would leave every rank open were chosen, not rounded.
-        stated = 0.0;
-        nominal = decide_twice(&matrix, rounding, poorer)?;
-    }
-    let mut written = if stated > 0.0 {
-        decide_twice(&matrix, rounding, poorer)?
-    } else {
-        nominal.clone()
-    };
-    let mut bits = 53;
-    // Exact numbers can do better than call a singular value rounding that is far above what rounding usually leaves.
-    // (Of a sparse factorisation only bounds are known, which say nothing of the kind.) What numbers of many digits leave
-    // may be meant, however small it is: then the arithmetic has to be finer than they are.
-    let mut suspicious = false;
-    let mut finest_needed = 0;
-    let mut stays_open = None;
-    let deficient = nominal
-        .rank
-        .is_none_or(|rank| rank < columns.min(matrix.rows()));
-    if stated == 0.0 && deficient && columns <= CHECKED_UNKNOWNS {
-        let tall = height_at(pose, part);
-        if tall > TALL {
-            suspicious = true;
-            finest_needed = 3 * tall;
-        }
-        if let Some(needed) = bits_for_ratios(pose.mechanism, pose.geometry, part) {
-            suspicious = true;
-            finest_needed = finest_needed.max(needed);
-        }
-    }
-    suspicious |= stated == 0.0
-        && !standing.moved
-        && nominal.method == Method::Svd
-        && nominal.dropped > SUSPICIOUS * nominal.accuracy;
-    for rung in LADDER {
-        let decided = nominal.rank.is_some() || written.rank.is_some();
-        if (decided && !suspicious) || columns > LADDER_UNKNOWNS {
-            break;
-        }
-        if (rung as usize) < finest_needed.min(LADDER[LADDER.len() - 1] as usize) {
-            continue;
-        }
-        suspicious = false;
-        let finer = more.matrix(pose, part, standing.moved, rung)?;
-        bits = rung;
-        // Here the poorer accuracy alone: what a singular pose leaves of a zero is below it.
-        let accuracy = finer.rounding
-            + if standing.moved {
-                finer.residual.sqrt()
-            } else {
-                finer.residual
-            };
-        written = decide(&finer.matrix, accuracy)?;
-        nominal = if stated > accuracy {
-            decide(&finer.matrix, stated + accuracy + 2.0 * standing.shift)?
-        } else {
-            written.clone()
-        };
-        if finer.residual > 1e3 * finer.rounding {
-            // The numbers as written do not close any better, so that more digits are of no use.
-            if finest_needed > 0 {
-                // And they were meant: no pose is closed here to their last digit, and what the rank is at one nearby is open.
-                stays_open = Some(finer.residual);
-                for decision in [&mut written, &mut nominal] {
-                    decision.rank = None;
-                    decision.candidates.1 = columns.min(matrix.rows());
-                }
-                break;
-            }
-            if written.rank.is_none() {
-                break;
-            }
-        }
-    }
-    // What sixteen digits of a program leave as written may still be rounding.
-    let mut other = None;
-    if stated > 0.0 && nominal.rank == written.rank {
-        other = if_rounded(pose.mechanism, &double, &matrix, &written)?;
-    }
-    if let (Some(OtherRank { rank, .. }), Some(literal)) = (other, written.rank) {
-        nominal.rank = None;
-        nominal.candidates = (rank, literal);
-    }
-    if stated > 0.0 && deficient && columns <= CHECKED_UNKNOWNS {
-        let seen = in_digits_of_ratios(pose, more, part, standing.moved)?;
-        if let Some(closer) = seen.filter(|c| c.kept < FAR_BELOW_ROUNDING * stated)
-            && let Some(literal) = closer.rank.filter(|r| written.rank.is_none_or(|w| w < *r))
-        {
-            if let Some(rank) = nominal.rank.take() {
-                nominal.candidates = (rank, literal);
-            }
-            written = closer;
-        }
-    }
-    let freedom = |rank: usize| columns - rank;
-    let (least, most) = possible.unwrap_or(nominal.candidates);
-    let literal = written.rank.map(freedom);
-    let mut candidates = (freedom(most), freedom(least));
-    if let Some(literal) = literal {
-        candidates = (candidates.0.min(literal), candidates.1.max(literal));
-    }
-    // Whatever the numbers are.
-    candidates.1 = candidates.1.min(most_by_joints(pose.mechanism, part));
-    let (instantaneous, decision, note) = match (nominal.rank.map(freedom), literal) {
-        (Some(answer), Some(literal)) if literal != answer => {
-            let note = format!(
-                "taken literally, the numbers leave {literal} instead of {answer}: the smallest singular values, up to \
-                 {:.1e} of the largest, are below what the stated precision leaves open ({:.1e})",
-                nominal.dropped, nominal.tolerance
-            );
-            (Some(answer), nominal, Some(note))
-        }
-        (Some(answer), _) if coarse && candidates.0 < candidates.1 => {
-            let note = format!(
-                "{answer} as written, but the numbers are too coarse to decide: within their stated precision anything \
-                 from {} to {} is possible",
-                candidates.0, candidates.1
-            );
-            (Some(answer), nominal, Some(note))
-        }
-        (Some(answer), _) => (Some(answer), nominal, None),
-        (None, Some(literal)) if let Some(other) = other => {
-            let note = format!(
-                "{literal} as written, or {} if the coordinates are rounded at {:e} (m, rad) or more coarsely: singular values up to \
-                 {:.1e} of the largest stand alone, a factor of {:.0e} below the others, and the file's digits are those that \
-                 programs print, which does not say how well they are known; `--precision` states it",
-                freedom(other.rank),
-                other.rounded_at,
-                other.largest,
-                other.gap,
-            );
-            (Some(literal), written, Some(note))
-        }
-        (None, Some(literal)) => {
-            let note = format!(
-                "the numbers taken literally leave {literal}; within their stated precision anything from {} to {} is \
-                 possible (smallest singular value {:.1e} of the largest, uncertainty {:.1e}): more digits would decide",
-                candidates.0, candidates.1, written.kept, nominal.tolerance
-            );
-            (Some(literal), written, Some(note))
-        }
-        (None, None) if stays_open.is_some() => {
-            let note = format!(
-                "in as many digits as the numbers have, the loops stay open by {:.1e}: the pose drawn is not closed, and at a \
-                 closed one nearby the rank may be another",
-                stays_open.unwrap_or(0.0)
-            );
-            (None, nominal, Some(note))
-        }
-        (None, None) => {
-            let note = format!(
-                "undecided between {} and {}: singular values {:.1e} and {:.1e} of the largest are not separated from \
-                 the uncertainty {:.1e}, with {} bits",
-                candidates.0,
-                candidates.1,
-                nominal.kept,
-                nominal.dropped,
-                nominal.tolerance.max(poorer),
-                nominal.bits
-            );
-            (None, nominal, Some(note))
-        }
-    };
-    Ok(PartRank {
-        as_written: literal,
-        instantaneous,
-        candidates,
-        taken_literally: coarse,
-        stated,
-        accuracy: rounding.max(poorer).max(f64::EPSILON),
-        doubt: other.map(|other| Doubt::Rounded(other.rounded_at)),
-        bits,
-        note,
-        matrix,
-        column_scales,
-        jacobian: double,
-        decision,
-    })
+    let mut readings = Readings::in_doubles(pose, part, double)?;
+    readings.in_more_digits(more)?;
+    readings.if_rounded_otherwise()?;
+    readings.by_ratios(more)?;
+    Ok(readings.concluded())
 }
 
 #[cfg(test)]

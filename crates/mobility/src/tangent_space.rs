@@ -180,17 +180,7 @@ impl TangentSpace {
             .iter()
             .map(|&joint| first[joint + 1] - first[joint])
             .sum();
-        let freedom = |kernel: fn(&PartEquations) -> &Kernel| {
-            equations
-                .iter()
-                .map(|part| kernel(part).nullity)
-                .sum::<Option<usize>>()
-                .map(|sum| sum + free)
-        };
-        let whole_kernel = freedom(|part| &part.simple) == Some(dimension)
-            && freedom(|part| &part.multiple).is_none_or(|freedom| freedom == dimension);
-        let as_written = freedom(|part| &part.as_written[0]) == Some(dimension)
-            && freedom(|part| &part.as_written[1]).is_none_or(|freedom| freedom == dimension);
+        let [whole_kernel, as_written] = whole_kernels(&equations, free, dimension);
         let own = |length| Limits::new(8.0 * f64::EPSILON, length);
         let mut found = Self {
             groups,
@@ -206,24 +196,35 @@ impl TangentSpace {
             first,
             units,
         };
-        for (part, equations) in structure.parts.iter().zip(&equations) {
+        found.bound_errors(structure, &equations, whole_kernel)?;
+        Some(found)
+    }
+
+    /// Limits by what the equations of each part tell of the error of a tangent.
+    fn bound_errors(
+        &mut self,
+        structure: &Structure,
+        equations: &[PartEquations],
+        whole_kernel: bool,
+    ) -> Option<()> {
+        for (part, equations) in structure.parts.iter().zip(equations) {
             let variables: Vec<usize> = part
                 .joints
                 .iter()
-                .flat_map(|&joint| found.variables(joint))
+                .flat_map(|&joint| self.variables(joint))
                 .collect();
-            let left = equations.left_by(&found, &variables)?;
+            let left = equations.left_by(self, &variables)?;
             let error = equations.tangent_error(left, whole_kernel);
-            found.as_written = found.as_written.max(equations.error_as_written(left));
+            self.as_written = self.as_written.max(equations.error_as_written(left));
             // Written so that an error that is not a number stays one.
-            if !(error <= found.limits.error) {
-                found.limits = Limits::new(error, count);
+            if !(error <= self.limits.error) {
+                self.limits = Limits::new(error, self.length());
             }
             for &joint in &part.joints {
-                found.joint_limits[joint] = Limits::new(error, variables.len());
+                self.joint_limits[joint] = Limits::new(error, variables.len());
             }
         }
-        Some(found)
+        Some(())
     }
 
     /// Number of basis vectors.
@@ -374,6 +375,22 @@ fn set_units(
             }
         }
     }
+}
+
+/// Whether tangents of this dimension are the whole kernel of the equations, as the numbers stand for it and as they are written.
+fn whole_kernels(equations: &[PartEquations], free: usize, dimension: usize) -> [bool; 2] {
+    let freedom = |kernel: fn(&PartEquations) -> &Kernel| {
+        let nullities = equations.iter().map(|part| kernel(part).nullity);
+        nullities.sum::<Option<usize>>().map(|sum| sum + free)
+    };
+    let whole = |simple, multiple| {
+        freedom(simple) == Some(dimension)
+            && freedom(multiple).is_none_or(|freedom| freedom == dimension)
+    };
+    [
+        whole(|part| &part.simple, |part| &part.multiple),
+        whole(|part| &part.as_written[0], |part| &part.as_written[1]),
+    ]
 }
 
 /// The closure equations of a part at a pose, as far as they tell how good a tangent is.

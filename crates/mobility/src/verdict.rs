@@ -159,17 +159,8 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, parts: &[PartFinding]
     let contradictions = contradictions.iter().map(|(index, c)| (*index, &c[..]));
     let mut why = with_owners(names, contradictions.chain(open));
     why.extend(singular_parts(names, parts));
-    let class = (verdict == Verdict::Mobile && pose == Some(PoseKind::Regular))
-        .then(|| {
-            parts
-                .iter()
-                .filter(|p| p.upper() > 0)
-                .map(|p| p.class())
-                .try_fold(MobilityClass::Trivial, |worst, class| {
-                    Some(worst.max(class?))
-                })
-        })
-        .flatten();
+    let explained = verdict == Verdict::Mobile && pose == Some(PoseKind::Regular);
+    let class = explained.then(|| class_of_whole(parts)).flatten();
     let complex_dimension = parts
         .iter()
         .map(|p| p.complex_dimension())
@@ -178,22 +169,8 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, parts: &[PartFinding]
     if verdict != Verdict::Undecided {
         why.extend(complex_remark(parts, base, high, complex_dimension));
     }
-    let nominal = parts
-        .iter()
-        .filter_map(|p| p.nominal())
-        .reduce(f64::max)
-        .filter(|_| verdict != Verdict::Undecided)
-        .map(|tolerance| Nominal {
-            finite: high,
-            tolerance,
-            distance: None,
-            known_to: None,
-            // Not known before the mechanism meant is found.
-            within_digits: false,
-            noise: false,
-            changes: Vec::new(),
-            kept: Vec::new(),
-        });
+    let decided = verdict != Verdict::Undecided;
+    let nominal = decided.then(|| nominal(parts, high)).flatten();
     Mobility {
         verdict,
         bounds: (Some(low), Some(high)),
@@ -207,6 +184,33 @@ pub fn judge(mechanism: &Mechanism, structure: &Structure, parts: &[PartFinding]
         as_written: None,
         why,
     }
+}
+
+/// The class that explains all parts that may move.
+fn class_of_whole(parts: &[PartFinding]) -> Option<MobilityClass> {
+    parts
+        .iter()
+        .filter(|p| p.upper() > 0)
+        .map(|p| p.class())
+        .try_fold(MobilityClass::Trivial, |worst, class| {
+            Some(worst.max(class?))
+        })
+}
+
+/// Within which digits the freedom is that, where it is not that of the numbers taken literally.
+fn nominal(parts: &[PartFinding], finite: usize) -> Option<Nominal> {
+    let tolerances = parts.iter().filter_map(|p| p.nominal());
+    tolerances.reduce(f64::max).map(|tolerance| Nominal {
+        finite,
+        tolerance,
+        distance: None,
+        known_to: None,
+        // Not known before the mechanism meant is found.
+        within_digits: false,
+        noise: false,
+        changes: Vec::new(),
+        kept: Vec::new(),
+    })
 }
 
 /// What is known of parts, with their numbers.

@@ -181,8 +181,12 @@ fn fill_home(home: &mut Home, analysis: &Analysis) {
         .to_owned();
         home.bits = parts.iter().map(|part| part.bits).max();
     }
-    let notes = parts.iter().enumerate();
-    let notes = notes.filter_map(|(index, part)| Some((index, part.note.as_deref()?)));
+    let notes: Vec<(usize, String)> = parts
+        .iter()
+        .enumerate()
+        .filter_map(|(index, part)| Some((index, part.note.as_ref()?.to_string())))
+        .collect();
+    let notes = notes.iter().map(|(index, note)| (*index, &**note));
     let notes = with_owners(labels, notes);
     home.note = (!notes.is_empty()).then(|| notes.join("; "));
     home.blocks = blocks(analysis);

@@ -390,30 +390,65 @@ fn nearest_of_part(
         length: here.length,
         reach: reach(&here),
     };
-    let search = |freedom: usize, relations| {
-        let mut search = asked.search(freedom, relations);
-        // What closes as it is written is not made to follow relations.
-        if !relations.is_empty() && search.closes_as_written(states)? {
-            return Ok(None);
-        }
-        search.nearest(states)
-    };
-    let units = |nearest: &Nearest| nearest.z.iter().fold(0.0f64, |m, z| z.abs().max(m));
     let relations = Relations::of(mechanism, part, dimensions, geometry, here.length);
-    if !relations.is_empty() {
-        for &freedom in freedoms.iter().take(TRIES) {
-            let nearest = search(freedom, &relations)?;
-            if let Some(nearest) = nearest.filter(|nearest| units(nearest) <= WITHIN) {
-                return Ok(Some(Found {
-                    nearest: Some((nearest, freedom)),
-                    length: here.length,
-                    excluded: None,
-                    rigid: false,
-                    kept: relations.kept(),
-                }));
-            }
+    let found = by_relations(&asked, states, &freedoms, &relations)?;
+    if found.is_some() {
+        return Ok(found);
+    }
+    by_dimensions(&asked, states, &known, (freedoms, regular)).map(Some)
+}
+
+/// The largest change, in what the digits of each number leave open.
+fn units(nearest: &Nearest) -> f64 {
+    nearest.z.iter().fold(0.0f64, |most, z| z.abs().max(most))
+}
+
+/// The nearest of so many freedoms that keeps some relations, what closes as it is written left out: that is not made to follow any.
+fn sought(
+    asked: &Asked<'_>,
+    states: &[JointState<f64>],
+    freedom: usize,
+    relations: &Relations,
+) -> Result<Option<Nearest>, MatrixError> {
+    let mut search = asked.search(freedom, relations);
+    if !relations.is_empty() && search.closes_as_written(states)? {
+        return Ok(None);
+    }
+    search.nearest(states)
+}
+
+/// The nearest that keeps relations between the numbers, where one is within the digits.
+fn by_relations(
+    asked: &Asked<'_>,
+    states: &[JointState<f64>],
+    freedoms: &[usize],
+    relations: &Relations,
+) -> Result<Option<Found>, MatrixError> {
+    if relations.is_empty() {
+        return Ok(None);
+    }
+    for &freedom in freedoms.iter().take(TRIES) {
+        let nearest = sought(asked, states, freedom, relations)?;
+        if let Some(nearest) = nearest.filter(|nearest| units(nearest) <= WITHIN) {
+            return Ok(Some(Found {
+                nearest: Some((nearest, freedom)),
+                length: asked.length,
+                excluded: None,
+                rigid: false,
+                kept: relations.kept(),
+            }));
         }
     }
+    Ok(None)
+}
+
+/// The nearest, whatever relations it breaks; and how near none is, where that is known.
+fn by_dimensions(
+    asked: &Asked<'_>,
+    states: &[JointState<f64>],
+    known: &Freedoms,
+    (freedoms, regular): (Vec<usize>, bool),
+) -> Result<Found, MatrixError> {
     let none = Relations::default();
     let mut best: Option<(Nearest, usize)> = None;
     let decides = regular && (known.known.is_some() || freedoms == [1]);
@@ -421,14 +456,12 @@ fn nearest_of_part(
     for freedom in freedoms.into_iter().take(TRIES) {
         let least = asked.search(freedom, &none).least_change(states)?;
         excluded = excluded.map(|e| e.min(least)).filter(|e| *e > WITHIN);
-        let Some(nearest) = search(freedom, &none)? else {
+        let Some(nearest) = sought(asked, states, freedom, &none)? else {
             continue;
         };
         let within = units(&nearest) <= WITHIN;
-        if best
-            .as_ref()
-            .is_none_or(|(best, _)| units(&nearest) < units(best))
-        {
+        let nearer = |(best, _): &(Nearest, usize)| units(&nearest) < units(best);
+        if best.as_ref().is_none_or(nearer) {
             best = Some((nearest, freedom));
         }
         if within {
@@ -454,13 +487,13 @@ fn nearest_of_part(
     {
         asked.draw_near_in_metres(states, beyond, *freedom)?;
     }
-    Ok(Some(Found {
+    Ok(Found {
         nearest: best,
-        length: here.length,
+        length: asked.length,
         excluded: excluded.filter(|e| e.is_finite()),
         rigid,
         kept: Vec::new(),
-    }))
+    })
 }
 
 /// Whether the equations leave one direction at most, whatever the digits stand for: then each mechanism within them that moves

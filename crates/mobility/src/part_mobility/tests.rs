@@ -2,6 +2,7 @@ use super::super::part_samples::{
     Posed, bennett, cylinders, five_bar, fresh, shaky_triangle, stretched,
 };
 use super::*;
+use crate::RankNote;
 use crate::families::bennett_row;
 use kutzbach_closure::samples::{Written, flat_parallelogram, four_bar, general_four, sarrus};
 
@@ -144,7 +145,7 @@ fn independent_equations_make_a_manifold_where_groups_are_not_asked() {
     let posed = Posed::new(cylinders());
     let found = found_with(&posed, |rank| {
         rank.as_written = rank.instantaneous;
-        rank.note = Some("literally".to_owned());
+        rank.note = Some(RankNote::StaysOpen { residual: 0.5 });
     });
     check("cylinders", &found);
     assert_eq!(engines(&found), ["rank", "subgroup", "rank"]);
@@ -202,11 +203,11 @@ fn an_open_rank_is_said_to_be_open() {
     let found = found_with(&posed, |rank| {
         rank.instantaneous = None;
         rank.candidates = (1, 3);
-        rank.note = Some("one sentence".to_owned());
+        rank.note = Some(RankNote::StaysOpen { residual: 0.5 });
     });
     check("open", &found);
     assert_eq!((found.lower(), found.upper()), (0, 3));
-    assert_eq!(found.open(), Some("one sentence"));
+    assert!(found.open().unwrap().contains("stay open by 5.0e-1"));
     assert_eq!((found.pose(), found.branches().is_none()), (None, true));
     assert_eq!(engines(&found), ["rank"]);
     // Of rounded numbers the reason is what was left out.
@@ -214,7 +215,7 @@ fn an_open_rank_is_said_to_be_open() {
         rank.instantaneous = None;
         rank.candidates = (1, 3);
         rank.stated = 1e-4;
-        rank.note = Some("one sentence".to_owned());
+        rank.note = Some(RankNote::StaysOpen { residual: 0.5 });
     });
     assert!(found.open().unwrap().contains("more digits would decide"));
 }
