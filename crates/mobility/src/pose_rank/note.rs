@@ -1,0 +1,140 @@
+//! Why a rank is not plain.
+
+use std::fmt;
+
+/// Why the answer about a rank is not plain: the figures, and by `Display` the sentence.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RankNote {
+    /// Singular values below what the stated precision leaves open are read as zeros; taken literally the numbers leave less.
+    WithinDigits {
+        /// Freedom within the stated precision, and taken literally.
+        answer: usize,
+        /// The latter.
+        literal: usize,
+        /// The largest singular value read as zero, relative to the largest of all.
+        dropped: f64,
+        /// What the stated precision leaves open, likewise.
+        tolerance: f64,
+    },
+    /// The stated precision separates nothing, so that the numbers are taken literally.
+    TooCoarse {
+        /// Freedom as written.
+        answer: usize,
+        /// Least and most within the stated precision.
+        possible: (usize, usize),
+    },
+    /// Digits that programs print may be rounded where their last ones look exact.
+    RoundedOtherwise {
+        /// Freedom as written.
+        literal: usize,
+        /// Freedom if the coordinates are rounded.
+        other: usize,
+        /// The power of ten (m, rad) at which, or more coarsely.
+        rounded_at: f64,
+        /// The largest singular value that is zero then, relative to the largest of all.
+        largest: f64,
+        /// By what factor it lies below the others.
+        gap: f64,
+    },
+    /// Decided as written, not within the stated precision.
+    LiteralOnly {
+        /// Freedom as written.
+        literal: usize,
+        /// Least and most within the stated precision.
+        possible: (usize, usize),
+        /// The smallest singular value kept, relative to the largest.
+        kept: f64,
+        /// What the stated precision leaves open.
+        tolerance: f64,
+    },
+    /// In all their digits the numbers do not close the loops.
+    StaysOpen {
+        /// What is left of the closure (rad, cycle lengths).
+        residual: f64,
+    },
+    /// What is zero in one of two parts that should be copies is not in the other.
+    Unlike {
+        /// Least and most.
+        possible: (usize, usize),
+    },
+    /// Not separated from the uncertainty, whatever the digits.
+    Undecided {
+        /// Least and most.
+        possible: (usize, usize),
+        /// The smallest singular value kept and the largest dropped, relative to the largest.
+        values: (f64, f64),
+        /// What they are uncertain by.
+        uncertainty: f64,
+        /// Bits of the arithmetic.
+        bits: u32,
+    },
+}
+
+impl fmt::Display for RankNote {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::WithinDigits {
+                answer,
+                literal,
+                dropped,
+                tolerance,
+            } => write!(
+                out,
+                "taken literally, the numbers leave {literal} instead of {answer}: the smallest singular values, up to \
+                 {dropped:.1e} of the largest, are below what the stated precision leaves open ({tolerance:.1e})"
+            ),
+            Self::TooCoarse { answer, possible } => write!(
+                out,
+                "{answer} as written, but the numbers are too coarse to decide: within their stated precision anything \
+                 from {} to {} is possible",
+                possible.0, possible.1
+            ),
+            Self::RoundedOtherwise {
+                literal,
+                other,
+                rounded_at,
+                largest,
+                gap,
+            } => write!(
+                out,
+                "{literal} as written, or {other} if the coordinates are rounded at {rounded_at:e} (m, rad) or more coarsely: \
+                 singular values up to {largest:.1e} of the largest stand alone, a factor of {gap:.0e} below the others, and the \
+                 file's digits are those that programs print, which does not say how well they are known; `--precision` states it"
+            ),
+            Self::LiteralOnly {
+                literal,
+                possible,
+                kept,
+                tolerance,
+            } => write!(
+                out,
+                "the numbers taken literally leave {literal}; within their stated precision anything from {} to {} is \
+                 possible (smallest singular value {kept:.1e} of the largest, uncertainty {tolerance:.1e}): more digits would \
+                 decide",
+                possible.0, possible.1
+            ),
+            Self::StaysOpen { residual } => write!(
+                out,
+                "in as many digits as the numbers have, the loops stay open by {residual:.1e}: the pose drawn is not closed, and \
+                 at a closed one nearby the rank may be another"
+            ),
+            Self::Unlike { possible } => write!(
+                out,
+                "undecided between {} and {}: two parts of the mechanism have the same joints and, within the precision of the \
+                 numbers, the same singular values, but what is zero in one of them is not in the other",
+                possible.0, possible.1
+            ),
+            Self::Undecided {
+                possible,
+                values,
+                uncertainty,
+                bits,
+            } => write!(
+                out,
+                "undecided between {} and {}: singular values {:.1e} and {:.1e} of the largest are not separated from the \
+                 uncertainty {uncertainty:.1e}, with {bits} bits",
+                possible.0, possible.1, values.0, values.1
+            ),
+        }
+    }
+}
