@@ -85,8 +85,8 @@ fn certificate(part: &PartMeant) -> String {
     let least = part.at_least;
     if part.rigid {
         return format!(
-            "no velocity satisfies the closure equations at this pose; for one to do so some number has to change, to first order, by \
-             at least {least:.1} times what its digits leave open"
+            "no velocity satisfies the closure equations at this pose; for one to do so some number has to change, to first order and by \
+             the least change found from several starts, by {least:.1} times what its digits leave open"
         );
     }
     let open = part.nearest.as_ref().map_or(String::new(), |nearest| {
