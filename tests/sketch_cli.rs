@@ -229,3 +229,124 @@ mod corpus {
         }
     }
 }
+
+/// A rectangle of lines with a diagonal, by directions alone.
+const RECTANGLE: &str = r#"<sketch name="rectangle">
+  <point name="a" xy="0 0"/> <point name="b" xy="4 0.1"/> <point name="c" xy="4.1 3"/> <point name="d" xy="0.1 3"/>
+  <line name="left" through="0 0" direction="0 1"/> <line name="top" through="0 3" direction="-1 0.1"/>
+  <incidence between="a left"/> <incidence between="d left"/> <incidence between="d top"/> <incidence between="c top"/>
+  <distance between="a b" value="4"/> <distance between="b c" value="3"/>
+  <horizontal of="a b"/> <vertical of="left"/> <horizontal of="top"/> <vertical of="c b"/>
+</sketch>"#;
+
+#[test]
+fn directions_of_lines_and_of_two_points_are_angles_as_drawn() {
+    let named = read_sketch(RECTANGLE, "f", &[]).unwrap();
+    // The sides without a line of their own get one each; the first direction is no constraint.
+    assert_eq!(&named.names[6..], ["a–b", "c–b"]);
+    let angles = named.sketch.constraints().iter();
+    let is_line = |e: &usize| *e >= 4;
+    let angles = angles.filter(|c| c.ends.iter().all(is_line));
+    let quarters: Vec<f64> = angles
+        .map(|c| c.value.value() / std::f64::consts::FRAC_PI_2)
+        .collect();
+    assert_eq!(quarters, [1.0, 2.0, -1.0]);
+    let words = kutzbach::constructive::words::SketchWords::of(&named);
+    let text = words.text();
+    assert!(
+        text.starts_with("rectangle: 8 elements, 13 constraints, well-constrained"),
+        "{text}"
+    );
+    let one = words
+        .construction()
+        .unwrap()
+        .with_sides(words.construction().unwrap().drawn_left());
+    assert!(one.is_ok());
+    // Two points that a line of the drawing holds are told on it: the same direction twice.
+    let twice = RECTANGLE.replace("<horizontal of=\"a b\"/>", "<vertical of=\"a d\"/>");
+    let error = read_sketch(&twice, "f", &[]).unwrap_err();
+    assert_eq!(error.message, "this was said of the same line before");
+    let error = read_sketch(&RECTANGLE.replace("of=\"a b\"", "of=\"a left\""), "f", &[]);
+    assert_eq!(error.unwrap_err().message, "needed a line, or two points");
+    let across = RECTANGLE.replace(
+        "<vertical of=\"left\"/>",
+        "<perpendicular between=\"left top\"/>",
+    );
+    let named = read_sketch(&across, "f", &[]).unwrap();
+    let last = named
+        .sketch
+        .constraints()
+        .iter()
+        .find(|c| c.ends == [4, 5])
+        .unwrap();
+    assert!((last.value.value() - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
+}
+
+#[test]
+fn a_ring_of_angles_has_one_too_many() {
+    let ring = |last: &str| {
+        let text = format!(
+            "<sketch name='ring'><line name='a' through='0 0' direction='1 0'/><line name='b' through='0 0' direction='1 1'/>\
+             <line name='c' through='0 1' direction='0 1'/><point name='p' xy='1 2'/>\
+             <angle between='a b' value='${{pi/4}}'/><angle between='b c' value='${{pi/4}}'/><angle between='c a' value='{last}'/>\
+             <distance between='p a' value='1'/><distance between='p b' value='2'/><distance between='p c' value='2'/></sketch>"
+        );
+        let named = read_sketch(&text, "f", &[]).unwrap();
+        kutzbach::constructive::words::SketchWords::of(&named).text()
+    };
+    let agrees = ring("${-pi/2}");
+    assert!(
+        agrees.starts_with("ring: 4 elements, 6 constraints, over-constrained"),
+        "{agrees}"
+    );
+    assert!(agrees.contains(
+        "too many: c a is fixed already by the constraints among a b c, and agrees with them"
+    ));
+    let turned = ring("${3*pi/2}");
+    assert!(
+        turned.contains("and agrees with them"),
+        "a whole turn is none: {turned}"
+    );
+    let contradicts = ring("${pi/2}");
+    assert!(
+        contradicts.contains("and contradicts them"),
+        "{contradicts}"
+    );
+    // 2 · 4 − 3 − 5 independent constraints.
+    assert!(
+        agrees.contains("\nfreedoms left: 0") || !agrees.contains("freedoms left"),
+        "{agrees}"
+    );
+}
+
+#[test]
+fn a_budget_of_nothing_leaves_what_is_solved_at_once_undecided() {
+    // The edges of K3,3: no circles and lines construct it.
+    let points: [[i32; 2]; 6] = [[0, 0], [5, 1], [2, 6], [1, 3], [7, 5], [4, -3]];
+    let named = |i: usize| format!("p{i}");
+    let mut text = "<sketch name='k33'>".to_owned();
+    for (i, [x, y]) in points.iter().enumerate() {
+        text += &format!("<point name='{}' xy='{x} {y}'/>", named(i));
+    }
+    for (i, p) in points[..3].iter().enumerate() {
+        for (j, q) in points[3..].iter().enumerate() {
+            let square = (p[0] - q[0]).pow(2) + (p[1] - q[1]).pow(2);
+            text += &format!(
+                "<distance between='p{i} p{}' value='${{sqrt({square})}}'/>",
+                j + 3
+            );
+        }
+    }
+    text += "</sketch>";
+    let folder = crate::support::empty_folder("sketch_budget");
+    let file = folder.join("k33.xml");
+    std::fs::write(&file, text).unwrap();
+    let file = file.to_str().unwrap();
+    let whole = said(&["graph", file, "--constructive"]);
+    assert!(whole.contains("and no other, by exact algebra"), "{whole}");
+    let none = said(&["graph", file, "--constructive", "--budget", "0"]);
+    assert!(
+        none.contains("not decided: the work limit was reached"),
+        "{none}"
+    );
+}

@@ -1,10 +1,15 @@
 //! `kutzbach graph FILE`: links, joints, the spanning tree and both sets of cycles.
 
 use super::failure::Failure;
+use super::interrupt::{self, INTERRUPTED};
+use super::progress::Sign;
 use super::{DONE, load, output, sketch};
 use clap::{Args, ValueEnum};
+use kutzbach::algebra::{Limits, Progress};
 use kutzbach::assembly::placed::Unsuited;
 use kutzbach::assembly::words;
+use kutzbach::constructive::sketch::NamedSketch;
+use kutzbach::constructive::together;
 use kutzbach::constructive::words::SketchWords;
 use kutzbach::graph::{
     Captions, ConstraintGraph, CycleBasis, FoldedGraph, GraphSummary, SpanningTree, to_dot, to_svg,
@@ -12,6 +17,9 @@ use kutzbach::graph::{
 };
 use kutzbach::mechanism::Mechanism;
 use kutzbach::report::text::visible;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 /// Show links, joints, spanning tree and cycles
 #[derive(Debug, Args)]
@@ -37,6 +45,10 @@ pub struct Arguments {
     /// Hold a joint of a planar mechanism for `--constructive`, as `joint=value`; may be repeated
     #[arg(long, value_name = "JOINT=VALUE", requires = "constructive")]
     hold: Vec<String>,
+    /// With `--constructive`: leave undecided what takes more than about so many seconds of work to solve at once, for each part that circles and
+    /// lines do not construct (deterministic)
+    #[arg(long, value_name = "SECONDS", default_value_t = 10.0, value_parser = super::report::seconds)]
+    budget: f64,
     /// Show the links that are only fixed to others too; JSON always has them
     #[arg(long)]
     verbose: bool,
@@ -145,7 +157,7 @@ fn seams(arguments: &Arguments, mechanism: &Mechanism) -> Result<u8, Failure> {
 /// What ruler and compass can do with a sketch.
 fn constructive(arguments: &Arguments) -> Result<u8, Failure> {
     let named = sketch::read(&arguments.source, &arguments.hold)?;
-    let found = SketchWords::of(&named);
+    let found = watched(&named, arguments.budget);
     let text = match (arguments.format, found.graph()) {
         (Format::Json, _) => output::json(&found.data())?,
         (Format::Dot, Some(graph)) => to_dot(&graph, &SpanningTree::root_at(&graph, 0)),
@@ -153,7 +165,41 @@ fn constructive(arguments: &Arguments) -> Result<u8, Failure> {
         _ => harmless(&found.text()),
     };
     arguments.destination.put(&text)?;
-    Ok(DONE)
+    Ok(match interrupt::asked() {
+        true => INTERRUPTED,
+        false => DONE,
+    })
+}
+
+/// Works while Ctrl-C and a sign of life are seen to.
+fn watched(named: &NamedSketch, budget: f64) -> SketchWords<'_> {
+    interrupt::listen();
+    let (progress, cancelled) = (
+        Arc::new(Progress::default()),
+        Arc::new(AtomicBool::new(false)),
+    );
+    let limits = Limits {
+        progress: Some(Arc::clone(&progress)),
+        cancelled: Some(Arc::clone(&cancelled)),
+        ..together::seconds(budget)
+    };
+    let over = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        let ticker = scope.spawn(|| {
+            let mut sign = Sign::new(budget);
+            while !over.load(Ordering::Relaxed) {
+                std::thread::park_timeout(Duration::from_millis(100));
+                if interrupt::asked() {
+                    cancelled.store(true, Ordering::Relaxed);
+                }
+                sign.tick(|| format!("solving at once: {}", progress.phase()));
+            }
+        });
+        let found = SketchWords::within(named, &limits);
+        over.store(true, Ordering::Relaxed);
+        ticker.thread().unpark();
+        found
+    })
 }
 
 /// What a folded graph leaves out.

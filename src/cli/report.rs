@@ -139,7 +139,7 @@ fn length(text: &str) -> Result<f64, String> {
 }
 
 /// A time that is none is a slip, not a wish for no limit.
-fn seconds(text: &str) -> Result<f64, String> {
+pub fn seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(seconds) if seconds >= 0.0 && seconds.is_finite() => Ok(seconds),
         _ => Err("a number of seconds, 0 or more".to_owned()),

@@ -8,6 +8,7 @@
 //! |---|---|
 //! | [`graph`] | constraint graphs and their deficit |
 //! | [`pebbles`] | what is over- and under-constrained, and why |
+//! | [`counted`] | the same of sketches with many lines, whose directions count too |
 //! | [`analysis`] | three ways to find out whether a graph is constructive: reduction, decomposition, s-tree |
 //! | [`sketch`] | points, lines, and what holds between them |
 //! | [`construction`] | every solution, step by step |
@@ -22,6 +23,7 @@
 
 pub mod analysis;
 pub mod construction;
+pub mod counted;
 pub mod graph;
 pub mod pebbles;
 pub mod picture;

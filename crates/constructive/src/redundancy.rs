@@ -4,6 +4,7 @@ use crate::construction::{Construction, Shape};
 use crate::pebbles::Circuit;
 use crate::sketch::{Constraint, Element, Sketch};
 use kutzbach_math::number::Number;
+use std::collections::HashMap;
 
 /// Solutions of the others that are compared, at most.
 const MOST_SOLUTIONS: usize = 256;
@@ -33,6 +34,9 @@ pub enum Redundancy {
 /// edges that are not independent.
 #[must_use]
 pub fn redundancy(sketch: &Sketch, circuit: &Circuit, refused: &[usize]) -> Redundancy {
+    if let Some(turned) = turned(sketch, circuit, refused) {
+        return angle_judged(sketch, circuit, turned);
+    }
     let local = |e: usize| circuit.vertices.binary_search(&e).ok();
     let elements: Vec<Element> = circuit
         .vertices
@@ -101,6 +105,52 @@ pub fn redundancy(sketch: &Sketch, circuit: &Circuit, refused: &[usize]) -> Redu
         true => Redundancy::WithinDigits { nearest },
         false if all && solutions.next().is_none() => Redundancy::Contradicts { nearest },
         false => Redundancy::Unknown,
+    }
+}
+
+/// How far the second line of a circuit's angle is turned from the first one by the other angles of the circuit, and how far digits leave that
+/// open (rad); `None` where it is no angle, or where the others do not lead from one to the other.
+fn turned(sketch: &Sketch, circuit: &Circuit, refused: &[usize]) -> Option<(f64, f64)> {
+    let is_line = |e: &usize| sketch.elements()[*e].is_line();
+    let [from, to] = sketch.constraints()[circuit.edge].ends;
+    if !circuit.vertices.iter().all(is_line) {
+        return None;
+    }
+    let angles = sketch.constraints().iter().enumerate().filter(|(i, c)| {
+        let inside = |e: &usize| circuit.vertices.binary_search(e).is_ok();
+        !refused.contains(i) && c.ends.iter().all(inside)
+    });
+    let angles: Vec<&Constraint> = angles.map(|(_, c)| c).collect();
+    let mut known: HashMap<usize, (f64, f64)> = HashMap::from([(from, (0.0, 0.0))]);
+    let mut open = vec![from];
+    while let Some(at) = open.pop() {
+        let (angle, spread) = known[&at];
+        for c in &angles {
+            let (next, sign) = match c.ends {
+                [u, v] if u == at => (v, 1.0),
+                [u, v] if v == at => (u, -1.0),
+                _ => continue,
+            };
+            known.entry(next).or_insert_with(|| {
+                open.push(next);
+                (angle + sign * c.value.value(), spread + left_open(&c.value))
+            });
+        }
+    }
+    known.get(&to).copied()
+}
+
+/// Whether an angle is the one that others make; a whole turn is none.
+fn angle_judged(sketch: &Sketch, circuit: &Circuit, (nearest, spread): (f64, f64)) -> Redundancy {
+    let asked = &sketch.constraints()[circuit.edge].value;
+    let off = nearest - asked.value();
+    let off = off.sin().atan2(off.cos()).abs();
+    if off <= SAME {
+        Redundancy::Agrees
+    } else if off <= left_open(asked) + spread {
+        Redundancy::WithinDigits { nearest }
+    } else {
+        Redundancy::Contradicts { nearest }
     }
 }
 

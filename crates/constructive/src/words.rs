@@ -2,11 +2,13 @@
 
 use crate::analysis::{LeafKind, Node, STree, s_tree};
 use crate::construction::{Construction, NotConstructive, Outcome, Shape};
-use crate::pebbles::{Circuit, PebbleGame, Standing};
+use crate::counted::Counted;
+use crate::pebbles::{Circuit, Standing};
 use crate::redundancy::{Redundancy, redundancy};
 use crate::sketch::{Element, NamedSketch};
-use crate::together::{Core, CoreOutcome, Placed, Together, together};
+use crate::together::{Core, CoreOutcome, Placed, Together, together_within};
 use crate::tree_picture::tree_svg;
+use kutzbach_algebra::Limits;
 use kutzbach_model::graph::{ConstraintGraph, EdgeSpec, NodeSpec};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -18,7 +20,7 @@ const MOST_LISTED: usize = 40;
 #[derive(Clone, Debug)]
 pub struct SketchWords<'a> {
     named: &'a NamedSketch,
-    game: PebbleGame,
+    game: Counted,
     tree: STree,
     construction: Result<Construction<'a>, NotConstructive>,
     /// Of a well-constrained sketch that is not constructed by circles and lines alone.
@@ -26,15 +28,22 @@ pub struct SketchWords<'a> {
 }
 
 impl<'a> SketchWords<'a> {
-    /// Plays the pebble game, builds the s-tree and the order of construction; what is not constructed is solved at once.
+    /// Counts, builds the s-tree and the order of construction; what is not constructed is solved at once.
     #[must_use]
     pub fn of(named: &'a NamedSketch) -> Self {
+        Self::within(named, &Limits::default())
+    }
+
+    /// The same within limits of what is solved at once.
+    #[must_use]
+    pub fn within(named: &'a NamedSketch, limits: &Limits) -> Self {
         let tree = s_tree(named.sketch.graph());
         let construction = Construction::new(&named.sketch);
+        let game = Counted::of(&named.sketch);
         let hard = matches!(construction, Err(NotConstructive::Clusters(_)));
         Self {
-            game: PebbleGame::play(named.sketch.graph()),
-            together: hard.then(|| together(&named.sketch, &tree)),
+            game,
+            together: hard.then(|| together_within(&named.sketch, &tree, limits)),
             tree,
             construction,
             named,

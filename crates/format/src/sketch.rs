@@ -1,6 +1,6 @@
 //! A planar sketch: `<sketch>` instead of `<robot>`.
 
-use super::element::{Element, Owner};
+use super::element::{Attribute, Element, Owner};
 use super::error::{Fault, FormatError, MOST_FAULTS, Outcome, located};
 use super::reader::Reader;
 use super::words::{did_you_mean, quoted};
@@ -57,6 +57,8 @@ struct Parts<'a> {
     drawn_at: Vec<Element<'a>>,
     constraints: Vec<Constraint>,
     stated_at: Vec<Element<'a>>,
+    /// The first line that is said to be horizontal or vertical, and in how many quarter turns: others are told against it.
+    level: Option<(usize, i32)>,
 }
 
 fn read(text: &str, settings: &[(String, String)]) -> Result<NamedSketch, Vec<Fault>> {
@@ -83,9 +85,14 @@ fn read(text: &str, settings: &[(String, String)]) -> Result<NamedSketch, Vec<Fa
         .into_iter()
         .filter_map(|c| parts.draw(&mut reader, c).err())
         .collect();
+    // Lines through points are looked for when it is known which lie on which.
+    let (levels, stated): (Vec<_>, Vec<_>) = stated
+        .into_iter()
+        .partition(|c| ["horizontal", "vertical"].contains(&c.name()));
     faults.extend(
         stated
             .into_iter()
+            .chain(levels)
             .filter_map(|c| parts.state(&mut reader, c).err()),
     );
     if !faults.is_empty() {
@@ -122,9 +129,26 @@ impl<'a> Parts<'a> {
         Ok(())
     }
 
-    /// A distance, an angle or an incidence.
+    /// A distance, an angle, an incidence, or a direction that some angle says.
     fn state(&mut self, reader: &mut Reader<'a>, element: Element<'a>) -> Outcome<()> {
-        const KNOWN: [&str; 5] = ["point", "line", "distance", "angle", "incidence"];
+        const KNOWN: [&str; 9] = [
+            "point",
+            "line",
+            "distance",
+            "angle",
+            "incidence",
+            "parallel",
+            "perpendicular",
+            "horizontal",
+            "vertical",
+        ];
+        match element.name() {
+            "parallel" => return self.turned(element, 0),
+            "perpendicular" => return self.turned(element, 1),
+            "horizontal" => return self.levelled(element, 0),
+            "vertical" => return self.levelled(element, 1),
+            _ => {}
+        }
         let ends = match element.name() {
             "distance" | "angle" => {
                 element.only_attributes(&["between", "value"])?;
@@ -160,9 +184,119 @@ impl<'a> Parts<'a> {
             "incidence" => Number::zero(),
             _ => reader.number(element.required("value")?)?,
         };
+        self.push(element, ends, value);
+        Ok(())
+    }
+
+    /// Two lines that are parallel, or across each other; which way each points, the drawing says.
+    fn turned(&mut self, element: Element<'a>, quarters: i32) -> Outcome<()> {
+        element.only_attributes(&["between"])?;
+        let ends = self.ends(element)?;
+        if ends.iter().any(|&e| self.direction(e).is_none()) {
+            let needed = format!("{} is said of two lines", element.name());
+            return Err(element.required("between")?.fault(needed));
+        }
+        self.angle(element, ends, quarters)
+    }
+
+    /// A line, or two points whose line, is horizontal or vertical. The first of them says how the whole is turned, which is no constraint.
+    fn levelled(&mut self, element: Element<'a>, quarters: i32) -> Outcome<()> {
+        element.only_attributes(&["of"])?;
+        let of = element.required("of")?;
+        let names: Vec<&str> = of.value.split_ascii_whitespace().collect();
+        let found = names.iter().map(|name| self.find(&of, name));
+        let found = found.collect::<Outcome<Vec<usize>>>()?;
+        let line = match found[..] {
+            [line] if self.direction(line).is_some() => line,
+            [p, q] => match (self.elements[p], self.elements[q]) {
+                (sketch::Element::Point(from), sketch::Element::Point(to)) => {
+                    self.line_through(element, [p, q], from, to)
+                }
+                _ => return Err(of.fault("needed a line, or two points")),
+            },
+            _ => return Err(of.fault("needed a line, or two points")),
+        };
+        match self.level {
+            None => self.level = Some((line, quarters)),
+            Some((first, _)) if first == line => {
+                return Err(of.fault("this was said of the same line before"));
+            }
+            Some((first, own)) => return self.angle(element, [first, line], quarters - own),
+        }
+        Ok(())
+    }
+
+    /// The line through two points: one that both are said to lie on, otherwise one that the file does not draw.
+    fn line_through(
+        &mut self,
+        element: Element<'a>,
+        ends: [usize; 2],
+        from: [f64; 2],
+        to: [f64; 2],
+    ) -> usize {
+        let on = |point: usize| {
+            let incident = self.constraints.iter().filter(|c| c.value.is_zero());
+            let others = incident.filter_map(move |c| match c.ends {
+                [u, v] if u == point => Some(v),
+                [u, v] if v == point => Some(u),
+                _ => None,
+            });
+            others.collect::<Vec<usize>>()
+        };
+        let lines = on(ends[1]);
+        if let Some(line) = on(ends[0]).into_iter().find(|line| lines.contains(line)) {
+            return line;
+        }
+        let line = self.elements.len();
+        let direction = [to[0] - from[0], to[1] - from[1]];
+        self.elements.push(sketch::Element::Line {
+            through: from,
+            direction,
+        });
+        let [p, q] = ends.map(|e| &self.names[e]);
+        self.names.push(format!("{p}–{q}"));
+        self.drawn_at.push(element);
+        for point in ends {
+            self.push(element, [point, line], Number::zero());
+        }
+        line
+    }
+
+    /// An angle of so many quarter turns, and half a turn more where that is nearer to how the lines are drawn.
+    fn angle(&mut self, element: Element<'a>, ends: [usize; 2], quarters: i32) -> Outcome<()> {
+        let quarter = std::f64::consts::FRAC_PI_2;
+        let [from, to] = ends.map(|e| self.direction(e).unwrap_or([1.0, 0.0]));
+        let drawn = to[1].atan2(to[0]) - from[1].atan2(from[0]);
+        let off = drawn - f64::from(quarters) * quarter;
+        let quarters = quarters + if off.cos() < 0.0 { 2 } else { 0 };
+        // The same angle within a turn, −π excluded.
+        let quarters = (quarters + 1).rem_euclid(4) - 1;
+        let turn = Number::pi() * Number::integer(i64::from(quarters));
+        let value = turn.checked_div(&Number::integer(2));
+        let value = value.map_err(|error| element.fault(error.to_string()))?;
+        self.push(element, ends, value);
+        Ok(())
+    }
+
+    fn push(&mut self, element: Element<'a>, ends: [usize; 2], value: Number) {
         self.constraints.push(Constraint { ends, value });
         self.stated_at.push(element);
-        Ok(())
+    }
+
+    fn direction(&self, element: usize) -> Option<[f64; 2]> {
+        match self.elements[element] {
+            sketch::Element::Line { direction, .. } => Some(direction),
+            sketch::Element::Point(_) => None,
+        }
+    }
+
+    /// The element of a name.
+    fn find(&self, at: &Attribute<'a>, name: &str) -> Outcome<usize> {
+        self.by_name.get(name).copied().ok_or_else(|| {
+            let known = self.names.iter().map(String::as_str);
+            at.fault(format!("no point or line is named {}", quoted(name)))
+                .maybe_help(did_you_mean(name, known, ("`", "`")))
+        })
     }
 
     /// The two elements that a constraint names.
@@ -173,15 +307,7 @@ impl<'a> Parts<'a> {
             let message = format!("needed two names, found {}", names.len());
             return Err(between.fault(message).help("between=\"a b\""));
         };
-        let find = |name: &str| {
-            self.by_name.get(name).copied().ok_or_else(|| {
-                let known = self.names.iter().map(String::as_str);
-                between
-                    .fault(format!("no point or line is named {}", quoted(name)))
-                    .maybe_help(did_you_mean(name, known, ("`", "`")))
-            })
-        };
-        Ok([find(one)?, find(other)?])
+        Ok([self.find(&between, one)?, self.find(&between, other)?])
     }
 
     fn finish(self, root: Element<'_>) -> Outcome<NamedSketch> {
@@ -212,11 +338,17 @@ fn placed(
     stated: &[Element<'_>],
 ) -> Fault {
     let stated = |i: usize, message: &str| {
-        let between = stated[i].attribute("between").map_or("", |b| b.value);
+        let named = ["between", "of"]
+            .iter()
+            .find_map(|name| stated[i].attribute(name));
+        let between = named.map_or("", |names| names.value);
         stated[i].fault(format!("{message} (`{between}`)"))
     };
     match *why {
-        SketchError::Place(i) => drawn[i].fault("the direction of a line cannot be zero"),
+        SketchError::Place(i) if drawn[i].name() == "line" => {
+            drawn[i].fault("the direction of a line cannot be zero")
+        }
+        SketchError::Place(i) => drawn[i].fault("two points drawn at one place have no line"),
         SketchError::ZeroLength(i) => stated(i, "two points at distance zero are one point")
             .help("draw one point, or leave the constraint out"),
         SketchError::Negative(i) => stated(i, "the distance of two points is above zero"),

@@ -40,7 +40,8 @@ pub use third::Outcome;
 pub(crate) use third::drawn_side;
 
 use crate::analysis::{Reduction, reduce};
-use crate::pebbles::{Circuit, PebbleGame};
+use crate::counted::Counted;
+use crate::pebbles::Circuit;
 use crate::sketch::Sketch;
 use plan::Plan;
 use thiserror::Error;
@@ -270,7 +271,7 @@ impl<'a> Construction<'a> {
 }
 
 fn why_not(sketch: &Sketch, reduction: &Reduction) -> NotConstructive {
-    let game = PebbleGame::play(sketch.graph());
+    let game = Counted::of(sketch);
     if !game.circuits().is_empty() {
         NotConstructive::Over(game.circuits().to_vec())
     } else if game.freedoms() > 0 {

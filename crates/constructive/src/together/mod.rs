@@ -31,8 +31,21 @@ use crate::sketch::{Constraint, Element, Sketch};
 use kutzbach_algebra::{Budget, Limits};
 use kutzbach_math::number::Number;
 
-/// Matrix entries that one core may take.
+/// Matrix entries that one core may take where nothing is asked for.
 const WORK: u64 = 200_000_000;
+
+/// Matrix entries in a second of a usual machine: with coefficients of thirty digits, as the squares of printed doubles have.
+const WORK_PER_SECOND: f64 = 7e6;
+
+/// About as much work for each core as takes so many seconds, the same on every machine.
+#[must_use]
+pub fn seconds(seconds: f64) -> Limits {
+    Limits {
+        // Saturating; not a number becomes zero.
+        work: Some((seconds * WORK_PER_SECOND) as u64),
+        ..Limits::default()
+    }
+}
 
 /// Combinations of the cores' solutions that are constructed on; beyond that the number of solutions is a lower bound.
 const MOST_COMBINATIONS: usize = 256;
@@ -68,7 +81,7 @@ pub fn together(sketch: &Sketch, tree: &STree) -> Together {
     together_within(sketch, tree, &Limits::default())
 }
 
-/// The same within limits of the time as well, for each core.
+/// The same within other limits, for each core.
 #[must_use]
 pub fn together_within(sketch: &Sketch, tree: &STree, limits: &Limits) -> Together {
     for cores in [part::leaves(sketch, tree), part::peeled(sketch)] {
@@ -77,7 +90,7 @@ pub fn together_within(sketch: &Sketch, tree: &STree, limits: &Limits) -> Togeth
         }
         let budget = || {
             Budget::new(Limits {
-                work: Some(WORK),
+                work: limits.work.or(Some(WORK)),
                 ..limits.clone()
             })
         };
