@@ -363,13 +363,12 @@ impl Arguments {
         request: &Request,
         budget: &Budget,
     ) -> Result<(String, Option<Left>), Ended> {
-        let (system, always, relations) =
+        let (system, relations) =
             relations_of(mechanism, &request.options.system).map_err(Ended::Refused)?;
-        let (findings, stopped) =
-            match relation_by_relation(&always, &relations, system.variables.len(), budget) {
-                Ok(findings) => (findings, None),
-                Err((stop, findings)) => (findings, Some(stop)),
-            };
+        let (findings, stopped) = match relation_by_relation(&relations, budget) {
+            Ok(findings) => (findings, None),
+            Err((stop, findings)) => (findings, Some(stop)),
+        };
         let report = relations_report(mechanism, &system, &findings, stopped, request);
         let text = match self.for_a_person() {
             true => render_relations(&report, self.layout()),

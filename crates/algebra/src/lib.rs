@@ -39,8 +39,8 @@ pub use factor::{Factorization, UnivariateFactors, factor};
 pub use over_field::{FieldPolynomial, OverRationals, RealSet};
 pub use polynomial::{Polynomial, Rational};
 pub use strategy::{
-    Case, Divided, Group, Incremental, Instance, Problem, Relation, RelationFinding,
-    RelationVerdict, Step, brute_force, divide_and_conquer, incremental_instancing,
+    Bodies, Case, Divided, Group, Incremental, Instance, Problem, Relation, RelationFinding,
+    RelationVerdict, Relations, Step, brute_force, divide_and_conquer, incremental_instancing,
     relation_by_relation,
 };
 pub use system::{

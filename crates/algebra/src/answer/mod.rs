@@ -23,17 +23,19 @@ pub use fixed::FixedVariable;
 pub use relative_motion::{ProvenMotion, Scope, Settled};
 pub use solutions::Solutions;
 
-use super::strategy::{Group, Incremental, Local, Problem, Relation, Step, brute_force_noting};
+use super::strategy::{
+    Bodies, Group, Incremental, Local, Problem, Relation, Relations, Step, brute_force_noting,
+};
 use super::{
-    Budget, Component, Decomposition, Formulation, GroebnerBasis, Incomplete, MonomialOrder,
-    Origin, Polynomial, PolynomialSystem, Stop, SystemError, SystemOptions, components,
-    divide_and_conquer, incremental_instancing, polynomial_system,
+    Budget, Component, Decomposition, Formulation, GroebnerBasis, Incomplete, Meaning,
+    MonomialOrder, Origin, Polynomial, PolynomialSystem, Stop, SystemError, SystemOptions,
+    components, divide_and_conquer, incremental_instancing, polynomial_system,
 };
 use clusters::mechanism_clusters;
 use cycles::{Whole, cycle_answer};
 use fixed::fixed_variables;
 use hints::hints;
-use kutzbach_model::mechanism::{LinkId, Mechanism};
+use kutzbach_model::mechanism::{Joint, LinkId, Mechanism};
 use pieces::Pieces;
 use relative_motion::Part;
 use same_poses::first_of_same_poses;
@@ -409,8 +411,8 @@ pub(super) fn problem(mechanism: &Mechanism, system: &PolynomialSystem) -> Probl
     }
 }
 
-/// The relations of a mechanism for [`relation_by_relation`](super::relation_by_relation): the system, the equations that
-/// hold before any relation, and the relations in the order of the file. In positional form a relation is a joint; in the
+/// The relations of a mechanism for [`relation_by_relation`](super::relation_by_relation), with the system that they are of:
+/// in the order of the file. In positional form a relation is a joint; in the
 /// others it is a cycle, since what is not in a cycle relates nothing. Couplings come last.
 ///
 /// # Errors
@@ -418,7 +420,7 @@ pub(super) fn problem(mechanism: &Mechanism, system: &PolynomialSystem) -> Probl
 pub fn relations_of(
     mechanism: &Mechanism,
     options: &SystemOptions,
-) -> Result<(PolynomialSystem, Vec<Polynomial>, Vec<Relation>), SystemError> {
+) -> Result<(PolynomialSystem, Relations), SystemError> {
     let system = polynomial_system(mechanism, options)?;
     let mut joints: Vec<Relation> = mechanism
         .joints()
@@ -453,6 +455,45 @@ pub fn relations_of(
             .filter(|relation| !relation.equations.is_empty())
             .collect(),
     };
-    let relations = relations.into_iter().chain(couplings).collect();
-    Ok((system, always, relations))
+    let of_bodies = |meaning: &Meaning| {
+        matches!(
+            meaning,
+            Meaning::BodyRotation { .. }
+                | Meaning::BodyTranslation { .. }
+                | Meaning::Algebraic { .. }
+        )
+    };
+    let between_bodies = options.formulation == Formulation::Positional
+        && system.variables.iter().all(|v| of_bodies(&v.meaning));
+    let bodies = between_bodies.then(|| bodies(mechanism, &system));
+    // In positional form couplings have no equations.
+    let couplings = couplings.into_iter().filter(|_| bodies.is_none());
+    let given = Relations {
+        always,
+        relations: relations.into_iter().chain(couplings).collect(),
+        variables: system.variables.len(),
+        bodies,
+    };
+    Ok((system, given))
+}
+
+/// The links as bodies, and the two of every joint.
+fn bodies(mechanism: &Mechanism, system: &PolynomialSystem) -> Bodies {
+    let mut variables = vec![vec![0; 12]; mechanism.links().len()];
+    variables[mechanism.ground().0].clear();
+    for (index, variable) in system.variables.iter().enumerate() {
+        match variable.meaning {
+            Meaning::BodyRotation { link, row, column } => {
+                variables[link.0][3 * row + column] = index;
+            }
+            Meaning::BodyTranslation { link, row } => variables[link.0][9 + row] = index,
+            _ => {}
+        }
+    }
+    let ends = |joint: &Joint| [joint.predecessor.link.0, joint.successor.link.0];
+    Bodies {
+        ground: mechanism.ground().0,
+        variables,
+        of: mechanism.joints().iter().map(ends).collect(),
+    }
 }

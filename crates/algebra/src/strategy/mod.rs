@@ -11,6 +11,7 @@
 //! [`relation_by_relation`] is the management of constraints of section 3.2.2: relations are added one by one, and each
 //! is accepted, redundant or inconsistent.
 
+mod blocks;
 mod cases;
 mod divide;
 mod group;
@@ -21,4 +22,6 @@ pub(super) use divide::brute_force_noting;
 pub use divide::{Divided, Step, brute_force, divide_and_conquer};
 pub(super) use group::Local;
 pub use group::{Group, Problem};
-pub use relations::{Relation, RelationFinding, RelationVerdict, relation_by_relation};
+pub use relations::{
+    Bodies, Relation, RelationFinding, RelationVerdict, Relations, relation_by_relation,
+};

@@ -1,5 +1,13 @@
 //! Relations added one by one: accepted, redundant or inconsistent.
+//!
+//! Ruiz (1994), section 3.2.2. A relation is redundant when each of its equations lies in the radical of the ideal so far (Hilbert's
+//! Nullstellensatz: it vanishes on all solutions, complex ones included). Where fewer dimensions are left with it than before,
+//! that needs no proof; only where as many are is each equation asked about.
+//!
+//! Where relations are between bodies and nothing else, those on other loops have no say, and what is open moves freely: the
+//! equations of the loops that a relation closes decide, with one of their bodies at rest ([`Bodies`]).
 
+use super::blocks::Blocks;
 use crate::{
     Budget, GroebnerBasis, MonomialOrder, Polynomial, Stop, groebner_basis, radical_contains,
 };
@@ -24,6 +32,30 @@ impl Relation {
     }
 }
 
+/// Bodies that relations are between, where each relation is between two.
+#[derive(Clone, Debug)]
+pub struct Bodies {
+    /// The body at rest.
+    pub ground: usize,
+    /// The variables of every body but the ground: the entries of its rotation matrix, row by row, and its three coordinates.
+    pub variables: Vec<Vec<usize>>,
+    /// The two bodies of every relation.
+    pub of: Vec<[usize; 2]>,
+}
+
+/// Relations, and what holds without them.
+#[derive(Clone, Debug)]
+pub struct Relations {
+    /// Equations that always hold: unit circles, rotations, algebraic numbers.
+    pub always: Vec<Polynomial>,
+    /// The relations in the order in which they are added.
+    pub relations: Vec<Relation>,
+    /// Variables of the ring.
+    pub variables: usize,
+    /// Where the relations are joints between bodies, and their equations do not depend on where a pair of bodies is.
+    pub bodies: Option<Bodies>,
+}
+
 /// What a relation adds to those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RelationVerdict {
@@ -44,66 +76,99 @@ pub struct RelationFinding {
     pub verdict: RelationVerdict,
     /// Complex dimension of what the accepted relations leave possible.
     pub dimension: usize,
-    /// Polynomials of the basis after it.
+    /// Polynomials of the basis after it: where relations are between bodies, of the loops that it is in.
     pub basis: usize,
+    /// Of a relation that is redundant or inconsistent: earlier ones that alone make it so, by number, none of them superfluous as far
+    /// as the work allowed to see; none where relations are not between bodies.
+    pub because_of: Vec<usize>,
 }
 
-/// Adds relations in the order given, on top of equations that always hold (unit circles, rotations).
-///
-/// Ruiz (1994), section 3.2.2. A relation is redundant when each of its equations lies in the radical of the ideal so far
-/// (Hilbert's Nullstellensatz: it vanishes on all solutions, complex ones included).
+/// Adds relations in the order given, on top of equations that always hold.
 ///
 /// # Errors
 /// [`Stop`] where the budget does not suffice; the findings so far come with it.
 pub fn relation_by_relation(
-    always: &[Polynomial],
-    relations: &[Relation],
-    variables: usize,
+    given: &Relations,
     budget: &Budget,
 ) -> Result<Vec<RelationFinding>, (Stop, Vec<RelationFinding>)> {
     let mut findings = Vec::new();
-    let mut basis = match basis_of(always, variables, budget) {
-        Ok(basis) => basis,
-        Err(stop) => return Err((stop, findings)),
+    let stopped = match &given.bodies {
+        Some(bodies) => Blocks::new(given, bodies).add_all(budget, &mut findings),
+        None => add_all(given, budget, &mut findings),
     };
-    for relation in relations {
-        match add(&mut basis, relation, variables, budget) {
-            Ok(verdict) => findings.push(RelationFinding {
-                name: relation.name.clone(),
-                verdict,
-                dimension: basis.dimension().unwrap_or(0),
-                basis: basis.polynomials().len(),
-            }),
-            Err(stop) => return Err((stop, findings)),
-        }
+    match stopped {
+        Ok(()) => Ok(findings),
+        Err(stop) => Err((stop, findings)),
     }
-    Ok(findings)
 }
 
-fn add(
-    basis: &mut GroebnerBasis,
-    relation: &Relation,
-    variables: usize,
+fn add_all(
+    given: &Relations,
     budget: &Budget,
-) -> Result<RelationVerdict, Stop> {
-    let mut new = Vec::new();
-    for equation in &relation.equations {
-        let left = basis.normal_form(equation);
-        if !left.is_zero() && !radical_contains(basis.polynomials(), variables, &left, budget)? {
-            new.push(left);
+    findings: &mut Vec<RelationFinding>,
+) -> Result<(), Stop> {
+    let mut basis = basis_of(&given.always, given.variables, budget)?;
+    for relation in &given.relations {
+        let before = basis.dimension();
+        let asked = Asked {
+            before: basis.polynomials(),
+            dimension: before.unwrap_or(0),
+            new: &relation.equations,
+            variables: given.variables,
+        };
+        let (verdict, after) = asked.answer(budget)?;
+        if verdict == RelationVerdict::Accepted {
+            basis = after;
         }
+        findings.push(RelationFinding {
+            name: relation.name.clone(),
+            verdict,
+            dimension: basis.dimension().unwrap_or(0),
+            basis: basis.polynomials().len(),
+            because_of: Vec::new(),
+        });
     }
-    if new.is_empty() {
-        return Ok(RelationVerdict::Redundant);
+    Ok(())
+}
+
+/// What a relation adds to equations.
+pub(super) struct Asked<'a> {
+    pub before: &'a [Polynomial],
+    /// The dimension of their solutions.
+    pub dimension: usize,
+    pub new: &'a [Polynomial],
+    pub variables: usize,
+}
+
+impl Asked<'_> {
+    /// The verdict, and the basis of all equations together.
+    pub fn answer(&self, budget: &Budget) -> Result<(RelationVerdict, GroebnerBasis), Stop> {
+        let all = [self.before, self.new].concat();
+        let after = basis_of(&all, self.variables, budget)?;
+        let verdict = match after.dimension() {
+            None => RelationVerdict::Inconsistent,
+            Some(left) if left < self.dimension => RelationVerdict::Accepted,
+            Some(_) if self.is_redundant(budget)? => RelationVerdict::Redundant,
+            Some(_) => RelationVerdict::Accepted,
+        };
+        Ok((verdict, after))
     }
-    let mut trial: Vec<Polynomial> = basis.polynomials().to_vec();
-    trial.extend(new);
-    let after = basis_of(&trial, variables, budget)?;
-    if after.is_inconsistent() {
-        return Ok(RelationVerdict::Inconsistent);
+
+    /// Whether the new equations hold wherever those before do.
+    pub fn is_redundant(&self, budget: &Budget) -> Result<bool, Stop> {
+        for equation in self.new {
+            if !radical_contains(self.before, self.variables, equation, budget)? {
+                return Ok(false);
+            }
+        }
+        Ok(true)
     }
-    *basis = after;
-    Ok(RelationVerdict::Accepted)
+
+    /// Whether nothing satisfies all of them.
+    pub fn is_inconsistent(&self, budget: &Budget) -> Result<bool, Stop> {
+        let all = [self.before, self.new].concat();
+        Ok(basis_of(&all, self.variables, budget)?.is_inconsistent())
+    }
 }
 
 fn basis_of(
@@ -128,13 +193,18 @@ mod tests {
             equations: vec![equation.clone()],
         };
         let squared = &(&x - &y) * &(&x - &y);
-        let relations = [
-            relation("twice", &squared),
-            relation("once", &(&x - &y)),
-            relation("first", &(&x - &one)),
-            relation("second", &(&y + &one)),
-        ];
-        let findings = relation_by_relation(&[], &relations, 2, &Budget::unlimited()).unwrap();
+        let given = Relations {
+            always: Vec::new(),
+            relations: vec![
+                relation("twice", &squared),
+                relation("once", &(&x - &y)),
+                relation("first", &(&x - &one)),
+                relation("second", &(&y + &one)),
+            ],
+            variables: 2,
+            bodies: None,
+        };
+        let findings = relation_by_relation(&given, &Budget::unlimited()).unwrap();
         let told: Vec<(RelationVerdict, usize)> =
             findings.iter().map(|f| (f.verdict, f.dimension)).collect();
         assert_eq!(

@@ -17,8 +17,10 @@ pub struct RelationRow {
     pub verdict: &'static str,
     /// Complex dimension of what the relations accepted so far leave possible.
     pub dimension: usize,
-    /// Polynomials of the basis after it.
+    /// Polynomials of the basis after it; in positional form, of the loops that it is in.
     pub basis: usize,
+    /// Of one that is redundant or inconsistent, in positional form: earlier ones that alone make it so.
+    pub because_of: Vec<String>,
 }
 
 /// Relations added one by one.
@@ -66,6 +68,11 @@ pub fn relations_report(
                 },
                 dimension: finding.dimension,
                 basis: finding.basis,
+                because_of: finding
+                    .because_of
+                    .iter()
+                    .map(|&earlier| findings[earlier].name.clone())
+                    .collect(),
             })
             .collect(),
         relaxations: system.relaxations.iter().map(ToString::to_string).collect(),
@@ -116,7 +123,8 @@ pub fn render_relations(report: &Relations, layout: Layout) -> String {
         .column("relation", Column::Shrinking)
         .column("", Column::Words)
         .column("dimension after it", Column::Numbers)
-        .column("basis", Column::Numbers);
+        .column("basis", Column::Numbers)
+        .column("because of", Column::Words);
     for relation in &report.relations {
         let tint = match relation.verdict {
             "accepted" => Tint::Good,
@@ -128,6 +136,7 @@ pub fn render_relations(report: &Relations, layout: Layout) -> String {
             Cell::new(relation.verdict).tint(tint),
             Cell::new(relation.dimension.to_string()),
             Cell::new(relation.basis.to_string()),
+            Cell::new(relation.because_of.join(", ")),
         ]);
     }
     page.table(table, "relations");
