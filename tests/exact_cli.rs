@@ -73,6 +73,44 @@ fn relations_are_judged_one_by_one() {
     assert_eq!(answer["relations"][5]["dimension"], 2);
     let answer = json(&["tests/thesis/plug_lines_and_points.urdf", "--incremental"]);
     assert_eq!(answer["relations"][3]["verdict"], "inconsistent");
+    assert_eq!(
+        answer["relations"][3]["because_of"],
+        serde_json::json!(["point"])
+    );
+}
+
+/// All nine relations of the thesis' Cartesian table, the first of which leave dozens of freedoms; and a triangle whose sides hold
+/// only together.
+#[test]
+fn relations_on_open_chains_cost_what_their_loops_cost() {
+    for (file, dimensions) in [
+        ("tests/thesis/oldham.urdf", vec![13, 8, 3, 1]),
+        (
+            "mechanisms/cartesian_table.urdf",
+            vec![21, 17, 13, 11, 9, 7, 6, 4, 3],
+        ),
+        ("mechanisms/bennett.urdf", vec![13, 8, 3, 1]),
+    ] {
+        let answer = json(&[file, "--incremental"]);
+        let relations = answer["relations"].as_array().unwrap();
+        let found: Vec<u64> = relations
+            .iter()
+            .map(|relation| relation["dimension"].as_u64().unwrap())
+            .collect();
+        assert_eq!(found, dimensions, "{file}");
+    }
+    let answer = json(&["mechanisms/griffis_duffy.urdf", "--incremental"]);
+    let last = &answer["relations"][5];
+    assert_eq!(last["verdict"], "redundant");
+    assert_eq!(last["because_of"].as_array().unwrap().len(), 5);
+    let answer = json(&[
+        "mechanisms/cartesian_table.urdf",
+        "--incremental",
+        "--time",
+        "0",
+    ]);
+    assert_eq!(answer["relations"].as_array().unwrap().len(), 9);
+    assert_eq!(answer["relations"][8]["verdict"], "not reached");
 }
 
 #[test]

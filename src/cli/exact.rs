@@ -363,13 +363,19 @@ impl Arguments {
         request: &Request,
         budget: &Budget,
     ) -> Result<(String, Option<Left>), Ended> {
-        let (system, relations) =
+        let (system, given) =
             relations_of(mechanism, &request.options.system).map_err(Ended::Refused)?;
-        let (findings, stopped) = match relation_by_relation(&relations, budget) {
+        let (findings, stopped) = match relation_by_relation(&given, budget) {
             Ok(findings) => (findings, None),
             Err((stop, findings)) => (findings, Some(stop)),
         };
-        let report = relations_report(mechanism, &system, &findings, stopped, request);
+        let report = relations_report(
+            mechanism,
+            (&system, &given.relations),
+            &findings,
+            stopped,
+            request,
+        );
         let text = match self.for_a_person() {
             true => render_relations(&report, self.layout()),
             false => output::json(&report).map_err(Ended::Failed)?,

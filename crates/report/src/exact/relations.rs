@@ -4,7 +4,7 @@ use super::schema::{EXACT_SCHEMA, Outcome, Request, formulation_word, outcome};
 use super::text::stopped;
 use crate::text::words::counted;
 use crate::text::{Cell, Column, Layout, Page, Table, Tint};
-use kutzbach_algebra::{PolynomialSystem, RelationFinding, RelationVerdict, Stop};
+use kutzbach_algebra::{PolynomialSystem, Relation, RelationFinding, RelationVerdict, Stop};
 use kutzbach_model::mechanism::Mechanism;
 use serde::Serialize;
 
@@ -13,12 +13,12 @@ use serde::Serialize;
 pub struct RelationRow {
     /// The joint, cycle or coupling.
     pub name: String,
-    /// `accepted`, `redundant` or `inconsistent`.
+    /// `accepted`, `redundant`, `inconsistent` or `not reached`.
     pub verdict: &'static str,
     /// Complex dimension of what the relations accepted so far leave possible.
-    pub dimension: usize,
+    pub dimension: Option<usize>,
     /// Polynomials of the basis after it; in positional form, of the loops that it is in.
-    pub basis: usize,
+    pub basis: Option<usize>,
     /// Of one that is redundant or inconsistent, in positional form: earlier ones that alone make it so.
     pub because_of: Vec<String>,
 }
@@ -46,7 +46,7 @@ pub struct Relations {
 #[must_use]
 pub fn relations_report(
     mechanism: &Mechanism,
-    system: &PolynomialSystem,
+    (system, relations): (&PolynomialSystem, &[Relation]),
     findings: &[RelationFinding],
     stopped: Option<Stop>,
     request: &Request,
@@ -59,25 +59,41 @@ pub fn relations_report(
         outcome: outcome(stopped.map(|stop| ("the relations", stop))),
         relations: findings
             .iter()
-            .map(|finding| RelationRow {
-                name: finding.name.clone(),
-                verdict: match finding.verdict {
-                    RelationVerdict::Accepted => "accepted",
-                    RelationVerdict::Redundant => "redundant",
-                    RelationVerdict::Inconsistent => "inconsistent",
-                },
-                dimension: finding.dimension,
-                basis: finding.basis,
-                because_of: finding
-                    .because_of
-                    .iter()
-                    .map(|&earlier| findings[earlier].name.clone())
-                    .collect(),
-            })
+            .map(|finding| row(finding, relations))
+            .chain(relations.iter().skip(findings.len()).map(not_reached))
             .collect(),
         relaxations: system.relaxations.iter().map(ToString::to_string).collect(),
     }
 }
+
+fn row(finding: &RelationFinding, relations: &[Relation]) -> RelationRow {
+    let because_of = finding.because_of.iter();
+    RelationRow {
+        name: finding.name.clone(),
+        verdict: match finding.verdict {
+            RelationVerdict::Accepted => "accepted",
+            RelationVerdict::Redundant => "redundant",
+            RelationVerdict::Inconsistent => "inconsistent",
+        },
+        dimension: Some(finding.dimension),
+        basis: Some(finding.basis),
+        because_of: because_of
+            .map(|&earlier| relations[earlier].name.clone())
+            .collect(),
+    }
+}
+
+fn not_reached(relation: &Relation) -> RelationRow {
+    RelationRow {
+        name: relation.name.clone(),
+        verdict: NOT_REACHED,
+        dimension: None,
+        basis: None,
+        because_of: Vec::new(),
+    }
+}
+
+const NOT_REACHED: &str = "not reached";
 
 /// Relations added one by one, as a page of text.
 #[must_use]
@@ -92,11 +108,15 @@ pub fn render_relations(report: &Relations, layout: Layout) -> String {
     };
     page.paragraph(
         &format!(
-            "Of {}, {} accepted, {} redundant, {} inconsistent.",
+            "Of {}, {} accepted, {} redundant, {} inconsistent{}.",
             counted(report.relations.len(), "relation"),
             count("accepted"),
             count("redundant"),
-            count("inconsistent")
+            count("inconsistent"),
+            match count(NOT_REACHED) {
+                0 => String::new(),
+                left => format!(", {left} {NOT_REACHED}"),
+            }
         ),
         Tint::Strong,
         "",
@@ -125,17 +145,19 @@ pub fn render_relations(report: &Relations, layout: Layout) -> String {
         .column("dimension after it", Column::Numbers)
         .column("basis", Column::Numbers)
         .column("because of", Column::Words);
+    let number = |value: Option<usize>| value.map_or_else(String::new, |value| value.to_string());
     for relation in &report.relations {
         let tint = match relation.verdict {
             "accepted" => Tint::Good,
             "redundant" => Tint::Notable,
+            NOT_REACHED => Tint::Doubtful,
             _ => Tint::Bad,
         };
         table.row(vec![
             Cell::new(&relation.name),
             Cell::new(relation.verdict).tint(tint),
-            Cell::new(relation.dimension.to_string()),
-            Cell::new(relation.basis.to_string()),
+            Cell::new(number(relation.dimension)),
+            Cell::new(number(relation.basis)),
             Cell::new(relation.because_of.join(", ")),
         ]);
     }
