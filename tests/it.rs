@@ -81,6 +81,7 @@ mod sketch_cli;
 #[path = "stability/main.rs"]
 mod stability;
 mod subgroups;
+mod superfluous;
 mod support;
 mod thesis_rows;
 mod thesis_systems;

@@ -5,6 +5,7 @@ use super::alike::treat_alike;
 use super::branch::Branch;
 use super::chart::moving_far;
 use super::claim::Claim;
+use super::coupling_locks::LockingCoupling;
 use super::cycles::{CycleFacts, cycle_facts};
 use super::depth::Depth;
 use super::engines::ask_all;
@@ -20,6 +21,7 @@ use super::question::{Means, Question};
 use super::redundancy::SelfStresses;
 use super::redundant_directions::{JointDirections, redundant_directions};
 use super::roles::{JointRole, Seen, roles_seen_closer};
+use super::superfluous::{Superfluous, contradicting, superfluous};
 use super::verdict::{Mobility, judge, not_asked, unassembled};
 use super::vocabulary::PoseKind;
 use super::vocabulary::Verdict;
@@ -108,6 +110,12 @@ pub struct Analysis {
     pub cycles: Vec<CycleFacts>,
     /// Repair advice, best first; none unless [`Depth::Everything`] is asked for.
     pub advice: Vec<Advice>,
+    /// Couplings and links that can be left out, each by itself, of parts in a regular pose; none unless [`Depth::Everything`] is asked
+    /// for.
+    pub superfluous: Vec<Superfluous>,
+    /// Couplings that agree with the loops at the pose and not beyond, with the finite freedom of their part without them, by part; as far
+    /// as subgroups prove it, and none unless [`Depth::Everything`] is asked for.
+    pub contradicting: BTreeMap<usize, Vec<LockingCoupling>>,
     /// Sets of joints to relax after which no constraint is redundant and the finite mobility is what it was: an entry for each
     /// part with redundant constraints, of which one set each is to be taken; or why there are none.
     pub change_sets: Result<Vec<ChangeSets>, NoChangeSet>,
@@ -213,6 +221,8 @@ pub(super) fn analyse_as_stated(
         redundant_wrenches: vec![None; mechanism.joints().len()],
         cycles: Vec::new(),
         advice: Vec::new(),
+        superfluous: Vec::new(),
+        contradicting: BTreeMap::new(),
         change_sets: Err(NoChangeSet::Undecided),
         directions: vec![JointDirections::default(); mechanism.joints().len()],
         findings: Vec::new(),
@@ -383,7 +393,8 @@ impl Analysis {
             self.roles[joint].locked = (mechanism.joints()[joint].freedom() > 0).then_some(false);
             self.redundant_wrenches[joint] = Some(0);
         }
-        for ((part, rank), seen) in self.structure.parts.iter().zip(parts).zip(seen) {
+        let all = self.structure.parts.iter().zip(parts).zip(seen);
+        for (index, ((part, rank), seen)) in all.enumerate() {
             for (joint, role) in part.joints.iter().zip(roles_seen_closer(
                 mechanism,
                 geometry,
@@ -399,6 +410,16 @@ impl Analysis {
                     }
                 }
                 self.roles[*joint] = role;
+            }
+            let finding = &self.findings[index];
+            let finite = finding.upper();
+            if finding.lower() == finite && rank.instantaneous > Some(finite) {
+                let parts = (part, rank);
+                let structure = &self.structure;
+                let found = contradicting(mechanism, geometry, states, structure, parts, finite)?;
+                if !found.is_empty() {
+                    self.contradicting.insert(index, found);
+                }
             }
             let Some(stresses) = SelfStresses::new(part, rank)? else {
                 continue;
@@ -416,6 +437,10 @@ impl Analysis {
                 self.directions[joint] = found;
             }
             if let Some(redundant) = home.redundant.filter(|r| *r > 0) {
+                if self.findings[index].pose() == Some(PoseKind::Regular) {
+                    let spare = superfluous(mechanism, part, rank, &stresses);
+                    self.superfluous.extend(spare);
+                }
                 self.advice.extend(advice_for_part(
                     mechanism,
                     &mut trial,

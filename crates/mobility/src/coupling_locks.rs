@@ -7,6 +7,7 @@
 use super::pose_rank::PartRank;
 use kutzbach_closure::Part;
 use kutzbach_math::matrix::{SparseMatrix, decide};
+use std::collections::BTreeSet;
 
 /// The instantaneous freedom that a part has without its couplings, where with them it has none though the loops leave some;
 /// `None` where that is not so, or where a margin does not tell. Cost: one rank of the part.
@@ -68,6 +69,20 @@ pub fn locking_couplings(part: &Part, rank: &PartRank) -> Vec<LockingCoupling> {
         .enumerate()
         .filter_map(of_one)
         .collect()
+}
+
+/// The instantaneous freedom of a part without some of its couplings, by their places in it; `None` where a margin does not tell.
+pub(super) fn freedom_without(
+    part: &Part,
+    rank: &PartRank,
+    left_out: &BTreeSet<usize>,
+) -> Option<usize> {
+    let rows = rank.matrix.rows().checked_sub(part.couplings.len())?;
+    let kept = |row: usize| {
+        row.checked_sub(rows)
+            .is_none_or(|place| !left_out.contains(&place))
+    };
+    nullity(rank, |row, _, entry| kept(row).then_some(entry))
 }
 
 /// The nullity of a part's matrix with some entries changed or left out; `None` where a margin does not tell.

@@ -18,6 +18,7 @@ use super::more_digits::MoreDigits;
 use super::pose_rank::{PartRank, Pose};
 use super::question::{Means, Question};
 use super::subgroup::{hidden_offset, subgroup_finding};
+use super::superfluous::without_spares;
 use super::tracing::{WALKED_UNKNOWNS, poses_of_regular_part, walk};
 use super::tree_bound::most_by_joints;
 use super::vocabulary::{CertificateLevel, EngineName, MobilityClass, PoseKind, Scope};
@@ -26,16 +27,35 @@ use kutzbach_closure::{Part, Section};
 use kutzbach_math::matrix::{MatrixError, RankDecision, Real};
 
 /// The class of a regular part that subgroups within the precision of its numbers do not explain: paradoxical where such subgroups were
-/// looked for in exact numbers, or in those that were taken literally; in rounded ones they may be there and not show.
+/// looked for in exact numbers, or in those that were taken literally; in rounded ones they may be there and not show. Open where
+/// they could not be looked for everywhere, and where the part moves as without something superfluous, and so for the reason of the rest.
 fn unexplained(
-    pose: &Pose<'_>,
-    structure: &Structure,
-    part: &Part,
-    rank: &PartRank,
+    question: &Question<'_>,
     chart: &ChartTest,
 ) -> Result<Option<MobilityClass>, MatrixError> {
+    let Question {
+        pose,
+        structure,
+        part,
+        rank,
+        ..
+    } = *question;
+    let of = |part: &Part, rank: &PartRank| {
+        let Pose {
+            mechanism,
+            geometry,
+            states,
+            ..
+        } = pose;
+        subgroup_finding(mechanism, geometry, states, structure, part, rank)
+    };
+    if let Some((smaller, left)) = without_spares(pose.mechanism, part, rank)
+        && of(&smaller, &left)?.class.is_some()
+    {
+        return Ok(None);
+    }
     if rank.stated <= rank.accuracy {
-        return Ok(Some(MobilityClass::Paradoxical));
+        return Ok(question.looked.get().then_some(MobilityClass::Paradoxical));
     }
     if !chart.literal {
         return Ok(None);
@@ -50,15 +70,9 @@ fn unexplained(
         note: None,
         ..rank.clone()
     };
-    let found = subgroup_finding(
-        pose.mechanism,
-        pose.geometry,
-        pose.states,
-        structure,
-        part,
-        &literal,
-    )?;
-    Ok(Some(found.class.unwrap_or(MobilityClass::Paradoxical)))
+    let found = of(part, &literal)?;
+    let unexplained = found.looked.then_some(MobilityClass::Paradoxical);
+    Ok(found.class.or(unexplained))
 }
 
 /// Asks the engines about one part, but for those that ask others again or have a budget. Below [`Depth::Motions`] the branch of a
@@ -214,6 +228,7 @@ pub(super) fn by_subgroups(
         claim = claim.regular(freedom, one_branch(question, means, freedom, answer)?);
     }
     question.class.set(subgroups.class);
+    question.looked.set(subgroups.looked);
     found.take(claim);
     Ok(())
 }
@@ -292,7 +307,7 @@ pub(super) fn by_chart(
                 }
             );
             let class = match question.class.get() {
-                None => unexplained(pose, question.structure, part, rank, &chart)?,
+                None => unexplained(question, &chart)?,
                 explained => explained,
             };
             let answer = Answer {

@@ -25,6 +25,8 @@ pub(super) struct Question<'a> {
     pub freedom: Cell<Option<usize>>,
     /// The class that subgroups explain.
     pub class: Cell<Option<MobilityClass>>,
+    /// Whether subgroups were looked for everywhere.
+    pub looked: Cell<bool>,
     /// The chart test, where it was made.
     pub chart: OnceCell<ChartTest>,
     /// The kernel of its equations, where it was computed.
@@ -64,6 +66,7 @@ impl<'a> Question<'a> {
             depth,
             freedom: Cell::new(None),
             class: Cell::new(None),
+            looked: Cell::new(false),
             chart: OnceCell::new(),
             kernel: OnceCell::new(),
             near: OnceCell::new(),

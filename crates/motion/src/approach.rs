@@ -120,8 +120,15 @@ fn driven_to(
     };
     let turns = mechanism.joint(joint).kind.freedoms() == [FreedomPart::Rotation];
     let whole_turns: &[f64] = if turns { &[0.0, -TAU, TAU] } else { &[0.0] };
+    // Without turning back, if that leads there.
     for around in whole_turns {
-        if let Some(pose) = motion.curve.pose_at_drive(value + around) {
+        let straight = motion.curve.pose_at_drive(value + around);
+        if let Some(pose) = straight {
+            return Ok(motion.curve.states(&pose.pose));
+        }
+    }
+    for around in whole_turns {
+        if let Some(pose) = motion.curve.nearest_at_drive(value + around) {
             return Ok(motion.curve.states(&pose.pose));
         }
     }
@@ -133,7 +140,10 @@ const THERE: f64 = 1e-9;
 
 /// Where the driven joint turns back or stops.
 fn ends(mechanism: &Mechanism, motion: &Motion) -> String {
-    let (low, high) = motion.curve.drive_range();
+    let own = motion.ranges.iter();
+    let mut own = own.filter(|range| range.variable == motion.driven);
+    let range = own.next();
+    let (low, high) = range.map_or((f64::NAN, f64::NAN), |range| (range.min, range.max));
     let limits: Vec<String> = motion
         .ends
         .iter()

@@ -396,6 +396,28 @@ impl Curve {
         Some(found)
     }
 
+    /// The pose nearest to the start along the curve at which the driven variable has a value (rad, m), wherever it turns back on the
+    /// way; `None` where the curve does not have it.
+    pub fn nearest_at_drive(&mut self, value: f64) -> Option<CurvePose> {
+        let (first, last) = self.arclengths();
+        let around = last - first;
+        let distance = |arclength: f64| match self.closed {
+            true => arclength.abs().min(around - arclength.abs()),
+            false => arclength.abs(),
+        };
+        let pairs = self.milestones.windows(2).map(|pair| (pair[0], pair[1]));
+        let mut holding: Vec<_> = pairs
+            .filter(|(a, b)| a.1.min(b.1) <= value && value <= a.1.max(b.1))
+            .collect();
+        holding.sort_by(|(a, b), (c, d)| {
+            let near = |a: f64, b: f64| distance(a).min(distance(b));
+            near(a.0, b.0).total_cmp(&near(c.0, d.0))
+        });
+        holding
+            .into_iter()
+            .find_map(|(start, end)| self.solve_drive(start, end, value))
+    }
+
     /// The pose between two milestones where the driven variable has a value.
     fn solve_drive(&mut self, start: (f64, f64), end: (f64, f64), value: f64) -> Option<CurvePose> {
         let middle = 0.5 * (start.0 + end.0);

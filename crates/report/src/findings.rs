@@ -12,7 +12,7 @@ use super::text::words::counted;
 use kutzbach_closure::{owners, with_owners};
 use kutzbach_math::matrix::Method;
 use kutzbach_mobility::{
-    Analysis, IdleLink, JointRole, LockingCoupling, PartFinding, PartRank,
+    Analysis, IdleLink, JointRole, LockingCoupling, PartFinding, PartRank, Spare,
     freedom_locked_by_couplings, locking_couplings,
 };
 use kutzbach_model::mechanism::{Joint, JointKind, Mechanism};
@@ -118,6 +118,15 @@ fn locked_by_couplings(report: &mut Report, mechanism: &Mechanism, analysis: &An
             owners(&structure.part_names, &[index]),
             counted(freedom, "instantaneous freedom"),
             culprits(mechanism, &locking_couplings(part, rank)),
+        );
+        let warning = Warning::new(WarningKind::LockedTogether, text);
+        report.warnings.push(warning);
+    }
+    for (part, couplings) in &analysis.contradicting {
+        let text = format!(
+            "{}: a coupling agrees with its loops at this pose only{}",
+            owners(&structure.part_names, &[*part]),
+            culprits(mechanism, couplings),
         );
         let warning = Warning::new(WarningKind::LockedTogether, text);
         report.warnings.push(warning);
@@ -576,6 +585,20 @@ fn removals(mechanism: &Mechanism, analysis: &Analysis) -> Vec<Advice> {
         })
     };
     let mut all: Vec<Advice> = joints.filter_map(removal).collect();
+    all.extend(analysis.superfluous.iter().map(|spare| {
+        let (name, from) = match spare.what {
+            Spare::Coupling(index) => (&mechanism.couplings()[index].name, "coupling"),
+            Spare::Link(index) => (&mechanism.links()[index].name, "link"),
+        };
+        Advice {
+            text: format!("{name}: remove this {from}; what it asks for the rest asks for too"),
+            joint: name.clone(),
+            from: from.to_owned(),
+            to: "none".to_owned(),
+            redundant_before: redundant,
+            redundant_after: redundant - spare.redundant as i64,
+        }
+    }));
     all.sort_by(|a, b| natural_order(&a.joint, &b.joint));
     all
 }

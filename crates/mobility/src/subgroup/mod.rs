@@ -37,6 +37,10 @@
 //! is translated along a circle. Where rule 1 makes the loop's configurations a curve, that motion is the curve, so the
 //! loop is a chain with values in the plane's translations rather than in all planar motions (Hervé and Sparacino 1991).
 //!
+//! A *planar* part that balls close has the configurations of the one with hinges in their place (`planar`). *Couplings* are linear
+//! functions on the configurations that the loops leave; where these are a manifold by the rules above and the rank falls by one for
+//! each coupling, the functions are independent there, and what they leave is a manifold again.
+//!
 //! In all of these the tangent space is ker J. So where they apply, the pose is regular and the finite freedom is the
 //! instantaneous one; what the engine finds is *that*, and *why*. Both numbers are found independently and must agree.
 //!
@@ -58,10 +62,12 @@ mod offsets;
 mod one_loop;
 mod parallelogram;
 mod placing;
+mod planar;
 mod remainder;
 mod words;
 
 use super::pose_rank::PartRank;
+use super::restricted::{LeftOut, without};
 use super::vocabulary::MobilityClass;
 use kutzbach_closure::Structure;
 use kutzbach_closure::{Geometry, JointState, Part};
@@ -93,6 +99,8 @@ pub struct SubgroupFinding {
     /// Why the part is mobile; `None` where it is not, or where subgroups do not tell. Never
     /// [`MobilityClass::Paradoxical`]: that is what is mobile and not explained here.
     pub class: Option<MobilityClass>,
+    /// Whether subgroups were looked for everywhere: what is then not explained is explained by none.
+    pub looked: bool,
     /// The reason, in one sentence for a mechanical engineer.
     pub text: String,
     /// Reductions carried out, in order.
@@ -121,6 +129,7 @@ pub fn subgroup_finding(
     let mut finding = SubgroupFinding {
         finite: None,
         class: None,
+        looked: false,
         text: String::new(),
         steps: Vec::new(),
         lower: 0,
@@ -177,11 +186,40 @@ pub fn subgroup_finding(
         );
         return Ok(finding);
     }
+    match planar::closed_by_balls(mechanism, geometry, states, part, rank, accuracy) {
+        Ok(Some((text, margin))) => {
+            finding.decide(freedom, MobilityClass::Exceptional);
+            finding.margin = finding.margin.min(margin.gap());
+            finding.text = format!("{reading}{text}");
+            return Ok(finding);
+        }
+        Ok(None) => {}
+        Err(error) => return open(finding, &words::failure(&error)),
+    }
     if !part.couplings.is_empty() {
-        return open(
-            finding,
-            "joints are coupled, and the displacements that couplings leave to chains form no subgroups",
-        );
+        let couplings = part.couplings.len();
+        let out = LeftOut {
+            couplings: (0..couplings).collect(),
+            ..LeftOut::default()
+        };
+        let Some((uncoupled, left)) = without(part, rank, &out)
+            .filter(|(_, left)| left.instantaneous == Some(freedom + couplings))
+        else {
+            return open(
+                finding,
+                "couplings repeat what loops or others ask for, and what they leave to chains forms no subgroups",
+            );
+        };
+        let found = subgroup_finding(mechanism, geometry, states, structure, &uncoupled, &left)?;
+        if found.finite.is_none() {
+            finding.looked = found.looked;
+            return open(finding, &found.text);
+        }
+        finding.decide(freedom, found.class.unwrap_or(MobilityClass::Trivial));
+        finding.margin = finding.margin.min(found.margin);
+        finding.steps = found.steps;
+        finding.text = words::coupled(&found.text, couplings);
+        return Ok(finding);
     }
     if part.joints.len() > MOST_JOINTS {
         return open(
@@ -193,6 +231,7 @@ pub fn subgroup_finding(
     match outcome {
         Err(error) => open(finding, &words::failure(&error)),
         Ok(outcome) => {
+            finding.looked = true;
             finding.adopt(outcome, freedom, reading);
             Ok(finding)
         }
@@ -239,6 +278,7 @@ impl SubgroupFinding {
         Self {
             finite: None,
             class: None,
+            looked: false,
             text: format!(
                 "two axes differ by {offset:.1e} (rad, lengths of the part) only, so that subgroups are not looked for"
             ),

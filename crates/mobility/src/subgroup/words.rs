@@ -46,6 +46,34 @@ pub fn independent(part: &Part, equations: usize, reading: &str) -> String {
     }
 }
 
+/// A planar part that balls close.
+pub fn closed_by_balls(part: &Part, balls: usize) -> String {
+    let coupled = match part.couplings.len() {
+        0 => "",
+        _ => ", with those of its couplings",
+    };
+    let balls = match balls {
+        1 => "the ball, which asks",
+        _ => "the balls, each of which asks",
+    };
+    format!(
+        "its hinges and slides, by which all its links hang together, lie in G (planar motion), and so does what they leave to \
+         {balls} for what a hinge would; the {} equations in the plane{coupled} are independent",
+        3 * part.cycles.len()
+    )
+}
+
+/// A part whose couplings ask for something else than its loops, which subgroups explain.
+pub fn coupled(of_loops: &str, couplings: usize) -> String {
+    let these = match couplings {
+        1 => "its coupling is one more".to_owned(),
+        n => format!("its {n} couplings are as many more"),
+    };
+    format!(
+        "without couplings: {of_loops}; {these} on the manifold of these motions, independent of one another"
+    )
+}
+
 /// A part whose rank is explained by the spaces of its cycles. `frame` places the frame of the first algebra in the world.
 pub fn loop_spaces(
     mechanism: &Mechanism,

@@ -71,9 +71,9 @@ pub struct CouplingRow {
 pub struct Advice {
     /// The advice as a sentence.
     pub text: String,
-    /// The joint.
+    /// The joint; a link or coupling where `from` says so.
     pub joint: String,
-    /// Its class now.
+    /// Its class now; `link` or `coupling` for what is none.
     pub from: String,
     /// The class it should get; `none` where it may be removed.
     pub to: String,

@@ -73,7 +73,12 @@ impl<'a> Alternatives<'a> {
             _ => "any one of ",
         };
         if self.removes() {
-            return format!("remove {of}{joints}");
+            let what = match self.first.from.as_str() {
+                what @ ("link" | "coupling") if of.is_empty() => format!("the {what} "),
+                what @ ("link" | "coupling") => format!("the {what}s "),
+                _ => String::new(),
+            };
+            return format!("remove {of}{what}{joints}");
         }
         let to: Vec<&str> = self.to.iter().map(|class| word(class)).collect();
         format!(

@@ -7,7 +7,9 @@ use super::cite;
 use super::page::Page;
 use super::style::Tint;
 use super::words::{capitalised, counted, degrees, figure, metres, names};
-use crate::schema::{AsWritten, Branch, Nominal, Report, WarningKind, WrittenKind, WrittenStyle};
+use crate::schema::{
+    Advice, AsWritten, Branch, Nominal, Report, WarningKind, WrittenKind, WrittenStyle,
+};
 use kutzbach_mobility::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
 
 /// The verdict, and what is held.
@@ -152,10 +154,31 @@ fn mobile(report: &Report) -> String {
             blocks_of(report, class),
             cite::class(class)
         ));
+    } else if report.home.pose == Some(PoseKind::Regular) {
+        text.push_str(&unexplained(report));
     }
     text.push('.');
     text
 }
+
+/// What is said of a mobility whose class is open.
+fn unexplained(report: &Report) -> String {
+    let spare = |advice: &&Advice| advice.from == "link" || advice.from == "coupling";
+    let spare: Vec<String> = report
+        .advice
+        .iter()
+        .filter(spare)
+        .map(|advice| format!("`{}`", advice.joint))
+        .collect();
+    match spare.as_slice() {
+        [] => ", for a reason that displacement groups leave open".to_owned(),
+        [one] => format!(", as it would without {one}"),
+        several => format!(", as it would without one of {}", names(several, SPARE)),
+    }
+}
+
+/// What can be left out is named up to so many.
+const SPARE: usize = 3;
 
 /// Which count predicts a trivial mobility.
 fn counting(report: &Report) -> &'static str {
