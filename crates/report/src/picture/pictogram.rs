@@ -34,7 +34,7 @@ pub enum Pictogram {
     Tree,
     /// Mobile as its count predicts, with a loop of four bars on the ground.
     FourBar,
-    /// Mobile as its count predicts: a platform on legs.
+    /// Mobile as its count predicts: loops that share a link.
     Trivial,
     /// Mobile by the subgroups of its chains: two planes that share a slide.
     Exceptional,
@@ -191,11 +191,9 @@ impl Pictogram {
             ],
             Self::Trivial => &[
                 ("g thin", "M6 56H58"),
-                ("a", "M12 14H52"),
-                (
-                    "g",
-                    "M12 52L20 32L16 14M32 52L40 32L32 14M52 52L58 32L48 14",
-                ),
+                ("a", "M12 52L8 26L32 12L34 44"),
+                ("a", "M32 12L56 22L52 52"),
+                ("b", "M12 52L34 44L52 52"),
             ],
             Self::FourBar => &[
                 (
@@ -282,11 +280,11 @@ impl Pictogram {
             Self::Tree => &[("j", 16.0, 50.0), ("j", 22.0, 26.0), ("j", 42.0, 16.0)],
             Self::Trivial => &[
                 ("j", 12.0, 52.0),
-                ("j", 32.0, 52.0),
+                ("j", 8.0, 26.0),
+                ("j", 32.0, 12.0),
+                ("j", 34.0, 44.0),
+                ("j", 56.0, 22.0),
                 ("j", 52.0, 52.0),
-                ("j", 16.0, 14.0),
-                ("j", 32.0, 14.0),
-                ("j", 48.0, 14.0),
             ],
             Self::FourBar => &[
                 ("j", 14.0, 50.0),
