@@ -310,3 +310,85 @@ mod corpus {
         }
     }
 }
+
+#[test]
+fn a_point_asked_for_is_on_the_page_and_goes_with_its_link() {
+    let file = folder("mechanisms/planar_four_bar.urdf");
+    let page = page_of(
+        &file,
+        &["--curve", "coupler:1,0.5", "--curve", "rocker:20mm,0,5mm"],
+    );
+    let with = data(&page);
+    let points = with["points"].as_array().unwrap();
+    assert_eq!(points.len(), 2);
+    assert_eq!(points[0]["at"], serde_json::json!([1.0, 0.5, 0.0]));
+    assert_eq!(points[1]["at"], serde_json::json!([0.02, 0.0, 0.005]));
+    // A ball each, fixed in the link that was named.
+    let without = data(&self::page("planar_four_bar"));
+    assert!(without.get("points").is_none());
+    let shapes = |data: &Value| data["shapes"].as_array().unwrap().clone();
+    let (all, plain) = (shapes(&with), shapes(&without));
+    assert_eq!(all.len(), plain.len() + 2);
+    for (ball, point) in all[plain.len()..].iter().zip(points) {
+        assert_eq!(
+            (&ball["link"], &ball["kind"]),
+            (&point["link"], &"sphere".into())
+        );
+        let name = with["links"][point["link"].as_u64().unwrap() as usize]["name"].as_str();
+        assert!(point["name"].as_str().unwrap().starts_with(name.unwrap()));
+    }
+    let text = kutzbach(&["report", file.to_str().unwrap(), "--curve", "coupler:1,0"]);
+    assert_eq!(text.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&text.stderr).contains("--format html"));
+}
+
+#[test]
+fn a_page_has_the_motors_and_the_first_lines_of_the_report() {
+    let page = page("delta");
+    let header = between(&page, "<header id=\"verdict\">", "</header>");
+    assert!(
+        header.contains("Sufficient: <code>motor_1</code>"),
+        "{header}"
+    );
+    assert!(
+        header.contains("<title>mobile, as the count predicts</title>"),
+        "{header}"
+    );
+    let four_bar = self::page("planar_four_bar");
+    assert!(four_bar.contains("<title>mobile, as the count predicts: a four-bar linkage</title>"));
+    // What the answer hangs on stands first, and once.
+    let text = std::fs::read_to_string(folder("mechanisms/planar_four_bar.urdf")).unwrap();
+    let text = text.replace(
+        "</robot>",
+        "<mujoco><equality><tendon tendon1=\"t\"/></equality></mujoco></robot>",
+    );
+    let file = scratch("first_lines").join("odd.urdf");
+    std::fs::write(&file, text).unwrap();
+    let page = page_of(&file, &[]);
+    let header = between(&page, "<header id=\"verdict\">", "</header>");
+    let told = "it constrains the motion, and the answer is not about that";
+    assert!(header.contains(told), "{header}");
+    assert_eq!(page.matches(told).count(), 1);
+}
+
+#[test]
+fn rods_that_carry_a_platform_are_not_idle_links() {
+    let roles = |page: &str| {
+        let data = data(page);
+        let roles = data["motions"][0]["roles"]["links"].clone();
+        let names = data["links"].as_array().unwrap().clone();
+        let all = roles.as_array().unwrap().clone();
+        let named = names
+            .iter()
+            .zip(all)
+            .map(|(n, r)| (n["name"].to_string(), r));
+        named.collect::<Vec<_>>()
+    };
+    // The rods of a delta spin besides; no link of it only spins.
+    let delta = roles(&page("delta"));
+    let moving = delta.iter().filter(|(name, _)| name.contains("rod"));
+    assert!(
+        moving.clone().count() == 6 && moving.clone().all(|(_, role)| role == "moving"),
+        "{delta:?}"
+    );
+}

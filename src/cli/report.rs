@@ -4,6 +4,7 @@ use super::accuracy::measured;
 use super::failure::Failure;
 use super::pose::{self, Pose};
 use super::progress::Progress;
+use super::trace::drawn;
 use super::units::ValueUnits;
 use super::{DONE, UNDECIDED, load, output, terminal};
 use clap::{Args, ValueEnum};
@@ -93,6 +94,15 @@ pub struct Arguments {
     /// Let the physics engine put the prediction to the test too, and show what it says (with `--format html`)
     #[arg(long, help_heading = "In the page")]
     verify: bool,
+    /// Show a point fixed to a link, and its path, instead of the paths of joints, its coordinates in the link's frame (m, or with a unit):
+    /// `coupler:1,0.5` or `coupler:20mm,0,5mm`; may be repeated (with `--format html`)
+    #[arg(
+        long = "curve",
+        value_name = "LINK:X,Y[,Z]",
+        allow_hyphen_values = true,
+        help_heading = "In the page"
+    )]
+    curves: Vec<String>,
     /// Measure what every way to an answer costs, and show it in the page (with `--format html`)
     #[arg(long, help_heading = "In the page")]
     accuracy: bool,
@@ -176,6 +186,15 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             message: "`--verify` shows its evidence in a page".to_owned(),
             help: Some(
                 "add `--format html`; `kutzbach simulate FILE` tells it in words".to_owned(),
+            ),
+        });
+    }
+    if !arguments.curves.is_empty() && arguments.format != Format::Html {
+        return Err(Failure::Plain {
+            message: "`--curve` shows its path in a page".to_owned(),
+            help: Some(
+                "add `--format html`; `kutzbach trace FILE --curve` has it as text, CSV, JSON and SVG"
+                    .to_owned(),
             ),
         });
     }
@@ -278,7 +297,10 @@ fn page(
         verification: verification.as_ref(),
         accuracy: accuracy.as_ref(),
     };
-    load::html(&Prepared::new(facts, Assets::Inside))
+    let points = arguments.curves.iter();
+    let points = points.map(|text| drawn::point(&reading.mechanism, text));
+    let points = points.collect::<Result<Vec<_>, _>>()?;
+    load::html(&Prepared::new(facts, Assets::Inside).with_points(points))
 }
 
 fn verified(

@@ -1,6 +1,6 @@
 //! `kutzbach trace FILE`: the predicted motion along a branch.
 
-mod drawn;
+pub mod drawn;
 mod table;
 
 use super::failure::Failure;

@@ -22,6 +22,15 @@ export interface PageData {
   readonly motions: readonly MotionData[];
   /** Roles while nothing moves; unknown where left out. */
   readonly roles?: Roles;
+  /** Points of links whose paths were asked for. */
+  readonly points?: readonly PointData[];
+}
+
+export interface PointData {
+  readonly name: string;
+  readonly link: number;
+  /** In the link's drawn frame (m). */
+  readonly at: readonly [number, number, number];
 }
 
 export interface LinkData {

@@ -110,7 +110,10 @@ fn pair(mechanism: &Mechanism, text: &str) -> Result<[Variable; 2], Failure> {
 }
 
 /// Reads `link:x,y` or `link:x,y,z`.
-fn point(mechanism: &Mechanism, text: &str) -> Result<LinkPoint, Failure> {
+///
+/// # Errors
+/// For what is written otherwise, and for a link that is not known.
+pub fn point(mechanism: &Mechanism, text: &str) -> Result<LinkPoint, Failure> {
     const WRITTEN: &str = "write it as link:x,y or link:x,y,z in the frame of the link, for example `coupler:1,0.5` (m) or \
                            `coupler:20mm,0,5mm`";
     let failed = |message: String, help: String| Failure::Plain {

@@ -3,10 +3,10 @@ import type { Rgb } from "../colours";
 import type { Motion, PageData } from "../page_data";
 import { rotationOf } from "./rotation";
 
-/** A line that a joint's symbol describes, through every sample of a motion. */
+/** A line that a joint's symbol, or a point that was asked for, describes, through every sample of a motion. */
 interface Path {
   readonly link: number;
-  readonly joint: number;
+  readonly joint: number | null;
   /** Three coordinates for each sample, relative to the page's centre in units of its extent. */
   readonly points: Float64Array;
 }
@@ -18,8 +18,10 @@ export const PATHS_BY_DEFAULT = 30;
 const SHORT = 0.01;
 const SAME = 0.002;
 
-/** The paths of all joints on links that move, each drawn once even where both its links describe it. */
+/** The paths of the points asked for; where there are none, of all joints on links that move, each once even where both its links describe it. */
 export function pathsOf(data: PageData, motion: Motion): Path[] {
+  const points = data.points ?? [];
+  if (points.length > 0) return points.map(({ link, at }) => ({ link, joint: null, points: trace(data, motion, link, at) }));
   const tried = new Set<string>();
   const found: Path[] = [];
   for (const shape of data.shapes) {

@@ -86,7 +86,7 @@ export class Stage {
     this.scene.matrixWorldAutoUpdate = false;
     this.solids = new Solids(data, this.scene, solidMaterial(), data.shapes.length <= SHADOWED ? shadow : null);
     this.pathLines = new PathLines(ribbonMaterial(this.screen));
-    this.paths = data.joints.length <= PATHS_BY_DEFAULT;
+    this.paths = data.joints.length <= PATHS_BY_DEFAULT || (data.points ?? []).length > 0;
     this.scene.add(this.floor.grid, this.pathLines.mesh);
 
     this.camera.up.copy(pole(new Vector3(...data.view), new Vector3(...data.up)));
@@ -339,7 +339,7 @@ export class Stage {
     });
     this.pathLines.paint(({ link, joint }) => {
       const colour = mix(onPage(linkColour(data, roles, link), dark), background, 0.1);
-      return shade(colour, lights.has("link", link) || lights.has("joint", joint));
+      return shade(colour, lights.has("link", link) || (joint !== null && lights.has("joint", joint)));
     });
     this.renderer.setClearColor(new Color(...background));
     this.materials.shadow.uniforms["tone"]?.value.setRGB(...this.theme.shadow);

@@ -38,6 +38,17 @@ pub struct PageData {
     /// Why nothing moves at all, where nothing does.
     pub still: Option<String>,
     pub motions: Vec<MotionData>,
+    /// Points of links whose paths were asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub points: Vec<PointData>,
+}
+
+#[derive(Debug, Serialize)]
+pub struct PointData {
+    pub name: String,
+    pub link: usize,
+    /// In the frame that the link is drawn by (m).
+    pub at: [f64; 3],
 }
 
 #[derive(Debug, Serialize)]

@@ -2,7 +2,7 @@
 
 use super::data::{
     BranchData, CycleData, EventData, HeldData, JointData, LinkData, MotionData, PageData, Palette,
-    Pose, RoleData, SCHEMA, ShapeData, VariableData,
+    PointData, Pose, RoleData, SCHEMA, ShapeData, VariableData,
 };
 use super::motions::Played;
 use super::names::{Names, shown};
@@ -80,7 +80,22 @@ pub(super) fn page_data(facts: &Facts<'_>, stage: &Stage, names: &Names) -> Page
             .iter()
             .map(|played| motion(mechanism, played, stage, &column))
             .collect(),
+        points: stage
+            .points
+            .iter()
+            .map(|point| PointData {
+                name: shown(&point.name),
+                link: point.link,
+                at: seen_from(&point.at, stage.origins[point.link]),
+            })
+            .collect(),
     }
+}
+
+/// A point of a link in the frame that the link is drawn by.
+fn seen_from(at: &[f64; 3], origin: Option<[f64; 3]>) -> [f64; 3] {
+    let origin = origin.unwrap_or([0.0; 3]);
+    [0, 1, 2].map(|i| at[i] - origin[i])
 }
 
 /// `world_from_link` of every link, by the frame it is drawn by and relative to the middle of the mechanism.
@@ -134,7 +149,30 @@ fn shapes(stage: &Stage) -> Vec<ShapeData> {
             pose: pose_data(&shape.pose, &stage.origins[shape.link].unwrap_or([0.0; 3])),
         }
     };
-    stage.drawing.shapes.iter().map(shape).collect()
+    // A ball for each point asked for, half as thick again as a joint.
+    let balls = stage.points.iter().map(|point| {
+        let ball = Primitive::Sphere {
+            radius: 1.5 * stage.drawing.radius,
+        };
+        ShapeData {
+            link: point.link,
+            joint: None,
+            axis: false,
+            kind: "sphere",
+            size: ball.size(),
+            pose: pose_data(
+                &Rigid::translation(point.at),
+                &stage.origins[point.link].unwrap_or([0.0; 3]),
+            ),
+        }
+    });
+    stage
+        .drawing
+        .shapes
+        .iter()
+        .map(shape)
+        .chain(balls)
+        .collect()
 }
 
 /// The colours of the logs, so that a page and a viewer show the same.

@@ -43,6 +43,7 @@ mod plots;
 mod ranges;
 
 use super::schema::Report;
+use crate::picture::traced::LinkPoint;
 use crate::picture::view::View;
 pub use accuracy::accuracy_page;
 pub use configurations::{Shown, configurations_page};
@@ -117,6 +118,8 @@ struct Stage {
     /// How far the dimensions shown are from those drawn (m), where the mechanism drawn does not move and the nearest that does is
     /// shown instead.
     nearest: Option<f64>,
+    /// Points whose paths are shown instead of those of joints.
+    points: Vec<LinkPoint>,
 }
 
 impl Stage {
@@ -159,6 +162,7 @@ impl Stage {
             drawing,
             roles,
             geometry,
+            points: Vec::new(),
         }
     }
 }
@@ -214,6 +218,13 @@ impl<'a> Prepared<'a> {
             facts,
             assets,
         }
+    }
+
+    /// The same with points of links shown, and their paths instead of those of joints.
+    #[must_use]
+    pub fn with_points(mut self, points: Vec<LinkPoint>) -> Self {
+        self.stage.points = points;
+        self
     }
 
     /// The page as a complete HTML document.
