@@ -616,6 +616,22 @@ fn limits_beyond_all_numbers_are_none() {
 }
 
 #[test]
+fn bounds_left_out_mean_another_thing_in_version_1_2() {
+    let text = chain("revolute", "<limit effort='1' velocity='2'/>");
+    for (version, part) in [
+        ("1.0", "0…0 in URDF"),
+        ("1.2", "some readers of URDF 1.2 refuse"),
+    ] {
+        let text = text.replacen("<robot", &format!("<robot version='{version}'"), 1);
+        let warnings = reading(&text).warnings;
+        assert!(
+            warnings.iter().any(|w| w.message.contains(part)),
+            "{version}: {warnings:?}"
+        );
+    }
+}
+
+#[test]
 fn quaternions_before_version_1_1_are_read_and_told() {
     let text = chain("revolute", "<origin quat_xyzw='0 0 1 0'/>");
     for (version, told) in [

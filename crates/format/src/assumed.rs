@@ -85,8 +85,13 @@ impl<'a> Reader<'a> {
         self.tell_of(&assumed.no_axis2, |names, has| {
             format!("{names} {has} no <axis2>: x is taken")
         });
+        let bounds = match self.version() < (1, 2) {
+            true => "which is 0…0 in URDF: by that no joint can move",
+            // As urdfdom 6.0.0 and urdf-rs 0.10.0 do.
+            false => "which some readers of URDF 1.2 refuse, and others take as none",
+        };
         self.tell_of(&assumed.no_bounds, |names, has| {
-            format!("{names} {has} a <limit> without `lower` and `upper`, which is 0…0 in URDF: by that no joint can move, here each counts as free")
+            format!("{names} {has} a <limit> without `lower` and `upper`, {bounds}, here each counts as free")
         });
         for (at, written, meant) in assumed.angles.into_iter().filter(|_| closes && !literal) {
             let message = format!(

@@ -163,7 +163,7 @@ impl<'a> Reader<'a> {
                     .fault("the frame is turned twice, by `rpy` and by `quat_xyzw`")
                     .help("remove one of the two"));
             }
-            if !self.knows_quaternions() {
+            if self.version() < (1, 1) {
                 let at = turned.range().start;
                 self.warn(at, "`quat_xyzw` is read; other readers of URDF heed it from version 1.1 on (<robot version=\"1.1\">), and take the frame as not turned here");
             }
@@ -174,14 +174,14 @@ impl<'a> Reader<'a> {
         Ok(frame)
     }
 
-    /// Whether the file is of a version of URDF that has `quat_xyzw` (1.1; a file without version is of 1.0).
-    fn knows_quaternions(&self) -> bool {
+    /// The version of URDF that the file is of; 1.0 where it states none.
+    pub(super) fn version(&self) -> (u32, u32) {
         let version = self.root.attribute("version");
         let version = version.and_then(|text| {
             let (major, minor) = text.value.trim().split_once('.')?;
-            Some((major.parse::<u32>().ok()?, minor.parse::<u32>().ok()?))
+            Some((major.parse().ok()?, minor.parse().ok()?))
         });
-        version.is_some_and(|version| version >= (1, 1))
+        version.unwrap_or((1, 0))
     }
 
     /// `<axis xyz/>` or `<axis2 xyz/>`, any length but zero.
