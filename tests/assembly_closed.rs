@@ -648,3 +648,65 @@ mod corpus {
         assert!(random_cases(&cases, 40) > support::at_least(100));
     }
 }
+
+/// Poses of a trace are put to the test by the same code: all joints closed, within the limits that the start keeps.
+#[test]
+fn poses_of_traces_close_on_all_joints_and_keep_limits() {
+    use kutzbach::mobility::{AnalysisOptions, Depth, analyse};
+    use kutzbach::motion::{Trace, TraceOptions, trace};
+    let all = own_mechanisms().into_iter().chain(zoo());
+    let drawn = support::sample(all, 3);
+    let wrong = in_parallel(&drawn, |(name, mechanism)| {
+        let options = AnalysisOptions {
+            depth: Depth::Motions,
+            ..AnalysisOptions::default()
+        };
+        let Ok(analysis) = analyse(mechanism, &options) else {
+            return (Vec::new(), 0);
+        };
+        let mechanism = analysis.of(mechanism);
+        let options = TraceOptions {
+            samples: 12,
+            ..TraceOptions::default()
+        };
+        let Ok(Trace::Moving(motion)) = trace(mechanism, &analysis, &options) else {
+            return (Vec::new(), 0);
+        };
+        let checked = Checked::new(mechanism, &home(mechanism));
+        let ignored = |joint: &Joint| {
+            let mut notes = motion.notes.iter();
+            notes.any(|note| note.contains(&format!("`{}` starts outside", joint.name)))
+        };
+        let mut wrong = Vec::new();
+        for sample in &motion.samples {
+            let poses: Vec<Option<At>> = sample
+                .links
+                .iter()
+                .map(|link| Some(At(link.rotation, link.translation)))
+                .collect();
+            let (joint, open) = checked.opening(&poses);
+            // What the trace itself allows: rounding, or more where the file's numbers do.
+            if !(open <= 1e-9_f64.max(10.0 * motion.allowed_closure)) {
+                wrong.push(format!("{name}: `{joint}` open by {open:e}"));
+            }
+            for (index, joint) in mechanism.joints().iter().enumerate() {
+                let Some((lower, upper)) = joint.bounds() else {
+                    continue;
+                };
+                let value = sample.states[index].values[0];
+                if !ignored(joint) && !(lower - 1e-8..=upper + 1e-8).contains(&value) {
+                    wrong.push(format!("{name}: `{}` at {value}", joint.name));
+                }
+            }
+        }
+        (wrong, 1)
+    });
+    let traced: usize = wrong.iter().map(|(_, traced)| traced).sum();
+    assert!(traced >= support::at_least(100), "{traced}");
+    support::assert_none(
+        &wrong
+            .into_iter()
+            .flat_map(|(wrong, _)| wrong)
+            .collect::<Vec<_>>(),
+    );
+}

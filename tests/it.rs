@@ -69,6 +69,7 @@ mod play;
 mod polynomial_systems;
 mod pose_warnings;
 mod poses;
+mod read_again;
 mod readme;
 mod record;
 mod record_files;
