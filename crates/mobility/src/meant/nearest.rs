@@ -124,6 +124,35 @@ pub(super) fn drowned(most: f64) -> f64 {
     (SECOND_ORDER * most).clamp(DEPENDENT, COARSEST)
 }
 
+/// What the largest entry of z has to be at least for `a z = b` in the directions that tell nothing else, what z leaves over to second
+/// order allowed for: where numbers written in full would have to change, those written with fewer digits do not help.
+///
+/// Along a left singular vector u of these, `|uᵀb| ≤ ‖Aᵀu‖₁ z + Q z²` where Q bounds the second order of all numbers together.
+fn least_of_drowned(a: &Mat<f64>, b: &[f64]) -> f64 {
+    let Ok(svd) = a.thin_svd() else {
+        return 0.0;
+    };
+    let (u, s) = (svd.U(), svd.S().column_vector());
+    let most = if s.nrows() > 0 { s[0] } else { 0.0 };
+    let second = SECOND_ORDER * most * most * a.ncols() as f64;
+    let least = |j: usize| {
+        let along = |column: &dyn Fn(usize) -> f64| -> f64 {
+            (0..a.nrows()).map(|i| u[(i, j)] * column(i)).sum()
+        };
+        // Poses are closed, and quotients taken, to so much.
+        let missing = (along(&|i| b[i]).abs() - 10.0 * STALLED).max(0.0);
+        let first: f64 = (0..a.ncols()).map(|k| along(&|i| a[(i, k)]).abs()).sum();
+        // Half of it by either order.
+        let by_first = 0.5 * missing / first.max(f64::MIN_POSITIVE);
+        let by_second = (0.5 * missing / second.max(f64::MIN_POSITIVE)).sqrt();
+        by_first.min(by_second)
+    };
+    (0..s.nrows())
+        .filter(|&j| s[j] <= drowned(most) * most)
+        .map(least)
+        .fold(0.0, f64::max)
+}
+
 /// Dimensions at which a part closes along a motion.
 #[derive(Clone, Debug)]
 pub(super) struct Nearest {
@@ -200,7 +229,8 @@ impl Search<'_> {
             return Ok(0.0);
         }
         let found = least_largest(&matrix, &misfit, drowned);
-        Ok(found.map_or(0.0, |found| found.at_least))
+        let found = found.map_or(0.0, |found| found.at_least);
+        Ok(found.max(least_of_drowned(&matrix, &misfit)))
     }
 
     /// The nearest dimensions, from a pose; `None` where none are found.

@@ -5,8 +5,8 @@
 //! directions), a literal `x` is a residue if
 //!
 //! - it is at most [`SMALL`] of the shortest step between two places (angles: of a radian; directions: of their largest component);
-//! - it has more decimals than any of the others and fewer significant digits than the longest of them, or two at most: it belongs to no
-//!   finer measure;
+//! - it is below the last decimal that any of the others states, and has fewer significant digits than the longest of them, or two at
+//!   most: it belongs to no finer measure (`-6.49546056790647e-06` among full doubles is one);
 //! - a program wrote it, with an exponent (`3e-06`, which nobody types for a measure), or it is below [`NOBODYS`];
 //! - it is not so small that nothing but somebody's choice writes it in so few digits ([`CHOSEN`]).
 //!
@@ -84,13 +84,14 @@ fn among(literals: &[Literal<'_>], measure: Option<f64>) -> Vec<(usize, usize)> 
     let (shortest, largest) = measure.map_or((shortest, largest), |size| (size, size));
     let stated = || others.iter().filter_map(|other| other.number.stated());
     let decimals = stated().map(|s| s.decimals).max().unwrap_or(0);
+    let last_stated = 0.1f64.powi(i32::try_from(decimals).unwrap_or(i32::MAX));
     let significant = stated().map(|s| s.significant).max().unwrap_or(0);
     let is_one = |literal: &&&Literal<'_>| {
         let Some(written) = literal.number.stated() else {
             return false;
         };
         let coarse = written.significant <= FEW || written.significant < significant;
-        let no_measure = written.decimals > decimals && coarse;
+        let no_measure = written.decimals > decimals && literal.value < last_stated && coarse;
         let of_single = literal.value <= SINGLE * largest && is_print_of_single(literal.number);
         shortest.is_finite()
             && literal.value <= SMALL * shortest
@@ -186,6 +187,15 @@ mod tests {
             &["0.1", "0.2", "1.2345e-06"],
             &["0.5", "0.3", "0.00004"],
             &["1", "2", "1e-12"],
+            // Full doubles, and a hinge that is 19 µm off.
+            &[
+                "0.8526965340923640",
+                "1.638285576344882",
+                "-6.49546056790647e-06",
+                "-1.7846131239122066e-05",
+                "0.45663720015193987",
+            ],
+            &["0.12345678", "1.638285576344882", "6.4955e-06"],
             // A mechanism of micrometres.
             &["3e-06", "5e-06", "0", "2e-06"],
         ] {
