@@ -172,8 +172,11 @@ fn unexplained(report: &Report) -> String {
         .collect();
     match spare.as_slice() {
         [] => ", for a reason that displacement groups leave open".to_owned(),
-        [one] => format!(", as it would without {one}"),
-        several => format!(", as it would without one of {}", names(several, SPARE)),
+        [one] => format!(", as it would without {one}, which fits by its dimensions"),
+        several => format!(
+            ", as it would without one of {}, which fit by their dimensions",
+            names(several, SPARE)
+        ),
     }
 }
 
