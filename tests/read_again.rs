@@ -3,7 +3,7 @@
 use crate::support;
 
 use kutzbach::format::{read, write};
-use kutzbach::mechanism::Mechanism;
+use kutzbach::mechanism::{Mechanism, Placement};
 use kutzbach::mobility::{Analysis, AnalysisOptions, Depth, Verdict, analyse};
 use kutzbach::report::{ASSEMBLED, assembled_file};
 use support::{at_least, in_parallel, own_mechanisms, sample, zoo};
@@ -74,5 +74,30 @@ fn what_is_written_back_has_the_mobility_that_was_told() {
         let [before, after] = [mechanism, &again].map(|one| facts(&analysed(one, None)));
         (before != after).then(|| format!("{name}: {before:?}, read again {after:?}"))
     });
+    support::assert_none(&told.into_iter().flatten().collect::<Vec<_>>());
+}
+#[test]
+fn the_nearest_mechanism_is_one_that_moves_as_told() {
+    use support::exported::exported;
+    let floats = |mechanism: &Mechanism| {
+        let mut links = mechanism.links().iter();
+        links.any(|link| matches!(link.placement, Placement::Floating { .. }))
+    };
+    let drawn: Vec<_> = drawn(14)
+        .into_iter()
+        .filter(|(_, one)| !floats(one))
+        .collect();
+    let told = in_parallel(&drawn, |(name, mechanism)| {
+        let rounded = exported(mechanism, 3, 2);
+        let nearest = analysed(&rounded, None).nearest?;
+        let again = match read(&write(&nearest.mechanism), name, &[]) {
+            Ok(reading) => reading.mechanism,
+            Err(error) => return Some(Some(format!("{name}: {error}"))),
+        };
+        let after = facts(&analysed(&again, None));
+        Some((after.0 != Verdict::Mobile).then(|| format!("{name}: {after:?}")))
+    });
+    let told: Vec<Option<String>> = told.into_iter().flatten().collect();
+    assert!(told.len() >= at_least(20), "{}", told.len());
     support::assert_none(&told.into_iter().flatten().collect::<Vec<_>>());
 }
