@@ -24,6 +24,7 @@ mod components;
 mod depths;
 mod derivatives;
 mod digits;
+mod digits_mixed;
 mod exact_cli;
 mod exact_conditions;
 mod exact_rings;

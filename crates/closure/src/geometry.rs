@@ -6,7 +6,8 @@ use kutzbach_math::matrix::{Extended, Real};
 use kutzbach_math::number::Number;
 use kutzbach_math::space::{Rigid, Vector, length, three};
 use kutzbach_model::mechanism::{
-    Configuration, Direction, Frame, Joint, JointId, JointKind, Mechanism, Placement, Precision,
+    Configuration, Coupling, Direction, Frame, Joint, JointId, JointKind, Mechanism, Placement,
+    Precision,
 };
 use std::collections::BTreeMap;
 
@@ -91,6 +92,8 @@ pub struct Geometry<R> {
     pub states: Vec<JointState<R>>,
     /// Couplings as rows `Σ factor · variable = offset`; variables by joint, each of one freedom.
     pub couplings: Vec<(Vec<(usize, R)>, R)>,
+    /// What the digits of every coupling's factors leave open, relative to all of them together.
+    pub coupling_digits: Vec<f64>,
     /// What the stated precision leaves open of every joint's numbers.
     pub uncertainties: Vec<Uncertainty>,
     /// The longest arm ([`Geometry::arm`]) of every joint's independent sub-mechanism (m); 0 for joints in no loop.
@@ -109,6 +112,33 @@ const NOISE_OF_SIZE: f64 = 1e-13;
 #[must_use]
 pub fn least_length(size: f64) -> f64 {
     SMALLEST_LENGTH.max(NOISE_OF_SIZE * size)
+}
+
+/// What the digits of a coupling's factors leave open, relative to all of them together: half a unit of the last decimal of each, where it
+/// has more than somebody chooses.
+fn digits_of(coupling: &Coupling) -> f64 {
+    let half = |number: &Number| match number.stated() {
+        Some(stated) if stated.decimals > Precision::EXACT_DECIMALS => {
+            0.5 * 0.1f64.powi(stated.decimals)
+        }
+        _ => 0.0,
+    };
+    let open: Vec<f64> = coupling
+        .terms
+        .iter()
+        .map(|term| half(&term.factor))
+        .collect();
+    let size: Vec<f64> = coupling
+        .terms
+        .iter()
+        .map(|term| term.factor.value())
+        .collect();
+    let size = 0.0.norm(&size);
+    if size > 0.0 {
+        0.0.norm(&open) / size
+    } else {
+        0.0
+    }
 }
 
 impl<R: Real> Geometry<R> {
@@ -205,6 +235,7 @@ impl<R: Real> Geometry<R> {
             home,
             states: states.into_iter().flatten().collect(),
             couplings,
+            coupling_digits: mechanism.couplings().iter().map(digits_of).collect(),
             uncertainties: mechanism
                 .joints()
                 .iter()

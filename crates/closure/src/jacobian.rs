@@ -36,6 +36,8 @@ pub struct CycleJacobian<R> {
     pub length: f64,
     /// The walks the rows come from.
     pub walks: Vec<WalkedCycle<R>>,
+    /// What the digits of couplings leave open of their rows, all together.
+    pub coupling_digits: f64,
 }
 
 impl<R: Real> CycleJacobian<R> {
@@ -121,6 +123,8 @@ impl<R: Real> Equations<R> {
             }
         }
         let of_cycles = 6 * self.walks.len();
+        let digits = part.couplings.iter().map(|&c| geometry.coupling_digits[c]);
+        let digits: Vec<f64> = digits.collect();
         for (index, row) in (of_cycles..).zip(self.coupling_rows) {
             for (joint, weight) in row {
                 if let Some(&first) = first_column.get(&joint) {
@@ -142,6 +146,7 @@ impl<R: Real> Equations<R> {
             residual: self.residual,
             length: self.length,
             walks: self.walks,
+            coupling_digits: 0.0.norm(&digits),
         })
     }
 }
@@ -160,6 +165,8 @@ pub fn entry_accuracy<R: Real>(jacobian: &CycleJacobian<R>) -> (f64, f64) {
     let stated = walks
         .map(|walk| stated_by(walk, &walk.uncertainty))
         .fold(0.0, f64::max);
+    // Digits of ratios are seen to first order as they are.
+    let stated = stated.max(2.0 * jacobian.coupling_digits);
     let roundoff = jacobian.matrix.zero().unit_roundoff();
     (stated, rounding_of(&jacobian.walks, roundoff))
 }

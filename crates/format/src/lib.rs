@@ -243,7 +243,7 @@ fn read_text(
         }
     };
     if !options.literal {
-        reading.mechanism = reading.mechanism.with_constants();
+        reading.mechanism = reading.mechanism.with_constants_known_to(options.precision);
     }
     if let Some(uncertainty) = options.precision {
         reading.mechanism = reading.mechanism.with_precision(uncertainty);

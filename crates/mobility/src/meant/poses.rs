@@ -20,6 +20,10 @@ const APART: f64 = 4.0;
 /// A way onto the motion that is shorter than this (in the metric) has arrived.
 const ARRIVED: f64 = 1e-14;
 
+/// A residual is rounded to so much (rad, cycle lengths); a step that this leaves is no longer than the second.
+const ROUNDED: f64 = 32.0 * f64::EPSILON;
+const FARTHEST_ROUNDED: f64 = 1e-9;
+
 /// A part at fixed dimensions, in the metric of its home pose.
 pub(super) struct Loops<'a> {
     pub mechanism: &'a Mechanism,
@@ -95,7 +99,10 @@ impl Loops<'_> {
                 }
             }
             let length = step.iter().map(|x| x * x).sum::<f64>().sqrt();
-            if length <= ARRIVED || round + 1 == STEPS && length <= 1e3 * ARRIVED {
+            // Rounding of the residual, as far as the equations enlarge it.
+            let least = if rank > 0 { s[rank - 1] / s[0] } else { 1.0 };
+            let rounded = (ROUNDED / least).clamp(1e3 * ARRIVED, FARTHEST_ROUNDED);
+            if length <= ARRIVED || round + 1 == STEPS && length <= rounded {
                 return Ok(Some(OnMotion {
                     tangents: (rank..columns)
                         .map(|j| (0..columns).map(|i| v[(i, j)]).collect())

@@ -334,7 +334,13 @@ impl Mechanism {
     /// The mechanism with the literals of its geometry read as the constants that they are within their own precision: see
     /// [the module's rules](Recognised). Their texts stay for writing back. Reading a file does this.
     #[must_use]
-    pub fn with_constants(mut self) -> Self {
+    pub fn with_constants(self) -> Self {
+        self.with_constants_known_to(None)
+    }
+
+    /// The same of numbers that are known to so much (m, rad), where somebody says so: what exceeds it is no residue of a zero.
+    #[must_use]
+    pub fn with_constants_known_to(mut self, precision: Option<f64>) -> Self {
         let mut found = Recognised::default();
         let sizes = Sizes::of(&self);
         for link in &mut self.links {
@@ -351,13 +357,13 @@ impl Mechanism {
             found.axis(&mut joint.axis);
             found.axis(&mut joint.axis2);
         }
-        found.residues = self.read_residues();
+        found.residues = self.read_residues(precision.unwrap_or(f64::INFINITY));
         self.recognised = found;
         self.read_digits()
     }
 
     /// Reads as 0 what rounding left of zeros, by independent sub-mechanism.
-    fn read_residues(&mut self) -> Vec<Residue> {
+    fn read_residues(&mut self, precision: f64) -> Vec<Residue> {
         let mut blocks: Vec<Vec<usize>> = Vec::new();
         for joint in 0..self.joints.len() {
             if let Some(block) = self.precisions.block(joint) {
@@ -372,7 +378,8 @@ impl Mechanism {
         found.sort_unstable();
         let mut read = Vec::with_capacity(found.len());
         for (joint, place) in found {
-            if let Some(number) = self.joints[joint].number_mut(place) {
+            let number = self.joints[joint].number_mut(place);
+            if let Some(number) = number.filter(|number| number.value().abs() <= precision) {
                 let text = number.literal_text().unwrap_or_default().to_owned();
                 *number = number.read_as(&Number::zero());
                 read.push(Residue { text, joint, place });

@@ -1,0 +1,135 @@
+//! Numbers of one file that are known differently well: offsets of micrometres in full, directions in full beside rounded lengths,
+//! ratios of gears, and the noise of a kernel in a loop that holds fast.
+
+use kutzbach::mobility::{AnalysisOptions, analyse};
+
+/// The finite freedom of a file.
+fn finite(text: &str) -> Option<usize> {
+    let reading = kutzbach::format::read(text, "mixed.urdf", &[]).unwrap();
+    let analysis = analyse(&reading.mechanism, &AnalysisOptions::default()).unwrap();
+    analysis.mobility.finite()
+}
+
+/// A slider-crank in a plane, its slide along `(cos, 0, sin)` of a tilt; lengths of four decimals.
+fn slider_crank(tilt: f64) -> String {
+    let (cos, sin) = (tilt.cos(), tilt.sin());
+    format!(
+        r#"<robot name="pump"><link name="base"/><link name="crank"/><link name="rod"/><link name="piston"/>
+        <joint name="shaft" type="revolute"><parent link="base"/><child link="crank"/><origin xyz="0.2137 0.1429 0"/><axis xyz="0 0 1"/></joint>
+        <joint name="bore" type="prismatic"><parent link="base"/><child link="piston"/><origin xyz="1.6214 0.1429 0"/><axis xyz="{cos:?} 0.0 {sin:?}"/></joint>
+        <joint name="pin" type="revolute"><parent link="crank"/><child link="rod"/><origin xyz="0.3081 0.4477 0"/><axis xyz="0 0 1"/></joint>
+        <loop name="wrist" type="revolute"><predecessor link="rod"><origin xyz="1.0996 -0.4477 0"/></predecessor>
+        <successor link="piston"><origin xyz="0 0 0"/></successor><axis xyz="0 0 1"/></loop></robot>"#
+    )
+}
+
+#[test]
+fn a_direction_in_full_is_no_more_open_than_its_digits() {
+    assert_eq!(finite(&slider_crank(0.0)), Some(1));
+    for tilt in [2e-3, 1e-3] {
+        assert_ne!(finite(&slider_crank(tilt)), Some(1), "{tilt}");
+    }
+}
+
+/// Three wheels in a ring, with the ratios given.
+fn wheels(ratios: [&str; 3]) -> String {
+    let wheel = |i: usize| {
+        format!(
+            r#"<link name="w{i}"/><joint name="s{i}" type="continuous"><parent link="base"/><child link="w{i}"/>
+            <origin xyz="{i} 0 0"/><axis xyz="0 0 1"/></joint>"#
+        )
+    };
+    let gear = |i: usize, a: usize, b: usize| {
+        format!(
+            r#"<coupling name="g{i}"><predecessor link="w{a}"/><successor link="w{b}"/><ratio value="{}"/></coupling>"#,
+            ratios[i]
+        )
+    };
+    format!(
+        r#"<robot name="wheels"><link name="base"/>{}{}{}{}{}{}</robot>"#,
+        wheel(0),
+        wheel(1),
+        wheel(2),
+        gear(0, 0, 1),
+        gear(1, 1, 2),
+        gear(2, 0, 2)
+    )
+}
+
+#[test]
+fn ratios_are_known_to_their_digits() {
+    // 19 to 29 to 37 teeth.
+    assert_eq!(
+        finite(&wheels(["-0.655172", "-0.783784", "0.513514"])),
+        Some(1)
+    );
+    assert_eq!(
+        finite(&wheels(["${-19/29}", "${-29/37}", "${19/37}"])),
+        Some(1)
+    );
+    // One tooth more.
+    assert_eq!(
+        finite(&wheels(["-0.655172", "-0.783784", "0.540541"])),
+        Some(0)
+    );
+    assert_eq!(
+        finite(&wheels(["${-19/29}", "${-29/37}", "${20/37}"])),
+        Some(0)
+    );
+}
+
+/// A four-bar in a plane whose last hinge is tilted, every number with the noise of a kernel.
+fn tilted_four_bar(tilt: f64) -> String {
+    // Of some 1e-12, in another order for every number.
+    let mut last = 0.37;
+    let mut noise = move |x: f64| {
+        last = (last * 7.13 + 0.217) % 1.0;
+        format!("{:?}", x + (last - 0.5) * 2e-12)
+    };
+    let mut vector = |v: [f64; 3]| v.map(&mut noise).join(" ");
+    let up = [0.0, 0.0, 1.0];
+    let tilted = [tilt.sin(), 0.0, tilt.cos()];
+    format!(
+        r#"<robot name="kernel"><link name="base"/><link name="a"/><link name="b"/><link name="c"/>
+        <joint name="j1" type="revolute"><parent link="base"/><child link="a"/><origin xyz="{}"/><axis xyz="{}"/></joint>
+        <joint name="j4" type="revolute"><parent link="base"/><child link="c"/><origin xyz="{}"/><axis xyz="{}"/></joint>
+        <joint name="j2" type="revolute"><parent link="a"/><child link="b"/><origin xyz="{}"/><axis xyz="{}"/></joint>
+        <loop name="j3" type="revolute"><predecessor link="b"><origin xyz="{}"/></predecessor>
+        <successor link="c"><origin xyz="{}"/></successor><axis xyz="{}"/></loop></robot>"#,
+        vector([0.0, 0.0, 0.0]),
+        vector(up),
+        vector([2.1, 0.3, 0.0]),
+        vector(up),
+        vector([0.31, 0.87, 0.0]),
+        vector(up),
+        vector([1.49, 0.56, 0.0]),
+        vector([-0.3, 1.13, 0.0]),
+        vector(tilted),
+    )
+}
+
+#[test]
+fn noise_leaves_a_rigid_loop_rigid() {
+    assert_eq!(finite(&tilted_four_bar(0.0)), Some(1));
+    for tilt in [0.02, 1e-3, 4e-4] {
+        assert_eq!(finite(&tilted_four_bar(tilt)), Some(0), "{tilt}");
+    }
+}
+
+#[test]
+fn offsets_in_full_are_measures() {
+    // A pin 83 µm beside the frame of its link: both sides say so.
+    let text = |here: &str, there: &str| {
+        format!(
+            r#"<robot name="bush"><link name="base"/><link name="a"/><link name="b"/><link name="c"/>
+        <joint name="j1" type="revolute"><parent link="base"/><child link="a"/><origin xyz="0 0 0"/><axis xyz="0 0 1"/></joint>
+        <joint name="j4" type="revolute"><parent link="base"/><child link="c"/><origin xyz="1.9000000000000001 0 0"/><axis xyz="0 0 1"/></joint>
+        <joint name="j2" type="revolute"><parent link="a"/><child link="b"/><origin xyz="0.31234567890123457 0.8712345678901235 {here}"/><axis xyz="0 0 1"/></joint>
+        <loop name="j3" type="revolute"><predecessor link="b"><origin xyz="1.2876543210987654 0.25876543210987655 0"/></predecessor>
+        <successor link="c"><origin xyz="-0.30000000000000004 1.13 {there}"/></successor><axis xyz="0 0 1"/></loop></robot>"#
+        )
+    };
+    let offset = "8.314567890123456e-05";
+    assert_eq!(finite(&text(offset, offset)), Some(1));
+    assert_eq!(finite(&text("0", "0")), Some(1));
+}
