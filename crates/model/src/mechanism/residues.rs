@@ -84,7 +84,7 @@ fn among(literals: &[Literal<'_>], measure: Option<f64>) -> Vec<(usize, usize)> 
     let (shortest, largest) = measure.map_or((shortest, largest), |size| (size, size));
     let stated = || others.iter().filter_map(|other| other.number.stated());
     let decimals = stated().map(|s| s.decimals).max().unwrap_or(0);
-    let last_stated = 0.1f64.powi(i32::try_from(decimals).unwrap_or(i32::MAX));
+    let last_stated = 0.1f64.powi(decimals);
     let significant = stated().map(|s| s.significant).max().unwrap_or(0);
     let is_one = |literal: &&&Literal<'_>| {
         let Some(written) = literal.number.stated() else {
