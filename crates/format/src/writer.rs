@@ -47,7 +47,7 @@ pub fn write(mechanism: &Mechanism) -> String {
     write_with(mechanism, &WriteOptions::default())
 }
 
-/// A mechanism as a file, numbers as wanted, with what its file says beside it. Otherwise as [`write`].
+/// A mechanism as a file, numbers as wanted, with what its file says beside it. Otherwise as [`write`](fn@write).
 #[must_use]
 pub fn write_with(mechanism: &Mechanism, options: &WriteOptions<'_>) -> String {
     let text = |numbers| written(mechanism, options.kept, numbers);
