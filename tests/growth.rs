@@ -30,7 +30,7 @@ const SHAPES: [Shape; 11] = [
     ("ring of hinges", |n| hinge_ring(n).unwrap(), 200),
     // Of side² bodies, nearly: sides of 5, 7 and 10.
     ("grid of limbs", |n| limb_grid(n.isqrt()).unwrap(), 25),
-    ("tower of layers", |n| layer_tower(n).unwrap(), 6),
+    ("tower of layers", |n| layer_tower(n).unwrap(), 9),
 ];
 
 /// Shapes that are known to cost more, with what they may cost at most: roles are looked at closer by an iterative solver, whose

@@ -141,11 +141,18 @@ fn given(mechanism: &Mechanism, asked: Vec<Freedom>) -> (Vec<Freedom>, Option<In
     (Vec::new(), None)
 }
 
+/// Mechanisms of more parts that move along a curve are not followed for this: each takes as long as the whole is large.
+const CURVES: usize = 20;
+
 impl Tracer<'_> {
     /// Freedoms that go round without dead centre, of parts that move along a curve and have no input yet.
     fn turning(&self, given: &[Freedom]) -> BTreeSet<Freedom> {
         let mut found = BTreeSet::new();
-        for stage in self.stages.iter().filter(|stage| stage.dimension == 1) {
+        let curves = self.stages.iter().filter(|stage| stage.dimension == 1);
+        if curves.clone().count() > CURVES {
+            return found;
+        }
+        for stage in curves {
             let joints = &stage.part.joints;
             let decided = given.iter().any(|input| joints.contains(&input.joint));
             if decided || joints.len() < 2 {
