@@ -28,7 +28,8 @@ use kutzbach_math::matrix::{MatrixError, RankDecision, Real};
 
 /// The class of a regular part that subgroups within the precision of its numbers do not explain: paradoxical where such subgroups were
 /// looked for in exact numbers, or in those that were taken literally; in rounded ones they may be there and not show. Open where
-/// they could not be looked for everywhere, and where the part moves as without something superfluous, and so for the reason of the rest.
+/// they could not be looked for everywhere, and where they explain what is left without couplings that only repeat it. A superfluous link
+/// fits by its dimensions alone: without it groups may explain the rest, and not that the whole moves.
 fn unexplained(
     question: &Question<'_>,
     chart: &ChartTest,
@@ -49,8 +50,9 @@ fn unexplained(
         } = pose;
         subgroup_finding(mechanism, geometry, states, structure, part, rank)
     };
-    if let Some((smaller, left)) = without_spares(pose.mechanism, part, rank)
-        && of(&smaller, &left)?.class.is_some()
+    if let Some(rest) = without_spares(pose.mechanism, part, rank)
+        && !rest.without_link
+        && of(&rest.part, &rest.rank)?.class.is_some()
     {
         return Ok(None);
     }

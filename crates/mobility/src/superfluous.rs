@@ -135,13 +135,28 @@ pub(super) fn contradicting(
     Ok(found)
 }
 
+/// What is left of a part without what is superfluous.
+pub(super) struct Rest {
+    pub part: Part,
+    pub rank: PartRank,
+    /// Whether a link was left out, and not couplings alone.
+    pub without_link: bool,
+}
+
 /// What is left of a part without couplings that repeat others or its loops, as many as can be left out together, and without one
 /// link that is superfluous then; `None` where nothing is superfluous. The pose is to be regular.
 pub(super) fn without_spares(
     mechanism: &Mechanism,
     part: &Part,
     rank: &PartRank,
-) -> Option<(Part, PartRank)> {
+) -> Option<Rest> {
+    let rest = |without_link: bool| {
+        move |(part, rank): (Part, PartRank)| Rest {
+            part,
+            rank,
+            without_link,
+        }
+    };
     let freedom = rank.instantaneous.filter(|freedom| *freedom > 0)?;
     if rank.unknowns() > MOST_UNKNOWNS {
         return None;
@@ -164,13 +179,12 @@ pub(super) fn without_spares(
             joints: joints.into_iter().collect(),
             ..LeftOut::default()
         };
-        let rest = without(smaller, its_rank, &out);
         let fewer = |rest: &PartRank| rest.equations() + 6 == its_rank.equations();
-        if let Some(rest) =
-            rest.filter(|(_, rest)| rest.instantaneous == Some(freedom) && fewer(rest))
-        {
-            return Some(rest);
+        let found = without(smaller, its_rank, &out)
+            .filter(|(_, rest)| rest.instantaneous == Some(freedom) && fewer(rest));
+        if found.is_some() {
+            return found.map(rest(true));
         }
     }
-    left
+    left.map(rest(false))
 }

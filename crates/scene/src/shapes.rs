@@ -345,7 +345,8 @@ mod tests {
         for end in [[1.0, 0.0, 0.0], [1.0, 2.0, 0.0]] {
             assert!(ends.iter().any(|e| norm(difference(*e, end)) < 1e-15));
         }
-        assert!((drawing.extent - 2.0).abs() < 1e-15);
+        // Half a rod more, for the link after the last joint.
+        assert!((drawing.extent - 3.0).abs() < 1e-15);
         // The pin lies along the hinge's axis, at the joint.
         assert_eq!(
             places(&drawing, &geometry, Part::Joint(1)),

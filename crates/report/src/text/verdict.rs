@@ -143,11 +143,11 @@ fn mobile(report: &Report) -> String {
     }
     if let Some(class) = report.mobility.class {
         let why = match class {
-            MobilityClass::Trivial => counting(report),
-            MobilityClass::Exceptional => "explained by the displacement subgroups of its chains",
-            MobilityClass::Paradoxical => {
-                "due to its dimensions; no displacement group explains it"
+            MobilityClass::Trivial => counting(report).to_owned(),
+            MobilityClass::Exceptional => {
+                "explained by the displacement subgroups of its chains".to_owned()
             }
+            MobilityClass::Paradoxical => format!("due to its dimensions{}", of_its_dimensions(report)),
         };
         text.push_str(&format!(
             ", {why}{} ({})",
@@ -161,8 +161,24 @@ fn mobile(report: &Report) -> String {
     text
 }
 
+/// Which dimensions a paradoxical mobility is due to, as far as that is known.
+fn of_its_dimensions(report: &Report) -> String {
+    match superfluous(report) {
+        Some(spare) => format!(": {spare} could be left out and fits by them"),
+        None => "; no displacement group explains it".to_owned(),
+    }
+}
+
 /// What is said of a mobility whose class is open.
 fn unexplained(report: &Report) -> String {
+    match superfluous(report) {
+        Some(spare) => format!(", as it would without {spare}, which fits by its dimensions"),
+        None => ", for a reason that displacement groups leave open".to_owned(),
+    }
+}
+
+/// Links and couplings that could be left out, each by itself.
+fn superfluous(report: &Report) -> Option<String> {
     let spare = |advice: &&Advice| advice.from == "link" || advice.from == "coupling";
     let spare: Vec<String> = report
         .advice
@@ -171,12 +187,9 @@ fn unexplained(report: &Report) -> String {
         .map(|advice| format!("`{}`", advice.joint))
         .collect();
     match spare.as_slice() {
-        [] => ", for a reason that displacement groups leave open".to_owned(),
-        [one] => format!(", as it would without {one}, which fits by its dimensions"),
-        several => format!(
-            ", as it would without one of {}, which fit by their dimensions",
-            names(several, SPARE)
-        ),
+        [] => None,
+        [one] => Some(one.clone()),
+        several => Some(format!("one of {}", names(several, SPARE))),
     }
 }
 

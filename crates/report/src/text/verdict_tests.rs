@@ -51,7 +51,11 @@ fn regular_mobile_mechanisms_name_their_class() {
             3,
             "Mobile: 1 degree of freedom, due to its dimensions; no displacement group explains it (paradoxical, D11).",
         ),
-        (None, 3, "Mobile: 1 degree of freedom."),
+        (
+            None,
+            3,
+            "Mobile: 1 degree of freedom, for a reason that displacement groups leave open.",
+        ),
     ] {
         let mut report = mobile();
         report.mobility.class = class;
