@@ -16,7 +16,8 @@
 //! and never more than `½ 10⁻ᵈ`. A zero at the end that a program leaves out is there by chance, once in ten numbers. So the style of
 //! which the literals fall short by fewer zeros in all is the likelier one, ten times for every zero. Where most literals are shorter
 //! than chance explains ([`Group::lost`]), beside a few long ones, two hands printed them, and the shorter ones are as uncertain as
-//! their own digits say: `½ 10⁻ᵈ`. A few short ones among many long ones, such as 1.15625, are numbers that somebody chose and the
+//! their own digits say: `½ 10⁻ᵈ`. The numbers of loops that close are often written later, by another program than the tree's: where those
+//! of one side have fewer digits than chance leaves of the other side's ([`Literals::by_another_hand_than`]), each side is a group. A few short ones among many long ones, such as 1.15625, are numbers that somebody chose and the
 //! program had exactly. Numbers of up to [`NATURAL`] significant digits are such in whatever company, and count for none of this.
 
 use super::constants::{has_no_more_than_a_double, is_printed_double};
@@ -31,6 +32,12 @@ const NATURAL: u32 = 4;
 
 /// The fewest significant digits that people make a program print.
 const FEWEST_SIGNIFICANT: u32 = 3;
+
+/// Of so many decimals are no lengths, angles or directions that somebody chose among others that a program computed.
+const NOBODYS_DECIMALS: i32 = 4;
+
+/// So improbable has it to be that one hand printed what counts as printed by two.
+const BY_CHANCE: f64 = 1e-4;
 
 /// One style has to be likelier than the other by so many powers of ten to be the only one.
 const LIKELIER: i64 = 3;
@@ -258,6 +265,32 @@ impl<'a> Literals<'a> {
         if let Some(stated) = number.stated() {
             self.all.push((place, number, stated));
         }
+    }
+
+    /// These and others together.
+    pub fn and(&self, others: &Self) -> Self {
+        Self {
+            all: self.all.iter().chain(&others.all).copied().collect(),
+        }
+    }
+
+    /// Whether another program, or hand, than that of some finer ones printed these: of these, those that have more digits or decimals
+    /// than somebody's choice would all have lost the zeros of the finer ones by chance, and their own zeros they have lost by chance
+    /// only.
+    pub fn by_another_hand_than(&self, finer: &Group, padded: bool) -> bool {
+        let own = self.group(padded);
+        let (Some(most), Some(of_finer)) = (own.decimals, finer.decimals) else {
+            return false;
+        };
+        let zeros = i64::from(of_finer) - i64::from(most);
+        let fewer_digits = finer.significant > own.significant;
+        let computed = self.all.iter().filter(|(_, number, stated)| {
+            let bare = bare(number, *stated);
+            bare.decimals >= NOBODYS_DECIMALS || bare.significant > NATURAL
+        });
+        let chance = power_of_ten(-zeros.max(0)).powf(computed.count() as f64);
+        let rounded = !own.is_exact() && !finer.is_exact() && most > EXACT_DECIMALS;
+        rounded && own.alike && zeros > 0 && fewer_digits && chance <= BY_CHANCE
     }
 
     /// Those that are not zero and have a decimal point.

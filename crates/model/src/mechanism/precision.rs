@@ -132,17 +132,42 @@ impl Precision {
         self.groups.map(|group| group.written())
     }
 
-    /// The precision of some numbers that one file states of one sub-mechanism.
-    fn of<'a>(numbers: impl IntoIterator<Item = (LiteralPlace, &'a Number)>) -> Self {
-        let mut literals = [(); 3].map(|()| Literals::default());
-        for (place, number) in numbers {
-            literals[Joint::kind_of_number(place.in_joint())].read(place, number);
+    /// The precision of some numbers that one file states of one sub-mechanism: of those in its tree, and of those in joints that close
+    /// a loop, which differ where two hands wrote them.
+    fn of<'a>(
+        tree: impl IntoIterator<Item = (LiteralPlace, &'a Number)>,
+        closing: impl IntoIterator<Item = (LiteralPlace, &'a Number)>,
+    ) -> [Self; 2] {
+        let [tree, closing] = [sorted_by_kind(tree), sorted_by_kind(closing)];
+        let all = [0, 1, 2].map(|kind: usize| tree[kind].and(&closing[kind]));
+        let padded = Self::is_padded(&all);
+        let whole = Self::of_kinds(&all, padded);
+        let mut sides = [whole; 2];
+        for kind in 0..3 {
+            let [of_tree, of_closing] = [&tree[kind], &closing[kind]];
+            let groups = [of_tree.group(padded), of_closing.group(padded)];
+            if of_closing.by_another_hand_than(&groups[0], padded)
+                || of_tree.by_another_hand_than(&groups[1], padded)
+            {
+                for (side, group) in sides.iter_mut().zip(groups) {
+                    side.groups[kind] = group;
+                }
+            }
         }
+        sides
+    }
+
+    /// Whether zeros at the end of all literals say nothing.
+    fn is_padded(literals: &[Literals<'_>; 3]) -> bool {
         let digits = literals.iter().map(Literals::significant);
         let (significant, bare) = digits.fold((0, 0), |a, b| (a.0.max(b.0), a.1.max(b.1)));
-        let padded = significant >= Self::LONG.max(bare + Self::PADDING)
-            && literals.iter().map(Literals::pointed).sum::<usize>() >= Self::PADDED_LITERALS;
-        let [lengths, angles, directions] = &literals;
+        significant >= Self::LONG.max(bare + Self::PADDING)
+            && literals.iter().map(Literals::pointed).sum::<usize>() >= Self::PADDED_LITERALS
+    }
+
+    /// The precision of literals that one hand wrote.
+    fn of_kinds(literals: &[Literals<'_>; 3], padded: bool) -> Self {
+        let [lengths, angles, directions] = literals;
         let (angles, directions) = (angles.group(padded), directions.group(padded));
         let mut lengths = lengths.group(padded);
         // Whoever chose directions chose lengths to the millimetre. Beside rounded directions these are rounded as well, but where
@@ -174,6 +199,17 @@ impl Precision {
     }
 }
 
+/// Lengths, angles and components of directions.
+fn sorted_by_kind<'a>(
+    numbers: impl IntoIterator<Item = (LiteralPlace, &'a Number)>,
+) -> [Literals<'a>; 3] {
+    let mut literals = [(); 3].map(|()| Literals::default());
+    for (place, number) in numbers {
+        literals[Joint::kind_of_number(place.in_joint())].read(place, number);
+    }
+    literals
+}
+
 /// Where a literal of the geometry stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LiteralPlace {
@@ -197,9 +233,10 @@ impl LiteralPlace {
 /// where no joint places them. What lies in no loop, such as the frame of a camera that is fixed to a link, bears on nothing.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub(super) struct Precisions {
-    blocks: Vec<Precision>,
-    /// Index in `blocks` of every joint's; `None` for joints in no loop.
-    of_joint: Vec<Option<usize>>,
+    /// Of the joints of each block's tree, and of those that close its loops.
+    blocks: Vec<[Precision; 2]>,
+    /// Index in `blocks` of every joint's, and which of the two; `None` for joints in no loop.
+    of_joint: Vec<Option<(usize, usize)>>,
     together: Precision,
     /// That of what bears on nothing.
     exact: Precision,
@@ -218,13 +255,16 @@ impl Precisions {
             block
                 .edges
                 .iter()
-                .for_each(|&joint| of_joint[joint] = Some(index));
+                .for_each(|&joint| of_joint[joint] = Some((index, side_of(mechanism, joint))));
         }
-        let blocks: Vec<Precision> = loops
+        let blocks: Vec<[Precision; 2]> = loops
             .iter()
-            .map(|block| Precision::of(bearing(mechanism, block)))
+            .map(|block| {
+                let [tree, closing] = [0, 1].map(|side| bearing(mechanism, block, side));
+                Precision::of(tree, closing)
+            })
             .collect();
-        let mut all = blocks.iter();
+        let mut all = blocks.iter().flatten();
         let first = all.next().copied().unwrap_or_default();
         Self {
             together: all.fold(first, Precision::with),
@@ -237,7 +277,7 @@ impl Precisions {
     /// Those with every literal known to within this (m, rad).
     pub(super) fn known_to(mut self, uncertainty: f64) -> Self {
         let all = [&mut self.together, &mut self.exact];
-        for precision in all.into_iter().chain(&mut self.blocks) {
+        for precision in all.into_iter().chain(self.blocks.iter_mut().flatten()) {
             *precision = precision.known_to(uncertainty);
         }
         self
@@ -248,24 +288,35 @@ impl Precisions {
     }
 
     pub(super) fn of_joint(&self, joint: usize) -> &Precision {
-        let block = self.of_joint.get(joint).copied().flatten();
-        block.map_or(&self.exact, |block| &self.blocks[block])
+        let of = self.of_joint.get(joint).copied().flatten();
+        of.map_or(&self.exact, |(block, side)| &self.blocks[block][side])
     }
 
     /// Index of the independent sub-mechanism that a joint belongs to; `None` for joints in no loop.
     pub(super) fn block(&self, joint: usize) -> Option<usize> {
-        self.of_joint.get(joint).copied().flatten()
+        let of = self.of_joint.get(joint).copied().flatten();
+        of.map(|(block, _)| block)
     }
 }
 
-/// The literals that bear on a block's loops, in file order.
+/// 0 for a joint of the tree, 1 for one that closes a loop.
+fn side_of(mechanism: &Mechanism, joint: usize) -> usize {
+    usize::from(mechanism.joints[joint].closes_loop)
+}
+
+/// The literals that bear on a block's loops, in file order: those of its tree (0), or of the joints that close loops (1).
 fn bearing<'a>(
     mechanism: &'a Mechanism,
     block: &Block,
+    side: usize,
 ) -> impl Iterator<Item = (LiteralPlace, &'a Number)> {
     let mut joints = block.edges.clone();
+    joints.retain(|&joint| side_of(mechanism, joint) == side);
     joints.sort_unstable();
-    let mut links = block.nodes.clone();
+    let mut links = match side {
+        0 => block.nodes.clone(),
+        _ => Vec::new(),
+    };
     links.sort_unstable();
     let placed = links.into_iter().flat_map(|link| {
         let frame = match &mechanism.links[link].placement {
@@ -388,7 +439,8 @@ mod tests {
             let all = lengths
                 .iter()
                 .map(|length| (LiteralPlace::Joint(0, 0), length));
-            let precision = Precision::of(all.chain([(LiteralPlace::Joint(0, direction), &third)]));
+            let all = all.chain([(LiteralPlace::Joint(0, direction), &third)]);
+            let [precision, _] = Precision::of(all, []);
             lengths
                 .iter()
                 .map(|length| precision.uncertainty(0, length))
