@@ -197,7 +197,10 @@ fn a_link_that_can_be_left_out_is_named_and_can() {
     let text = render(&whole, Layout::default());
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(!text.contains("no displacement group"), "{text}");
-    assert!(text.contains("could be left out and fits by them"), "{text}");
+    assert!(
+        text.contains("could be left out and fits by them"),
+        "{text}"
+    );
 }
 
 #[test]

@@ -140,7 +140,8 @@ pub fn written(
             let mut print = |what: What, values: Vector| -> String {
                 let each = values.map(|value| {
                     let small = value.abs() < 1e-12;
-                    writer.number(what, if small { 0.0 } else { value }, random)
+                    let value = if small { 0.0 } else { value };
+                    writer.number(what, value, joint.closes, random)
                 });
                 each.join(" ")
             };
@@ -168,7 +169,7 @@ pub fn written(
             _ => {
                 let components = seen(&own, axis).map(|x| {
                     let x = if x.abs() < 1e-12 { 0.0 } else { x };
-                    writer.number(What::Direction, x, random)
+                    writer.number(What::Direction, x, joint.closes, random)
                 });
                 format!("<axis xyz=\"{}\"/>", components.join(" "))
             }

@@ -19,7 +19,7 @@ fn printed(mechanism: &Mechanism, writer: &Writer, seed: u64) -> Mechanism {
     draft.poses.clear();
     let written = draft.each_number_of_a_kind(&mut |kind, number| {
         let what = [What::Length, What::Angle, What::Direction][kind];
-        Number::decimal(&writer.number(what, number.value(), &mut random)).unwrap()
+        Number::decimal(&writer.number(what, number.value(), false, &mut random)).unwrap()
     });
     let text = kutzbach::format::write(&written.build());
     kutzbach::format::read(&text, "printed.urdf", &[])
@@ -43,6 +43,7 @@ mod corpus {
         let known: Vec<_> = known.collect();
         let cases = WRITERS
             .iter()
+            .filter(|writer| writer.closing.is_none())
             .flat_map(|writer| known.iter().map(move |of| (writer, of)));
         let outcomes = in_parallel(&sample(cases, 36), |(writer, (name, finite, mechanism))| {
             let said = analysis(&printed(mechanism, writer, 1)).mobility.finite();

@@ -36,6 +36,8 @@ pub struct Writer {
     pub name: &'static str,
     /// Of lengths, angles and directions.
     pub styles: [Style; 3],
+    /// The same in joints that close loops, where somebody else wrote these.
+    pub closing: Option<[Style; 3]>,
     /// Whether the quick tier asks.
     pub quick: bool,
     /// Of a hundred files so many may be left open.
@@ -46,6 +48,7 @@ const fn alike(name: &'static str, style: Style, quick: bool) -> Writer {
     Writer {
         name,
         styles: [style; 3],
+        closing: None,
         quick,
         open: 2,
     }
@@ -55,12 +58,21 @@ const fn mixed(name: &'static str, styles: [Style; 3]) -> Writer {
     Writer {
         name,
         styles,
+        closing: None,
         quick: false,
         open: 2,
     }
 }
 
-pub const WRITERS: [Writer; 17] = [
+/// The tree by one program, the joints that close loops by another.
+const fn two(name: &'static str, tree: Style, closing: Style) -> Writer {
+    Writer {
+        closing: Some([closing; 3]),
+        ..alike(name, tree, false)
+    }
+}
+
+pub const WRITERS: [Writer; 21] = [
     alike("%.4f", Style::Fixed(4), false),
     alike("%.5f", Style::Fixed(5), true),
     alike("%.6f", Style::Fixed(6), true),
@@ -98,12 +110,17 @@ pub const WRITERS: [Writer; 17] = [
         "lengths full, rest 5",
         [Style::Double, Style::Fixed(5), Style::Fixed(5)],
     ),
+    two("%.6f, loops %.4f", Style::Fixed(6), Style::Fixed(4)),
+    two("doubles, loops %.6f", Style::Double, Style::Fixed(6)),
+    two("%.9f, loops round 6", Style::Fixed(9), Style::Shortest(6)),
+    two("%.5f, loops doubles", Style::Fixed(5), Style::Double),
 ];
 
 impl Writer {
     /// How far a number may be from the one printed (m, rad; numbers of about 1).
     pub fn off_by(&self) -> f64 {
-        let each = self.styles.map(|style| match style {
+        let all = [self.styles, self.closing.unwrap_or(self.styles)].concat();
+        let each = all.into_iter().map(|style| match style {
             Style::Fixed(n) | Style::Shortest(n) | Style::General(n) | Style::Residues(n) => {
                 0.5 * 10f64.powi(-(n as i32))
             }
@@ -111,14 +128,16 @@ impl Writer {
             Style::Single | Style::SingleShort => 6e-8,
             Style::Noisy(size) => size,
         });
-        each.into_iter().fold(0.0, f64::max)
+        each.fold(0.0, f64::max)
     }
 
-    pub fn number(&self, what: What, value: f64, random: &mut SplitMix64) -> String {
+    /// A number, of a joint that closes a loop or not.
+    pub fn number(&self, what: What, value: f64, closes: bool, random: &mut SplitMix64) -> String {
+        let styles = self.closing.filter(|_| closes).unwrap_or(self.styles);
         let style = match what {
-            What::Length => self.styles[0],
-            What::Angle => self.styles[1],
-            What::Direction => self.styles[2],
+            What::Length => styles[0],
+            What::Angle => styles[1],
+            What::Direction => styles[2],
         };
         match style {
             Style::Fixed(decimals) => bare_zero(format!("{value:.decimals$}")),

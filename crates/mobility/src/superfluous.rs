@@ -145,11 +145,7 @@ pub(super) struct Rest {
 
 /// What is left of a part without couplings that repeat others or its loops, as many as can be left out together, and without one
 /// link that is superfluous then; `None` where nothing is superfluous. The pose is to be regular.
-pub(super) fn without_spares(
-    mechanism: &Mechanism,
-    part: &Part,
-    rank: &PartRank,
-) -> Option<Rest> {
+pub(super) fn without_spares(mechanism: &Mechanism, part: &Part, rank: &PartRank) -> Option<Rest> {
     let rest = |without_link: bool| {
         move |(part, rank): (Part, PartRank)| Rest {
             part,

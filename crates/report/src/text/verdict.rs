@@ -147,7 +147,9 @@ fn mobile(report: &Report) -> String {
             MobilityClass::Exceptional => {
                 "explained by the displacement subgroups of its chains".to_owned()
             }
-            MobilityClass::Paradoxical => format!("due to its dimensions{}", of_its_dimensions(report)),
+            MobilityClass::Paradoxical => {
+                format!("due to its dimensions{}", of_its_dimensions(report))
+            }
         };
         text.push_str(&format!(
             ", {why}{} ({})",
