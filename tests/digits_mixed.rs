@@ -133,3 +133,33 @@ fn offsets_in_full_are_measures() {
     assert_eq!(finite(&text(offset, offset)), Some(1));
     assert_eq!(finite(&text("0", "0")), Some(1));
 }
+
+#[test]
+fn what_is_traced_and_simulated_is_what_was_told_mobile() {
+    // A four-bar in an oblique plane, in four decimals: taken literally, its axes are not parallel and it binds.
+    let text = r#"<robot name="oblique"><link name="g"/><link name="a"/><link name="b"/><link name="c"/>
+        <joint name="j1" type="continuous"><parent link="g"/><child link="a"/><axis xyz="0.9222 -0.1915 0.3359"/></joint>
+        <joint name="j2" type="continuous"><parent link="a"/><child link="b"/><origin xyz="0.1011 1.0835 0.3404"/><axis xyz="0.9222 -0.1915 0.3359"/></joint>
+        <joint name="j3" type="continuous"><parent link="b"/><child link="c"/><origin xyz="0.6888 1.3026 -1.1485"/><axis xyz="0.9222 -0.1915 0.3359"/></joint>
+        <loop name="j4" type="revolute"><predecessor link="c"><origin xyz="0.1362 -1.1322 -1.0196"/></predecessor>
+          <successor link="g"><origin xyz="0.9260 1.2538 -1.8277"/></successor><axis xyz="0.9222 -0.1915 0.3359"/></loop></robot>"#;
+    assert_eq!(finite(text), Some(1));
+    let file = crate::support::empty_folder("oblique").join("oblique.urdf");
+    std::fs::write(&file, text).unwrap();
+    let asked = |arguments: &[&str]| {
+        let output = crate::support::program()
+            .args(arguments)
+            .arg(&file)
+            .output()
+            .unwrap();
+        let value: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let changed = value["dimensions_changed"].as_f64().unwrap();
+        assert!(changed > 1e-6 && changed < 1e-4, "{changed}");
+        value
+    };
+    let traced = asked(&["trace", "--format", "json"]);
+    assert_eq!(traced["moves"], true);
+    let simulated = asked(&["simulate", "--format", "json"]);
+    let outcome = &simulated["verification"]["finding"]["outcome"];
+    assert_eq!(outcome, "confirmed");
+}

@@ -8,7 +8,7 @@ use super::{DONE, interrupt, load, output, terminal};
 use clap::{Args, ValueEnum};
 use kutzbach::accuracy::{Accuracy, AccuracyOptions, Grid, measure};
 use kutzbach::mechanism::Mechanism;
-use kutzbach::mobility::{Analysis, AnalysisOptions, ExactBudget, analyse};
+use kutzbach::mobility::{Analysis, AnalysisOptions, ExactBudget, Followed, analyse_to_follow};
 use kutzbach::report::accuracy::{figure, page};
 use kutzbach::report::html::accuracy_page;
 use std::ops::ControlFlow;
@@ -92,7 +92,11 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         message: format!("{}: {message}", arguments.source.file.display()),
         help,
     };
-    let analysis = analyse(
+    let Followed {
+        mechanism,
+        analysis,
+        ..
+    } = analyse_to_follow(
         mechanism,
         &AnalysisOptions {
             configuration: configuration.clone(),
@@ -105,8 +109,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             Some("`kutzbach report FILE` tells more".to_owned()),
         )
     })?;
-    // Where rounded numbers mean another mechanism, it is that one that moves.
-    let mechanism = analysis.of(mechanism);
+    let mechanism = &mechanism;
     if let Some(name) = &arguments.drive {
         kutzbach::motion::variable_named(mechanism, name)
             .map_err(|error| plain(error.to_string(), Some(error.help())))?;

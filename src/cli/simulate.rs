@@ -12,7 +12,7 @@ use super::{DISAGREEMENT, DONE, UNDECIDED, interrupt, load, output, terminal};
 use choices::{Effect, Format, SolverChoice, substeps};
 use clap::Args;
 use kutzbach::closure::{Arithmetic, Geometry};
-use kutzbach::mobility::{AnalysisOptions, Verdict, analyse};
+use kutzbach::mobility::{AnalysisOptions, Followed, Verdict, analyse_to_follow};
 use kutzbach::simulate::verification::{Outcome, VerificationOptions, verify};
 use kutzbach::simulate::{SceneOptions, WorldOptions, cost_table, run_scene, scene_drives};
 use log::Log;
@@ -136,7 +136,11 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         message: format!("{}: {message}", arguments.source.file.display()),
         help,
     };
-    let analysis = analyse(
+    let Followed {
+        mechanism,
+        analysis,
+        changed,
+    } = analyse_to_follow(
         mechanism,
         &AnalysisOptions {
             configuration: configuration.clone(),
@@ -150,8 +154,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             Some("`kutzbach report FILE` tells more".to_owned()),
         )
     })?;
-    // Where rounded numbers mean another mechanism, it is that one that moves.
-    let mechanism = analysis.of(mechanism);
+    let mechanism = &mechanism;
     if let Some(name) = &arguments.drive {
         kutzbach::motion::variable_named(mechanism, name)
             .map_err(|error| plain(error.to_string(), Some(error.help())))?;
@@ -224,6 +227,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         .map_err(|error| refused(error.to_string()))?;
     let mut simulated = Simulated {
         mechanism,
+        changed,
         choice,
         verification,
         scene: None,

@@ -9,7 +9,7 @@ use super::units::ValueUnits;
 use super::{DONE, load, output};
 use clap::{Args, ValueEnum};
 use kutzbach::mechanism::{FreedomPart, Mechanism};
-use kutzbach::mobility::{AnalysisOptions, Depth, analyse};
+use kutzbach::mobility::{AnalysisOptions, Depth, Followed, analyse_to_follow};
 use kutzbach::motion::{TraceOptions, trace};
 
 /// Follow a branch: poses, ranges and extreme positions of the joints, singular poses
@@ -137,7 +137,11 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         message: format!("{}: {message}", arguments.source.file.display()),
         help: Some(help),
     };
-    let analysis = analyse(
+    let Followed {
+        mechanism,
+        analysis,
+        changed,
+    } = analyse_to_follow(
         mechanism,
         &AnalysisOptions {
             configuration: configuration.clone(),
@@ -152,8 +156,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             "`kutzbach report FILE` tells more".to_owned(),
         )
     })?;
-    // Where rounded numbers mean another mechanism, it is that one that moves.
-    let mechanism = analysis.of(mechanism);
+    let mechanism = &mechanism;
     let options = TraceOptions {
         branch: arguments.branch.clone(),
         drive: arguments.drive.as_ref().map(|d| d.joint.clone()),
@@ -173,9 +176,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let traced = trace(mechanism, &analysis, &options)
         .map_err(|error| plain(error.to_string(), error.help()))?;
     let text = match arguments.format {
-        Format::Text => table::text(mechanism, &traced, &drawn.points, arguments.units),
+        Format::Text => table::text(mechanism, changed, &traced, &drawn.points, arguments.units),
         Format::Csv => table::csv(mechanism, &traced, &drawn.points),
-        Format::Json => output::json(&table::json(mechanism, &traced, &drawn.points))?,
+        Format::Json => output::json(&table::json(mechanism, changed, &traced, &drawn.points))?,
         Format::Svg => drawn.svg(mechanism, &traced)?,
     };
     arguments.destination.put(&text)?;

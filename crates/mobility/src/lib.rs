@@ -37,6 +37,7 @@ mod engines;
 mod exact;
 mod exact_constraint;
 pub mod families;
+mod followed;
 mod generic;
 mod germ;
 mod germ_zeros;
@@ -99,6 +100,7 @@ pub use depth::Depth;
 pub use engines::engines;
 pub use exact::ExactBudget;
 pub use exact_constraint::{ChangeSets, JointChange, NoChangeSet};
+pub use followed::{Followed, analyse_to_follow};
 pub use generic::{GenericCount, generic_count};
 pub use germ::{
     ComplexDimension, Germ, PrestressCertificate, complex_dimension, prestress_certificate,

@@ -4,7 +4,7 @@ use kutzbach::accuracy::Choice;
 use kutzbach::mechanism::Mechanism;
 use kutzbach::record::Summary;
 use kutzbach::report::accuracy::choice_text;
-use kutzbach::report::text::words::{counted, degrees, names, runs};
+use kutzbach::report::text::words::{counted, degrees, metres, names, runs};
 use kutzbach::report::text::{Cell, Column, Layout, Page, Table, Tint};
 use kutzbach::simulate::verification::{
     BranchVerification, Finding, Outcome, Pushing, Verification,
@@ -24,6 +24,8 @@ const SCHEMA: &str = "kutzbach-simulation-1";
 /// Everything that was simulated.
 pub struct Simulated<'a> {
     pub mechanism: &'a Mechanism,
+    /// How far its dimensions are from those written (m), where rounded numbers mean other ones.
+    pub changed: Option<f64>,
     /// Which setting a wanted error called for.
     pub choice: Option<Choice>,
     pub verification: Verification,
@@ -65,6 +67,14 @@ fn sentence(finding: &Finding) -> String {
     format!("{word}: {}.", finding.why)
 }
 
+/// Which dimensions the motion is of.
+pub fn of_nearest(changed: f64) -> String {
+    format!(
+        "Simulated: the nearest dimensions that move, up to {} from those written.",
+        metres(changed)
+    )
+}
+
 /// A duration in seconds, to three digits.
 fn seconds(time: f64) -> String {
     if time < 1e-3 {
@@ -96,6 +106,9 @@ pub fn text(simulated: &Simulated<'_>, layout: Layout) -> String {
         "",
         "",
     );
+    if let Some(changed) = simulated.changed {
+        page.paragraph(&of_nearest(changed), Tint::Plain, "", "");
+    }
     if let Some(choice) = &simulated.choice {
         choice_page(choice, &mut page);
     }
@@ -375,6 +388,7 @@ pub fn json(simulated: &Simulated<'_>, timing: bool) -> Value {
     let mut value = json!({
         "schema": SCHEMA,
         "mechanism": simulated.mechanism.name(),
+        "dimensions_changed": simulated.changed,
         "verification": simulated.verification,
     });
     if let Some(choice) = &simulated.choice {

@@ -6,6 +6,7 @@ use kutzbach::mechanism::{FreedomPart, Mechanism};
 use kutzbach::motion::{EndReason, EventKind, Motion, Spacing, Trace, Variable, value_text};
 use kutzbach::report::picture::traced::LinkPoint;
 use kutzbach::report::text::visible;
+use kutzbach::report::text::words::metres;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -57,9 +58,10 @@ fn extent(motion: &Motion, told: &Told<'_>) -> String {
     }
 }
 
-/// A page for a person.
+/// A page for a person; `changed` is how far the dimensions are from those written (m), where they are others.
 pub fn text(
     mechanism: &Mechanism,
+    changed: Option<f64>,
     trace: &Trace,
     points: &[LinkPoint],
     units: ValueUnits,
@@ -85,6 +87,12 @@ pub fn text(
         motion.dimension,
         extent(motion, &told)
     ));
+    if let Some(changed) = changed {
+        line(format!(
+            "  • traced: the nearest dimensions that move, up to {} from those written",
+            metres(changed)
+        ));
+    }
     for note in &motion.notes {
         line(format!("  • {note}"));
     }
@@ -334,7 +342,12 @@ fn reason_json(reason: &EndReason) -> Value {
 }
 
 /// Everything, with the names of columns once.
-pub fn json(mechanism: &Mechanism, trace: &Trace, points: &[LinkPoint]) -> Value {
+pub fn json(
+    mechanism: &Mechanism,
+    changed: Option<f64>,
+    trace: &Trace,
+    points: &[LinkPoint],
+) -> Value {
     let motion = match trace {
         Trace::Still(still) => {
             return json!({
@@ -369,6 +382,7 @@ pub fn json(mechanism: &Mechanism, trace: &Trace, points: &[LinkPoint]) -> Value
     json!({
         "schema": SCHEMA,
         "mechanism": mechanism.name(),
+        "dimensions_changed": changed,
         "moves": true,
         "branch": motion.branch,
         "branches": motion.branches,
