@@ -75,7 +75,7 @@ pub(super) struct Group {
     pub significant: u32,
     /// Most decimals, counted in the decade of the longest literal where that is [asked for](Self::count_from_first_digit).
     pub designed: i32,
-    /// Power of ten of the first digit of the largest literal, if that is below 1: −1 for `0.125`.
+    /// Power of ten of the first digit of the largest literal: −1 for `0.125`.
     decade: i32,
     /// Where the first literal is that has so many.
     pub finest: Option<LiteralPlace>,
@@ -88,6 +88,8 @@ pub(super) struct Group {
     lost: i32,
     /// Whether so few literals are shorter than the longest that all may be rounded to its decimals.
     alike: bool,
+    /// Whether so few literals are shorter, in decimals and in digits, that one program printed them all to either.
+    equally_long: bool,
 }
 
 /// How the numbers of one kind were written, as far as their digits tell.
@@ -129,6 +131,7 @@ impl Default for Group {
             style: Style::Either,
             lost: i32::MAX,
             alike: true,
+            equally_long: false,
         }
     }
 }
@@ -161,13 +164,22 @@ impl Group {
     /// Counts decimals from the first digit of the largest literal, if that is below 1: `0.125` says of metres what `1.25` says
     /// of decimetres.
     pub fn count_from_first_digit(&mut self) {
-        self.designed = self.designed.saturating_add(self.decade);
+        self.designed = self.designed.saturating_add(self.decade.min(0));
+    }
+
+    /// Counts decimals from the first digit of the largest literal, if they all have four digits or more but for zeros at the end that
+    /// are there by chance: `102.5` beside `45.73` and directions that were rounded says of metres what `1.025` says of hundreds.
+    pub fn count_all_digits(&mut self) {
+        if self.significant >= NATURAL && self.equally_long {
+            self.designed = self.designed.saturating_add(self.decade.max(0));
+        }
     }
 
     /// Whether the zeros before the first digits are those of a unit, such as millimetres in metres: lengths of less than 10⁻⁴ m, and
     /// of less than a centimetre stated to two digits, or all to one digit. No program rounds so coarsely.
     pub fn is_of_a_small_unit(&self) -> bool {
-        let digits = self.designed.saturating_add(self.decade).saturating_add(1);
+        let decade = self.decade.min(0);
+        let digits = self.designed.saturating_add(decade).saturating_add(1);
         self.decade < -4 || self.decade < -2 && digits <= 2 || self.significant <= 1
     }
 
@@ -343,15 +355,15 @@ impl<'a> Literals<'a> {
                 first_digit = first_digit.max(Some(place));
             }
         }
-        let decade = first_digit.unwrap_or(0).min(0);
-        group.decade = i32::try_from(decade).unwrap_or(i32::MIN);
+        let decade = first_digit.unwrap_or(0).clamp(i64::from(i32::MIN), i64::from(i32::MAX));
+        group.decade = i32::try_from(decade).unwrap_or(0);
         group.designed = group.decimals.unwrap_or(0);
         group.style = match single {
             Some(size) => Style::Single(size),
             None => self.style(&group),
         };
         group.lost = self.lost(&group);
-        group.alike = self.are_alike(&group);
+        (group.alike, group.equally_long) = self.are_alike(&group);
         group
     }
 
@@ -418,18 +430,20 @@ impl<'a> Literals<'a> {
         (1..=30).find(by_others).map_or(i32::MAX, |zeros| zeros - 1)
     }
 
-    /// Whether literals shorter than the longest are as few as chance makes them, once in ten.
-    fn are_alike(&self, group: &Group) -> bool {
-        let decimals = self.all.iter().filter_map(|(_, number, stated)| {
-            let stated = group.stated(number, *stated);
-            (stated.significant > 0).then_some(stated.decimals)
-        });
-        let (mut count, mut shorter) = (0, 0);
-        for decimals in decimals {
+    /// Whether literals shorter than the longest are as few as chance makes them, once in ten: in decimals, and in decimals and digits.
+    fn are_alike(&self, group: &Group) -> (bool, bool) {
+        let most = group.decimals.unwrap_or(0);
+        let written = self.all.iter().map(|(_, n, stated)| group.stated(n, *stated));
+        let (mut count, mut shorter, mut in_both) = (0, 0, 0);
+        for stated in written.filter(|stated| stated.significant > 0) {
+            let short = |style: Style| style.short_by(stated, most, group.significant) > 0;
             count += 1;
-            shorter += usize::from(Some(decimals) < group.decimals);
+            shorter += usize::from(short(Style::Decimals));
+            in_both += usize::from(short(Style::Either));
         }
-        shorter == 0 || at_least(shorter, 0.1 * f64::from(count)) >= UNLIKELY
+        let by_chance =
+            |shorter| shorter == 0 || at_least(shorter, 0.1 * f64::from(count)) >= UNLIKELY;
+        (by_chance(shorter), by_chance(in_both))
     }
 
     /// The largest size of any literal, if they are single-precision numbers as they are printed.

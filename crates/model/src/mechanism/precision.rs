@@ -174,6 +174,8 @@ impl Precision {
         // their zeros are those of the unit, and none of them was rounded to.
         if angles.is_exact() && directions.is_exact() || lengths.is_of_a_small_unit() {
             lengths.count_from_first_digit();
+        } else {
+            lengths.count_all_digits();
         }
         let groups = [lengths, angles, directions];
         Self {
