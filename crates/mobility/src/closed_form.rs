@@ -28,7 +28,7 @@ use super::pose_rank::{PartRank, Pose, TALL, height_at, is_computed};
 use super::vocabulary::{EngineName, Scope};
 use kutzbach_closure::Part;
 use kutzbach_model::mechanism::{JointKind, Mechanism};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Matrix3xX, Vector3};
 
 /// What is computed from the screws of a loop may be off by so many times their accuracy: each passes up to a few dozen
 /// roundings of its own size.
@@ -168,8 +168,8 @@ impl Hinges {
             .map(|(direction, point)| direction.cross(&(point - centre)).norm())
             .fold(0.0, f64::max);
         // Axes that hardly differ in direction, or lie in one plane, span less than space.
-        let axes = Matrix3::from_diagonal_element(1.0) - normal / self.directions.len() as f64;
-        let least = axes.symmetric_eigenvalues().min().max(0.0).sqrt();
+        let axes = Matrix3xX::from_columns(&self.directions);
+        let least = axes.singular_values().min() / (self.directions.len() as f64).sqrt();
         let text = "with axes through one point, not all in one plane: the count on the sphere";
         let known = self.vanishes(far) && self.is_clear(least);
         known.then(|| (self.directions.len() - 3, text.to_owned()))
@@ -238,6 +238,8 @@ mod tests {
         assert_eq!(about(&[x, y, z]), Some(0));
         // All axes in one plane: not told.
         assert_eq!(about(&[x, y, [1.0, 1.0, 0.0], [1.0, -1.0, 0.0]]), None);
+        // Two pairs of hinges about one axis each: two links that turn by themselves.
+        assert_eq!(about(&[[0.0, 1.0, 1.0], [0.0, 1.0, 1.0], x, x]), None);
     }
 
     #[test]

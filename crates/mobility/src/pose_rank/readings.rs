@@ -200,12 +200,15 @@ impl<'a> Readings<'a> {
     }
 
     /// The numbers as written, in as many digits as their ratios ask for. What rounding leaves of a zero is about as large as rounding
-    /// is, or nothing: a value far below it comes from the mechanism.
+    /// is, or nothing: a value far below it comes from the mechanism. Not where it is said how well all numbers are known, as of those
+    /// that were computed: below that their digits mean nothing.
     pub fn by_ratios(&mut self, more: &mut MoreDigits) -> Result<(), MatrixError> {
-        if !(self.stated > 0.0 && self.deficient && self.matrix.columns() <= CHECKED_UNKNOWNS) {
+        let (pose, part) = (self.pose, self.part);
+        let said = pose.mechanism.precision().by_hand().is_some();
+        let asked = self.stated > 0.0 && self.deficient && !said;
+        if !(asked && self.matrix.columns() <= CHECKED_UNKNOWNS) {
             return Ok(());
         }
-        let (pose, part) = (self.pose, self.part);
         let Some(needed) = bits_for_ratios(pose.mechanism, pose.geometry, part) else {
             return Ok(());
         };

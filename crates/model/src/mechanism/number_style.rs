@@ -355,7 +355,9 @@ impl<'a> Literals<'a> {
                 first_digit = first_digit.max(Some(place));
             }
         }
-        let decade = first_digit.unwrap_or(0).clamp(i64::from(i32::MIN), i64::from(i32::MAX));
+        let decade = first_digit
+            .unwrap_or(0)
+            .clamp(i64::from(i32::MIN), i64::from(i32::MAX));
         group.decade = i32::try_from(decade).unwrap_or(0);
         group.designed = group.decimals.unwrap_or(0);
         group.style = match single {
@@ -433,7 +435,10 @@ impl<'a> Literals<'a> {
     /// Whether literals shorter than the longest are as few as chance makes them, once in ten: in decimals, and in decimals and digits.
     fn are_alike(&self, group: &Group) -> (bool, bool) {
         let most = group.decimals.unwrap_or(0);
-        let written = self.all.iter().map(|(_, n, stated)| group.stated(n, *stated));
+        let written = self
+            .all
+            .iter()
+            .map(|(_, n, stated)| group.stated(n, *stated));
         let (mut count, mut shorter, mut in_both) = (0, 0, 0);
         for stated in written.filter(|stated| stated.significant > 0) {
             let short = |style: Style| style.short_by(stated, most, group.significant) > 0;

@@ -455,6 +455,56 @@ mod tests {
         assert_eq!(beside(&["0.025", "0.013", "0.01"]), 0.5e-3);
     }
 
+    /// How far the lengths of a tree, and of the joints that close its loops, may be off; a coarse direction stands beside them.
+    fn two_sides(tree: &[&str], closing: &[&str]) -> [Vec<f64>; 2] {
+        let direction = (0..)
+            .find(|place| Joint::kind_of_number(*place) == 2)
+            .unwrap();
+        let sides = [tree, closing].map(|texts| texts.iter().map(|t| number(t)).collect());
+        let placed = |side: &'static str| move |n| (LiteralPlace::Joint(side.len(), 0), n);
+        let [tree, closing]: &[Vec<Number>; 2] = &sides;
+        let third = number("0.3333");
+        let axis = [(LiteralPlace::Joint(0, direction), &third)];
+        let of_tree = tree.iter().map(placed("tree")).chain(axis);
+        let found = Precision::of(of_tree, closing.iter().map(placed("closing")));
+        [0, 1].map(|side| {
+            let all = sides[side].iter();
+            all.map(|n| found[side].uncertainty(0, n)).collect()
+        })
+    }
+
+    #[test]
+    fn loops_of_another_program_have_digits_of_their_own() {
+        let six = ["0.659148", "-1.641397", "1.860928", "-0.049371", "-0.40791"];
+        let four = ["-0.0394", "2.4030", "-0.6885", "-1.649"];
+        assert_eq!(two_sides(&six, &four), [vec![0.5e-6; 5], vec![0.5e-4; 4]]);
+        // The other way round as well; and numbers that somebody chose are no rounded ones.
+        assert_eq!(two_sides(&four, &six), [vec![0.5e-4; 4], vec![0.5e-6; 5]]);
+        let [_, chosen] = two_sides(&six, &["0.125", "0.25", "0.375", "2"]);
+        assert_eq!(chosen, [0.5e-6; 4]);
+        let doubles = [
+            "0.6591480000000017",
+            "-1.6413970000000123",
+            "1.860928317762219",
+        ];
+        let [full, fine] = two_sides(&doubles, &["0.659148", "-1.641397", "0.3059"]);
+        assert!(full.iter().all(|u| *u < 1e-15));
+        assert_eq!(fine, [0.5e-6; 3]);
+    }
+
+    #[test]
+    fn lengths_of_four_digits_beside_rounded_directions_are_rounded() {
+        let printed = [
+            "-45.73", "79.99", "102.5", "-17.34", "72.82", "105", "-8.94",
+        ];
+        let [off, _] = two_sides(&printed, &[]);
+        for (found, expected) in off.iter().zip([5e-3, 5e-3, 0.05, 5e-3, 5e-3, 0.05, 5e-3]) {
+            assert!((found - expected).abs() <= 1e-9, "{off:?}");
+        }
+        let [chosen, _] = two_sides(&["45", "80.5", "12.25", "7", "30", "105"], &[]);
+        assert_eq!(chosen, [0.0; 6]);
+    }
+
     #[test]
     fn a_longer_number_among_short_ones_was_typed() {
         let rounded = of(&["0.35", "0.71", "0.4", "1.27", "0.28", "0.93"]);
