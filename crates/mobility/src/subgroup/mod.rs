@@ -32,14 +32,17 @@
 //!    they like: given their displacement, its six variables follow, so it is removed. A link on a single chain follows it.
 //!    In each case the configurations before are a product of those after with a known number of free variables.
 //! 4. What is left where nothing more can be replaced is a smaller network of chains, to which rule 1 applies as before.
+//! 5. *Any network* (`counting`). Let D(i, j) be a subgroup that holds the relative displacement of links i and j. It may be replaced by
+//!    D(i, j) ∩ ⟨D(i, k) ∘ D(k, j)⟩ for every third link k, until nothing changes (`bounds`): then loops that share joints act on one another,
+//!    which links in series and in parallel do not show. Independent groups around a cycle (rule 2) are E; a coupling of which all
+//!    joints but one stand still holds the last. With what this leaves of the joints, cycles are counted again as in rule 1.
 //!
 //! A planar loop of four hinges with equal and parallel opposite sides (`parallelogram`) has a motion in which its coupler
 //! is translated along a circle. Where rule 1 makes the loop's configurations a curve, that motion is the curve, so the
 //! loop is a chain with values in the plane's translations rather than in all planar motions (Hervé and Sparacino 1991).
 //!
-//! A *planar* part that balls close has the configurations of the one with hinges in their place (`planar`). *Couplings* are linear
-//! functions on the configurations that the loops leave; where these are a manifold by the rules above and the rank falls by one for
-//! each coupling, the functions are independent there, and what they leave is a manifold again.
+//! *Couplings* are linear functions on the configurations that the loops leave; where these are a manifold by the rules above and the
+//! rank falls by one for each coupling, the functions are independent there, and what they leave is a manifold again.
 //!
 //! In all of these the tangent space is ker J. So where they apply, the pose is regular and the finite freedom is the
 //! instantaneous one; what the engine finds is *that*, and *why*. Both numbers are found independently and must agree.
@@ -52,23 +55,30 @@
 //! # Cost
 //! Rule 1: two or three decompositions of matrices of six rows for every cycle, 25 µs. Rule 2: at most one for every pair
 //! of cuts, of which loops have up to [`MOST_CUTS`](one_loop::MOST_CUTS); most chains are ruled out by a look at their
-//! axes. Rule 3: one such loop for every pair of chains between the same links, on parts of up to [`MOST_JOINTS`] joints.
+//! axes. Rule 3: one such loop for every pair of chains between the same links, on parts of up to [`MOST_JOINTS`] joints. Rule 5:
+//! all triples of up to 16 bodies, otherwise those that share a cycle; few groups differ, and each two of them are composed and
+//! intersected once.
 
 mod axes;
+mod basis;
+mod bodies;
+mod bounds;
 mod chain;
+mod counting;
+mod groups;
 mod loop_spaces;
 mod network;
 mod offsets;
 mod one_loop;
 mod parallelogram;
 mod placing;
-mod planar;
 mod remainder;
 mod words;
 
 use super::pose_rank::PartRank;
 use super::restricted::{LeftOut, without};
 use super::vocabulary::MobilityClass;
+use counting::Counted;
 use kutzbach_closure::Structure;
 use kutzbach_closure::{Geometry, JointState, Part};
 use kutzbach_math::group::{GroupError, Margin};
@@ -78,14 +88,8 @@ use loop_spaces::{LoopSpaces, loop_spaces};
 use network::{Network, Outcome};
 pub(crate) use offsets::hidden_offset;
 
-/// Parts of more joints are not reduced: their screws would have to be known in one frame, to which errors add up.
+/// Parts of more joints are not reduced chain by chain.
 pub const MOST_JOINTS: usize = 400;
-
-/// Orders in which the loops of a part are reduced until one explains all of them.
-const ATTEMPTS: u64 = 6;
-
-/// Parts of more joints are reduced in one order.
-const MOST_REORDERED: usize = 60;
 
 /// A subgroup found in numbers coarser than this says nothing.
 const COARSEST: f64 = 0.05;
@@ -186,89 +190,73 @@ pub fn subgroup_finding(
         );
         return Ok(finding);
     }
-    match planar::closed_by_balls(mechanism, geometry, states, part, rank, accuracy) {
-        Ok(Some((text, margin))) => {
-            finding.decide(freedom, MobilityClass::Exceptional);
-            finding.margin = finding.margin.min(margin.gap());
-            finding.text = format!("{reading}{text}");
-            return Ok(finding);
-        }
-        Ok(None) => {}
+    let placed = match placing::place(mechanism, geometry, states, part, rank, accuracy) {
+        Ok(placed) => placed,
+        Err(error) => return open(finding, &words::failure(&error)),
+    };
+    let found = if part.couplings.is_empty() {
+        finding.looked = true;
+        reduced(mechanism, structure, part, &placed)
+            .map(|outcome| finding.adopt(outcome, freedom, reading))
+    } else {
+        let uncoupled = uncoupled(mechanism, geometry, states, structure, part, rank)?;
+        finding.adopt_coupled(uncoupled, part.couplings.len(), freedom);
+        Ok(())
+    };
+    let counted = match found {
+        Ok(()) if finding.finite.is_some() => return Ok(finding),
+        Ok(()) => counting::count(mechanism, part, &placed, freedom),
+        Err(error) => Err(error),
+    };
+    match counted {
+        Ok(counted) => finding.adopt_count(mechanism, &counted, freedom, reading),
         Err(error) => return open(finding, &words::failure(&error)),
     }
-    if !part.couplings.is_empty() {
-        let couplings = part.couplings.len();
-        let out = LeftOut {
-            couplings: (0..couplings).collect(),
-            ..LeftOut::default()
-        };
-        let Some((uncoupled, left)) = without(part, rank, &out)
-            .filter(|(_, left)| left.instantaneous == Some(freedom + couplings))
-        else {
-            return open(
-                finding,
-                "couplings repeat what loops or others ask for, and what they leave to chains forms no subgroups",
-            );
-        };
-        let found = subgroup_finding(mechanism, geometry, states, structure, &uncoupled, &left)?;
-        if found.finite.is_none() {
-            finding.looked = found.looked;
-            return open(finding, &found.text);
-        }
-        finding.decide(freedom, found.class.unwrap_or(MobilityClass::Trivial));
-        finding.margin = finding.margin.min(found.margin);
-        finding.steps = found.steps;
-        finding.text = words::coupled(&found.text, couplings);
-        return Ok(finding);
-    }
-    if part.joints.len() > MOST_JOINTS {
-        return open(
-            finding,
-            "no loop space explains the rank, and the part is too large to be reduced",
-        );
-    }
-    let outcome = reduced(mechanism, geometry, states, structure, part, rank, accuracy);
-    match outcome {
-        Err(error) => open(finding, &words::failure(&error)),
-        Ok(outcome) => {
-            finding.looked = true;
-            finding.adopt(outcome, freedom, reading);
-            Ok(finding)
-        }
-    }
+    Ok(finding)
 }
 
-fn reduced(
+/// The finding without couplings, where each of them takes one freedom.
+fn uncoupled(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
     states: &[JointState<f64>],
     structure: &Structure,
     part: &Part,
     rank: &PartRank,
-    accuracy: f64,
+) -> Result<Option<SubgroupFinding>, MatrixError> {
+    let couplings = part.couplings.len();
+    let out = LeftOut {
+        couplings: (0..couplings).collect(),
+        ..LeftOut::default()
+    };
+    let wanted = rank.instantaneous.map(|freedom| freedom + couplings);
+    let Some((part, rank)) =
+        without(part, rank, &out).filter(|(_, left)| left.instantaneous == wanted)
+    else {
+        return Ok(None);
+    };
+    subgroup_finding(mechanism, geometry, states, structure, &part, &rank).map(Some)
+}
+
+/// The part reduced by its chains in series and in parallel.
+fn reduced(
+    mechanism: &Mechanism,
+    structure: &Structure,
+    part: &Part,
+    placed: &placing::Placed,
 ) -> Result<Outcome, GroupError> {
-    let placed = placing::place(mechanism, geometry, states, part, rank, accuracy)?;
-    let attempts = match part.cycles.len() {
-        1 => 1,
-        _ if part.joints.len() <= MOST_REORDERED => ATTEMPTS,
-        _ => 1,
-    };
-    let in_order = |attempt| -> Result<Outcome, GroupError> {
-        let mut network = Network::new(mechanism, structure, part, &placed, attempt)?;
-        network.reduce()?;
-        network.conclude()
-    };
-    let first = in_order(0)?;
-    for attempt in 1..attempts {
-        if first.freedom.is_some() {
-            break;
-        }
-        let other = in_order(attempt)?;
-        if other.freedom.is_some() {
-            return Ok(other);
-        }
+    if part.joints.len() > MOST_JOINTS {
+        return Ok(Outcome {
+            freedom: None,
+            settled: 0,
+            text: words::stuck(0, 0),
+            steps: Vec::new(),
+            margin: Margin::CERTAIN,
+        });
     }
-    Ok(first)
+    let mut network = Network::new(mechanism, structure, part, placed)?;
+    network.reduce()?;
+    network.conclude()
 }
 
 impl SubgroupFinding {
@@ -296,6 +284,49 @@ impl SubgroupFinding {
         self.upper = Some(freedom);
     }
 
+    /// Takes over what was found without couplings, of which each takes one freedom.
+    fn adopt_coupled(&mut self, found: Option<Self>, couplings: usize, freedom: usize) {
+        let Some(found) = found else {
+            self.text = "couplings repeat what loops or others ask for, and what they leave to chains forms no subgroups"
+                .to_owned();
+            return;
+        };
+        self.looked = found.looked;
+        self.text = found.text;
+        if found.finite.is_some() {
+            self.decide(freedom, found.class.unwrap_or(MobilityClass::Trivial));
+            self.margin = self.margin.min(found.margin);
+            self.steps = found.steps;
+            self.text = words::coupled(&self.text, couplings);
+        }
+    }
+
+    /// Takes over what bounds between all links leave, where that is what the rank leaves.
+    fn adopt_count(
+        &mut self,
+        mechanism: &Mechanism,
+        counted: &Counted,
+        freedom: usize,
+        reading: &str,
+    ) {
+        // Less than the rank leaves is no bound: over the reals fewer equations than unknowns may have an isolated solution.
+        if counted.least < freedom {
+            return;
+        }
+        self.margin = self.margin.min(counted.margin.gap());
+        if counted.least > freedom {
+            self.text = words::contradiction(counted.least, freedom);
+            return;
+        }
+        let class = match counted.by_cycles_alone {
+            true => MobilityClass::Trivial,
+            false => MobilityClass::Exceptional,
+        };
+        self.decide(freedom, class);
+        self.text = format!("{reading}{}", words::counted(mechanism, counted));
+        self.steps = words::confined(mechanism, counted);
+    }
+
     fn adopt(&mut self, outcome: Outcome, freedom: usize, reading: &str) {
         self.steps = outcome.steps;
         self.margin = self.margin.min(outcome.margin.gap());
@@ -304,13 +335,7 @@ impl SubgroupFinding {
                 self.decide(freedom, MobilityClass::Exceptional);
                 self.text = format!("{reading}{}", outcome.text);
             }
-            Some(found) => {
-                // Both are computed from the same screws; they can differ only where a margin deceives.
-                self.text = format!(
-                    "the subgroups leave {found} freedoms where the rank at the pose leaves {freedom}: the numbers do not \
-                     tell which"
-                );
-            }
+            Some(found) => self.text = words::contradiction(found, freedom),
             None => {
                 self.lower = outcome.settled.min(freedom);
                 self.text = outcome.text;
@@ -344,6 +369,9 @@ fn clear(margin: Margin) -> bool {
     margin.is_clear()
 }
 
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod random_networks;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests;

@@ -8,7 +8,6 @@ use super::{clear, remainder, words};
 use crate::Structure;
 use kutzbach_closure::Part;
 use kutzbach_math::group::{Gauge, GroupError, Margin, ScrewSystem, Subalgebra};
-use kutzbach_math::matrix::SplitMix64;
 use kutzbach_model::mechanism::Mechanism;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -93,29 +92,16 @@ pub struct Network<'a> {
 }
 
 impl<'a> Network<'a> {
-    /// The network of a part: one chain for every joint, its pieces between its links. Which of several reductions comes first hangs
-    /// on the order of chains and links: another `attempt` is another order.
+    /// The network of a part: one chain for every joint, its pieces between its links.
     pub fn new(
         mechanism: &'a Mechanism,
         structure: &Structure,
         part: &Part,
         placed: &Placed,
-        attempt: u64,
     ) -> Result<Self, GroupError> {
         // By name, so that the order in the file changes nothing.
         let mut order: Vec<usize> = (0..part.joints.len()).collect();
         order.sort_by_key(|&i| structure.graph.edge_rank(part.joints[i]));
-        let mut links: Vec<usize> = (0..mechanism.links().len()).collect();
-        if attempt > 0 {
-            let mut random = SplitMix64::new(attempt);
-            let mut shuffle = |list: &mut [usize]| {
-                for last in (1..list.len()).rev() {
-                    list.swap(last, (random.next_u64() % (last as u64 + 1)) as usize);
-                }
-            };
-            shuffle(&mut order);
-            shuffle(&mut links);
-        }
         let mut network = Self {
             mechanism,
             gauge: placed.gauge,
@@ -134,7 +120,7 @@ impl<'a> Network<'a> {
             let kind = mechanism.joints()[joint].kind;
             let pieces = chain::of_joint(joint, kind, &placed.screws[i]);
             network.insert(Edge {
-                ends: ends(mechanism, joint).map(|link| links[structure.graph.node_rank(link)]),
+                ends: ends(mechanism, joint).map(|link| structure.graph.node_rank(link)),
                 pieces,
             });
         }

@@ -26,9 +26,18 @@ pub fn circular(
     second: &[Piece],
     gauge: &Gauge,
 ) -> Result<Option<Circular>, GroupError> {
-    let (Some(one), Some(other)) = (hinges(first), hinges(second)) else {
-        return Ok(None);
-    };
+    match (hinges(first), hinges(second)) {
+        (Some(one), Some(other)) => of_cranks(one, other, gauge),
+        _ => Ok(None),
+    }
+}
+
+/// [`circular`] of two cranks, each given by the screws of its hinges.
+pub fn of_cranks(
+    one: [Twist; 2],
+    other: [Twist; 2],
+    gauge: &Gauge,
+) -> Result<Option<Circular>, GroupError> {
     let normal = one[0].angular.normalize();
     let mut far = 0.0f64;
     let mut places = [[Vector3::zeros(); 2]; 2];

@@ -15,7 +15,7 @@ const X: [f64; 3] = [1.0, 0.0, 0.0];
 const Y: [f64; 3] = [0.0, 1.0, 0.0];
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
-fn findings(mechanism: &Mechanism) -> Vec<SubgroupFinding> {
+pub(super) fn findings(mechanism: &Mechanism) -> Vec<SubgroupFinding> {
     let analysis = analyse(mechanism, &AnalysisOptions::default()).unwrap();
     let geometry = Geometry::new(mechanism, None, &Arithmetic::double());
     let structure = &analysis.structure;
@@ -30,7 +30,7 @@ fn findings(mechanism: &Mechanism) -> Vec<SubgroupFinding> {
         .collect()
 }
 
-fn finding(mechanism: &Mechanism) -> SubgroupFinding {
+pub(super) fn finding(mechanism: &Mechanism) -> SubgroupFinding {
     let mut all = findings(mechanism);
     assert_eq!(all.len(), 1);
     all.remove(0)
@@ -40,7 +40,7 @@ fn exactly(places: &[Place]) -> Mechanism {
     ring(places, O, Written::Exactly)
 }
 
-fn answer(finding: &SubgroupFinding) -> (Option<usize>, Option<MobilityClass>) {
+pub(super) fn answer(finding: &SubgroupFinding) -> (Option<usize>, Option<MobilityClass>) {
     (finding.finite, finding.class)
 }
 
@@ -48,10 +48,10 @@ const TRIVIAL: Option<MobilityClass> = Some(MobilityClass::Trivial);
 const EXCEPTIONAL: Option<MobilityClass> = Some(MobilityClass::Exceptional);
 
 /// A joint of a network: name, kind, its two links, where it is and along which axis.
-type Between<'a> = (&'a str, JointKind, &'a str, &'a str, [f64; 3], [f64; 3]);
+pub(super) type Between<'a> = (&'a str, JointKind, &'a str, &'a str, [f64; 3], [f64; 3]);
 
 /// Joints between links that all have the world's frame at home.
-fn network(joints: &[Between]) -> Mechanism {
+pub(super) fn network(joints: &[Between]) -> Mechanism {
     let mut builder = MechanismBuilder::new("network");
     builder.link("a");
     let mut known = vec!["a"];

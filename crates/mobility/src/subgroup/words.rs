@@ -1,6 +1,7 @@
 //! The sentences of the answers.
 
 use super::chain::{self, Piece};
+use super::counting::Counted;
 use super::one_loop::Proof;
 use crate::PartRank;
 use kutzbach_closure::{Part, Rigid};
@@ -46,20 +47,56 @@ pub fn independent(part: &Part, equations: usize, reading: &str) -> String {
     }
 }
 
-/// A planar part that balls close.
-pub fn closed_by_balls(part: &Part, balls: usize) -> String {
-    let coupled = match part.couplings.len() {
-        0 => "",
-        _ => ", with those of its couplings",
-    };
-    let balls = match balls {
-        1 => "the ball, which asks",
-        _ => "the balls, each of which asks",
+/// A part whose freedom follows from bounds between all its links.
+pub fn counted(mechanism: &Mechanism, counted: &Counted) -> String {
+    let independent = equations(counted.equations);
+    let independent = independent.trim_end_matches(" are").trim_end_matches(" is");
+    if counted.by_cycles_alone {
+        return format!(
+            "of the displacements around the loops, those of each lie in a subgroup; the {independent} that this leaves, for loops \
+             whose subgroups are the smallest, are independent"
+        );
+    }
+    let mut clauses = Vec::new();
+    if !counted.held.is_empty() {
+        clauses.push(format!(
+            "leave {} no motion",
+            list(mechanism, &counted.held)
+        ));
+    }
+    if !counted.confined.is_empty() {
+        let joints: Vec<usize> = counted.confined.iter().map(|(joint, _)| *joint).collect();
+        let less = list(mechanism, &joints);
+        clauses.push(format!("leave {less} a smaller group than the joint has"));
+    }
+    let effect = match clauses.is_empty() {
+        true => String::new(),
+        false => format!("they {}; ", clauses.join(" and ")),
     };
     format!(
-        "its hinges and slides, by which all its links hang together, lie in G (planar motion), and so does what they leave to \
-         {balls} for what a hinge would; the {} equations in the plane{coupled} are independent",
-        3 * part.cycles.len()
+        "subgroups bound what every two links do to each other, until no bound makes another smaller: {effect}the {independent} \
+         that the loops still ask for are independent"
+    )
+}
+
+/// What bounds between all links leave to single joints, one line each.
+pub fn confined(mechanism: &Mechanism, counted: &Counted) -> Vec<String> {
+    let held = counted.held.iter();
+    let held = held.map(|joint| format!("{} stands still", list(mechanism, &[*joint])));
+    let confined = counted.confined.iter().map(|(joint, group)| {
+        format!(
+            "{} stays in {}",
+            list(mechanism, &[*joint]),
+            named_algebra(group)
+        )
+    });
+    held.chain(confined).collect()
+}
+
+/// Groups and rank that contradict each other. Both are computed from the same screws; they can differ only where a margin deceives.
+pub fn contradiction(found: usize, freedom: usize) -> String {
+    format!(
+        "the subgroups leave {found} freedoms where the rank at the pose leaves {freedom}: the numbers do not tell which"
     )
 }
 

@@ -1,0 +1,186 @@
+//! A part as bodies between which there are subgroups.
+
+use super::chain::{Piece, of_joint};
+use super::groups::{Group, Groups};
+use super::placing::{Placed, ends};
+use kutzbach_closure::Part;
+use kutzbach_math::group::{GroupError, Twist};
+use kutzbach_model::mechanism::Mechanism;
+use std::collections::BTreeMap;
+
+/// What lies between two bodies: a manifold of displacements in a subgroup, all of it unless `freedom` is less than its dimension.
+#[derive(Clone, Debug)]
+pub struct Between {
+    /// The bodies.
+    pub ends: [usize; 2],
+    /// The joint it belongs to; `None` of what follows from others.
+    pub joint: Option<usize>,
+    /// Dimension of the manifold.
+    pub freedom: usize,
+    /// The subgroup.
+    pub group: Group,
+}
+
+/// Links, and bodies within joints.
+pub struct Bodies {
+    /// Number of bodies.
+    pub count: usize,
+    /// What lies between them.
+    pub between: Vec<Between>,
+    /// Independent cycles, in the order of the walk.
+    pub cycles: Vec<Vec<usize>>,
+    /// The bodies of each joint's two links.
+    pub links: BTreeMap<usize, [usize; 2]>,
+    /// Further bodies, with what binds them: they divide a joint's motion in another order.
+    pub otherwise: Vec<Between>,
+}
+
+impl Bodies {
+    /// The bodies of a part: its links, and one more between the two subgroups of a joint that is a product. `divided` puts bodies also
+    /// between the translations and the rotations of joints that are one subgroup.
+    pub fn new(
+        mechanism: &Mechanism,
+        part: &Part,
+        placed: &Placed,
+        divided: bool,
+        groups: &mut Groups,
+    ) -> Result<Self, GroupError> {
+        let mut numbers = BTreeMap::new();
+        let mut links = BTreeMap::new();
+        for &joint in &part.joints {
+            let both = ends(mechanism, joint).map(|link| {
+                let next = numbers.len();
+                *numbers.entry(link).or_insert(next)
+            });
+            links.insert(joint, both);
+        }
+        let mut bodies = Self {
+            count: numbers.len(),
+            between: Vec::new(),
+            cycles: Vec::new(),
+            links,
+            otherwise: Vec::new(),
+        };
+        let mut of_joints = BTreeMap::new();
+        for (&joint, screws) in part.joints.iter().zip(&placed.screws) {
+            let kind = mechanism.joints()[joint].kind;
+            let factors = factors(of_joint(joint, kind, screws), divided);
+            let first = bodies.between.len();
+            let both = bodies.links[&joint];
+            let chain = bodies.chain(joint, both, &factors, groups)?;
+            bodies.between.extend(chain);
+            of_joints.insert(joint, first..bodies.between.len());
+            if divided && factors.len() > 1 && kind.is_subgroup() {
+                let turned: Vec<_> = factors.into_iter().rev().collect();
+                let chain = bodies.chain(joint, both, &turned, groups)?;
+                bodies.otherwise.extend(chain);
+            }
+        }
+        for cycle in &part.cycles {
+            let mut walk = Vec::new();
+            for (joint, forward) in cycle {
+                let own = of_joints.get(joint).cloned().unwrap_or_default();
+                if *forward {
+                    walk.extend(own);
+                } else {
+                    walk.extend(own.rev());
+                }
+            }
+            bodies.cycles.push(walk);
+        }
+        Ok(bodies)
+    }
+
+    /// Factors one after the other between two links, with new bodies between them.
+    fn chain(
+        &mut self,
+        joint: usize,
+        [from, to]: [usize; 2],
+        factors: &[Vec<Twist>],
+        groups: &mut Groups,
+    ) -> Result<Vec<Between>, GroupError> {
+        let mut chain = Vec::with_capacity(factors.len());
+        let mut at = from;
+        for (number, screws) in factors.iter().enumerate() {
+            let next = if number + 1 == factors.len() {
+                to
+            } else {
+                self.count += 1;
+                self.count - 1
+            };
+            chain.push(Between {
+                ends: [at, next],
+                joint: Some(joint),
+                freedom: screws.len(),
+                group: groups.generated_by(screws)?,
+            });
+            at = next;
+        }
+        if factors.is_empty() {
+            chain.push(Between {
+                ends: [from, to],
+                joint: Some(joint),
+                freedom: 0,
+                group: groups.generated_by(&[])?,
+            });
+        }
+        Ok(chain)
+    }
+
+    /// Whether some joint has a motion that can be divided.
+    pub fn can_be_divided(mechanism: &Mechanism, part: &Part, placed: &Placed) -> bool {
+        part.joints
+            .iter()
+            .zip(&placed.screws)
+            .any(|(&joint, screws)| {
+                let kind = mechanism.joints()[joint].kind;
+                let pieces = of_joint(joint, kind, screws);
+                factors(pieces.clone(), true).len() > factors(pieces, false).len()
+            })
+    }
+}
+
+/// The bodies before the members of a cycle; `None` where it is none that passes each body once.
+pub fn walk(between: &[Between], cycle: &[usize]) -> Option<Vec<usize>> {
+    let ends = |position: usize| between[cycle[position]].ends;
+    if cycle.len() < 2 {
+        return None;
+    }
+    let begins = |start: usize| {
+        let mut at = start;
+        let mut bodies = Vec::with_capacity(cycle.len());
+        for position in 0..cycle.len() {
+            if bodies.contains(&at) {
+                return None;
+            }
+            bodies.push(at);
+            at = match ends(position) {
+                [a, b] if a == at => b,
+                [a, b] if b == at => a,
+                _ => return None,
+            };
+        }
+        (at == start).then_some(bodies)
+    };
+    begins(ends(0)[0]).or_else(|| begins(ends(0)[1]))
+}
+
+/// The screws of a joint, those of one subgroup together unless they are to be divided.
+fn factors(pieces: Vec<Piece>, divided: bool) -> Vec<Vec<Twist>> {
+    let mut factors: Vec<Vec<Twist>> = Vec::new();
+    let mut last = None;
+    for piece in pieces {
+        let Piece::Factor {
+            subgroup, twists, ..
+        } = piece
+        else {
+            continue;
+        };
+        match factors.last_mut() {
+            Some(factor) if !divided && last == Some(subgroup) => factor.extend(twists),
+            _ => factors.push(twists),
+        }
+        last = Some(subgroup);
+    }
+    factors
+}
