@@ -469,3 +469,47 @@ fn branches_that_touch_are_followed_apart() {
     let spinning = ["plane", "second_hinge"].map(str::to_owned);
     assert_eq!(at_rest, [BTreeSet::new(), BTreeSet::from(spinning)]);
 }
+
+#[test]
+fn a_surface_of_shaky_poses_is_one() {
+    // A planar five-bar, and a strap of two bars, pulled straight, beside its crank: from the crank's pivot to its pin.
+    let hinge = |name: &str, on: [&str; 2], at: &str| {
+        format!(
+            r#"<joint name="{name}" type="continuous"><parent link="{}"/><child link="{}"/><origin xyz="{at}"/><axis xyz="0 0 1"/></joint>"#,
+            on[0], on[1]
+        )
+    };
+    let close = |name: &str, on: [&str; 2], at: [&str; 2]| {
+        format!(
+            r#"<loop name="{name}" type="revolute"><predecessor link="{}"><origin xyz="{}"/></predecessor>
+            <successor link="{}"><origin xyz="{}"/></successor><axis xyz="0 0 1"/></loop>"#,
+            on[0], at[0], on[1], at[1]
+        )
+    };
+    let links = ["base", "crank", "arm", "forearm", "rocker", "low", "high"];
+    let links: String = links
+        .map(|name| format!(r#"<link name="{name}"/>"#))
+        .concat();
+    let joints = [
+        hinge("pivot", ["base", "crank"], "0 0 0"),
+        hinge("pin", ["crank", "arm"], "1 2 0"),
+        hinge("elbow", ["arm", "forearm"], "2 2 0"),
+        hinge("foot", ["base", "rocker"], "6 0 0"),
+        close("end", ["rocker", "forearm"], ["0 3 0", "3 -1 0"]),
+        hinge("strap_foot", ["base", "low"], "0 0 0"),
+        hinge("strap_pin", ["arm", "high"], "0 0 0"),
+        close("middle", ["low", "high"], ["0.5 1 0", "-0.5 -1 0"]),
+    ]
+    .concat();
+    let text = format!(r#"<robot name="strapped">{links}{joints}</robot>"#);
+    let reading = kutzbach::format::read(&text, "strapped.urdf", &[]).unwrap();
+    let found = support::analysis(&reading.mechanism);
+    let kind = kutzbach::mobility::SingularKind::PermanentlyShaky;
+    assert_eq!(found.mobility.kind, Some(kind));
+    let branches: Vec<_> = found.branches.iter().flatten().collect();
+    let facts: Vec<_> = branches
+        .iter()
+        .map(|branch| (branch.dimension, branch.instantaneous))
+        .collect();
+    assert_eq!(facts, [(2, Some(3))]);
+}

@@ -142,15 +142,22 @@ fn lift(
     if instantaneous < dimension {
         return Ok(None);
     }
-    // All but a double zero, and no other branch found so near that it would account for that: it may be two, closer than
-    // series in double precision can tell, for which exact numbers of many digits may have been written.
+    // All but a double zero: a surface may be one, since of surfaces the series, which is cut off, tells a double one from a simple one
+    // less well than a pose farther away does. Or, with no other branch found so near that it would account for that, it may be two,
+    // closer than series in double precision can tell, for which exact numbers of many digits may have been written.
     let nearly_multiple =
         instantaneous == dimension && freedom_if_blurred.is_some_and(|freedom| freedom > dimension);
     if nearly_multiple && apart > NEAR * away && height_at(pose, part) > TALL {
         return Ok(None);
     }
     let direction: Vec<f64> = z.iter().map(|x| x / away).collect();
-    let poses = if instantaneous == dimension {
+    let multiple = match freedom_if_blurred.filter(|_| nearly_multiple && branch.dimension > 1) {
+        Some(more) => multiple_poses(start, &section, states.clone(), blur, (dimension, more))?,
+        None => None,
+    };
+    let poses = if let Some(poses) = multiple.filter(|poses| !poses.is_empty()) {
+        poses
+    } else if instantaneous == dimension {
         walk(
             &section,
             &mut states.clone(),
