@@ -167,10 +167,11 @@ impl Group {
         self.designed = self.designed.saturating_add(self.decade.min(0));
     }
 
-    /// Counts decimals from the first digit of the largest literal, if they all have four digits or more but for zeros at the end that
-    /// are there by chance: `102.5` beside `45.73` and directions that were rounded says of metres what `1.025` says of hundreds.
-    pub fn count_all_digits(&mut self) {
-        if self.significant >= NATURAL && self.equally_long {
+    /// Counts decimals from the first digit of the largest literal, if they all have as many digits, four or more, as rounded numbers of
+    /// `another` kind, but for zeros at the end that are there by chance: `102.5` and `45.73` beside the angle `0.3142`.
+    pub fn count_all_digits_beside(&mut self, another: &Self) {
+        let alike = !another.is_exact() && self.significant == another.significant;
+        if alike && self.significant >= NATURAL && self.equally_long {
             self.designed = self.designed.saturating_add(self.decade.max(0));
         }
     }
@@ -298,10 +299,12 @@ impl<'a> Literals<'a> {
         let fewer_digits = finer.significant > own.significant;
         let computed = self.all.iter().filter(|(_, number, stated)| {
             let bare = bare(number, *stated);
-            bare.decimals >= NOBODYS_DECIMALS || bare.significant > NATURAL
+            let fine = bare.decimals >= NOBODYS_DECIMALS && bare.significant >= FEWEST_SIGNIFICANT;
+            fine || bare.significant > NATURAL
         });
         let chance = power_of_ten(-zeros.max(0)).powf(computed.count() as f64);
-        let rounded = !own.is_exact() && !finer.is_exact() && most > EXACT_DECIMALS;
+        let chosen = own.is_exact() || own.is_of_a_small_unit() || most <= EXACT_DECIMALS;
+        let rounded = !chosen && !finer.is_exact();
         rounded && own.alike && zeros > 0 && fewer_digits && chance <= BY_CHANCE
     }
 

@@ -175,7 +175,11 @@ impl Precision {
         if angles.is_exact() && directions.is_exact() || lengths.is_of_a_small_unit() {
             lengths.count_from_first_digit();
         } else {
-            lengths.count_all_digits();
+            let finer = match angles.significant > directions.significant {
+                true => &angles,
+                false => &directions,
+            };
+            lengths.count_all_digits_beside(finer);
         }
         let groups = [lengths, angles, directions];
         Self {
@@ -482,6 +486,8 @@ mod tests {
         assert_eq!(two_sides(&four, &six), [vec![0.5e-4; 4], vec![0.5e-6; 5]]);
         let [_, chosen] = two_sides(&six, &["0.125", "0.25", "0.375", "2"]);
         assert_eq!(chosen, [0.5e-6; 4]);
+        let [whole, _] = two_sides(&["0.000002", "0.000001"], &["0.0000012566370614359172953"]);
+        assert!(whole.iter().all(|u| *u < 1e-20));
         let doubles = [
             "0.6591480000000017",
             "-1.6413970000000123",
