@@ -3,7 +3,7 @@
 #
 # From SDFormat 1.7 on a pose may be relative_to another link or joint, from 1.9 on in degrees or as a quaternion. PyBullet
 # accepts a file that says version 1.9 and reads the numbers alone: a hand that is 1 m from its arm stands 1 m from the model's
-# origin, degrees="true" turns 30 into 30 radians, and of four quaternion numbers three are taken for roll, pitch and yaw. Nothing is
+# origin, degrees="true" turns 30 into 30 radians, and the last three numbers of a quaternion are taken for roll, pitch and yaw. Nothing is
 # said. Drake reads the same files as they are meant. Most models that are exported today are of this kind.
 set -euo pipefail
 folder=$(mktemp -d)
@@ -56,7 +56,7 @@ for number, (hand, expected) in enumerate((
     ("<pose>1 0 1 0 0 0.5</pose>", (1, 0, 0.5, 1, 0, 0.5)),
     ('<pose relative_to="arm">1 0 0 0 0 0.5</pose>', (1, 0, 0.5, 1, -1, 0.5)),
     ('<pose degrees="true">1 0 1 0 0 30</pose>', (1, 0, math.pi / 6, 1, 0, 30 - 10 * math.pi)),
-    ('<pose rotation_format="quat_xyzw">1 0 1 0 0 0.6 0.8</pose>', (1, 0, 2 * math.asin(0.6), 1, 0, 0.6)),
+    ('<pose rotation_format="quat_xyzw">1 0 1 0 0 0.6 0.8</pose>', (1, 0, 2 * math.asin(0.6), 1, 0, 0.8)),
 )):
     path = f"{sys.argv[1]}/arm_{number}.sdf"
     open(path, "w").write(text.replace("HAND", hand))
