@@ -80,7 +80,9 @@ pub(super) fn but_for_noise(
     let all: Vec<&PartMeant> = parts.iter().collect();
     let unassembled = stated.mobility.verdict == Verdict::Unassembled;
     let same = |part: &&PartMeant| part.changes.iter().all(|c| c.to == c.from);
-    if all.is_empty() || !unassembled && all.iter().all(same) {
+    // Numbers that close all along a motion as they stand, to the rounding of doubles, move with what these leave open.
+    let decided = !unassembled && stated.mobility.verdict != Verdict::Undecided;
+    if all.is_empty() || decided && all.iter().all(same) {
         return Ok(stated);
     }
     let mut analysis = of_the_one_meant(mechanism, options, stated, &all)?;

@@ -6,7 +6,7 @@
 //! dimensions have to.
 
 use faer::Mat;
-use kutzbach_closure::{Geometry, JointState, Metric, Part, Section, linearised};
+use kutzbach_closure::{Geometry, JointState, Metric, Part, Section, linearised, rounding_of};
 use kutzbach_math::matrix::MatrixError;
 use kutzbach_model::mechanism::Mechanism;
 
@@ -20,8 +20,7 @@ const APART: f64 = 4.0;
 /// A way onto the motion that is shorter than this (in the metric) has arrived.
 const ARRIVED: f64 = 1e-14;
 
-/// A residual is rounded to so much (rad, cycle lengths); a step that this leaves is no longer than the second.
-const ROUNDED: f64 = 32.0 * f64::EPSILON;
+/// What rounding of the residual leaves of a step is no longer than this.
 const FARTHEST_ROUNDED: f64 = 1e-9;
 
 /// A part at fixed dimensions, in the metric of its home pose.
@@ -99,9 +98,10 @@ impl Loops<'_> {
                 }
             }
             let length = step.iter().map(|x| x * x).sum::<f64>().sqrt();
-            // Rounding of the residual, as far as the equations enlarge it.
+            // Rounding of the residual, which is larger far from the origin, as far as the equations enlarge it.
             let least = if rank > 0 { s[rank - 1] / s[0] } else { 1.0 };
-            let rounded = (ROUNDED / least).clamp(1e3 * ARRIVED, FARTHEST_ROUNDED);
+            let rounding = rounding_of(&here.walks, f64::EPSILON);
+            let rounded = (rounding / least).clamp(1e3 * ARRIVED, FARTHEST_ROUNDED);
             if length <= ARRIVED || round + 1 == STEPS && length <= rounded {
                 return Ok(Some(OnMotion {
                     tangents: (rank..columns)
