@@ -207,7 +207,7 @@ mod corpus {
     fn the_page_names_the_cheapest_setting_and_what_was_left_out() {
         let text = said(&short(BENNETT, &["--want", "1e-4"]));
         for wanted in [
-            "What accuracy costs for bennett: mobile, finite freedom 1",
+            "What accuracy costs for bennett: mobile, finite mobility 1",
             "For an error of 1.0e-4 the cheapest setting is",
             "verdict",
             "whole report",

@@ -585,3 +585,38 @@ mod corpus {
         assert_none(&wrong.concat());
     }
 }
+
+#[test]
+fn what_turns_outside_all_loops_is_not_driven_where_a_loop_moves() {
+    // Half a double wishbone, whose arms swing, with a wheel on its upright.
+    let hinge = |name: &str, on: [&str; 2], at: &str, axis: &str| {
+        format!(
+            r#"<joint name="{name}" type="continuous"><parent link="{}"/><child link="{}"/><origin xyz="{at}"/><axis xyz="{axis}"/></joint>"#,
+            on[0], on[1]
+        )
+    };
+    let links: String = ["chassis", "low", "high", "upright", "wheel"]
+        .map(|name| format!(r#"<link name="{name}"/>"#))
+        .concat();
+    let text = format!(
+        r#"<robot name="wishbone">{links}{}{}{}{}<loop name="top" type="revolute"><predecessor link="high"><origin xyz="3 0 1"/></predecessor>
+        <successor link="upright"><origin xyz="-1 0 4"/></successor><axis xyz="0 1 0"/></loop></robot>"#,
+        hinge("bush", ["chassis", "low"], "0 0 0", "0 1 0"),
+        hinge("top_bush", ["chassis", "high"], "1 0 3", "0 1 0"),
+        hinge("ball", ["low", "upright"], "5 0 0", "0 1 0"),
+        hinge("axle", ["upright", "wheel"], "1 0 2", "1 0 0"),
+    );
+    let mechanism = kutzbach::format::read(&text, "wishbone.urdf", &[])
+        .unwrap()
+        .mechanism;
+    let analysis = crate::support::analysis(&mechanism);
+    let traced = kutzbach::motion::trace(&mechanism, &analysis, &Default::default()).unwrap();
+    let motion = traced.motion().unwrap();
+    assert_ne!(motion.driven.name, "axle");
+    let held: Vec<&str> = motion
+        .held
+        .iter()
+        .map(|h| h.variable.name.as_str())
+        .collect();
+    assert_eq!(held, ["axle"]);
+}

@@ -26,7 +26,7 @@ pub struct Arguments {
     /// or `slide=0..5mm`
     #[arg(long, value_name = "JOINT[=FROM..TO]", value_parser = drive, allow_hyphen_values = true)]
     drive: Option<Drive>,
-    /// Joint that is held, where the branch has more than one freedom; may be repeated
+    /// Joint that is held, where the branch has more than one degree of freedom; may be repeated
     #[arg(long = "hold", value_name = "JOINT")]
     hold: Vec<String>,
     /// Number of poses

@@ -28,7 +28,7 @@ use super::pose_rank::{PartRank, Pose, TALL, height_at, is_computed};
 use super::vocabulary::{EngineName, Scope};
 use kutzbach_closure::Part;
 use kutzbach_model::mechanism::{JointKind, Mechanism};
-use nalgebra::{Matrix3, Matrix3xX, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 /// What is computed from the screws of a loop may be off by so many times their accuracy: each passes up to a few dozen
 /// roundings of its own size.
@@ -151,6 +151,16 @@ impl Hinges {
         Some((if isolated { 0 } else { count - 3 }, text))
     }
 
+    /// How far the axes reach out of the plane of the two that differ most from parallel, one of them the first; `None` where all are.
+    fn least_volume(&self) -> Option<f64> {
+        let first = self.directions[0];
+        let normals = self.directions.iter().map(|other| first.cross(other));
+        let normal = normals.max_by(|one, other| one.norm().total_cmp(&other.norm()))?;
+        let normal = self.is_clear(normal.norm()).then(|| normal.normalize())?;
+        let out = self.directions.iter().map(|other| normal.dot(other).abs());
+        Some(out.fold(0.0, f64::max))
+    }
+
     fn spherical(&self) -> Option<(usize, String)> {
         // The point nearest to all axes: Σ (1 − ddᵀ) (x − p) = 0.
         let mut normal = Matrix3::zeros();
@@ -167,9 +177,7 @@ impl Hinges {
             .zip(&self.points)
             .map(|(direction, point)| direction.cross(&(point - centre)).norm())
             .fold(0.0, f64::max);
-        // Axes that hardly differ in direction, or lie in one plane, span less than space.
-        let axes = Matrix3xX::from_columns(&self.directions);
-        let least = axes.singular_values().min() / (self.directions.len() as f64).sqrt();
+        let least = self.least_volume()?;
         let text = "with axes through one point, not all in one plane: the count on the sphere";
         let known = self.vanishes(far) && self.is_clear(least);
         known.then(|| (self.directions.len() - 3, text.to_owned()))

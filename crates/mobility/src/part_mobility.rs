@@ -23,7 +23,7 @@ use super::tracing::{WALKED_UNKNOWNS, poses_of_regular_part, walk};
 use super::tree_bound::most_by_joints;
 use super::vocabulary::{CertificateLevel, EngineName, MobilityClass, PoseKind, Scope};
 use kutzbach_closure::Structure;
-use kutzbach_closure::{Part, Section};
+use kutzbach_closure::{Part, Section, rounding_of};
 use kutzbach_math::matrix::{MatrixError, RankDecision, Real};
 
 /// The class of a regular part that subgroups within the precision of its numbers do not explain: paradoxical where such subgroups were
@@ -56,7 +56,8 @@ fn unexplained(
     {
         return Ok(None);
     }
-    if rank.stated <= rank.accuracy {
+    // A pose that was moved is known less well than its numbers, which are rounded all the same.
+    if rank.stated <= rounding_of(&rank.jacobian.walks, f64::EPSILON) {
         return Ok(question.looked.get().then_some(MobilityClass::Paradoxical));
     }
     if !chart.literal {

@@ -140,7 +140,7 @@ impl TraceError {
                 ..
             } => format!("did you mean `{nearest}`?"),
             Self::UnknownVariable { .. } => {
-                "`kutzbach report FILE` lists the joints; joints of several freedoms are driven by a part, such as `slider.rot`".to_owned()
+                "`kutzbach report FILE` lists the joints; joints of several degrees of freedom are driven by a part, such as `slider.rot`".to_owned()
             }
             Self::NothingLeft { .. } => "hold other joints, or fewer".to_owned(),
             Self::HoldsTooMuch { .. } | Self::HoldsNothing { .. } => {

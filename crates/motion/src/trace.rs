@@ -67,7 +67,9 @@ pub fn trace(
     };
     match analysis.mobility.verdict {
         Verdict::Unassembled => return still("nothing moves: the mechanism does not assemble"),
-        Verdict::Rigid => return still("nothing moves: the mechanism is rigid (finite freedom 0)"),
+        Verdict::Rigid => {
+            return still("nothing moves: the mechanism is rigid (0 degrees of freedom)");
+        }
         Verdict::Undecided | Verdict::Mobile => {}
     }
     let Some(branches) = &analysis.branches else {
@@ -84,7 +86,7 @@ pub fn trace(
         })?),
     };
     let Some(branch) = branch else {
-        return still("nothing moves: no branch through this pose has a freedom");
+        return still("nothing moves: no branch through this pose has a degree of freedom");
     };
     let tracer = Tracer::new(mechanism, analysis, branch, options);
     tracer.run(branches, &requested, options)

@@ -108,12 +108,12 @@ impl EventKind {
             Self::Singular {
                 freedom, excess: 0, ..
             } => format!(
-                "input singularity: the joints held do not determine the motion here (freedom {freedom})"
+                "input singularity: the joints held do not determine the motion here (of {freedom} instantaneous degrees of freedom)"
             ),
             Self::Singular {
                 freedom, crosses, ..
             } => format!(
-                "singular pose, freedom {freedom}: {}",
+                "singular pose, {freedom} instantaneous degrees of freedom: {}",
                 if *crosses {
                     "branches cross (bifurcation)"
                 } else {

@@ -548,7 +548,7 @@ fn advice(mechanism: &Mechanism, advice: &kutzbach_mobility::Advice) -> Advice {
     };
     Advice {
         text: format!(
-            "{}: {from} → {to}, {how}; removes {removed} and adds no freedom at this pose",
+            "{}: {from} → {to}, {how}; removes {removed} and adds no degree of freedom at this pose",
             joint.name
         ),
         joint: joint.name.clone(),

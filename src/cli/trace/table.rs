@@ -6,7 +6,7 @@ use kutzbach::mechanism::{FreedomPart, Mechanism};
 use kutzbach::motion::{EndReason, EventKind, Motion, Spacing, Trace, Variable, value_text};
 use kutzbach::report::picture::traced::LinkPoint;
 use kutzbach::report::text::visible;
-use kutzbach::report::text::words::metres;
+use kutzbach::report::text::words::{degrees, metres};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -80,11 +80,11 @@ pub fn text(
         Trace::Moving(motion) => motion,
     };
     line(format!(
-        "{}: branch {} of {}, freedom {}; {}.",
+        "{}: branch {} of {}, {}; {}.",
         mechanism.name(),
         motion.branch,
         motion.branches.len(),
-        motion.dimension,
+        degrees(motion.dimension),
         extent(motion, &told)
     ));
     if let Some(changed) = changed {

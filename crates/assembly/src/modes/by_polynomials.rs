@@ -37,7 +37,7 @@ pub(super) fn answer(mechanism: &Mechanism, why_no_tree: &str, budget: &Budget) 
         let complete = match moves {
             0 => Complete::Proven,
             _ => Complete::Unknown(format!(
-                "infinitely many: nothing closes a loop, and {moves} freedoms are left"
+                "infinitely many: nothing closes a loop, and {moves} degrees of freedom are left"
             )),
         };
         let geometry = Geometry::new(mechanism, None, &Arithmetic::double());

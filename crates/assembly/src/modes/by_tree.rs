@@ -215,7 +215,7 @@ fn too_few_equations(equations: usize, unknowns: usize) -> String {
         count(unknowns, "unknown"),
         match unknowns - equations {
             1 => "1 freedom is".to_owned(),
-            more => format!("{more} freedoms are"),
+            more => format!("{more} degrees of freedom are"),
         }
     )
 }

@@ -1,6 +1,6 @@
 //! Configurations as text and as data.
 
-use super::count;
+use super::{count, degrees_of_freedom};
 use crate::modes::{Complete, Configuration, LeftOut, Modes, Pose, WITHIN, Way, Why};
 use kutzbach_model::mechanism::{FreedomPart, Joint, JointId, JointKind, Mechanism};
 use serde_json::{Map, Value, json};
@@ -267,7 +267,7 @@ pub fn text(mechanism: &Mechanism, modes: &Modes, units: Units) -> String {
         let _ = writeln!(
             text,
             "It moves with {}. With {} held:",
-            count(freedom, "freedom"),
+            degrees_of_freedom(freedom),
             names.join(", ")
         );
     }
@@ -406,12 +406,12 @@ fn moving(modes: &Modes) -> String {
     match drawn.map(|c| c.finite) {
         Some(Some(0)) => format!(
             "The drawn configuration does not move; others do, with {}.",
-            count(most, "freedom")
+            degrees_of_freedom(most)
         ),
-        Some(Some(freedom)) => format!("It moves: {} left.", count(freedom, "freedom")),
+        Some(Some(freedom)) => format!("It moves: {} left.", degrees_of_freedom(freedom)),
         _ => format!(
             "Some configurations move, with {}; whether the drawn one does is not known.",
-            count(most, "freedom")
+            degrees_of_freedom(most)
         ),
     }
 }
@@ -489,7 +489,7 @@ pub fn note(configuration: &Configuration) -> String {
             }
             match configuration.finite {
                 Some(0) => marks.push("does not move".to_owned()),
-                Some(freedom) => marks.push(format!("moves with {}", count(freedom, "freedom"))),
+                Some(freedom) => marks.push(format!("moves with {}", degrees_of_freedom(freedom))),
                 None => {}
             }
         }

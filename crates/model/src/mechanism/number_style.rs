@@ -176,6 +176,13 @@ impl Group {
         }
     }
 
+    /// Counts numbers of one digit each as chosen: no program rounds so coarsely.
+    pub fn choose_single_digits(&mut self) {
+        if self.significant <= 1 {
+            self.designed = 0;
+        }
+    }
+
     /// Whether the zeros before the first digits are those of a unit, such as millimetres in metres: lengths of less than 10⁻⁴ m, and
     /// of less than a centimetre stated to two digits, or all to one digit. No program rounds so coarsely.
     pub fn is_of_a_small_unit(&self) -> bool {

@@ -168,7 +168,9 @@ impl Precision {
     /// The precision of literals that one hand wrote.
     fn of_kinds(literals: &[Literals<'_>; 3], padded: bool) -> Self {
         let [lengths, angles, directions] = literals;
-        let (angles, directions) = (angles.group(padded), directions.group(padded));
+        let (mut angles, mut directions) = (angles.group(padded), directions.group(padded));
+        angles.choose_single_digits();
+        directions.choose_single_digits();
         let mut lengths = lengths.group(padded);
         // Whoever chose directions chose lengths to the millimetre. Beside rounded directions these are rounded as well, but where
         // their zeros are those of the unit, and none of them was rounded to.
@@ -496,6 +498,23 @@ mod tests {
         let [full, fine] = two_sides(&doubles, &["0.659148", "-1.641397", "0.3059"]);
         assert!(full.iter().all(|u| *u < 1e-15));
         assert_eq!(fine, [0.5e-6; 3]);
+    }
+
+    #[test]
+    fn an_axis_of_single_digits_was_typed() {
+        let direction = (0..)
+            .find(|place| Joint::kind_of_number(*place) == 2)
+            .unwrap();
+        let axis = |texts: [&str; 3]| {
+            let numbers = texts.map(number);
+            let placed = numbers
+                .iter()
+                .map(|n| (LiteralPlace::Joint(0, direction), n));
+            let [precision, _] = Precision::of(placed, []);
+            precision.uncertainty(direction, &numbers[1])
+        };
+        assert_eq!(axis(["1", "0.001", "0"]), 0.0);
+        assert_eq!(axis(["0.707", "0.707", "0"]), 0.5e-3);
     }
 
     #[test]

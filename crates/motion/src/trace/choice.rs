@@ -101,9 +101,18 @@ impl Tracer<'_> {
                 name: last.name.clone(),
             });
         }
+        // What turns outside all loops shows nothing of how the others move.
+        let in_a_loop = |candidate: &Variable| {
+            let stage = self.stage_of(candidate.joint);
+            stage.is_some_and(|stage| stage.index.is_some())
+        };
+        candidates.sort_by_key(|candidate| !in_a_loop(candidate));
         let mut best: Option<(f64, Found, Variable)> = None;
         let mut refused = None;
         for candidate in candidates.into_iter().take(CANDIDATES) {
+            if best.is_some() && !in_a_loop(&candidate) {
+                break;
+            }
             let (found, variable) = match self.curve_driven_by(&candidate, (hold, inputs)) {
                 Ok(Some(found)) => found,
                 Ok(None) => continue,

@@ -50,7 +50,7 @@ pub fn page(accuracy: &Accuracy, layout: Layout) -> Page {
 }
 
 fn counted_freedoms(finite: usize) -> String {
-    format!("finite freedom {finite}")
+    format!("finite mobility {finite}")
 }
 
 /// A setting in words, such as `multibody, steps of 1/240 s in 16 substeps`.

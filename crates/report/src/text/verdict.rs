@@ -452,6 +452,10 @@ pub(super) fn nominal(report: &Report) -> Option<String> {
     if let Some(distance) = nominal.distance.filter(|_| !nominal.within_digits) {
         return Some(not_drawn(nominal, distance));
     }
+    if nominal.distance == Some(0.0) {
+        // Some numbers within the digits were sought, and those as written will do.
+        return None;
+    }
     if let (Some(distance), Some(written)) = (nominal.distance, &report.mobility.as_written) {
         let told = (report.mobility.finite, report.assembly.tolerance_asked);
         return Some(meant(nominal, distance, written, told));
