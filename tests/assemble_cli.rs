@@ -262,7 +262,9 @@ fn what_moves_elsewhere_is_not_said_of_the_drawn_configuration() {
         let output = kutzbach(&["assemble", &file, "--budget", "60"]);
         let text = String::from_utf8(output.stdout).unwrap();
         assert!(
-            text.contains("The drawn configuration does not move; others do, with 1 freedom."),
+            text.contains(
+                "The drawn configuration does not move; others do, with 1 degree of freedom."
+            ),
             "{text}"
         );
     }
