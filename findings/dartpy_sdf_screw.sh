@@ -2,8 +2,9 @@
 # dartpy 6.20.0: a screw of an SDF file is of the other hand and of another steepness than in Drake.
 #
 # libsdformat takes <thread_pitch> for radians per metre, left-handed, and since 1.10 SDFormat has <screw_thread_pitch>, in metres
-# per turn and right-handed, because of that. Drake does as libsdformat. DART reads the number as metres per turn, right-handed. A spindle with thread_pitch 20 * pi advances by 0.1 m per turn in the one direction in Drake, by
-# 62.8 m per turn in the other in DART. No unit is named in the file, so nothing looks wrong until it moves.
+# per turn and right-handed, because of that. Drake does as libsdformat. DART reads the number as metres per turn, right-handed. A
+# spindle with thread_pitch 20 * pi advances by 0.1 m per turn in the one direction in Drake, by 62.8 m per turn in the other in
+# DART. No unit is named in the file, so nothing looks wrong until it moves.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # pin 4.1.0: axisangle="0 0 2 60" in an MJCF file gives a frame that is no rotation; its determinant is 20.
 #
-# MuJoCo normalises the axis of axisangle, so "0 0 2 60" and "0 0 1 60" are one orientation (its reference says of orientations that
-# vectors are normalised automatically). Pinocchio normalises the quaternion of quat="...", but takes the axis of axisangle as it is written. The placement
-# of the joint is a matrix that stretches, and all that hangs on it is deformed; nothing is said. A diagonal axis such as
-# "0 1 1 60" is the usual way to meet it.
+# MuJoCo normalises the axis of axisangle, so "0 0 2 60" and "0 0 1 60" are one orientation (its reference says of orientations
+# that vectors are normalised automatically). Pinocchio normalises the quaternion of quat="...", but takes the axis of axisangle
+# as it is written. The placement of the joint is a matrix that stretches, and all that hangs on it is deformed; nothing is said.
+# A diagonal axis such as "0 1 1 60" is the usual way to meet it.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

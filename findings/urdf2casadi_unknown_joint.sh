@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # urdf2casadi 1.0.0: a planar or floating joint of a URDF is passed over together with its <origin>, and the tip moves nearer.
 #
-# A reader of serial chains that has no word for a joint may refuse it or hold it fixed, in the pose drawn. urdf2casadi does neither:
-# in get_forward_kinematics the joint is no variable and the transform from parent to child is left out as well, so that all
-# links behind it are displaced, by 1 m in this chain of three joints 1 m apart. No error and no warning. A chain with a "fixed"
-# joint in that place is right, also a "continuous" one. Pinocchio has the tip at 3 m in every case. (Later versions
-# ask for a casadi that Python 3.11 cannot install.)
+# A reader of serial chains that has no word for a joint may refuse it or hold it fixed, in the pose drawn. urdf2casadi does
+# neither: in get_forward_kinematics the joint is no variable and the transform from parent to child is left out as well, so that
+# all links behind it are displaced, by 1 m in this chain of three joints 1 m apart. No error and no warning. A chain with a
+# "fixed" joint in that place is right, also a "continuous" one. Pinocchio has the tip at 3 m in every case. (Later versions ask
+# for a casadi that Python 3.11 cannot install.)
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
