@@ -231,7 +231,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         let file = assembled_file(&reading.mechanism, &analysis.assembly, &written);
         let file = file.ok_or_else(|| Failure::Plain {
             message: format!(
-                "{}: it does not assemble, so there is no pose to write",
+                "{}: no closed pose is known, so there is none to write",
                 arguments.source.file.display()
             ),
             help: None,

@@ -22,7 +22,7 @@ mod written;
 mod zero_dimensional;
 
 pub use answer::{
-    BlockAnswer, BlockFinding, ByBlocks, Condition, CycleAnswer, DesignConditions, ExactAnswer,
+    BlockAnswer, BlockFinding, ByBlocks, ClosingSet, Closings, Condition, CycleAnswer, DesignConditions, ExactAnswer, closings,
     ExactOptions, Family, FixedVariable, Method, Piece, ProvenMotion, Scope, Settled, Solutions,
     assembly_conditions, exact_answer, exact_by_blocks, motion_conditions, relations_of,
 };

@@ -13,6 +13,7 @@ mod nearest;
 mod proof;
 mod reversal;
 mod search;
+mod solved;
 
 use super::displacement::JointState;
 use super::geometry::{Geometry, relative};
@@ -25,6 +26,7 @@ pub use limits::{OutsideLimit, coupled_joints, nearest_turn};
 use petgraph::unionfind::UnionFind;
 pub use proof::{Obstacle, ProvenOpen};
 pub use reversal::Reversal;
+pub use solved::{JointPoses, Solved, Solver};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The gap of one loop of the file, before and after assembly.
@@ -67,6 +69,8 @@ pub struct AssemblyOptions {
     pub rounded: BTreeMap<usize, f64>,
     /// What counts as closed (m; angles count by the cycle's length), instead of what the file's digits say.
     pub tolerance: Option<f64>,
+    /// Whether the poses that the solver knows are asked for before the drawn one: where that closes within rounding, and not otherwise.
+    pub solve_first: bool,
 }
 
 /// The outcome of an assembly. Not closing is an answer, not an error.
@@ -132,13 +136,13 @@ pub fn assemble(
         held: held.clone(),
         ..AssemblyOptions::default()
     };
-    assemble_with(mechanism, geometry, parts, &options)
+    assemble_with(mechanism, geometry, parts, &options, &solved::nobody)
 }
 
 /// [`assemble`], with more to heed.
 ///
-/// A part that closes from the drawn pose stays near it. One that does not is closed from poses beside it, then from up to
-/// 256 others spread widely, within a limit on work; a closing within the joint limits goes first, then the nearest one.
+/// A part that closes from the drawn pose stays near it. One that does not is closed from poses beside it, then at those that
+/// `solver` knows, then from up to 256 others spread widely, within a limit on work; a closing within the joint limits goes first, then the nearest one.
 ///
 /// # Errors
 /// [`MatrixError`] where numbers overflow.
@@ -147,6 +151,7 @@ pub fn assemble_with(
     geometry: &Geometry<f64>,
     parts: &[Part],
     options: &AssemblyOptions,
+    solver: &Solver<'_>,
 ) -> Result<Assembly, MatrixError> {
     let mut assembly = Assembly {
         closed: true,
@@ -186,13 +191,17 @@ pub fn assemble_with(
             &task,
             &mut assembly.states,
             &geometry.states,
-            search::STARTS,
+            Trying {
+                starts: search::STARTS,
+                solver,
+                solve_first: options.solve_first,
+            },
             &mut work,
         )?;
         let mut outcome = closing.outcome;
         assembly.starts = assembly.starts.max(closing.starts);
         assembly.work_ended |= closing.work_ended;
-        if !outcome.closed() {
+        if !outcome.closed() || closing.never {
             // Of several parts, one with axes that cannot meet is told first: that is a slip, the others may be digits.
             let slip = |open: &ProvenOpen| matches!(open.obstacle, Obstacle::Directions(_));
             if assembly.proven_open.is_none() || closing.proven_open.as_ref().is_some_and(slip) {
@@ -203,7 +212,7 @@ pub fn assemble_with(
             }
         }
         assembly.jacobians.push(outcome.jacobian);
-        assembly.closed &= outcome.residual <= outcome.tolerance;
+        assembly.closed &= outcome.residual <= outcome.tolerance && !closing.never;
         // Of several parts the one that is farthest from closing speaks for all.
         let share = |residual: f64, allowed: f64| residual / allowed.max(f64::MIN_POSITIVE);
         let known = share(assembly.residual, assembly.tolerance);
@@ -264,7 +273,8 @@ impl Assembly {
         };
         let nearest = Kept::of(task.part, &self.states);
         let reference = self.states.clone();
-        let closing = close(&free, &mut self.states, &reference, RELEASED_STARTS, work)?;
+        let trying = Trying::starts(RELEASED_STARTS);
+        let closing = close(&free, &mut self.states, &reference, trying, work)?;
         if !closing.outcome.closed() {
             nearest.put_back(&mut self.states);
             return Ok(open);
@@ -339,6 +349,46 @@ struct PartClosing {
     starts: usize,
     work_ended: bool,
     proven_open: Option<ProvenOpen>,
+    /// Whether it closes at no pose, though it may within rounding.
+    never: bool,
+}
+
+impl PartClosing {
+    /// Closes at no pose, since.
+    fn never(&mut self, proof: ProvenOpen) {
+        self.proven_open = Some(proof);
+        self.never = true;
+    }
+}
+
+/// What may be tried where the drawn pose and its neighbours do not lead to a closing.
+#[derive(Clone, Copy)]
+struct Trying<'a> {
+    /// Other starts.
+    starts: usize,
+    solver: &'a Solver<'a>,
+    /// Whether the solver is asked before the drawn pose is tried.
+    solve_first: bool,
+}
+
+impl Trying<'_> {
+    /// So many other starts, and nobody to ask.
+    fn starts(starts: usize) -> Self {
+        Self {
+            starts,
+            solver: &solved::nobody,
+            solve_first: false,
+        }
+    }
+
+    /// What the solver knows of a part, where it may be asked.
+    fn solved(&self, task: &Task<'_>, states: &[JointState<f64>]) -> Solved {
+        let held = task.part.joints.iter().any(|j| task.held.contains(j));
+        match held || task.tolerance.is_some() {
+            true => Solved::Unknown,
+            false => (self.solver)(task.part, states),
+        }
+    }
 }
 
 /// Closes a part from where its joints stand; `reference` is the pose to be near to.
@@ -346,9 +396,10 @@ fn close(
     task: &Task<'_>,
     states: &mut [JointState<f64>],
     reference: &[JointState<f64>],
-    more_starts: usize,
+    trying: Trying<'_>,
     work: &mut f64,
 ) -> Result<PartClosing, MatrixError> {
+    let more_starts = trying.starts;
     let mut steps = 0;
     let drawn = Kept::of(task.part, states);
     let mut best: Option<(Kept<f64>, PartOutcome)> = None;
@@ -357,7 +408,21 @@ fn close(
         starts: 0,
         work_ended: false,
         proven_open: None,
+        never: false,
     };
+    let solved_first = match trying.solve_first {
+        true => trying.solved(task, states),
+        false => Solved::Unknown,
+    };
+    if let Some(outcome) = solved::closed_at(task, states, reference, &solved_first, work)? {
+        done.outcome = outcome;
+        return Ok(done);
+    }
+    if let Solved::Never(proof) = solved_first {
+        done.outcome = descend(task, states, Effort::LONG)?;
+        done.never(proof);
+        return Ok(done);
+    }
     // Only the first attempt of a part has work of its own for these.
     let remedy = more_starts < search::STARTS;
     let mut nudging = if remedy { *work } else { NUDGE_WORK };
@@ -424,6 +489,20 @@ fn close(
     if nothing_moves {
         return Ok(done);
     }
+    let solved = match done.proven_open {
+        None => trying.solved(task, states),
+        Some(_) => Solved::Unknown,
+    };
+    if let Solved::Never(proof) = &solved {
+        done.never(*proof);
+    }
+    let before_search = matches!(solved, Solved::All(_));
+    if before_search
+        && let Some(outcome) = solved::closed_at(task, states, reference, &solved, work)?
+    {
+        done.outcome = outcome;
+        return Ok(done);
+    }
     // What cannot close is searched only for how nearly it does.
     let starts = match done.proven_open {
         Some(_) => more_starts.min(PROVEN_STARTS),
@@ -452,7 +531,13 @@ fn close(
             }
         }
     };
-    if done.outcome.closed() {
+    let after_search = !before_search && !done.outcome.closed();
+    if after_search
+        && let Some(outcome) = solved::closed_at(task, states, reference, &solved, work)?
+    {
+        done.outcome = outcome;
+    }
+    if done.outcome.closed() && !done.never {
         done.proven_open = None;
         return Ok(done);
     }

@@ -30,8 +30,8 @@ mod section;
 mod structure;
 
 pub use assembly::{
-    Assembly, AssemblyOptions, JointPlace, LoopGap, Obstacle, OutsideLimit, ProvenOpen, Reversal,
-    assemble, assemble_with, coupled_joints, follow, nearest_turn, refine, spanning_poses,
+    Assembly, AssemblyOptions, JointPlace, JointPoses, LoopGap, Obstacle, OutsideLimit, ProvenOpen,
+    Reversal, Solved, Solver, assemble, assemble_with, coupled_joints, follow, nearest_turn, refine, spanning_poses,
 };
 pub use cycle::{Walk, WalkedCycle, WalkedJoint, characteristic_length};
 pub use displacement::Factor;

@@ -9,7 +9,7 @@ use super::coupling_locks::LockingCoupling;
 use super::cycles::{CycleFacts, cycle_facts};
 use super::depth::Depth;
 use super::engines::ask_all;
-use super::exact::{ExactAllowance, ExactBudget};
+use super::exact::{ExactAllowance, ExactBudget, Whole, solved};
 use super::exact_constraint::{ChangeSets, NoChangeSet, change_sets};
 use super::generic::{GenericCount, generic_count};
 use super::judge::PartFinding;
@@ -33,6 +33,7 @@ use kutzbach_closure::{
 };
 use kutzbach_math::matrix::MatrixError;
 use kutzbach_model::mechanism::{Configuration, Mechanism, Precision};
+use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use thiserror::Error;
 
@@ -188,7 +189,6 @@ pub(super) fn analyse_as_stated(
         .filter(|&joint| mechanism.joints()[joint].freedom() > 0)
         .collect();
     let structure = Structure::new(mechanism);
-    let kutzbach = kutzbach_count(mechanism);
     let everything = options.depth == Depth::Everything;
     let generic = everything
         .then(|| generic_count(mechanism, &structure))
@@ -199,41 +199,39 @@ pub(super) fn analyse_as_stated(
             joint: mechanism.joints()[joint].name.clone(),
         });
     }
-    let assembly = assemble_with(
+    let allowance = RefCell::new(ExactAllowance::new(options.exact));
+    let whole = Whole {
         mechanism,
-        &geometry,
-        &structure.parts,
-        &AssemblyOptions {
-            held,
+        configuration,
+        geometry: &geometry,
+    };
+    let assembled = |parts: &[Part], solve_first: bool| {
+        let asked = AssemblyOptions {
+            held: held.clone(),
             rounded: configuration.map(rounded).unwrap_or_default(),
             tolerance: options.closure_tolerance,
-        },
-    )?;
-    let mut analysis = Analysis {
-        mobility: unassembled(&assembly),
-        structure,
-        kutzbach,
-        generic,
-        assembly,
-        parts: Vec::new(),
-        home: None,
-        roles: vec![JointRole::default(); mechanism.joints().len()],
-        redundant_wrenches: vec![None; mechanism.joints().len()],
-        cycles: Vec::new(),
-        advice: Vec::new(),
-        superfluous: Vec::new(),
-        contradicting: BTreeMap::new(),
-        change_sets: Err(NoChangeSet::Undecided),
-        directions: vec![JointDirections::default(); mechanism.joints().len()],
-        findings: Vec::new(),
-        branches: None,
-        meant: None,
-        nearest: None,
+            solve_first,
+        };
+        assemble_with(mechanism, &geometry, parts, &asked, &|part, states| {
+            solved(whole, part, states, &mut allowance.borrow_mut())
+        })
     };
-    if analysis.assembly.closed {
-        analysis.rank(mechanism, configuration, &geometry, options)?;
+    let ranked = |assembly: Assembly, structure: Structure| -> Result<Analysis, AnalysisError> {
+        let mut analysis = Analysis::unranked(mechanism, structure, generic, assembly);
+        if analysis.assembly.closed {
+            let mut allowance = allowance.borrow_mut();
+            analysis.rank(mechanism, configuration, &geometry, options, &mut allowance)?;
+        }
+        Ok(analysis)
+    };
+    let analysis = ranked(assembled(&structure.parts, false)?, structure)?;
+    let elsewhere = allowance.borrow().elsewhere;
+    if !elsewhere {
+        return Ok(analysis);
     }
-    Ok(analysis)
+    // What closes within rounding only closes nowhere, or at another pose.
+    let structure = analysis.structure;
+    ranked(assembled(&structure.parts, true)?, structure)
 }
 
 /// What the engines find of one part.
@@ -290,6 +288,37 @@ fn known_configurations(mechanism: &Mechanism) -> String {
 }
 
 impl Analysis {
+    /// Before anything is known of the pose.
+    fn unranked(
+        mechanism: &Mechanism,
+        structure: Structure,
+        generic: Option<GenericCount>,
+        assembly: Assembly,
+    ) -> Self {
+        let joints = mechanism.joints().len();
+        Self {
+            mobility: unassembled(&assembly),
+            structure,
+            kutzbach: kutzbach_count(mechanism),
+            generic,
+            assembly,
+            parts: Vec::new(),
+            home: None,
+            roles: vec![JointRole::default(); joints],
+            redundant_wrenches: vec![None; joints],
+            cycles: Vec::new(),
+            advice: Vec::new(),
+            superfluous: Vec::new(),
+            contradicting: BTreeMap::new(),
+            change_sets: Err(NoChangeSet::Undecided),
+            directions: vec![JointDirections::default(); joints],
+            findings: Vec::new(),
+            branches: None,
+            meant: None,
+            nearest: None,
+        }
+    }
+
     /// What every engine claims, with the index of the part: part by part, in the order asked.
     pub fn claims(&self) -> impl Iterator<Item = (usize, &Claim)> {
         let parts = self.findings.iter().enumerate();
@@ -309,6 +338,7 @@ impl Analysis {
         configuration: Option<&Configuration>,
         geometry: &Geometry<f64>,
         options: &AnalysisOptions,
+        allowance: &mut ExactAllowance,
     ) -> Result<(), AnalysisError> {
         let known = std::mem::take(&mut self.assembly.jacobians);
         let states = &self.assembly.states;
@@ -333,12 +363,10 @@ impl Analysis {
             let as_meant = !parts.iter().any(|part| part.taken_literally);
             self.mobility = not_asked(as_meant.then_some(home.candidates.1));
         } else {
-            let mut allowance = ExactAllowance::new(options.exact);
             for (part, rank) in self.structure.parts.iter().zip(&parts) {
                 let asked = (part, rank);
                 let structure = &self.structure;
-                let found =
-                    finding_of(&pose, &mut more, structure, asked, options, &mut allowance)?;
+                let found = finding_of(&pose, &mut more, structure, asked, options, allowance)?;
                 self.findings.push(found);
             }
             self.mobility = judge(mechanism, &self.structure, &self.findings);

@@ -66,7 +66,7 @@ pub fn trace(
         }))
     };
     match analysis.mobility.verdict {
-        Verdict::Unassembled => return still("nothing moves: the mechanism does not assemble"),
+        Verdict::Unassembled => return still("no closed pose is known to begin at"),
         Verdict::Rigid => {
             return still("nothing moves: the mechanism is rigid (0 degrees of freedom)");
         }

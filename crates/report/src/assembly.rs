@@ -106,9 +106,25 @@ fn proof(cycle: &str, obstacle: Obstacle, held: usize) -> String {
             "all axes of the loop through `{cycle}` are parallel, and its links step {} along them in all{held}",
             metres(along)
         ),
+        Obstacle::Contradiction(loops) => format!(
+            "the equations of {} contradict one another, over the complex numbers too{held}",
+            loops_through(cycle, loops)
+        ),
+        Obstacle::NoRealSolution(loops) => format!(
+            "the equations of {} have finitely many solutions over the complex numbers, and none of them is real{held}",
+            loops_through(cycle, loops)
+        ),
         Obstacle::NothingMoves => {
             format!("no joint of the loop through `{cycle}` may move{held}")
         }
+    }
+}
+
+/// The loop through a joint, or several of which it passes one.
+fn loops_through(cycle: &str, loops: usize) -> String {
+    match loops {
+        0 | 1 => format!("the loop through `{cycle}`"),
+        _ => format!("{loops} loops, among them the one through `{cycle}`,"),
     }
 }
 

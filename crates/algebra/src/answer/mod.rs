@@ -5,6 +5,7 @@
 //! and [`ExactAnswer::stopped`] says at which step and why.
 
 mod blocks;
+mod closings;
 mod clusters;
 mod conditions;
 mod cycles;
@@ -17,6 +18,7 @@ mod solutions;
 mod subgroup;
 
 pub use blocks::{BlockAnswer, BlockFinding, ByBlocks, exact_by_blocks};
+pub use closings::{ClosingSet, Closings, closings};
 pub use conditions::{Condition, DesignConditions, Family, assembly_conditions, motion_conditions};
 pub use cycles::CycleAnswer;
 pub use fixed::FixedVariable;

@@ -41,6 +41,7 @@ mod home;
 mod home_screws;
 mod implicit;
 mod joint_form;
+mod joint_pose;
 mod model;
 mod modular;
 mod number_field;

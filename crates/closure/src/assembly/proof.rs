@@ -37,6 +37,12 @@ pub enum Obstacle {
     Offset(f64),
     /// All its joints are held or fixed.
     NothingMoves,
+    /// The equations of so many loops together, this one among them, contradict one another: they have no solution, over the complex
+    /// numbers either.
+    Contradiction(usize),
+    /// The equations of so many loops together, this one among them, have finitely many solutions over the complex numbers, and none of
+    /// these is real.
+    NoRealSolution(usize),
 }
 
 /// A cycle that closes at no pose.

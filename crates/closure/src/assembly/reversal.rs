@@ -7,7 +7,7 @@ use super::super::displacement::JointDisplacement;
 use super::super::geometry::{Geometry, relative};
 use super::super::jacobian::Part;
 use super::descent::Task;
-use super::{LoopGap, close};
+use super::{LoopGap, Trying, close};
 use kutzbach_math::matrix::MatrixError;
 use kutzbach_math::space::{Rigid, Vector, dot, perpendicular};
 use kutzbach_model::mechanism::Mechanism;
@@ -72,7 +72,7 @@ pub(super) fn reversal(
                 tolerance,
             };
             let reference = turned.states.clone();
-            if close(&task, &mut states, &reference, STARTS, work)?
+            if close(&task, &mut states, &reference, Trying::starts(STARTS), work)?
                 .outcome
                 .closed()
             {

@@ -45,10 +45,12 @@ pub(super) struct Search {
 
 /// How good a closing is: less is better.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
-struct Merit {
-    outside: f64,
-    moves_driven: bool,
-    distance: f64,
+pub(super) struct Merit {
+    /// By how much joints are outside their limits there.
+    pub(super) outside: f64,
+    pub(super) moves_driven: bool,
+    /// From the pose to be near to.
+    pub(super) distance: f64,
 }
 
 /// The joints of a part that something drives: motors of the file, joints marked as independent coordinates, or driven in a

@@ -1,6 +1,7 @@
 //! How much exact algebra may do, counted in work and not in time.
 
-use kutzbach_algebra::MEMORY;
+use kutzbach_algebra::{Budget, Closings, Limits, MEMORY, entries_in};
+use std::collections::BTreeMap;
 
 /// Matrix entries that are eliminated in about a second (release build, one core of a machine of 2024).
 const WORK_PER_SECOND: f64 = 5e6;
@@ -68,6 +69,10 @@ pub struct ExactAllowance {
     pub(super) memory: u64,
     /// For all that are still to come.
     pub(super) left: u64,
+    /// What is known of the closings of parts, by their joints; `None` where it was asked for in vain.
+    pub(super) closings: BTreeMap<Vec<usize>, Option<Closings>>,
+    /// Whether a part was found to close, if anywhere, elsewhere than at the pose it was asked about.
+    pub(crate) elsewhere: bool,
 }
 
 impl ExactAllowance {
@@ -77,6 +82,22 @@ impl ExactAllowance {
             each: budget.work,
             memory: budget.memory,
             left: budget.work.saturating_mul(PARTS),
+            closings: BTreeMap::new(),
+            elsewhere: false,
         }
+    }
+
+    /// What one part may take of it.
+    pub(super) fn of_a_part(&self) -> Budget {
+        Budget::new(Limits {
+            work: Some(self.each.min(self.left)),
+            entries: Some(entries_in(self.memory)),
+            ..Limits::default()
+        })
+    }
+
+    /// Takes what a part has taken.
+    pub(super) fn take(&mut self, used: &Budget) {
+        self.left -= used.work().min(self.each.min(self.left));
     }
 }

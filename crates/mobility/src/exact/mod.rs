@@ -26,8 +26,10 @@
 //! Rounded numbers. A file of decimals with a stated precision means a mechanism nearby, not its fractions: taken literally,
 //! a Bennett loop of six decimals is rigid, exactly and beyond doubt, and that is not the question. So it is only asked
 //! about numbers that are exact by D13: expressions, or all decimals of a file that has two at most; couplings and a
-//! configuration's values likewise, which the precision of the geometry does not cover. Nor is it asked where the pose was
-//! assembled: what is known of that pose is a rounded point near it.
+//! configuration's values likewise, which the precision of the geometry does not cover.
+//!
+//! Where the pose was assembled, a rounded point near it is known. What is asked then is the whole solution set (`closing.rs`): where
+//! it is finite every pose is isolated, whichever it is, and no pose has more freedoms than the set has dimensions.
 //!
 //! # Cost
 //! The budget is counted in matrix entries, not in time: the same file gives the same report on every machine. It is asked
@@ -35,21 +37,21 @@
 
 mod agreement;
 mod budget;
+mod closing;
 mod question;
 
 pub use budget::{ExactAllowance, ExactBudget};
+pub(crate) use closing::{Whole, solved};
 
 use super::claim::{Bounds, Claim};
 use super::judge::PartFinding;
 use super::pose_rank::{PartRank, Pose};
 use super::vocabulary::{CertificateLevel, EngineName, Scope};
 use agreement::claim;
-use kutzbach_algebra::{
-    Budget, Formulation, Limits, Stop, SystemOptions, entries_in, polynomial_system,
-};
+use kutzbach_algebra::{Budget, Formulation, Stop, SystemOptions, polynomial_system};
 use kutzbach_closure::Part;
 use kutzbach_math::number::Number;
-use kutzbach_model::mechanism::{JointId, Precision};
+use kutzbach_model::mechanism::{Configuration, JointId, Mechanism, Precision};
 use question::{Most, Question};
 
 /// Mechanisms with more joints are not asked about: their equations take longer to write than others to solve.
@@ -90,18 +92,19 @@ pub(super) fn ask_exact(
     if !undecided || allowance.each == 0 || part.joints.is_empty() {
         return;
     }
-    let work = allowance.each.min(allowance.left);
-    let budget = Budget::new(Limits {
-        work: Some(work),
-        entries: Some(entries_in(allowance.memory)),
-        ..Limits::default()
-    });
-    let most = Most {
-        work,
-        memory: allowance.memory,
+    let drawn = |&joint: &usize| pose.states[joint].values == pose.geometry.states[joint].values;
+    let answer = if part.joints.iter().all(drawn) {
+        let budget = allowance.of_a_part();
+        let most = Most {
+            work: allowance.each.min(allowance.left),
+            memory: allowance.memory,
+        };
+        let answer = exact_finding(pose, part, rank, found, &budget, most);
+        allowance.take(&budget);
+        answer
+    } else {
+        closing::everywhere(pose, part, rank, allowance)
     };
-    let answer = exact_finding(pose, part, rank, found, &budget, most);
-    allowance.left -= budget.work().min(work);
     match answer {
         Ok(exact) => {
             let claim = claim(found, rank, exact);
@@ -117,8 +120,11 @@ pub(super) fn ask_exact(
 }
 
 /// Whether a part's numbers are exact by D13, those of its couplings and of the configuration included.
-fn numbers_are_exact(pose: &Pose<'_>, part: &Part) -> bool {
-    let mechanism = pose.mechanism;
+fn numbers_are_exact(
+    mechanism: &Mechanism,
+    configuration: Option<&Configuration>,
+    part: &Part,
+) -> bool {
     let joint_numbers = |&joint: &usize| {
         let joint = &mechanism.joints()[joint];
         [&joint.predecessor.frame, &joint.successor.frame]
@@ -139,8 +145,16 @@ fn numbers_are_exact(pose: &Pose<'_>, part: &Part) -> bool {
         let coupling = &mechanism.couplings()[coupling];
         chosen(&coupling.offset) && coupling.terms.iter().all(|term| chosen(&term.factor))
     });
-    let positions = pose.configuration.iter().flat_map(|c| &c.positions);
+    let positions = configuration.iter().flat_map(|c| &c.positions);
     geometry && couplings && positions.flat_map(|(_, values)| values).all(chosen)
+}
+
+/// Whether a part has too many joints to be asked about, or the mechanism.
+fn is_too_large(mechanism: &Mechanism, part: &Part) -> bool {
+    let unknowns = |&joint: &usize| mechanism.joints()[joint].freedom();
+    mechanism.joints().len() > MOST_JOINTS
+        || part.joints.len() > MOST_PART_JOINTS
+        || part.joints.iter().map(unknowns).sum::<usize>() > MOST_PART_UNKNOWNS
 }
 
 /// A product of terms of a closure takes as long as so many matrix entries at least.
@@ -159,19 +173,11 @@ fn exact_finding(
     most: Most,
 ) -> Result<ExactFinding, String> {
     let mechanism = pose.mechanism;
-    if rank.stated > 0.0 || rank.taken_literally || !numbers_are_exact(pose, part) {
+    let exact = numbers_are_exact(mechanism, pose.configuration, part);
+    if rank.stated > 0.0 || rank.taken_literally || !exact {
         return Err("not asked: the numbers are rounded".to_owned());
     }
-    let drawn = |&joint: &usize| pose.states[joint].values == pose.geometry.states[joint].values;
-    if !part.joints.iter().all(drawn) {
-        return Err(
-            "not asked: the pose was assembled, and is known approximately only".to_owned(),
-        );
-    }
-    if mechanism.joints().len() > MOST_JOINTS
-        || part.joints.len() > MOST_PART_JOINTS
-        || rank.unknowns() > MOST_PART_UNKNOWNS
-    {
+    if is_too_large(mechanism, part) {
         return Err("not asked: too many joints".to_owned());
     }
     // Reading numbers and writing equations is work too, by measurement about so much.

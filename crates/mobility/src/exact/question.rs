@@ -257,7 +257,7 @@ impl Question<'_> {
 }
 
 impl ExactFinding {
-    fn prove(&mut self, freedom: usize, certificate: &str) {
+    pub(super) fn prove(&mut self, freedom: usize, certificate: &str) {
         self.upper = freedom;
         self.proven = Some(freedom);
         self.complex_dimension = Some(freedom);

@@ -74,7 +74,7 @@ impl Group {
             Self::Mobile => "They move",
             Self::Rigid => "They are rigid",
             Self::Undecided => "Not decided",
-            Self::Unassembled => "They do not assemble",
+            Self::Unassembled => "No closed pose",
             Self::Unreadable => "Not read",
         }
     }

@@ -137,7 +137,7 @@ impl Pictogram {
             Self::Kinematotropic => "branches of different dimension meet at this pose",
             Self::Singular => "singular pose",
             Self::Undecided => "undecided",
-            Self::Unassembled => "does not assemble",
+            Self::Unassembled => "no closed pose",
         }
     }
 

@@ -324,37 +324,37 @@ fn nearest(assembly: &Assembly) -> Option<&Gap> {
         .max_by(|a, b| miss(a).total_cmp(&miss(b)))
 }
 
-/// The first sentence on a mechanism that does not assemble.
+/// The first sentence on a mechanism without a closed pose: that there is none is said only where it is proved.
 pub(super) fn unassembled(assembly: &Assembly) -> String {
     let nearest = nearest(assembly).map(|gap| {
         format!(
-            " (nearest: {} and {}° at loop `{}`)",
+            "nearest: {} and {}° at loop `{}`",
             metres(gap.left_position),
             in_degrees(gap.left_angle),
             gap.cycle
         )
     });
-    let nearest = nearest.unwrap_or_default();
+    if let Some(proof) = &assembly.proof {
+        let nearest = nearest.map_or(String::new(), |nearest| format!(" ({nearest})"));
+        return format!(
+            "Does not assemble ({}): no pose closes it, since {proof}{nearest}, so there is no pose to analyse.",
+            cite::ASSEMBLED
+        );
+    }
+    let starts = assembly
+        .starts
+        .map_or(String::new(), |n| format!(" after {}", counted(n, "start")));
     let held = match assembly.held.len() {
         0 => String::new(),
         count => format!(" with {} held", counted(count, "joint")),
     };
-    let why = match (&assembly.proof, assembly.starts) {
-        (Some(proof), _) => format!("no pose closes it, since {proof}{nearest}"),
-        (None, Some(starts)) => {
-            let limited = match assembly.work_limited {
-                true => ", the work allowed for a mechanism of this size",
-                false => "",
-            };
-            format!(
-                "no closing found after {}{held}{limited}{nearest}",
-                counted(starts, "start")
-            )
-        }
-        (None, None) => format!("no closing found{held}{nearest}"),
+    let limited = match assembly.work_limited {
+        true => ", the work allowed for a mechanism of this size",
+        false => "",
     };
+    let nearest = nearest.map_or(String::new(), |nearest| format!(" ({nearest})"));
     format!(
-        "Does not assemble ({}): {why}, so there is no pose to analyse.",
+        "No closing found ({}){starts}{held}{limited}{nearest}: that there is none is not proved. There is no pose to analyse.",
         cite::ASSEMBLED
     )
 }

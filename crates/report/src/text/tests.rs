@@ -68,7 +68,7 @@ fn the_verdict_stands_first() {
             samples::undecided(),
             "Undecided: 0 to 1 degrees of freedom; 1 at this pose.",
         ),
-        (samples::unassembled(), "Does not assemble"),
+        (samples::unassembled(), "No closing found"),
     ] {
         assert!(page(&report).starts_with(start), "{start}");
     }

@@ -281,7 +281,14 @@ fn what_does_not_assemble_has_no_reasons() {
     let report = unassembled();
     assert!(
         super::sentence(&report)
-            .starts_with("Does not assemble (D17): no closing found after 264 starts (nearest: 300 mm and 11.5° at loop `J3`)")
+            .starts_with("No closing found (D17) after 264 starts (nearest: 300 mm and 11.5° at loop `J3`): that there is none is not proved.")
+    );
+    // With a proof it is a theorem.
+    let mut report = report;
+    report.assembly.proof = Some("no joint of the loop through `J3` may move".to_owned());
+    assert!(
+        super::sentence(&report)
+            .starts_with("Does not assemble (D17): no pose closes it, since no joint")
     );
     assert_eq!(
         (not_more(&report, true), not_less(&report, true)),

@@ -335,7 +335,7 @@ impl<'a> Ready<'a> {
         };
         match self.analysis.mobility.verdict {
             Verdict::Unassembled => {
-                return none("it does not assemble: there is no pose to start from");
+                return none("no closed pose is known: there is no pose to start from");
             }
             Verdict::Rigid => {
                 return none(

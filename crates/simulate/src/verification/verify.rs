@@ -154,7 +154,7 @@ pub fn verify(
         notes: Vec::new(),
     };
     let unpredicted = match analysis.mobility.verdict {
-        Verdict::Unassembled => Some("it does not assemble: there is no pose to simulate"),
+        Verdict::Unassembled => Some("no closed pose is known: there is no pose to simulate"),
         Verdict::Undecided => Some("the mobility is undecided: nothing is predicted"),
         Verdict::Mobile | Verdict::Rigid => None,
     };
