@@ -22,9 +22,10 @@ mod written;
 mod zero_dimensional;
 
 pub use answer::{
-    BlockAnswer, BlockFinding, ByBlocks, ClosingSet, Closings, Condition, CycleAnswer, DesignConditions, ExactAnswer, closings,
-    ExactOptions, Family, FixedVariable, Method, Piece, ProvenMotion, Scope, Settled, Solutions,
-    assembly_conditions, exact_answer, exact_by_blocks, motion_conditions, relations_of,
+    BlockAnswer, BlockFinding, ByBlocks, ClosingSet, Closings, Condition, CycleAnswer,
+    DesignConditions, ExactAnswer, ExactOptions, Family, FixedVariable, Method, Piece,
+    ProvenMotion, Scope, Settled, Solutions, assembly_conditions, closings, exact_answer,
+    exact_by_blocks, motion_conditions, relations_of,
 };
 pub use components::{
     AlgebraicNumber, Component, Decomposition, Hints, Incomplete, Irreducible, RealPoints,

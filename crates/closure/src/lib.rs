@@ -31,7 +31,8 @@ mod structure;
 
 pub use assembly::{
     Assembly, AssemblyOptions, JointPlace, JointPoses, LoopGap, Obstacle, OutsideLimit, ProvenOpen,
-    Reversal, Solved, Solver, assemble, assemble_with, coupled_joints, follow, nearest_turn, refine, spanning_poses,
+    Reversal, Solved, Solver, assemble, assemble_with, coupled_joints, follow, nearest_turn,
+    refine, spanning_poses,
 };
 pub use cycle::{Walk, WalkedCycle, WalkedJoint, characteristic_length};
 pub use displacement::Factor;

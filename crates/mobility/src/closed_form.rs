@@ -26,7 +26,7 @@
 use super::claim::{Bounds, Claim};
 use super::pose_rank::{PartRank, Pose, TALL, height_at, is_computed};
 use super::vocabulary::{EngineName, Scope};
-use kutzbach_closure::Part;
+use kutzbach_closure::{Part, entry_accuracy};
 use kutzbach_model::mechanism::{JointKind, Mechanism};
 use nalgebra::{Matrix3, Vector3};
 
@@ -44,6 +44,9 @@ struct Hinges {
     points: Vec<Vector3<f64>>,
     /// Relative accuracy of these.
     accuracy: f64,
+    /// The same of what is so at every pose: of the relations between the axes of a link, which are as uncertain as rounding makes them,
+    /// however well the pose is known.
+    rounding: f64,
     /// What the digits leave open besides.
     stated: f64,
 }
@@ -93,6 +96,7 @@ impl Hinges {
             directions,
             points,
             accuracy: ROUNDING * rank.accuracy,
+            rounding: ROUNDING * entry_accuracy(&rank.jacobian).1,
             stated: rank.stated,
         };
         (screws.len() >= 3).then_some(found)
@@ -103,6 +107,11 @@ impl Hinges {
         size <= self.accuracy
     }
 
+    /// Whether something that no pose changes is zero but for rounding.
+    fn vanishes_everywhere(&self, size: f64) -> bool {
+        size <= self.rounding
+    }
+
     /// Whether it is not zero, whatever the digits leave open.
     fn is_clear(&self, size: f64) -> bool {
         size > CLEAR * (self.accuracy + self.stated)
@@ -110,7 +119,7 @@ impl Hinges {
 
     fn planar(&self) -> Option<(usize, String)> {
         let axis = self.directions[0];
-        let parallel = |other: &Vector3<f64>| self.vanishes(axis.cross(other).norm());
+        let parallel = |other: &Vector3<f64>| self.vanishes_everywhere(axis.cross(other).norm());
         if !self.directions.iter().all(parallel) {
             return None;
         }
@@ -179,7 +188,7 @@ impl Hinges {
             .fold(0.0, f64::max);
         let least = self.least_volume()?;
         let text = "with axes through one point, not all in one plane: the count on the sphere";
-        let known = self.vanishes(far) && self.is_clear(least);
+        let known = self.vanishes_everywhere(far) && self.is_clear(least);
         known.then(|| (self.directions.len() - 3, text.to_owned()))
     }
 }

@@ -111,7 +111,10 @@ fn contradictory(system: &PolynomialSystem, budget: &Budget) -> Vec<usize> {
     let mut kept: Vec<usize> = (0..system.cycles.len()).collect();
     for cycle in 0..system.cycles.len() {
         let rest: Vec<usize> = kept.iter().copied().filter(|&c| c != cycle).collect();
-        let among = |index: &usize| rest.iter().any(|&c| system.cycles[c].equations.contains(index));
+        let among = |index: &usize| {
+            rest.iter()
+                .any(|&c| system.cycles[c].equations.contains(index))
+        };
         let of_none = |index: &usize| {
             let mut cycles = system.cycles.iter();
             !cycles.any(|cycle| cycle.equations.contains(index))

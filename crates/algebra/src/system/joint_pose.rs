@@ -3,8 +3,7 @@
 use super::PolynomialSystem;
 use super::displacement::Factor;
 use super::space::{
-    Doubles, Pose, add, apply, matrix, multiply, rotation,
-    rotation_of_quaternion, scale, vector,
+    Doubles, Pose, add, apply, matrix, multiply, rotation, rotation_of_quaternion, scale, vector,
 };
 use kutzbach_math::space::Rigid;
 use kutzbach_model::mechanism::JointId;

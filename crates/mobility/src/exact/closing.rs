@@ -61,7 +61,9 @@ pub(crate) fn solved(
         return Solved::Unknown;
     };
     let poses = |real: &[RealSolution]| -> Vec<JointPoses> {
-        let poses = real.iter().map(|at| joint_poses(system, part, &at.values()));
+        let poses = real
+            .iter()
+            .map(|at| joint_poses(system, part, &at.values()));
         poses.collect()
     };
     match set {

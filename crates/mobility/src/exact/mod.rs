@@ -93,7 +93,7 @@ pub(super) fn ask_exact(
         return;
     }
     let drawn = |&joint: &usize| pose.states[joint].values == pose.geometry.states[joint].values;
-    let answer = if part.joints.iter().all(drawn) {
+    let at_home = part.joints.iter().all(drawn).then(|| {
         let budget = allowance.of_a_part();
         let most = Most {
             work: allowance.each.min(allowance.left),
@@ -102,8 +102,12 @@ pub(super) fn ask_exact(
         let answer = exact_finding(pose, part, rank, found, &budget, most);
         allowance.take(&budget);
         answer
-    } else {
-        closing::everywhere(pose, part, rank, allowance)
+    });
+    let answer = match at_home {
+        Some(Ok(Some(exact))) => Ok(exact),
+        Some(Err(why)) => Err(why),
+        // Assembled, or drawn closed within rounding only.
+        Some(Ok(None)) | None => closing::everywhere(pose, part, rank, allowance),
     };
     match answer {
         Ok(exact) => {
@@ -163,7 +167,7 @@ const WORK_PER_PRODUCT: u64 = 5;
 /// A term around the pose is read, sorted and reduced at the cost of so many matrix entries at least.
 const WORK_PER_TERM: u64 = 5;
 
-/// What can be proved, or why nothing can.
+/// What can be proved, or why nothing can; nothing where the pose drawn is not known to be an exact solution.
 fn exact_finding(
     pose: &Pose<'_>,
     part: &Part,
@@ -171,7 +175,7 @@ fn exact_finding(
     found: &PartFinding,
     budget: &Budget,
     most: Most,
-) -> Result<ExactFinding, String> {
+) -> Result<Option<ExactFinding>, String> {
     let mechanism = pose.mechanism;
     let exact = numbers_are_exact(mechanism, pose.configuration, part);
     if rank.stated > 0.0 || rank.taken_literally || !exact {
@@ -206,18 +210,18 @@ fn exact_finding(
             "not asked: around the pose its equations have more terms than {gigabytes} GB of memory hold (`--memory`)"
         ));
     }
-    let modular = system
-        .home_modulo(0, most.memory)
-        .ok_or("the pose drawn is not known to be an exact solution")?;
-    Question {
+    let Some(modular) = system.home_modulo(0, most.memory) else {
+        return Ok(None);
+    };
+    let question = Question {
         system: &system,
         modular: &modular,
         rank,
         found,
         budget,
         most,
-    }
-    .answer()
+    };
+    question.answer().map(Some)
 }
 
 fn stopped(stop: Stop) -> String {
