@@ -92,6 +92,7 @@ mod trace_cli;
 mod trace_large;
 mod trace_singular;
 mod true_motions;
+mod unassembled;
 mod variations;
 mod verification;
 mod work_precision;

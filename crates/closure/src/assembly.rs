@@ -14,6 +14,7 @@ mod proof;
 mod reversal;
 mod search;
 mod solved;
+mod spans;
 
 use super::displacement::JointState;
 use super::geometry::{Geometry, relative};

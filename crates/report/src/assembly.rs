@@ -3,7 +3,7 @@
 use super::natural::natural_order;
 use super::schema::{Assembly, Gap, JointPlace, OutsideLimit, Reversal};
 use super::text::words::{counted, in_degrees, metres};
-use kutzbach_closure::{self as closure, Obstacle};
+use kutzbach_closure::{self as closure, Obstacle, ProvenOpen};
 use kutzbach_format::{WriteOptions, write_with};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Configuration, FreedomPart, JointId, Mechanism};
@@ -73,7 +73,7 @@ pub(super) fn assembly(mechanism: &Mechanism, found: &closure::Assembly) -> Asse
         proven_open: found.proven_open.is_some() && found.held.is_empty(),
         proof: found
             .proven_open
-            .map(|open| proof(&name(open.joint), open.obstacle, found.held.len())),
+            .map(|open| proof(mechanism, open, found.held.len())),
         released: found.released.as_deref().map(places),
         reversal: found.reversal.map(|reversal| Reversal {
             cycle: name(reversal.joint),
@@ -84,7 +84,9 @@ pub(super) fn assembly(mechanism: &Mechanism, found: &closure::Assembly) -> Asse
 }
 
 /// Why a loop closes at no pose, as a clause; at none with so many joints held, where any are.
-fn proof(cycle: &str, obstacle: Obstacle, held: usize) -> String {
+fn proof(mechanism: &Mechanism, open: ProvenOpen, held: usize) -> String {
+    let name = |joint: usize| &mechanism.joints()[joint].name;
+    let cycle = name(open.joint);
     let (held, held_then) = match held {
         0 => (String::new(), String::new()),
         _ => {
@@ -93,11 +95,28 @@ fn proof(cycle: &str, obstacle: Obstacle, held: usize) -> String {
             (held, then)
         }
     };
-    match obstacle {
-        Obstacle::TooShort(missing) => format!(
-            "in the loop through `{cycle}`{held_then} one side is longer than all the others together, by {}",
-            metres(missing)
-        ),
+    match open.obstacle {
+        Obstacle::TooShort {
+            between: [one, other],
+            apart,
+            reach,
+        } => {
+            let side = match one == other {
+                true => format!("`{}` is {} long", name(one), metres(apart)),
+                false => format!(
+                    "`{}` and `{}` are at least {} apart",
+                    name(one),
+                    name(other),
+                    metres(apart)
+                ),
+            };
+            format!(
+                "in the loop through `{cycle}`{held_then} one side is longer than all the others together, by {}: {side}, and the others \
+                 span {} at most",
+                metres(apart - reach),
+                metres(reach)
+            )
+        }
         Obstacle::Directions(miss) => format!(
             "the angles between the axes of the loop through `{cycle}`{held_then} miss those of a closed loop by {}°",
             in_degrees(miss)

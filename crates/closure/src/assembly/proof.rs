@@ -2,19 +2,20 @@
 //!
 //! Each is a necessary condition on what the joints cannot change, whatever their values:
 //!
-//! - *Lengths.* Where every joint keeps a point (hinges, universals, balls, rods), these points are the corners of a closed
-//!   polygon, and no side of it is longer than all the others together.
+//! - *Lengths.* The points that joints keep are the corners of a closed polygon, and no side of it is longer than all the others
+//!   together (`spans.rs`).
 //! - *Directions.* Where every joint keeps a direction (hinges, cylinders, screws, planes, slides), these directions are the corners of
 //!   a closed polygon on the sphere with sides αᵢ in [0, π]. There is one if and only if for every set S of an odd number of sides
 //!   Σ_S α − Σ_rest α ≤ (|S| − 1) π (for triangles: Blumenthal 1953, *Theory and Applications of Distance Geometry*, §18; by adding diagonals
 //!   for all).
-//! - *Offsets.* Where all axes are parallel hinges, steps along them add up to zero.
+//! - *Offsets.* Where all axes are parallel hinges, and all slides across them, steps along them add up to zero.
 //! - A cycle all of whose joints are held or fixed is as open as it is drawn.
 //!
 //! Held joints are rigid. The bounds have to be exceeded by several times what still counts as closed.
 
 use super::super::geometry::Geometry;
 use super::descent::Task;
+use super::spans::widest;
 use kutzbach_math::space::{Rigid, Vector, cross, dot, length};
 use kutzbach_model::mechanism::JointKind;
 use std::f64::consts::PI;
@@ -26,11 +27,22 @@ const SEVERAL: f64 = 4.0;
 /// Directions within this angle (rad) of each other are taken as parallel; what they are off counts against the proof.
 const PARALLEL: f64 = 1e-6;
 
+/// Directions within this angle (rad) are parallel, or across one another, to rounding: a slide makes up for an offset of its length
+/// times that angle, and no machine has slides so long.
+const ACROSS: f64 = 1e-13;
+
 /// Why a cycle closes at no pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Obstacle {
-    /// Its longest side exceeds the sum of all the others by so much (m).
-    TooShort(f64),
+    /// A side of the polygon of the points that its joints keep is longer than all the others together.
+    TooShort {
+        /// The joints that keep the ends of that side, by index; the same twice for a rod.
+        between: [usize; 2],
+        /// Its least length (m).
+        apart: f64,
+        /// What the others span at most (m).
+        reach: f64,
+    },
     /// The angles between its axes miss those of any closed polygon by so much (rad).
     Directions(f64),
     /// Steps along its parallel axes add up to so much (m).
@@ -55,15 +67,20 @@ pub struct ProvenOpen {
 }
 
 /// A joint as the walk around a cycle passes it.
-struct Corner {
+pub(super) struct Corner {
+    pub(super) joint: usize,
+    /// Whether it is passed from predecessor to successor.
+    pub(super) forward: bool,
     /// From the frame behind the corner before to the frame before this one.
-    step: Rigid<f64>,
+    pub(super) step: Rigid<f64>,
     /// The direction kept, in the frame before and in the frame behind; `None` where none is.
-    axes: Option<[Vector<f64>; 2]>,
-    /// Whether a point is kept: the origin of both frames, or two as far apart as `rod`.
-    point: bool,
-    rod: f64,
-    kind: JointKind,
+    pub(super) axes: Option<[Vector<f64>; 2]>,
+    /// The joint's axis, and its second one.
+    pub(super) axis: Vector<f64>,
+    pub(super) second: Vector<f64>,
+    /// The length of a rod; 0 for other joints.
+    pub(super) rod: f64,
+    pub(super) kind: JointKind,
 }
 
 /// The cycle of a part that is proven to close nowhere, by the widest margin if there are several. `closing`: what counts as
@@ -121,7 +138,14 @@ fn obstacle(
                 let along = along.abs();
                 (along / (distance + error), Obstacle::Offset(along))
             }),
-            too_short(&corners).map(|missing| (missing / distance, Obstacle::TooShort(missing))),
+            widest(&corners).map(|span| {
+                let obstacle = Obstacle::TooShort {
+                    between: span.between,
+                    apart: span.apart,
+                    reach: span.reach,
+                };
+                ((span.apart - span.reach) / distance, obstacle)
+            }),
         ]
         .into_iter()
         .flatten()
@@ -166,15 +190,12 @@ fn corners(task: &Task<'_>, cycle: &[(usize, bool)]) -> Result<Vec<Corner>, Rigi
                 _ => None,
             };
             corners.push(Corner {
+                joint,
+                forward,
+                axis,
+                second,
                 step: std::mem::replace(&mut step, Rigid::identity(&1.0)),
                 axes,
-                point: matches!(
-                    kind,
-                    JointKind::Revolute
-                        | JointKind::Universal
-                        | JointKind::Spherical
-                        | JointKind::Distance
-                ),
                 rod: match kind {
                     JointKind::Distance => *displacement.distance(),
                     _ => 0.0,
@@ -192,20 +213,6 @@ fn corners(task: &Task<'_>, cycle: &[(usize, bool)]) -> Result<Vec<Corner>, Rigi
         }
         None => Err(step),
     }
-}
-
-/// By how much the longest side exceeds all the others together; `None` where a joint keeps no point.
-fn too_short(corners: &[Corner]) -> Option<f64> {
-    if !corners.iter().all(|corner| corner.point) {
-        return None;
-    }
-    let sides = || {
-        corners
-            .iter()
-            .flat_map(|corner| [length(&corner.step.translation), corner.rod])
-    };
-    let longest = sides().fold(0.0, f64::max);
-    Some(2.0 * longest - sides().sum::<f64>())
 }
 
 fn angle_between(a: &Vector<f64>, b: &Vector<f64>) -> f64 {
@@ -266,34 +273,40 @@ fn directions(corners: &[Corner]) -> Option<f64> {
     Some(best - angles.iter().sum::<f64>() + PI)
 }
 
-/// Where all corners are hinges about parallel axes: what the steps along them add up to (m), and how far the axes' being
-/// not quite parallel may change that.
+/// Where all corners are hinges about parallel axes, planar joints and slides across them: what the steps along them add up to (m), and
+/// how far the axes' being not quite parallel may change that. Slides have any length, and have to be across to rounding.
 fn offset(corners: &[Corner]) -> Option<(f64, f64)> {
-    let hinges = corners
-        .iter()
-        .all(|corner| corner.kind == JointKind::Revolute);
-    if !hinges {
-        return None;
-    }
+    let first = corners.iter().position(|corner| corner.axes.is_some())?;
     let (mut along, mut reach, mut tilt, mut sense) = (0.0, 0.0, 0.0, 1.0);
-    let mut behind = corners.last()?.axes?[1];
-    for corner in corners {
-        let axis = corner.axes?[0];
+    let mut behind = corners[first].axes?[1];
+    let mut slides = false;
+    for index in 1..=corners.len() {
+        let corner = &corners[(first + index) % corners.len()];
         let step = &corner.step;
-        let alpha = angle_between(&behind, &step.rotate(&axis));
-        let off = alpha.min(PI - alpha);
-        if off > PARALLEL {
-            return None;
-        }
         along += sense * dot(&behind, &step.translation);
         reach += length(&step.translation);
+        let here = step.rotate_back(&behind);
+        let axis = match (corner.kind, corner.axes) {
+            (JointKind::Revolute | JointKind::Planar, Some([axis, _])) => axis,
+            (JointKind::Prismatic, _) if dot(&here, &corner.axis).abs() <= ACROSS => here,
+            (JointKind::PlanarTranslation, _) if length(&cross(&here, &corner.axis)) <= ACROSS => {
+                here
+            }
+            _ => return None,
+        };
+        slides |= corner.kind != JointKind::Revolute;
+        let alpha = angle_between(&here, &axis);
+        let off = alpha.min(PI - alpha);
+        if off > if slides { ACROSS } else { PARALLEL } {
+            return None;
+        }
         tilt += off;
         if alpha > 0.5 * PI {
             sense = -sense;
         }
         behind = axis;
     }
-    Some((along, 2.0 * tilt * reach))
+    (!slides || tilt <= ACROSS).then_some((along, 2.0 * tilt * reach))
 }
 
 #[cfg(test)]
@@ -325,10 +338,10 @@ mod tests {
     #[test]
     fn a_side_longer_than_all_the_others_is_proof() {
         let too_long = ring(&planar(&STRETCHED), [1.5, 0.0, 0.0], Written::Exactly);
-        let Some(Obstacle::TooShort(missing)) = obstacle_of(&too_long, &[]) else {
+        let Some(Obstacle::TooShort { apart, reach, .. }) = obstacle_of(&too_long, &[]) else {
             panic!("1 + 1 + 1.5 < 5");
         };
-        assert!((missing - 1.5).abs() < 1e-12);
+        assert!((apart - 5.0).abs() < 1e-12 && (reach - 3.5).abs() < 1e-12);
         // A side as long as the others together just closes.
         for gap in [0.0, -0.5, -1.5] {
             let closes = ring(&planar(&STRETCHED), [gap, 0.0, 0.0], Written::Exactly);
@@ -339,7 +352,7 @@ mod tests {
         assert_eq!(obstacle_of(&bent, &[]), None);
         assert!(matches!(
             obstacle_of(&bent, &[1, 2]),
-            Some(Obstacle::TooShort(_))
+            Some(Obstacle::TooShort { .. })
         ));
         assert_eq!(
             obstacle_of(&bent, &[0, 1, 2, 3]),
