@@ -28,12 +28,9 @@ fn report_on(reading: &Reading, name: &str) -> Report {
         .0
 }
 
-/// Work of `exact` and `assemble` on each file: about a second.
+/// What `exact` and `assemble` may take on each file: what they do not reach in that time contradicts nothing.
 fn limits() -> Limits {
-    Limits {
-        work: Some(5_000_000),
-        ..Limits::default()
-    }
+    Limits::seconds(0.5)
 }
 
 /// Where what `assemble` and `exact` say contradicts a report.
@@ -156,63 +153,68 @@ fn judge_drawn_open(members: &[Member]) {
 
 /// A mechanism that closes for some values of its measure only: values for which it does not, values for which it does, and what the first
 /// line has to name besides that it does not assemble.
-const INCONSISTENT: [(&str, &[&str], &[&str], &str); 12] = [
-    ("ball_and_hinge", &OFF_ONE, &["1"], "loop through `ball`"),
+const INCONSISTENT: [(&str, &[&str], &[&str], &[&str]); 12] = [
+    ("ball_and_hinge", &OFF_ONE, &["1"], &["loop through `ball`"]),
     (
         "bar_between_skew_lines",
         &BELOW_THREE,
         &["3", "7/2"],
-        "`end_1` and `end_2`",
+        &["`end_1`", "`end_2`", "at least 3 m apart"],
     ),
     (
         "crossed_hinges",
         &ANGLES,
         &["acos(3/5)"],
-        "loop through `two`",
+        &["loop through `two`"],
     ),
     (
         "four_bar",
         &ABOVE_SEVEN,
         &["7", "2"],
-        "`left_pin` and `right_pin` are at least",
+        &["`left_pin`", "`right_pin`", "span 7 m"],
     ),
-    ("oldham", &OFF_ONE, &["0"], "loop through `shaft_2`"),
+    ("oldham", &OFF_ONE, &["0"], &["loop through `shaft_2`"]),
     (
         "pin_and_plane",
         &ABOVE_ONE,
         &["1", "1/2"],
-        "`plane` and `pivot`",
+        &["`plane`", "`pivot`", "span 1 m"],
     ),
-    ("rod_between_cranks", &ABOVE_SEVEN, &["7", "4"], "`rod` is"),
+    (
+        "rod_between_cranks",
+        &ABOVE_SEVEN,
+        &["7", "4"],
+        &["`rod` is", "span 7 m"],
+    ),
     (
         "sleeve_and_crank",
-        &ABOVE_SEVEN,
+        &BELOW_TWO,
         &["2", "3"],
-        "`near` and `far`",
+        &["`near`", "`far`"],
     ),
     (
         "slider_crank",
         &BELOW_THREE,
         &["3", "5"],
-        "`rod_pin` and `pivot` are at least 4 m",
+        &["`rod_pin`", "`pivot`", "at least 4 m apart"],
     ),
     (
         "spherical_four_bar",
         &ANGLES_ABOVE,
         &["pi/3", "pi/2"],
-        "loop through `h4`",
+        &["loop through `h4`"],
     ),
     (
         "stepped_four_bar",
         &OFF_ONE,
         &["0"],
-        "loop through `right_pin`",
+        &["loop through `right_pin`"],
     ),
     (
         "two_balls",
         &ABOVE_SEVEN,
         &["2", "4"],
-        "`ball_1` and `ball_2`",
+        &["`ball_1`", "`ball_2`", "span 4 m"],
     ),
 ];
 const OFF_ONE: [&str; 9] = [
@@ -236,6 +238,17 @@ const BELOW_THREE: [&str; 9] = [
     "3 - 1/10**5",
     "3 - 1/10**8",
     "sqrt(8)",
+];
+const BELOW_TWO: [&str; 9] = [
+    "1",
+    "1/2",
+    "3/2",
+    "9/5",
+    "19/10",
+    "199/100",
+    "2 - 1/10**5",
+    "2 - 1/10**8",
+    "sqrt(3)",
 ];
 const ABOVE_SEVEN: [&str; 9] = [
     "15/2",
@@ -313,7 +326,7 @@ fn judge_inconsistent(each: usize) -> (usize, Vec<String>) {
             let text = render(&report, Layout::default());
             let words: Vec<&str> = text.split_whitespace().collect();
             let first = words.join(" ");
-            if report.assembly.proof.is_none() || !first.contains(named) {
+            if report.assembly.proof.is_none() || !named.iter().all(|word| first.contains(word)) {
                 missed.push(format!("{told}: {}", &first[..first.len().min(200)]));
             }
         }

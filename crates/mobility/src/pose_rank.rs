@@ -54,7 +54,10 @@ pub(super) fn is_computed(mechanism: &Mechanism, part: &Part) -> bool {
 }
 
 /// All numbers of a part's geometry.
-fn numbers<'a>(mechanism: &'a Mechanism, part: &'a Part) -> impl Iterator<Item = &'a Number> {
+pub(super) fn numbers<'a>(
+    mechanism: &'a Mechanism,
+    part: &'a Part,
+) -> impl Iterator<Item = &'a Number> {
     let joints = part.joints.iter().flat_map(|&joint| {
         let joint = &mechanism.joints()[joint];
         let sides = [&joint.predecessor.frame, &joint.successor.frame];

@@ -3,8 +3,9 @@
 use super::Solutions;
 use super::solutions::isolated_solutions;
 use crate::{
-    Budget, Formulation, GroebnerBasis, Meaning, MonomialOrder, Polynomial, PolynomialSystem,
-    Rational, RealSolution, Stop, SystemOptions, groebner_basis, polynomial_system,
+    Budget, Formulation, GroebnerBasis, Limits, Meaning, MonomialOrder, Polynomial,
+    PolynomialSystem, Rational, RealSolution, Stop, SystemOptions, groebner_basis,
+    polynomial_system,
 };
 use kutzbach_math::space::Rigid;
 use kutzbach_model::mechanism::{JointId, Mechanism};
@@ -16,6 +17,9 @@ pub struct Closings {
     pub system: PolynomialSystem,
     /// Their solutions.
     pub set: ClosingSet,
+    /// Whether the basis that tells was computed over the rational numbers. Otherwise it was found by way of primes, and checked as
+    /// [`Certificate`](crate::Certificate) says.
+    pub proven: bool,
 }
 
 /// The poses at which loops close.
@@ -26,9 +30,6 @@ pub enum ClosingSet {
         /// Cycles of the system that contradict one another, with the couplings: indices in
         /// [`PolynomialSystem::cycles`]. None of them can be left out, as far as the budget told.
         cycles: Vec<usize>,
-        /// Whether that was computed over the rational numbers; otherwise modulo primes, as
-        /// [`Certificate`](crate::Certificate) says.
-        proven: bool,
     },
     /// Finitely many complex solutions, and these are all real ones: there may be none.
     Finite(Vec<RealSolution>),
@@ -75,32 +76,51 @@ pub fn closings(
     if system.equations.is_empty() {
         return None;
     }
-    let set = closing_set(&system, near, budget).ok()?;
-    Some(Closings { system, set })
+    let equations = system.polynomials();
+    let mut basis = basis(&equations, &system, budget).ok()?;
+    let set = closing_set(&system, &basis, near, budget).ok()?;
+    let proven = is_proven(&mut basis, &equations, budget);
+    Some(Closings {
+        system,
+        set,
+        proven,
+    })
+}
+
+/// An entry over the rationals costs as much as so many modulo a prime: fractions are long.
+const RATIONAL_PRICE: u64 = 20;
+
+/// Whether a basis is that of the equations with nothing left to primes, as far as what is left of the budget tells.
+fn is_proven(basis: &mut GroebnerBasis, equations: &[Polynomial], budget: &Budget) -> bool {
+    if basis.certificate().proven {
+        return true;
+    }
+    let left = |most: u64| most.saturating_sub(budget.work()) / RATIONAL_PRICE;
+    let own = Budget::new(Limits {
+        work: budget.limits().work.map(left),
+        ..budget.limits().clone()
+    });
+    let proven = basis.prove(equations, &own) == Ok(true);
+    // Where that was too much, everything is done.
+    let _ = budget.spend(own.work().saturating_mul(RATIONAL_PRICE));
+    proven
 }
 
 fn closing_set(
     system: &PolynomialSystem,
+    basis: &GroebnerBasis,
     near: &[Rigid<f64>],
     budget: &Budget,
 ) -> Result<ClosingSet, Stop> {
-    let equations = system.polynomials();
-    let basis = basis(&equations, system, budget)?;
     Ok(match basis.dimension() {
-        None => {
-            let mut basis = basis;
-            // Fractions grow: what it may cost is what is left.
-            let proven = basis.certificate().proven || basis.prove(&equations, budget) == Ok(true);
-            ClosingSet::Contradiction {
-                cycles: contradictory(system, budget),
-                proven,
-            }
-        }
-        Some(0) => ClosingSet::Finite(real_solutions(system, &basis, budget)?),
+        None => ClosingSet::Contradiction {
+            cycles: contradictory(system, budget),
+        },
+        Some(0) => ClosingSet::Finite(real_solutions(system, basis, budget)?),
         Some(dimension) => ClosingSet::Infinite {
             dimension,
             // What is met helps, and proves nothing where it is not: work that ends here ends no more than that.
-            met: met(system, &basis, near, budget).unwrap_or_default(),
+            met: met(system, basis, near, budget).unwrap_or_default(),
         },
     })
 }
@@ -191,4 +211,68 @@ fn placed(system: &PolynomialSystem, variable: usize, value: f64) -> Option<Poly
     };
     let rounded = Rational::from_float((value * FINENESS).round() / FINENESS)?;
     Some(&Polynomial::variable(variable, variables) - &Polynomial::constant(rounded, variables))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use kutzbach_math::number::Number;
+    use kutzbach_model::mechanism::{Direction, Frame, JointBuilder, JointKind, MechanismBuilder};
+
+    fn length(text: &str) -> Number {
+        Number::expression(text, &mut |_| Ok(None)).unwrap()
+    }
+
+    /// A crank of length 1 about z, whose pin is on a plane across x at so much from its pivot.
+    fn pin_on_plane(at: &str) -> Closings {
+        let mut builder = MechanismBuilder::new("pin");
+        builder.link("ground").link("crank");
+        let [x, z] = [0, 2].map(|along| {
+            Direction([0, 1, 2].map(|i| {
+                if i == along {
+                    Number::one()
+                } else {
+                    Number::zero()
+                }
+            }))
+        });
+        let pivot = JointBuilder::tree("pivot", JointKind::Revolute, "ground", "crank");
+        builder.joint(pivot.axis(z));
+        let place = |x: Number, y: Number| Frame::at([x, y, Number::zero()]);
+        builder.joint(
+            JointBuilder::closing("plane", JointKind::PointOnPlane, "crank", "ground")
+                .origin(place(Number::zero(), Number::one()))
+                .successor_origin(place(length(at), Number::zero()))
+                .axis2(x),
+        );
+        let mechanism = builder.build().unwrap();
+        let links = vec![Rigid::identity(&1.0); 2];
+        let joints = [JointId(0), JointId(1)];
+        closings(&mechanism, &joints, &links, &Budget::unlimited()).unwrap()
+    }
+
+    #[test]
+    fn all_real_poses_are_told() {
+        let found = pin_on_plane("3/5");
+        assert!(found.proven);
+        let ClosingSet::Finite(real) = &found.set else {
+            panic!("{:?}", found.set);
+        };
+        let mut heights: Vec<f64> = real
+            .iter()
+            .map(|at| {
+                let pose = found.system.joint_pose(JointId(0), &at.values()).unwrap();
+                pose.apply(&[0.0, 1.0, 0.0])[1]
+            })
+            .collect();
+        heights.sort_by(f64::total_cmp);
+        assert!((heights[0] + 0.8).abs() < 1e-12 && (heights[1] - 0.8).abs() < 1e-12);
+    }
+
+    #[test]
+    fn out_of_reach_is_finite_and_not_real() {
+        let found = pin_on_plane("2");
+        assert!(matches!(&found.set, ClosingSet::Finite(real) if real.is_empty()));
+    }
 }

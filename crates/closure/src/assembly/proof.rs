@@ -158,7 +158,7 @@ fn obstacle(
 }
 
 /// The joints of a cycle that may move, in order; the displacement around it where there is none.
-fn corners(task: &Task<'_>, cycle: &[(usize, bool)]) -> Result<Vec<Corner>, Rigid<f64>> {
+pub(super) fn corners(task: &Task<'_>, cycle: &[(usize, bool)]) -> Result<Vec<Corner>, Rigid<f64>> {
     let geometry: &Geometry<f64> = task.geometry;
     let mut step = Rigid::identity(&1.0);
     let mut corners: Vec<Corner> = Vec::new();

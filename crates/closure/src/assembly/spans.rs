@@ -416,3 +416,120 @@ impl Place {
         }
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::super::samples::{Place as Joint, Written, ring};
+    use super::super::super::{Arithmetic, Geometry};
+    use super::super::descent::Task;
+    use super::super::proof::corners;
+    use super::*;
+    use crate::Structure;
+    use kutzbach_math::matrix::SplitMix64;
+    use std::collections::BTreeSet;
+
+    /// The widest span of a ring, walked both ways.
+    fn spans(places: &[Joint], gap: [f64; 3]) -> [Option<Span>; 2] {
+        let mechanism = ring(places, gap, Written::Exactly);
+        let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
+        let part = Structure::new(&mechanism).parts.swap_remove(0);
+        let held = BTreeSet::new();
+        let task = Task {
+            mechanism: &mechanism,
+            geometry: &geometry,
+            part: &part,
+            held: &held,
+            tolerance: None,
+        };
+        let one = part.cycles[0].clone();
+        let back = one.iter().rev().map(|(joint, f)| (*joint, !f)).collect();
+        [one, back].map(|cycle: Vec<(usize, bool)>| {
+            corners(&task, &cycle)
+                .ok()
+                .and_then(|corners| widest(&corners))
+        })
+    }
+
+    const KINDS: [JointKind; 10] = [
+        JointKind::Revolute,
+        JointKind::Revolute,
+        JointKind::Prismatic,
+        JointKind::Cylindrical,
+        JointKind::Universal,
+        JointKind::Spherical,
+        JointKind::Planar,
+        JointKind::PlanarTranslation,
+        JointKind::PointOnLine,
+        JointKind::PointOnPlane,
+    ];
+
+    #[test]
+    fn rings_that_are_drawn_closed_have_no_side_too_long() {
+        let mut random = SplitMix64::new(7);
+        let mut draw = |below: u64| (random.next_u64() % below) as usize;
+        let mut bounded = 0;
+        for _ in 0..3000 {
+            let count = 2 + draw(5);
+            // Some rings have all axes along one or two directions, so that parallel ones are among them.
+            let directions = 1 + draw(4);
+            let axes = [
+                [0.0, 0.0, 1.0],
+                [1.0, 0.0, 0.0],
+                [0.5, 1.0, 0.0],
+                [1.0, 2.0, -1.0],
+            ];
+            let places: Vec<Joint> = (0..count)
+                .map(|_| {
+                    let at = [0; 3].map(|_| draw(9) as f64 * 0.5 - 2.0);
+                    (KINDS[draw(10)], at, axes[draw(directions as u64)])
+                })
+                .collect();
+            for span in spans(&places, [0.0; 3]).into_iter().flatten() {
+                bounded += 1;
+                assert!(
+                    span.apart <= span.reach + 1e-9,
+                    "{places:?}: {} {}",
+                    span.apart,
+                    span.reach
+                );
+            }
+        }
+        assert!(bounded > 1000, "{bounded}");
+    }
+
+    #[test]
+    fn bounds_lead_through_slides_pipes_and_planes() {
+        use JointKind::{Cylindrical, Planar, Prismatic, Revolute, Spherical};
+        let (x, z) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
+        // The gap displaces the last joint's side in the ground: the pivot is so far from the slide, the pin from the pipe, the ball from the plane.
+        let slider_crank = [
+            (Revolute, [0.0; 3], z),
+            (Revolute, [1.0, 0.0, 0.5], z),
+            (Revolute, [3.0, 0.0, 0.0], z),
+            (Prismatic, [3.0, 0.0, 0.0], x),
+        ];
+        let pipe = [
+            (Spherical, [2.0, 0.0, 0.0], z),
+            (Spherical, [1.0, 0.0, 0.0], z),
+            (Cylindrical, [0.0; 3], z),
+        ];
+        let plane = [
+            (Spherical, [0.0; 3], z),
+            (Spherical, [0.0, 0.0, 1.0], z),
+            (Planar, [0.0, 0.0, 1.0], z),
+        ];
+        let cases = [
+            (&slider_crank[..], [0.0, 4.0, 0.0], 4.0, 3.0),
+            (&pipe[..], [0.0, 4.0, 0.0], 20f64.sqrt() - 1.0, 1.0),
+            (&plane[..], [0.0, 0.0, 3.0], 4.0, 1.0),
+        ];
+        for (places, gap, apart, reach) in cases {
+            for span in spans(places, gap) {
+                let span = span.unwrap();
+                let off = (span.apart - apart).abs().max((span.reach - reach).abs());
+                assert!(off < 1e-12, "{places:?}: {} {}", span.apart, span.reach);
+            }
+        }
+    }
+}

@@ -4,7 +4,20 @@ use super::{Exact, Form, Number};
 use dashu_base::{BitTest, PowerOfTwo};
 use dashu_ratio::RBig;
 
+/// Fractions of powers of two that somebody writes have fewer significant bits than this; of a thousand doubles that were computed one has.
+const CHOSEN_BITS: usize = 43;
+
 impl Number {
+    /// Whether it is a double with its bits in use, as programs compute them: nothing is meant by the last ones.
+    #[must_use]
+    pub fn is_full_double(&self) -> bool {
+        self.rational().is_some_and(|x| {
+            let numerator = x.numerator();
+            let significant = numerator.bit_len() - numerator.trailing_zeros().unwrap_or(0);
+            x.denominator().is_power_of_two() && (CHOSEN_BITS..=53).contains(&significant)
+        })
+    }
+
     /// Bits of the longest integer the number is written with: how small an offset can be meant by it. `1/3` has 2, the
     /// expression `1e-14` has 47; larger expressions have that of their longest part. Nothing is meant by the last bits of what
     /// a double holds (fractions whose denominator is a power of two, numerators of up to 53 significant bits) or of what was

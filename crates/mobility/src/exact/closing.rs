@@ -1,16 +1,17 @@
 //! All poses at which a part closes, by exact algebra: before poses are searched, and of poses that were assembled.
 //!
 //! Where the numbers are exact the equations of the loops are the mechanism's, and a Groebner basis of them says of all poses at once
-//! whether there are any, or finitely many, and which. The basis is one over the rational numbers, found by way of primes and checked by one
-//! that had no part in it ([`kutzbach_algebra::Certificate`]); that equations contradict one another is computed over the rational numbers
-//! where that takes no longer than it may.
+//! whether there are any, or finitely many, and which. What is told as proved rests on a basis computed over the rational numbers; where that
+//! takes longer than it may, one found by way of primes and checked by another ([`kutzbach_algebra::Certificate`]) still says where to look.
 
 use super::{ExactAllowance, ExactFinding, is_too_large, numbers_are_exact};
-use crate::pose_rank::{PartRank, Pose};
+use crate::judge::PartFinding;
+use crate::pose_rank::{PartRank, Pose, is_computed, numbers};
 use kutzbach_algebra::{ClosingSet, Closings, PolynomialSystem, RealSolution, closings};
 use kutzbach_closure::{
     Geometry, JointPoses, JointState, Obstacle, Part, ProvenOpen, Solved, spanning_poses,
 };
+use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Configuration, JointId, Mechanism};
 
 /// A mechanism whose parts are asked about.
@@ -36,6 +37,8 @@ fn known<'k>(
     if allowance.each == 0
         || is_too_large(mechanism, part)
         || !numbers_are_exact(mechanism, configuration, part)
+        // Of doubles that a program computed the last bits mean nothing, and would contradict one another.
+        || numbers(mechanism, part).any(Number::is_full_double)
     {
         return None;
     }
@@ -57,7 +60,12 @@ pub(crate) fn solved(
     states: &[JointState<f64>],
     allowance: &mut ExactAllowance,
 ) -> Solved {
-    let Some(Closings { system, set }) = known(whole, part, states, allowance) else {
+    let Some(Closings {
+        system,
+        set,
+        proven,
+    }) = known(whole, part, states, allowance)
+    else {
         return Solved::Unknown;
     };
     let poses = |real: &[RealSolution]| -> Vec<JointPoses> {
@@ -67,10 +75,12 @@ pub(crate) fn solved(
         poses.collect()
     };
     match set {
-        ClosingSet::Contradiction { cycles, .. } => Solved::Never(ProvenOpen {
+        ClosingSet::Contradiction { .. } if !proven => Solved::Unknown,
+        ClosingSet::Contradiction { cycles } => Solved::Never(ProvenOpen {
             joint: named(whole.mechanism, system, cycles, part),
             obstacle: Obstacle::Contradiction(cycles.len()),
         }),
+        ClosingSet::Finite(real) if real.is_empty() && !proven => Solved::Unknown,
         ClosingSet::Finite(real) if real.is_empty() => {
             let all: Vec<usize> = (0..system.cycles.len()).collect();
             Solved::Never(ProvenOpen {
@@ -111,6 +121,7 @@ pub(super) fn everywhere(
     pose: &Pose<'_>,
     part: &Part,
     rank: &PartRank,
+    found: &PartFinding,
     allowance: &mut ExactAllowance,
 ) -> Result<ExactFinding, String> {
     let whole = Whole {
@@ -121,11 +132,19 @@ pub(super) fn everywhere(
     if rank.stated > 0.0 || rank.taken_literally {
         return Err("not asked: the numbers are rounded".to_owned());
     }
+    if found.open().is_none() && found.lower() > 0 {
+        return Err("not asked: the pose was assembled, and it moves there".to_owned());
+    }
     let away = |system: &PolynomialSystem, real: &[RealSolution]| {
         let mut solutions = real.iter();
         !solutions.any(|at| is_at(pose, part, &joint_poses(system, part, &at.values())))
     };
-    let Some(Closings { system, set }) = known(whole, part, pose.states, allowance) else {
+    let Some(Closings {
+        system,
+        set,
+        proven,
+    }) = known(whole, part, pose.states, allowance)
+    else {
         return Err(
             "the pose was assembled, and nothing about all poses within its budget".to_owned(),
         );
@@ -145,15 +164,23 @@ pub(super) fn everywhere(
     };
     match set {
         ClosingSet::Infinite { dimension, .. } => {
-            answer.upper = most.min(*dimension);
+            if *proven {
+                answer.upper = most.min(*dimension);
+            }
             answer.text.push_str(&format!(", dimension {dimension}"));
+        }
+        // What rests on primes is no proof: other engines have to leave no fewer.
+        ClosingSet::Finite(real) if !away(system, real) && !proven => {
+            answer.upper = 0;
+            answer.text.push_str(", finitely many solutions by several primes");
         }
         ClosingSet::Finite(real) if !away(system, real) => answer.prove(
             0,
             "the closure equations have finitely many solutions, over the complex numbers too, so that every closed pose is isolated",
         ),
         ClosingSet::Finite(_) | ClosingSet::Contradiction { .. } => {
-            allowance.elsewhere = true;
+            // What was computed from decimals closes within these as well as it can.
+            allowance.elsewhere |= !is_computed(pose.mechanism, part);
             return Err("the loops do not close at this pose, but within rounding".to_owned());
         }
     }

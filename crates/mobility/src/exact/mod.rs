@@ -107,7 +107,7 @@ pub(super) fn ask_exact(
         Some(Ok(Some(exact))) => Ok(exact),
         Some(Err(why)) => Err(why),
         // Assembled, or drawn closed within rounding only.
-        Some(Ok(None)) | None => closing::everywhere(pose, part, rank, allowance),
+        Some(Ok(None)) | None => closing::everywhere(pose, part, rank, found, allowance),
     };
     match answer {
         Ok(exact) => {
