@@ -193,9 +193,11 @@ fn sides(corners: &[Corner], across_axes: bool) -> Option<Vec<Side>> {
     let Passage::Kept(_, behind, rod) = passage(start, along) else {
         return None;
     };
+    // A point has one place; across the axes, one line along them.
+    let is_point = |flat: &Flat| flat.directions.len() <= usize::from(across_axes);
     let mut last = start.joint;
+    let mut rigid = is_point(&behind);
     let mut place = Place::Flat(behind);
-    let mut rigid = true;
     if rod > 0.0 {
         sides.push(Side {
             between: [last, last],
@@ -210,7 +212,7 @@ fn sides(corners: &[Corner], across_axes: bool) -> Option<Vec<Side>> {
         along = passed(corner, along);
         match passage(corner, direction) {
             Passage::Kept(before, behind, rod) => {
-                rigid &= before.directions.len() <= usize::from(across_axes);
+                rigid &= is_point(&before);
                 sides.push(Side {
                     between: [last, corner.joint],
                     least: place.distance(&before),
@@ -223,7 +225,7 @@ fn sides(corners: &[Corner], across_axes: bool) -> Option<Vec<Side>> {
                         rigid: true,
                     });
                 }
-                rigid = behind.directions.len() <= usize::from(across_axes);
+                rigid = is_point(&behind);
                 last = corner.joint;
                 place = Place::Flat(behind);
             }
