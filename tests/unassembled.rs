@@ -183,7 +183,7 @@ const INCONSISTENT: [(&str, &[&str], &[&str], &[&str]); 12] = [
     (
         "rod_between_cranks",
         &ABOVE_SEVEN,
-        &["7", "4"],
+        &["5", "6"],
         &["`rod` is", "span 7 m"],
     ),
     (
