@@ -151,9 +151,16 @@ fn judge_drawn_open(members: &[Member]) {
     assert!(20 * undecided.len() <= members.len(), "{undecided:?}");
 }
 
-/// A mechanism that closes for some values of its measure only: values for which it does not, values for which it does, and what the first
-/// line has to name besides that it does not assemble.
-const INCONSISTENT: [(&str, &[&str], &[&str], &[&str]); 12] = [
+/// A mechanism that closes for some values of its measure only: its file, values for which it does not, values for which it does, and what the
+/// first line has to name besides that it does not assemble.
+type Inconsistent = (
+    &'static str,
+    &'static [&'static str],
+    &'static [&'static str],
+    &'static [&'static str],
+);
+
+const INCONSISTENT: [Inconsistent; 12] = [
     ("ball_and_hinge", &OFF_ONE, &["1"], &["loop through `ball`"]),
     (
         "bar_between_skew_lines",
