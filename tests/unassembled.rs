@@ -354,10 +354,12 @@ fn what_a_measure_makes_inconsistent_is_proved_and_named() {
 }
 
 mod corpus {
+    use crate::support::whole;
+
     #[test]
     #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn five_hundred_files_drawn_open_are_decided() {
-        super::judge_drawn_open(&super::drawn_open(42));
+        super::judge_drawn_open(&super::drawn_open(if whole() { 42 } else { 14 }));
     }
 
     #[test]
