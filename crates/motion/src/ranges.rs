@@ -6,6 +6,9 @@ use super::result::Range;
 use super::trace::Found;
 use kutzbach_model::mechanism::Mechanism;
 
+/// A whole number of turns is one within this, far more than curves are off where they close.
+const WHOLE_TURN: f64 = 1e-4;
+
 /// One row per variable of the mechanism; those that are not of the moving part rest where they are.
 pub(super) fn ranges(mechanism: &Mechanism, found: &Found) -> Vec<Range> {
     let curve = &found.curve;
@@ -57,10 +60,12 @@ pub(super) fn ranges(mechanism: &Mechanism, found: &Found) -> Vec<Range> {
                 .nodes
                 .iter()
                 .fold(0.0f64, |m, n| m.max(n.tangent[unknown].abs()));
-            let turns = if system.is_periodic(unknown) {
-                (winding[unknown] / std::f64::consts::TAU).round() as i64
-            } else {
-                0
+            let around = winding[unknown] / std::f64::consts::TAU;
+            let whole = (around - around.round()).abs() < WHOLE_TURN;
+            // A ball that comes back has turned about one of its axes, or about none of them.
+            let turns = match system.is_periodic(unknown) || (!system.is_scalar(unknown) && whole) {
+                true => around.round() as i64,
+                false => 0,
             };
             Range {
                 variable,

@@ -30,12 +30,22 @@ pub fn candidates(between: &[Between], bodies: usize) -> Vec<Vec<usize>> {
             let mut cycle: Vec<usize> = one[common..].iter().rev().copied().collect();
             cycle.extend(&two[common..]);
             cycle.push(number);
+            from_the_first(&mut cycle);
             if seen.insert(bits(&cycle)) {
                 found.push(cycle);
             }
         }
     }
     found
+}
+
+/// Begins a cycle with its first member, towards the smaller of the two next to it, so that it is told in one way.
+fn from_the_first(cycle: &mut [usize]) {
+    let first = (0..cycle.len()).min_by_key(|place| cycle[*place]);
+    cycle.rotate_left(first.unwrap_or(0));
+    if cycle.len() > 2 && cycle[cycle.len() - 1] < cycle[1] {
+        cycle[1..].reverse();
+    }
 }
 
 /// The members on the way from a body to each other, and all of them.

@@ -1,11 +1,10 @@
 //! A part as bodies between which there are subgroups.
 
-use super::chain::{Piece, of_joint};
 use super::groups::{Group, Groups};
 use super::placing::{Placed, ends};
-use kutzbach_closure::Part;
+use kutzbach_closure::{Part, Structure};
 use kutzbach_math::group::{GroupError, Twist};
-use kutzbach_model::mechanism::Mechanism;
+use kutzbach_model::mechanism::{JointKind, Mechanism};
 use std::collections::BTreeMap;
 
 /// What lies between two bodies: a manifold of displacements in a subgroup, all of it unless `freedom` is less than its dimension.
@@ -40,6 +39,7 @@ impl Bodies {
     /// between the translations and the rotations of joints that are one subgroup.
     pub fn new(
         mechanism: &Mechanism,
+        structure: &Structure,
         part: &Part,
         placed: &Placed,
         divided: bool,
@@ -47,7 +47,11 @@ impl Bodies {
     ) -> Result<Self, GroupError> {
         let mut numbers = BTreeMap::new();
         let mut links = BTreeMap::new();
-        for &joint in &part.joints {
+        // By name, so that the order in the file changes nothing.
+        let mut order: Vec<(usize, &Vec<Twist>)> =
+            part.joints.iter().copied().zip(&placed.screws).collect();
+        order.sort_by_key(|(joint, _)| structure.graph.edge_rank(*joint));
+        for &(joint, _) in &order {
             let both = ends(mechanism, joint).map(|link| {
                 let next = numbers.len();
                 *numbers.entry(link).or_insert(next)
@@ -62,9 +66,9 @@ impl Bodies {
             otherwise: Vec::new(),
         };
         let mut of_joints = BTreeMap::new();
-        for (&joint, screws) in part.joints.iter().zip(&placed.screws) {
+        for (joint, screws) in order {
             let kind = mechanism.joints()[joint].kind;
-            let factors = factors(of_joint(joint, kind, screws), divided);
+            let factors = factors(kind, screws, divided);
             let first = bodies.between.len();
             let both = bodies.links[&joint];
             let chain = bodies.chain(joint, both, &factors, groups)?;
@@ -134,8 +138,7 @@ impl Bodies {
             .zip(&placed.screws)
             .any(|(&joint, screws)| {
                 let kind = mechanism.joints()[joint].kind;
-                let pieces = of_joint(joint, kind, screws);
-                factors(pieces.clone(), true).len() > factors(pieces, false).len()
+                factors(kind, screws, true).len() > factors(kind, screws, false).len()
             })
     }
 }
@@ -165,22 +168,58 @@ pub fn walk(between: &[Between], cycle: &[usize]) -> Option<Vec<usize>> {
     begins(ends(0)[0]).or_else(|| begins(ends(0)[1]))
 }
 
+/// Some screws of a joint that are not taken apart.
+struct Factor {
+    /// Number of the subgroup in the joint's product of subgroups.
+    subgroup: usize,
+    screws: Vec<Twist>,
+}
+
+/// The factors of a joint, from its screws in the order of its variables.
+///
+/// A joint of [`JointKind::is_subgroup`] is one subgroup, every other a product of two. Planar motions, cylindrical ones and
+/// the like are translations times the rotations or screws about an axis, in either order; where the translations end
+/// depends on nothing but the joint. How a ball or a plane's translations could be taken apart depends on the choice of
+/// axes, and they are left whole.
+fn of_joint(kind: JointKind, screws: &[Twist]) -> Vec<Factor> {
+    let subgroups: &[&[usize]] = match kind {
+        JointKind::Fixed => &[],
+        JointKind::Revolute | JointKind::Prismatic | JointKind::Screw => &[&[1]],
+        JointKind::Cylindrical => &[&[1, 1]],
+        JointKind::Universal => &[&[1], &[1]],
+        JointKind::PlanarTranslation => &[&[2]],
+        JointKind::Planar | JointKind::TranslatingScrew => &[&[2, 1]],
+        JointKind::Spherical | JointKind::Translational => &[&[3]],
+        JointKind::Schoenflies => &[&[3, 1]],
+        JointKind::PointOnLine => &[&[3], &[1]],
+        JointKind::LineOnPlane => &[&[1], &[2, 1]],
+        JointKind::PointOnPlane => &[&[3], &[2]],
+        // The two swings of the rod turn about its first point.
+        JointKind::Distance => &[&[2], &[3]],
+    };
+    let mut rest = screws.iter().copied();
+    let mut factors = Vec::new();
+    for (subgroup, numbers) in subgroups.iter().enumerate() {
+        for &number in *numbers {
+            let screws = rest.by_ref().take(number).collect();
+            factors.push(Factor { subgroup, screws });
+        }
+    }
+    factors
+}
+
 /// The screws of a joint, those of one subgroup together unless they are to be divided.
-fn factors(pieces: Vec<Piece>, divided: bool) -> Vec<Vec<Twist>> {
+fn factors(kind: JointKind, screws: &[Twist], divided: bool) -> Vec<Vec<Twist>> {
     let mut factors: Vec<Vec<Twist>> = Vec::new();
     let mut last = None;
-    for piece in pieces {
-        let Piece::Factor {
-            subgroup, twists, ..
-        } = piece
-        else {
-            continue;
-        };
+    for factor in of_joint(kind, screws) {
         match factors.last_mut() {
-            Some(factor) if !divided && last == Some(subgroup) => factor.extend(twists),
-            _ => factors.push(twists),
+            Some(before) if !divided && last == Some(factor.subgroup) => {
+                before.extend(factor.screws);
+            }
+            _ => factors.push(factor.screws),
         }
-        last = Some(subgroup);
+        last = Some(factor.subgroup);
     }
     factors
 }

@@ -38,6 +38,7 @@ pub struct Groups {
     known: Vec<Known>,
     joins: BTreeMap<(Group, Group), Group>,
     meets: BTreeMap<(Group, Group), Group>,
+    independent: BTreeMap<Vec<Group>, bool>,
     margin: Margin,
 }
 
@@ -51,6 +52,7 @@ impl Groups {
             known: Vec::new(),
             joins: BTreeMap::new(),
             meets: BTreeMap::new(),
+            independent: BTreeMap::new(),
             margin: Margin::CERTAIN,
         };
         groups.push(nothing, Vec::new());
@@ -142,6 +144,9 @@ impl Groups {
         if dimension > 6 {
             return Ok(false);
         }
+        if let Some(known) = self.independent.get(groups) {
+            return Ok(*known);
+        }
         let mut sum = ScrewSystem::empty(&self.gauge);
         for group in groups {
             sum = sum.sum(self.algebra(*group).system())?;
@@ -150,6 +155,7 @@ impl Groups {
         if independent {
             self.margin = self.margin.and(sum.margin());
         }
+        self.independent.insert(groups.to_vec(), independent);
         Ok(independent)
     }
 

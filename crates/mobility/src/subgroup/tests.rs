@@ -109,7 +109,8 @@ fn two_chains_that_generate_subgroups() {
     assert_eq!(
         found.text,
         "chain `r_a` `r_b` `r_c` generates G (planar motion normal to (1, 0, 0)), chain `r_d` `r_e` `r_f` generates G \
-         (planar motion normal to (0, 1, 0)); they meet in T (translation along (0, 0, 1))"
+         (planar motion normal to (0, 1, 0)); they meet in T (translation along (0, 0, 1)); the 5 equations that the loops still \
+         ask for are independent"
     );
 }
 
@@ -148,9 +149,8 @@ fn joints_are_taken_apart() {
     ]));
     assert_eq!(answer(&found), (Some(1), EXCEPTIONAL));
     for part in [
-        "`r_b.trans`",
-        "`r_c.trans`",
-        "planar motion normal to (0, 0, 1)",
+        "`r_b` stays in T (translation along (1, 0, 0))",
+        "`r_c` stays in T (translation along (0, 1, 0))",
     ] {
         assert!(found.text.contains(part), "{}", found.text);
     }
@@ -206,13 +206,14 @@ fn networks_that_are_neither_series_nor_parallel() {
         ("p4", Prismatic, "b", "d", O, Z),
         ("p5", Prismatic, "c", "d", O, Z),
     ]));
+    // Every loop lies in the translations along z once the two cylinders do not turn.
     assert_eq!(answer(&found), (Some(3), EXCEPTIONAL), "{}", found.text);
-    assert!(found.text.contains("network"), "{}", found.text);
+    assert!(found.text.contains("`c1` stays in T"), "{}", found.text);
 }
 
 /// A Sarrus linkage whose two sides carry six-freedom chains to a further link: they hold nothing.
 #[test]
-fn chains_without_effect_are_removed() {
+fn chains_without_effect_hold_nothing() {
     use JointKind::{Spherical, Translational};
     let mut joints = Vec::new();
     let links = ["a", "s1", "s2", "b", "s3", "s4", "a"];
@@ -230,8 +231,6 @@ fn chains_without_effect_are_removed() {
     }
     let found = finding(&network(&joints));
     assert_eq!(answer(&found), (Some(1), EXCEPTIONAL), "{}", found.text);
-    let removed = found.steps.iter().filter(|s| s.contains("nothing"));
-    assert_eq!(removed.count(), 3, "{:?}", found.steps);
 }
 
 #[test]

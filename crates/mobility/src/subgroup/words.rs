@@ -1,19 +1,17 @@
 //! The sentences of the answers.
 
-use super::chain::{self, Piece};
 use super::counting::Counted;
-use super::one_loop::Proof;
 use crate::PartRank;
 use kutzbach_closure::{Part, Rigid};
 use kutzbach_math::group::{DisplacementSubgroup, GroupError, Pose, Subalgebra, SubgroupKind};
 use kutzbach_model::mechanism::Mechanism;
 use nalgebra::{Matrix3, Vector3};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// More names than this are not listed.
 const MOST_NAMES: usize = 12;
 
-/// More reductions than this are not told in one sentence.
+/// More steps than this are not told in one sentence.
 const MOST_STEPS: usize = 3;
 
 /// How the numbers are read, as the beginning of a sentence.
@@ -48,66 +46,71 @@ pub fn independent(part: &Part, equations: usize, reading: &str) -> String {
 }
 
 /// A part whose freedom follows from bounds between all its links.
-pub fn counted(mechanism: &Mechanism, counted: &Counted) -> String {
-    let independent = equations(counted.equations);
-    let independent = independent.trim_end_matches(" are").trim_end_matches(" is");
+pub fn counted(mechanism: &Mechanism, part: &Part, counted: &Counted) -> String {
+    let coupled = coupled(part);
+    let left = equations(counted.equations);
+    let left = left.trim_end_matches(" are").trim_end_matches(" is");
     if counted.by_cycles_alone {
         return format!(
-            "of the displacements around the loops, those of each lie in a subgroup; the {independent} that this leaves, for loops \
-             whose subgroups are the smallest, are independent"
+            "of the displacements around the loops, those of each lie in a subgroup; the {left} that this leaves for loops whose \
+             subgroups are the smallest are independent{coupled}"
         );
     }
-    let mut clauses = Vec::new();
-    if !counted.held.is_empty() {
-        clauses.push(format!(
-            "leave {} no motion",
-            list(mechanism, &counted.held)
-        ));
-    }
-    if !counted.confined.is_empty() {
-        let joints: Vec<usize> = counted.confined.iter().map(|(joint, _)| *joint).collect();
-        let less = list(mechanism, &joints);
-        clauses.push(format!("leave {less} a smaller group than the joint has"));
-    }
-    let effect = match clauses.is_empty() {
-        true => String::new(),
-        false => format!("they {}; ", clauses.join(" and ")),
+    let steps = steps(mechanism, counted);
+    let found = match &steps[..] {
+        few if few.len() <= MOST_STEPS => few.join("; "),
+        [first, ..] => format!(
+            "subgroups bound what every two links do to each other, until none makes another smaller, as in: {first}",
+        ),
+        [] => String::new(),
     };
-    format!(
-        "subgroups bound what every two links do to each other, until no bound makes another smaller: {effect}the {independent} \
-         that the loops still ask for are independent"
-    )
+    format!("{found}; the {left} that the loops still ask for are independent{coupled}")
 }
 
-/// What bounds between all links leave to single joints, one line each.
-pub fn confined(mechanism: &Mechanism, counted: &Counted) -> Vec<String> {
+/// What bounds between all links leave to single joints and between chains, one line each.
+pub fn steps(mechanism: &Mechanism, counted: &Counted) -> Vec<String> {
+    let chords = counted.chords.iter().map(|chord| {
+        let [first, second] = chord.chains.each_ref().map(|(joints, group)| {
+            let chain = list(mechanism, joints);
+            format!("chain {chain} generates {}", named_algebra(group))
+        });
+        format!(
+            "{first}, {second}; they meet in {}",
+            named_algebra(&chord.common)
+        )
+    });
+    let parallelograms = counted.parallelograms.iter().map(|joints| {
+        format!(
+            "the loop {} is a parallelogram, whose coupler is translated along a circle",
+            list(mechanism, joints)
+        )
+    });
     let held = counted.held.iter();
     let held = held.map(|joint| format!("{} stands still", list(mechanism, &[*joint])));
     let confined = counted.confined.iter().map(|(joint, group)| {
-        format!(
-            "{} stays in {}",
-            list(mechanism, &[*joint]),
-            named_algebra(group)
-        )
+        let joint = list(mechanism, &[*joint]);
+        format!("{joint} stays in {}", named_algebra(group))
     });
-    held.chain(confined).collect()
+    chords
+        .chain(parallelograms)
+        .chain(held)
+        .chain(confined)
+        .collect()
+}
+
+/// How the couplings of a part are named beside its equations.
+fn coupled(part: &Part) -> String {
+    match part.couplings.len() {
+        0 => String::new(),
+        1 => " together with that of the coupling".to_owned(),
+        n => format!(" together with those of the {n} couplings"),
+    }
 }
 
 /// Groups and rank that contradict each other. Both are computed from the same screws; they can differ only where a margin deceives.
 pub fn contradiction(found: usize, freedom: usize) -> String {
     format!(
         "the subgroups leave {found} freedoms where the rank at the pose leaves {freedom}: the numbers do not tell which"
-    )
-}
-
-/// A part whose couplings ask for something else than its loops, which subgroups explain.
-pub fn coupled(of_loops: &str, couplings: usize) -> String {
-    let these = match couplings {
-        1 => "its coupling is one more".to_owned(),
-        n => format!("its {n} couplings are as many more"),
-    };
-    format!(
-        "without couplings: {of_loops}; {these} on the manifold of these motions, independent of one another"
     )
 }
 
@@ -120,11 +123,7 @@ pub fn loop_spaces(
     reading: &str,
 ) -> String {
     let sum: usize = algebras.iter().map(Subalgebra::dimension).sum();
-    let coupled = match part.couplings.len() {
-        0 => String::new(),
-        1 => " together with that of the coupling".to_owned(),
-        n => format!(" together with those of the {n} couplings"),
-    };
+    let coupled = coupled(part);
     if let ([cycle], [algebra]) = (&part.cycles[..], algebras) {
         let joints: Vec<usize> = cycle.iter().map(|(joint, _)| *joint).collect();
         let group = match (frame, algebra.subgroup().ok().flatten()) {
@@ -163,96 +162,10 @@ pub fn loop_spaces(
     )
 }
 
-/// Why a loop's configurations are a manifold.
-pub fn proof(mechanism: &Mechanism, pieces: &[&Piece], proof: &Proof) -> String {
-    let all = chain::joints(pieces.iter().copied());
-    match proof {
-        Proof::Whole(group) => format!(
-            "the loop {} sweeps {}; its {} independent",
-            list(mechanism, &all),
-            named_algebra(group),
-            equations(group.dimension())
-        ),
-        Proof::Split(arcs, common) => {
-            let [first, second] = arcs.each_ref().map(|arc| {
-                format!(
-                    "chain {} generates {}",
-                    chain_of(mechanism, arc.pieces.iter().map(|&i| pieces[i])),
-                    named_algebra(&arc.group)
-                )
-            });
-            format!("{first}, {second}; they meet in {}", named_algebra(common))
-        }
-        Proof::Held { arcs, .. } => {
-            let loose: Vec<String> = arcs
-                .iter()
-                .filter(|arc| {
-                    chain::freedom(arc.pieces.iter().map(|&i| pieces[i])) > arc.group.dimension()
-                })
-                .map(|arc| {
-                    format!(
-                        "chain {} generates {}",
-                        chain_of(mechanism, arc.pieces.iter().map(|&i| pieces[i])),
-                        named_algebra(&arc.group)
-                    )
-                })
-                .collect();
-            let all = list(mechanism, &all);
-            if loose.is_empty() {
-                format!("no velocity closes the loop {all}, so it stands still")
-            } else {
-                format!(
-                    "in the loop {all}, {}; beyond that no velocity closes the loop, so only what moves within these chains \
-                     moves",
-                    loose.join(", ")
-                )
-            }
-        }
-    }
-}
-
-/// A chain that constrains nothing.
-pub fn free_chain(mechanism: &Mechanism, pieces: &[Piece]) -> String {
-    format!(
-        "chain {} allows every displacement of its ends, so it constrains nothing",
-        list(mechanism, &chain::joints(pieces))
-    )
-}
-
-/// What the reductions left, explained by its loop spaces.
-pub fn remainder(mechanism: &Mechanism, joints: &[usize], rank: usize) -> String {
-    format!(
-        "in the network that is left, of {}, the {} that the subgroups of its loops leave are independent",
-        list(mechanism, joints),
-        equations(rank)
-            .trim_end_matches(" are")
-            .trim_end_matches(" is")
-    )
-}
-
-/// The reductions in one sentence.
-pub fn summary(steps: &[String]) -> String {
-    match steps {
-        [] => "the joints close no loop".to_owned(),
-        steps if steps.len() <= MOST_STEPS => steps.join("; then "),
-        [.., last] => format!(
-            "subgroups explain the loops one after the other, in {} steps, the last of which is: {last}",
-            steps.len()
-        ),
-    }
-}
-
 /// Nothing decided.
-pub fn stuck(chains: usize, steps: usize) -> String {
-    match steps {
-        0 => {
-            "neither the subgroups of the loops nor those of two chains of a loop explain the rank"
-                .to_owned()
-        }
-        _ => format!(
-            "subgroups explain a part of the mechanism only: {chains} chains are left whose loops they do not explain"
-        ),
-    }
+pub fn unexplained() -> String {
+    "neither the subgroups of the loops nor what they leave between every two links explain the rank"
+        .to_owned()
 }
 
 /// Nothing decided because of the numbers.
@@ -302,40 +215,6 @@ fn equations(count: usize) -> String {
         1 => "1 equation is".to_owned(),
         n => format!("{n} equations are"),
     }
-}
-
-/// The joints of a chain, each once; where a chain holds a part of a joint, that part.
-fn chain_of<'a>(mechanism: &Mechanism, pieces: impl Iterator<Item = &'a Piece> + Clone) -> String {
-    let mut names: Vec<String> = Vec::new();
-    for piece in pieces.clone() {
-        match piece {
-            Piece::Factor {
-                joint,
-                first,
-                twists,
-                ..
-            } => {
-                let all = &mechanism.joints()[*joint];
-                let held: usize = pieces
-                    .clone()
-                    .filter(|other| other.joints() == [*joint])
-                    .map(Piece::freedom)
-                    .sum();
-                let name = match all.kind.freedoms().get(*first) {
-                    _ if held >= all.freedom() => all.name.clone(),
-                    Some(part) if twists.len() > 1 => format!("{}.{}", all.name, part.suffix()),
-                    _ => all.freedom_name(*first),
-                };
-                names.push(name);
-            }
-            Piece::Replaced(loop_) => {
-                names.extend(names_of(mechanism, &loop_.joints));
-            }
-        }
-    }
-    let mut seen = BTreeSet::new();
-    names.retain(|name| seen.insert(name.clone()));
-    quoted(&names)
 }
 
 fn list(mechanism: &Mechanism, joints: &[usize]) -> String {

@@ -62,24 +62,68 @@ pub(super) fn orthonormalise(r: &mut [[f64; 3]; 3]) {
     }
 }
 
+/// The axis of a smaller turn (rad) than this is known to less than seven digits, and no better than that which it had before.
+const AXIS_SEEN: f64 = 1e-9;
+
 /// The rotation vector of the same rotation that is nearest to the values before: whole turns are added along its axis.
 pub(super) fn nearest_turn(
     turn: &Vector<f64>,
     generators: &[(Vector<f64>, Vector<f64>)],
     before: &[f64],
 ) -> Vector<f64> {
-    let angle = norm(turn);
-    if angle < 1e-9 {
-        return *turn;
-    }
-    let axis = turn.map(|t| t / angle);
     let mut old = [0.0; 3];
     for (value, (angular, _)) in before.iter().zip(generators) {
         for (o, a) in old.iter_mut().zip(angular) {
             *o += a * value;
         }
     }
+    let angle = norm(turn);
+    if angle < AXIS_SEEN {
+        // No turn is every whole turn about every axis: that about the axis before is the nearest.
+        let before = norm(&old);
+        let turns = (before / std::f64::consts::TAU).round();
+        return match turns > 0.0 {
+            true => old.map(|o| o / before * turns * std::f64::consts::TAU),
+            false => *turn,
+        };
+    }
+    let axis = turn.map(|t| t / angle);
     let along: f64 = axis.iter().zip(&old).map(|(a, o)| a * o).sum();
     let turns = ((along - angle) / std::f64::consts::TAU).round();
     axis.map(|a| a * (angle + turns * std::f64::consts::TAU))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    #[test]
+    fn a_full_turn_is_counted_on_where_no_axis_is_seen() {
+        let own = [0, 1, 2].map(|axis| {
+            let unit = [0, 1, 2].map(|k| if k == axis { 1.0 } else { 0.0 });
+            (unit, [0.0; 3])
+        });
+        let after = |turn: [f64; 3], before: [f64; 3]| nearest_turn(&turn, &own, &before);
+        let close = |a: [f64; 3], b: [f64; 3]| {
+            assert!(
+                norm(&[a[0] - b[0], a[1] - b[1], a[2] - b[2]]) < 1e-12,
+                "{a:?} {b:?}"
+            );
+        };
+        // Just before, at and just after a full turn about z, and at the start, where nothing has turned.
+        close(
+            after([0.0, 0.0, -0.1], [0.0, 0.0, 6.1]),
+            [0.0, 0.0, TAU - 0.1],
+        );
+        close(after([0.0; 3], [0.0, 0.0, 6.2]), [0.0, 0.0, TAU]);
+        close(
+            after([0.0, 0.0, 0.1], [0.0, 0.0, TAU]),
+            [0.0, 0.0, TAU + 0.1],
+        );
+        close(after([1e-17, 0.0, 0.0], [0.0, 0.0, 0.1]), [1e-17, 0.0, 0.0]);
+        // About an oblique axis, backward, twice around.
+        let twice = [-1.2 * TAU, 0.0, -1.6 * TAU];
+        close(after([0.0; 3], twice.map(|x| 0.99 * x)), twice);
+    }
 }
