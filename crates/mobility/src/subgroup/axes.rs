@@ -4,7 +4,7 @@ use kutzbach_math::group::{Gauge, Twist};
 use nalgebra::Vector6;
 
 /// How many times its error a number must exceed to be told from zero without a decomposition.
-const SAFE: f64 = 100.0;
+pub const SAFE: f64 = 100.0;
 
 /// What is known of the screws added so far, in a gauge.
 ///

@@ -1,6 +1,6 @@
 //! Displacement subgroups met in a part, each once, with what two of them generate and have in common.
 
-use super::axes::Axes;
+use super::axes::{Axes, SAFE};
 use super::clear;
 use kutzbach_math::group::{Gauge, GroupError, Margin, ScrewSystem, Subalgebra, Twist};
 use std::collections::BTreeMap;
@@ -110,9 +110,27 @@ impl Groups {
         if self.clearly_everything(screws(a).chain(screws(b))) {
             return Ok(EVERYTHING);
         }
+        if let Some(known) = self.join_met(small, large) {
+            return Ok(known);
+        }
         let screws: Vec<Twist> = screws(a).chain(screws(b)).copied().collect();
         let algebra = self.algebra(a).join(self.algebra(b))?;
         Ok(self.numbered(algebra, &screws).unwrap_or(EVERYTHING))
+    }
+
+    /// A group of three dimensions already met that two groups generate, neither of which lies in the other: both lie in it, and they generate
+    /// more than two, since one of them has two or they do not commute. Spares decompositions.
+    fn join_met(&self, small: Group, large: Group) -> Option<Group> {
+        let met = (0..self.known.len()).map(Group).find(|&group| {
+            self.dimension(group) == 3
+                && self.is_within(small, group)
+                && self.is_within(large, group)
+        })?;
+        let [one, other] = [small, large].map(|group| self.known[group.0].basis.first());
+        let bracket = one?.bracket(other?);
+        let visible = SAFE * self.gauge.tolerance().max(ROUNDING);
+        let commute = self.gauge.measure(&bracket).norm() <= visible;
+        (self.dimension(large) == 2 || !commute).then_some(met)
     }
 
     /// What both have in common.

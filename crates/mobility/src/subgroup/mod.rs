@@ -32,7 +32,7 @@
 //!
 //! # What the answer satisfies
 //! Ranks are decided with the margin of [`kutzbach_math::group::Margin`] on geometry as accurate as the part's rank was decided
-//! with. A thin margin anywhere means no decision. Where a file is rounded, its subgroups are those within the stated
+//! with. Where a margin is thin, a larger group takes the place of what is not clear, which may mean no decision. Where a file is rounded, its subgroups are those within the stated
 //! precision, and the text says so.
 //!
 //! # Cost
