@@ -107,7 +107,7 @@ impl Network {
             least: least.freedom,
             idle,
             equations: least.equations,
-            by_cycles_alone: least.by_cycles && held.is_empty() && confined.is_empty(),
+            by_cycles_alone: least.by_cycles && !self.tightened,
             held,
             confined,
             chords: self.told,

@@ -36,6 +36,8 @@ pub struct Network {
     pub translated: BTreeMap<(usize, usize), Group>,
     /// The cycles of these parallelograms.
     pub circles: BTreeSet<Vec<usize>>,
+    /// Whether bounds left some members less than they have, or made bodies one.
+    pub tightened: bool,
     /// Chords so far.
     pub told: Vec<Chord>,
 }
@@ -89,12 +91,14 @@ impl Network {
             couplings: couplings.collect(),
             translated: BTreeMap::new(),
             circles: BTreeSet::new(),
+            tightened: false,
             told: Vec::new(),
         })
     }
 
     /// Freedom without effect. A body between two members A and B only may be displaced by A∩B, whatever else moves: these displacements
-    /// act freely on the configurations, those of all such bodies together.
+    /// act on the configurations. Seen from a body that is left out they act freely, those of all others together, so that the dimensions
+    /// add up; where every body is such a one, one of them is left out.
     pub fn idle(&mut self) -> Result<usize, GroupError> {
         let coupled: BTreeSet<usize> = self.couplings.iter().flatten().copied().collect();
         let mut at: Vec<Vec<usize>> = vec![Vec::new(); self.count];
@@ -103,9 +107,10 @@ impl Network {
                 at[end].push(number);
             }
         }
-        let mut idle = 0;
+        let mut idle = Vec::with_capacity(self.count);
         for members in at {
             let [one, other] = members[..] else {
+                idle.push(0);
                 continue;
             };
             let both = [&self.between[one], &self.between[other]];
@@ -113,12 +118,16 @@ impl Network {
                 member.freedom == self.groups.dimension(member.group)
                     && member.joint.is_none_or(|joint| !coupled.contains(&joint))
             });
-            if whole {
-                let common = self.groups.meet(both[0].group, both[1].group)?;
-                idle += self.groups.dimension(common);
-            }
+            idle.push(match whole {
+                true => {
+                    let common = self.groups.meet(both[0].group, both[1].group)?;
+                    self.groups.dimension(common)
+                }
+                false => 0,
+            });
         }
-        Ok(idle)
+        let least = idle.iter().min().copied().unwrap_or(0);
+        Ok(idle.iter().sum::<usize>() - least)
     }
 
     /// Lets bounds, couplings, independent groups and parallelograms act on one another until nothing changes.
@@ -297,6 +306,20 @@ impl Network {
         Ok(Some(([bodies[0], bodies[1], bodies[2], bodies[3]], plane)))
     }
 
+    /// How many bodies there are, those counted once that members without freedom hold together.
+    fn solid(&self) -> usize {
+        let mut of: Vec<usize> = (0..self.count).collect();
+        let mut solid = self.count;
+        for member in self.between.iter().filter(|m| m.group == NOTHING) {
+            let [a, b] = member.ends.map(|end| root(&mut of, end));
+            if a != b {
+                of[a] = b;
+                solid -= 1;
+            }
+        }
+        solid
+    }
+
     /// Makes links one that do not move against each other, and leaves each joint what the bounds leave it. Whether that brings together
     /// bodies that had not been looked at together.
     pub fn unite(&mut self) -> Result<bool, GroupError> {
@@ -314,6 +337,7 @@ impl Network {
                 *numbers.entry(root(&mut of, body)).or_insert(next)
             })
             .collect();
+        self.tightened |= numbers.len() < self.solid();
         let mut kept: Vec<Option<usize>> = Vec::with_capacity(self.between.len());
         let mut between = Vec::new();
         for member in &self.between {
@@ -324,6 +348,7 @@ impl Network {
             }
             let group = self.left(member);
             let lost = self.groups.dimension(member.group) - self.groups.dimension(group);
+            self.tightened |= lost > 0;
             kept.push(Some(between.len()));
             between.push(Between {
                 ends,

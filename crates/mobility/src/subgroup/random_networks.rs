@@ -298,3 +298,14 @@ fn what_stands_still_is_no_link_of_its_own() {
     ]));
     assert_eq!(answer(&found), (Some(1), EXCEPTIONAL), "{}", found.text);
 }
+
+/// Two rods and a bar, linked by balls on one line: both rods spin, and the bar is no third.
+#[test]
+fn what_turns_as_a_whole_is_no_freedom_of_its_own() {
+    let found = finding(&network(&[
+        ("left", Spherical, "bar", "one", [0.0; 3], Z),
+        ("middle", Spherical, "one", "two", [2.0, 0.0, 0.0], Z),
+        ("right", Spherical, "two", "bar", [5.0, 0.0, 0.0], Z),
+    ]));
+    assert_eq!((found.finite, found.lower), (None, 2), "{}", found.text);
+}

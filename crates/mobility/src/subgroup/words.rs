@@ -57,12 +57,12 @@ pub fn counted(mechanism: &Mechanism, part: &Part, counted: &Counted) -> String 
         );
     }
     let steps = steps(mechanism, counted);
+    let bounded =
+        "subgroups bound what every two links do to each other, until none makes another smaller";
     let found = match &steps[..] {
+        [] => bounded.to_owned(),
         few if few.len() <= MOST_STEPS => few.join("; "),
-        [first, ..] => format!(
-            "subgroups bound what every two links do to each other, until none makes another smaller, as in: {first}",
-        ),
-        [] => String::new(),
+        [first, ..] => format!("{bounded}, as in: {first}"),
     };
     format!("{found}; the {left} that the loops still ask for are independent{coupled}")
 }
