@@ -16,6 +16,8 @@ pub struct Between {
     pub joint: Option<usize>,
     /// Dimension of the manifold.
     pub freedom: usize,
+    /// Whether it follows from other members.
+    pub again: bool,
     /// The subgroup.
     pub group: Group,
 }
@@ -30,13 +32,11 @@ pub struct Bodies {
     pub cycles: Vec<Vec<usize>>,
     /// The bodies of each joint's two links.
     pub links: BTreeMap<usize, [usize; 2]>,
-    /// Further bodies, with what binds them: they divide a joint's motion in another order.
-    pub otherwise: Vec<Between>,
 }
 
 impl Bodies {
     /// The bodies of a part: its links, and one more between the two subgroups of a joint that is a product. `divided` puts bodies also
-    /// between the translations and the rotations of joints that are one subgroup.
+    /// between the translations and the rotations of joints that are one subgroup, in both orders.
     pub fn new(
         mechanism: &Mechanism,
         structure: &Structure,
@@ -63,7 +63,6 @@ impl Bodies {
             between: Vec::new(),
             cycles: Vec::new(),
             links,
-            otherwise: Vec::new(),
         };
         let mut of_joints = BTreeMap::new();
         for (joint, screws) in order {
@@ -73,12 +72,17 @@ impl Bodies {
             let both = bodies.links[&joint];
             let chain = bodies.chain(joint, both, &factors, groups)?;
             bodies.between.extend(chain);
-            of_joints.insert(joint, first..bodies.between.len());
+            let own = first..bodies.between.len();
             if divided && factors.len() > 1 && kind.is_subgroup() {
                 let turned: Vec<_> = factors.into_iter().rev().collect();
-                let chain = bodies.chain(joint, both, &turned, groups)?;
-                bodies.otherwise.extend(chain);
+                let mut chain = bodies.chain(joint, both, &turned, groups)?;
+                chain.iter_mut().for_each(|member| member.again = true);
+                bodies.between.extend(chain);
+                // Both orders close a cycle that asks for as much as the second has freedom.
+                let again = own.end..bodies.between.len();
+                bodies.cycles.push(own.clone().chain(again.rev()).collect());
             }
+            of_joints.insert(joint, own);
         }
         for cycle in &part.cycles {
             let mut walk = Vec::new();
@@ -116,6 +120,7 @@ impl Bodies {
                 ends: [at, next],
                 joint: Some(joint),
                 freedom: screws.len(),
+                again: false,
                 group: groups.generated_by(screws)?,
             });
             at = next;
@@ -125,6 +130,7 @@ impl Bodies {
                 ends: [from, to],
                 joint: Some(joint),
                 freedom: 0,
+                again: false,
                 group: groups.generated_by(&[])?,
             });
         }

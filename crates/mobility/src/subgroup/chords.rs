@@ -47,6 +47,7 @@ impl Network {
                 ends: chord,
                 joint: None,
                 freedom: self.groups.dimension(group),
+                again: true,
                 group,
             });
             news = true;

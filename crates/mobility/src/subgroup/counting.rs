@@ -67,10 +67,9 @@ pub fn count(
     }
     let divided =
         Network::new(mechanism, structure, part, placed, true)?.counted(structure, freedom)?;
-    Ok(if divided.least > whole.least {
-        divided
-    } else {
-        whole
+    Ok(match divided.least < freedom {
+        true => whole,
+        false => divided,
     })
 }
 
@@ -130,12 +129,12 @@ impl Network {
                 equations += self.equations(cycle)?;
             }
             let free: usize = self.between.iter().map(|member| member.freedom).sum();
-            let chords = self.between.iter().filter(|member| member.joint.is_none());
-            let chords: usize = chords.map(|chord| chord.freedom).sum();
+            let again = self.between.iter().filter(|member| member.again);
+            let again: usize = again.map(|member| member.freedom).sum();
             let least = Least {
                 freedom: free.saturating_sub(equations + coupled),
-                equations: equations.saturating_sub(chords),
-                by_cycles: chords == 0 && self.translated.is_empty(),
+                equations: equations.saturating_sub(again),
+                by_cycles: again == 0 && self.translated.is_empty(),
             };
             if least.freedom >= best.freedom {
                 best = least;

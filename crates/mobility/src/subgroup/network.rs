@@ -25,8 +25,6 @@ pub struct Network {
     pub count: usize,
     /// What is left of the joints, and chords.
     pub between: Vec<Between>,
-    /// Joints once more, divided in another order.
-    pub otherwise: Vec<Between>,
     pub cycles: Vec<Vec<usize>>,
     /// The bodies of the links of each joint, and the joint's own group.
     pub joints: BTreeMap<usize, ([usize; 2], Group)>,
@@ -53,16 +51,21 @@ impl Network {
     ) -> Result<Self, GroupError> {
         let mut groups = Groups::new(placed.gauge)?;
         let bodies = Bodies::new(mechanism, structure, part, placed, divided, &mut groups)?;
+        let mut of_joints: BTreeMap<Option<usize>, BTreeSet<usize>> = BTreeMap::new();
+        for member in &bodies.between {
+            of_joints
+                .entry(member.joint)
+                .or_default()
+                .extend(member.ends);
+        }
         let mut near: Vec<Vec<usize>> = Vec::with_capacity(bodies.cycles.len());
         for cycle in &bodies.cycles {
             let joints: BTreeSet<_> = cycle.iter().map(|i| bodies.between[*i].joint).collect();
-            let members = cycle.iter().map(|i| &bodies.between[*i]);
-            let otherwise = bodies.otherwise.iter();
-            let all = members.chain(otherwise.filter(|other| joints.contains(&other.joint)));
-            near.push(all.flat_map(|member| member.ends).collect());
+            let all = joints.iter().filter_map(|joint| of_joints.get(joint));
+            near.push(all.flatten().copied().collect());
         }
         let mut bounds = Bounds::new(bodies.count, &near);
-        for member in bodies.between.iter().chain(&bodies.otherwise) {
+        for member in &bodies.between {
             let [a, b] = member.ends;
             bounds.restrict(&mut groups, a, b, member.group)?;
         }
@@ -85,7 +88,6 @@ impl Network {
             bounds,
             count: bodies.count,
             between: bodies.between,
-            otherwise: bodies.otherwise,
             cycles: bodies.cycles,
             joints,
             couplings: couplings.collect(),
@@ -134,17 +136,10 @@ impl Network {
     pub fn settle(&mut self) -> Result<(), GroupError> {
         self.bounds.settle(&mut self.groups)?;
         let cycles = self.few_cycles();
-        let all = [&self.between[..], &self.otherwise].concat();
-        let ways = match all.len() {
-            ..=MOST_MEMBERS if !self.otherwise.is_empty() => candidates(&all, self.count),
-            _ => cycles.clone(),
-        };
         loop {
             let mut news = self.couple()?;
-            for cycle in &ways {
-                news |= self.hold(&all, cycle)?;
-            }
             for cycle in &cycles {
+                news |= self.hold(cycle)?;
                 news |= self.translate(cycle)?;
             }
             if !news {
@@ -197,9 +192,9 @@ impl Network {
 
     /// Chains around a cycle whose groups are independent all stand still, since only identities multiply to the identity. The cycle is
     /// divided into the chains whose dimensions add up to the least.
-    fn hold(&mut self, members: &[Between], cycle: &[usize]) -> Result<bool, GroupError> {
+    fn hold(&mut self, cycle: &[usize]) -> Result<bool, GroupError> {
         let count = cycle.len();
-        let Some(bodies) = walk(members, cycle).filter(|_| count <= LONGEST_CYCLE) else {
+        let Some(bodies) = walk(&self.between, cycle).filter(|_| count <= LONGEST_CYCLE) else {
             return Ok(false);
         };
         // The groups that chains of each length generate from each body on.
@@ -208,7 +203,7 @@ impl Network {
             let mut longer = NOTHING;
             let mut own = Vec::with_capacity(count);
             for step in 0..count - 1 {
-                let next = self.left(&members[cycle[(start + step) % count]]);
+                let next = self.left(&self.between[cycle[(start + step) % count]]);
                 longer = self.groups.join(longer, next)?;
                 own.push(longer);
             }
@@ -357,11 +352,6 @@ impl Network {
                 ..member.clone()
             });
         }
-        for member in &mut self.otherwise {
-            member.ends = member.ends.map(|end| names[end]);
-        }
-        self.otherwise
-            .retain(|member| member.ends[0] != member.ends[1]);
         let united = numbers.len() < self.count;
         self.between = between;
         for cycle in &mut self.cycles {

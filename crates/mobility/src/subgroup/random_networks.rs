@@ -309,3 +309,16 @@ fn what_turns_as_a_whole_is_no_freedom_of_its_own() {
     ]));
     assert_eq!((found.finite, found.lower), (None, 2), "{}", found.text);
 }
+
+/// A cylinder whose slide lies in the plane at its one end, and whose turn belongs to the ball at the other: either order of both may be needed.
+#[test]
+fn a_cylinder_is_taken_apart_in_both_orders() {
+    for [from, to] in [["a", "b"], ["b", "a"]] {
+        let found = finding(&network(&[
+            ("ball", Spherical, "a", "c", [0.0; 3], Z),
+            ("plane", Planar, "c", "b", [2.0, 1.0, 0.0], Z),
+            ("cylinder", Cylindrical, from, to, [0.0; 3], [1.0, 0.0, 0.0]),
+        ]));
+        assert_eq!(answer(&found), (Some(3), EXCEPTIONAL), "{}", found.text);
+    }
+}
