@@ -52,9 +52,13 @@ pub(super) fn lay_over(
     if mechanism.freedom() > VARIABLES || branches.len() > BRANCHES {
         return;
     }
-    for branch in branches.iter().filter(|branch| branch.dimension == 1) {
+    for (index, branch) in branches.iter().enumerate() {
+        if branch.dimension != 1 {
+            continue;
+        }
         let options = TraceOptions {
             branch: Some(branch.name.clone()),
+            drive: proposed(report).filter(|_| index == 0),
             samples: 2,
             poses: POSES,
             configuration: Some(configuration.to_owned()),
@@ -66,6 +70,13 @@ pub(super) fn lay_over(
             pitches(report, mechanism, &mut motion);
         }
     }
+}
+
+/// The input that was found for the first branch, where nobody names one: what following that branch would find again.
+fn proposed(report: &Report) -> Option<String> {
+    let inputs = report.inputs.as_ref()?;
+    let nobody = inputs.given.is_empty();
+    inputs.proposed.first().filter(|_| nobody).cloned()
 }
 
 /// Lays the ranges of the joints over the report.
