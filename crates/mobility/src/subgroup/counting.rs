@@ -152,10 +152,11 @@ impl Network {
         self.translated.clear();
         self.circles.clear();
         for cycle in &all {
-            if let Some((bodies, plane)) = self.parallelogram(cycle)? {
+            if let Some((_, plane)) = self.parallelogram(cycle)? {
                 self.circles.insert(cycle.clone());
-                for [a, b] in [[bodies[0], bodies[2]], [bodies[1], bodies[3]]] {
-                    self.translated.insert((a.min(b), a.max(b)), plane);
+                for (one, next) in cycle.iter().zip(cycle.iter().cycle().skip(1)) {
+                    self.translated
+                        .insert([*one.min(next), *one.max(next)], plane);
                 }
             }
         }
@@ -201,8 +202,10 @@ impl Network {
         }
         let count = cycle.len();
         let coupler = |position: usize| {
-            let (a, b) = (bodies[position % count], bodies[(position + 2) % count]);
-            self.translated.get(&(a.min(b), a.max(b))).copied()
+            let [one, next] = [position, position + 1].map(|place| cycle[place % count]);
+            self.translated
+                .get(&[one.min(next), one.max(next)])
+                .copied()
         };
         // Begin where no parallelogram is cut in two, if two of them do not overlap.
         let start = (0..count)

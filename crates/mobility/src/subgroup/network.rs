@@ -30,8 +30,8 @@ pub struct Network {
     pub joints: BTreeMap<usize, ([usize; 2], Group)>,
     /// The joints of each coupling.
     pub couplings: Vec<Vec<usize>>,
-    /// Two bodies of a parallelogram that only translate against one another: in the translations of its plane.
-    pub translated: BTreeMap<(usize, usize), Group>,
+    /// Two members that are half a parallelogram: the bodies at their ends only translate against one another, in its plane.
+    pub translated: BTreeMap<[usize; 2], Group>,
     /// The cycles of these parallelograms.
     pub circles: BTreeSet<Vec<usize>>,
     /// Whether bounds left some members less than they have, or made bodies one.

@@ -192,6 +192,27 @@ fn a_parallelogram_translates() {
     assert_eq!(answer(&shaky), (None, None), "{}", shaky.text);
 }
 
+/// A parallelogram, and a third bar parallel to its cranks: the coupler's translation is that of the cranks, and not of the bar.
+#[test]
+fn a_parallel_bar_of_another_length_is_no_crank() {
+    let with_bar = |length: f64| {
+        use JointKind::Revolute;
+        finding(&network(&[
+            ("a0", Revolute, "a", "d", O, Z),
+            ("b0", Revolute, "d", "b", [0.0, 2.0, 0.0], Z),
+            ("a1", Revolute, "a", "e", [4.0, 0.0, 0.0], Z),
+            ("b1", Revolute, "e", "b", [4.0, 2.0, 0.0], Z),
+            ("a2", Revolute, "a", "f", [9.0, 1.0, 0.0], Z),
+            ("b2", Revolute, "f", "b", [9.0, 1.0 + length, 0.0], Z),
+        ]))
+    };
+    for length in [2.0 + 1e-6, 2.3, 1.0] {
+        let found = with_bar(length);
+        assert_eq!(found.upper, Some(1), "at the pose it moves");
+        assert_eq!(answer(&found), (None, None), "{length}: {}", found.text);
+    }
+}
+
 /// Six slides along z, one of them made of two cylindrical joints, on the edges of a tetrahedron: no two are in series or
 /// in parallel.
 #[test]
