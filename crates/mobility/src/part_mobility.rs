@@ -207,7 +207,7 @@ pub(super) fn by_subgroups(
         rank,
     )?;
     if !question.is_independent()
-        && subgroups.finite.is_some()
+        && (subgroups.finite.is_some() || subgroups.lower > 0)
         && let Some(offset) = hidden_offset(pose, means.more, part, rank)?
     {
         subgroups = subgroups.withdrawn(offset, Some(freedom));
