@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # pin 4.1.0: upper-case letters of eulerseq in an MJCF file turn about moving axes, where MuJoCo turns about fixed ones.
 #
-# MuJoCo's reference: lower case letters of compiler eulerseq "denote axes that rotate with the frame (intrinsic), while upper case
-# letters denote axes that remain fixed in the parent frame (extrinsic)". Pinocchio reads XYZ as xyz, without a word. The rpy of
+# In MuJoCo lower-case letters of compiler eulerseq are axes that turn with the frame (intrinsic), upper-case
+# ones axes that stay in the parent frame (extrinsic). Pinocchio reads XYZ as xyz, without a word. The rpy of
 # URDF is XYZ in MuJoCo's words, so files that came from URDF use it. With euler="30 40 50" the frame is turned by 45 degrees
 # against MuJoCo's. One nonzero angle shows no difference.
 set -euo pipefail

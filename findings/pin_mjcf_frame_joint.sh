@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # pin 4.1.0: a joint that an MJCF file writes inside a <frame> is gone, and its body is welded to its parent.
 #
-# MuJoCo's reference calls <frame> "a pure coordinate transformation" whose children "become children of the parent body": a joint
+# In MuJoCo <frame> only moves coordinates, and what it holds belongs to the parent body: a joint
 # in it is an ordinary joint whose place and axis are turned with the frame. Pinocchio's reader passes over <frame> inside a body
 # with all that it holds, without an error or a warning. A body whose only joint stands there becomes fixed, so the model has
 # one freedom less and loads well. <replicate> inside a body is passed over in the same way: three fingers, and none is left.

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # pin 4.1.0: a floating body that an MJCF file draws turned stands elsewhere than the same q puts it in MuJoCo.
 #
-# A free joint's variables are the position and orientation of the body in the world, whatever the body's own pos and euler (MuJoCo:
-# "its position and orientation" are global; the drawn pose is only the initial value). Pinocchio's reader keeps a placement between
+# A free joint's variables are the position and orientation of the body in the world, whatever the body's own pos and euler:
+# the drawn pose is only the initial value. Pinocchio's reader keeps a placement between
 # world and free joint that is p - R p for a body drawn at p and turned by R. It is zero for a body that is not turned, so that most
 # robots come out right. A body at (1, 0, 0.5) turned by a quarter turn is set off by (1, -1, 0) at every q, though q itself,
 # from the keyframe "qpos0", has the body's position.

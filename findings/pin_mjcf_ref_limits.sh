@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # pin 4.1.0: a joint of an MJCF file with ref="45" and range="0 90" gets limits of -45 to 45 degrees around a variable of 0 to 90.
 #
-# In MJCF ref is the value of the joint's variable in the pose drawn, and range bounds that variable: both are in one scale
-# (MuJoCo: "the position or angle of the joint when in the initial configuration"). Pinocchio reads ref into the reference
+# In MJCF ref is the value of the joint's variable in the pose drawn, and range bounds that variable: both are in one scale.
+# Pinocchio reads ref into the reference
 # configuration "qpos0" and moves links by q - ref, so that its q is MuJoCo's q. Its limits are moved by -ref nevertheless, and no
 # longer belong to q: the drawn pose, in the middle of the range, lies on the upper limit, half of the range is forbidden,
 # and 45 degrees beyond the lower stop are allowed.

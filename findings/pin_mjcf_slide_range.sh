@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # pin 4.1.0: the travel of a slide in an MJCF file is divided by 57.3.
 #
-# MuJoCo's reference says of a joint's range that it is in degrees or radians "depending on the angle attribute of compiler" for
+# In MuJoCo a joint's range is in degrees or radians, as compiler angle says, for
 # hinges and balls; a slide's is a length whatever the compiler says. Pinocchio's MJCF reader converts the range of every
 # joint from degrees where the file states its angles in degrees, which is MJCF's default: a slide of 0 to 0.5 m comes out with
 # 0 to 0.0087 m. With angle="radian" both readers agree, so the fault shows in some files only.
