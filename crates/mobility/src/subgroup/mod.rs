@@ -59,7 +59,7 @@ use super::restricted::{LeftOut, without};
 use super::vocabulary::MobilityClass;
 use counting::Counted;
 use kutzbach_closure::Structure;
-use kutzbach_closure::{Geometry, JointState, Part};
+use kutzbach_closure::{Geometry, JointState, Part, rounding_of};
 use kutzbach_math::group::Margin;
 use kutzbach_math::matrix::MatrixError;
 use kutzbach_model::mechanism::Mechanism;
@@ -170,7 +170,14 @@ pub fn subgroup_finding(
         Err(error) => return open(finding, &words::failure(&error)),
     };
     match counting::count(mechanism, structure, part, &placed, freedom) {
-        Ok(counted) => finding.adopt(mechanism, part, &counted, freedom, reading),
+        Ok(counted) => {
+            finding.adopt(mechanism, part, &counted, freedom, reading);
+            // Axes that coincide within the digits may be two, between which nothing turns without effect.
+            let rounding = rounding_of(&rank.jacobian.walks, f64::EPSILON);
+            if finding.finite.is_none() && rank.stated > rounding {
+                finding.lower = 0;
+            }
+        }
         Err(error) => return open(finding, &words::failure(&error)),
     }
     if finding.finite.is_none() && couplings_repeat(part, rank, freedom) {
