@@ -13,8 +13,9 @@ use super::redundancy::SelfStresses;
 use super::relaxation::{Relaxed, contacts, mobility_stays, relaxations, standing_there};
 use super::row_space::RowSpace;
 use kutzbach_closure::{Geometry, JointState, Part, Vector};
-use kutzbach_math::matrix::MatrixError;
+use kutzbach_math::matrix::{CLEARANCE, MatrixError, ROUNDINGS};
 use kutzbach_model::mechanism::{JointKind, Mechanism};
+use nalgebra::DMatrix;
 
 /// A joint of another kind than it has.
 #[derive(Clone, Debug, PartialEq)]
@@ -119,13 +120,10 @@ pub(super) fn change_sets(
     };
     let mut sets = Vec::new();
     let mut complete = found.complete && found.sets.len() <= verified;
+    let mut check = Check::new(&ways, rank, threshold);
     for set in found.sets.iter().take(verified) {
-        let mut relaxed: Vec<(usize, Relaxed)> = set
-            .iter()
-            .map(|&way| (ways[way].change.joint, ways[way].relaxed.clone()))
-            .collect();
         let changes = set.iter().map(|&way| ways[way].change.clone()).collect();
-        if mobility_stays(&mut relaxed, geometry, states, part, rank, redundant)? {
+        if check.holds(set, geometry, states, part)? {
             sets.push(changes);
         } else {
             complete = false;
@@ -142,12 +140,109 @@ pub(super) fn change_sets(
     }))
 }
 
+/// Shows of sets that they work, by applying each set, or each of its ways and seeing that they are far from dependent.
+struct Check<'a> {
+    ways: &'a [Way],
+    rank: &'a PartRank,
+    threshold: f64,
+    /// Whether a way, applied alone, raises the rank by what it gains; `None` where it was not applied.
+    alone: Vec<Option<bool>>,
+}
+
+impl<'a> Check<'a> {
+    fn new(ways: &'a [Way], rank: &'a PartRank, threshold: f64) -> Self {
+        Self {
+            ways,
+            rank,
+            threshold,
+            alone: vec![None; ways.len()],
+        }
+    }
+
+    /// Whether with all ways of a set in place no constraint is redundant and the mobility is what it was.
+    fn holds(
+        &mut self,
+        set: &[usize],
+        geometry: &mut Geometry<f64>,
+        states: &mut [JointState<f64>],
+        part: &Part,
+    ) -> Result<bool, MatrixError> {
+        if self.are_far_from_dependent(set) {
+            for &way in set {
+                if self.alone[way].is_none() {
+                    self.alone[way] = Some(self.applied(&[way], geometry, states, part)?);
+                }
+            }
+            if set.iter().all(|&way| self.alone[way] == Some(true)) {
+                return Ok(true);
+            }
+        }
+        self.applied(set, geometry, states, part)
+    }
+
+    /// Applies some ways and decides the rank.
+    fn applied(
+        &self,
+        set: &[usize],
+        geometry: &mut Geometry<f64>,
+        states: &mut [JointState<f64>],
+        part: &Part,
+    ) -> Result<bool, MatrixError> {
+        let ways = set.iter().map(|&way| &self.ways[way]);
+        let gained = ways.clone().map(|way| way.gained).sum();
+        let mut relaxed: Vec<(usize, Relaxed)> = ways
+            .map(|way| (way.change.joint, way.relaxed.clone()))
+            .collect();
+        mobility_stays(&mut relaxed, geometry, states, part, self.rank, gained)
+    }
+
+    /// Whether the Jacobian with the columns of all ways has full row rank, by a bound.
+    ///
+    /// Let the columns of J be of unit length, s its smallest singular value that is not zero, and N an orthonormal basis of its left
+    /// kernel. Let the added columns T be of unit length too, θ their Frobenius norm, and t the smallest singular value of N·T. A
+    /// unit vector u + n, n in the kernel, is taken to a length whose square is at least s²|u|² + (t|n| − θ|u|)² where the bracket is
+    /// positive, and at least s²|u|² elsewhere. The quadratic form of |u| and |n| has the least eigenvalue det/trace or more, so that
+    /// the smallest singular value of [J T] is at least *s t / √(s² + t² + θ²)*; elsewhere |u|² ≥ t² / (t² + θ²), and the bound is
+    /// the same. As t is taken 1 / ‖(N·T)⁻¹‖_F less what the rows may be off by; the largest singular value is √columns at most.
+    fn are_far_from_dependent(&self, set: &[usize]) -> bool {
+        let ways = set.iter().map(|&way| &self.ways[way]);
+        let rows: Vec<(&Vec<f64>, f64)> = ways
+            .flat_map(|way| way.rows.iter().zip(way.lengths.iter().copied()))
+            .collect();
+        let count = rows.len();
+        if rows
+            .iter()
+            .any(|(row, length)| row.len() != count || !(*length > 0.0))
+        {
+            return false;
+        }
+        let loads = DMatrix::from_fn(count, count, |i, j| rows[i].0[j] / rows[i].1);
+        let Some(inverse) = loads.try_inverse() else {
+            return false;
+        };
+        let shortest = rows
+            .iter()
+            .map(|(_, length)| *length)
+            .fold(f64::INFINITY, f64::min);
+        let t = 1.0 / inverse.norm() - self.threshold / shortest * count as f64;
+        let decision = &self.rank.decision;
+        let s = decision.kept * decision.largest;
+        let columns = (self.rank.unknowns() + count) as f64;
+        let rounding = ROUNDINGS * f64::EPSILON * columns.max(self.rank.equations() as f64);
+        let accuracy = decision.accuracy.max(self.rank.accuracy).max(rounding);
+        let least = s * t / (s * s + t * t + count as f64).sqrt();
+        t > 0.0 && least > CLEARANCE * accuracy * columns.sqrt()
+    }
+}
+
 /// A way to change a joint.
 struct Way {
     change: JointChange,
     relaxed: Relaxed,
-    /// Rows that it frees.
+    /// Rows that it frees: N·T for a basis of the columns T that it adds, where N are the self-stresses.
     rows: Vec<Vec<f64>>,
+    /// Lengths of those columns, in the rows' order.
+    lengths: Vec<f64>,
     gained: usize,
 }
 
@@ -183,6 +278,7 @@ fn ways(
             change,
             relaxed,
             rows: Vec::new(),
+            lengths: Vec::new(),
             gained: to.freedom() - kind.freedom(),
         }
     };
@@ -207,8 +303,14 @@ impl Way {
         }
         // What the joint can do already is not loaded.
         let mut space = RowSpace::new(threshold);
-        self.rows = stresses.loads_of(rank, self.change.joint, &screws);
-        self.rows.retain(|row| space.add(row));
+        let loads = stresses.loads_of(rank, self.change.joint, &screws);
+        let lengths = stresses.column_lengths(rank, self.change.joint, &screws);
+        for (row, length) in loads.into_iter().zip(lengths) {
+            if space.add(&row) {
+                self.rows.push(row);
+                self.lengths.push(length);
+            }
+        }
         (self.rows.len() == self.gained).then_some(self)
     }
 

@@ -146,6 +146,24 @@ impl SelfStresses {
             .collect()
     }
 
+    /// The lengths of the columns that screws in a joint add to the Jacobian, the screws as for [`Self::loads_of`].
+    pub fn column_lengths(
+        &self,
+        rank: &PartRank,
+        joint: usize,
+        screws: &[PlacedScrew<f64>],
+    ) -> Vec<f64> {
+        let met = self.met.get(&joint).map_or(&[][..], Vec::as_slice);
+        let square = |screw: &PlacedScrew<f64>, &(cycle, position): &(usize, usize)| {
+            let walk = &rank.jacobian.walks[cycle];
+            let walked = &walk.joints[position];
+            let column = walk.column(walked, &screw.clone().moved(&walked.frame));
+            column.iter().map(|x| x * x).sum::<f64>()
+        };
+        let length = |screw| met.iter().map(|met| square(screw, met)).sum::<f64>().sqrt();
+        screws.iter().map(length).collect()
+    }
+
     /// The number of indeterminate reaction directions of a joint: the rank of its wrench matrix.
     pub fn indeterminate_wrenches(&self, rank: &PartRank, joint: usize) -> usize {
         let unit = |i: usize| {

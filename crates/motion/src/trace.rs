@@ -112,6 +112,7 @@ struct Tracer<'a> {
 }
 
 /// Everything found about one curve.
+#[derive(Clone, Debug)]
 pub(super) struct Found {
     pub curve: Curve,
     pub start: usize,

@@ -222,11 +222,12 @@ pub fn analysed_report_on(
     report.assembly.tolerance_asked = options.closure_tolerance.is_some();
     let pose = mechanism.configuration(configuration);
     report.four_bars = super::four_bar::four_bars(mechanism, &analysis, pose);
-    super::inputs::lay_over(&mut report, mechanism, &analysis, configuration, inputs);
+    let followed =
+        super::inputs::lay_over(&mut report, mechanism, &analysis, configuration, inputs);
     super::pose::warn(&mut report, mechanism, &analysis, configuration);
     super::extras::ask_between(&mut report, mechanism, &analysis, configuration, &pairs);
     if options.ranges {
-        super::ranges::lay_over(&mut report, mechanism, &analysis, configuration);
+        super::ranges::lay_over(&mut report, mechanism, &analysis, configuration, followed);
     }
     super::play::lay_over(
         &mut report,

@@ -6,7 +6,7 @@ use super::schema::{DependentInput, Follower, Freedoms, InputSource, Inputs, Lim
 use kutzbach_closure::{Arithmetic, Geometry};
 use kutzbach_mobility::{Actuation, Analysis, Branch, Freedom, limbs};
 use kutzbach_model::mechanism::{Mechanism, Placement};
-use kutzbach_motion::inputs;
+use kutzbach_motion::{Motion, inputs};
 
 /// Names of a root link that stands for the surroundings, not for a body of the machine.
 const SURROUNDINGS: [&str; 5] = ["world", "map", "odom", "ground", "universe"];
@@ -96,21 +96,15 @@ fn all_freedoms(mechanism: &Mechanism) -> impl Iterator<Item = Freedom> {
         .flat_map(|(joint, it)| (0..it.freedom()).map(move |variable| Freedom { joint, variable }))
 }
 
-/// Fills in what inputs do, where there is motion whose branch is known.
+/// Fills in what inputs do, where there is motion whose branch is known; the motion along the first branch, where it was followed.
 pub(super) fn lay_over(
     report: &mut Report,
     mechanism: &Mechanism,
     analysis: &Analysis,
     configuration: &str,
     asked: Vec<Freedom>,
-) {
-    let Some(branch) = analysis
-        .branches
-        .as_ref()
-        .and_then(|branches| branches.first())
-    else {
-        return;
-    };
+) -> Option<Motion> {
+    let branch = analysis.branches.as_ref()?.first()?;
     let geometry = Geometry::new(
         mechanism,
         mechanism.configuration(configuration),
@@ -120,8 +114,10 @@ pub(super) fn lay_over(
         .configuration(configuration)
         .map(|_| configuration);
     let found = inputs(mechanism, analysis, branch, named, asked);
-    let (given, source) = (found.given, found.source.map(InputSource::from));
-    let found = found.actuation;
+    let (given, source) = (found.given.clone(), found.source.map(InputSource::from));
+    let actuation = found.actuation.clone();
+    let motion = found.motion(mechanism, analysis, branch, named);
+    let found = actuation;
     let name = |freedom: &Freedom| mechanism.joints()[freedom.joint].freedom_name(freedom.variable);
     let names = |freedoms: &[Freedom]| freedoms.iter().map(name).collect::<Vec<_>>();
     let link = |index: usize| mechanism.links()[index].name.clone();
@@ -159,6 +155,7 @@ pub(super) fn lay_over(
             rows.collect()
         }),
     });
+    motion
 }
 
 fn followers(mechanism: &Mechanism, found: &Actuation) -> Vec<Follower> {

@@ -41,42 +41,41 @@ const RESTS: f64 = 1e-3;
 /// still altogether, as at a dead centre, slides as little as it turns.
 const SLIDES: f64 = 0.03;
 
-/// Follows every branch that is a curve. Nothing here changes the verdict.
+/// Follows every branch that is a curve; `first` is the motion along the first, where it was followed. Nothing here changes the
+/// verdict.
 pub(super) fn lay_over(
     report: &mut Report,
     mechanism: &Mechanism,
     analysis: &Analysis,
     configuration: &str,
+    first: Option<Motion>,
 ) {
     let branches = analysis.branches.as_deref().unwrap_or_default();
     if mechanism.freedom() > VARIABLES || branches.len() > BRANCHES {
         return;
     }
-    for (index, branch) in branches.iter().enumerate() {
-        if branch.dimension != 1 {
-            continue;
-        }
-        let options = TraceOptions {
-            branch: Some(branch.name.clone()),
-            drive: proposed(report).filter(|_| index == 0),
-            samples: 2,
-            poses: POSES,
-            configuration: Some(configuration.to_owned()),
-            ..TraceOptions::default()
-        };
-        // A branch that cannot be followed has no ranges to tell.
-        if let Ok(Trace::Moving(mut motion)) = trace(mechanism, analysis, &options) {
+    let mut first = first;
+    for branch in branches.iter().filter(|branch| branch.dimension == 1) {
+        let known = first.take_if(|known| known.branch == branch.name);
+        let motion = known.or_else(|| {
+            let options = TraceOptions {
+                branch: Some(branch.name.clone()),
+                samples: 2,
+                poses: POSES,
+                configuration: Some(configuration.to_owned()),
+                ..TraceOptions::default()
+            };
+            match trace(mechanism, analysis, &options) {
+                Ok(Trace::Moving(motion)) => Some(*motion),
+                // A branch that cannot be followed has no ranges to tell.
+                _ => None,
+            }
+        });
+        if let Some(mut motion) = motion {
             joints(report, mechanism, &motion);
             pitches(report, mechanism, &mut motion);
         }
     }
-}
-
-/// The input that was found for the first branch, where nobody names one: what following that branch would find again.
-fn proposed(report: &Report) -> Option<String> {
-    let inputs = report.inputs.as_ref()?;
-    let nobody = inputs.given.is_empty();
-    inputs.proposed.first().filter(|_| nobody).cloned()
 }
 
 /// Lays the ranges of the joints over the report.

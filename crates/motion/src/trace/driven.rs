@@ -4,9 +4,9 @@
 //! independent coordinates. What these leave free is proposed as [`kutzbach_mobility::actuation`] orders it. Of a part that moves along
 //! a curve it is also seen which joints go round, by following the curve once: a motor sits at a crank, not at the rocker.
 
-use super::Tracer;
+use super::{Found, Tracer};
 use crate::inputs::Variable;
-use crate::result::TraceOptions;
+use crate::result::{Motion, TraceOptions};
 use crate::system::LoopSystem;
 use kutzbach_mobility::{
     Actuation, Analysis, Branch, Freedom, PoseKind, actuation, pose_of_branch,
@@ -41,9 +41,37 @@ pub struct Inputs {
     pub source: Option<InputSource>,
     /// What these do, and what is proposed beside them; `None` where the branch or the margins do not tell.
     pub actuation: Option<Actuation>,
+    /// The curve that was followed to see what goes round, where the branch is one.
+    followed: Option<Box<Found>>,
 }
 
 impl Inputs {
+    /// The motion along the branch, where it is a curve and was followed to find the inputs: two samples of it, the inputs that
+    /// [`inputs`] was asked for being none. What is forward along it, and which variable it names as driven, is arbitrary. `branch` and
+    /// `configuration` are those of that call. `None` where nothing was followed; then [`trace`](super::trace) follows the branch.
+    #[must_use]
+    pub fn motion(
+        self,
+        mechanism: &Mechanism,
+        analysis: &Analysis,
+        branch: &Branch,
+        configuration: Option<&str>,
+    ) -> Option<Motion> {
+        let found = *self.followed?;
+        let options = options(configuration);
+        let (joint, variable) = *found
+            .curve
+            .solver
+            .system
+            .variables()
+            .get(found.curve.drive)?;
+        let drive = Variable::of(mechanism, joint, variable);
+        let notes = found.notes.clone();
+        let branches = analysis.branches.as_deref().unwrap_or_default();
+        let tracer = Tracer::new(mechanism, analysis, branch, &options);
+        Some(tracer.motion(found, drive, branches, notes, &options))
+    }
+
     /// What to drive: the independent ones of those given, in their order, then those proposed. Those given where it is not known
     /// what they do; nothing where nobody names any either.
     #[must_use]
@@ -71,11 +99,7 @@ pub fn inputs(
     configuration: Option<&str>,
     asked: Vec<Freedom>,
 ) -> Inputs {
-    let options = TraceOptions {
-        configuration: configuration.map(str::to_owned),
-        poses: POSES,
-        ..TraceOptions::default()
-    };
+    let options = options(configuration);
     let tracer = Tracer::new(mechanism, analysis, branch, &options);
     let (given, source) = given(mechanism, asked);
     let here = match analysis.mobility.pose {
@@ -88,7 +112,7 @@ pub fn inputs(
         ),
         _ => None,
     };
-    let turning = tracer.turning(&given);
+    let (turning, followed) = tracer.turning(&given);
     let actuation = actuation(
         mechanism,
         &tracer.geometry,
@@ -101,6 +125,17 @@ pub fn inputs(
         given,
         source,
         actuation,
+        followed: followed.filter(|_| branch.dimension == 1).map(Box::new),
+    }
+}
+
+/// How curves are followed to see what goes round.
+fn options(configuration: Option<&str>) -> TraceOptions {
+    TraceOptions {
+        configuration: configuration.map(str::to_owned),
+        poses: POSES,
+        samples: 2,
+        ..TraceOptions::default()
     }
 }
 
@@ -145,12 +180,12 @@ fn given(mechanism: &Mechanism, asked: Vec<Freedom>) -> (Vec<Freedom>, Option<In
 const CURVES: usize = 20;
 
 impl Tracer<'_> {
-    /// Freedoms that go round without dead centre, of parts that move along a curve and have no input yet.
-    fn turning(&self, given: &[Freedom]) -> BTreeSet<Freedom> {
-        let mut found = BTreeSet::new();
+    /// Freedoms that go round without dead centre, of parts that move along a curve and have no input yet, and the last such curve.
+    fn turning(&self, given: &[Freedom]) -> (BTreeSet<Freedom>, Option<Found>) {
+        let (mut found, mut last) = (BTreeSet::new(), None);
         let curves = self.stages.iter().filter(|stage| stage.dimension == 1);
         if curves.clone().count() > CURVES {
-            return found;
+            return (found, last);
         }
         for stage in curves {
             let joints = &stage.part.joints;
@@ -175,7 +210,8 @@ impl Tracer<'_> {
                     found.insert(Freedom { joint, variable });
                 }
             }
+            last = Some(curve);
         }
-        found
+        (found, last)
     }
 }

@@ -101,7 +101,7 @@ impl Tracer<'_> {
         }))
     }
 
-    /// Which way is forward: the driven variable grows, or the first by name that moves.
+    /// Which way is forward: the driven variable grows, or else the first that moves of those at the ground, then by name.
     pub(super) fn forward(&self, solver: &Solver, drive: Option<usize>) -> Vec<f64> {
         let tangent = solver.tangent();
         let mut toward = vec![0.0; tangent.len()];
@@ -111,16 +111,20 @@ impl Tracer<'_> {
             toward[drive] = 1.0;
             return toward;
         }
-        let mut order: Vec<(String, usize)> = solver
-            .system
-            .variables()
-            .into_iter()
-            .enumerate()
-            .map(|(u, (joint, freedom))| (self.mechanism.joints()[joint].freedom_name(freedom), u))
-            .collect();
-        order.sort();
-        if let Some((_, first)) = order.iter().find(|(_, u)| tangent[*u].abs() > 1e-3) {
-            toward[*first] = 1.0;
+        let ground = self.mechanism.ground();
+        let place = |(unknown, (joint, freedom)): (usize, (usize, usize))| {
+            let known = &self.mechanism.joints()[joint];
+            let ends = [known.predecessor.link, known.successor.link];
+            (
+                !ends.contains(&ground),
+                known.freedom_name(freedom),
+                unknown,
+            )
+        };
+        let variables = solver.system.variables().into_iter().enumerate();
+        let moving = variables.filter(|(unknown, _)| tangent[*unknown].abs() > 1e-3);
+        if let Some((_, _, first)) = moving.map(place).min() {
+            toward[first] = 1.0;
         }
         toward
     }
