@@ -113,3 +113,67 @@ fn synonyms_of_other_books_are_explained() {
         assert!(find(word).is_some(), "nothing explains `{word}`");
     }
 }
+
+/// What `graph`, `exact` and `assemble` print, and what the sources call it.
+#[test]
+fn words_of_all_commands_are_explained() {
+    for word in [
+        "Groebner",
+        "degrevlex",
+        "lex",
+        "canonical form",
+        "positional form",
+        "tree form",
+        "brute force",
+        "divide and conquer",
+        "incremental instancing",
+        "case",
+        "S-polynomials",
+        "unit quaternion",
+        "rigid cluster",
+        "not settled",
+        "conditions",
+        "components",
+        "block",
+        "bridge",
+        "height",
+        "chord",
+        "cord",
+        "ring sum",
+        "shortest cycle basis",
+        "incidence tree",
+        "standard collection",
+        "implied",
+        "weight",
+        "covering set",
+        "sum of depths",
+        "root",
+        "placed by",
+        "seam graph",
+        "well-formed selection",
+        "over-constrained",
+        "under-constrained",
+        "well-constrained",
+        "freedoms left",
+        "rigid in itself",
+        "triconnected",
+        "solved at once",
+        "s-tree",
+        "boxes",
+        "multiplicity",
+        "closes within rounding",
+        "left out",
+        "held",
+        "travel",
+        "turns",
+        "arclength",
+        "input singularity",
+        "characteristic length",
+        "residue",
+        "carrier",
+        "mimic",
+        "binds",
+    ] {
+        assert!(find(word).is_some(), "nothing explains `{word}`");
+    }
+}
