@@ -1,8 +1,9 @@
 //! Conditions on measures that were left open: which values let a mechanism be put together, which let it move.
 
 use kutzbach::algebra::{
-    Budget, DesignConditions, Formulation, Limits, PolynomialSystem, SystemOptions,
-    assembly_conditions, motion_conditions, polynomial_system,
+    Budget, DesignConditions, Exceptions, Formulation, Limits, Meaning, MonomialOrder, Polynomial,
+    PolynomialSystem, SystemOptions, assembly_conditions, groebner_basis, motion_conditions,
+    polynomial_system,
 };
 use kutzbach::format::{ReadOptions, read_with};
 use kutzbach::mechanism::{JointId, Mechanism};
@@ -264,4 +265,171 @@ mod corpus {
         // Cosines of 1 and −1, and signs of lengths, count by themselves.
         assert_eq!(counts, [4, 2, 8, 4]);
     }
+}
+
+/// A mechanism written here, read with these measures open and set.
+fn written(body: &str, symbolic: &[&str], settings: &[(&str, String)]) -> Mechanism {
+    let text =
+        format!("<robot name=\"m\" xmlns:xacro=\"http://ros.org/wiki/xacro\">{body}</robot>");
+    let options = ReadOptions {
+        symbolic: symbolic.iter().map(|name| (*name).to_owned()).collect(),
+        settings: settings
+            .iter()
+            .map(|(name, value)| ((*name).to_owned(), value.clone()))
+            .collect(),
+        ..ReadOptions::default()
+    };
+    read_with(&text, "m.urdf", &options).unwrap().mechanism
+}
+
+/// Two slides at an angle whose carriages a pin joins, at the height `h`.
+const WEDGE: &str = r#"<xacro:property name="alpha" value="pi/2"/><xacro:property name="h" value="1"/>
+  <link name="g"/><link name="a"/><link name="b"/>
+  <joint name="A" type="prismatic"><parent link="g"/><child link="a"/><origin xyz="0 ${h} 0"/><axis xyz="1 0 0"/></joint>
+  <joint name="B" type="prismatic"><parent link="g"/><child link="b"/><axis xyz="${cos(alpha)} ${sin(alpha)} 0"/></joint>
+  <loop name="C" type="revolute"><predecessor link="a"/><successor link="b"/><axis xyz="0 0 1"/></loop>"#;
+
+/// A crank of length `r`, a rod of length `l` and a slide at the offset `e`.
+const SLIDER_CRANK: &str = r#"<xacro:property name="r" value="1"/><xacro:property name="l" value="2"/><xacro:property name="e" value="1/2"/>
+  <link name="g"/><link name="a"/><link name="b"/><link name="c"/>
+  <joint name="A" type="revolute"><parent link="g"/><child link="a"/><axis xyz="0 0 1"/></joint>
+  <joint name="B" type="revolute"><parent link="a"/><child link="b"/><origin xyz="${r} 0 0"/><axis xyz="0 0 1"/></joint>
+  <joint name="C" type="prismatic"><parent link="g"/><child link="c"/><origin xyz="0 ${e} 0"/><axis xyz="1 0 0"/></joint>
+  <loop name="D" type="revolute"><predecessor link="b"><origin xyz="${l} 0 0"/></predecessor><successor link="c"/><axis xyz="0 0 1"/></loop>"#;
+
+/// A bar between two pins, one of which is on a slide through the other at a slope; its length is 1/L.
+const INVERSE: &str = r#"<xacro:property name="L" value="1"/><xacro:property name="d" value="1"/>
+  <link name="g"/><link name="a"/><link name="s"/>
+  <joint name="A" type="revolute"><parent link="g"/><child link="a"/><axis xyz="0 0 1"/></joint>
+  <joint name="S" type="prismatic"><parent link="g"/><child link="s"/><origin xyz="0 ${d} 0"/><axis xyz="${d} 1 0"/></joint>
+  <loop name="B" type="revolute"><predecessor link="a"><origin xyz="${1/L} 0 0"/></predecessor><successor link="s"/><axis xyz="0 0 1"/></loop>"#;
+
+/// Whether all of these vanish where the parameters have the values of another system of the same file.
+fn vanish(all: &[Polynomial], open: &PolynomialSystem, at: &PolynomialSystem) -> bool {
+    let value = |name: &str| {
+        let variable = at.variables.iter().find(|v| v.name == name).unwrap();
+        match &variable.meaning {
+            Meaning::Parameter { value } | Meaning::Algebraic { value } => value.value(),
+            other => panic!("{name} is an unknown: {other:?}"),
+        }
+    };
+    all.iter().all(|polynomial| {
+        let terms = polynomial.terms().map(|(exponents, coefficient)| {
+            let number = coefficient.numer().to_string().parse::<f64>().unwrap()
+                / coefficient.denom().to_string().parse::<f64>().unwrap();
+            exponents
+                .iter()
+                .zip(&open.variables)
+                .filter(|(e, _)| **e > 0)
+                .fold(number, |product, (&e, v)| {
+                    product * value(&v.name).powi(i32::try_from(e).unwrap())
+                })
+        });
+        // Values of one digit and powers below six: what does not vanish is far larger.
+        terms.sum::<f64>().abs() < 1e-9
+    })
+}
+
+/// Whether conditions and exceptions together say that there is a solution at the values of another system.
+fn said(
+    found: &DesignConditions,
+    exceptions: &Exceptions,
+    open: &PolynomialSystem,
+    at: &PolynomialSystem,
+) -> bool {
+    let conditions: Vec<Polynomial> = found
+        .conditions
+        .iter()
+        .map(|c| c.polynomial.clone())
+        .collect();
+    let mut all = exceptions.found.iter();
+    vanish(&conditions, open, at)
+        && all.all(|e| !vanish(&e.on, open, at) || vanish(&e.only_if, open, at))
+}
+
+#[test]
+fn what_is_said_of_open_measures_is_so_at_their_values() {
+    let lengths = ["0", "1", "-1", "1/2", "2", "3", "-3", "5"];
+    let angles = ["0", "pi/2", "pi", "-pi/2", "pi/6", "acos(3/5)"];
+    let mut compared = 0;
+    let mut without = 0;
+    for (body, names) in [
+        (WEDGE, vec!["alpha", "h"]),
+        (WEDGE, vec!["alpha"]),
+        (SLIDER_CRANK, vec!["r", "l"]),
+        (SLIDER_CRANK, vec!["l", "e"]),
+        (INVERSE, vec!["L", "d"]),
+        (INVERSE, vec!["d"]),
+    ] {
+        let open = system(&written(body, &names, &[]), Formulation::Canonical);
+        let found = assembly_conditions(&open, &budget()).unwrap();
+        let exceptions = found.exceptions(&open, None, &budget());
+        assert!(exceptions.complete, "{names:?}");
+        let values = |name: &str| {
+            if name == "alpha" {
+                &angles[..]
+            } else {
+                &lengths[..]
+            }
+        };
+        for first in values(names[0]) {
+            for second in names.get(1).map_or(&[""][..], |name| values(name)) {
+                let settings = [*first, *second].map(str::to_owned);
+                let settings: Vec<(&str, String)> = names.iter().copied().zip(settings).collect();
+                if settings
+                    .iter()
+                    .any(|(name, value)| *name == "L" && value == "0")
+                {
+                    continue;
+                }
+                let at = system(&written(body, &names, &settings), Formulation::Canonical);
+                let closed = system(&written(body, &[], &settings), Formulation::Canonical);
+                let order = MonomialOrder::Degrevlex;
+                let basis = groebner_basis(
+                    &closed.polynomials(),
+                    closed.variables.len(),
+                    &order,
+                    &budget(),
+                );
+                let is = !basis.unwrap().is_inconsistent();
+                assert_eq!(said(&found, &exceptions, &open, &at), is, "{settings:?}");
+                compared += 1;
+                without += usize::from(!is);
+            }
+        }
+    }
+    assert!(compared > 200 && without > 10, "{compared} {without}");
+}
+
+#[test]
+fn positions_of_a_joint_are_all_met_but_where_exceptions_say_so() {
+    // The crank meets every position, in complex numbers, unless the rod has no length: then it rests where the slide passes.
+    let open = written(SLIDER_CRANK, &["l"], &[]);
+    let joint = open.joint_named("A").unwrap();
+    let open = system(&open, Formulation::Canonical);
+    let found = motion_conditions(&open, joint, &budget()).unwrap().unwrap();
+    assert!(found.conditions.is_empty());
+    let exceptions = found.exceptions(&open, Some(joint), &budget());
+    let names = open.names();
+    let texts: Vec<String> = exceptions
+        .found
+        .iter()
+        .flat_map(|e| e.on.iter().map(|p| p.text(&names)))
+        .collect();
+    assert_eq!((texts, exceptions.complete), (vec!["l".to_owned()], true));
+}
+
+#[test]
+fn roots_are_not_negative() {
+    // A bar of length √L between pins 5 apart: √L = −5 is none of the ways.
+    let body = r#"<xacro:property name="L" value="25"/><link name="g"/><link name="bar"/>
+  <joint name="p1" type="revolute"><parent link="g"/><child link="bar"/><axis xyz="0 0 1"/></joint>
+  <loop name="p2" type="revolute"><predecessor link="g"><origin xyz="3 4 0"/></predecessor><successor link="bar"><origin xyz="${sqrt(L)} 0 0"/></successor><axis xyz="0 0 1"/></loop>"#;
+    let open = system(&written(body, &["L"], &[]), Formulation::Canonical);
+    let found = assembly_conditions(&open, &budget()).unwrap();
+    assert_eq!(texts(&open, &found), ["L - 25", "sqrt(L) - 5"]);
+    let none = body.replace("${sqrt(L)}", "${-sqrt(L)-1}");
+    let open = system(&written(&none, &["L"], &[]), Formulation::Canonical);
+    let found = assembly_conditions(&open, &budget()).unwrap();
+    assert!(texts(&open, &found).contains(&"sqrt(L) - 4".to_owned()));
 }

@@ -189,6 +189,8 @@ enum Left {
     Stopped(Stop),
     /// Not all blocks have exact equations, or they are not to be trusted.
     Blocks,
+    /// A relation of the mechanism is no equation.
+    Relations,
 }
 
 /// Mechanisms of more blocks with loops than these are asked block by block from the start: the equations of all at once
@@ -391,17 +393,19 @@ impl Arguments {
     ) -> Result<(String, Option<Left>), Ended> {
         let system =
             polynomial_system(mechanism, &request.options.system).map_err(Ended::Refused)?;
+        let mut joint = None;
         let found = match &self.moving {
             None => assembly_conditions(&system, budget),
             Some(name) => {
-                let joint = mechanism.joint_named(name).ok_or_else(|| {
+                let moving = mechanism.joint_named(name).ok_or_else(|| {
                     Ended::Failed(Failure::Plain {
                         message: format!("there is no joint named `{name}`"),
                         help: None,
                     })
                 })?;
                 // Nothing found is no condition; no variable is no question.
-                motion_conditions(&system, joint, budget)
+                joint = Some(moving);
+                motion_conditions(&system, moving, budget)
                     .transpose()
                     .ok_or_else(|| {
                         Ended::Failed(Failure::Plain {
@@ -421,13 +425,24 @@ impl Arguments {
             .ok()
             .filter(|found| found.conditions.len() > 1);
         let families = families.and_then(|found| found.families(&system, budget).ok());
-        let report =
-            conditions_report(mechanism, &system, data, families.as_ref(), moving, request);
+        let exceptions = found.as_ref().ok();
+        let exceptions = exceptions.map(|found| found.exceptions(&system, joint, budget));
+        let report = conditions_report(
+            mechanism,
+            &system,
+            data,
+            families.as_ref(),
+            exceptions.as_ref(),
+            moving,
+            request,
+        );
+        let in_part = report.outcome.word == "in part";
         let text = match self.for_a_person() {
             true => render_conditions(&report, self.layout()),
             false => output::json(&report).map_err(Ended::Failed)?,
         };
-        Ok((text, found.err().map(Left::Stopped)))
+        let stopped = found.err().map(Left::Stopped);
+        Ok((text, stopped.or(in_part.then_some(Left::Relations))))
     }
 
     fn layout(&self) -> kutzbach::report::text::Layout {

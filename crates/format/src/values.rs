@@ -7,6 +7,7 @@ use super::number_text;
 use super::quaternion::roll_pitch_yaw;
 use super::reader::{Dialect, Reader};
 use super::words::{counted, cut};
+use crate::words::quoted;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Direction, Frame};
 use std::ops::Range;
@@ -167,7 +168,15 @@ impl<'a> Reader<'a> {
                 let at = turned.range().start;
                 self.warn(at, "`quat_xyzw` is read; other readers of URDF heed it from version 1.1 on (<robot version=\"1.1\">), and take the frame as not turned here");
             }
-            let quaternion = self.numbers(turned)?;
+            let quaternion: [Number; 4] = self.numbers(turned)?;
+            if let Some(open) = quaternion.iter().find(|part| part.is_open()) {
+                return Err(turned
+                    .fault(format!(
+                        "a quaternion needs the value of {}, which is left open",
+                        quoted(open.open_name().unwrap_or("a measure"))
+                    ))
+                    .help("turn the frame by `rpy`, with an angle that is left open"));
+            }
             frame.roll_pitch_yaw = roll_pitch_yaw(&quaternion)
                 .ok_or_else(|| turned.fault("the zero quaternion is no rotation"))?;
         }

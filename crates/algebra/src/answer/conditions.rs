@@ -1,12 +1,13 @@
 //! Conditions on measures that were left open: for which values can the mechanism be put together, for which does it move?
 
+use super::exceptions::own_equations;
 use super::hints;
 use crate::{
     Budget, Hints, Meaning, MonomialOrder, Origin, Polynomial, PolynomialSystem, Rational, Stop,
     components, eliminate, factor, groebner_basis, radical_contains, saturate,
 };
 use kutzbach_model::mechanism::JointId;
-use num_traits::One;
+use num_traits::Signed;
 use std::collections::BTreeMap;
 
 /// Conditions on the parameters. They are necessary for real mechanisms; over the complex numbers (limits included) they are
@@ -24,7 +25,7 @@ pub struct DesignConditions {
 pub struct Condition {
     /// The polynomial.
     pub polynomial: Polynomial,
-    /// Its different factors; one of them has to vanish.
+    /// Its different factors that real values can make vanish; one of them has to.
     pub factors: Vec<Polynomial>,
 }
 
@@ -74,12 +75,7 @@ pub fn motion_conditions(
         return Ok(None);
     }
     let remaining = remaining_without(system, kept, budget)?;
-    let own: Vec<Polynomial> = system
-        .equations
-        .iter()
-        .filter(|e| matches!(e.origin, Origin::Freedom { joint: j } if j == joint))
-        .map(|e| e.polynomial.clone())
-        .collect();
+    let own = own_equations(system, Some(joint));
     let variables = system.variables.len();
     let circle = groebner_basis(&own, variables, &MonomialOrder::Degrevlex, budget)?;
     let mut coefficients = Vec::new();
@@ -108,7 +104,7 @@ fn remaining_without(
 }
 
 /// Whether a variable is a measure of the mechanism and no unknown.
-fn is_given(meaning: &Meaning) -> bool {
+pub(super) fn is_given(meaning: &Meaning) -> bool {
     matches!(
         meaning,
         Meaning::Parameter { .. } | Meaning::Algebraic { .. }
@@ -116,7 +112,7 @@ fn is_given(meaning: &Meaning) -> bool {
 }
 
 /// The coefficients of a polynomial seen as one in some of its variables.
-fn coefficients_in(polynomial: &Polynomial, variables: &[usize]) -> Vec<Polynomial> {
+pub(super) fn coefficients_in(polynomial: &Polynomial, variables: &[usize]) -> Vec<Polynomial> {
     let mut parts: BTreeMap<Vec<u32>, Vec<(Vec<u32>, Rational)>> = BTreeMap::new();
     for (exponents, coefficient) in polynomial.terms() {
         let power = variables.iter().map(|&v| exponents[v]).collect();
@@ -135,8 +131,30 @@ fn coefficients_in(polynomial: &Polynomial, variables: &[usize]) -> Vec<Polynomi
         .collect()
 }
 
+/// Whether the terms show that no real values make a polynomial vanish: a constant and others of its sign, where even powers
+/// of parameters are not negative, and roots have the sign that they have in the file.
+pub(super) fn never_vanishes(system: &PolynomialSystem, polynomial: &Polynomial) -> bool {
+    let mut has_constant = false;
+    let mut signs = polynomial.terms().map(|(exponents, coefficient)| {
+        let mut negative = coefficient.is_negative();
+        has_constant |= exponents.iter().all(|&e| e == 0);
+        for (&exponent, variable) in exponents.iter().zip(&system.variables) {
+            match &variable.meaning {
+                _ if exponent % 2 == 0 => {}
+                Meaning::Algebraic { value } => negative ^= value.signum() < 0,
+                _ => return None,
+            }
+        }
+        Some(negative)
+    });
+    let Some(Some(first)) = signs.next() else {
+        return false;
+    };
+    signs.all(|sign| sign == Some(first)) && has_constant
+}
+
 /// Equations that hold for parameters and algebraic numbers anyway.
-fn given(system: &PolynomialSystem) -> Vec<Polynomial> {
+pub(super) fn given(system: &PolynomialSystem) -> Vec<Polynomial> {
     let mentions_given_only = |polynomial: &Polynomial| {
         let variables = system.variables.iter().enumerate();
         let mut unknowns = variables.filter(|(_, variable)| !is_given(&variable.meaning));
@@ -177,12 +195,10 @@ fn conditions(
             .factors
             .into_iter()
             .map(|(factor, _)| factor)
-            // What must not vanish is no way to satisfy the condition.
+            // What must not vanish is no way to satisfy the condition, nor what no real value can meet.
             .filter(|f| {
-                !system
-                    .nonzero
-                    .iter()
-                    .any(|n| n.primitive() == f.primitive())
+                let mut nonzero = system.nonzero.iter();
+                !nonzero.any(|n| n.primitive() == f.primitive()) && !never_vanishes(system, f)
             })
             .collect();
         conditions.push(Condition {
@@ -200,12 +216,10 @@ fn conditions(
 }
 
 impl DesignConditions {
-    /// Whether no values of the parameters will do.
+    /// Whether no real values of the parameters will do: a condition has no factor that can vanish.
     #[must_use]
     pub fn is_impossible(&self) -> bool {
-        self.conditions
-            .iter()
-            .any(|c| c.polynomial.as_constant().is_some_and(|c| c.is_one()))
+        self.conditions.iter().any(|c| c.factors.is_empty())
     }
 
     /// The ways to satisfy all conditions together, none within another, and whether every one is proven irreducible over
@@ -251,8 +265,12 @@ impl DesignConditions {
                 }
             }
             let back = |p: &Polynomial| p.moved(&kept, system.variables.len());
+            let equations: Vec<Polynomial> = piece.equations.iter().map(back).collect();
+            if equations.iter().any(|p| never_vanishes(system, p)) {
+                continue;
+            }
             families.push(Family {
-                equations: piece.equations.iter().map(back).collect(),
+                equations,
                 dimension: piece.dimension,
             });
         }

@@ -75,7 +75,10 @@ pub(super) fn coprime_multiples(coupling: &Coupling) -> Result<(Vec<i64>, Fracti
         .iter()
         .map(|term| {
             let x = term.factor.rational().cloned();
-            x.ok_or_else(|| format!("its ratio {} is not rational", term.factor.source()))
+            x.ok_or_else(|| match term.factor.open_name() {
+                Some(name) => format!("its ratio depends on `{name}`, which is left open"),
+                None => format!("its ratio {} is not rational", term.factor.source()),
+            })
         })
         .collect::<Result<Vec<Fraction>, String>>()?;
     let denominator = factors

@@ -76,6 +76,13 @@ impl Place {
         kind: &'static str,
         advice: String,
     ) -> SystemError {
+        let (kind, advice) = match number.is_open() {
+            true => (
+                "no polynomial in what is left open",
+                "leave open an angle itself, or the components of a direction".to_owned(),
+            ),
+            false => (kind, advice),
+        };
         let (entity, element, number) =
             (self.entity.clone(), self.element.clone(), excerpt(number));
         match obstacle {

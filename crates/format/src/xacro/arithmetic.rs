@@ -93,6 +93,12 @@ pub(super) fn binary(
             None => mismatched(),
         },
         (Binary::Remainder, Value::Text(template), _) => {
+            // A formatted number is a text of one value.
+            let parts = match b {
+                Value::Tuple(items) => items,
+                other => std::slice::from_ref(other),
+            };
+            parts.iter().try_for_each(|value| value.known("`%`"))?;
             match super::percent::percent(template.as_str(), b, budget)? {
                 Some(text) => Ok(Value::text(&text)),
                 None => Err(Trouble::new(
@@ -124,6 +130,8 @@ fn mismatch(operator: Binary, a: &Value, b: &Value) -> String {
 }
 
 fn times(count: &Value) -> Option<usize> {
+    // How often a list is repeated is no matter of what is left open.
+    count.known("").ok()?;
     match count.number()?.kind {
         Kind::Int(count) => Some(usize::try_from(count.max(0)).unwrap_or(usize::MAX)),
         Kind::Float(_) => None,
@@ -185,6 +193,14 @@ pub(super) fn numbers(operator: Binary, a: &Num, b: &Num, budget: &mut Budget) -
     let kind = kind_of(operator, a, b)?;
     // An integer that fits needs no more than itself, unless it is a number with a name or with stated digits.
     let exact = exact_of(operator, a, b).and_then(kept);
+    if exact.is_none() || matches!(operator, Binary::Power) {
+        let asked = format!("`{}`", operator.sign());
+        let base_is_kept = exact.is_some();
+        let operands = if base_is_kept { &[b][..] } else { &[a, b][..] };
+        for operand in operands {
+            Value::Number((*operand).clone()).known(&asked)?;
+        }
+    }
     Ok(match (kind, exact) {
         (Kind::Int(value), None) => Num::int(value),
         (kind, exact) => Num { kind, exact },

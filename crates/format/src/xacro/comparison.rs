@@ -51,10 +51,20 @@ fn is_same(a: &Value, b: &Value, budget: &mut Budget) -> Outcome<bool> {
     Ok(std::mem::discriminant(a) == std::mem::discriminant(b) && equals(a, b, budget)?)
 }
 
+/// What is said to ask for the value of what is left open.
+const COMPARISON: &str = "a comparison";
+
+/// Refuses to compare what is left open.
+fn both_known(a: &Value, b: &Value) -> Outcome<()> {
+    a.known(COMPARISON)?;
+    b.known(COMPARISON)
+}
+
 /// Python's `==`.
 pub(super) fn equals(a: &Value, b: &Value, budget: &mut Budget) -> Outcome<bool> {
     budget.spend(1)?;
     if let (Some(x), Some(y)) = (a.number(), b.number()) {
+        both_known(a, b)?;
         return Ok(match (x.kind, y.kind) {
             (Kind::Int(x), Kind::Int(y)) => x == y,
             _ => x.double() == y.double(),
@@ -62,7 +72,11 @@ pub(super) fn equals(a: &Value, b: &Value, budget: &mut Budget) -> Outcome<bool>
     }
     match (a, b) {
         (Value::None, Value::None) => Ok(true),
-        (Value::Text(x), Value::Text(y)) if x.as_str().len() == y.as_str().len() => {
+        (Value::Text(x), Value::Text(y)) => {
+            both_known(a, b)?;
+            if x.as_str().len() != y.as_str().len() {
+                return Ok(false);
+            }
             budget.spend_on(a)?;
             Ok(x.as_str() == y.as_str())
         }
@@ -118,6 +132,7 @@ fn all_equal(x: &[Value], y: &[Value], budget: &mut Budget) -> Outcome<bool> {
 /// The order of numbers, of texts, and of lists of such.
 pub(super) fn order(a: &Value, b: &Value, budget: &mut Budget) -> Outcome<Option<Ordering>> {
     budget.spend(1)?;
+    both_known(a, b)?;
     if let (Some(x), Some(y)) = (a.number(), b.number()) {
         return Ok(match (x.kind, y.kind) {
             (Kind::Int(x), Kind::Int(y)) => Some(x.cmp(&y)),
@@ -169,6 +184,7 @@ pub(super) fn contains(container: &Value, item: &Value, budget: &mut Budget) -> 
         (Value::Set(items), _) => Ok(items.find(item, budget)?.is_some()),
         (Value::Dict(items), _) => Ok(items.find(item, budget)?.is_some()),
         (Value::Text(text), Value::Text(part)) => {
+            both_known(container, item)?;
             budget.spend_on(container)?;
             budget.spend_on(item)?;
             Ok(text.as_str().contains(part.as_str()))

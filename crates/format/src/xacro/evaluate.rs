@@ -35,7 +35,10 @@ impl Run<'_> {
             }
             Expr::Negate(operand) => Ok(negated(&self.evaluate(operand, names)?)?),
             Expr::Plus(operand) => Ok(positive(&self.evaluate(operand, names)?)?),
-            Expr::Not(operand) => Ok(Value::Bool(!self.evaluate(operand, names)?.is_true())),
+            Expr::Not(operand) => {
+                let value = self.evaluate(operand, names)?;
+                Ok(Value::Bool(!value.truth("`not`")?))
+            }
             Expr::Binary(operator, a, b) => {
                 let a = self.evaluate(a, names)?;
                 let b = self.evaluate(b, names)?;
@@ -57,16 +60,16 @@ impl Run<'_> {
                 Ok(Value::Bool(true))
             }
             Expr::And(a, b) => match self.evaluate(a, names)? {
-                value if value.is_true() => self.evaluate(b, names),
+                value if value.truth("`and`")? => self.evaluate(b, names),
                 value => Ok(value),
             },
             Expr::Or(a, b) => match self.evaluate(a, names)? {
-                value if value.is_true() => Ok(value),
+                value if value.truth("`or`")? => Ok(value),
                 _ => self.evaluate(b, names),
             },
             Expr::Choice(parts) => {
                 let [condition, value, otherwise] = &**parts;
-                let holds = self.evaluate(condition, names)?.is_true();
+                let holds = self.evaluate(condition, names)?.truth("`if`")?;
                 self.evaluate(if holds { value } else { otherwise }, names)
             }
             Expr::Member(object, name) => {
@@ -169,7 +172,7 @@ impl Run<'_> {
                     Value::Text(text) => Value::literal(&text),
                     other => other,
                 };
-                let value = self.kept_symbolic(name, value);
+                let value = self.kept_symbolic(name, value)?;
                 owner.set_value(name, value.clone());
                 Ok(Some(value))
             }
@@ -243,6 +246,14 @@ impl Run<'_> {
         }
         if let Some((object, name)) = object {
             self.spend_on(&object)?;
+            if let Value::Text(_) = &object {
+                // What a method makes of a text forgets the numbers in it.
+                let mut all = std::iter::once(&object).chain(&values);
+                let named = by_name.iter().map(|(_, value)| value);
+                all.by_ref()
+                    .chain(named)
+                    .try_for_each(|value| value.known(&format!("{name}()")))?;
+            }
             return method(&object, name, &values, &by_name, &mut self.budget);
         }
         match callee {
@@ -314,7 +325,7 @@ impl Run<'_> {
                 Ok(())
             }
             Some(Clause::If(condition)) => {
-                if self.evaluate(condition, names)?.is_true() {
+                if self.evaluate(condition, names)?.truth("`if`")? {
                     self.deeper(|run| run.comprehend(all, clause + 1, names, found))?;
                 }
                 Ok(())
@@ -346,20 +357,27 @@ impl Run<'_> {
     }
 
     /// A number of a name that is to stay open.
-    pub(super) fn kept_symbolic(&mut self, name: &str, value: Value) -> Value {
+    ///
+    /// # Errors
+    /// Where its value is no exact number.
+    pub(super) fn kept_symbolic(&mut self, name: &str, value: Value) -> Outcome<Value> {
         if !self.options.symbolic.iter().any(|own| own == name) {
-            return value;
+            return Ok(value);
         }
         self.met_names.insert(name.to_owned());
         match value {
             Value::Number(Num {
                 kind,
                 exact: Some(exact),
-            }) => Value::Number(Num {
+            }) => Ok(Value::Number(Num {
                 kind,
                 exact: Some(kutzbach_math::number::Number::parameter(name, exact)),
-            }),
-            other => other,
+            })),
+            other => Err(Trouble::new(format!(
+                "{} cannot be left open: it is {} without an exact value",
+                quoted(name),
+                other.sort()
+            ))),
         }
     }
 }
@@ -381,6 +399,7 @@ fn no_key(items: &[(Value, Value)], name: &str) -> Box<Trouble> {
 
 /// An index as an integer; `None` for Python's None.
 fn integer(value: &Value) -> Outcome<Option<i128>> {
+    value.known("an index")?;
     match value.number().map(|number| number.kind) {
         Some(Kind::Int(index)) => Ok(Some(index)),
         _ if matches!(value, Value::None) => Ok(None),
@@ -393,6 +412,7 @@ fn integer(value: &Value) -> Outcome<Option<i128>> {
 
 /// `object[start:stop:step]` with Python's treatment of what lies outside.
 fn slice(object: &Value, [start, stop, step]: [Option<i128>; 3]) -> Outcome<Value> {
+    object.known("a part of a text")?;
     let step = step.unwrap_or(1);
     if step == 0 {
         return Err(Trouble::new("a slice with step 0"));

@@ -353,8 +353,9 @@ impl<'o> Run<'o> {
     ) -> Outcome<bool> {
         let value = self.substitute(&attribute.value, attribute.place, &names.symbols)?;
         let Value::Text(text) = &value else {
-            return Ok(value.is_true());
+            return value.truth("a condition");
         };
+        value.known("a condition")?;
         match text.as_str() {
             "true" | "True" => Ok(true),
             "false" | "False" => Ok(false),
@@ -421,7 +422,7 @@ impl<'o> Run<'o> {
     fn open_argument(&mut self, name: &str) -> Outcome<()> {
         if let Some(text) = self.arguments.get(name).cloned()
             && self.options.symbolic.iter().any(|own| own == name)
-            && let Value::Number(number) = self.kept_symbolic(name, Value::literal(&text))
+            && let Value::Number(number) = self.kept_symbolic(name, Value::literal(&text))?
         {
             let open = Text::of_number(text.as_str(), number.exact.as_ref());
             self.arguments.insert(name.to_owned(), open);

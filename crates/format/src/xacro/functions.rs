@@ -49,6 +49,11 @@ const IRRATIONAL: [&str; 10] = [
     "sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "hypot", "pow",
 ];
 
+/// Functions that what is left open may be given to: the result is exact for all its values alike.
+const OF_OPEN: [&str; 9] = [
+    "sqrt", "sin", "cos", "tan", "radians", "degrees", "float", "pow", "hypot",
+];
+
 /// All others.
 const OTHERS: [&str; 55] = [
     "abs",
@@ -159,11 +164,13 @@ pub(super) fn iterated(value: &Value, budget: &mut Budget) -> Outcome<Vec<Value>
         Value::List(items) | Value::Tuple(items) => Ok(items.to_vec()),
         Value::Set(items) => Ok(items.to_vec()),
         Value::Dict(items) => Ok(items.iter().map(|(key, _)| key.clone()).collect()),
-        Value::Text(text) => Ok(text
-            .as_str()
-            .chars()
-            .map(|c| Value::text(c.encode_utf8(&mut [0; 4])))
-            .collect()),
+        Value::Text(text) => {
+            value.known("a letter")?;
+            let letters = text.as_str().chars();
+            Ok(letters
+                .map(|c| Value::text(c.encode_utf8(&mut [0; 4])))
+                .collect())
+        }
         other => Err(Trouble::new(format!("{} has no items", other.sort()))),
     }
 }
@@ -186,6 +193,11 @@ fn option<'a>(named: &'a Named, name: &str) -> Option<&'a Value> {
         .iter()
         .find(|(own, _)| &**own == name)
         .map(|(_, value)| value)
+}
+
+/// Whether an option is given and true.
+fn is_wanted(option: Option<&Value>) -> Outcome<bool> {
+    option.map_or(Ok(false), |value| value.truth("an option"))
 }
 
 impl Run<'_> {
@@ -217,7 +229,7 @@ impl Run<'_> {
             ("str", []) => Ok(Value::text("")),
             ("str", [value]) => Ok(Value::Text(self.paid_text(value)?)),
             ("repr", [value]) => Ok(Value::Text(self.budget.repr(value)?)),
-            ("bool", [value]) => truth(value.is_true()),
+            ("bool", [value]) => truth(value.truth("bool()")?),
             ("len", [value]) => match length(value) {
                 Some(length) => Ok(Value::int(length)),
                 None => wrong(),
@@ -233,7 +245,7 @@ impl Run<'_> {
             ("dict", _) => made_dictionary(values, named, &mut self.budget),
             ("dotify", [value]) => Ok(value.clone()),
             ("sorted", [value]) => {
-                let descending = option(named, "reverse").is_some_and(Value::is_true);
+                let descending = is_wanted(option(named, "reverse"))?;
                 let items = iterated(value, &mut self.budget)?;
                 sorted(items, descending, &mut self.budget).and_then(list)
             }
@@ -266,22 +278,23 @@ impl Run<'_> {
                 }
                 list(results)
             }
-            ("filter", [Value::None, value]) => list(
-                iterated(value, &mut self.budget)?
-                    .into_iter()
-                    .filter(Value::is_true)
-                    .collect(),
-            ),
-            ("any", [value]) => truth(
-                iterated(value, &mut self.budget)?
-                    .iter()
-                    .any(Value::is_true),
-            ),
-            ("all", [value]) => truth(
-                iterated(value, &mut self.budget)?
-                    .iter()
-                    .all(Value::is_true),
-            ),
+            ("filter", [Value::None, value]) => {
+                let mut items = Vec::new();
+                for item in iterated(value, &mut self.budget)? {
+                    if item.truth("filter()")? {
+                        items.push(item);
+                    }
+                }
+                list(items)
+            }
+            ("any" | "all", [value]) => {
+                for item in iterated(value, &mut self.budget)? {
+                    if item.truth(&format!("{name}()"))? == (name == "any") {
+                        return truth(name == "any");
+                    }
+                }
+                truth(name == "all")
+            }
             ("min", _) => extreme(values, Ordering::Less, &mut self.budget),
             ("max", _) => extreme(values, Ordering::Greater, &mut self.budget),
             ("sum" | "fsum" | "prod", [value]) => {
@@ -308,10 +321,8 @@ impl Run<'_> {
                     Some(Value::Text(separators)) => separators.as_str().to_owned(),
                     _ => ",; ".to_owned(),
                 };
-                let keep_empty = rest
-                    .get(1)
-                    .or_else(|| option(named, "skip_empty"))
-                    .is_some_and(|skip| !skip.is_true());
+                let skip_empty = rest.get(1).or_else(|| option(named, "skip_empty"));
+                let keep_empty = skip_empty.is_some() && !is_wanted(skip_empty)?;
                 list(tokenized(text, &separators, keep_empty))
             }
             ("fatal", _) => {
@@ -331,6 +342,9 @@ impl Run<'_> {
                 let path = self.resolved(path.as_str())?;
                 Ok(Value::text(&path.to_string_lossy()))
             }
+            ("isinstance" | "type", [value, ..]) if value.known("").is_err() => {
+                value.known(&format!("{name}()")).and_then(|()| wrong())
+            }
             ("isinstance", [value, Value::Function(sort)]) => truth(match *sort {
                 "str" => matches!(value, Value::Text(_)),
                 "bool" => matches!(value, Value::Bool(_)),
@@ -342,10 +356,16 @@ impl Run<'_> {
                 "set" => matches!(value, Value::Set(_)),
                 _ => return wrong(),
             }),
-            _ => match numeric(name, values, &mut self.budget)? {
-                Some(number) => Ok(number),
-                None => wrong(),
-            },
+            _ => {
+                let number = numeric(name, values, &mut self.budget)?;
+                let is_exact = matches!(&number, Some(Value::Number(Num { exact: Some(_), .. })));
+                if !(is_exact && OF_OPEN.contains(&name)) {
+                    values
+                        .iter()
+                        .try_for_each(|value| value.known(&format!("{name}()")))?;
+                }
+                number.map_or_else(wrong, Ok)
+            }
         }
     }
 
@@ -389,6 +409,7 @@ fn made_dictionary(values: &[Value], named: &Named, budget: &mut Budget) -> Outc
 fn range(values: &[Value]) -> Outcome<Vec<Value>> {
     let mut bounds = Vec::new();
     for value in values {
+        value.known("range()")?;
         match value.number().map(|number| number.kind) {
             Some(Kind::Int(bound)) => bounds.push(bound),
             _ => return Err(Trouble::new("range() needs integers")),

@@ -123,6 +123,7 @@ impl<T: Item> Keyed<T> {
     }
 
     fn place(&self, key: &Value, budget: &mut Budget) -> Outcome<Option<usize>> {
+        key.known("a key")?;
         budget.spend(1)?;
         budget.spend_on(key)?;
         if let Some(hashed) = Hashed::of(key) {

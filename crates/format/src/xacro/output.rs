@@ -7,6 +7,7 @@ use super::budget::MOST_BYTES;
 use super::element::{Attribute, Element, Node};
 use super::map::{Map, Span};
 use super::text::Text;
+use super::value::Value;
 use super::{Outcome, Place, Run, Trouble};
 use crate::{Reading, Warning, WarningKind};
 use kutzbach_math::number::Number;
@@ -175,7 +176,7 @@ impl Writer {
             self.push(&format!(" xmlns{colon}{prefix}=\"{}\"", escaped(address)));
         }
         for attribute in &element.attributes {
-            self.attribute(element, attribute);
+            self.attribute(element, attribute)?;
         }
         if element.children.is_empty() {
             self.push("/>\n");
@@ -200,7 +201,7 @@ impl Writer {
         Ok(())
     }
 
-    fn attribute(&mut self, element: &Element, attribute: &Attribute) {
+    fn attribute(&mut self, element: &Element, attribute: &Attribute) -> Outcome<()> {
         self.push(" ");
         let start = self.text.len();
         self.push(&attribute.name);
@@ -212,7 +213,9 @@ impl Writer {
             || name == "value" && WITH_VALUE.contains(&&*element.name)
             || element.local_name() == "inertia";
         let value = match is_number {
-            true => self.with_numbers(&attribute.value),
+            true => self
+                .with_numbers(&attribute.value)
+                .map_err(|trouble| trouble.at(attribute.place, element.call))?,
             false => escaped(attribute.value.as_str()),
         };
         self.text.push_str(&value);
@@ -226,10 +229,11 @@ impl Writer {
             is_verbatim,
         );
         self.push("\"");
+        Ok(())
     }
 
     /// A value in which the computed numbers that stand by themselves have names.
-    fn with_numbers(&mut self, value: &Text) -> String {
+    fn with_numbers(&mut self, value: &Text) -> Outcome<String> {
         let whole = value.as_str();
         let mut out = String::new();
         let mut at = 0;
@@ -239,6 +243,7 @@ impl Writer {
             let alone =
                 blank(whole[..start].chars().next_back()) && blank(whole[end..].chars().next());
             if !alone {
+                Value::Text(value.clone()).known("a number put together from letters")?;
                 continue;
             }
             out.push_str(&escaped(&whole[at..start]));
@@ -252,7 +257,7 @@ impl Writer {
             at = end;
         }
         out.push_str(&escaped(&whole[at..]));
-        out
+        Ok(out)
     }
 }
 

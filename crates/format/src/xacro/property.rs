@@ -67,7 +67,7 @@ impl Run<'_> {
         };
         if is_top && let Some(setting) = self.setting(key) {
             let value = Value::literal(&arguments::setting(&setting));
-            let value = self.kept_symbolic(key, value);
+            let value = self.kept_symbolic(key, value)?;
             target.set_value(key, value);
             return Ok(());
         }
@@ -89,7 +89,7 @@ impl Run<'_> {
             })
         };
         let entry = match entry {
-            Entry::Ready(value) => Entry::Ready(self.kept_symbolic(key, value)),
+            Entry::Ready(value) => Entry::Ready(self.kept_symbolic(key, value)?),
             lazy => lazy,
         };
         if is_top {

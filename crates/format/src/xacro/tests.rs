@@ -814,3 +814,94 @@ proptest! {
         let _ = read_with(&robot(&format!("<xacro:if value='{text}'>{text}</xacro:if>")), "any", &options(&[]));
     }
 }
+
+/// A bar of this length, `L` left open.
+fn with_open_length(length: &str) -> Result<kutzbach_math::number::Number, String> {
+    let text = format!(
+        r#"<robot name="bar" xmlns:xacro="http://ros.org/wiki/xacro">
+  <xacro:property name="L" value="5"/>
+  <link name="g"/><link name="bar"/>
+  <joint name="p" type="revolute"><parent link="g"/><child link="bar"/><origin xyz="{length} 0 0"/><axis xyz="0 0 1"/></joint>
+</robot>"#
+    );
+    let options = ReadOptions {
+        symbolic: vec!["L".into()],
+        ..ReadOptions::default()
+    };
+    let reading = crate::read_with(&text, "bar.urdf", &options).map_err(|e| e.to_string())?;
+    let frames = &reading.mechanism.joints()[0].predecessor.frame;
+    Ok(frames.position[0].clone())
+}
+
+#[test]
+fn what_needs_the_value_of_an_open_measure_is_refused_at_its_place() {
+    for asked in [
+        "${abs(L)}",
+        "${fabs(L)}",
+        "${floor(L)}",
+        "${ceil(L)}",
+        "${int(L)}",
+        "${round(L)}",
+        "${round(L, 2)}",
+        "${trunc(L)}",
+        "${L // 1}",
+        "${L % 7}",
+        "${7 % L}",
+        "${divmod(L, 2)[0]}",
+        "${fmod(L, 2)}",
+        "${gcd(L, 2)}",
+        "${min(L, 9)}",
+        "${max(1, L)}",
+        "${sorted([2, L])[0]}",
+        "${atan2(L, 3)}",
+        "${atan(L)}",
+        "${acos(L/7)}",
+        "${asin(L/7)}",
+        "${exp(L)}",
+        "${log(L)}",
+        "${copysign(1, L)}",
+        "${5 ** (L - 4)}",
+        "${sqrt(L - 5)}",
+        "${L if L &gt; 2 else 3}",
+        "${1 if L else 3}",
+        "${[1, 5][L &gt; 3]}",
+        "${[1, 2, 3, 4, 5, 6][L]}",
+        "${2*(L == 5) + 3}",
+        "${1 if L in [5] else 2}",
+        "${1 if not L else 2}",
+        "${L and 2}",
+        "${len(range(L))}",
+        "${len([1]*L)}",
+        "${float('%s' % L)}",
+        "${float('{}'.format(L))}",
+        "${{5: 1}[L]}",
+        "${len(str(L)[0:1])}",
+        "1${L}",
+        "${int(str(L))}",
+        "${1 if str(L) == '5' else 2}",
+        "${isinstance(L, int)}",
+        "${bool(L)}",
+    ] {
+        let told = with_open_length(asked).map(|x| x.source());
+        let told = told.expect_err(asked);
+        assert!(told.starts_with("bar.urdf:4:"), "{asked}: {told}");
+    }
+    for asked in [
+        "${L}",
+        "${-L}",
+        "${L*L/5}",
+        "${L**2}",
+        "${sqrt(L)}",
+        "${hypot(L, 1)}",
+        "${float(L)}",
+        "${pow(L, 2)}",
+        "${sin(L)}",
+        "${sum([L, 1])}",
+        "${[1, L][1]}",
+        "${float(str(L))}",
+        "${L if 2 &gt; 1 else 3}",
+        "${L if L is not None else 3}",
+    ] {
+        assert!(with_open_length(asked).expect(asked).is_open(), "{asked}");
+    }
+}

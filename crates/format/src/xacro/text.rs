@@ -54,6 +54,12 @@ impl Text {
         &self.marks
     }
 
+    /// A number in it that is left open.
+    pub(super) fn open(&self) -> Option<&Number> {
+        let mut numbers = self.marks.iter().map(|mark| &mark.number);
+        numbers.find(|number| number.is_open())
+    }
+
     /// The number that all of a part stands for.
     pub(super) fn number_at(&self, part: Range<usize>) -> Option<&Number> {
         let index = self

@@ -5,6 +5,8 @@ use super::keyed::Keyed;
 use super::python_text::{float_text, quoted_text};
 use super::scope::Table;
 use super::text::{Joined, Text};
+use super::{Outcome, Trouble};
+use crate::words::quoted;
 use kutzbach_math::number::Number;
 use std::rc::Rc;
 
@@ -170,7 +172,37 @@ impl Value {
         }
     }
 
-    pub(super) fn is_true(&self) -> bool {
+    /// Python's truth of a value.
+    pub(super) fn truth(&self, asked: &str) -> Outcome<bool> {
+        if let Self::Number(_) = self {
+            self.known(asked)?;
+        }
+        Ok(self.is_true())
+    }
+
+    /// A number that is left open, itself or within a text.
+    fn open(&self) -> Option<&Number> {
+        match self {
+            Self::Number(number) => number.exact.as_ref().filter(|exact| exact.is_open()),
+            Self::Text(text) => text.open(),
+            _ => None,
+        }
+    }
+
+    /// Refuses a number that is left open where its value itself is asked for: what is asked must not be answered by the
+    /// value that the file happens to have.
+    pub(super) fn known(&self, asked: &str) -> Outcome<()> {
+        self.open().map_or(Ok(()), |number| {
+            let name = number.open_name().unwrap_or("a measure");
+            Err(Trouble::new(format!(
+                "{asked} needs the value of {}, which is left open",
+                quoted(name)
+            ))
+            .help("leave open what it is computed from, or give the measure a value"))
+        })
+    }
+
+    fn is_true(&self) -> bool {
         match self {
             Self::None => false,
             Self::Bool(value) => *value,

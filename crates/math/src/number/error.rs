@@ -58,6 +58,14 @@ pub enum Reason {
         /// The argument, about.
         found: String,
     },
+    /// A function that needs the value of a number that is left [open](super::Number::parameter).
+    #[error("{function} needs the value of `{found}`, which is left open")]
+    Open {
+        /// The function.
+        function: &'static str,
+        /// The name that is left open.
+        found: String,
+    },
     /// A division by something that is zero, literally or after simplification.
     #[error("needed a divisor that is not zero, found {0}")]
     DivisionByZero(String),
@@ -113,6 +121,9 @@ impl NumberError {
             }
             Reason::Arguments { .. } => None,
             Reason::Domain { .. } => Some("check the dimensions this value is computed from"),
+            Reason::Open { .. } => {
+                Some("leave open what it is computed from, or give the measure a value")
+            }
             Reason::DivisionByZero(_) => {
                 Some("the divisor may be an expression that simplifies to zero")
             }

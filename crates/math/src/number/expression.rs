@@ -324,9 +324,9 @@ fn call(function: Function, arguments: &[Number]) -> Result<Number, NumberError>
         Function::Tan => x.tan(),
         Function::Asin => x.asin(),
         Function::Acos => x.acos(),
-        Function::Atan => Ok(x.atan()),
+        Function::Atan => x.closed("atan").map(|()| x.atan()),
         Function::Atan2 => Number::atan2(x, arguments.get(1).unwrap_or(&zero)),
-        Function::Abs => Ok(x.abs()),
+        Function::Abs => x.closed("abs").map(|()| x.abs()),
         Function::Radians => Ok(x.radians()),
     }
 }

@@ -15,9 +15,11 @@ impl Number {
     /// The square root that is not negative.
     ///
     /// # Errors
-    /// Of a negative number; the offset is 0.
+    /// Of a negative number, and of zero that is [open](Self::is_open); the offset is 0.
     pub fn sqrt(&self) -> Result<Self, NumberError> {
         match self.signum() {
+            // Zero at this value only: the root is none elsewhere.
+            0 if self.is_open() => return Err(self.refused_open("sqrt at 0")),
             0 => return Ok(Self::zero().with_coarsest(self.0.coarsest)),
             -1 => return Err(self.outside("sqrt", "a number that is not negative")),
             _ => {}
@@ -69,8 +71,9 @@ impl Number {
     /// Angle in [0, π] with this cosine, in radians.
     ///
     /// # Errors
-    /// Beyond [−1, 1]; the offset is 0.
+    /// Beyond [−1, 1], and of a number that is [open](Self::is_open); the offset is 0.
     pub fn acos(&self) -> Result<Self, NumberError> {
+        self.closed("acos")?;
         let sin = self.other_leg("acos")?;
         self.angle_of(self.clone(), sin, Operation::Acos)
     }
@@ -78,8 +81,9 @@ impl Number {
     /// Angle in [−π/2, π/2] with this sine, in radians.
     ///
     /// # Errors
-    /// Beyond [−1, 1]; the offset is 0.
+    /// Beyond [−1, 1], and of a number that is [open](Self::is_open); the offset is 0.
     pub fn asin(&self) -> Result<Self, NumberError> {
+        self.closed("asin")?;
         let cos = self.other_leg("asin")?;
         self.angle_of(cos, self.clone(), Operation::Asin)
     }
@@ -87,7 +91,7 @@ impl Number {
     /// Angle in (−π/2, π/2) with this tangent, in radians.
     #[must_use]
     pub fn atan(&self) -> Self {
-        let angle = if self.is_zero() {
+        let angle = if self.is_zero() && !self.is_open() {
             Ok(Self::zero())
         } else if self.is_algebraic() {
             Self::atan2(self, &Self::one())
@@ -103,8 +107,10 @@ impl Number {
     /// Angle in (−π, π] of the point (x, y), in radians.
     ///
     /// # Errors
-    /// For the origin; the offset is 0.
+    /// For the origin, and for coordinates that are [open](Self::is_open); the offset is 0.
     pub fn atan2(y: &Self, x: &Self) -> Result<Self, NumberError> {
+        y.closed("atan2")?;
+        x.closed("atan2")?;
         let coarsest = [y, x].iter().filter_map(|n| n.0.coarsest).min();
         let angle = match (y.signum(), x.signum()) {
             (0, 0) => {
@@ -176,6 +182,25 @@ impl Number {
             Self::from_tree(operation, vec![self.clone()])
         };
         Ok(angle.with_coarsest(self.0.coarsest))
+    }
+
+    /// Refuses what is open for a function that has no polynomial form.
+    ///
+    /// # Errors
+    /// [`Reason::Open`]; the offset is 0.
+    pub(super) fn closed(&self, function: &'static str) -> Result<(), NumberError> {
+        match self.is_open() {
+            true => Err(self.refused_open(function)),
+            false => Ok(()),
+        }
+    }
+
+    fn refused_open(&self, function: &'static str) -> NumberError {
+        Reason::Open {
+            function,
+            found: self.open_name().unwrap_or("a measure").to_owned(),
+        }
+        .at(0)
     }
 
     fn outside(&self, function: &'static str, needed: &'static str) -> NumberError {

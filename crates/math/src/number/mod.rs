@@ -158,7 +158,7 @@ impl Number {
             return number;
         }
         let stored = Operation::Stored(number.evaluate(STORED_BITS));
-        let tree = Tree::new(stored, Vec::new());
+        let tree = Tree::stored(stored, number.is_open());
         Self::build(Form::Symbolic(tree), number.0.coarsest)
     }
 
@@ -227,6 +227,29 @@ impl Number {
         match value.view() {
             View::Parameter(known, _) if known == name => value,
             _ => Self::from_tree(Operation::Parameter(name.into()), vec![value]),
+        }
+    }
+
+    /// Whether this was computed from a [`parameter`](Self::parameter): then it stands for any value, and whatever asks for
+    /// its size or sign (`abs`, a comparison) has no answer.
+    #[must_use]
+    pub fn is_open(&self) -> bool {
+        self.tree().is_some_and(Tree::is_open)
+    }
+
+    /// The name of a [`parameter`](Self::parameter) that this was computed from, where there is one and its name is kept.
+    #[must_use]
+    pub fn open_name(&self) -> Option<&str> {
+        let mut tree = self.tree().filter(|tree| tree.is_open())?;
+        loop {
+            if let tree::Operation::Parameter(name) = &tree.operation {
+                return Some(name);
+            }
+            tree = tree
+                .operands
+                .iter()
+                .filter(|x| x.is_open())
+                .find_map(Self::tree)?;
         }
     }
 

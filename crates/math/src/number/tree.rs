@@ -39,6 +39,7 @@ pub struct Tree {
     pub(super) operands: Vec<Number>,
     nodes: u32,
     algebraic: bool,
+    open: bool,
 }
 
 impl Tree {
@@ -64,12 +65,28 @@ impl Tree {
             }
             _ => false,
         };
+        let open =
+            matches!(operation, Operation::Parameter(_)) || operands.iter().any(Number::is_open);
         Self {
             operation,
             operands,
             nodes,
             algebraic,
+            open,
         }
+    }
+
+    /// What is left of an expression that grew too large: open as it was.
+    pub(super) fn stored(operation: Operation, open: bool) -> Self {
+        Self {
+            open,
+            ..Self::new(operation, Vec::new())
+        }
+    }
+
+    /// Whether a parameter occurs.
+    pub(super) fn is_open(&self) -> bool {
+        self.open
     }
 
     /// Number of operations and leaves, shared ones counted as often as they occur.

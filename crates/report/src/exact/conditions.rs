@@ -4,7 +4,9 @@ use super::schema::{EXACT_SCHEMA, Outcome, Request, outcome};
 use super::text::stopped;
 use crate::text::words::counted;
 use crate::text::{Layout, Page, Tint};
-use kutzbach_algebra::{DesignConditions, Family, Meaning, PolynomialSystem, Stop};
+use kutzbach_algebra::{
+    DesignConditions, Exception, Exceptions, Family, Meaning, PolynomialSystem, Stop,
+};
 use kutzbach_model::mechanism::Mechanism;
 use serde::Serialize;
 
@@ -29,6 +31,15 @@ pub struct FamilyRow {
     pub equations: Vec<String>,
 }
 
+/// Values without a solution although they satisfy all conditions.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ExceptionRow {
+    /// The values: where all of these vanish.
+    pub on: Vec<String>,
+    /// What has to vanish there as well; `1` where nothing helps.
+    pub only_if: Vec<String>,
+}
+
 /// Conditions on measures that were left open.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Conditions {
@@ -42,7 +53,7 @@ pub struct Conditions {
     pub question: String,
     /// The parameters: their variables.
     pub parameters: Vec<String>,
-    /// Whether it came to its end.
+    /// Whether it came to its end; `in part` where a relation of the mechanism is left out, and conditions may be missing.
     pub outcome: Outcome,
     /// What has to vanish; empty: no condition; `null` where it was not found.
     pub conditions: Option<Vec<ConditionRow>>,
@@ -50,18 +61,23 @@ pub struct Conditions {
     pub families: Option<Vec<FamilyRow>>,
     /// Whether every family is proven irreducible over the rationals.
     pub families_fully_split: Option<bool>,
+    /// Values that satisfy the conditions and have no solution, not even a complex one; `null` where there are no conditions.
+    pub exceptions: Option<Vec<ExceptionRow>>,
+    /// Whether these are all.
+    pub exceptions_complete: Option<bool>,
     /// What the equations leave out of the mechanism.
     pub relaxations: Vec<String>,
 }
 
 /// Design conditions as data; `joint` is the one that is to move, if any. `families` are those of
-/// [`DesignConditions::families`].
+/// [`DesignConditions::families`], `exceptions` those of [`DesignConditions::exceptions`].
 #[must_use]
 pub fn conditions_report(
     mechanism: &Mechanism,
     system: &PolynomialSystem,
     found: Result<&DesignConditions, Stop>,
     families: Option<&(Vec<Family>, bool)>,
+    exceptions: Option<&Exceptions>,
     joint: Option<&str>,
     request: &Request,
 ) -> Conditions {
@@ -76,7 +92,13 @@ pub fn conditions_report(
             .filter(|&v| matches!(system.variables[v].meaning, Meaning::Parameter { .. }))
             .map(|v| names[v].clone())
             .collect(),
-        outcome: outcome(found.err().map(|stop| ("the elimination", stop))),
+        outcome: match found {
+            Ok(_) if !system.is_exact() => Outcome {
+                word: "in part",
+                ..outcome(None)
+            },
+            _ => outcome(found.err().map(|stop| ("the elimination", stop))),
+        },
         conditions: found.ok().map(|found| {
             let row = |condition: &kutzbach_algebra::Condition| ConditionRow {
                 polynomial: text(&condition.polynomial),
@@ -92,6 +114,14 @@ pub fn conditions_report(
             families.iter().map(row).collect()
         }),
         families_fully_split: families.map(|(_, complete)| *complete),
+        exceptions: exceptions.map(|all| {
+            let row = |exception: &Exception| ExceptionRow {
+                on: exception.on.iter().map(&text).collect(),
+                only_if: exception.only_if.iter().map(&text).collect(),
+            };
+            all.found.iter().map(row).collect()
+        }),
+        exceptions_complete: exceptions.map(|all| all.complete),
         relaxations: system.relaxations.iter().map(ToString::to_string).collect(),
     }
 }
@@ -100,25 +130,17 @@ pub fn conditions_report(
 #[must_use]
 pub fn render_conditions(report: &Conditions, layout: Layout) -> String {
     let mut page = Page::new(layout);
-    let does = if report.question == "assembly" {
-        "can be put together".to_owned()
-    } else {
-        format!("can move with `{}` taking every position", report.question)
-    };
-    let headline = match report.conditions.as_deref() {
-        None => "Undecided: the computation ended before it had an answer.".to_owned(),
-        Some([]) => format!("It {does} whatever the values (complex ones included)."),
-        Some([one]) if one.polynomial == "1" => format!("There are no values for which it {does}."),
-        Some([one]) if one.factors.len() == 1 => {
-            format!("It {does} only if {} = 0.", one.factors[0])
-        }
-        Some(_) => format!("It {does} only if all of this holds:"),
-    };
+    let headline = headline(report);
     page.paragraph(&headline, Tint::Strong, "", "");
     if let Some(sentence) = stopped(&report.outcome) {
         page.item(&sentence, Tint::Doubtful);
     }
     let rows = report.conditions.as_deref().unwrap_or_default();
+    // Where no values will do, there is nothing to choose from.
+    let rows = match rows.iter().any(|row| row.factors.is_empty()) {
+        true => &[],
+        false => rows,
+    };
     let shown = match (&report.families, page.layout().verbose) {
         (Some(families), false) if !families.is_empty() && rows.len() > CONDITIONS => CONDITIONS,
         _ => rows.len(),
@@ -161,20 +183,72 @@ pub fn render_conditions(report: &Conditions, layout: Layout) -> String {
             );
         }
     }
+    for exception in report.exceptions.iter().flatten() {
+        page.item(&exception_text(exception), Tint::Notable);
+    }
+    if report.exceptions_complete == Some(false) {
+        page.item("there may be other exceptions", Tint::Notable);
+    }
     for relaxation in &report.relaxations {
         page.item(relaxation, Tint::Notable);
     }
     page.gap();
+    let open = match report.parameters.as_slice() {
+        [] => "nothing that is left open enters the equations".to_owned(),
+        some => format!("left open: {}", some.join(", ")),
+    };
     page.paragraph(
         &format!(
-            "{} ({}), left open: {}. The conditions are necessary; complex solutions count.",
-            report.mechanism,
-            report.file,
-            report.parameters.join(", ")
+            "{} ({}), {open}. The conditions are necessary. Complex solutions count: where none is excluded, real ones may ask for more, such as lengths that reach.",
+            report.mechanism, report.file
         ),
         Tint::Quiet,
         "",
         "",
     );
     page.into_text()
+}
+
+/// The answer in a sentence.
+fn headline(report: &Conditions) -> String {
+    let does = if report.question == "assembly" {
+        "can be put together".to_owned()
+    } else {
+        format!("can move with `{}` taking every position", report.question)
+    };
+    let some_left_out = !report.relaxations.is_empty();
+    let has_exceptions = report.exceptions.as_ref().is_none_or(|all| !all.is_empty());
+    match report.conditions.as_deref() {
+        None => "Undecided: the computation ended before it had an answer.".to_owned(),
+        Some([]) if some_left_out => format!(
+            "Undecided whether it {does}: what the equations hold restricts no value, but they do not hold all of the mechanism."
+        ),
+        Some([]) if has_exceptions || report.exceptions_complete != Some(true) => {
+            format!(
+                "It {does} for almost all values, in complex numbers; in real ones is not said."
+            )
+        }
+        Some([]) => {
+            format!("It {does} whatever the values, in complex numbers; in real ones is not said.")
+        }
+        Some(rows) if rows.iter().any(|row| row.factors.is_empty()) => {
+            format!("There are no values for which it {does}.")
+        }
+        Some([one]) if one.factors.len() == 1 => {
+            format!("It {does} only if {} = 0.", one.factors[0])
+        }
+        Some(_) => format!("It {does} only if all of this holds:"),
+    }
+}
+
+/// Where there is no solution.
+fn exception_text(exception: &ExceptionRow) -> String {
+    let zero = |all: &[String]| {
+        let equations: Vec<String> = all.iter().map(|p| format!("{p} = 0")).collect();
+        equations.join(" and ")
+    };
+    match exception.only_if.as_slice() {
+        [one] if one == "1" => format!("not where {}", zero(&exception.on)),
+        only_if => format!("where {} only if {}", zero(&exception.on), zero(only_if)),
+    }
 }
