@@ -80,6 +80,7 @@ mod rounding;
 mod same_bytes;
 mod simulate_cli;
 mod sketch_cli;
+mod sketch_relations;
 #[path = "stability/main.rs"]
 mod stability;
 mod subgroups;

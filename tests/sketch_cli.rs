@@ -93,13 +93,25 @@ fn every_mistake_is_told_at_its_place() {
         extra("<angle between=\"base a\" value=\"1\"/>"),
         "f:19:17: an angle is between two lines"
     );
-    assert_eq!(extra("<circle/>"), "f:19:1: a <sketch> has no <circle>");
+    assert_eq!(extra("<ellipse/>"), "f:19:1: a <sketch> has no <ellipse>");
 }
 
 #[test]
 fn a_sketch_is_no_mechanism_and_settings_change_it() {
     let error = kutzbach::format::read(TRUSS, "f", &[]).unwrap_err();
     assert!(error.help.unwrap().contains("--constructive"));
+    let inside = |links: &str| {
+        let text = format!(
+            "<robot name='r'>{links}{}</robot>",
+            TRUSS.split_once("?>").map_or(TRUSS, |t| t.1)
+        );
+        kutzbach::format::read(&text, "f", &[])
+    };
+    let error = inside("").unwrap_err();
+    let root = "<sketch> has to be the root element of a file of its own";
+    assert_eq!(error.message, root);
+    let beside = inside("<link name='a'/>").unwrap();
+    assert!(beside.skipped.iter().any(|s| s.what == root));
     let wider = [("span".to_owned(), "9".to_owned())];
     let named = read_sketch(TRUSS, "f", &wider).unwrap();
     let words = kutzbach::constructive::words::SketchWords::of(&named);
@@ -107,7 +119,7 @@ fn a_sketch_is_no_mechanism_and_settings_change_it() {
     assert!(
         words
             .text()
-            .contains("circles do not meet, they are 1.000e0 apart")
+            .contains("circles do not meet, they are 1 apart")
     );
 }
 

@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 use kutzbach::algebra::{Limits, Progress};
 use kutzbach::assembly::placed::Unsuited;
 use kutzbach::assembly::words;
-use kutzbach::constructive::sketch::NamedSketch;
+use kutzbach::constructive::named::NamedSketch;
 use kutzbach::constructive::together;
 use kutzbach::constructive::words::SketchWords;
 use kutzbach::graph::{
@@ -158,6 +158,14 @@ fn seams(arguments: &Arguments, mechanism: &Mechanism) -> Result<u8, Failure> {
 fn constructive(arguments: &Arguments) -> Result<u8, Failure> {
     let named = sketch::read(&arguments.source, &arguments.hold)?;
     let found = watched(&named, arguments.budget);
+    if matches!(arguments.format, Format::Dot | Format::Svg) && !found.has_tree() {
+        return Err(Failure::Plain {
+            message:
+                "the s-tree is one of constraints between two elements, this sketch has others"
+                    .to_owned(),
+            help: Some("text and json say what is known of it".to_owned()),
+        });
+    }
     let text = match (arguments.format, found.graph()) {
         (Format::Json, _) => output::json(&found.data())?,
         (Format::Dot, Some(graph)) => to_dot(&graph, &SpanningTree::root_at(&graph, 0)),

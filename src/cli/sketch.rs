@@ -3,8 +3,8 @@
 use super::assemble::held;
 use super::failure::Failure;
 use super::load::{STANDARD_INPUT, Source, standard_input};
+use kutzbach::constructive::named::NamedSketch;
 use kutzbach::constructive::planar;
-use kutzbach::constructive::sketch::NamedSketch;
 use kutzbach::format::{is_sketch, read_sketch, read_sketch_file, read_with};
 use kutzbach::mechanism::Mechanism;
 use std::path::Path;

@@ -11,8 +11,13 @@
 //! 2⁶¹ − 1, row after row: a row that those before it combine to is a constraint too many, and those that do so are its circuit. At a random
 //! place a polynomial of degree d that is not zero is zero with probability d/p at most (Schwartz 1980): below 10⁻¹³ for a thousand
 //! constraints.
+//!
+//! Relations of more elements are rows besides, two each or one, and unknown values are columns; then the rank alone counts. Middles and mirror
+//! images are in their places where that can be had one after the other, so that what follows from them is seen to follow. As always
+//! a count is one of general values: what holds by special lengths only, or by a theorem of incidences, it does not see.
 
 use crate::pebbles::{Circuit, PebbleGame, Standing};
+use crate::relation::Relation;
 use crate::samples::Random;
 use crate::sketch::{Element, Sketch};
 use std::collections::{BTreeMap, BTreeSet};
@@ -29,6 +34,8 @@ pub struct Counted {
     game: PebbleGame,
     /// What the game does not see: circuits and freedoms.
     by_rank: Option<(Vec<Circuit>, usize)>,
+    /// Whether there are relations, of which the game knows nothing.
+    relations: bool,
 }
 
 impl Counted {
@@ -37,16 +44,22 @@ impl Counted {
     pub fn of(sketch: &Sketch) -> Self {
         let game = PebbleGame::play(sketch.graph());
         let lines = sketch.elements().iter().filter(|e| e.is_line()).count();
-        let by_rank = (lines > 2).then(|| circuits(sketch)).flatten();
+        let relations = !sketch.relations().is_empty();
+        let by_rank = (lines > 2 || relations).then(|| ranked(sketch)).flatten();
         // Where both refuse the same constraints, the game names the smallest rigid parts.
         let refused = |circuits: &[Circuit]| circuits.iter().map(|c| c.edge).collect::<Vec<_>>();
-        let by_rank = by_rank.filter(|circuits| refused(circuits) != refused(game.circuits()));
-        let by_rank = by_rank.map(|circuits| {
-            let rank = sketch.constraints().len() - circuits.len();
-            let freedoms = (2 * sketch.elements().len() - 3).saturating_sub(rank);
-            (circuits, freedoms)
+        let by_rank = by_rank
+            .filter(|found| relations || refused(&found.circuits) != refused(game.circuits()));
+        let by_rank = by_rank.map(|found| {
+            let unknowns = 2 * sketch.elements().len() + sketch.unknown_values();
+            let freedoms = (unknowns - 3).saturating_sub(found.rank);
+            (found.circuits, freedoms)
         });
-        Self { game, by_rank }
+        Self {
+            game,
+            by_rank,
+            relations,
+        }
     }
 
     /// Over-, under- or well-constrained.
@@ -65,7 +78,14 @@ impl Counted {
         self.by_rank.as_ref().map_or(self.game.freedoms(), |r| r.1)
     }
 
-    /// Every constraint that those before it imply, with the elements of those that do.
+    /// Whether it was counted: not where relations are too many for it.
+    #[must_use]
+    pub const fn is_known(&self) -> bool {
+        !self.relations || self.by_rank.is_some()
+    }
+
+    /// Every constraint that those before it imply, with the elements of those that do. An edge beyond the constraints is a relation; these
+    /// come after the angles and before all others.
     #[must_use]
     pub fn circuits(&self) -> &[Circuit] {
         match &self.by_rank {
@@ -87,15 +107,44 @@ impl Counted {
 /// A row, by column.
 type Row = BTreeMap<usize, u64>;
 
-/// The constraints that those before them imply; `None` where that takes too long.
-fn circuits(sketch: &Sketch) -> Option<Vec<Circuit>> {
+/// The rank, and the constraints that those before them imply.
+struct Ranked {
+    circuits: Vec<Circuit>,
+    rank: usize,
+}
+
+/// Counts by the rank; `None` where that takes too long.
+fn ranked(sketch: &Sketch) -> Option<Ranked> {
     let places = places(sketch);
+    let constraints = sketch.constraints();
+    let beyond = sketch.relations().iter().enumerate();
+    let beyond = beyond.flat_map(|(i, relation)| {
+        let rows = related(relation, &places);
+        rows.into_iter()
+            .map(move |row| (constraints.len() + i, row))
+    });
+    let rows = constraints.iter().enumerate();
+    let rows = rows.map(|(edge, c)| (edge, gradient(c.ends, &places)));
+    // What relations imply of lengths is wanted, and what directions imply of relations.
+    let first = |(edge, _): &(usize, Row)| {
+        if sketch.relations().is_empty() {
+            return false;
+        }
+        let [u, v] = constraints[*edge].ends;
+        places[u].line && places[v].line
+    };
+    let (first, rows): (Vec<_>, Vec<_>) = rows.partition(first);
+    let private = private(sketch);
     let mut left = MOST_PRODUCTS;
     // By first column: the row, and which constraints it is a sum of.
     let mut pivots: BTreeMap<usize, (Row, Row)> = BTreeMap::new();
-    let mut circuits = Vec::new();
-    for (edge, constraint) in sketch.constraints().iter().enumerate() {
-        let mut row = gradient(constraint.ends, &places);
+    let mut circuits: Vec<Circuit> = Vec::new();
+    let mut rank = 0;
+    for (edge, mut row) in first.into_iter().chain(beyond).chain(rows) {
+        if private.get(edge) == Some(&true) {
+            rank += 1;
+            continue;
+        }
         let mut from = Row::from([(edge, 1)]);
         while let Some((&column, &value)) = row.first_key_value() {
             let Some((pivot, parts)) = pivots.get(&column) else {
@@ -108,12 +157,26 @@ fn circuits(sketch: &Sketch) -> Option<Vec<Circuit>> {
         }
         match row.first_key_value() {
             None => {
-                let ends = from.keys().flat_map(|&e| sketch.constraints()[e].ends);
-                let vertices: BTreeSet<usize> = ends.collect();
-                let vertices = vertices.into_iter().collect();
-                circuits.push(Circuit { edge, vertices });
+                let tied = |e: usize| match e.checked_sub(constraints.len()) {
+                    None => constraints[e].ends.to_vec(),
+                    Some(relation) => sketch.relations()[relation].elements(),
+                };
+                // The second equation of a relation may hold by its first: it takes part all the same.
+                let others = from.keys().copied().chain([edge]);
+                let mut vertices: BTreeSet<usize> = others.flat_map(tied).collect();
+                match circuits.last_mut().filter(|c| c.edge == edge) {
+                    Some(circuit) => {
+                        vertices.extend(&circuit.vertices);
+                        circuit.vertices = vertices.into_iter().collect();
+                    }
+                    None => {
+                        let vertices = vertices.into_iter().collect();
+                        circuits.push(Circuit { edge, vertices });
+                    }
+                }
             }
             Some((&column, &value)) => {
+                rank += 1;
                 let inverse = power(value, PRIME - 2);
                 for entry in row.values_mut().chain(from.values_mut()) {
                     *entry = times(*entry, inverse);
@@ -122,7 +185,38 @@ fn circuits(sketch: &Sketch) -> Option<Vec<Circuit>> {
             }
         }
     }
-    Some(circuits)
+    Some(Ranked { circuits, rank })
+}
+
+/// Constraints of elements that have two at most, of which one says where a line is that the other turns: independent, whatever the others are.
+/// Taken off one after the other.
+fn private(sketch: &Sketch) -> Vec<bool> {
+    let is_line = |e: usize| sketch.elements()[e].is_line();
+    let mut at: Vec<Vec<usize>> = vec![Vec::new(); sketch.elements().len()];
+    for (i, constraint) in sketch.constraints().iter().enumerate() {
+        constraint.ends.iter().for_each(|&e| at[e].push(i));
+    }
+    let mut kept = vec![false; at.len()];
+    for e in sketch.relations().iter().flat_map(Relation::elements) {
+        kept[e] = true;
+    }
+    let mut private = vec![false; sketch.constraints().len()];
+    let mut waiting: Vec<usize> = (0..at.len()).collect();
+    while let Some(e) = waiting.pop() {
+        let own = at[e].iter().copied().filter(|&i| !private[i]);
+        let own: Vec<usize> = own.collect();
+        let angle = |i: &&usize| sketch.constraints()[**i].ends.iter().all(|&e| is_line(e));
+        if kept[e] || own.is_empty() || own.len() > 2 || own.iter().filter(angle).count() > 1 {
+            continue;
+        }
+        kept[e] = true;
+        for i in own {
+            private[i] = true;
+            let others = sketch.constraints()[i].ends;
+            waiting.extend(others.into_iter().filter(|&o| o != e));
+        }
+    }
+    private
 }
 
 /// `row − factor · other`, without zeros.
@@ -136,31 +230,230 @@ fn subtract(row: &mut Row, factor: u64, other: &Row) {
     }
 }
 
-/// A random place: x and y of a point; cosine and sine of a line's normal, to which it has some distance from the origin.
-fn places(sketch: &Sketch) -> Vec<(bool, [u64; 2])> {
+/// A place: x and y of a point; cosine and sine of a line's normal, and its distance from the origin.
+#[derive(Clone, Copy)]
+struct Place {
+    line: bool,
+    at: [u64; 3],
+}
+
+/// Random places; middles and mirror images where they belong, as far as these follow one after the other.
+fn places(sketch: &Sketch) -> Vec<Place> {
     let mut random = Random::new(1);
     let mut any = || random.bits() % PRIME;
     let place = |element: &Element| match element {
-        Element::Point(_) => (false, [any(), any()]),
+        Element::Point(_) => Place {
+            line: false,
+            at: [any(), any(), 0],
+        },
         Element::Line { .. } => {
             // The circle by its rational parameter; −1 is no square modulo this prime, so that 1 + t² is not zero.
             let t = any();
             let square = times(t, t);
             let inverse = power(plus(1, square), PRIME - 2);
-            (
-                true,
-                [times(minus(1, square), inverse), times(plus(t, t), inverse)],
-            )
+            Place {
+                line: true,
+                at: [
+                    times(minus(1, square), inverse),
+                    times(plus(t, t), inverse),
+                    any(),
+                ],
+            }
         }
     };
-    sketch.elements().iter().map(place).collect()
+    let mut places: Vec<Place> = sketch.elements().iter().map(place).collect();
+    if sketch.relations().is_empty() {
+        return places;
+    }
+    turn_by_quarters(sketch, &mut places);
+    let mut used = vec![false; places.len()];
+    for relation in sketch.relations() {
+        let (open, found) = match *relation {
+            Relation::Middle { point, of: [a, b] } => {
+                let (p, q, m) = (places[a].at, places[b].at, places[point].at);
+                match [point, b, a].into_iter().find(|&e| !used[e]) {
+                    Some(e) if e == point => {
+                        let half = power(2, PRIME - 2);
+                        (e, [0, 1].map(|k| times(half, plus(p[k], q[k]))))
+                    }
+                    Some(e) => {
+                        let other = if e == a { q } else { p };
+                        (e, [0, 1].map(|k| minus(plus(m[k], m[k]), other[k])))
+                    }
+                    None => continue,
+                }
+            }
+            Relation::Mirrored {
+                pair: [a, b],
+                axis,
+                against,
+            } => {
+                let Some(e) = [b, a].into_iter().find(|&e| !used[e]) else {
+                    continue;
+                };
+                let other = places[if e == a { b } else { a }];
+                let found = mirrored(other, places[axis].at, against);
+                places[e].at[2] = found[2];
+                (e, [found[0], found[1]])
+            }
+            Relation::Measured { .. } => continue,
+        };
+        places[open].at[..2].copy_from_slice(&found);
+        relation.elements().iter().for_each(|&e| used[e] = true);
+    }
+    places
+}
+
+/// Puts lines across or along others where angles of quarter turns ask for it: mirror images in two such lines belong together.
+fn turn_by_quarters(sketch: &Sketch, places: &mut [Place]) {
+    let quarters = sketch.constraints().iter().filter_map(|c| {
+        let [u, v] = c.ends;
+        if !(places[u].line && places[v].line) {
+            return None;
+        }
+        let (cos, sin) = c.value.cos_sin();
+        let signs = [cos.signum(), sin.signum()];
+        signs.contains(&0).then_some((u, v, signs))
+    });
+    let quarters: Vec<(usize, usize, [i8; 2])> = quarters.collect();
+    let mut turned = vec![false; places.len()];
+    for start in 0..places.len() {
+        let mut open = vec![start];
+        while let Some(at) = open.pop() {
+            turned[at] = true;
+            for &(u, v, [cos, sin]) in &quarters {
+                let (next, sin) = match at {
+                    e if e == u => (v, sin),
+                    e if e == v => (u, -sin),
+                    _ => continue,
+                };
+                if turned[next] {
+                    continue;
+                }
+                let [x, y, _] = places[at].at;
+                let by = |sign: i8, value: u64| match sign {
+                    0 => 0,
+                    1 => value,
+                    _ => minus(0, value),
+                };
+                let to = [minus(by(cos, x), by(sin, y)), plus(by(sin, x), by(cos, y))];
+                places[next].at[..2].copy_from_slice(&to);
+                open.push(next);
+            }
+        }
+    }
+}
+
+/// A mirror image, as [`crate::relation`] has it.
+fn mirrored(place: Place, [nx, ny, h]: [u64; 3], against: bool) -> [u64; 3] {
+    let [x, y, own] = place.at;
+    let along = plus(times(nx, x), times(ny, y));
+    let reflected = |by: u64| [minus(x, times(by, nx)), minus(y, times(by, ny))];
+    if !place.line {
+        let far = minus(along, h);
+        let [x, y] = reflected(plus(far, far));
+        return [x, y, 0];
+    }
+    let [x, y] = reflected(plus(along, along));
+    let both = times(h, along);
+    let image = [x, y, minus(own, plus(both, both))];
+    match against {
+        true => image,
+        false => image.map(|v| minus(0, v)),
+    }
+}
+
+/// How the equations of a relation change with the unknowns, each a row; unknown values come after the elements.
+fn related(relation: &Relation, places: &[Place]) -> Vec<Row> {
+    let two = |x: u64| plus(x, x);
+    let row = |entries: &[(usize, u64)]| {
+        let mut row = Row::new();
+        for &(column, value) in entries {
+            let entry = row.entry(column).or_insert(0);
+            *entry = plus(*entry, value);
+        }
+        row.retain(|_, value| *value != 0);
+        row
+    };
+    match relation {
+        Relation::Middle { point, of: [a, b] } => [0, 1]
+            .map(|k| {
+                row(&[
+                    (2 * point + k, 2),
+                    (2 * a + k, minus(0, 1)),
+                    (2 * b + k, minus(0, 1)),
+                ])
+            })
+            .to_vec(),
+        &Relation::Mirrored {
+            pair: [a, b],
+            axis,
+            against,
+        } => {
+            let ([p, q], [nx, ny, h]) = ([places[a], places[b]], places[axis].at);
+            let dot = |n: [u64; 2], v: [u64; 2]| plus(times(n[0], v[0]), times(n[1], v[1]));
+            let (n, t) = ([nx, ny], [minus(0, ny), nx]);
+            let [u, v] = [p, q].map(|place| [place.at[0], place.at[1]]);
+            if !p.line {
+                // n·(p + q) = 2h and t·(q − p) = 0; turning the line changes n by t and t by −n.
+                let sum = [0, 1].map(|k| plus(u[k], v[k]));
+                let off = [0, 1].map(|k| minus(v[k], u[k]));
+                let middle = [
+                    (2 * a, n[0]),
+                    (2 * a + 1, n[1]),
+                    (2 * b, n[0]),
+                    (2 * b + 1, n[1]),
+                    (2 * axis, dot(t, sum)),
+                    (2 * axis + 1, minus(0, 2)),
+                ];
+                let across = [
+                    (2 * b, t[0]),
+                    (2 * b + 1, t[1]),
+                    (2 * a, minus(0, t[0])),
+                    (2 * a + 1, minus(0, t[1])),
+                    (2 * axis, minus(0, dot(n, off))),
+                ];
+                return vec![row(&middle), row(&across)];
+            }
+            // Angles add up to twice that of the axis; the second offset is ±(h₁ − 2h n₁·n).
+            let sign = |x: u64| if against { x } else { minus(0, x) };
+            let turned = [minus(0, u[1]), u[0]];
+            let by_own = two(times(h, dot(turned, n)));
+            let by_axis = two(times(h, dot(u, t)));
+            let angles = [(2 * a, 1), (2 * b, 1), (2 * axis, minus(0, 2))];
+            let offsets = [
+                (2 * b + 1, 1),
+                (2 * a + 1, minus(0, sign(1))),
+                (2 * axis + 1, sign(two(dot(u, n)))),
+                (2 * a, sign(by_own)),
+                (2 * axis, sign(by_axis)),
+            ];
+            vec![row(&angles), row(&offsets)]
+        }
+        Relation::Measured { ends, terms, .. } => {
+            let mut own = gradient(*ends, places);
+            let value = |v: usize| 2 * places.len() + v;
+            // Of two points it is the square of a sum, at some place of the unknown values.
+            let slope = match ends.iter().any(|&e| places[e].line) {
+                true => 1,
+                false => terms.iter().fold(1, |sum, &(v, _)| plus(sum, v as u64 + 2)),
+            };
+            for &(v, less) in terms {
+                let entry = own.entry(value(v)).or_insert(0);
+                *entry = plus(*entry, if less { slope } else { minus(0, slope) });
+            }
+            own.retain(|_, entry| *entry != 0);
+            vec![own]
+        }
+    }
 }
 
 /// How a constraint changes with the unknowns: x and y of a point; angle and distance from the origin of a line.
-fn gradient(ends: [usize; 2], places: &[(bool, [u64; 2])]) -> Row {
+fn gradient(ends: [usize; 2], places: &[Place]) -> Row {
     let [u, v] = ends;
     let row = |entries: [(usize, u64); 4]| entries.into_iter().filter(|(_, x)| *x != 0).collect();
-    match (places[u], places[v]) {
+    let of = |e: usize| (places[e].line, [places[e].at[0], places[e].at[1]]);
+    match (of(u), of(v)) {
         ((true, _), (true, _)) => row([(2 * u, 1), (2 * v, minus(0, 1)), (0, 0), (1, 0)]),
         ((false, p), (false, q)) => {
             let [x, y] = [0, 1].map(|i| minus(p[i], q[i]));
@@ -315,7 +608,11 @@ mod tests {
                     refused += 1;
                 }
             }
-            assert_eq!(circuits(&sketch).unwrap().len(), refused, "{pairs:?}");
+            assert_eq!(
+                ranked(&sketch).unwrap().circuits.len(),
+                refused,
+                "{pairs:?}"
+            );
             differ += usize::from(refused != PebbleGame::play(sketch.graph()).circuits().len());
         }
         assert!(differ > 10, "{differ}");

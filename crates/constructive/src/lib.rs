@@ -11,6 +11,8 @@
 //! | [`counted`] | the same of sketches with many lines, whose directions count too |
 //! | [`analysis`] | three ways to find out whether a graph is constructive: reduction, decomposition, s-tree |
 //! | [`sketch`] | points, lines, and what holds between them |
+//! | [`relation`] | what holds between three elements or more, and by unknown values |
+//! | [`named`] | sketches as files have them, with circles |
 //! | [`construction`] | every solution, step by step |
 //! | [`together`] | what circles and lines do not construct, solved at once |
 //! | [`planar`] | planar mechanisms as sketches |
@@ -25,10 +27,12 @@ pub mod analysis;
 pub mod construction;
 pub mod counted;
 pub mod graph;
+pub mod named;
 pub mod pebbles;
 pub mod picture;
 pub mod planar;
 pub mod redundancy;
+pub mod relation;
 pub mod samples;
 pub mod sketch;
 pub mod together;

@@ -1,17 +1,18 @@
 //! A solution as SVG.
 
 use crate::construction::Shape;
-use crate::sketch::NamedSketch;
+use crate::named::NamedSketch;
 use std::fmt::Write;
 
 /// Width and height of a picture in pixels, and the margin around what it shows.
 const SIZE: f64 = 320.0;
 const MARGIN: f64 = 32.0;
 
-/// Points with their names, lines, and distances between points; `shapes` by element, y upwards. Coordinates are rounded to a
-/// hundredth of a pixel, so that the picture is the same on every machine.
+/// Points with their names, lines, circles, and distances between points; `shapes` by element of the sketch, y upwards. Coordinates are
+/// rounded to a hundredth of a pixel, so that the picture is the same on every machine.
 #[must_use]
 pub fn to_svg(named: &NamedSketch, shapes: &[Shape]) -> String {
+    let shapes = &named.whole(shapes)[..];
     let view = View::of(shapes);
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {SIZE} {SIZE}\" width=\"{SIZE}\" height=\"{SIZE}\" \
@@ -33,6 +34,16 @@ pub fn to_svg(named: &NamedSketch, shapes: &[Shape]) -> String {
     for constraint in named.sketch.constraints() {
         if let [Shape::Point(p), Shape::Point(q)] = constraint.ends.map(|e| shapes[e]) {
             line([p, q], "stroke=\"#246\" stroke-width=\"2\"");
+        }
+    }
+    for (circle, radius) in named.circles.iter().zip(named.radii(shapes)) {
+        if let (Some(Shape::Point(p)), Some(radius)) = (shapes.get(circle.centre), radius) {
+            let [x, y] = view.at(*p);
+            let _ = writeln!(
+                svg,
+                "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{:.2}\" fill=\"none\" stroke=\"#246\" stroke-width=\"2\"/>",
+                radius.abs() * view.scale
+            );
         }
     }
     for (name, shape) in named.names.iter().zip(shapes) {

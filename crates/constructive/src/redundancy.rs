@@ -1,8 +1,11 @@
 //! Whether a constraint that others imply agrees with them.
 
-use crate::construction::{Construction, Shape};
+use crate::analysis::s_tree;
+use crate::construction::{Construction, NotConstructive, Shape};
 use crate::pebbles::Circuit;
+use crate::relation::measured;
 use crate::sketch::{Constraint, Element, Sketch};
+use crate::together::{seconds, together_within};
 use kutzbach_math::number::Number;
 use std::collections::HashMap;
 
@@ -36,6 +39,9 @@ pub enum Redundancy {
 pub fn redundancy(sketch: &Sketch, circuit: &Circuit, refused: &[usize]) -> Redundancy {
     if let Some(turned) = turned(sketch, circuit, refused) {
         return angle_judged(sketch, circuit, turned);
+    }
+    if circuit.edge >= sketch.constraints().len() || !sketch.relations().is_empty() {
+        return judged_at_once(sketch, circuit, refused).unwrap_or(Redundancy::Unknown);
     }
     let local = |e: usize| circuit.vertices.binary_search(&e).ok();
     let elements: Vec<Element> = circuit
@@ -108,11 +114,104 @@ pub fn redundancy(sketch: &Sketch, circuit: &Circuit, refused: &[usize]) -> Redu
     }
 }
 
+/// Seconds of work for what a circuit with relations leaves.
+const WORK: f64 = 2.0;
+
+/// The same where relations are among the others, or refused: at all places that the others leave.
+fn judged_at_once(sketch: &Sketch, circuit: &Circuit, refused: &[usize]) -> Option<Redundancy> {
+    let count = sketch.constraints().len();
+    let local = |e: usize| circuit.vertices.binary_search(&e).ok();
+    let same = |v: usize| Some(v);
+    let elements = circuit.vertices.iter().map(|&e| sketch.elements()[e]);
+    let kept = |i: &usize| !refused.contains(i);
+    let constraints = sketch.constraints().iter().enumerate();
+    let constraints = constraints.filter(|(i, _)| kept(i)).filter_map(|(_, c)| {
+        Some(Constraint {
+            ends: [local(c.ends[0])?, local(c.ends[1])?],
+            value: c.value.clone(),
+        })
+    });
+    let constraints: Vec<Constraint> = constraints.collect();
+    let open: f64 = constraints.iter().map(|c| left_open(&c.value)).sum();
+    let relations = sketch.relations().iter().enumerate();
+    let relations = relations.filter(|(i, _)| kept(&(count + i)));
+    let relations = relations
+        .filter_map(|(_, r)| r.moved(local, same))
+        .collect();
+    let values = sketch.unknown_values();
+    let others = Sketch::new(elements.collect(), constraints).ok()?;
+    let others = others.with_relations(relations, values).ok()?;
+    let asked = sketch.constraints().get(circuit.edge);
+    let relation = sketch.relations().get(circuit.edge.wrapping_sub(count));
+    let mut nearest: Option<(f64, f64)> = None;
+    for all in &all_solutions(&others)? {
+        let (off, value) = match (asked, relation) {
+            (Some(c), _) => {
+                let [u, v] = [local(c.ends[0])?, local(c.ends[1])?];
+                let value = Construction::value_between(&all[u], &all[v]);
+                let off = value - c.value.value();
+                let angle = all[u].is_line() && all[v].is_line();
+                (
+                    if angle {
+                        off.sin().atan2(off.cos())
+                    } else {
+                        off
+                    }
+                    .abs(),
+                    value,
+                )
+            }
+            (None, Some(relation)) => {
+                let known = measured(others.relations().iter(), all, values);
+                let off = relation.moved(local, same)?.off(all, &known);
+                (off, off)
+            }
+            (None, None) => return None,
+        };
+        let size = all.iter().map(Shape::extent).fold(1.0, f64::max);
+        if off <= SAME * size {
+            return Some(Redundancy::Agrees);
+        }
+        if off.is_nan() {
+            return None;
+        }
+        if nearest.is_none_or(|(least, _)| off < least) {
+            nearest = Some((off, value));
+        }
+    }
+    let (off, nearest) = nearest?;
+    // Values of rounded digits move what they leave by some multiple of what they are off; how far was not calculated.
+    (open == 0.0 || off > SURELY * open).then_some(Redundancy::Contradicts { nearest })
+}
+
+/// More than so many times what digits leave open is no matter of digits, unless elements lie nearly degenerate.
+const SURELY: f64 = 1e3;
+
+/// All solutions of a well-constrained sketch; `None` where they are not known to be all, or are too many to compare.
+fn all_solutions(sketch: &Sketch) -> Option<Vec<Vec<Shape>>> {
+    let construction = match Construction::new(sketch) {
+        Ok(construction) => construction,
+        Err(NotConstructive::Clusters(_)) => {
+            let tree = s_tree(sketch.graph());
+            let found = together_within(sketch, &tree, &seconds(WORK));
+            let all = found.solutions(sketch, MOST_SOLUTIONS)?;
+            return Some(all.into_iter().map(|(shapes, _)| shapes).collect());
+        }
+        Err(_) => return None,
+    };
+    let count = construction.count();
+    let sure = count.complete && !count.degenerate && count.between.is_none();
+    count
+        .value()
+        .filter(|&c| sure && c <= MOST_SOLUTIONS as u128)?;
+    Some(construction.solutions().map(|s| s.shapes).collect())
+}
+
 /// How far the second line of a circuit's angle is turned from the first one by the other angles of the circuit, and how far digits leave that
 /// open (rad); `None` where it is no angle, or where the others do not lead from one to the other.
 fn turned(sketch: &Sketch, circuit: &Circuit, refused: &[usize]) -> Option<(f64, f64)> {
     let is_line = |e: &usize| sketch.elements()[*e].is_line();
-    let [from, to] = sketch.constraints()[circuit.edge].ends;
+    let [from, to] = sketch.constraints().get(circuit.edge)?.ends;
     if !circuit.vertices.iter().all(is_line) {
         return None;
     }

@@ -1,6 +1,7 @@
 //! Sketches: points and directed lines of the plane as drawn, and what is to hold between them.
 
 use crate::graph::{Graph, GraphError};
+use crate::relation::Relation;
 use kutzbach_math::number::Number;
 use std::collections::HashMap;
 use thiserror::Error;
@@ -54,6 +55,9 @@ pub enum SketchError {
     /// A distance of two points below zero.
     #[error("constraint {0} is a distance below zero")]
     Negative(usize),
+    /// A relation of elements that it is not made for, of one twice, or of a value that there is not.
+    #[error("relation {0} is not between different elements of the kinds that it needs")]
+    Relation(usize),
     /// The same two elements, the same value.
     #[error("constraints {first} and {second} say the same")]
     Doubled {
@@ -72,11 +76,14 @@ pub enum SketchError {
     },
 }
 
-/// Elements and constraints: at least two elements, at most one constraint for any two.
+/// Elements and constraints: at least two elements, at most one constraint for any two; and relations of more elements.
 #[derive(Clone, Debug)]
 pub struct Sketch {
     elements: Vec<Element>,
     constraints: Vec<Constraint>,
+    relations: Vec<Relation>,
+    /// How many unknown values the relations have.
+    unknown_values: usize,
     graph: Graph,
     /// Three elements, ascending, with a kept order and how they lie to each other.
     rigid: HashMap<[usize; 3], Triangle>,
@@ -124,10 +131,46 @@ impl Sketch {
         Ok(Self {
             elements,
             constraints,
+            relations: Vec::new(),
+            unknown_values: 0,
             graph,
             rigid: HashMap::new(),
             rounded: false,
         })
+    }
+
+    /// The same sketch with these relations of elements, and so many unknown values.
+    ///
+    /// # Errors
+    /// [`SketchError::Relation`] at the first one that is not what its documentation says.
+    pub fn with_relations(
+        mut self,
+        relations: Vec<Relation>,
+        unknown_values: usize,
+    ) -> Result<Self, SketchError> {
+        let line = |e: &usize| self.elements[*e].is_line();
+        let fits = |relation: &Relation| {
+            let all = relation.elements();
+            let inside = all.iter().all(|&e| e < self.elements.len());
+            let twice = (1..all.len()).any(|i| all[..i].contains(&all[i]));
+            inside
+                && !twice
+                && match relation {
+                    Relation::Middle { .. } => !all.iter().any(line),
+                    Relation::Mirrored { pair, axis, .. } => {
+                        line(axis) && line(&pair[0]) == line(&pair[1])
+                    }
+                    Relation::Measured { ends, terms, .. } => {
+                        !ends.iter().all(line) && terms.iter().all(|t| t.0 < unknown_values)
+                    }
+                }
+        };
+        if let Some(wrong) = relations.iter().position(|r| !fits(r)) {
+            return Err(SketchError::Relation(wrong));
+        }
+        self.relations = relations;
+        self.unknown_values = unknown_values;
+        Ok(self)
     }
 
     /// The same sketch where three elements each, all tied to each other, lie as they are given here and are never turned over: those
@@ -192,6 +235,18 @@ impl Sketch {
         &self.constraints
     }
 
+    /// What holds beside the constraints.
+    #[must_use]
+    pub fn relations(&self) -> &[Relation] {
+        &self.relations
+    }
+
+    /// How many unknown values the relations have.
+    #[must_use]
+    pub const fn unknown_values(&self) -> usize {
+        self.unknown_values
+    }
+
     /// Elements as vertices, constraints as edges.
     #[must_use]
     pub const fn graph(&self) -> &Graph {
@@ -206,17 +261,6 @@ impl Sketch {
         };
         self.constraints.iter().enumerate().flat_map(both).collect()
     }
-}
-
-/// A sketch as a file has it.
-#[derive(Clone, Debug)]
-pub struct NamedSketch {
-    /// What it is called.
-    pub name: String,
-    /// What its elements are called, by index.
-    pub names: Vec<String>,
-    /// The elements and constraints.
-    pub sketch: Sketch,
 }
 
 /// Two constraints of the same elements. An angle counts from the first to the second.

@@ -3,9 +3,11 @@
 use crate::analysis::{LeafKind, Node, STree, s_tree};
 use crate::construction::{Construction, NotConstructive, Outcome, Shape};
 use crate::counted::Counted;
+use crate::named::{NamedSketch, Radius};
 use crate::pebbles::{Circuit, Standing};
 use crate::redundancy::{Redundancy, redundancy};
-use crate::sketch::{Element, NamedSketch};
+use crate::relation::Relation;
+use crate::sketch::Element;
 use crate::together::{Core, CoreOutcome, Placed, Together, together_within};
 use crate::tree_picture::tree_svg;
 use kutzbach_algebra::Limits;
@@ -15,6 +17,9 @@ use std::fmt::Write;
 
 /// Steps, circuits and parts beyond so many are counted, not listed.
 const MOST_LISTED: usize = 40;
+
+/// Why there may be no solution where the count is right.
+const NOWHERE: &str = "well-constrained says that the constraints are as many as it takes; their values fit nowhere together";
 
 /// The analysis of a sketch, ready to be told.
 #[derive(Clone, Debug)]
@@ -68,6 +73,7 @@ impl<'a> SketchWords<'a> {
 
     fn standing(&self) -> &'static str {
         match self.game.standing() {
+            _ if !self.game.is_known() => "too large to be counted",
             Standing::Well => "well-constrained",
             Standing::Under => "under-constrained",
             Standing::Over => "over-constrained",
@@ -77,15 +83,17 @@ impl<'a> SketchWords<'a> {
     /// Everything for a person.
     #[must_use]
     pub fn text(&self) -> String {
-        let graph = self.named.sketch.graph();
         let mut text = format!(
-            "{}: {} elements, {} constraints, {}\n",
+            "{}: {}, {}\n",
             self.named.name,
-            graph.vertices(),
-            graph.edges().len(),
+            self.named.size(),
             self.standing()
         );
-        let lines = self.reasons().into_iter().chain(self.told());
+        let follow = self.named.follow.iter().take(MOST_LISTED);
+        let follow = follow.map(|r| format!("follows: {}", self.named.told(r)));
+        let mut follow: Vec<String> = follow.collect();
+        more(&mut follow, self.named.follow.len());
+        let lines = self.reasons().into_iter().chain(self.told()).chain(follow);
         for line in lines {
             let _ = writeln!(text, "{line}");
         }
@@ -95,23 +103,34 @@ impl<'a> SketchWords<'a> {
     /// Why it is over- or under-constrained.
     fn reasons(&self) -> Vec<String> {
         let mut lines = Vec::new();
+        if !self.game.is_known() {
+            return lines;
+        }
         for circuit in self.game.circuits().iter().take(MOST_LISTED) {
-            let [u, v] = self.named.sketch.graph().edges()[circuit.edge];
-            let judged = match self.redundancy(circuit) {
-                Redundancy::Agrees => "and agrees with them".to_owned(),
-                Redundancy::WithinDigits { nearest } => format!(
-                    "and agrees with them within the digits: they leave {nearest:.6}, it asks for {:.6}",
-                    self.named.sketch.constraints()[circuit.edge].value.value()
+            let asked = self.named.sketch.constraints().get(circuit.edge);
+            let asked = asked.map(|c| c.value.value());
+            let judged = match (self.redundancy(circuit), asked) {
+                (Redundancy::Agrees, _) => "and agrees with them".to_owned(),
+                (Redundancy::WithinDigits { nearest }, Some(asked)) => format!(
+                    "and agrees with them within the digits: they leave {nearest:.6}, it asks for {asked:.6}"
                 ),
-                Redundancy::Contradicts { nearest } => format!(
-                    "and contradicts them: they leave {nearest:.6} at the nearest, it asks for {:.6}",
-                    self.named.sketch.constraints()[circuit.edge].value.value()
+                (Redundancy::WithinDigits { .. }, None) => {
+                    "and agrees with them within the digits".to_owned()
+                }
+                (Redundancy::Contradicts { nearest }, Some(asked)) => format!(
+                    "and contradicts them: they leave {nearest:.6} at the nearest, it asks for {asked:.6}"
                 ),
-                Redundancy::Unknown => "whether it agrees with them is not known".to_owned(),
+                (Redundancy::Contradicts { nearest }, None) => {
+                    format!(
+                        "and contradicts them: they leave it off by {} at the nearest",
+                        short(nearest)
+                    )
+                }
+                (Redundancy::Unknown, _) => "whether it agrees with them is not known".to_owned(),
             };
             lines.push(format!(
                 "too many: {} is fixed already by the constraints among {}, {judged}",
-                self.list(&[u, v]),
+                self.named.statement(circuit.edge),
                 self.list(&circuit.vertices)
             ));
         }
@@ -145,6 +164,10 @@ impl<'a> SketchWords<'a> {
                     _ => None,
                 });
                 let mut lines = vec!["not constructed by circles and lines alone".to_owned()];
+                if !self.has_tree() {
+                    lines.extend(self.solved_together());
+                    return lines;
+                }
                 let all = self.tree.leaves(LeafKind::Triconnected);
                 lines.extend(hard.take(MOST_LISTED));
                 more(&mut lines, all);
@@ -162,6 +185,9 @@ impl<'a> SketchWords<'a> {
             lines.push(
                 "other choices end where nothing fixes an element; they are not counted".to_owned(),
             );
+        }
+        if count.value() == Some(0) && !count.infinite && !count.degenerate {
+            lines.push(NOWHERE.to_owned());
         }
         if count.between.is_some() {
             lines.push(
@@ -205,12 +231,16 @@ impl<'a> SketchWords<'a> {
             Some(total) => format!("solutions: {total}"),
             None => "solutions: not known".to_owned(),
         });
+        if together.total.is_some_and(|t| t.all && t.least == 0) {
+            lines.push(NOWHERE.to_owned());
+        }
         lines
     }
 
     fn core(&self, core: &Core) -> String {
         let size = core
             .size
+            .filter(|[unknowns, ..]| *unknowns > 0)
             .map_or_else(String::new, |[unknowns, equations, degree]| {
                 format!(
                     ", {} in {} of degree {degree} at most",
@@ -256,7 +286,7 @@ impl<'a> SketchWords<'a> {
             ),
             Outcome::One => "one place".to_owned(),
             Outcome::Apart { by: off } => {
-                format!("{} do not meet, they are {off:.3e} apart", self.tools(by, element))
+                format!("{} do not meet, they are {} apart", self.tools(by, element), short(*off))
             }
             Outcome::Degenerate => {
                 "degenerate: what it is placed by coincides or is parallel, and 1 degree of freedom is left"
@@ -300,6 +330,12 @@ impl<'a> SketchWords<'a> {
         }
     }
 
+    /// Whether the s-tree says something: constraints of more than two elements are not in it.
+    #[must_use]
+    pub fn has_tree(&self) -> bool {
+        self.named.sketch.relations().is_empty()
+    }
+
     /// The s-tree as SVG.
     #[must_use]
     pub fn tree_svg(&self) -> String {
@@ -316,7 +352,13 @@ impl<'a> SketchWords<'a> {
             elements.iter().map(|&e| &*self.named.names[e]).collect()
         };
         let circuits = self.game.circuits().iter().enumerate().map(|(i, c)| {
-            let ends = self.named.sketch.graph().edges()[c.edge];
+            let ends = match self.named.sketch.constraints().get(c.edge) {
+                Some(constraint) => constraint.ends.to_vec(),
+                None => {
+                    let beyond = c.edge - self.named.sketch.constraints().len();
+                    self.named.sketch.relations()[beyond].elements()
+                }
+            };
             // Each is compared with all solutions of the others.
             let judged = match i < MOST_LISTED {
                 true => self.redundancy(c),
@@ -351,16 +393,32 @@ impl<'a> SketchWords<'a> {
             };
             outcomes.iter().enumerate().map(step).collect::<Vec<Value>>()
         });
+        let told = |all: &[Relation]| all.iter().map(|r| self.named.told(r)).collect::<Vec<_>>();
+        let (relations, follow) = (
+            told(self.named.sketch.relations()),
+            told(&self.named.follow),
+        );
+        let circles = self.named.circles.iter().map(|c| {
+            let radius = match &c.radius {
+                Radius::Known(number) => Some(number.value()),
+                Radius::Unknown(_) => None,
+            };
+            json!({ "name": c.name, "center": self.named.names[c.centre], "radius": radius })
+        });
+        let circles: Vec<Value> = circles.collect();
         json!({
             "schema": "kutzbach-sketch-1",
             "name": self.named.name,
             "elements": self.named.names,
             "constraints": self.named.sketch.constraints().len(),
+            "relations": relations,
+            "follow": follow,
+            "circles": circles,
             "standing": self.standing(),
             "freedoms": self.game.freedoms(),
             "too_many": circuits.collect::<Vec<Value>>(),
             "rigid_parts": parts,
-            "constructive": self.tree.solved,
+            "constructive": self.tree.solved && self.has_tree(),
             "triconnected": self.tree.leaves(LeafKind::Triconnected),
             "solved_at_once": self.together.iter().flat_map(|t| &t.cores).map(|c| self.core_data(c)).collect::<Vec<Value>>(),
             "solutions": count.as_ref().map(ToString::to_string).or_else(|| total.map(|t| t.to_string())),
@@ -440,6 +498,19 @@ fn reached(outcomes: &[Outcome]) -> usize {
     impossible.map_or(outcomes.len(), |k| k + 1)
 }
 
+/// A length or an angle above zero in four digits, without an exponent where a person would write none.
+fn short(size: f64) -> String {
+    if !(1e-4..1e6).contains(&size) {
+        return format!("{size:.3e}");
+    }
+    let decimals = (3 - size.log10().floor() as i32).max(0) as usize;
+    let text = format!("{size:.decimals$}");
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}
+
 /// `1 step`, `2 steps`.
 fn plural(count: usize, word: &str) -> String {
     format!("{count} {word}{}", if count == 1 { "" } else { "s" })
@@ -484,11 +555,8 @@ mod tests {
         };
         let names = (0..elements.len()).map(|k| format!("e{k}")).collect();
         let constraints = constraints.iter().map(constraint).collect();
-        let named = NamedSketch {
-            name: "x".to_owned(),
-            names,
-            sketch: Sketch::new(elements, constraints).unwrap(),
-        };
+        let sketch = Sketch::new(elements, constraints).unwrap();
+        let named = NamedSketch::new("x".to_owned(), names, sketch);
         SketchWords::of(&named).text()
     }
 
@@ -566,7 +634,11 @@ mod tests {
         ];
         let text = said(places, &bars);
         assert!(
-            text.contains("circles do not meet, they are 3.000e0 apart"),
+            text.contains("circles do not meet, they are 3 apart"),
+            "{text}"
+        );
+        assert!(
+            text.contains("solutions: 0\nwell-constrained says that"),
             "{text}"
         );
         assert!(
@@ -574,6 +646,10 @@ mod tests {
             "{text}"
         );
         assert!(!text.contains("step 2:"), "{text}");
+        assert_eq!(
+            [short(0.000_123), short(12.5), short(123_456.7), short(2e-9)],
+            ["0.000123", "12.5", "123457", "2.000e-9"]
+        );
         // Whole numbers are as they are: other digits are no question.
         assert!(!text.contains("other digits"), "{text}");
     }

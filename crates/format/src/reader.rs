@@ -331,6 +331,7 @@ impl<'a> Reader<'a> {
                 self.expectation = Some(place);
                 self.read_expectation(child)
             }
+            "sketch" => self.read_sketch(child),
             name if ACTUATION.contains(&name) => {
                 if name == "mujoco" {
                     self.read_mujoco(child);
@@ -348,6 +349,18 @@ impl<'a> Reader<'a> {
                 self.skip_unknown(child, self.root, &kinds)
             }
         }
+    }
+
+    /// A sketch is a file of its own; beside links it is skipped, in so many words.
+    fn read_sketch(&mut self, sketch: Element<'a>) -> Outcome<()> {
+        const ROOT: &str = "<sketch> has to be the root element of a file of its own";
+        if self.root.elements().any(|e| e.name() == "link") {
+            self.skip_because(sketch, ROOT.to_owned());
+            return Ok(());
+        }
+        let fault = sketch.fault(ROOT);
+        Err(fault
+            .help("take <robot> away around it; `kutzbach graph FILE --constructive` shows it"))
     }
 
     fn only_one(

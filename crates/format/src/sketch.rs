@@ -5,11 +5,18 @@ use super::error::{Fault, FormatError, MOST_FAULTS, Outcome, located};
 use super::reader::Reader;
 use super::words::{did_you_mean, quoted};
 use super::{bytes_of, guard, xml};
-use kutzbach_constructive::sketch::{Constraint, NamedSketch, Sketch, SketchError};
+use kutzbach_constructive::named::{Circle, NamedSketch};
+use kutzbach_constructive::relation::Relation;
+use kutzbach_constructive::sketch::{Constraint, Sketch, SketchError};
 use kutzbach_constructive::{graph::GraphError, sketch};
 use kutzbach_math::number::Number;
+use lengths::Lengths;
 use std::collections::HashMap;
 use std::path::Path;
+
+mod circles;
+mod lengths;
+mod several;
 
 /// Whether a text is a sketch rather than a mechanism: its first element is `<sketch>`. What is no XML is none.
 #[must_use]
@@ -48,6 +55,9 @@ pub fn read_sketch_file(
     }
 }
 
+/// What is read when all lengths are known, and directions after that.
+const LATE: [&str; 5] = ["tangent", "midpoint", "symmetric", "horizontal", "vertical"];
+
 /// What was read so far, with the elements of the file for later faults.
 #[derive(Default)]
 struct Parts<'a> {
@@ -57,6 +67,9 @@ struct Parts<'a> {
     drawn_at: Vec<Element<'a>>,
     constraints: Vec<Constraint>,
     stated_at: Vec<Element<'a>>,
+    relations: Vec<Relation>,
+    circles: Vec<circles::Drawn<'a>>,
+    lengths: Lengths<'a>,
     /// The first line that is said to be horizontal or vertical, and in how many quarter turns: others are told against it.
     level: Option<(usize, i32)>,
 }
@@ -76,25 +89,28 @@ fn read(text: &str, settings: &[(String, String)]) -> Result<NamedSketch, Vec<Fa
     let mut reader = Reader::new(root);
     reader.read_definitions(root, &children, settings, &[])?;
     let mut parts = Parts::default();
-    // Constraints may stand before what they name.
+    // Constraints may stand before what they name, and circles before their centres.
     let (drawn, stated): (Vec<Element<'_>>, Vec<Element<'_>>) = children
         .into_iter()
         .filter(|c| c.owner(root.namespace()) == Owner::Format)
-        .partition(|c| ["point", "line"].contains(&c.name()));
-    let mut faults: Vec<Fault> = drawn
-        .into_iter()
-        .filter_map(|c| parts.draw(&mut reader, c).err())
-        .collect();
-    // Lines through points are looked for when it is known which lie on which.
-    let (levels, stated): (Vec<_>, Vec<_>) = stated
-        .into_iter()
-        .partition(|c| ["horizontal", "vertical"].contains(&c.name()));
-    faults.extend(
-        stated
-            .into_iter()
-            .chain(levels)
-            .filter_map(|c| parts.state(&mut reader, c).err()),
-    );
+        .partition(|c| ["point", "line", "circle"].contains(&c.name()));
+    let (circles, drawn): (Vec<_>, Vec<_>) = drawn.into_iter().partition(|c| c.name() == "circle");
+    let mut faults: Vec<Fault> = Vec::new();
+    for child in drawn.into_iter().chain(circles) {
+        faults.extend(parts.draw(&mut reader, child).err());
+    }
+    // How large circles are is looked for when all lengths are known, lines through points when it is known which lie on which.
+    let first = stated.iter().filter(|c| !LATE.contains(&c.name()));
+    let first: Vec<_> = first.copied().collect();
+    for child in first {
+        faults.extend(parts.state(&mut reader, child).err());
+    }
+    faults.extend(parts.share_lengths());
+    for late in [&LATE[..3], &LATE[3..]] {
+        for child in stated.iter().filter(|c| late.contains(&c.name())) {
+            faults.extend(parts.state(&mut reader, *child).err());
+        }
+    }
     if !faults.is_empty() {
         faults.truncate(MOST_FAULTS);
         return Err(faults);
@@ -103,8 +119,11 @@ fn read(text: &str, settings: &[(String, String)]) -> Result<NamedSketch, Vec<Fa
 }
 
 impl<'a> Parts<'a> {
-    /// A point or a line.
+    /// A point, a line or a circle.
     fn draw(&mut self, reader: &mut Reader<'a>, element: Element<'a>) -> Outcome<()> {
+        if element.name() == "circle" {
+            return self.draw_circle(reader, element);
+        }
         let mut pair = |name: &str| -> Outcome<[f64; 2]> {
             let numbers: [Number; 2] = reader.numbers(element.required(name)?)?;
             Ok(numbers.map(|n| n.value()))
@@ -117,11 +136,7 @@ impl<'a> Parts<'a> {
             let (through, direction) = (pair("through")?, pair("direction")?);
             sketch::Element::Line { through, direction }
         };
-        let name = element.required("name")?;
-        if self.by_name.contains_key(name.value) {
-            let message = format!("two elements are named {}", quoted(name.value));
-            return Err(name.fault(message));
-        }
+        let name = self.new_name(element)?;
         self.by_name.insert(name.value, self.names.len());
         self.names.push(name.value.to_owned());
         self.elements.push(drawn);
@@ -129,11 +144,29 @@ impl<'a> Parts<'a> {
         Ok(())
     }
 
+    /// The name of an element that is drawn.
+    fn new_name(&self, element: Element<'a>) -> Outcome<Attribute<'a>> {
+        let name = element.required("name")?;
+        match self.by_name.contains_key(name.value) || self.circle(name.value).is_some() {
+            true => {
+                let message = format!("two elements are named {}", quoted(name.value));
+                Err(name.fault(message))
+            }
+            false => Ok(name),
+        }
+    }
+
     /// A distance, an angle, an incidence, or a direction that some angle says.
     fn state(&mut self, reader: &mut Reader<'a>, element: Element<'a>) -> Outcome<()> {
-        const KNOWN: [&str; 9] = [
+        const KNOWN: [&str; 15] = [
             "point",
             "line",
+            "circle",
+            "radius",
+            "tangent",
+            "equal",
+            "midpoint",
+            "symmetric",
             "distance",
             "angle",
             "incidence",
@@ -147,6 +180,12 @@ impl<'a> Parts<'a> {
             "perpendicular" => return self.turned(element, 1),
             "horizontal" => return self.levelled(element, 0),
             "vertical" => return self.levelled(element, 1),
+            "radius" => return self.radius(reader, element),
+            "equal" => return self.equal(element),
+            "tangent" => return self.tangent(element),
+            "midpoint" => return self.midpoint(element),
+            "symmetric" => return self.symmetric(element),
+            "incidence" if self.names_a_circle(element) => return self.on_circle(element),
             _ => {}
         }
         let ends = match element.name() {
@@ -292,6 +331,12 @@ impl<'a> Parts<'a> {
 
     /// The element of a name.
     fn find(&self, at: &Attribute<'a>, name: &str) -> Outcome<usize> {
+        if let Some(circle) = self.circle(name) {
+            let centre = &self.names[self.circles[circle].centre];
+            let message = format!("{} is a circle, needed a point or line", quoted(name));
+            let help = format!("its center is {}", quoted(centre));
+            return Err(at.fault(message).help(help));
+        }
         self.by_name.get(name).copied().ok_or_else(|| {
             let known = self.names.iter().map(String::as_str);
             at.fault(format!("no point or line is named {}", quoted(name)))
@@ -317,16 +362,25 @@ impl<'a> Parts<'a> {
             drawn_at,
             constraints,
             stated_at,
+            relations,
+            circles,
+            lengths,
             ..
         } = self;
-        let sketch = Sketch::new(elements, constraints)
-            .map_err(|why| placed(&why, root, &drawn_at, &stated_at))?;
+        let wrong = |why: SketchError| placed(&why, root, &drawn_at, &stated_at);
+        let sketch = Sketch::new(elements, constraints).map_err(wrong)?;
+        let sketch = sketch
+            .with_relations(relations, lengths.unknown())
+            .map_err(wrong)?;
         let name = root.attribute("name").map_or("unnamed", |name| name.value);
-        Ok(NamedSketch {
-            name: name.to_owned(),
-            names,
-            sketch,
-        })
+        let mut named = NamedSketch::new(name.to_owned(), names, sketch);
+        let circle = |(i, drawn): (usize, &circles::Drawn<'_>)| Circle {
+            name: drawn.name.to_owned(),
+            centre: drawn.centre,
+            radius: lengths.radius(i),
+        };
+        named.circles = circles.iter().enumerate().map(circle).collect();
+        named.without_what_follows().map_err(wrong)
     }
 }
 
@@ -338,7 +392,7 @@ fn placed(
     stated: &[Element<'_>],
 ) -> Fault {
     let stated = |i: usize, message: &str| {
-        let named = ["between", "of"]
+        let named = ["between", "of", "point"]
             .iter()
             .find_map(|name| stated[i].attribute(name));
         let between = named.map_or("", |names| names.value);

@@ -102,7 +102,7 @@ fn carry(step: &Move, frames: &mut [Vec<Shape>], extents: &mut [f64], left: bool
 
 /// Turns and shifts everything to the drawing: points by least squares about their centres, of lines the directions where there
 /// are fewer than two points.
-pub(super) fn as_drawn(shapes: &mut [Shape], drawn: &[Shape]) {
+pub(crate) fn as_drawn(shapes: &mut [Shape], drawn: &[Shape]) {
     let points: Vec<([f64; 2], [f64; 2])> = shapes
         .iter()
         .zip(drawn)

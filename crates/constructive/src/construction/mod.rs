@@ -33,6 +33,7 @@ mod tests;
 mod third;
 
 pub use count::Count;
+pub(crate) use frame::as_drawn as laid_on;
 pub(crate) use shape::Motion;
 pub use shape::Shape;
 pub use solutions::Solutions;
@@ -103,10 +104,10 @@ impl<'a> Construction<'a> {
     /// The order of construction.
     ///
     /// # Errors
-    /// Where the sketch is over- or under-constrained, or does not reduce to one cluster; with the reason.
+    /// Where the sketch is over- or under-constrained, does not reduce to one cluster, or has relations; with the reason.
     pub fn new(sketch: &'a Sketch) -> Result<Self, NotConstructive> {
         let reduction = reduce(sketch.graph());
-        if !reduction.solved {
+        if !reduction.solved || !sketch.relations().is_empty() {
             return Err(why_not(sketch, &reduction));
         }
         let plan = Plan::new(sketch, &reduction);
@@ -272,7 +273,9 @@ impl<'a> Construction<'a> {
 
 fn why_not(sketch: &Sketch, reduction: &Reduction) -> NotConstructive {
     let game = Counted::of(sketch);
-    if !game.circuits().is_empty() {
+    if !game.is_known() {
+        NotConstructive::Clusters(Vec::new())
+    } else if !game.circuits().is_empty() {
         NotConstructive::Over(game.circuits().to_vec())
     } else if game.freedoms() > 0 {
         NotConstructive::Under {

@@ -33,7 +33,7 @@ impl Shape {
         }
     }
 
-    pub(super) const fn is_line(&self) -> bool {
+    pub(crate) const fn is_line(&self) -> bool {
         matches!(self, Self::Line { .. })
     }
 

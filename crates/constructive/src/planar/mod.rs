@@ -13,7 +13,8 @@ mod places;
 mod poses;
 
 use crate::construction::Shape;
-use crate::sketch::{Element, NamedSketch, Sketch, SketchError};
+use crate::named::NamedSketch;
+use crate::sketch::{Element, Sketch, SketchError};
 use bodies::Bodies;
 pub(crate) use body::{Exact, hold};
 use kutzbach_math::space::Rigid;
@@ -205,11 +206,11 @@ fn read_off(mechanism: &Mechanism) -> Result<Planar, NotPlanar> {
         }
     })?;
     Ok(Planar {
-        sketch: NamedSketch {
-            name: mechanism.name().to_owned(),
-            names: bodies.names,
-            sketch: sketch.with_rigid(rigid),
-        },
+        sketch: NamedSketch::new(
+            mechanism.name().to_owned(),
+            bodies.names,
+            sketch.with_rigid(rigid),
+        ),
         view,
         links: Links {
             homes,

@@ -19,7 +19,9 @@
 //! Schicho, "The number of realizations of a Laman graph" (2018).
 
 mod part;
+mod related;
 mod system;
+mod unknown_values;
 
 pub use part::{Core, CoreOutcome, Placed};
 
@@ -84,7 +86,12 @@ pub fn together(sketch: &Sketch, tree: &STree) -> Together {
 /// The same within other limits, for each core.
 #[must_use]
 pub fn together_within(sketch: &Sketch, tree: &STree, limits: &Limits) -> Together {
-    for cores in [part::leaves(sketch, tree), part::peeled(sketch)] {
+    let leaves = match sketch.relations().is_empty() {
+        true => part::leaves(sketch, tree),
+        // They tie more than the graph knows.
+        false => Vec::new(),
+    };
+    for cores in [leaves, part::peeled(sketch)] {
         if cores.is_empty() || !reduces(sketch, &cores) {
             continue;
         }

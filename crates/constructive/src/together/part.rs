@@ -2,7 +2,8 @@
 
 use super::system::{self, System};
 use crate::analysis::{LeafKind, Node, STree};
-use crate::construction::{Shape, drawn_side};
+use crate::construction::{Shape, drawn_side, laid_on};
+use crate::relation::Relation;
 use crate::sketch::Sketch;
 use kutzbach_algebra::{Budget, RealSet};
 
@@ -57,7 +58,8 @@ impl Core {
         };
         let size = Some(system.size());
         let outcome = match system.over_rationals().real_set(<[f64]>::to_vec, budget) {
-            Ok(RealSet::Finite { complex, real }) => {
+            Ok(RealSet::Finite { complex, mut real }) => {
+                real.retain(|(unknowns, _)| system.is_meant(unknowns));
                 of_points(sketch, &elements, &system, complex, &real)
             }
             Ok(RealSet::Dimension(_)) => CoreOutcome::Infinite,
@@ -107,10 +109,33 @@ fn of_points(
             found * sides >= 0.0
         });
     }
+    places.sort_by(|a, b| {
+        let [a, b] = [a, b].map(|p| off_drawing(sketch, elements, &p.shapes));
+        a.total_cmp(&b)
+    });
+    let all_meant = sided.is_empty() && !system.has_lengths();
     CoreOutcome::Solved {
-        complex: sided.is_empty().then_some(complex),
+        complex: all_meant.then_some(complex),
         places,
     }
+}
+
+/// How far elements are from where they are drawn, once they are turned and shifted onto that as well as can be: the sum of squares, of lines those
+/// of directions.
+fn off_drawing(sketch: &Sketch, elements: &[usize], shapes: &[Shape]) -> f64 {
+    let drawn: Vec<Shape> = elements
+        .iter()
+        .map(|&e| Shape::drawn(&sketch.elements()[e]))
+        .collect();
+    let mut shapes = shapes.to_vec();
+    laid_on(&mut shapes, &drawn);
+    let square = |[a, b]: [[f64; 2]; 2]| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2);
+    let off = |pair: (&Shape, &Shape)| match pair {
+        (Shape::Point(p), Shape::Point(q)) => square([*p, *q]),
+        (Shape::Line { direction: a, .. }, Shape::Line { direction: b, .. }) => square([*a, *b]),
+        _ => 0.0,
+    };
+    shapes.iter().zip(&drawn).map(off).sum()
 }
 
 /// Triconnected leaves whose edges are all constraints, or between elements that a constraint ties as well: of a pair at which the
@@ -131,7 +156,7 @@ pub(super) fn leaves(sketch: &Sketch, tree: &STree) -> Vec<Vec<usize>> {
     tree.nodes.iter().filter_map(given).collect()
 }
 
-/// What is left when elements of two constraints are taken off one after the other.
+/// What is left when elements of two constraints, and of no relation, are taken off one after the other.
 pub(super) fn peeled(sketch: &Sketch) -> Vec<Vec<usize>> {
     let graph = sketch.graph();
     let mut near = vec![Vec::new(); graph.vertices()];
@@ -140,6 +165,9 @@ pub(super) fn peeled(sketch: &Sketch) -> Vec<Vec<usize>> {
         near[v].push(u);
     }
     let mut degree: Vec<usize> = near.iter().map(Vec::len).collect();
+    for e in sketch.relations().iter().flat_map(Relation::elements) {
+        degree[e] = usize::MAX;
+    }
     let mut left = vec![true; graph.vertices()];
     let mut waiting: Vec<usize> = (0..left.len()).filter(|&v| degree[v] == 2).collect();
     while let Some(v) = waiting.pop() {

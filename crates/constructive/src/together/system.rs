@@ -1,14 +1,16 @@
 //! The equations of a core, with one constraint pinned to the axes.
 
+use super::unknown_values::Values;
 use crate::construction::{Shape, drawn_side};
-use crate::sketch::{Element, Sketch};
+use crate::relation::Relation;
+use crate::sketch::{Constraint, Element, Sketch};
 use kutzbach_algebra::{FieldElement, FieldPolynomial, NumberField, OverRationals};
 use kutzbach_math::number::Number;
 use std::collections::HashMap;
 
 /// Where an element is, as polynomials in the unknowns.
 #[derive(Clone, Debug)]
-enum Place {
+pub(super) enum Place {
     Point([FieldPolynomial; 2]),
     /// Direction of length one, and how far the line lies to the left of the origin along its normal.
     Line([FieldPolynomial; 2], FieldPolynomial),
@@ -21,6 +23,8 @@ pub(super) struct System {
     places: Vec<Place>,
     equations: Vec<FieldPolynomial>,
     unknowns: usize,
+    /// Unknowns that are lengths: solutions where one is not above zero are none.
+    lengths: Vec<usize>,
 }
 
 const NOT_ALGEBRAIC: &str = "a value is no algebraic number, or one of too high a degree";
@@ -34,12 +38,13 @@ impl System {
         let mut building = Building::new(sketch, core)?;
         building.pin()?;
         for element in core {
-            building.place_by_bodies()?;
+            building.place_by_others()?;
             if !building.places.contains_key(element) {
                 building.place_anywhere(*element);
             }
         }
         building.equate()?;
+        building.relate()?;
         let place = |e: &usize| building.places.get(e).cloned();
         Ok(Self {
             places: core
@@ -50,7 +55,18 @@ impl System {
             field: building.field,
             equations: building.equations,
             unknowns: building.unknowns,
+            lengths: building.values.lengths(),
         })
+    }
+
+    /// Whether some complex solutions are none for the sign of a length.
+    pub(super) const fn has_lengths(&self) -> bool {
+        !self.lengths.is_empty()
+    }
+
+    /// Whether all lengths among the unknowns are above zero.
+    pub(super) fn is_meant(&self, unknowns: &[f64]) -> bool {
+        self.lengths.iter().all(|&u| unknowns[u] > 0.0)
     }
 
     /// Unknowns, equations, and the highest degree of these.
@@ -102,30 +118,41 @@ pub(super) fn sided_triangles(sketch: &Sketch, core: &[usize]) -> Vec<([usize; 3
         .collect()
 }
 
-struct Building<'a> {
-    sketch: &'a Sketch,
+pub(super) struct Building<'a> {
+    pub(super) sketch: &'a Sketch,
+    core: &'a [usize],
     /// Constraints among elements of the core, and whether they hold by how these are placed.
     constraints: Vec<(usize, bool)>,
+    /// Relations among elements of the core, and the same.
+    pub(super) relations: Vec<(&'a Relation, bool)>,
+    pub(super) values: Values,
     by_ends: HashMap<[usize; 2], usize>,
     /// Triangles of three points of a rigid body, and whether the third turns left from the first to the second.
     triangles: Vec<([usize; 3], f64)>,
-    field: NumberField,
-    places: HashMap<usize, Place>,
-    equations: Vec<FieldPolynomial>,
+    pub(super) field: NumberField,
+    pub(super) places: HashMap<usize, Place>,
+    pub(super) equations: Vec<FieldPolynomial>,
     unknowns: usize,
 }
 
 impl<'a> Building<'a> {
-    fn new(sketch: &'a Sketch, core: &[usize]) -> Result<Self, &'static str> {
+    fn new(sketch: &'a Sketch, core: &'a [usize]) -> Result<Self, &'static str> {
         let inside = |ends: &[usize]| ends.iter().all(|e| core.contains(e));
         let constraints = sketch.constraints().iter().enumerate();
         let constraints: Vec<(usize, bool)> = constraints
             .filter(|(_, c)| inside(&c.ends))
             .map(|(i, _)| (i, false))
             .collect();
+        let relations = sketch.relations().iter();
+        let relations: Vec<&Relation> = relations.filter(|r| inside(&r.elements())).collect();
+        let added = relations.iter().filter_map(|r| match r {
+            Relation::Measured { plus, .. } => Some(plus.clone()),
+            _ => None,
+        });
         let numbers: Vec<Number> = constraints
             .iter()
             .map(|&(i, _)| sketch.constraints()[i].value.clone())
+            .chain(added)
             .collect();
         let triangles = sketch.rigid_triangles().into_iter();
         let triangles = triangles
@@ -134,7 +161,9 @@ impl<'a> Building<'a> {
                 let [a, b, c] = places.map(|e| Shape::drawn(&e));
                 (three, drawn_side([&a, &b], &c))
             });
-        Ok(Self {
+        let mut building = Self {
+            values: Values::default(),
+            relations: relations.into_iter().map(|r| (r, false)).collect(),
             triangles: triangles.collect(),
             field: NumberField::of(&numbers).ok_or(NOT_ALGEBRAIC)?,
             by_ends: sketch.by_ends(),
@@ -142,19 +171,53 @@ impl<'a> Building<'a> {
             equations: Vec::new(),
             unknowns: 0,
             sketch,
+            core,
             constraints,
-        })
+        };
+        building.measure_values();
+        Ok(building)
+    }
+
+    /// The points of the core, ascending.
+    pub(super) fn points(&self) -> impl Iterator<Item = usize> {
+        let all = self.core.iter().copied();
+        all.filter(|&e| !self.is_line(e))
+    }
+
+    /// Points of the core that are tied to a line, and how far they lie to its left.
+    pub(super) fn tied_points(&self, line: usize) -> Vec<(usize, Number)> {
+        let tied = self.constraints.iter().filter_map(|&(i, _)| {
+            let Constraint { ends, value } = &self.sketch.constraints()[i];
+            let point = match *ends {
+                [u, v] if v == line => u,
+                [u, v] if u == line => v,
+                _ => return None,
+            };
+            (!self.is_line(point)).then(|| (point, value.clone()))
+        });
+        tied.collect()
+    }
+
+    /// How many unknowns there are.
+    pub(super) const fn unknowns(&self) -> usize {
+        self.unknowns
+    }
+
+    /// A new unknown.
+    pub(super) fn fresh(&mut self) -> FieldPolynomial {
+        self.unknowns += 1;
+        FieldPolynomial::unknown(self.unknowns - 1)
     }
 
     fn read(&mut self, number: &Number) -> Result<FieldElement, &'static str> {
         self.field.read(number).ok_or(NOT_ALGEBRAIC)
     }
 
-    fn constant(&mut self, number: &Number) -> Result<FieldPolynomial, &'static str> {
+    pub(super) fn constant(&mut self, number: &Number) -> Result<FieldPolynomial, &'static str> {
         Ok(FieldPolynomial::constant(self.read(number)?))
     }
 
-    fn is_line(&self, element: usize) -> bool {
+    pub(super) fn is_line(&self, element: usize) -> bool {
         self.sketch.elements()[element].is_line()
     }
 
@@ -163,7 +226,7 @@ impl<'a> Building<'a> {
         Some(&self.sketch.constraints()[*index].value)
     }
 
-    fn satisfied(&mut self, u: usize, v: usize) {
+    pub(super) fn satisfied(&mut self, u: usize, v: usize) {
         if let Some(&index) = self.by_ends.get(&[u, v]) {
             for (constraint, done) in &mut self.constraints {
                 *done |= *constraint == index;
@@ -173,7 +236,12 @@ impl<'a> Building<'a> {
 
     /// Puts a point at the origin, and what is tied to it on the first axis, or parallel to that: two points of a rational distance if
     /// there are such, of a rigid body before others.
+    ///
+    /// Where there are mirror images their axis is the first axis instead.
     fn pin(&mut self) -> Result<(), &'static str> {
+        if self.pin_mirror()? {
+            return Ok(());
+        }
         let rank = |&&(index, _): &&(usize, bool)| {
             let constraint = &self.sketch.constraints()[index];
             let lines = constraint.ends.iter().filter(|&&e| self.is_line(e)).count();
@@ -186,6 +254,11 @@ impl<'a> Building<'a> {
             )
         };
         let best = self.constraints.iter().min_by_key(rank).map(|&(i, _)| i);
+        let ends = best.map(|index| self.sketch.constraints()[index].ends);
+        let held = ends.filter(|ends| !ends.iter().all(|&e| self.is_line(e)));
+        if held.is_none() && self.pin_by_value()? {
+            return Ok(());
+        }
         let index = best.ok_or("nothing holds its elements")?;
         let [u, v] = self.sketch.constraints()[index].ends;
         let value = self.sketch.constraints()[index].value.clone();
@@ -204,6 +277,86 @@ impl<'a> Building<'a> {
         self.places.insert(other, other_place);
         self.satisfied(u, v);
         Ok(())
+    }
+
+    /// Places whatever others that are placed say something of, so that fewer unknowns are left.
+    fn place_by_others(&mut self) -> Result<(), &'static str> {
+        loop {
+            self.place_by_bodies()?;
+            if !(self.place_by_relation() || self.place_by_direction()? || self.place_beside()?) {
+                return Ok(());
+            }
+        }
+    }
+
+    /// A constraint between a placed and an open element for which this holds, and its value as seen from the placed one.
+    fn next_tied(&self, suits: impl Fn(&Place, usize) -> bool) -> Option<(usize, usize, Number)> {
+        self.constraints.iter().find_map(|&(i, _)| {
+            let constraint = &self.sketch.constraints()[i];
+            let [u, v] = constraint.ends;
+            let (from, to, turned) = match [u, v].map(|e| self.places.contains_key(&e)) {
+                [true, false] => (u, v, false),
+                [false, true] => (v, u, true),
+                _ => return None,
+            };
+            let angle = self.is_line(u) && self.is_line(v);
+            let value = match angle && turned {
+                true => -&constraint.value,
+                false => constraint.value.clone(),
+            };
+            suits(self.places.get(&from)?, to).then_some((from, to, value))
+        })
+    }
+
+    /// Places a line by its angle with one that is placed: how far it lies to the left is left open.
+    fn place_by_direction(&mut self) -> Result<bool, &'static str> {
+        let is_line = |e: usize| self.sketch.elements()[e].is_line();
+        let line = |place: &Place, e: usize| matches!(place, Place::Line(..)) && is_line(e);
+        let Some((from, to, value)) = self.next_tied(line) else {
+            return Ok(false);
+        };
+        let (cos, sin) = value.cos_sin();
+        let (cos, sin) = (self.read(&cos)?, self.read(&sin)?);
+        let Some(Place::Line([c, s], _)) = self.places.get(&from) else {
+            return Ok(false);
+        };
+        let by = |a: &FieldPolynomial, x: &FieldElement| a.scaled(x, &self.field);
+        let direction = [
+            by(c, &cos).minus(&by(s, &sin)),
+            by(s, &cos).plus(&by(c, &sin)),
+        ];
+        let offset = self.fresh();
+        self.places.insert(to, Place::Line(direction, offset));
+        self.satisfied(from, to);
+        Ok(true)
+    }
+
+    /// Places a point that lies at a distance from a line of known direction: how far along is left open.
+    fn place_beside(&mut self) -> Result<bool, &'static str> {
+        let is_line = |e: usize| self.sketch.elements()[e].is_line();
+        let known = |place: &Place, e: usize| match place {
+            Place::Line(direction, _) => {
+                !is_line(e) && direction.iter().all(FieldPolynomial::is_constant)
+            }
+            Place::Point(_) => false,
+        };
+        let Some((from, to, value)) = self.next_tied(known) else {
+            return Ok(false);
+        };
+        let by = self.constant(&value)?;
+        let Some(Place::Line([c, s], offset)) = self.places.get(&from).cloned() else {
+            return Ok(false);
+        };
+        let along = self.fresh();
+        let left = offset.plus(&by);
+        let times = |a: &FieldPolynomial, b: &FieldPolynomial| a.times(b, &self.field);
+        let point = [
+            times(&c, &along).minus(&times(&s, &left)),
+            times(&s, &along).plus(&times(&c, &left)),
+        ];
+        self.places.insert(to, Place::Point(point));
+        self.satisfied(from, to);
+        Ok(true)
     }
 
     /// Places points of rigid bodies by two others that are placed: linear, and on the side drawn.
@@ -264,15 +417,11 @@ impl<'a> Building<'a> {
 
     /// Gives an element unknowns of its own.
     fn place_anywhere(&mut self, element: usize) {
-        let mut fresh = || {
-            self.unknowns += 1;
-            FieldPolynomial::unknown(self.unknowns - 1)
-        };
-        let first = [fresh(), fresh()];
+        let first = [self.fresh(), self.fresh()];
         let place = match self.sketch.elements()[element].is_line() {
             false => Place::Point(first),
             true => {
-                let offset = fresh();
+                let offset = self.fresh();
                 let square = self.dot(&first, &first);
                 let one = FieldPolynomial::constant(FieldElement::integer(1));
                 self.equations.push(square.minus(&one));
@@ -282,7 +431,11 @@ impl<'a> Building<'a> {
         self.places.insert(element, place);
     }
 
-    fn dot(&self, a: &[FieldPolynomial; 2], b: &[FieldPolynomial; 2]) -> FieldPolynomial {
+    pub(super) fn dot(
+        &self,
+        a: &[FieldPolynomial; 2],
+        b: &[FieldPolynomial; 2],
+    ) -> FieldPolynomial {
         a[0].times(&b[0], &self.field)
             .plus(&a[1].times(&b[1], &self.field))
     }
