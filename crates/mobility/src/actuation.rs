@@ -29,7 +29,7 @@ use super::point_chains::Connections;
 use super::tangent_space::{Limits, TangentSpace};
 use kutzbach_closure::Geometry;
 use kutzbach_closure::Structure;
-use kutzbach_model::mechanism::Mechanism;
+use kutzbach_model::mechanism::{Joint, Mechanism};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// One freedom of a joint.
@@ -149,11 +149,7 @@ pub fn actuation(
         })
         .collect();
     let inputs: BTreeSet<Freedom> = set.iter().chain(given).copied().collect();
-    let followers = (0..mechanism.joints().len())
-        .flat_map(|joint| {
-            let variables = 0..mechanism.joints()[joint].freedom();
-            variables.map(move |variable| Freedom { joint, variable })
-        })
+    let followers = all_freedoms(mechanism)
         .filter(|freedom| !inputs.contains(freedom))
         .map(|freedom| Follower {
             freedom,
@@ -172,6 +168,13 @@ pub fn actuation(
         complete,
         followers,
     })
+}
+
+fn all_freedoms(mechanism: &Mechanism) -> impl Iterator<Item = Freedom> {
+    let freedoms = mechanism.joints().iter().map(Joint::freedom);
+    freedoms
+        .enumerate()
+        .flat_map(|(joint, count)| (0..count).map(move |variable| Freedom { joint, variable }))
 }
 
 /// The tangent space at one pose, seen by rows.

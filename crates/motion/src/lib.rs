@@ -19,7 +19,8 @@
 //! | `node`, `cubic`, `follow` | a pose with its tangent, what lies between two, from pose to pose |
 //! | `cusp`, `singular`, `bridge`, `pieces`, `walk` | cusps and singular poses, how they are passed, the whole curve |
 //! | `curve` | poses by arclength and by drive value ([`Curve`]) |
-//! | `dead_centres`, `ranges`, `sampling` | what is read off a curve |
+//! | `dead_centres`, `ranges`, `pitch`, `sampling` | what is read off a curve |
+//! | `four_bar`, `four_bar/…` | Grashof's class, swings and transmission angles of four-bars ([`four_bars()`]) |
 //! | `inputs`, `requested` | what is driven and held |
 //! | `approach` | the pose where joints have given values, along the branch drawn ([`approach()`]) |
 //! | `play`, `play/…` | the play that joints need where dimensions as written bind ([`play()`]) |
@@ -37,9 +38,11 @@ mod cusp;
 mod dead_centres;
 mod deflation;
 mod follow;
+mod four_bar;
 mod inputs;
 mod node;
 mod pieces;
+mod pitch;
 mod play;
 mod ranges;
 mod requested;
@@ -60,6 +63,7 @@ mod words;
 
 pub use approach::{NotReached, approach};
 pub use curve::{Curve, CurvePose};
+pub use four_bar::{FourBar, FourBarKind, GrashofClass, Swing, four_bars};
 pub use inputs::Variable;
 pub use play::{Deviation, NoPlay, Play, PlayOptions, play};
 pub use requested::variable_named;

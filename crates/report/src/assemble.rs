@@ -221,7 +221,7 @@ pub fn analysed_report_on(
     super::findings::lay_over(&mut report, mechanism, &analysis);
     report.assembly.tolerance_asked = options.closure_tolerance.is_some();
     let pose = mechanism.configuration(configuration);
-    report.four_bars = super::four_bar::four_bars(mechanism, &analysis, pose);
+    report.four_bars = kutzbach_motion::four_bars(mechanism, &analysis, pose);
     let followed =
         super::inputs::lay_over(&mut report, mechanism, &analysis, configuration, inputs);
     super::pose::warn(&mut report, mechanism, &analysis, configuration);

@@ -47,7 +47,6 @@ mod expectation;
 mod expected_file;
 mod extras;
 mod findings;
-mod four_bar;
 #[cfg(feature = "html")]
 pub mod html;
 mod inputs;
@@ -71,10 +70,10 @@ pub use assembly::{ASSEMBLED, assembled_file};
 pub use change_sets::{ChangeSets, Component, JointReplacement, PartChanges, RedundantDirection};
 pub use expectation::{Comparison, Disagreement, compare};
 pub use expected_file::{ExpectedFile, ExpectedFileError};
-pub use four_bar::{FourBar, FourBarKind, GrashofClass, Swing};
 pub use kutzbach_mobility::{
     CertificateLevel, MobilityClass, PoseKind, RelationKind, SingularKind, Verdict,
 };
+pub use kutzbach_motion::{FourBar, FourBarKind, GrashofClass, Swing};
 pub use natural::natural_order;
 pub use play::{JointPlay, Play, PlayAsked};
 pub use schema::{

@@ -138,12 +138,8 @@ fn within_digits(
     let mechanism = read.as_ref().unwrap_or(mechanism);
     let chosen = stated.mobility.verdict == Verdict::Rigid && mechanism.precision().is_exact();
     let asked = open || chosen || !mechanism.precision().is_exact();
-    let mut parts = stated.structure.parts.iter();
-    let rounded = parts.any(|part| {
-        part.joints
-            .iter()
-            .any(|&j| rounding(mechanism, j).is_some())
-    });
+    let mut joints = stated.structure.parts.iter().flat_map(|part| &part.joints);
+    let rounded = joints.any(|&joint| rounding(mechanism, joint).is_some());
     if !(rounded && asked && options.depth > Depth::Rank) {
         return Ok(stated);
     }

@@ -36,8 +36,8 @@ pub use structure::{Cycle, Tree, TreeLink};
 pub use warnings::{Warning, WarningKind, WarningPlace};
 
 use super::change_sets::ChangeSets;
-use super::four_bar::FourBar;
 use kutzbach_mobility::Verdict;
+use kutzbach_motion::FourBar;
 use serde::{Deserialize, Serialize};
 
 /// The value of [`Report::schema`].

@@ -3,8 +3,8 @@
 use super::page::Page;
 use super::style::{Tint, Units};
 use super::words::figure;
-use crate::four_bar::{FourBar, GrashofClass, Swing};
 use crate::schema::Report;
+use kutzbach_motion::{FourBar, GrashofClass, Swing};
 
 /// Linkages of a first screen.
 const SHOWN: usize = 3;

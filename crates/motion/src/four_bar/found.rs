@@ -38,8 +38,10 @@ impl Ring {
     }
 }
 
-/// All of a mechanism's, in the order of their joints.
-pub(in super::super) fn four_bars(
+/// All four-bars of a mechanism at the pose that was analysed, in the order of their joints: rings of four hinges with parallel axes
+/// through the ground. `configuration` is the one that was analysed. None where no pose is closed.
+#[must_use]
+pub fn four_bars(
     mechanism: &Mechanism,
     analysis: &Analysis,
     configuration: Option<&Configuration>,

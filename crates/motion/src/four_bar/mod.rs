@@ -10,7 +10,7 @@
 mod found;
 mod reach;
 
-pub(super) use found::four_bars;
+pub use found::four_bars;
 
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
