@@ -196,6 +196,84 @@ fn a_link_with_parallel_sliders_only_is_refused() {
     assert!(mechanism("0 1 0").is_ok());
 }
 
+const TRIANGLE: [&str; 3] = ["graph", "mechanisms/sketch_triangle.xml", "--constructive"];
+
+#[test]
+fn the_triangle_of_the_slides_makes_four_figures() {
+    let text = said(&TRIANGLE);
+    let known =
+        "sketch_triangle: 7 elements, 11 constraints, well-constrained\nsteps: 5\nsolutions: 4\n";
+    assert!(text.starts_with(known), "{text}");
+    let text = said(&[&TRIANGLE[..], &["--clusters"]].concat());
+    let (_, clusters) = text.split_once("reduction:\n").unwrap();
+    let (reduction, tree) = clusters.split_once("ternary tree:\n").unwrap();
+    assert_eq!(reduction.lines().count(), 5, "{text}");
+    let last = reduction.lines().last().unwrap();
+    assert!(
+        last.starts_with("cluster 5: A B C D AB AC BC, of "),
+        "{text}"
+    );
+    // Eleven constraints below five splits, and everything above all.
+    assert_eq!(tree.lines().count(), 16, "{text}");
+    assert!(tree.starts_with("  A B C D AB AC BC, shared: "), "{text}");
+    let json = said(&[&TRIANGLE[..], &["--clusters", "--format", "json"]].concat());
+    let data: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(data["solutions"], "4");
+    assert_eq!(data["clusters"]["reduction"].as_array().unwrap().len(), 5);
+    assert_eq!(
+        data["clusters"]["ternary_tree"]["sets"]
+            .as_array()
+            .unwrap()
+            .len(),
+        5
+    );
+}
+
+/// Where an element is in what a choice of sides shows.
+fn place(text: &str, element: &str) -> [f64; 2] {
+    let line = text
+        .lines()
+        .find_map(|l| l.strip_prefix(&format!("{element} at ")));
+    let numbers = line.unwrap_or_else(|| panic!("{text}")).split(' ');
+    let numbers: Vec<f64> = numbers.map(|n| n.parse().unwrap()).collect();
+    [numbers[0], numbers[1]]
+}
+
+#[test]
+fn sides_are_chosen_by_the_element_that_has_them() {
+    let away = |text: &str, from: &str| {
+        let [p, q] = [place(text, "D"), place(text, from)];
+        (p[0] - q[0]).hypot(p[1] - q[1])
+    };
+    let [ahead, behind] = ["ahead", "behind"].map(|side| {
+        let choice = format!("--side=D={side}");
+        said(&[&TRIANGLE[..], &[&choice]].concat())
+    });
+    // AC is 5 long and D 2 from C, towards A as drawn or away from it.
+    let mut found = [away(&ahead, "A"), away(&behind, "A")];
+    found.sort_by(f64::total_cmp);
+    assert!(
+        (found[0] - 3.0).abs() < 1e-5 && (found[1] - 7.0).abs() < 1e-5,
+        "{ahead}{behind}"
+    );
+    assert!(
+        [&ahead, &behind]
+            .iter()
+            .all(|t| (away(t, "C") - 2.0).abs() < 1e-5)
+    );
+    assert_eq!(
+        ahead.contains("chosen") as u8 + behind.contains("chosen") as u8,
+        1
+    );
+    let wrong = said(&[&TRIANGLE[..], &["--side=D=up"]].concat());
+    assert!(
+        wrong.contains("a side is `left` or `right`, `ahead` or `behind`, not `up`"),
+        "{wrong}"
+    );
+    let wrong = said(&[&TRIANGLE[..], &["--side=E=left"]].concat());
+    assert!(wrong.contains("no step places an element `E`"), "{wrong}");
+}
+
 /// Too long for every commit.
 mod corpus {
     use super::said;
@@ -358,7 +436,17 @@ fn a_budget_of_nothing_leaves_what_is_solved_at_once_undecided() {
     assert!(whole.contains("and no other, by exact algebra"), "{whole}");
     let none = said(&["graph", file, "--constructive", "--budget", "0"]);
     assert!(
-        none.contains("not decided: the work limit was reached"),
+        none.contains("is not decided: the work limit was reached"),
         "{none}"
     );
+    assert!(none.contains("budget: about 0 s of work"), "{none}");
+    // Some are known all the same, and no more than there are.
+    let count = |text: &str, before: &str| -> usize {
+        let (_, rest) = text.split_once(before).unwrap();
+        let number = rest.split_whitespace().next().unwrap();
+        number.parse().unwrap()
+    };
+    let all = count(&whole, "\nsolutions: ");
+    let some = count(&none, "\nsolutions: at least ");
+    assert!(0 < some && some <= all, "{some} of {all}");
 }

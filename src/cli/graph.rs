@@ -8,6 +8,7 @@ use clap::{Args, ValueEnum};
 use kutzbach::algebra::{Limits, Progress};
 use kutzbach::assembly::placed::Unsuited;
 use kutzbach::assembly::words;
+use kutzbach::constructive::cluster_words::ClusterWords;
 use kutzbach::constructive::named::NamedSketch;
 use kutzbach::constructive::together;
 use kutzbach::constructive::words::SketchWords;
@@ -45,9 +46,16 @@ pub struct Arguments {
     /// Hold a joint of a planar mechanism for `--constructive`, as `joint=value`; may be repeated
     #[arg(long, value_name = "JOINT=VALUE", requires = "constructive")]
     hold: Vec<String>,
+    /// With `--constructive`: show the sequence of clusters of the reduction and the ternary tree of the decomposition too
+    #[arg(long, requires = "constructive")]
+    clusters: bool,
+    /// With `--constructive`: take one of the two places of the step that places ELEMENT: `left` or `right` of the way from the first to the second
+    /// by which it is placed (of a line: pointing this way or back), `ahead` or `behind` along a line; shows the solution; may be repeated
+    #[arg(long, value_name = "ELEMENT=SIDE", requires = "constructive")]
+    side: Vec<String>,
     /// With `--constructive`: leave undecided what takes more than about so many seconds of work to solve at once, for each part that circles and
     /// lines do not construct (deterministic)
-    #[arg(long, value_name = "SECONDS", default_value_t = 10.0, value_parser = super::report::seconds)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 1.5, value_parser = super::report::seconds)]
     budget: f64,
     /// Show the links that are only fixed to others too; JSON always has them
     #[arg(long)]
@@ -157,7 +165,20 @@ fn seams(arguments: &Arguments, mechanism: &Mechanism) -> Result<u8, Failure> {
 /// What ruler and compass can do with a sketch.
 fn constructive(arguments: &Arguments) -> Result<u8, Failure> {
     let named = sketch::read(&arguments.source, &arguments.hold)?;
-    let found = watched(&named, arguments.budget);
+    let mut found = watched(&named, arguments.budget);
+    for choice in &arguments.side {
+        let (element, side) = choice.rsplit_once('=').unwrap_or((choice, ""));
+        found
+            .choose(element, side)
+            .map_err(|message| Failure::Plain {
+                message,
+                help: Some("--side ELEMENT=left".to_owned()),
+            })?;
+    }
+    let clusters = arguments
+        .clusters
+        .then(|| ClusterWords::of(&named))
+        .flatten();
     if matches!(arguments.format, Format::Dot | Format::Svg) && !found.has_tree() {
         return Err(Failure::Plain {
             message:
@@ -167,10 +188,25 @@ fn constructive(arguments: &Arguments) -> Result<u8, Failure> {
         });
     }
     let text = match (arguments.format, found.graph()) {
-        (Format::Json, _) => output::json(&found.data())?,
+        (Format::Json, _) => {
+            let mut data = found.data();
+            if let Some(clusters) = &clusters {
+                data["clusters"] = clusters.data();
+            }
+            output::json(&data)?
+        }
         (Format::Dot, Some(graph)) => to_dot(&graph, &SpanningTree::root_at(&graph, 0)),
         (Format::Svg, _) => found.tree_svg(),
+        _ if found.stopped() => harmless(&format!(
+            "{}budget: about {} s of work for what is solved at once; `--budget` allows more\n",
+            found.text(),
+            arguments.budget
+        )),
         _ => harmless(&found.text()),
+    };
+    let text = match (&clusters, arguments.format) {
+        (Some(clusters), Format::Text) => format!("{text}{}", harmless(&clusters.text())),
+        _ => text,
     };
     arguments.destination.put(&text)?;
     Ok(match interrupt::asked() {

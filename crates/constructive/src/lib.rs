@@ -17,13 +17,14 @@
 //! | [`together`] | what circles and lines do not construct, solved at once |
 //! | [`planar`] | planar mechanisms as sketches |
 //! | [`redundancy`] | whether a constraint too many agrees with the others |
-//! | [`words`], [`picture`], [`tree_picture`] | the answers as text, data, graph and pictures |
+//! | [`words`], [`cluster_words`], [`picture`], [`tree_picture`] | the answers as text, data, graph and pictures |
 //! | [`samples`] | graphs by name, by Henneberg moves, and all small ones |
 //!
 //! Sources: Laman (1970); Owen (1991); Jacobs and Hendrickson (1997); Soto i Riera, *Constructive Geometric Constraint Solving*
 //! (2002).
 
 pub mod analysis;
+pub mod cluster_words;
 pub mod construction;
 pub mod counted;
 pub mod graph;
@@ -34,6 +35,7 @@ pub mod planar;
 pub mod redundancy;
 pub mod relation;
 pub mod samples;
+mod senses;
 pub mod sketch;
 pub mod together;
 pub mod tree_picture;

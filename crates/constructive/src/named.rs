@@ -94,6 +94,10 @@ impl NamedSketch {
         let smaller = Sketch::new(elements, constraints.collect())?
             .with_rigid(rigid.collect())
             .with_relations(taken.left.iter().filter_map(moved).collect(), count_used)?;
+        let smaller = match sketch.senses_count() {
+            true => smaller,
+            false => smaller.of_figures(),
+        };
         let mut names = vec![String::new(); count];
         for (name, &at) in self.names.iter().zip(&place) {
             names[at].clone_from(name);

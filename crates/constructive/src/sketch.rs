@@ -89,6 +89,8 @@ pub struct Sketch {
     rigid: HashMap<[usize; 3], Triangle>,
     /// Whether values are known to rounding only.
     rounded: bool,
+    /// Whether solutions are one that differ in the senses of lines alone.
+    figures: bool,
 }
 
 /// Three elements and how they lie to each other.
@@ -136,6 +138,7 @@ impl Sketch {
             graph,
             rigid: HashMap::new(),
             rounded: false,
+            figures: false,
         })
     }
 
@@ -183,6 +186,17 @@ impl Sketch {
             self.rigid.insert(sorted, (elements, places));
         }
         self
+    }
+
+    /// The same sketch where solutions are one that differ in the sense of lines alone which nothing measures: no distance to a side of them.
+    #[must_use]
+    pub const fn of_figures(mut self) -> Self {
+        self.figures = true;
+        self
+    }
+
+    pub(crate) const fn senses_count(&self) -> bool {
+        !self.figures
     }
 
     /// The same sketch with another value of a constraint.

@@ -28,6 +28,8 @@ pub struct SketchWords<'a> {
     game: Counted,
     tree: STree,
     construction: Result<Construction<'a>, NotConstructive>,
+    /// Sides that were chosen, by step, in place of those drawn.
+    chosen: Option<Vec<bool>>,
     /// Of a well-constrained sketch that is not constructed by circles and lines alone.
     together: Option<Together>,
 }
@@ -52,7 +54,79 @@ impl<'a> SketchWords<'a> {
             tree,
             construction,
             named,
+            chosen: None,
         }
+    }
+
+    /// Chooses one of two places of the step that places an element: `left` or `right` of the way from the first to the second by which it is placed,
+    /// `ahead` or `behind` along a line; of a line `left` is the way it points from the first to the second, and `right` the other way.
+    ///
+    /// # Errors
+    /// Where no step places such an element, it has one place only, or the word is another one.
+    pub fn choose(&mut self, element: &str, side: &str) -> Result<(), String> {
+        let Ok(construction) = &self.construction else {
+            return Err(
+                "the sketch is not constructed step by step: it has no sides to choose".to_owned(),
+            );
+        };
+        let left = match side {
+            "left" | "ahead" => true,
+            "right" | "behind" => false,
+            _ => {
+                return Err(format!(
+                    "a side is `left` or `right`, `ahead` or `behind`, not `{side}`"
+                ));
+            }
+        };
+        let steps = 0..construction.drawn_left().len();
+        let places = |step: &usize| self.named.names[construction.elements_of(*step).1] == element;
+        let Some(step) = steps.into_iter().find(places) else {
+            return Err(format!("no step places an element `{element}`"));
+        };
+        let mut sides = self.sides(construction);
+        let two = matches!(construction.outcomes(&sides)[step], Outcome::Two { .. });
+        if construction.is_rigid(step) || !two {
+            return Err(format!("`{element}` has one place only, or none"));
+        }
+        sides[step] = left;
+        self.chosen = Some(sides);
+        Ok(())
+    }
+
+    /// The sides chosen, as drawn otherwise.
+    fn sides(&self, construction: &Construction<'_>) -> Vec<bool> {
+        let drawn = || construction.drawn_left().to_vec();
+        self.chosen.clone().unwrap_or_else(drawn)
+    }
+
+    /// The solution on the chosen sides, element by element; nothing where none were chosen.
+    fn places(&self, construction: &Construction<'_>) -> Vec<String> {
+        let Some(sides) = &self.chosen else {
+            return Vec::new();
+        };
+        let Ok(solution) = construction.with_sides(sides) else {
+            return vec!["no solution on these sides".to_owned()];
+        };
+        let all = self.named.whole(&solution.shapes);
+        // None is written as minus zero.
+        let shown = |x: f64| if x.abs() < 5e-7 { 0.0 } else { x };
+        let line = |(name, shape): (&String, &Shape)| match shape {
+            Shape::Point([x, y]) => format!("{name} at {:.6} {:.6}", shown(*x), shown(*y)),
+            Shape::Line {
+                direction: [c, s],
+                offset,
+            } => format!(
+                "{name} through {:.6} {:.6} pointing {:.6} {:.6}",
+                shown(-s * offset),
+                shown(c * offset),
+                shown(*c),
+                shown(*s)
+            ),
+        };
+        let mut lines: Vec<String> = self.named.names.iter().zip(&all).map(line).collect();
+        lines.truncate(MOST_LISTED);
+        more(&mut lines, all.len());
+        lines
     }
 
     /// The construction, where there is one.
@@ -195,7 +269,7 @@ impl<'a> SketchWords<'a> {
                     .to_owned(),
             );
         }
-        let outcomes = construction.outcomes(construction.drawn_left());
+        let outcomes = construction.outcomes(&self.sides(construction));
         let reached = reached(&outcomes);
         for (step, outcome) in outcomes.iter().enumerate().take(reached.min(MOST_LISTED)) {
             lines.push(self.step(construction, step, outcome));
@@ -203,10 +277,16 @@ impl<'a> SketchWords<'a> {
         more(&mut lines, reached);
         if reached < outcomes.len() {
             lines.push(format!(
-                "not reached on the sides drawn: {} after it",
+                "not reached on the sides {}: {} after it",
+                if self.chosen.is_some() {
+                    "chosen"
+                } else {
+                    "drawn"
+                },
                 plural(outcomes.len() - reached, "step")
             ));
         }
+        lines.extend(self.places(construction));
         let open = construction.left_open_by_rounding();
         lines.extend(open.iter().take(MOST_LISTED).map(|step| {
             format!(
@@ -262,6 +342,10 @@ impl<'a> SketchWords<'a> {
                     plural(places.len(), "place")
                 )
             }
+            CoreOutcome::Found { places, why } => format!(
+                "{} found by Newton's method from the drawing and around it, each proven; whether there are others is not decided: {why}",
+                plural(places.len(), "place")
+            ),
             CoreOutcome::Infinite => "infinitely many places: it moves".to_owned(),
             CoreOutcome::Open(why) => format!("not decided: {why}"),
         };
@@ -275,9 +359,16 @@ impl<'a> SketchWords<'a> {
         let (by, element) = construction.elements_of(step);
         let what = match outcome {
             _ if construction.is_rigid(step) => "one place, on the same body".to_owned(),
+            Outcome::Two { .. } if construction.is_senseless(step) => {
+                "one place, whichever way the line points".to_owned()
+            }
             Outcome::Two { .. } => {
-                let side = self.side(by, element, construction.drawn_left()[step]);
-                format!("two places, drawn {side}")
+                let [drawn, taken] = [construction.drawn_left(), &self.sides(construction)]
+                    .map(|sides| self.side(by, element, sides[step]));
+                match drawn == taken {
+                    true => format!("two places, drawn {drawn}"),
+                    false => format!("two places, drawn {drawn}, chosen {taken}"),
+                }
             }
             Outcome::Touching { within: 0.0 } => format!("{} touch: a double solution", self.tools(by, element)),
             Outcome::Touching { within } => format!(
@@ -330,6 +421,14 @@ impl<'a> SketchWords<'a> {
         }
     }
 
+    /// Whether what is solved at once was stopped by its limits.
+    #[must_use]
+    pub fn stopped(&self) -> bool {
+        let cores = self.together.iter().flat_map(|t| &t.cores);
+        let mut open = cores.map(|c| &c.outcome);
+        open.any(|o| matches!(o, CoreOutcome::Found { .. } | CoreOutcome::Open(_)))
+    }
+
     /// Whether the s-tree says something: constraints of more than two elements are not in it.
     #[must_use]
     pub fn has_tree(&self) -> bool {
@@ -380,7 +479,8 @@ impl<'a> SketchWords<'a> {
         let count = construction.map(Construction::count);
         let total = self.together.as_ref().and_then(|t| t.total);
         let steps = construction.map(|c| {
-            let outcomes = c.outcomes(c.drawn_left());
+            let sides = self.sides(c);
+            let outcomes = c.outcomes(&sides);
             let reached = reached(&outcomes);
             let step = |(i, o): (usize, &Outcome)| {
                 let (by, element) = c.elements_of(i);
@@ -389,7 +489,7 @@ impl<'a> SketchWords<'a> {
                     false => ("not_reached", None),
                 };
                 json!({ "element": names(&[element])[0], "by": names(&by), "outcome": outcome, "size": size,
-                    "left": c.drawn_left()[i] })
+                    "left": sides[i] })
             };
             outcomes.iter().enumerate().map(step).collect::<Vec<Value>>()
         });
@@ -447,6 +547,7 @@ impl<'a> SketchWords<'a> {
         };
         let (outcome, complex, places, why) = match &core.outcome {
             CoreOutcome::Solved { complex, places } => ("solved", *complex, Some(places), None),
+            CoreOutcome::Found { places, why } => ("found", None, Some(places), Some(why)),
             CoreOutcome::Infinite => ("infinite", None, None, None),
             CoreOutcome::Open(why) => ("open", None, None, Some(why)),
         };

@@ -371,7 +371,8 @@ impl<'a> Parts<'a> {
         let sketch = Sketch::new(elements, constraints).map_err(wrong)?;
         let sketch = sketch
             .with_relations(relations, lengths.unknown())
-            .map_err(wrong)?;
+            .map_err(wrong)?
+            .of_figures();
         let name = root.attribute("name").map_or("unnamed", |name| name.value);
         let mut named = NamedSketch::new(name.to_owned(), names, sketch);
         let circle = |(i, drawn): (usize, &circles::Drawn<'_>)| Circle {

@@ -98,6 +98,8 @@ pub struct Construction<'a> {
     drawn_left: Vec<bool>,
     /// Whether a step places what a rigid body has: on the side drawn only.
     rigid: Vec<bool>,
+    /// Whether its two places are one figure, with lines the other way round: on the side drawn only.
+    senseless: Vec<bool>,
 }
 
 impl<'a> Construction<'a> {
@@ -121,6 +123,7 @@ impl<'a> Construction<'a> {
         Ok(Self {
             drawn_left: plan.moves.iter().map(side).collect(),
             rigid: plan.moves.iter().map(|m| rigid(m).is_some()).collect(),
+            senseless: senseless(sketch, &plan),
             frames: frame::of_edges(sketch),
             sketch,
             reduction,
@@ -145,6 +148,12 @@ impl<'a> Construction<'a> {
     #[must_use]
     pub fn is_rigid(&self, step: usize) -> bool {
         self.rigid[step]
+    }
+
+    /// Whether the two places of a step make the same figure, with lines that point the other way: one of them is enough.
+    #[must_use]
+    pub fn is_senseless(&self, step: usize) -> bool {
+        self.senseless[step]
     }
 
     /// The elements of a step: the two that are placed, and the one that is placed by them.
@@ -260,7 +269,9 @@ impl<'a> Construction<'a> {
             steps.collect()
         };
         let parts: Vec<Vec<usize>> = self.reduction.merges.iter().map(made_by).collect();
-        classes::tried(classes, &self.rigid, &parts, |other| {
+        let one_side = self.rigid.iter().zip(&self.senseless);
+        let one_side: Vec<bool> = one_side.map(|(r, s)| r | s).collect();
+        classes::tried(classes, &one_side, &parts, |other| {
             let sides = self.drawn_left.iter().zip(other);
             self.outcomes(
                 &sides
@@ -269,6 +280,30 @@ impl<'a> Construction<'a> {
             )
         })
     }
+}
+
+/// Of every class of lines whose sense is free a step whose sides are the two senses: one that places a line of it by two points, or else a
+/// point along a line of it. Turning the class round changes the side of all of these and of no other step.
+fn senseless(sketch: &Sketch, plan: &Plan) -> Vec<bool> {
+    let mut chosen = vec![false; plan.moves.len()];
+    let line = |e: usize| sketch.elements()[e].is_line();
+    for class in crate::senses::free(sketch) {
+        let inside = |e: usize| class.binary_search(&e).is_ok();
+        let places_line = |m: &plan::Move| {
+            let [x, y, z] = m.shared;
+            inside(y) && !line(x) && !line(z)
+        };
+        let along_line = |m: &plan::Move| {
+            let [x, y, z] = m.shared;
+            !line(y) && line(x) != line(z) && (inside(x) || inside(z))
+        };
+        let step = plan.moves.iter().position(places_line);
+        let step = step.or_else(|| plan.moves.iter().position(along_line));
+        if let Some(step) = step {
+            chosen[step] = true;
+        }
+    }
+    chosen
 }
 
 fn why_not(sketch: &Sketch, reduction: &Reduction) -> NotConstructive {

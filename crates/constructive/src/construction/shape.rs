@@ -37,6 +37,14 @@ impl Shape {
         matches!(self, Self::Line { .. })
     }
 
+    /// How far a line is from the origin, to its left; zero of a point.
+    pub(crate) const fn offset(&self) -> f64 {
+        match self {
+            Self::Point(_) => 0.0,
+            Self::Line { offset, .. } => *offset,
+        }
+    }
+
     /// The farthest that a coordinate of it, or the offset of a line, is from zero: for rounding errors.
     #[must_use]
     pub fn extent(&self) -> f64 {
@@ -115,7 +123,7 @@ impl Motion {
         (self.turn, self.shift)
     }
 
-    pub(super) fn of(&self, shape: &Shape) -> Shape {
+    pub(crate) fn of(&self, shape: &Shape) -> Shape {
         match *shape {
             Shape::Point(p) => Shape::Point(along(self.shift, turned(p, self.turn), 1.0)),
             Shape::Line { direction, offset } => {

@@ -12,7 +12,8 @@
 //! one rigid body, on which the rest is constructed as usual; the numbers of solutions add up.
 //!
 //! # What it costs
-//! With D complex solutions about D³ operations; a limit on work, the same on every machine, ends in an answer that says so. A core that
+//! With D complex solutions about D³ operations; a limit on work, the same on every machine, ends in an answer that says so, with the solutions
+//! that Newton's method finds from the drawing and around it. A core that
 //! needs the lengths between elements of other parts takes these parts in, and grows with them.
 //!
 //! Source: R. Soto i Riera (2002) names what is left over; counts by J. Capco, M. Gallet, G. Grasegger, C. Koutschan, N. Lubbes, J.
@@ -20,6 +21,7 @@
 
 mod part;
 mod related;
+mod search;
 mod system;
 mod unknown_values;
 
@@ -190,7 +192,7 @@ fn total(sketch: &Sketch, cores: &[Core]) -> Option<Total> {
     let choices = choices(cores)?;
     let mut total = Total {
         least: 0,
-        all: choices.len() <= MOST_COMBINATIONS,
+        all: choices.len() <= MOST_COMBINATIONS && cores.iter().all(Core::has_all),
     };
     for choice in choices.iter().take(MOST_COMBINATIONS) {
         if whole(sketch, cores, choice).is_some() {
@@ -236,7 +238,11 @@ fn with_bodies(sketch: &Sketch, bodies: &[(Vec<usize>, Vec<Shape>)]) -> Option<S
         triangles.extend(held.triangles);
     }
     let result = Sketch::new(sketch.elements().to_vec(), constraints).ok()?;
-    Some(result.with_rigid(triangles).known_to_rounding())
+    let result = result.with_rigid(triangles).known_to_rounding();
+    Some(match sketch.senses_count() {
+        true => result,
+        false => result.of_figures(),
+    })
 }
 
 /// The place as exact numbers, to take lengths from.

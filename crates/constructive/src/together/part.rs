@@ -4,8 +4,9 @@ use super::system::{self, System};
 use crate::analysis::{LeafKind, Node, STree};
 use crate::construction::{Shape, drawn_side, laid_on};
 use crate::relation::Relation;
+use crate::senses;
 use crate::sketch::Sketch;
-use kutzbach_algebra::{Budget, RealSet};
+use kutzbach_algebra::{Budget, RealSet, Stop};
 
 /// A part whose elements are placed all at once.
 #[derive(Clone, Debug)]
@@ -28,6 +29,13 @@ pub enum CoreOutcome {
         complex: Option<usize>,
         /// The real ones, in the order of [`Core::elements`].
         places: Vec<Placed>,
+    },
+    /// Some of its real solutions, each proven of the values to rounding; whether there are others is not decided.
+    Found {
+        /// As in the case above, nearest to the drawing first.
+        places: Vec<Placed>,
+        /// Why it is not decided.
+        why: String,
     },
     /// There are infinitely many: some of its elements move.
     Infinite,
@@ -66,7 +74,15 @@ impl Core {
             Ok(RealSet::Unclear) => CoreOutcome::Open(
                 "infinitely many complex solutions; which are real is not known".to_owned(),
             ),
-            Err(stop) => CoreOutcome::Open(format!("{stop} in exact algebra")),
+            Err(Stop::Cancelled) => {
+                CoreOutcome::Open(format!("{} in exact algebra", Stop::Cancelled))
+            }
+            Err(stop) => of_some(
+                sketch,
+                &elements,
+                &system,
+                format!("{stop} in exact algebra"),
+            ),
         };
         Self {
             elements,
@@ -75,13 +91,34 @@ impl Core {
         }
     }
 
-    /// The ways to place it, where these are known to be all.
+    /// The ways to place it that are known.
     #[must_use]
     pub fn places(&self) -> Option<&[Placed]> {
         match &self.outcome {
-            CoreOutcome::Solved { places, .. } => Some(places),
+            CoreOutcome::Solved { places, .. } | CoreOutcome::Found { places, .. } => Some(places),
             _ => None,
         }
+    }
+
+    /// Whether these are all.
+    #[must_use]
+    pub const fn has_all(&self) -> bool {
+        matches!(self.outcome, CoreOutcome::Solved { .. })
+    }
+}
+
+/// What is found without algebra.
+fn of_some(sketch: &Sketch, elements: &[usize], system: &System, why: String) -> CoreOutcome {
+    let real: Vec<(Vec<f64>, usize)> = system
+        .near_the_drawing()
+        .into_iter()
+        .map(|found| (found.at, 1))
+        .collect();
+    match of_points(sketch, elements, system, 0, &real) {
+        CoreOutcome::Solved { places, .. } if !places.is_empty() => {
+            CoreOutcome::Found { places, why }
+        }
+        _ => CoreOutcome::Open(why),
     }
 }
 
@@ -113,7 +150,22 @@ fn of_points(
         let [a, b] = [a, b].map(|p| off_drawing(sketch, elements, &p.shapes));
         a.total_cmp(&b)
     });
-    let all_meant = sided.is_empty() && !system.has_lengths();
+    let free = senses::free(sketch).into_iter().filter_map(|class| {
+        let local = |e: usize| elements.iter().position(|&o| o == e);
+        class.into_iter().map(local).collect::<Option<Vec<usize>>>()
+    });
+    let free: Vec<Vec<usize>> = free.collect();
+    if !free.is_empty() {
+        let mut figures: Vec<Placed> = Vec::new();
+        for placed in places {
+            let same = |f: &Placed| senses::same_figure(&f.shapes, &placed.shapes, &free);
+            if !figures.iter().any(same) {
+                figures.push(placed);
+            }
+        }
+        places = figures;
+    }
+    let all_meant = sided.is_empty() && !system.has_lengths() && free.is_empty();
     CoreOutcome::Solved {
         complex: all_meant.then_some(complex),
         places,

@@ -1,6 +1,7 @@
 //! Relations of more than two elements in the equations of a core.
 
-use super::system::{Building, Place};
+use super::system::{Building, Place, on_the_axes};
+use crate::construction::{Construction, Shape};
 use crate::relation::Relation;
 use kutzbach_algebra::{FieldElement, FieldPolynomial};
 
@@ -37,9 +38,17 @@ impl Building<'_> {
         let any = self.points().next();
         let (point, height) = match (tied.into_iter().next(), mirrored.or(any)) {
             (Some((point, value)), _) => (point, self.constant(&value)?),
-            (None, Some(point)) => (point, self.fresh()),
+            (None, Some(point)) => {
+                let drawn = [point, axis].map(|e| self.drawn(e));
+                let height = Construction::value_between(&drawn[0], &drawn[1]);
+                (point, self.fresh_length(height))
+            }
             (None, None) => return Err("only angles hold its elements"),
         };
+        let drawn = [point, axis].map(|e| self.drawn(e));
+        let height_drawn = Construction::value_between(&drawn[0], &drawn[1]);
+        let [_, on_axis] = on_the_axes(true);
+        self.pinned([axis, point], [on_axis, Shape::Point([0.0, height_drawn])]);
         self.satisfied(point, axis);
         let line = Place::Line([integer(1), integer(0)], integer(0));
         self.places.insert(axis, line);
@@ -81,6 +90,7 @@ impl Building<'_> {
                 (point, other, place)
             }
         };
+        self.pinned([point, other], on_the_axes(self.is_line(other)));
         self.places.insert(point, Place::Point([zero(), zero()]));
         self.places.insert(other, place);
         self.relations[index].1 = true;

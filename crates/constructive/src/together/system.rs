@@ -1,7 +1,8 @@
 //! The equations of a core, with one constraint pinned to the axes.
 
+use super::search::{Found, Search, Start, Terms};
 use super::unknown_values::Values;
-use crate::construction::{Shape, drawn_side};
+use crate::construction::{Motion, Shape, drawn_side};
 use crate::relation::Relation;
 use crate::sketch::{Constraint, Element, Sketch};
 use kutzbach_algebra::{FieldElement, FieldPolynomial, NumberField, OverRationals};
@@ -25,6 +26,8 @@ pub(super) struct System {
     unknowns: usize,
     /// Unknowns that are lengths: solutions where one is not above zero are none.
     lengths: Vec<usize>,
+    /// Where every unknown is drawn.
+    starts: Vec<Start>,
 }
 
 const NOT_ALGEBRAIC: &str = "a value is no algebraic number, or one of too high a degree";
@@ -54,7 +57,8 @@ impl System {
                 .ok_or(NOT_ALGEBRAIC)?,
             field: building.field,
             equations: building.equations,
-            unknowns: building.unknowns,
+            unknowns: building.starts.len(),
+            starts: building.starts,
             lengths: building.values.lengths(),
         })
     }
@@ -81,6 +85,26 @@ impl System {
 
     pub(super) fn over_rationals(&self) -> OverRationals {
         OverRationals::new(&self.equations, self.unknowns, &self.field)
+    }
+
+    /// Real solutions that are found from the drawing and around it, each proven to be one; not all of them.
+    pub(super) fn near_the_drawing(&self) -> Vec<Found> {
+        let terms = |polynomial: &FieldPolynomial| -> Terms {
+            let term = |(exponents, coefficient): (&[u8], &FieldElement)| {
+                let mut exponents = exponents.to_vec();
+                exponents.resize(self.unknowns, 0);
+                (self.field.number(coefficient).value(), exponents)
+            };
+            polynomial.terms().map(term).collect()
+        };
+        let equations: Vec<Terms> = self.equations.iter().map(terms).collect();
+        let search = Search {
+            equations: &equations,
+            starts: &self.starts,
+        };
+        let mut found = search.solutions();
+        found.retain(|f| self.lengths.iter().all(|&u| f.at[u] > f.within));
+        found
     }
 
     /// Where the elements are for these values of the unknowns.
@@ -118,6 +142,36 @@ pub(super) fn sided_triangles(sketch: &Sketch, core: &[usize]) -> Vec<([usize; 3
         .collect()
 }
 
+/// The origin, and the first axis or a point on it.
+pub(super) const fn on_the_axes(line: bool) -> [Shape; 2] {
+    let other = match line {
+        false => Shape::Point([1.0, 0.0]),
+        true => Shape::Line {
+            direction: [1.0, 0.0],
+            offset: 0.0,
+        },
+    };
+    [Shape::Point([0.0, 0.0]), other]
+}
+
+/// How far apart points are drawn at most; one where they tell nothing.
+fn size(sketch: &Sketch, core: &[usize]) -> f64 {
+    let points = core.iter().filter_map(|&e| match sketch.elements()[e] {
+        Element::Point(p) => Some(p),
+        Element::Line { .. } => None,
+    });
+    let mut least = [f64::INFINITY; 2];
+    let mut most = [f64::NEG_INFINITY; 2];
+    for p in points {
+        for k in 0..2 {
+            least[k] = least[k].min(p[k]);
+            most[k] = most[k].max(p[k]);
+        }
+    }
+    let size = (most[0] - least[0]).max(most[1] - least[1]);
+    if size > 0.0 { size } else { 1.0 }
+}
+
 pub(super) struct Building<'a> {
     pub(super) sketch: &'a Sketch,
     core: &'a [usize],
@@ -132,7 +186,12 @@ pub(super) struct Building<'a> {
     pub(super) field: NumberField,
     pub(super) places: HashMap<usize, Place>,
     pub(super) equations: Vec<FieldPolynomial>,
-    unknowns: usize,
+    /// By unknown: where it is drawn.
+    pub(super) starts: Vec<Start>,
+    /// From the drawing to the axes.
+    frame: Option<Motion>,
+    /// How large the drawing is.
+    pub(super) size: f64,
 }
 
 impl<'a> Building<'a> {
@@ -169,7 +228,9 @@ impl<'a> Building<'a> {
             by_ends: sketch.by_ends(),
             places: HashMap::new(),
             equations: Vec::new(),
-            unknowns: 0,
+            starts: Vec::new(),
+            frame: None,
+            size: size(sketch, core),
             sketch,
             core,
             constraints,
@@ -198,15 +259,27 @@ impl<'a> Building<'a> {
         tied.collect()
     }
 
-    /// How many unknowns there are.
-    pub(super) const fn unknowns(&self) -> usize {
-        self.unknowns
+    /// A new unknown.
+    pub(super) fn fresh(&mut self, start: Start) -> FieldPolynomial {
+        self.starts.push(start);
+        FieldPolynomial::unknown(self.starts.len() - 1)
     }
 
-    /// A new unknown.
-    pub(super) fn fresh(&mut self) -> FieldPolynomial {
-        self.unknowns += 1;
-        FieldPolynomial::unknown(self.unknowns - 1)
+    /// A new unknown that is a length, drawn like this.
+    pub(super) fn fresh_length(&mut self, drawn: f64) -> FieldPolynomial {
+        self.fresh(Start::At(drawn, self.size))
+    }
+
+    /// Where an element is drawn, on the axes.
+    pub(super) fn drawn(&self, element: usize) -> Shape {
+        let drawn = Shape::drawn(&self.sketch.elements()[element]);
+        self.frame.map_or(drawn, |frame| frame.of(&drawn))
+    }
+
+    /// Elements are drawn as these two are put on the axes.
+    pub(super) fn pinned(&mut self, elements: [usize; 2], to: [Shape; 2]) {
+        let [a, b] = elements.map(|e| Shape::drawn(&self.sketch.elements()[e]));
+        self.frame = Motion::onto([&a, &b], [&to[0], &to[1]]);
     }
 
     fn read(&mut self, number: &Number) -> Result<FieldElement, &'static str> {
@@ -273,6 +346,7 @@ impl<'a> Building<'a> {
             false => Place::Point([self.constant(&value)?, zero()]),
             true => Place::Line([one(), zero()], self.constant(&-&value)?),
         };
+        self.pinned([point, other], on_the_axes(self.is_line(other)));
         self.places.insert(point, Place::Point([zero(), zero()]));
         self.places.insert(other, other_place);
         self.satisfied(u, v);
@@ -325,7 +399,7 @@ impl<'a> Building<'a> {
             by(c, &cos).minus(&by(s, &sin)),
             by(s, &cos).plus(&by(c, &sin)),
         ];
-        let offset = self.fresh();
+        let offset = self.fresh_length(self.drawn(to).offset());
         self.places.insert(to, Place::Line(direction, offset));
         self.satisfied(from, to);
         Ok(true)
@@ -347,7 +421,13 @@ impl<'a> Building<'a> {
         let Some(Place::Line([c, s], offset)) = self.places.get(&from).cloned() else {
             return Ok(false);
         };
-        let along = self.fresh();
+        let along = match (self.drawn(to), self.drawn(from)) {
+            (Shape::Point([x, y]), Shape::Line { direction, .. }) => {
+                x * direction[0] + y * direction[1]
+            }
+            _ => 0.0,
+        };
+        let along = self.fresh_length(along);
         let left = offset.plus(&by);
         let times = |a: &FieldPolynomial, b: &FieldPolynomial| a.times(b, &self.field);
         let point = [
@@ -417,11 +497,11 @@ impl<'a> Building<'a> {
 
     /// Gives an element unknowns of its own.
     fn place_anywhere(&mut self, element: usize) {
-        let first = [self.fresh(), self.fresh()];
-        let place = match self.sketch.elements()[element].is_line() {
-            false => Place::Point(first),
-            true => {
-                let offset = self.fresh();
+        let place = match self.drawn(element) {
+            Shape::Point(p) => Place::Point(p.map(|x| self.fresh_length(x))),
+            Shape::Line { direction, offset } => {
+                let first = direction.map(|x| self.fresh(Start::At(x, 1.0)));
+                let offset = self.fresh_length(offset);
                 let square = self.dot(&first, &first);
                 let one = FieldPolynomial::constant(FieldElement::integer(1));
                 self.equations.push(square.minus(&one));

@@ -67,6 +67,41 @@ fn the_prism_has_twenty_four_complex_solutions_and_k33_sixteen() {
     }
 }
 
+/// Newton's method from the drawing and around it against exact algebra: what the one finds the other has, the drawing and its mirror image among it.
+#[test]
+fn what_is_found_near_the_drawing_is_among_all_solutions() {
+    let mut random = Random::new(77);
+    let mut compared = 0;
+    for name in ["K3,3", "prism"] {
+        for _ in 0..3 {
+            let sketch = drawn(named(name).unwrap().edges(), 6, &mut random);
+            let all = solved(&sketch);
+            let none = seconds(0.0);
+            let some = together_within(&sketch, &s_tree(sketch.graph()), &none);
+            let CoreOutcome::Found { places, .. } = &some.cores[0].outcome else {
+                panic!("{name}: {:?}", some.cores[0].outcome);
+            };
+            // Two points in one place leave it movable.
+            let CoreOutcome::Solved { places: exact, .. } = &all.cores[0].outcome else {
+                continue;
+            };
+            compared += 1;
+            assert!((2..=exact.len()).contains(&places.len()), "{name}");
+            for (i, placed) in places.iter().enumerate() {
+                let same = |other: &&Placed| {
+                    crate::senses::same_figure(&placed.shapes, &other.shapes, &[])
+                };
+                assert_eq!(exact.iter().filter(same).count(), 1, "{name}");
+                assert_eq!(places.iter().filter(same).count(), 1, "{name} {i}");
+            }
+            let total = some.total.unwrap();
+            assert_eq!((total.least, total.all), (places.len() as u128, false));
+            assert!(some.solutions(&sketch, 100).is_none());
+        }
+    }
+    assert!(compared >= 4, "{compared}");
+}
+
 /// A point tied to two of K3,3 has two places for each of its solutions where its circles meet: it is tied as it is drawn, and
 /// with long bars, which meet wherever the two points are.
 #[test]

@@ -1,7 +1,9 @@
 //! Unknown values among the unknowns of a core.
 
+use super::search::Start;
 use super::system::Building;
-use crate::relation::Relation;
+use crate::construction::Shape;
+use crate::relation::{Relation, measured};
 use kutzbach_algebra::{FieldElement, FieldPolynomial};
 
 /// The unknown of every value, or of its square where that is all that is asked for.
@@ -36,10 +38,23 @@ impl Building<'_> {
         let count = self.sketch.unknown_values();
         let squared: Vec<bool> = (0..count).map(square_alone).collect();
         let mut unknowns = Vec::with_capacity(count);
-        for _ in 0..count {
-            unknowns.push(self.unknowns());
-            let value = self.fresh();
-            let inverse = self.fresh();
+        let drawn = self.sketch.elements().iter().map(Shape::drawn);
+        let drawn: Vec<Shape> = drawn.collect();
+        let drawn = measured(self.sketch.relations().iter(), &drawn, count);
+        for (drawn, squared) in drawn.into_iter().zip(&squared) {
+            let index = self.starts.len();
+            unknowns.push(index);
+            let drawn = if drawn.abs() > 0.0 {
+                drawn.abs()
+            } else {
+                self.size
+            };
+            let (start, far) = match squared {
+                true => (drawn * drawn, self.size * self.size),
+                false => (drawn, self.size),
+            };
+            let value = self.fresh(Start::At(start, far));
+            let inverse = self.fresh(Start::Inverse(index));
             let one = FieldPolynomial::constant(FieldElement::integer(1));
             let product = value.times(&inverse, &self.field);
             self.equations.push(product.minus(&one));
