@@ -30,6 +30,7 @@ mod exact_conditions;
 mod exact_rings;
 mod exact_tables;
 mod exact_verdict;
+mod exact_ways;
 mod exact_words;
 mod exact_zoo;
 mod explained;

@@ -4,10 +4,11 @@
 //! cargo run --release --example exact_tables                         # prints the tables
 //! cargo run --release --example exact_tables -- --json               # the record
 //! cargo run --release --example exact_tables -- --update DATE MACHINE
+//! cargo run --release --example exact_tables -- --update-tables DATE
 //! cargo run --release --example exact_tables -- --redraw
 //! ```
 //!
-//! `--update` measures and writes the record `benches/record/exact_tables.json` and the measured part of
+//! `--update-tables` measures the tables of the source only. `--update` measures and writes the record `benches/record/exact_tables.json` and the measured part of
 //! `docs/src/exact.md`; `--redraw` writes the page again from the record. `tests/exact_tables.rs` holds the two against each
 //! other, and the sizes in them against fresh computations.
 
@@ -41,8 +42,20 @@ fn main() -> Result<()> {
             fs::write(RECORD, serde_json::to_string_pretty(&record)? + "\n")?;
             write(&record)?;
         }
+        ["--update-tables", date] => {
+            let mut record: Record = serde_json::from_str(&fs::read_to_string(RECORD)?)?;
+            record.tables = measure::tables(ROUNDS, |row| eprintln!("{row}"))?;
+            record.tables_date = Some((*date).to_owned());
+            fs::write(RECORD, serde_json::to_string_pretty(&record)? + "\n")?;
+            write(&record)?;
+        }
         ["--redraw"] => write(&serde_json::from_str(&fs::read_to_string(RECORD)?)?)?,
-        _ => return Err("known are --json, --update DATE MACHINE, and --redraw".into()),
+        _ => {
+            return Err(
+                "known are --json, --update DATE MACHINE, --update-tables DATE, and --redraw"
+                    .into(),
+            );
+        }
     }
     Ok(())
 }
@@ -51,6 +64,7 @@ fn measured(date: &str, machine: &str) -> Result<Record> {
     let tell = |row: &str| eprintln!("{row}");
     Ok(Record {
         date: date.to_owned(),
+        tables_date: None,
         machine: machine.to_owned(),
         tables: measure::tables(ROUNDS, tell)?,
         scenes: measure::scenes(LIMIT, tell)?,

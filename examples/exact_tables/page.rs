@@ -28,8 +28,12 @@ pub fn replaced(page: &str, record: &Record) -> Result<String> {
 /// Everything measured, as Markdown.
 #[must_use]
 pub fn measured(record: &Record) -> String {
+    let later = record.tables_date.as_ref();
+    let later = later.map_or(String::new(), |date| {
+        format!(" (the tables of the source on {date})")
+    });
     let mut text = format!(
-        "Measured on {} on {}, one thread, release build. *v*, *e* and *b* are the numbers of variables, of equations and of \
+        "Measured on {}{later} on {}, one thread, optimised build. *v*, *e* and *b* are the numbers of variables, of equations and of \
          polynomials of the basis; the source counts trivial equations and its bases are lexicographic. Ours are given in \
          degrevlex, with the lexicographic size in parentheses where it differs.\n\n",
         record.date, record.machine

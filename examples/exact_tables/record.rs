@@ -6,6 +6,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     pub date: String,
+    /// When the tables of the source were measured, where that was later.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tables_date: Option<String>,
     pub machine: String,
     pub tables: Vec<Table>,
     pub scenes: Vec<Scene>,

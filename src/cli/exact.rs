@@ -39,9 +39,26 @@ pub struct Arguments {
     /// Order of the basis
     #[arg(long, value_enum, default_value_t = Order::Degrevlex, help_heading = "How it is computed")]
     order: Order,
+    /// Make the basis lexicographic in this order of the variables, the most significant first, separated by commas; those not named come after
+    #[arg(
+        long,
+        value_name = "VARIABLES",
+        value_delimiter = ',',
+        conflicts_with_all = ["symbolic", "incremental"],
+        help_heading = "How it is computed"
+    )]
+    variable_order: Vec<String>,
     /// Add the relations one by one: which are accepted, redundant, inconsistent
     #[arg(long)]
     incremental: bool,
+    /// With `--incremental`: relations to add first, in this order, separated by commas; the others follow in the order of the file
+    #[arg(
+        long,
+        value_name = "RELATIONS",
+        value_delimiter = ',',
+        requires = "incremental"
+    )]
+    first: Vec<String>,
     /// Leave a property of the file open and say which values let the mechanism be put together; may be repeated
     #[arg(long, value_name = "PROPERTY", conflicts_with = "incremental")]
     symbolic: Vec<String>,
@@ -251,9 +268,11 @@ impl Arguments {
                     Way::Incremental => Method::Incremental,
                 }),
                 order: match self.order {
-                    Order::Degrevlex => MonomialOrder::Degrevlex,
-                    Order::Lex => MonomialOrder::Lexicographic,
+                    // The basis in the order asked for is made from one that is cheap.
+                    Order::Lex if self.variable_order.is_empty() => MonomialOrder::Lexicographic,
+                    Order::Degrevlex | Order::Lex => MonomialOrder::Degrevlex,
                 },
+                variable_order: self.variable_order.clone(),
             },
             equations: self.print.contains(&Print::Equations),
             basis: self.print.contains(&Print::Basis),
@@ -329,6 +348,7 @@ impl Arguments {
         self.print.is_empty()
             && self.variables.is_none()
             && self.method.is_none()
+            && self.variable_order.is_empty()
             && self.pose.is_home()
     }
 
@@ -367,6 +387,12 @@ impl Arguments {
     ) -> Result<(String, Option<Left>), Ended> {
         let (system, given) =
             relations_of(mechanism, &request.options.system).map_err(Ended::Refused)?;
+        let given = given.ordered(&self.first).map_err(|name| {
+            Ended::Failed(Failure::Plain {
+                message: format!("there is no relation named `{name}` to begin with"),
+                help: None,
+            })
+        })?;
         let (findings, stopped) = match relation_by_relation(&given, budget) {
             Ok(findings) => (findings, None),
             Err((stop, findings)) => (findings, Some(stop)),

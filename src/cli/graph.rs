@@ -57,6 +57,9 @@ pub struct Arguments {
     /// lines do not construct (deterministic)
     #[arg(long, value_name = "SECONDS", default_value_t = 1.5, value_parser = super::report::seconds)]
     budget: f64,
+    /// Show the low-depth tree, which exact equations are written by, in place of the one that the file describes
+    #[arg(long, conflicts_with_all = ["incidence", "seams", "constructive"])]
+    low_depth: bool,
     /// Show the links that are only fixed to others too; JSON always has them
     #[arg(long)]
     verbose: bool,
@@ -97,15 +100,23 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         folded = small.folded.len();
         (graph, tree) = (small.graph, small.tree);
     }
+    let shallow = SpanningTree::low_depth(&graph);
     let summary = || {
-        let shallow = SpanningTree::low_depth(&graph);
-        GraphSummary::new(&graph, &tree, &CycleBasis::minimum(&graph, &shallow))
+        let basis = CycleBasis::minimum(&graph, &shallow);
+        match arguments.low_depth {
+            false => GraphSummary::new(&graph, &tree, &basis),
+            true => GraphSummary::new(&graph, &shallow, &basis).of_low_depth(),
+        }
+    };
+    let shown = match arguments.low_depth {
+        false => &tree,
+        true => &shallow,
     };
     let text = match arguments.format {
         Format::Text => harmless(&format!("{}{}", summary(), not_shown(folded))),
         Format::Json => output::json(&summary())?,
-        Format::Dot => to_dot(&graph, &tree),
-        Format::Svg => to_svg(&graph, &tree),
+        Format::Dot => to_dot(&graph, shown),
+        Format::Svg => to_svg(&graph, shown),
     };
     arguments.destination.put(&text)?;
     Ok(DONE)

@@ -24,7 +24,7 @@ mod zero_dimensional;
 pub use answer::{
     BlockAnswer, BlockFinding, ByBlocks, ClosingSet, Closings, Condition, CycleAnswer,
     DesignConditions, ExactAnswer, ExactOptions, Exception, Exceptions, Family, FixedVariable,
-    Method, Piece, ProvenMotion, Scope, Settled, Solutions, assembly_conditions, closings,
+    Method, Ordered, Piece, ProvenMotion, Scope, Settled, Solutions, assembly_conditions, closings,
     exact_answer, exact_by_blocks, motion_conditions, relations_of,
 };
 pub use components::{
@@ -40,9 +40,9 @@ pub use factor::{Factorization, UnivariateFactors, factor};
 pub use over_field::{FieldPolynomial, OverRationals, RealSet};
 pub use polynomial::{Polynomial, Rational};
 pub use strategy::{
-    Bodies, Case, Divided, Group, Incremental, Instance, Problem, Relation, RelationFinding,
-    RelationVerdict, Relations, Step, brute_force, divide_and_conquer, incremental_instancing,
-    relation_by_relation,
+    Bodies, Case, Divided, Group, Incremental, Instance, Learned, Problem, Relation,
+    RelationFinding, RelationVerdict, Relations, Step, brute_force, divide_and_conquer,
+    incremental_instancing, relation_by_relation,
 };
 pub use system::{
     CycleEquations, Equation, FieldElement, FieldGenerator, Formulation, HomePose, Meaning,

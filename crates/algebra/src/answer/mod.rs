@@ -28,13 +28,15 @@ pub use relative_motion::{ProvenMotion, Scope, Settled};
 pub use solutions::Solutions;
 
 use super::strategy::{
-    Bodies, Group, Incremental, Local, Problem, Relation, Relations, Step, brute_force_noting,
+    Bodies, Group, Incremental, Local, Problem, Relation, Relations, Step, basis_by_parts,
+    brute_force_noting,
 };
 use super::{
     Budget, Component, Decomposition, Formulation, GroebnerBasis, Incomplete, Meaning,
     MonomialOrder, Origin, Polynomial, PolynomialSystem, Stop, SystemError, SystemOptions,
     components, divide_and_conquer, incremental_instancing, polynomial_system,
 };
+use crate::components::components_of;
 use clusters::mechanism_clusters;
 use cycles::{Whole, cycle_answer};
 use fixed::fixed_variables;
@@ -50,6 +52,12 @@ const FREE_SETS: usize = 64;
 
 /// Share of the time that the whole system may take, so that some is left for its cycles.
 const SHARE_OF_THE_WHOLE: f64 = 0.8;
+
+/// Share of it that the basis may take where the cases of [`Method::Incremental`] have told the dimension already.
+const SHARE_OF_THE_BASIS: f64 = 0.5;
+
+/// Most combinations of cases of which the pieces are put together where there is no basis of the whole.
+const MOST_COMBINATIONS: usize = 64;
 
 /// How the basis is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,6 +80,9 @@ pub struct ExactOptions {
     pub method: Option<Method>,
     /// The order of the basis.
     pub order: MonomialOrder,
+    /// Names of variables, the most significant first, of which a lexicographic basis is wanted besides; those that are not named come
+    /// after in their order. Empty: none.
+    pub variable_order: Vec<String>,
 }
 
 impl Default for ExactOptions {
@@ -80,8 +91,18 @@ impl Default for ExactOptions {
             system: SystemOptions::default(),
             method: None,
             order: MonomialOrder::Degrevlex,
+            variable_order: Vec::new(),
         }
     }
+}
+
+/// A lexicographic basis in an order of the variables that was asked for.
+#[derive(Clone, Debug)]
+pub struct Ordered {
+    /// The variables, the most significant first.
+    pub variables: Vec<usize>,
+    /// The basis, in the ring of the variables so ordered.
+    pub basis: GroebnerBasis,
 }
 
 /// A piece of the solution set, and whether the drawn pose lies on it.
@@ -104,8 +125,10 @@ pub struct ExactAnswer {
     pub method: Method,
     /// What was computed on the way, and what it cost.
     pub steps: Vec<Step>,
-    /// The basis of the whole; `None` where it was not reached, or not asked for ([`Method::Incremental`]).
+    /// The basis of the whole; `None` where it was not reached.
     pub basis: Option<GroebnerBasis>,
+    /// The lexicographic basis in the order of variables that was asked for, where one was and it was reached.
+    pub ordered: Option<Ordered>,
     /// The cases of [`Method::Incremental`].
     pub cases: Option<Incremental>,
     /// The complex dimension of the solution set; inside, `None` where there is no solution. Outside, `None` where it was
@@ -166,6 +189,13 @@ impl ExactAnswer {
     /// The equations, before anything is found of them.
     fn unasked(mechanism: &Mechanism, options: &ExactOptions) -> Result<Self, SystemError> {
         let system = polynomial_system(mechanism, &options.system)?;
+        let known = |name: &String| system.variables.iter().any(|v| v.name == *name);
+        if let Some(name) = options.variable_order.iter().find(|name| !known(name)) {
+            return Err(SystemError::UnknownVariable {
+                name: name.clone(),
+                known: system.names().join(", "),
+            });
+        }
         let method = options.method.unwrap_or_else(|| {
             match problem(mechanism, &system).independent().len() {
                 0 | 1 => Method::Brute,
@@ -177,6 +207,7 @@ impl ExactAnswer {
             method,
             steps: Vec::new(),
             basis: None,
+            ordered: None,
             cases: None,
             dimension: None,
             dimension_modulo: None,
@@ -205,6 +236,8 @@ impl ExactAnswer {
         self.find_basis(mechanism, options, budget)
             .map_err(at("the basis"))?;
         self.read_basis();
+        self.find_ordered(options, budget)
+            .map_err(at("the lexicographic basis"))?;
         self.find_solutions(budget)
             .map_err(at("the isolated solutions"))?;
         self.find_fixed(budget)
@@ -238,9 +271,50 @@ impl ExactAnswer {
                 let mut incremental = incremental_instancing(&problem, budget)?;
                 self.steps = std::mem::take(&mut incremental.steps);
                 self.dimension = Some(incremental.dimension());
+                let equations = incremental.simpler(&problem.equations);
                 self.cases = Some(incremental);
+                // What is read off a basis is the same whichever way led to it; where there is none, the cases tell it.
+                let share = budget.with_share_of_time(SHARE_OF_THE_BASIS);
+                let basis = basis_by_parts(&equations, problem.variables, &options.order, &share);
+                budget.take_over(&share);
+                match basis {
+                    Ok(basis) => self.basis = Some(basis),
+                    Err(Stop::Cancelled) => return Err(Stop::Cancelled),
+                    Err(_) => {}
+                }
             }
         }
+        Ok(())
+    }
+
+    fn find_ordered(&mut self, options: &ExactOptions, budget: &Budget) -> Result<(), Stop> {
+        let Some(basis) = self
+            .basis
+            .as_ref()
+            .filter(|_| !options.variable_order.is_empty())
+        else {
+            return Ok(());
+        };
+        let count = self.system.variables.len();
+        let place = |v: &usize| {
+            let mut named = options.variable_order.iter();
+            named
+                .position(|name| *name == self.system.variables[*v].name)
+                .unwrap_or(usize::MAX)
+        };
+        let mut variables = self.all_variables();
+        variables.sort_by_key(place);
+        let mut places = vec![0; count];
+        for (place, &variable) in variables.iter().enumerate() {
+            places[variable] = place;
+        }
+        let moved: Vec<Polynomial> = basis
+            .polynomials()
+            .iter()
+            .map(|p| p.moved(&places, count))
+            .collect();
+        let basis = basis_by_parts(&moved, count, &MonomialOrder::Lexicographic, budget)?;
+        self.ordered = Some(Ordered { variables, basis });
         Ok(())
     }
 
@@ -248,6 +322,8 @@ impl ExactAnswer {
         if let Some(basis) = &self.basis {
             self.dimension = Some(basis.dimension());
             self.free = basis.independent_sets(FREE_SETS);
+        } else if let Some(cases) = &self.cases {
+            self.free = cases.free(self.system.variables.len(), FREE_SETS);
         }
     }
 
@@ -273,20 +349,22 @@ impl ExactAnswer {
     }
 
     fn find_pieces(&mut self, budget: &Budget) -> Result<(), Stop> {
-        if self.cases.is_some() {
-            return Ok(());
-        }
         let hints = hints(&self.system, budget)?;
-        // A basis generates the same ideal and is nearer to the pieces.
-        let equations: Vec<Polynomial> = match &self.basis {
-            Some(basis) => basis.polynomials().to_vec(),
-            None => self.system.polynomials(),
+        let variables = self.system.variables.len();
+        let found = match (&self.basis, &self.cases) {
+            // A basis generates the same ideal and is nearer to the pieces.
+            (Some(basis), _) => components(basis.polynomials(), variables, &hints, budget)?,
+            (None, Some(cases)) => match cases.combined(MOST_COMBINATIONS) {
+                Some(sets) => components_of(&sets, variables, &hints, budget)?,
+                None => return Ok(()),
+            },
+            (None, None) => components(&self.system.polynomials(), variables, &hints, budget)?,
         };
         let Decomposition {
             pieces,
             complete,
             why,
-        } = components(&equations, self.system.variables.len(), &hints, budget)?;
+        } = found;
         self.decomposed = complete;
         // Before anything else that may end here: what follows must not take these pieces for all there are.
         if let Some(Incomplete::Stopped(stop)) = why {

@@ -113,8 +113,23 @@ pub fn components(
     hints: &Hints,
     budget: &Budget,
 ) -> Result<Decomposition, Stop> {
-    let first = Piece::new(equations, &Ring::whole(variables), budget)?;
-    let mut waiting: Vec<Piece> = first.into_iter().collect();
+    components_of(&[equations.to_vec()], variables, hints, budget)
+}
+
+/// The same for the union of the zeros of several sets of equations.
+///
+/// # Errors
+/// As [`components`].
+pub(crate) fn components_of(
+    sets: &[Vec<Polynomial>],
+    variables: usize,
+    hints: &Hints,
+    budget: &Budget,
+) -> Result<Decomposition, Stop> {
+    let mut waiting: Vec<Piece> = Vec::new();
+    for equations in sets.iter().rev() {
+        waiting.extend(Piece::new(equations, &Ring::whole(variables), budget)?);
+    }
     let mut found: Vec<Whole> = Vec::new();
     let mut stopped = None;
     while let Some(piece) = waiting.pop() {

@@ -16,6 +16,15 @@ pub struct Instance {
     pub value: Polynomial,
 }
 
+/// What one cycle gave the unknowns, case by case.
+#[derive(Clone, Debug)]
+pub struct Learned {
+    /// The cycle.
+    pub cycle: String,
+    /// The new instances of every case that the cycle leaves; of those that differ.
+    pub cases: Vec<Vec<Instance>>,
+}
+
 /// One choice at every fork.
 #[derive(Clone, Debug)]
 pub struct Case {
@@ -25,6 +34,19 @@ pub struct Case {
     pub basis: GroebnerBasis,
     /// Complex dimension of the solutions of this case in the variables of its part.
     pub dimension: usize,
+}
+
+impl Case {
+    /// Its equations, instances included.
+    fn equations(&self) -> Vec<Polynomial> {
+        let instances = self.instances.iter().map(|instance| {
+            let variables = instance.value.variables();
+            &Polynomial::variable(instance.variable, variables) - &instance.value
+        });
+        instances
+            .chain(self.basis.polynomials().iter().cloned())
+            .collect()
+    }
 }
 
 /// The result of incremental instancing: in every part the solutions are the union of its cases, and as parts share no
@@ -37,6 +59,10 @@ pub struct Incremental {
     pub parts: Vec<Vec<Case>>,
     /// Variables that occur in no equation.
     pub unused: usize,
+    /// Every cycle of every part, and what it determined.
+    pub learned: Vec<Learned>,
+    /// Whether there was a choice anywhere: if not, the one case has the same ideal as the equations.
+    pub forked: bool,
     /// Cycles at which a case turned out to have no solution.
     pub contradictions: Vec<String>,
     /// Whether a choice was left as an equation because there were too many cases.
@@ -50,6 +76,74 @@ impl Incremental {
         let largest = |cases: &Vec<Case>| cases.iter().map(|case| case.dimension).max();
         let parts = self.parts.iter().map(largest).sum::<Option<usize>>();
         parts.map(|dimension| dimension + self.unused)
+    }
+
+    /// Equations of the whole that are cheaper to work with: those of the one case where there was no choice, else `all`.
+    pub(crate) fn simpler(&self, all: &[Polynomial]) -> Vec<Polynomial> {
+        let only: Option<Vec<&Case>> = self.parts.iter().map(|cases| cases.first()).collect();
+        match only {
+            Some(only) if !self.forked => only.iter().flat_map(|case| case.equations()).collect(),
+            _ => all.to_vec(),
+        }
+    }
+
+    /// Sets of unknowns that are free in the cases of the largest dimension, a set for every part put together, at most so
+    /// many.
+    pub(crate) fn free(&self, variables: usize, most: usize) -> Vec<Vec<usize>> {
+        let mut sets: Vec<Vec<usize>> = vec![Vec::new()];
+        let mut mentioned = vec![false; variables];
+        for cases in &self.parts {
+            let largest = cases.iter().map(|case| case.dimension).max();
+            let largest = cases.iter().filter(|case| Some(case.dimension) == largest);
+            let own = self.variables_of(cases, variables);
+            own.iter().for_each(|&v| mentioned[v] = true);
+            let mut of_part: Vec<Vec<usize>> = Vec::new();
+            for case in largest {
+                let instanced = |v: &usize| case.instances.iter().any(|i| i.variable == *v);
+                for set in case.basis.independent_sets(most) {
+                    let set: Vec<usize> = set
+                        .into_iter()
+                        .filter(|v| own.contains(v) && !instanced(v))
+                        .collect();
+                    if !of_part.contains(&set) {
+                        of_part.push(set);
+                    }
+                }
+            }
+            let joined = sets
+                .iter()
+                .flat_map(|a| of_part.iter().map(move |b| [&a[..], b].concat()));
+            sets = joined.take(most).collect();
+        }
+        let unused: Vec<usize> = (0..variables).filter(|&v| !mentioned[v]).collect();
+        for set in &mut sets {
+            set.extend(&unused);
+            set.sort_unstable();
+        }
+        sets.sort();
+        sets
+    }
+
+    /// The unknowns that the cases of a part speak of.
+    fn variables_of(&self, cases: &[Case], variables: usize) -> Vec<usize> {
+        let equations: Vec<Polynomial> = cases.iter().flat_map(Case::equations).collect();
+        mentioned(&equations, variables)
+    }
+
+    /// The equations of every combination of cases; `None` where there are more than so many.
+    pub(crate) fn combined(&self, most: usize) -> Option<Vec<Vec<Polynomial>>> {
+        if self.combinations() > most {
+            return None;
+        }
+        let mut all: Vec<Vec<Polynomial>> = vec![Vec::new()];
+        for cases in &self.parts {
+            let own: Vec<Vec<Polynomial>> = cases.iter().map(Case::equations).collect();
+            all = all
+                .iter()
+                .flat_map(|a| own.iter().map(move |b| [&a[..], b].concat()))
+                .collect();
+        }
+        Some(all)
     }
 
     /// Number of combinations of cases.
@@ -81,6 +175,8 @@ pub fn incremental_instancing(problem: &Problem, budget: &Budget) -> Result<Incr
         steps: Vec::new(),
         parts: Vec::new(),
         unused: problem.variables - mentioned(&problem.equations, problem.variables).len(),
+        learned: Vec::new(),
+        forked: false,
         contradictions: Vec::new(),
         unsplit: false,
     };
@@ -99,6 +195,7 @@ impl Incremental {
         for group in part.smallest_first() {
             let mut next: Vec<Known> = Vec::new();
             let mut left = open.len();
+            let mut learned = Vec::new();
             for known in open {
                 left -= 1;
                 let equations = known.with(&part.equations_of(group));
@@ -106,6 +203,7 @@ impl Incremental {
                 let room = MOST_CASES.saturating_sub(next.len() + left).max(1);
                 let pieces = pieces(&equations, variables, room, budget)?;
                 self.unsplit |= pieces.unsplit;
+                self.forked |= pieces.forked;
                 if let Some(first) = pieces.whole {
                     let n = mentioned(&equations, variables).len();
                     let absent = variables - n;
@@ -115,8 +213,19 @@ impl Incremental {
                 if pieces.bases.is_empty() {
                     self.contradictions.push(group.name.clone());
                 }
-                next.extend(pieces.bases.iter().map(|basis| known.learning(basis)));
+                for basis in &pieces.bases {
+                    let wiser = known.learning(basis);
+                    let new = wiser.instances[known.instances.len()..].to_vec();
+                    if !learned.contains(&new) {
+                        learned.push(new);
+                    }
+                    next.push(wiser);
+                }
             }
+            self.learned.push(Learned {
+                cycle: group.name.clone(),
+                cases: learned,
+            });
             open = next;
         }
         let own = mentioned(&part.equations, variables).len();
@@ -232,6 +341,8 @@ struct Pieces {
     bases: Vec<GroebnerBasis>,
     /// Whether something that factors was left as it is.
     unsplit: bool,
+    /// Whether there was anything to choose.
+    forked: bool,
 }
 
 /// Takes equations apart along the factors of their basis, into at most `room` pieces.
@@ -245,6 +356,7 @@ fn pieces(
         whole: None,
         bases: Vec::new(),
         unsplit: false,
+        forked: false,
     };
     let mut open = vec![equations.to_vec()];
     while let Some(equations) = open.pop() {
@@ -258,6 +370,7 @@ fn pieces(
         }
         match first_choice(&small, budget)? {
             Some(choices) if pieces.bases.len() + open.len() + choices.len() <= room => {
+                pieces.forked = true;
                 // The last one pushed is worked on first: in reverse, so that the order is that of the factors.
                 for choice in choices.iter().rev() {
                     let mut with: Vec<Polynomial> =
@@ -299,4 +412,62 @@ fn in_large_ring(
 ) -> Result<GroebnerBasis, Stop> {
     let parts = [(basis.clone(), local.variables.clone())];
     GroebnerBasis::of_parts(&parts, variables, basis.order())
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::components::components_of;
+    use crate::strategy::Group;
+    use crate::{Hints, components, groebner_basis};
+
+    #[test]
+    fn cases_tell_what_the_basis_of_the_whole_tells() {
+        // Two parts: x² = 1 with y = x z, and u v = 0; w is in no equation.
+        let [x, y, z, u, v] = [0, 1, 2, 3, 4].map(|i| Polynomial::variable(i, 6));
+        let one = Polynomial::one(6);
+        let equations = vec![&(&x * &x) - &one, &y - &(&x * &z), &u * &v];
+        let group = |name: &str, equations: &[usize]| Group {
+            name: name.to_owned(),
+            equations: equations.to_vec(),
+        };
+        let problem = Problem {
+            variables: 6,
+            equations: equations.clone(),
+            groups: vec![group("C1", &[0]), group("C2", &[1]), group("C3", &[2])],
+        };
+        let budget = Budget::unlimited();
+        let cases = incremental_instancing(&problem, &budget).unwrap();
+        assert!(cases.forked);
+        let order = MonomialOrder::Degrevlex;
+        let basis = groebner_basis(&equations, 6, &order, &budget).unwrap();
+        assert_eq!(cases.dimension(), basis.dimension());
+        let free = cases.free(6, 9);
+        assert_eq!(
+            free,
+            [[1, 3, 5], [1, 4, 5], [2, 3, 5], [2, 4, 5]].map(|set| set.to_vec())[2..].to_vec()
+        );
+        assert_eq!(cases.combined(3), None);
+        let all = cases.combined(4).unwrap();
+        let hints = Hints::default();
+        assert_eq!(
+            components_of(&all, 6, &hints, &budget).unwrap(),
+            components(&equations, 6, &hints, &budget).unwrap()
+        );
+        let first = cases
+            .learned
+            .iter()
+            .find(|learned| learned.cycle == "C1")
+            .unwrap();
+        let values: Vec<Polynomial> = first
+            .cases
+            .iter()
+            .map(|case| case[0].value.clone())
+            .collect();
+        assert!(
+            values.contains(&one) && values.contains(&-&one),
+            "{values:?}"
+        );
+    }
 }

@@ -140,7 +140,7 @@ pub(super) fn independent_parts<'a>(
 }
 
 /// The basis of equations, found for each independent part by itself.
-pub(super) fn basis_by_parts(
+pub(crate) fn basis_by_parts(
     equations: &[Polynomial],
     variables: usize,
     order: &MonomialOrder,

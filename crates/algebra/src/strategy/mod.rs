@@ -17,11 +17,11 @@ mod divide;
 mod group;
 mod relations;
 
-pub use cases::{Case, Incremental, Instance, incremental_instancing};
+pub use cases::{Case, Incremental, Instance, Learned, incremental_instancing};
 pub(super) use divide::brute_force_noting;
 pub use divide::{Divided, Step, brute_force, divide_and_conquer};
-pub(super) use group::Local;
 pub use group::{Group, Problem};
+pub(super) use group::{Local, basis_by_parts};
 pub use relations::{
     Bodies, Relation, RelationFinding, RelationVerdict, Relations, relation_by_relation,
 };

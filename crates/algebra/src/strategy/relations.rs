@@ -56,6 +56,36 @@ pub struct Relations {
     pub bodies: Option<Bodies>,
 }
 
+impl Relations {
+    /// The same with those of these names first, in this order, and the others after them in theirs.
+    ///
+    /// # Errors
+    /// A name that no relation has.
+    pub fn ordered(mut self, first: &[String]) -> Result<Self, String> {
+        let named = |name: &String| self.relations.iter().any(|own| own.name == *name);
+        if let Some(name) = first.iter().find(|name| !named(name)) {
+            return Err(name.clone());
+        }
+        let place = |own: &usize| {
+            let name = &self.relations[*own].name;
+            first
+                .iter()
+                .position(|other| other == name)
+                .unwrap_or(usize::MAX)
+        };
+        let mut order: Vec<usize> = (0..self.relations.len()).collect();
+        order.sort_by_key(place);
+        if let Some(bodies) = &mut self.bodies {
+            bodies.of = order.iter().map(|&own| bodies.of[own]).collect();
+        }
+        self.relations = order
+            .iter()
+            .map(|&own| self.relations[own].clone())
+            .collect();
+        Ok(self)
+    }
+}
+
 /// What a relation adds to those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RelationVerdict {

@@ -54,6 +54,14 @@ pub enum SystemError {
         /// The names there are.
         known: String,
     },
+    /// A variable that the equations do not have.
+    #[error("the equations have no variable `{name}`; they have {known}")]
+    UnknownVariable {
+        /// The name asked for.
+        name: String,
+        /// The names there are.
+        known: String,
+    },
     /// The equations have too many terms to be written down.
     #[error("the equations of {what} have more than {limit} terms")]
     TooLarge {

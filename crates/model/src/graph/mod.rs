@@ -63,5 +63,5 @@ pub use cycles::{Cycle, Overlap, fundamental_cycle, fundamental_cycles, overlaps
 pub use draw::to_dot;
 pub use folded::FoldedGraph;
 pub use spanning_tree::SpanningTree;
-pub use summary::{BlockSummary, CycleSummary, CyclesSummary, GraphSummary, TreeNode};
+pub use summary::{BlockSummary, CycleSummary, CyclesSummary, GraphSummary, LowDepth, TreeNode};
 pub use svg::{Captions, SVG_STYLE, folded_svg_fragment, svg_fragment, to_svg, to_svg_with};

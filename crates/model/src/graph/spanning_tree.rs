@@ -18,7 +18,8 @@ use crate::mechanism::Mechanism;
 /// The root is the node of highest degree; the node to branch at next is the one of highest degree among those waiting;
 /// ties go by node name (procedure `spanning_tree`, Ruiz 1994, section 5.4.2, there without a rule for ties). Which nodes
 /// join does not depend on the order of the edges within a node, only which of several parallel edges becomes the tree's:
-/// the first by edge name.
+/// the first by edge name, in the low-depth tree one with the fewest freedoms: every cycle through the pair of links then has
+/// that joint's few variables (as Ruiz chose by hand, table 6.7).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SpanningTree {
     roots: Vec<usize>,
@@ -39,7 +40,7 @@ impl SpanningTree {
     /// O((V + E) + V log V).
     #[must_use]
     pub fn low_depth(graph: &ConstraintGraph) -> Self {
-        Self::grow(graph, None, |_| false)
+        Self::grow(graph, None, |_| false, |edge| graph.edge(edge).freedom)
     }
 
     /// The tree of the file: rooted at the ground, made of the joints that the file does not write as closing a loop. One
@@ -59,7 +60,7 @@ impl SpanningTree {
     /// O((V + E) log (V + E)).
     #[must_use]
     pub fn rooted(graph: &ConstraintGraph, last: impl Fn(usize) -> bool) -> Self {
-        Self::grow(graph, Some(graph.ground()), last)
+        Self::grow(graph, Some(graph.ground()), last, |_| 0)
     }
 
     /// The same with `node` as the root of its component, whatever its degree.
@@ -68,10 +69,16 @@ impl SpanningTree {
     /// If `node` is not a node of the graph.
     #[must_use]
     pub fn root_at(graph: &ConstraintGraph, node: usize) -> Self {
-        Self::grow(graph, Some(node), |_| false)
+        Self::grow(graph, Some(node), |_| false, |_| 0)
     }
 
-    fn grow(graph: &ConstraintGraph, chosen: Option<usize>, last: impl Fn(usize) -> bool) -> Self {
+    /// Of parallel edges one of the least `weight` is taken.
+    fn grow(
+        graph: &ConstraintGraph,
+        chosen: Option<usize>,
+        last: impl Fn(usize) -> bool,
+        weight: impl Fn(usize) -> usize,
+    ) -> Self {
         let priority = |node: usize| (graph.degree(node), Reverse(graph.node_rank(node)));
         let nodes = graph.node_count();
         let mut tree = Self {
@@ -97,7 +104,9 @@ impl SpanningTree {
             loop {
                 while let Some((_, node)) = waiting.pop() {
                     tree.order.push(node);
-                    for incidence in graph.incident(node) {
+                    let mut incident: Vec<&Incidence> = graph.incident(node).iter().collect();
+                    incident.sort_by_key(|incidence| weight(incidence.edge));
+                    for incidence in incident {
                         let child = incidence.node;
                         if reached[child] {
                             continue;
@@ -237,6 +246,7 @@ impl SpanningTree {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
+    use super::super::constraint_graph::{EdgeSpec, NodeSpec};
     use super::super::samples::{self, names};
     use super::*;
 
@@ -353,5 +363,24 @@ mod tests {
     fn deep_chains_do_not_overflow() {
         let tree = SpanningTree::root_at(&samples::serial_chain(100_000), 0);
         assert_eq!(tree.height(), 99_999);
+    }
+
+    #[test]
+    fn of_parallel_joints_the_one_with_the_fewest_freedoms_is_the_trees() {
+        // Two bodies joined three times: by name `a` would be the tree's.
+        let joint = |name: &str, freedom| EdgeSpec {
+            name: name.to_owned(),
+            ends: [0, 1],
+            freedom,
+            class: String::new(),
+        };
+        let bodies = ["block", "corner"].map(|name| NodeSpec {
+            name: name.to_owned(),
+        });
+        let joints = vec![joint("a", 3), joint("b", 5), joint("c", 2)];
+        let graph = ConstraintGraph::new(0, bodies.to_vec(), joints, Vec::new());
+        let tree = SpanningTree::low_depth(&graph);
+        assert_eq!(tree.edges(), [2]);
+        assert_eq!(SpanningTree::root_at(&graph, 0).edges(), [0]);
     }
 }

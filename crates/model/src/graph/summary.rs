@@ -28,6 +28,8 @@ pub struct GraphSummary {
     pub ground: String,
     /// The biconnected blocks.
     pub blocks: Vec<BlockSummary>,
+    /// Where the tree is the low-depth one and not that of the file, its bounds.
+    pub low_depth: Option<LowDepth>,
     /// Height of the spanning tree.
     pub tree_height: usize,
     /// The spanning tree, every link below its parent, depth first.
@@ -40,6 +42,16 @@ pub struct GraphSummary {
     pub minimum_basis: CyclesSummary,
     /// Whether `minimum_basis` is minimal in every block.
     pub basis_kind: BasisKind,
+}
+
+/// What is known of a low-depth tree beforehand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct LowDepth {
+    /// Most joints of a cycle of it: 2 height + 1.
+    pub longest_cycle: usize,
+    /// V E² + E V² for V links and E joints: what the procedure of Ruiz (1994, section 5.4.3) takes at most for the tree and
+    /// its cycles.
+    pub steps: u128,
 }
 
 /// A biconnected block by name.
@@ -125,12 +137,29 @@ impl GraphSummary {
             components: tree.roots().len(),
             ground: graph.node_name(graph.ground()).to_string(),
             blocks: blocks.collect(),
+            low_depth: None,
             tree_height: tree.height(),
             tree: tree_nodes(graph, tree),
             chords: edge_names(tree.chords()),
             fundamental_cycles: fundamental_summary(graph, tree),
             minimum_basis: cycles_summary(graph, &basis.cycles),
             basis_kind: basis.kind.clone(),
+        }
+    }
+}
+
+impl GraphSummary {
+    /// The same, told as that of the low-depth tree.
+    #[must_use]
+    pub fn of_low_depth(self) -> Self {
+        let (links, joints) = (self.links as u128, self.joints as u128);
+        let low_depth = LowDepth {
+            longest_cycle: 2 * self.tree_height + 1,
+            steps: links * joints * (links + joints),
+        };
+        Self {
+            low_depth: Some(low_depth),
+            ..self
         }
     }
 }
@@ -227,7 +256,14 @@ impl fmt::Display for GraphSummary {
             "blocks with loops {}, bridges {bridges}",
             self.blocks.len() - bridges
         )?;
-        writeln!(f, "\nspanning tree, height {}", self.tree_height)?;
+        match self.low_depth {
+            None => writeln!(f, "\nspanning tree, height {}", self.tree_height)?,
+            Some(low) => writeln!(
+                f,
+                "\nlow-depth spanning tree, height {}: cycles of at most {} joints, found in at most V E² + E V² = {} steps",
+                self.tree_height, low.longest_cycle, low.steps
+            )?,
+        }
         for node in &self.tree {
             // Indentation stops growing, or a deep chain would fill its lines with spaces.
             let indent = 2 * node.depth.min(20) + 2;

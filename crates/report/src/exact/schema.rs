@@ -3,8 +3,8 @@
 use super::motions::{Motion, motions, unsettled};
 use super::values::{FixedJoint, doubles, fixed_freedoms, fixed_joints};
 use kutzbach_algebra::{
-    Case, ExactAnswer, ExactOptions, Formulation, Irreducible, Meaning, Method, MonomialOrder,
-    PolynomialSystem, RealPoints, Stop,
+    Case, ExactAnswer, ExactOptions, Formulation, GroebnerBasis, Instance, Irreducible, Learned,
+    Meaning, Method, MonomialOrder, PolynomialSystem, RealPoints, Stop,
 };
 use kutzbach_model::mechanism::{LinkId, Mechanism};
 use serde::Serialize;
@@ -113,6 +113,24 @@ pub struct Cycle {
     pub motions_unsettled: Option<String>,
 }
 
+/// What a cycle gave the unknowns, with `incremental`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Instanced {
+    /// The cycle.
+    pub cycle: String,
+    /// Every case that it leaves: the unknowns and what took their places, a number or an expression in others.
+    pub cases: Vec<Vec<InstanceRow>>,
+}
+
+/// An unknown and what took its place.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct InstanceRow {
+    /// The unknown.
+    pub variable: String,
+    /// What it equals.
+    pub value: String,
+}
+
 /// One step of the computation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StepRow {
@@ -194,6 +212,8 @@ pub struct ExactReport {
     /// Cases of the incremental method: for every part of the equations that shares no variable with others, the dimensions of
     /// its cases.
     pub cases: Option<Vec<Vec<usize>>>,
+    /// What every cycle gave the unknowns, with the incremental method.
+    pub instanced: Option<Vec<Instanced>>,
     /// What was computed, step by step.
     pub steps: Vec<StepRow>,
     /// What was checked of the basis.
@@ -230,7 +250,10 @@ pub fn exact_report(mechanism: &Mechanism, answer: &ExactAnswer, request: &Reque
             Method::Divide => "divide",
             Method::Incremental => "incremental",
         },
-        order: order_word(&request.options.order),
+        order: match &answer.ordered {
+            Some(ordered) => format!("lex with {}", named(&ordered.variables).join(" > ")),
+            None => order_word(&request.options.order),
+        },
         equation_count: system.equations.len(),
         outcome: outcome(answer.stopped),
         consistent: answer.dimension.map(|d| d.is_some()),
@@ -277,6 +300,10 @@ pub fn exact_report(mechanism: &Mechanism, answer: &ExactAnswer, request: &Reque
             let dimensions = |part: &Vec<Case>| part.iter().map(|case| case.dimension).collect();
             found.parts.iter().map(dimensions).collect()
         }),
+        instanced: answer.cases.as_ref().map(|found| {
+            let cycle = |learned: &Learned| instanced(learned, &names);
+            found.learned.iter().map(cycle).collect()
+        }),
         steps: steps(answer, request.timing),
         certificate: basis.map(|b| b.certificate().text()),
         charts: system.charts.clone(),
@@ -290,10 +317,34 @@ pub fn exact_report(mechanism: &Mechanism, answer: &ExactAnswer, request: &Reque
                 .map(|e| text(&e.polynomial))
                 .collect()
         }),
-        basis: basis
-            .filter(|_| request.basis)
-            .map(|b| b.polynomials().iter().map(|p| p.text(&names)).collect()),
+        basis: request
+            .basis
+            .then(|| match (&answer.ordered, basis) {
+                (Some(ordered), _) => Some(texts(&ordered.basis, &named(&ordered.variables))),
+                (None, Some(basis)) => Some(texts(basis, &names)),
+                (None, None) => None,
+            })
+            .flatten(),
         variables: names,
+    }
+}
+
+fn texts(basis: &GroebnerBasis, names: &[String]) -> Vec<String> {
+    basis.polynomials().iter().map(|p| p.text(names)).collect()
+}
+
+fn instanced(learned: &Learned, names: &[String]) -> Instanced {
+    let row = |instance: &Instance| InstanceRow {
+        variable: names[instance.variable].clone(),
+        value: instance.value.text(names),
+    };
+    Instanced {
+        cycle: learned.cycle.clone(),
+        cases: learned
+            .cases
+            .iter()
+            .map(|case| case.iter().map(row).collect())
+            .collect(),
     }
 }
 

@@ -80,6 +80,7 @@ pub fn render(report: &ExactReport, layout: Layout) -> String {
     pieces(report, &mut page);
     solutions(report, &mut page);
     cycles(report, &mut page);
+    instanced(report, &mut page);
     steps(report, &mut page);
     listing("Equations", report.equations.as_deref(), &mut page);
     listing("Basis", report.basis.as_deref(), &mut page);
@@ -157,7 +158,7 @@ fn variables(report: &ExactReport, page: &mut Page) {
         return;
     }
     page.heading("Free and fixed");
-    if report.dimension.is_some_and(|d| d > 0) {
+    if report.dimension.is_some_and(|d| d > 0) && !report.free.is_empty() {
         let shown: Vec<String> = report
             .free
             .iter()
@@ -308,6 +309,32 @@ fn cycles(report: &ExactReport, page: &mut Page) {
         }
         if let Some(unsettled) = &cycle.motions_unsettled {
             fact(unsettled, Tint::Doubtful);
+        }
+    }
+}
+
+/// What the cycles gave the unknowns, one after the other.
+fn instanced(report: &ExactReport, page: &mut Page) {
+    let Some(cycles) = report.instanced.as_ref().filter(|all| !all.is_empty()) else {
+        return;
+    };
+    page.heading("Put into what follows");
+    for cycle in cycles {
+        let several = cycle.cases.len() > 1;
+        for (index, case) in cycle.cases.iter().enumerate() {
+            let number = match several {
+                true => format!(", case {}", index + 1),
+                false => String::new(),
+            };
+            let rows = case
+                .iter()
+                .map(|row| format!("{} = {}", row.variable, row.value));
+            let rows: Vec<String> = rows.collect();
+            let said = match rows.is_empty() {
+                true => "nothing".to_owned(),
+                false => rows.join(", "),
+            };
+            page.item(&format!("{}{number}: {said}", cycle.cycle), Tint::Plain);
         }
     }
 }
