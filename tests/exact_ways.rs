@@ -25,21 +25,31 @@ fn by(file: &str, method: Method) -> ExactAnswer {
 }
 
 /// What is asked of every way: basis, free variables, fixed ones, pieces.
-fn told(answer: &ExactAnswer) -> (Vec<String>, Vec<Vec<usize>>, Vec<usize>, Vec<Vec<String>>) {
+fn told(answer: &ExactAnswer) -> [Vec<String>; 4] {
     let names = answer.system.names();
     let texts =
         |all: &[Polynomial]| -> Vec<String> { all.iter().map(|p| p.text(&names)).collect() };
     let basis = answer.basis.as_ref().unwrap();
-    (
+    let named = |set: &Vec<usize>| {
+        set.iter()
+            .map(|&v| names[v].clone())
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    let pieces = answer
+        .pieces
+        .iter()
+        .map(|piece| texts(&piece.component.equations).join(", "));
+    [
         texts(basis.polynomials()),
-        answer.free.clone(),
-        answer.fixed.iter().map(|fixed| fixed.variable).collect(),
+        answer.free.iter().map(named).collect(),
         answer
-            .pieces
+            .fixed
             .iter()
-            .map(|piece| texts(&piece.component.equations))
+            .map(|fixed| names[fixed.variable].clone())
             .collect(),
-    )
+        pieces.collect(),
+    ]
 }
 
 #[test]
