@@ -2,7 +2,7 @@
 # kinpy 0.6.1: of an MJCF file only quat turns a body, <default> is not applied, and the second body of the world is gone.
 #
 # kinpy names MJCF among its formats and parses the whole of it: euler, axisangle, xyaxes and zaxis and default classes are read
-# without an objection. Its chain is made from quat, and from what stands in the joint itself. So a body with euler="0 90 0" is not
+# without an objection. Its chain is made from quat, and from what stands in the joint itself. So a body with euler="90 0 0" is not
 # turned, a joint with axis 1 0 0 from <default> turns about z, and of two bodies in the world the chain has the first only. MuJoCo
 # puts the end of the arm 1.4 m from where kinpy has it. A joint that leaves type out, a hinge by default, raises KeyError.
 set -euo pipefail

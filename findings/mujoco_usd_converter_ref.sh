@@ -3,9 +3,9 @@
 #
 # In MJCF ref is the value of the joint in the pose drawn: ref="30" range="0 90" may go back by 30 degrees and on by 60. In USD a
 # joint's angle is measured between its two frames, here 0 in the pose drawn. The converter writes frames that coincide, limits of 0
-# and 90, and mjc:ref = 30 beside them, which only a reader that knows MuJoCo's attributes can make use of. UsdPhysics' own
-# parser gives 0 to 90. So does Newton 1.8.0, for its model and all its solvers but MuJoCo's: the arm cannot go back at
-# all and goes 30 degrees too far on. Newton's reader of the MJCF file has -30 to 60.
+# and 90, and mjc:ref = 30 beside them, which only a reader that knows MuJoCo's attributes can make use of. Newton 1.8.0 takes
+# 0 to 90 around the pose drawn for its model: the arm cannot go back at all and goes 30 degrees too far on. Newton's reader of
+# the MJCF file has -30 to 60.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -2,8 +2,8 @@
 # threepp 2026.10.11: a robot that was just moved gives the pose of its last link in its parent for the pose of its end effector.
 #
 # set_joint_value moves the joints, and joint_values has the new values. get_end_effector_transform then multiplies nothing: it is the
-# matrix of the last link alone, as if the links before it were not there, until update_matrix_world has been called (which drawing
-# does). An arm of three links of 1 m, stretched, reaches 1 m without a picture and 3 m with one. compute_end_effector_transform
+# matrix of the last link alone, as if the links before it were not there, until update_matrix_world has been called. An arm of
+# three links of 1 m, stretched, reaches 1 m before that call and 3 m after it. compute_end_effector_transform
 # of the same values is right at once. A <mimic> is a joint of its own: it stays where it is when its leader moves, and the
 # loader's list of diagnostics is empty.
 set -euo pipefail
