@@ -3,8 +3,7 @@
 #
 # URDF has no ball joint, so the converter can refuse or build it from hinges; a PhysicsJoint without limits holds nothing and is
 # URDF's floating. Both come out as type="fixed", without a warning. A hinge with jointEnabled = false, which UsdPhysics
-# takes for no joint, is an ordinary revolute in the URDF. A mechanism with three ball joints in a chain, nine
-# freedoms, is a rigid body afterwards, and the file loads everywhere.
+# takes for no joint, is an ordinary joint in the URDF.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

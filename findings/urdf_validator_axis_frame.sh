@@ -4,7 +4,7 @@
 # In URDF the axis is given in the joint's frame, which rpy turns against the parent. The tool reports the torque that gravity asks of each
 # joint and passes or fails the motor by it. An arm of 2 kg at 1 m on a horizontal hinge that is written as axis 0 0 1 behind
 # rpy="-pi/2 0 0" asks for 0 N m, "torque negligible", and PASS with exit code 0, for a motor of 5 N m. The same hinge written as axis 0 1 0
-# without rpy asks for 19.62 and fails. Robots that come from CAD have all their axes along z behind an rpy.
+# without rpy asks for 19.62 and fails. Exports from CAD often have their axes along z behind an rpy.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
