@@ -286,6 +286,21 @@ fn the_sides_of_a_slot_are_symmetric() {
 }
 
 #[test]
+fn mirror_images_on_their_axis_are_one_place() {
+    let on_axis = |far: &str| {
+        told(&format!(
+            "<point name='p' xy='3 -2'/><point name='q' xy='2 2'/><point name='s' xy='5 1'/><line name='l' through='0 0' direction='1 0'/>
+            <incidence between='p l'/><symmetric between='p q' about='l'/><distance between='s p' value='7'/><distance between='s q' value='{far}'/>"
+        ))
+    };
+    // One point cannot be at two distances; at one it goes round.
+    let text = on_axis("3");
+    assert!(text.contains("solutions: 0\n"), "{text}");
+    let text = on_axis("7");
+    assert!(text.contains("infinitely many places: it moves"), "{text}");
+}
+
+#[test]
 fn lines_whose_sense_nothing_measures_are_not_counted_twice() {
     let text = told(
         "<point name='a' xy='0 0'/><point name='b' xy='5 0'/><line name='l' through='0 0' direction='1 0'/>
@@ -340,6 +355,14 @@ fn mistakes_are_told_at_their_places() {
         (
             "<midpoint point='a' between='c x'/>",
             "`x` is a line, needed a point",
+        ),
+        (
+            "<symmetric between='b a' about='y'/>",
+            "this was said of the same elements before",
+        ),
+        (
+            "<midpoint point='a' between='c d'/><midpoint point='a' between='d c'/>",
+            "this was said of the same elements before",
         ),
         ("<equal of='a b' and='b a'/>", "a length is equal to itself"),
         (

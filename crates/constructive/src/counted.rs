@@ -31,7 +31,8 @@ const MOST_PRODUCTS: u64 = 50_000_000;
 /// The count of a sketch.
 #[derive(Clone, Debug)]
 pub struct Counted {
-    game: PebbleGame,
+    /// `None` where a construction shows that nothing is too much or left.
+    game: Option<PebbleGame>,
     /// What the game does not see: circuits and freedoms.
     by_rank: Option<(Vec<Circuit>, usize)>,
     /// Whether there are relations, of which the game knows nothing.
@@ -42,14 +43,24 @@ impl Counted {
     /// Counts.
     #[must_use]
     pub fn of(sketch: &Sketch) -> Self {
-        let game = PebbleGame::play(sketch.graph());
+        Self::by(sketch, Some(PebbleGame::play(sketch.graph())))
+    }
+
+    /// Counts what reduces to one cluster: of m elements every part then has 2m − 3 constraints at most, the whole as many, and only directions
+    /// are left to be counted.
+    #[must_use]
+    pub fn of_constructed(sketch: &Sketch) -> Self {
+        Self::by(sketch, None)
+    }
+
+    fn by(sketch: &Sketch, game: Option<PebbleGame>) -> Self {
         let lines = sketch.elements().iter().filter(|e| e.is_line()).count();
         let relations = !sketch.relations().is_empty();
         let by_rank = (lines > 2 || relations).then(|| ranked(sketch)).flatten();
         // Where both refuse the same constraints, the game names the smallest rigid parts.
         let refused = |circuits: &[Circuit]| circuits.iter().map(|c| c.edge).collect::<Vec<_>>();
         let by_rank = by_rank
-            .filter(|found| relations || refused(&found.circuits) != refused(game.circuits()));
+            .filter(|found| relations || refused(&found.circuits) != refused(of_game(&game)));
         let by_rank = by_rank.map(|found| {
             let unknowns = 2 * sketch.elements().len() + sketch.unknown_values();
             let freedoms = (unknowns - 3).saturating_sub(found.rank);
@@ -75,7 +86,8 @@ impl Counted {
     /// The freedoms left beside the three of the whole in the plane.
     #[must_use]
     pub fn freedoms(&self) -> usize {
-        self.by_rank.as_ref().map_or(self.game.freedoms(), |r| r.1)
+        let of_game = || self.game.as_ref().map_or(0, PebbleGame::freedoms);
+        self.by_rank.as_ref().map_or_else(of_game, |r| r.1)
     }
 
     /// Whether it was counted: not where relations are too many for it.
@@ -90,7 +102,7 @@ impl Counted {
     pub fn circuits(&self) -> &[Circuit] {
         match &self.by_rank {
             Some((circuits, _)) => circuits,
-            None => self.game.circuits(),
+            None => of_game(&self.game),
         }
     }
 
@@ -99,9 +111,16 @@ impl Counted {
     pub fn rigid_parts(&self) -> Vec<Vec<usize>> {
         match self.by_rank {
             Some(_) => Vec::new(),
-            None => self.game.rigid_parts(),
+            None => self
+                .game
+                .as_ref()
+                .map_or_else(Vec::new, PebbleGame::rigid_parts),
         }
     }
+}
+
+fn of_game(game: &Option<PebbleGame>) -> &[Circuit] {
+    game.as_ref().map_or(&[], PebbleGame::circuits)
 }
 
 /// A row, by column.
@@ -580,7 +599,11 @@ mod tests {
         let edges: Vec<[usize; 2]> =
             [body(0, 1, [6, 7]), body(2, 3, [7, 8]), body(4, 5, [8, 6])].concat();
         let counted = Counted::of(&sketch(6, 3, &edges));
-        assert_eq!(counted.game.freedoms(), 0, "the game sees nothing");
+        assert_eq!(
+            counted.game.as_ref().unwrap().freedoms(),
+            0,
+            "the game sees nothing"
+        );
         assert_eq!(
             (counted.standing(), counted.freedoms()),
             (Standing::Over, 1)

@@ -46,7 +46,10 @@ impl<'a> SketchWords<'a> {
     pub fn within(named: &'a NamedSketch, limits: &Limits) -> Self {
         let tree = s_tree(named.sketch.graph());
         let construction = Construction::new(&named.sketch);
-        let game = Counted::of(&named.sketch);
+        let game = match construction {
+            Ok(_) => Counted::of_constructed(&named.sketch),
+            Err(_) => Counted::of(&named.sketch),
+        };
         let hard = matches!(construction, Err(NotConstructive::Clusters(_)));
         Self {
             game,
@@ -260,7 +263,7 @@ impl<'a> SketchWords<'a> {
                 "other choices end where nothing fixes an element; they are not counted".to_owned(),
             );
         }
-        if count.value() == Some(0) && !count.infinite && !count.degenerate {
+        if count.value() == Some(0) && count.complete && !count.infinite && !count.degenerate {
             lines.push(NOWHERE.to_owned());
         }
         if count.between.is_some() {

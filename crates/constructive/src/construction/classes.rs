@@ -8,6 +8,13 @@ const MOST_TRIES: usize = 4096;
 /// Nor are those of large sketches, where one try is long: all tries together take so many steps, a second or two.
 const MOST_STEPS: usize = 1 << 20;
 
+/// A class of more steps is hardly ever tried to the end: once it has a solution, and so many choices were tried, there are at least as many as were
+/// found.
+const LONG: usize = 64;
+const ENOUGH: usize = 16;
+/// In small sketches as many as take so many steps.
+const ENOUGH_STEPS: usize = 1 << 18;
+
 /// Steps that hang together, and the choices that lead to solutions.
 #[derive(Clone, Debug)]
 pub(super) struct Class {
@@ -179,7 +186,13 @@ pub(super) fn tried(
     }
     let mut trials: Vec<Trial> = classes.into_iter().map(Trial::new).collect();
     let mut other = vec![false; steps];
-    for _ in 0..MOST_TRIES.min(1 + MOST_STEPS / steps.max(1)) {
+    for tries in 0..MOST_TRIES.min(1 + MOST_STEPS / steps.max(1)) {
+        let long = |t: &Trial| t.class.steps.len() > LONG && !t.class.ways.is_empty();
+        if tries >= ENOUGH.max(ENOUGH_STEPS / steps.max(1))
+            && trials.iter().all(|t| t.class.complete || long(t))
+        {
+            break;
+        }
         for trial in &trials {
             for (&step, &o) in trial.class.steps.iter().zip(&trial.other) {
                 other[step] = o;

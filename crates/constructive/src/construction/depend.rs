@@ -8,14 +8,16 @@ use crate::analysis::Merge;
 use crate::sketch::Sketch;
 use std::collections::{BTreeSet, HashMap};
 
-/// Looking at more clusters than this for one sketch is given up, and all steps are one class.
-const MOST_LOOKS: usize = 4_000_000;
+/// Looking at more clusters than this for one sketch, and so many for each constraint, is given up, and all steps are one class: about a tenth of a
+/// second. Where classes are small each constraint takes one or two.
+const MOST_LOOKS: usize = 100_000;
+const LOOKS_EACH: usize = 4;
 
 /// For every step the earlier steps whose choices change its measures; `None` where it takes too long to say.
 pub(super) fn dependence(sketch: &Sketch, merges: &[Merge]) -> Option<Vec<BTreeSet<usize>>> {
     let tree = Tree::new(sketch, merges);
     let ends = sketch.by_ends();
-    let mut looks = MOST_LOOKS;
+    let mut looks = MOST_LOOKS + LOOKS_EACH * sketch.constraints().len();
     merges
         .iter()
         .map(|merge| {

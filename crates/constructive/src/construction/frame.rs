@@ -54,6 +54,27 @@ pub(super) fn carry_out(
     }
 }
 
+/// What comes of the moves where all elements stay where they are.
+pub(super) fn as_it_is(plan: &Plan, drawn: &[Shape]) -> Carried {
+    let extent = extent(drawn);
+    let outcome = |step: &Move| {
+        let [x, y, z] = step.shared.map(|e| &drawn[e]);
+        let (_, outcome) = third(&Third {
+            line: y.is_line(),
+            placed: [x, z],
+            measures: [measure(x, y), measure(z, y)],
+            extent,
+            only_tied: false,
+            left: true,
+        });
+        outcome
+    };
+    Carried {
+        outcomes: plan.moves.iter().map(outcome).collect(),
+        shapes: plan.order.iter().map(|&e| drawn[e]).collect(),
+    }
+}
+
 fn extent(shapes: &[Shape]) -> f64 {
     shapes.iter().fold(0.0, |m, s| s.extent().max(m))
 }

@@ -246,6 +246,13 @@ impl<'a> Construction<'a> {
 
     fn carried(&self, left: &[bool]) -> frame::Carried {
         let mut carried = frame::carry_out(&self.plan, self.frames.clone(), |step| left[step]);
+        let lost = carried.outcomes.iter().find(|o| !o.is_possible());
+        if matches!(lost, Some(Outcome::Apart { .. }))
+            && left == self.drawn_left
+            && self.drawing_holds()
+        {
+            carried = frame::as_it_is(&self.plan, &self.drawn);
+        }
         if self.sketch.is_known_to_rounding() {
             return carried;
         }
@@ -257,6 +264,22 @@ impl<'a> Construction<'a> {
         };
         exact::settle(&derived, &mut carried.outcomes);
         carried
+    }
+
+    /// Whether the drawing has all values to rounding: then it is a solution, however far a chain of intersections carries the rounding of its
+    /// first ones. A coordinate is rounded by half a unit in its last place, a distance to a line by two such and the line's own roundings:
+    /// sixteen units in the last place of the largest coordinate hold all.
+    fn drawing_holds(&self) -> bool {
+        let extent = self.drawn.iter().map(Shape::extent).fold(1.0, f64::max);
+        let open = 16.0 * f64::EPSILON;
+        self.sketch.constraints().iter().all(|c| {
+            let [u, v] = c.ends.map(|e| &self.drawn[e]);
+            let off = frame::value_between(u, v) - c.value.value();
+            match u.is_line() && v.is_line() {
+                true => off.sin().abs().max(1.0 - off.cos()) <= open,
+                false => off.abs() <= open * extent,
+            }
+        })
     }
 
     fn classes(&self) -> Vec<classes::Class> {

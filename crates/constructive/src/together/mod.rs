@@ -88,12 +88,20 @@ pub fn together(sketch: &Sketch, tree: &STree) -> Together {
 /// The same within other limits, for each core.
 #[must_use]
 pub fn together_within(sketch: &Sketch, tree: &STree, limits: &Limits) -> Together {
-    let leaves = match sketch.relations().is_empty() {
-        true => part::leaves(sketch, tree),
-        // They tie more than the graph knows.
-        false => Vec::new(),
+    let peeled = part::peeled(sketch);
+    let tries = match sketch.relations().is_empty() {
+        true => vec![part::leaves(sketch, tree), peeled],
+        // They tie more than the graph knows. Mirror images may coincide, on which nothing stands: then all is one core.
+        false => {
+            let all: Vec<usize> = (0..sketch.elements().len()).collect();
+            let larger = peeled.first() != Some(&all);
+            let mut tries = vec![peeled];
+            tries.extend(larger.then(|| vec![all]));
+            tries
+        }
     };
-    for cores in [leaves, part::peeled(sketch)] {
+    let last = tries.len() - 1;
+    for (k, cores) in tries.into_iter().enumerate() {
         if cores.is_empty() || !reduces(sketch, &cores) {
             continue;
         }
@@ -108,6 +116,10 @@ pub fn together_within(sketch: &Sketch, tree: &STree, limits: &Limits) -> Togeth
             .map(|elements| Core::solved(sketch, elements, &budget()))
             .collect();
         let total = total(sketch, &cores);
+        let nothing_stands = total.is_none() && cores.iter().all(|c| c.places().is_some());
+        if nothing_stands && k < last && !sketch.relations().is_empty() {
+            continue;
+        }
         return Together { cores, total };
     }
     Together {

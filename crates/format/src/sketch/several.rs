@@ -66,8 +66,7 @@ impl<'a> Parts<'a> {
         if of[0] == of[1] {
             return Err(between.fault("a middle is between two different points"));
         }
-        self.relations.push(Relation::Middle { point, of });
-        Ok(())
+        self.relate(element, Relation::Middle { point, of })
     }
 
     /// Two points or two lines that are mirror images in a line; which way the second line points, the drawing says.
@@ -92,11 +91,39 @@ impl<'a> Parts<'a> {
             }
             _ => return Err(between.fault("two points are symmetric, or two lines")),
         };
-        self.relations.push(Relation::Mirrored {
+        let relation = Relation::Mirrored {
             pair,
             axis,
             against,
-        });
+        };
+        self.relate(element, relation)
+    }
+
+    /// A relation that was not stated before, in any order of what it is between.
+    fn relate(&mut self, element: Element<'a>, relation: Relation) -> Outcome<()> {
+        let set = |pair: &[usize; 2]| [pair[0].min(pair[1]), pair[0].max(pair[1])];
+        let same = |other: &Relation| match (other, &relation) {
+            (
+                Relation::Middle { point, of },
+                Relation::Middle {
+                    point: own_point,
+                    of: own,
+                },
+            ) => point == own_point && set(of) == set(own),
+            (
+                Relation::Mirrored { pair, axis, .. },
+                Relation::Mirrored {
+                    pair: own,
+                    axis: own_axis,
+                    ..
+                },
+            ) => axis == own_axis && set(pair) == set(own),
+            _ => false,
+        };
+        if self.relations.iter().any(same) {
+            return Err(element.fault("this was said of the same elements before"));
+        }
+        self.relations.push(relation);
         Ok(())
     }
 }
