@@ -208,7 +208,7 @@ mod corpus {
         let text = said(&short(BENNETT, &["--want", "1e-4"]));
         for wanted in [
             "What accuracy costs for bennett: mobile, finite mobility 1",
-            "For an error of 1.0e-4 the cheapest setting is",
+            "For an error of 1.0e-4 of the driven motion the cheapest setting is",
             "verdict",
             "whole report",
             "1e-14",
@@ -219,7 +219,7 @@ mod corpus {
             assert!(text.contains(wanted), "{wanted}:\n{text}");
         }
         let text = said(&short(BENNETT, &["--want", "1e-300"]));
-        assert!(text.contains("No setting reaches an error of 1.0e-300; the best is"));
+        assert!(text.contains("No setting reaches an error of 1.0e-300 of the driven motion; the best is"));
     }
 
     #[test]

@@ -79,6 +79,7 @@ mod record_support;
 mod robot_page;
 mod rounding;
 mod same_bytes;
+mod scene_error;
 mod simulate_cli;
 mod sketch_cli;
 mod sketch_relations;

@@ -14,7 +14,9 @@ use clap::Args;
 use kutzbach::closure::{Arithmetic, Geometry};
 use kutzbach::mobility::{AnalysisOptions, Followed, Verdict, analyse_to_follow};
 use kutzbach::simulate::verification::{Outcome, VerificationOptions, verify};
-use kutzbach::simulate::{SceneOptions, WorldOptions, cost_table, run_scene, scene_drives};
+use kutzbach::simulate::{
+    Refinement, SceneOptions, WorldOptions, cost_table, run_scene_estimated, scene_drives,
+};
 use log::Log;
 use std::path::PathBuf;
 use table::Simulated;
@@ -47,7 +49,8 @@ pub struct Arguments {
     /// Length of a step (s)
     #[arg(long, value_name = "SECONDS", help_heading = "The verification")]
     time_step: Option<f64>,
-    /// Simulate with the cheapest setting that stays within this error (characteristic lengths, rad), found by trying
+    /// Simulate with the cheapest setting that stays within this error, found by trying: the driven motion within it of the
+    /// prediction, and the scene's own motion, speeds included, by runs in halved steps (characteristic lengths, rad)
     #[arg(long,
         value_name = "ERROR",
         value_parser = super::accuracy::error,
@@ -119,6 +122,9 @@ fn budget(text: &str) -> Result<f64, String> {
         _ => Err(format!("`{text}` is no number of seconds, zero or more")),
     }
 }
+
+/// Seconds of work that a scene may take with all runs in halved steps that tell how far it is off.
+const SCENE_WORK: f64 = 20.0;
 
 /// Steps that the cost of an effect is measured over.
 const COST_STEPS: usize = 500;
@@ -243,8 +249,15 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             duration: arguments.duration,
         };
         let states = &analysis.assembly.states;
+        let refinement = Refinement {
+            wanted: arguments.accuracy,
+            work: SCENE_WORK,
+        };
         let run = log
-            .watch(|observer| run_scene(mechanism, &geometry, states, &scene, observer))?
+            .watch(|observer| {
+                let how = (refinement, &interrupt::asked as &dyn Fn() -> bool);
+                run_scene_estimated(mechanism, &geometry, states, &scene, how, observer)
+            })?
             .map_err(|error| refused(error.to_string()))?;
         simulated.scene = Some(run);
     }

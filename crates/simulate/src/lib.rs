@@ -17,7 +17,7 @@
 //! | `build`, `coupling` | the engine's bodies, joints and couplings |
 //! | `effects`, `motor` | limits, friction, damping, contact; drives |
 //! | `world`, `velocities`, `measure` | stepping, setting in motion, reading off |
-//! | `scene_run` | running a scene for a while |
+//! | `scene_run`, `trajectory` | running a scene for a while, and how far its motion is off |
 //! | `cost` | what each effect costs |
 //! | [`verification`] | what all that says about a prediction |
 //!
@@ -53,6 +53,7 @@ mod scene_run;
 #[cfg(feature = "logs")]
 mod simulation_log;
 mod solids;
+mod trajectory;
 mod units;
 mod velocities;
 pub mod verification;
@@ -65,4 +66,5 @@ pub use options::{Drive, Effects, Energy, JointGap, Masses, Note, Pieces, Solver
 pub use scene_run::{SceneOptions, SceneRun, effect_names, run_scene, scene_drives};
 #[cfg(feature = "logs")]
 pub use simulation_log::SimulationLog;
+pub use trajectory::{Refinement, StepRow, Trajectory, TrajectoryError, run_scene_estimated};
 pub use world::World;

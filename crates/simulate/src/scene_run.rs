@@ -41,8 +41,12 @@ pub struct SceneRun {
     /// See [`Self::kinetic_energy`].
     pub potential_energy: f64,
     /// Energy at the end less that at the start (J): what drives brought in, less what friction, damping, contact and
-    /// limits took.
+    /// limits took. Where there are none of these it is the engine's error.
     pub energy_change: f64,
+    /// The largest kinetic energy at a moment shown (J).
+    pub largest_kinetic_energy: f64,
+    /// Whether nothing in the scene brings energy in or takes it: no drive, contact, friction, damping or limit.
+    pub conservative: bool,
     /// The most pairs of shapes that touched at once.
     pub most_contacts: usize,
     /// The joint that went farthest beyond its limit, and by how much (rad, m).
@@ -92,6 +96,18 @@ pub fn scene_drives(mechanism: &Mechanism) -> Vec<Drive> {
         .collect()
 }
 
+/// Whether nothing of a scene brings energy in or takes it.
+fn is_conservative(options: &SceneOptions) -> bool {
+    let Effects {
+        gravity: _,
+        contact,
+        limits,
+        friction,
+        damping,
+    } = options.world.effects;
+    options.drives.is_empty() && !(contact || limits || friction || damping)
+}
+
 /// Moments shown per simulated second.
 const MOMENTS_PER_SECOND: f64 = 60.0;
 
@@ -105,6 +121,43 @@ pub fn run_scene(
     start: &[JointState<f64>],
     options: &SceneOptions,
     observer: &mut dyn Observer,
+) -> Result<SceneRun, WorldError> {
+    run_in(
+        mechanism,
+        geometry,
+        start,
+        options,
+        Paces::of(options),
+        observer,
+        &mut |_| (),
+    )
+}
+
+/// How many steps a run has, and after how many of them a moment is shown.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Paces {
+    pub steps: u64,
+    pub every: u64,
+}
+
+impl Paces {
+    pub fn of(options: &SceneOptions) -> Self {
+        Self {
+            steps: (options.duration / options.world.time_step).round() as u64,
+            every: ((1.0 / (MOMENTS_PER_SECOND * options.world.time_step)) as u64).max(1),
+        }
+    }
+}
+
+/// [`run_scene`] in given paces; `look` sees the world at each moment.
+pub(super) fn run_in(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    start: &[JointState<f64>],
+    options: &SceneOptions,
+    Paces { steps, every }: Paces,
+    observer: &mut dyn Observer,
+    look: &mut dyn FnMut(&World),
 ) -> Result<SceneRun, WorldError> {
     if !(options.duration >= 0.0 && options.duration.is_finite()) {
         return Err(WorldError::Options(format!(
@@ -129,6 +182,8 @@ pub fn run_scene(
         kinetic_energy: 0.0,
         potential_energy: 0.0,
         energy_change: 0.0,
+        largest_kinetic_energy: 0.0,
+        conservative: is_conservative(options),
         most_contacts: 0,
         beyond_limit: None,
         closure_error: 0.0,
@@ -153,8 +208,6 @@ pub fn run_scene(
         duration: options.duration,
     };
     let mut stopped = observer.begin(&passage).is_break();
-    let steps = (options.duration / options.world.time_step).round() as u64;
-    let every = ((1.0 / (MOMENTS_PER_SECOND * options.world.time_step)) as u64).max(1);
     let mut states = start.to_vec();
     for step in 1..=steps {
         if stopped {
@@ -179,6 +232,9 @@ pub fn run_scene(
         if step % every != 0 && step != steps {
             continue;
         }
+        look(&world);
+        let kinetic = world.energy().kinetic;
+        run.largest_kinetic_energy = run.largest_kinetic_energy.max(kinetic);
         let gaps = world.gaps();
         let closure_error = largest_gap(&gaps, length);
         // What is not a number must not pass for small.

@@ -9,7 +9,7 @@ use kutzbach::report::text::{Cell, Column, Layout, Page, Table, Tint};
 use kutzbach::simulate::verification::{
     BranchVerification, Finding, Outcome, Pushing, Verification,
 };
-use kutzbach::simulate::{CostRow, SceneRun, Solver};
+use kutzbach::simulate::{CostRow, SceneRun, Solver, Trajectory, TrajectoryError};
 use serde_json::{Value, json};
 
 /// Held joints, or runs of them, named on a first screen.
@@ -29,7 +29,8 @@ pub struct Simulated<'a> {
     /// Which setting a wanted error called for.
     pub choice: Option<Choice>,
     pub verification: Verification,
-    pub scene: Option<SceneRun>,
+    /// The scene, and how far its motion is off.
+    pub scene: Option<(SceneRun, Trajectory)>,
     pub cost: Option<Vec<CostRow>>,
     pub log: Option<(String, Summary)>,
     /// Whether Ctrl-C ended it.
@@ -39,15 +40,9 @@ pub struct Simulated<'a> {
 impl Simulated<'_> {
     /// Whether an error was wanted that no setting, or not the scene, keeps.
     pub fn misses(&self) -> bool {
-        self.choice
-            .as_ref()
-            .is_some_and(|choice| !choice.reached || self.scene_beyond(choice).is_some())
-    }
-
-    /// By how much the scene came open, where that is more than was wanted.
-    fn scene_beyond(&self, choice: &Choice) -> Option<f64> {
-        let error = self.scene.as_ref()?.closure_error;
-        (!(error <= choice.wanted)).then_some(error)
+        let scene = self.scene.as_ref();
+        let missed = scene.is_some_and(|(_, trajectory)| trajectory.reached == Some(false));
+        missed || self.choice.as_ref().is_some_and(|choice| !choice.reached)
     }
 }
 
@@ -118,21 +113,9 @@ pub fn text(simulated: &Simulated<'_>, layout: Layout) -> String {
     if let Some(pushing) = &verification.pushing {
         pushing_page(pushing, &mut page);
     }
-    if let Some(run) = &simulated.scene {
+    if let Some((run, trajectory)) = &simulated.scene {
         scene_page(run, &mut page);
-        if let Some(beyond) = simulated
-            .choice
-            .as_ref()
-            .and_then(|choice| simulated.scene_beyond(choice))
-        {
-            page.item(
-                &format!(
-                    "the loops came open by {beyond:.1e}, more than was wanted: the setting was chosen by the motion without \
-                     the scene's forces"
-                ),
-                Tint::Doubtful,
-            );
-        }
+        trajectory_page(run, trajectory, &mut page);
     }
     if let Some(rows) = &simulated.cost {
         cost_page(rows, &mut page);
@@ -183,8 +166,8 @@ fn choice_page(choice: &Choice, page: &mut Page) {
     };
     let mut text = choice_text(choice);
     text.push_str(match (choice.reached, &choice.best) {
-        (true, _) => " It is used, and the verification begins with it.",
-        (false, Some(_)) => " The best is used.",
+        (true, _) => " The verification begins with it.",
+        (false, Some(_)) => " The verification begins with the best.",
         (false, None) => " The usual settings are used.",
     });
     page.paragraph(&text, tint, "", "");
@@ -327,12 +310,7 @@ fn scene_page(run: &SceneRun, page: &mut Page) {
         "  ",
     );
     let mut facts = vec![
-        format!(
-            "energy at the end {:.4} J ({:.4} kinetic); {:+.4} J since the start",
-            run.kinetic_energy + run.potential_energy,
-            run.kinetic_energy,
-            run.energy_change
-        ),
+        energy(run),
         format!("closure error at most {:.1e}", run.closure_error),
     ];
     if run.effects.contains(&"contact") {
@@ -353,6 +331,102 @@ fn scene_page(run: &SceneRun, page: &mut Page) {
     }
     if let Some(why) = &run.ended_early {
         page.item(&format!("ended early: {why}"), Tint::Bad);
+    }
+}
+
+/// Energy at the end; what the engine lost or gained, where nothing else does.
+fn energy(run: &SceneRun) -> String {
+    let total = run.kinetic_energy + run.potential_energy;
+    let mut text = format!(
+        "energy at the end {total:.4} J ({:.4} kinetic); {:+.4} J since the start",
+        run.kinetic_energy, run.energy_change
+    );
+    if run.conservative && run.largest_kinetic_energy > 0.0 {
+        let share = run.energy_change.abs() / run.largest_kinetic_energy;
+        text.push_str(&format!(
+            ", which nothing in the scene takes or gives: an error of the steps, {} of the greatest kinetic energy",
+            percent(share)
+        ));
+    }
+    text
+}
+
+fn percent(share: f64) -> String {
+    let percent = 100.0 * share;
+    match percent {
+        _ if percent < 0.01 => format!("{percent:.0e} %"),
+        _ if percent < 10.0 => format!("{percent:.2} %"),
+        _ => format!("{percent:.0} %"),
+    }
+}
+
+/// How far the motion of the scene is off, by runs in halved steps.
+fn trajectory_page(run: &SceneRun, trajectory: &Trajectory, page: &mut Page) {
+    let off = match (trajectory.error(), &trajectory.not_estimated) {
+        (Some(error), _) => format!(
+            "the motion is off by about {:.1e} at its worst and {:.1e} at the end (characteristic lengths, rad), speeds by {} of the \
+             greatest: by runs in halved steps",
+            error.worst,
+            error.end,
+            percent(error.speed)
+        ),
+        (None, Some(why)) => format!("how far the motion is off is not known: {why}"),
+        (None, None) => "how far the motion is off is not known".to_owned(),
+    };
+    page.item(&off, Tint::Plain);
+    let Some(wanted) = trajectory.wanted else {
+        return;
+    };
+    if trajectory.reached == Some(true) {
+        let text = format!(
+            "the steps were chosen by that: with them the scene stays within {wanted:.1e}, and takes {} for a simulated second",
+            seconds(run.step_time / run.time.max(f64::MIN_POSITIVE))
+        );
+        page.item(&text, Tint::Plain);
+    } else {
+        let needed = trajectory.needed.map_or(String::new(), |needed| {
+            format!("; by the order seen it would take {} of work", long(needed))
+        });
+        let text = format!(
+            "an error of {wanted:.1e} is not reached with steps of {}, the shortest tried{needed}",
+            seconds(run.time_step)
+        );
+        page.item(&text, Tint::Doubtful);
+    }
+    let mut table = Table::new()
+        .column("step", Column::Numbers)
+        .column("motion off by", Column::Numbers)
+        .column("speeds", Column::Numbers)
+        .column("order", Column::Numbers)
+        .column("closure error", Column::Numbers)
+        .column("energy", Column::Numbers)
+        .column("wall time", Column::Numbers);
+    for row in &trajectory.rows {
+        let off =
+            |of: &dyn Fn(&TrajectoryError) -> String| row.error.as_ref().map_or("–".to_owned(), of);
+        table.row(vec![
+            Cell::new(seconds(row.time_step)),
+            Cell::new(off(&|error| format!("{:.1e}", error.worst))),
+            Cell::new(off(&|error| percent(error.speed))),
+            Cell::new(
+                row.order
+                    .map_or("–".to_owned(), |order| format!("{order:.1}")),
+            ),
+            Cell::new(format!("{:.1e}", row.closure_error)),
+            Cell::new(format!("{:+.4} J", row.energy_change)),
+            Cell::new(seconds(row.step_time)),
+        ]);
+    }
+    page.table(table, "steps");
+}
+
+/// A time that may be long, in words.
+fn long(time: f64) -> String {
+    match time {
+        _ if time < 60.0 => format!("{time:.0} s"),
+        _ if time < 3600.0 => format!("{:.0} minutes", time / 60.0),
+        _ if time < 86_400.0 => format!("{:.0} hours", time / 3600.0),
+        _ => "more than a day".to_owned(),
     }
 }
 
@@ -394,8 +468,9 @@ pub fn json(simulated: &Simulated<'_>, timing: bool) -> Value {
     if let Some(choice) = &simulated.choice {
         value["accuracy"] = json!(choice);
     }
-    if let Some(run) = &simulated.scene {
+    if let Some((run, trajectory)) = &simulated.scene {
         value["scene"] = json!(run);
+        value["scene"]["trajectory"] = json!(trajectory);
     }
     if let Some(rows) = &simulated.cost {
         value["cost"] = json!(rows);
@@ -434,7 +509,7 @@ fn times(simulated: &Simulated<'_>) -> Value {
             rows.push(json!({ "substeps": rung.substeps, "wall_time": rung.wall_time }));
         }
     }
-    if let Some(run) = &simulated.scene {
+    if let Some((run, _)) = &simulated.scene {
         rows.push(json!({ "scene": run.effects, "wall_time": run.wall_time }));
     }
     Value::Array(rows)

@@ -82,18 +82,18 @@ pub fn choice_text(choice: &Choice) -> String {
         (Some(found), _, _) => {
             let setting = found.setting;
             format!(
-                "For an error of {wanted} the cheapest setting is {}: it stays within {} and takes {} for a simulated second.",
+                "For an error of {wanted} of the driven motion the cheapest setting is {}: it stays within {} and takes {} for a simulated second.",
                 setting_text(setting.solver, setting.time_step, setting.substeps),
                 error(found.error),
                 duration(found.seconds_per_second)
             )
         }
         (None, Some(best), Some(least)) => format!(
-            "No setting reaches an error of {wanted}; the best is {}, with {}.",
+            "No setting reaches an error of {wanted} of the driven motion; the best is {}, with {}.",
             setting_text(best.solver, best.time_step, best.substeps),
             error(least)
         ),
-        _ => format!("No setting reaches an error of {wanted}: none arrived."),
+        _ => format!("No setting reaches an error of {wanted} of the driven motion: none arrived."),
     }
 }
 

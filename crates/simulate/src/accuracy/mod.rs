@@ -54,3 +54,4 @@ pub use result::{
     Setting, Simulation, State, Traced, TracedTiming, Way, WayTiming,
 };
 pub use simulation::Grid;
+pub(crate) use work::work_of_setting;

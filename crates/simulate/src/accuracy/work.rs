@@ -86,6 +86,20 @@ pub(super) fn work_of(
     })
 }
 
+/// About how many seconds of work a simulated second takes in one setting.
+///
+/// # Errors
+/// Where no world can be made.
+pub(crate) fn work_of_setting(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    states: &[JointState<f64>],
+    options: &WorldOptions,
+) -> Result<f64, WorldError> {
+    let world = World::new(mechanism, geometry, states, options)?;
+    Ok(Load::of(&world).seconds_per_second(options.time_step, options.substeps))
+}
+
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
