@@ -219,7 +219,11 @@ mod corpus {
             assert!(text.contains(wanted), "{wanted}:\n{text}");
         }
         let text = said(&short(BENNETT, &["--want", "1e-300"]));
-        assert!(text.contains("No setting reaches an error of 1.0e-300 of the driven motion; the best is"));
+        assert!(
+            text.contains(
+                "No setting reaches an error of 1.0e-300 of the driven motion; the best is"
+            )
+        );
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! How far a simulated scene is said to be off, against closed forms and runs in much shorter steps.
 
 use kutzbach::closure::{Arithmetic, Geometry, JointState};
-use kutzbach::format::read_text;
+use kutzbach::format::read;
 use kutzbach::mechanism::Mechanism;
 use kutzbach::simulate::verification::{Moment, Observer, Passage};
 use kutzbach::simulate::{
@@ -19,7 +19,11 @@ impl Observer for Last {
     }
 
     fn moment(&mut self, moment: &Moment<'_>) -> ControlFlow<()> {
-        self.0 = moment.states.iter().flat_map(|s| s.values.clone()).collect();
+        self.0 = moment
+            .states
+            .iter()
+            .flat_map(|s| s.values.clone())
+            .collect();
         ControlFlow::Continue(())
     }
 }
@@ -41,13 +45,13 @@ fn chain(angles: &[f64]) -> Mechanism {
         text += &format!("<position joint=\"j{}\" value=\"{angle}\"/>", index + 1);
     }
     text += "</configuration></robot>";
-    read_text(&text).unwrap().mechanism
+    read(&text, "chain.urdf", &[]).unwrap().mechanism
 }
 
 fn run(
     mechanism: &Mechanism,
     (duration, time_step, substeps): (f64, f64, usize),
-    wanted: Option<f64>,
+    (wanted, work): (Option<f64>, f64),
 ) -> (SceneRun, Trajectory, Vec<f64>) {
     let raised = mechanism.configuration("raised");
     let geometry = Geometry::new(mechanism, raised, &Arithmetic::double());
@@ -62,7 +66,7 @@ fn run(
         drives: Vec::new(),
         duration,
     };
-    let refinement = Refinement { wanted, work: 60.0 };
+    let refinement = Refinement { wanted, work };
     let mut last = Last::default();
     let (run, trajectory) = run_scene_estimated(
         mechanism,
@@ -85,7 +89,11 @@ fn a_pendulum_hangs_after_a_quarter_of_its_period_as_closely_as_was_wanted() {
     let mechanism = chain(&[std::f64::consts::FRAC_PI_2]);
     let duration = QUARTER / (9.81f64 * 0.5 * 3.0).sqrt();
     for wanted in [1e-2, 1e-3] {
-        let (run, trajectory, last) = run(&mechanism, (duration, duration / 16.0, 1), Some(wanted));
+        let (run, trajectory, last) = run(
+            &mechanism,
+            (duration, duration / 16.0, 1),
+            (Some(wanted), 10.0),
+        );
         assert_eq!(trajectory.reached, Some(true), "{trajectory:?}");
         assert!(last[0].abs() <= wanted, "{wanted}: {}", last[0]);
         // Of first order: what was wanted costs ten times as much for each digit, and the first step is not enough.
@@ -103,28 +111,33 @@ fn estimates_are_those_of_runs_in_much_shorter_steps() {
     let turns = [1.5, 0.75, -0.5];
     for links in 1..=3 {
         let mechanism = chain(&turns[..links]);
-        let (_, trajectory, coarse) = run(&mechanism, (0.5, 1.0 / 240.0, 4), None);
-        let (_, _, fine) = run(&mechanism, (0.5, 1.0 / 240.0 / 64.0, 4), None);
+        let (_, trajectory, coarse) = run(&mechanism, (0.5, 1.0 / 240.0, 4), (None, 10.0));
+        let (_, _, fine) = run(&mechanism, (0.5, 1.0 / 240.0 / 64.0, 4), (None, 10.0));
         // In a chain the links turn by the sums of the joints' angles.
         let sums = |values: &[f64]| {
-            values.iter().scan(0.0, |sum, value| {
-                *sum += value;
-                Some(*sum)
-            })
-            .collect::<Vec<f64>>()
+            values
+                .iter()
+                .scan(0.0, |sum, value| {
+                    *sum += value;
+                    Some(*sum)
+                })
+                .collect::<Vec<f64>>()
         };
         let turned = sums(&coarse).into_iter().zip(sums(&fine));
         let off = turned.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         let told = trajectory.error().unwrap().end;
         assert!(off > 1e-5, "{links}: {off}");
-        assert!((0.7..=1.5).contains(&(told / off)), "{links}: told {told}, is {off}");
+        assert!(
+            (0.7..=1.5).contains(&(told / off)),
+            "{links}: told {told}, is {off}"
+        );
     }
 }
 
 #[test]
 fn an_error_that_costs_too_much_is_told_with_its_price() {
     let mechanism = chain(&[1.5, 0.75]);
-    let (_, trajectory, _) = run(&mechanism, (0.5, 1.0 / 60.0, 1), Some(1e-10));
+    let (_, trajectory, _) = run(&mechanism, (0.5, 1.0 / 60.0, 1), (Some(1e-10), 0.2));
     assert_eq!(trajectory.reached, Some(false));
     assert!(trajectory.needed.unwrap() > 60.0, "{trajectory:?}");
     assert_eq!(trajectory.used, trajectory.rows.len() - 1);
