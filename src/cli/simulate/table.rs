@@ -201,8 +201,8 @@ fn branch_page(branch: &BranchVerification, page: &mut Page) {
             &format!(
                 "{} driven from {:.4} to {:.4} ({}){held}; trees held by {}",
                 ladder.driven,
-                ladder.from + 0.0,
-                ladder.to,
+                without_sign_of_zero(ladder.from),
+                without_sign_of_zero(ladder.to),
                 ladder.ends,
                 match ladder.solver {
                     Solver::Multibody => "reduced coordinates (multibody)",
@@ -226,7 +226,7 @@ fn branch_page(branch: &BranchVerification, page: &mut Page) {
                 Cell::new(format!("{:.1e}", rung.closure_error)),
                 Cell::new(rung.order.map_or("–".to_owned(), |o| format!("{o:.1}"))),
                 Cell::new(format!("{:.1e}", rung.distance)),
-                Cell::new(format!("{:.0} %", 100.0 * rung.progress)),
+                Cell::new(format!("{:.0} %", 100.0 * rung.progress.min(1.0))),
                 Cell::new(seconds(rung.wall_time)),
             ]);
         }
@@ -257,6 +257,11 @@ fn branch_page(branch: &BranchVerification, page: &mut Page) {
             "  ",
         );
     }
+}
+
+/// A value to be shown with four decimals: zero where they are zeros.
+fn without_sign_of_zero(value: f64) -> f64 {
+    if value.abs() < 5e-5 { 0.0 } else { value }
 }
 
 fn lowercase(sentence: &str) -> String {

@@ -48,12 +48,14 @@ pub fn independent(part: &Part, equations: usize, reading: &str) -> String {
 /// A part whose freedom follows from bounds between all its links.
 pub fn counted(mechanism: &Mechanism, part: &Part, counted: &Counted) -> String {
     let coupled = coupled(part);
-    let left = equations(counted.equations);
-    let left = left.trim_end_matches(" are").trim_end_matches(" is");
+    let (left, is) = match counted.equations {
+        1 => ("equation".to_owned(), "is"),
+        many => (format!("{many} equations"), "are"),
+    };
     if counted.by_cycles_alone {
         return format!(
             "of the displacements around the loops, those of each lie in a subgroup; the {left} that this leaves for loops whose \
-             subgroups are the smallest are independent{coupled}"
+             subgroups are the smallest {is} independent{coupled}"
         );
     }
     let steps = steps(mechanism, counted);
@@ -64,7 +66,7 @@ pub fn counted(mechanism: &Mechanism, part: &Part, counted: &Counted) -> String 
         few if few.len() <= MOST_STEPS => few.join("; "),
         [first, ..] => format!("{bounded}, as in: {first}"),
     };
-    format!("{found}; the {left} that the loops still ask for are independent{coupled}")
+    format!("{found}; the {left} that the loops still ask for {is} independent{coupled}")
 }
 
 /// What bounds between all links leave to single joints and between chains, one line each.

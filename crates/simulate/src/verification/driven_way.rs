@@ -214,6 +214,8 @@ fn way_of(
     let driven = motion.driven.clone();
     let from = value(geometry, &driven, &start, &start);
     let units = units(mechanism, length);
+    let part = mechanism.joints()[driven.joint].kind.freedoms()[driven.freedom];
+    let slides = part == FreedomPart::Translation;
     let mut best: Option<Side> = None;
     for side in [1.0, -1.0] {
         let barrier = barrier(&motion, origin, least, side);
@@ -221,7 +223,7 @@ fn way_of(
             geometry,
             (&units, longest),
             &start,
-            &driven,
+            (&driven, slides),
             &mut motion.curve,
             &barrier,
         );
@@ -232,8 +234,7 @@ fn way_of(
             best = Some(found);
         }
     }
-    let joint = &mechanism.joints()[driven.joint];
-    let unit = variable_unit(joint.kind.freedoms()[driven.freedom], length);
+    let unit = variable_unit(part, length);
     match best {
         Some(best) if (best.to - from).abs() > SHORTEST * unit => Ok(DrivenWay {
             start,
@@ -267,18 +268,21 @@ fn units(mechanism: &Mechanism, length: f64) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Follows the curve to one side until the barrier, a full turn, or the time is over.
+/// Follows the curve to one side until the barrier, a full turn, or the time is over; a slide as many characteristic lengths.
 fn side_of(
     geometry: &Geometry<f64>,
     (units, longest): (&[Vec<f64>], f64),
     start: &[JointState<f64>],
-    driven: &Variable,
+    (driven, slides): (&Variable, bool),
     curve: &mut Curve,
     barrier: &Barrier,
 ) -> Side {
     let from = value(geometry, driven, start, start);
     let (most, turn) = if turns_a_ball(geometry, driven) {
         (BALL_WAY, "as far as a ball is driven")
+    } else if slides {
+        let unit = units[driven.joint][driven.freedom];
+        (TAU / unit, "as far as a slide is driven")
     } else {
         (TAU, "a full turn")
     };
