@@ -256,6 +256,67 @@ fn relations_in_any_order_are_judged_as_ideals_say() {
 mod corpus {
     use super::*;
 
+    /// Relations one by one cost what the basis of all of them costs: the median of the ratios of their work, in positional form, where
+    /// either comes to its end.
+    #[test]
+    #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
+    fn relations_cost_what_the_basis_costs() {
+        let mut ratios: Vec<(f64, f64)> = Vec::new();
+        for folder_name in ["mechanisms", "tests/thesis"] {
+            let mut files: Vec<_> = std::fs::read_dir(folder(folder_name))
+                .unwrap()
+                .map(|file| file.unwrap().path())
+                .collect();
+            files.sort();
+            for file in files
+                .iter()
+                .filter(|file| file.extension().is_some_and(|own| own == "urdf"))
+            {
+                let options = SystemOptions {
+                    formulation: Formulation::Positional,
+                    ..SystemOptions::default()
+                };
+                let Ok(read) = read_file(file, &[]) else {
+                    continue;
+                };
+                let Ok((system, given)) = relations_of(&read.mechanism, &options) else {
+                    continue;
+                };
+                let limits = || Limits {
+                    work: Some(5_000_000),
+                    ..Limits::seconds(2.0)
+                };
+                let began = std::time::Instant::now();
+                let whole = Budget::new(limits());
+                let basis = groebner_basis(
+                    &system.polynomials(),
+                    system.variables.len(),
+                    &MonomialOrder::Degrevlex,
+                    &whole,
+                );
+                let middle = std::time::Instant::now();
+                let single = Budget::new(limits());
+                let found = relation_by_relation(&given, &single);
+                let end = std::time::Instant::now();
+                if basis.is_ok() && found.is_ok() {
+                    let seconds = (end - middle).as_secs_f64() / (middle - began).as_secs_f64();
+                    ratios.push((single.work() as f64 / whole.work().max(1) as f64, seconds));
+                }
+            }
+        }
+        let median = |mut all: Vec<f64>| {
+            all.sort_by(f64::total_cmp);
+            all[all.len() / 2]
+        };
+        let work = median(ratios.iter().map(|ratio| ratio.0).collect());
+        let time = median(ratios.iter().map(|ratio| ratio.1).collect());
+        println!(
+            "{} files: median ratio of work {work:.2}, of time {time:.2}",
+            ratios.len()
+        );
+        assert!(ratios.len() > 60 && work <= 3.0);
+    }
+
     #[test]
     #[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
     fn relations_in_two_hundred_orders() {
@@ -268,6 +329,30 @@ mod corpus {
         let (all, refused) = found.fold((0, 0), |a, b| (a.0 + b.0, a.1 + b.1));
         println!("{all} verdicts compared, {refused} of them not accepted");
         assert!(all > 500 && refused > 50, "{all} {refused}");
+    }
+}
+
+/// What takes no basis is told where time did not suffice for one: three legs of three hinges leave the platform three freedoms, by
+/// the equations of the tree and by their rank.
+#[test]
+fn the_dimension_at_the_pose_needs_no_basis() {
+    for (file, expected) in [
+        ("mechanisms/planar_3rrr.urdf", (3, 3)),
+        ("mechanisms/planar_four_bar.urdf", (1, 1)),
+        // Bennett's motion is not due to the numbers of equations.
+        ("mechanisms/bennett.urdf", (0, 1)),
+    ] {
+        let nothing = Budget::new(Limits {
+            work: Some(1),
+            ..Limits::default()
+        });
+        let answer = exact_answer(&mechanism(file), &ExactOptions::default(), &nothing).unwrap();
+        assert_eq!(
+            answer.stopped.map(|(_, stop)| stop),
+            Some(Stop::Work),
+            "{file}"
+        );
+        assert_eq!(answer.at_home_within, Some(expected), "{file}");
     }
 }
 

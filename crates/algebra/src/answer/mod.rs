@@ -4,6 +4,7 @@
 //! solution set, and the cycles looked at one by one. A budget that ends in the middle leaves what was found until then,
 //! and [`ExactAnswer::stopped`] says at which step and why.
 
+mod at_home;
 mod blocks;
 mod closings;
 mod clusters;
@@ -159,6 +160,9 @@ pub struct ExactAnswer {
     pub motions: Vec<ProvenMotion>,
     /// Whether all such motions were found; `None` where they were not looked for.
     pub motions_settled: Option<Settled>,
+    /// Where the computation ended before the pieces told the dimension at the drawn pose: at least and at most so much, by the
+    /// number of equations and by their rank there.
+    pub at_home_within: Option<(usize, usize)>,
     /// Where and why the computation ended early.
     pub stopped: Option<(&'static str, Stop)>,
 }
@@ -179,6 +183,9 @@ pub fn exact_answer(
     budget.take_over(&most);
     if matches!(answer.stopped, Some((_, Stop::Cancelled))) {
         return Ok(answer);
+    }
+    if answer.stopped.is_some() {
+        answer.at_home_within = at_home::bounds(mechanism, options, &answer.system);
     }
     answer.find_cycles(mechanism, budget);
     answer.find_motions(mechanism, budget);
@@ -221,6 +228,7 @@ impl ExactAnswer {
             clusters: Vec::new(),
             motions: Vec::new(),
             motions_settled: None,
+            at_home_within: None,
             stopped: None,
         })
     }

@@ -7,7 +7,7 @@
 
 use super::basis::GroebnerBasis;
 use super::budget::{Budget, Stop};
-use super::f4::normal_forms;
+use super::f4::{normal_forms, reduced_basis};
 use super::terms::Terms;
 use crate::polynomial::{Polynomial, Rational};
 use groebner::Zp;
@@ -19,6 +19,10 @@ use std::collections::BTreeMap;
 
 /// Largest degree that is tried where the ideal does not bound it.
 const MOST_DEGREE: usize = 16;
+/// The value taken by lot, negated.
+const BY_LOT: i64 = -1_234_567_890_123_457;
+/// Matrix entries spent on whether a variable takes any value.
+const LITTLE_WORK: u64 = 1_000_000;
 /// Most primes before the coefficients count as too large.
 const MOST_PRIMES: usize = 500;
 
@@ -46,6 +50,7 @@ impl GroebnerBasis {
         }
         let solutions = match self.dimension() {
             Some(0) => self.degree(),
+            _ if self.takes_any_value(variable, budget)? => return Ok(None),
             _ => None,
         };
         let most = solutions.unwrap_or(MOST_DEGREE);
@@ -84,6 +89,34 @@ impl GroebnerBasis {
             }
         }
         Err(Stop::Coefficients)
+    }
+
+    /// Whether there are solutions modulo a prime where the variable has a value taken by lot: it is then no root of any
+    /// polynomial of the ideal, unless chance hit one of its few values. What takes long to tell is not told.
+    fn takes_any_value(&self, variable: usize, budget: &Budget) -> Result<bool, Stop> {
+        let found = Primes::new().find_map(|prime| Some((prime, self.modulo(prime)?)));
+        let Some((prime, mut equations)) = found else {
+            return Ok(false);
+        };
+        let mut exponents = vec![0; self.variables()];
+        let constant = exponents.clone();
+        exponents[variable] = 1;
+        equations.push(Terms {
+            monomials: vec![exponents.into(), constant.into()],
+            coefficients: vec![Zp::from_i64(1, prime), Zp::from_i64(BY_LOT, prime)],
+        });
+        let little = budget.with_work(LITTLE_WORK);
+        let basis = reduced_basis(&equations, self.variables(), self.order(), false, &little);
+        budget.take_over(&little);
+        match basis {
+            Ok((basis, _)) => {
+                let is_one =
+                    |p: &Terms<Zp>| p.lead().is_some_and(|lead| lead.iter().all(|&e| e == 0));
+                Ok(!basis.iter().any(is_one))
+            }
+            Err(Stop::Work) => budget.check().map(|()| false),
+            Err(stop) => Err(stop),
+        }
     }
 
     fn in_one_variable(&self, coefficients: &[Rational], variable: usize) -> Polynomial {

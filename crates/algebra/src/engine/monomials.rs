@@ -38,8 +38,30 @@ pub(super) struct Monomials {
     weights: Vec<u64>,
     exponents: Vec<u16>,
     hashes: Vec<u64>,
-    /// Open addressing: 0 is empty, otherwise a number plus one.
-    slots: Vec<u32>,
+    /// Open addressing.
+    slots: Vec<Slot>,
+}
+
+/// A place for a monomial. The part of its hash beside the number spares a look at what is stored far away.
+#[derive(Clone, Copy, Debug, Default)]
+struct Slot {
+    /// 0 is empty, otherwise a number plus one.
+    number: u32,
+    tag: u32,
+}
+
+impl Slot {
+    fn of(number: u32, hash: u64) -> Self {
+        Self {
+            number: number + 1,
+            tag: tag(hash),
+        }
+    }
+}
+
+/// Other bits of a hash than those that say where the search begins.
+fn tag(hash: u64) -> u32 {
+    (hash >> 32) as u32
 }
 
 const FIRST_SLOTS: usize = 1 << 8;
@@ -62,7 +84,7 @@ impl Monomials {
             weights,
             exponents: Vec::new(),
             hashes: Vec::new(),
-            slots: vec![0; FIRST_SLOTS],
+            slots: vec![Slot::default(); FIRST_SLOTS],
         }
     }
 
@@ -81,7 +103,7 @@ impl Monomials {
         self.exponents.clear();
         self.hashes.clear();
         self.slots.clear();
-        self.slots.resize(FIRST_SLOTS, 0);
+        self.slots.resize(FIRST_SLOTS, Slot::default());
     }
 
     pub(super) fn exponents(&self, number: u32) -> &[u16] {
@@ -123,12 +145,7 @@ impl Monomials {
     ) -> Result<u32, Stop> {
         self.find_or_insert(
             hash_a.wrapping_add(hash_b),
-            |stored| {
-                stored
-                    .iter()
-                    .zip(a.iter().zip(b))
-                    .all(|(&s, (&a, &b))| u32::from(s) == u32::from(a) + u32::from(b))
-            },
+            |stored| is_product(stored, a, b),
             |all| {
                 for (&a, &b) in a.iter().zip(b) {
                     all.push(a.checked_add(b).ok_or(Stop::Memory)?);
@@ -146,10 +163,13 @@ impl Monomials {
     ) -> Result<u32, Stop> {
         let last = self.slots.len() - 1;
         let mut slot = spread(hash) & last;
-        while self.slots[slot] != 0 {
-            let number = self.slots[slot] - 1;
-            if self.hashes[number as usize] == hash && same(self.exponents(number)) {
-                return Ok(number);
+        loop {
+            let Slot { number, tag: own } = self.slots[slot];
+            if number == 0 {
+                break;
+            }
+            if own == tag(hash) && same(self.exponents(number - 1)) {
+                return Ok(number - 1);
             }
             slot = (slot + 1) & last;
         }
@@ -159,7 +179,7 @@ impl Monomials {
         }
         append(&mut self.exponents)?;
         self.hashes.push(hash);
-        self.slots[slot] = number + 1;
+        self.slots[slot] = Slot::of(number, hash);
         if 2 * self.len() > self.slots.len() {
             self.grow();
         }
@@ -169,15 +189,27 @@ impl Monomials {
     fn grow(&mut self) {
         let size = 4 * self.slots.len();
         self.slots.clear();
-        self.slots.resize(size, 0);
+        self.slots.resize(size, Slot::default());
         for (number, &hash) in self.hashes.iter().enumerate() {
             let mut slot = spread(hash) & (size - 1);
-            while self.slots[slot] != 0 {
+            while self.slots[slot].number != 0 {
                 slot = (slot + 1) & (size - 1);
             }
-            self.slots[slot] = number as u32 + 1;
+            self.slots[slot] = Slot::of(number as u32, hash);
         }
     }
+}
+
+/// Whether a monomial is the product of two others. Without an early end, so that several exponents are compared at once.
+fn is_product(stored: &[u16], a: &[u16], b: &[u16]) -> bool {
+    let count = stored.len().min(a.len()).min(b.len());
+    let (stored, a, b) = (&stored[..count], &a[..count], &b[..count]);
+    let mut differing = 0;
+    for place in 0..count {
+        let product = u32::from(a[place]) + u32::from(b[place]);
+        differing |= u32::from(stored[place]) ^ product;
+    }
+    differing == 0
 }
 
 /// The upper bits of a sum of odd weights are better mixed than the lower ones.

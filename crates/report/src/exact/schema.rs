@@ -183,6 +183,8 @@ pub struct ExactReport {
     pub degree: Option<usize>,
     /// Complex dimension at the drawn pose: the largest of the pieces through it.
     pub dimension_at_home: Option<usize>,
+    /// Where that was not reached: complex dimension at the drawn pose, at least and at most.
+    pub dimension_at_home_within: Option<[usize; 2]>,
     /// `exact`: the drawn pose solves the equations; `open`: it does not, the mechanism has to be assembled first;
     /// `unknown`: it is not known exactly.
     pub drawn_pose: &'static str,
@@ -265,6 +267,7 @@ pub fn exact_report(mechanism: &Mechanism, answer: &ExactAnswer, request: &Reque
             .filter(|b| !b.is_inconsistent())
             .and_then(|b| b.degree()),
         dimension_at_home: answer.dimension_at_home(),
+        dimension_at_home_within: answer.at_home_within.map(|(least, most)| [least, most]),
         drawn_pose: match system.home {
             kutzbach_algebra::HomePose::Exact(_) => "exact",
             kutzbach_algebra::HomePose::Open { .. } => "open",

@@ -113,7 +113,12 @@ fn headline(report: &ExactReport) -> String {
                 .map_or(String::new(), |degree| format!(", degree {degree}"));
             format!("The solutions have complex dimension {dimension}{degree}.")
         }
-        _ => "Undecided: the computation ended before it had an answer.".to_owned(),
+        _ => match report.dimension_at_home_within {
+            Some([least, most]) if least == most && !rounded => format!(
+                "At the pose drawn the solutions have complex dimension {most}; of other poses nothing is said."
+            ),
+            _ => "Undecided: the computation ended before it had an answer.".to_owned(),
+        },
     }
 }
 
@@ -133,6 +138,17 @@ fn at_home(report: &ExactReport) -> Option<String> {
                 .to_owned(),
         ),
         "unknown" => Some("the pose drawn in the file is not known exactly".to_owned()),
+        _ if report.dimension_at_home.is_none() => {
+            report.dimension_at_home_within.map(|[least, most]| {
+                let bounds = "by the number of equations and by their rank there";
+                match least == most {
+                    true => format!("at the pose drawn the complex dimension is {most}, {bounds}"),
+                    false => format!(
+                        "at the pose drawn the complex dimension is at least {least} and at most {most}, {bounds}"
+                    ),
+                }
+            })
+        }
         _ => report.dimension_at_home.map(|dimension| {
             let real = report.pieces.iter().flatten().any(|p| {
                 p.contains_home == Some(true) && p.dimension == dimension && p.real == "not found"
