@@ -16,7 +16,7 @@
 //! that Newton's method finds from the drawing and around it. A core that
 //! needs the lengths between elements of other parts takes these parts in, and grows with them.
 //!
-//! Source: R. Soto i Riera (2002) names what is left over; counts by J. Capco, M. Gallet, G. Grasegger, C. Koutschan, N. Lubbes, J.
+//! Source: A. Soto i Riera (2002) names what is left over; counts by J. Capco, M. Gallet, G. Grasegger, C. Koutschan, N. Lubbes, J.
 //! Schicho, "The number of realizations of a Laman graph" (2018).
 
 mod part;
