@@ -513,3 +513,54 @@ fn a_surface_of_shaky_poses_is_one() {
         .collect();
     assert_eq!(facts, [(2, Some(3))]);
 }
+
+#[test]
+fn rods_of_a_table_spin_at_poses_that_are_shaky_all_along() {
+    // Equal and parallel rods with a ball at each end carry a table: it translates over a sphere, and every rod spins.
+    for feet in [
+        &["0 0 0", "3 0 0", "3 2 0", "0 1 1"][..],
+        &["0 0 0", "3 0 0", "3 2 0", "0 1 1", "1 3 -1", "4 1 2"],
+        &["0 0 0", "2 0 0", "0 2 0", "3 3 0"],
+    ] {
+        let mut text =
+            String::from(r#"<robot name="table"><link name="floor"/><link name="table"/>"#);
+        for (index, foot) in feet.iter().enumerate() {
+            text += &format!(
+                r#"<link name="rod_{index}"/><joint name="foot_{index}" type="spherical"><parent link="floor"/>
+                <child link="rod_{index}"/><origin xyz="{foot}"/></joint>"#
+            );
+            text += &match index {
+                0 => format!(
+                    r#"<joint name="top_0" type="spherical"><parent link="rod_0"/><child link="table"/>
+                    <origin xyz="2 -1 3"/></joint>"#
+                ),
+                _ => format!(
+                    r#"<loop name="top_{index}" type="spherical"><predecessor link="rod_{index}"><origin xyz="2 -1 3"/>
+                    </predecessor><successor link="table"><origin xyz="{foot}"/></successor></loop>"#
+                ),
+            };
+        }
+        text += "</robot>";
+        let reading = kutzbach::format::read(&text, "table.urdf", &[]).unwrap();
+        let found = support::analysis(&reading.mechanism);
+        let branches: Vec<_> = found.branches.iter().flatten().collect();
+        let [branch] = &branches[..] else {
+            panic!("{feet:?}: {} branches", branches.len());
+        };
+        assert_eq!(branch.dimension, 2 + feet.len(), "{feet:?}");
+        assert_eq!(branch.instantaneous, Some(3 + feet.len()), "{feet:?}");
+        let idle: Vec<(&str, usize)> = branch
+            .idle
+            .iter()
+            .map(|idle| {
+                (
+                    reading.mechanism.links()[idle.link].name.as_str(),
+                    idle.freedom,
+                )
+            })
+            .collect();
+        let rods: Vec<String> = (0..feet.len()).map(|rod| format!("rod_{rod}")).collect();
+        let spinning: Vec<(&str, usize)> = rods.iter().map(|rod| (rod.as_str(), 1)).collect();
+        assert_eq!(idle, spinning, "{feet:?}");
+    }
+}

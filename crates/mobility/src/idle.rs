@@ -33,8 +33,8 @@ const NEARLY_ALL: f64 = 0.99;
 /// A unit tangent that moves everything else by less is nearly idle: a tenth of a millimetre on a decimetre.
 const NEARLY_AT_REST: f64 = 1e-3;
 
-/// The line through the centres of two balls is an axis of both, whatever the file's numbers: that what hangs between them spins is
-/// seen to rounding, of poses that are closed to rounding.
+/// The line through the centres of two balls is an axis of both, whatever the file's numbers: what hangs between them spins, exactly and
+/// at every pose. So it is seen to rounding, of poses that are closed to rounding.
 const COMPUTED_TO: f64 = 1e-9;
 
 /// Bodies of loops that can move alone at all of the poses, with the smallest freedom they have there, by link index.
@@ -549,7 +549,14 @@ fn idle_tangents(there: &LinkTwists, cluster: &Cluster, nearly: bool) -> Option<
             .iter()
             .filter(|value| **value > NEARLY_AT_REST)
             .count(),
-        false => limits.rank(&outside.values)?,
+        false => {
+            // That it spins is known; which tangent that is, is seen among those of a shaky pose, which is not closed to rounding.
+            let least = outside.values.iter().copied().fold(f64::INFINITY, f64::min);
+            let spin = usize::from(cluster.spins && least <= NEARLY_AT_REST);
+            let most = outside.values.len() - spin;
+            let rank = limits.rank(&outside.values);
+            rank.or((spin > 0).then_some(most))?.min(most)
+        }
     };
     // What is left moves nothing else; some of it may not even move the core, where a joint's own screws are dependent.
     let alone: Vec<Vec<f64>> = outside.combinations[moving..]
