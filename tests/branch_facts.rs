@@ -530,10 +530,9 @@ fn rods_of_a_table_spin_at_poses_that_are_shaky_all_along() {
                 <child link="rod_{index}"/><origin xyz="{foot}"/></joint>"#
             );
             text += &match index {
-                0 => format!(
-                    r#"<joint name="top_0" type="spherical"><parent link="rod_0"/><child link="table"/>
+                0 => r#"<joint name="top_0" type="spherical"><parent link="rod_0"/><child link="table"/>
                     <origin xyz="2 -1 3"/></joint>"#
-                ),
+                    .to_owned(),
                 _ => format!(
                     r#"<loop name="top_{index}" type="spherical"><predecessor link="rod_{index}"><origin xyz="2 -1 3"/>
                     </predecessor><successor link="table"><origin xyz="{foot}"/></successor></loop>"#
