@@ -152,7 +152,7 @@ fn two_hundred_random_four_bars_go_as_far_as_the_formulas_say() {
 fn limits_stop_four_bars_where_the_trace_stops() {
     let mut random = SplitMix64::new(57);
     let mut cases: Vec<([f64; 4], String)> = Vec::new();
-    while cases.len() < 60 {
+    while cases.len() < 80 {
         let lengths = [0; 4].map(|_| length(&mut random));
         let mut sorted = lengths;
         sorted.sort_by(f64::total_cmp);
@@ -166,11 +166,13 @@ fn limits_stop_four_bars_where_the_trace_stops() {
         for _ in 0..1 + random.next_u64() % 2 {
             let joint = ["A", "B", "D", "C"][(random.next_u64() % 4) as usize];
             let mut bound = || 0.05 + (random.next_u64() % 2000) as f64 / 1000.0;
-            let limit = format!(
-                " type='revolute'><limit lower='-{}' upper='{}'/>",
-                bound(),
-                bound()
-            );
+            let (lower, upper) = (bound(), bound());
+            // Of four limits one has no upper end.
+            let upper = match random.next_u64() % 4 {
+                0 => "1e308".to_owned(),
+                _ => upper.to_string(),
+            };
+            let limit = format!(" type='revolute'><limit lower='-{lower}' upper='{upper}'/>");
             text = text.replace(
                 &format!("name='{joint}' type='continuous'>"),
                 &format!("name='{joint}'{limit}"),

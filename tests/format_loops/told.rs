@@ -247,6 +247,42 @@ fn a_limit_without_bounds_is_told() {
 }
 
 #[test]
+fn a_bound_left_out_beside_the_other_is_0() {
+    let with = |version: &str, limit: &str| {
+        let text = bars("0 0 0", "").replacen("continuous", "revolute", 1);
+        let text = text.replacen("<robot", &format!("<robot version='{version}'"), 1);
+        let text = text.replacen("<axis", &format!("{limit}<axis"), 1);
+        let reading = read(&text, "f", &[]).unwrap();
+        let told = reading.warnings[0].message.clone();
+        (reading.mechanism.joints()[0].bounds().unwrap(), told)
+    };
+    let (least, most) = (f64::NEG_INFINITY, f64::INFINITY);
+    for (version, limit, bounds, told) in [
+        ("1.0", "upper='0.3'", (0.0, 0.3), "without `lower`: it is 0"),
+        ("1.1", "lower='-2'", (-2.0, 0.0), "without `upper`: it is 0"),
+        // 0 beside these would leave no range.
+        ("1.0", "upper='-0.3'", (least, -0.3), "with one bound only"),
+        ("1.0", "lower='0'", (0.0, most), "with one bound only"),
+        ("1.2", "upper='0.3'", (least, 0.3), "with one bound only"),
+        // Written as endless it is not left out.
+        ("1.0", "lower='-1e308' upper='0.3'", (least, 0.3), ""),
+    ] {
+        let limit = format!("<limit {limit} effort='1' velocity='1'/>");
+        if told.is_empty() {
+            let text = bars("0 0 0", "").replacen("continuous", "revolute", 1);
+            let text = text.replacen("<axis", &format!("{limit}<axis"), 1);
+            let reading = read(&text, "f", &[]).unwrap();
+            assert_eq!(reading.mechanism.joints()[0].bounds(), Some(bounds));
+            assert!(reading.warnings.is_empty(), "{:?}", reading.warnings);
+            continue;
+        }
+        let (read, message) = with(version, &limit);
+        assert_eq!(read, bounds, "{limit}");
+        assert!(message.contains(told), "{message}");
+    }
+}
+
+#[test]
 fn names_that_announce_a_loop_are_told_where_there_is_none() {
     let named = |name: &str| bars("0 0 0", "").replacen("'ab'", &format!("'{name}'"), 1);
     for name in ["closing_knee", "loop_1", "closed_loop_pin", "Knee_Closure"] {

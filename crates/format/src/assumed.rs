@@ -4,15 +4,15 @@
 //! - `1.57` in `rpy` is 1.57 rad, two decimals being what a designer writes; where loops have to close, π/2 may have been meant. Told of
 //!   two and three decimals, which no reading of constants recognises, and only where the file closes a loop.
 //! - `90` in `rpy` is 90 rad: a whole number beyond a full turn was meant in degrees.
-//! - A `<limit>` without bounds is 0…0 in URDF, by which the joint could not move.
+//! - A `<limit>` without bounds is 0…0 in URDF, by which the joint could not move; one bound left out beside the other is 0.
 //! - A joint that is named as if it closed a loop, in a file that closes none: some exporters leave the loop to other tools.
 
 use super::WarningKind;
-use super::element::Attribute;
+use super::element::{Attribute, Element};
 use super::reader::Reader;
 use super::words::listed;
 use kutzbach_math::number::Number;
-use kutzbach_model::mechanism::{Direction, JointKind};
+use kutzbach_model::mechanism::{Direction, JointKind, Limit};
 use std::f64::consts::{FRAC_PI_4, TAU};
 
 /// What joints are without, and which ones.
@@ -21,6 +21,9 @@ pub(super) struct Assumed<'a> {
     no_axis: Vec<(usize, &'a str)>,
     no_axis2: Vec<(usize, &'a str)>,
     no_bounds: Vec<(usize, &'a str)>,
+    no_lower: Vec<(usize, &'a str)>,
+    no_upper: Vec<(usize, &'a str)>,
+    one_bound: Vec<(usize, &'a str)>,
     /// Angles that look like others: where they stand, what is written, and what it looks like.
     angles: Vec<(usize, String, &'static str)>,
     /// Angles that look like degrees.
@@ -57,9 +60,25 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Notes a joint whose `<limit>` has no bounds.
-    pub(super) fn note_no_bounds(&mut self, at: usize, name: &'a str) {
-        self.assumed.no_bounds.push((at, name));
+    /// What a `<limit>` of URDF leaves out: a bound is 0 beside the other one, as URDF says before version 1.2, where that leaves a
+    /// range; of two that are left out, 0…0 would lock the joint, and it counts as free. Both are noted.
+    pub(super) fn assume_bounds(&mut self, element: Element<'a>, name: &'a str, limit: &mut Limit) {
+        let noted = (element.start(), name);
+        let stated = ["lower", "upper"].map(|bound| element.has_any(&[bound]));
+        let before_1_2 = self.version() < (1, 2);
+        match (stated, &limit.lower, &limit.upper) {
+            ([false, false], ..) => self.assumed.no_bounds.push(noted),
+            ([true, false], Some(lower), None) if before_1_2 && lower.value() < 0.0 => {
+                limit.upper = Some(Number::zero());
+                self.assumed.no_upper.push(noted);
+            }
+            ([false, true], None, Some(upper)) if before_1_2 && upper.value() > 0.0 => {
+                limit.lower = Some(Number::zero());
+                self.assumed.no_lower.push(noted);
+            }
+            ([true, false] | [false, true], ..) => self.assumed.one_bound.push(noted),
+            ([true, true], ..) => {}
+        }
     }
 
     /// Notes what in the attribute `rpy` of a joint looks like a rounded angle.
@@ -92,6 +111,14 @@ impl<'a> Reader<'a> {
         };
         self.tell_of(&assumed.no_bounds, |names, has| {
             format!("{names} {has} a <limit> without `lower` and `upper`, {bounds}, here each counts as free")
+        });
+        for (joints, left_out) in [(&assumed.no_lower, "lower"), (&assumed.no_upper, "upper")] {
+            self.tell_of(joints, |names, has| {
+                format!("{names} {has} a <limit> without `{left_out}`: it is 0, as URDF says; some readers take no limit on that side")
+            });
+        }
+        self.tell_of(&assumed.one_bound, |names, has| {
+            format!("{names} {has} a <limit> with one bound only: the other side is free, where some readers take 0")
         });
         for (at, written, meant) in assumed.angles.into_iter().filter(|_| closes && !literal) {
             let message = format!(

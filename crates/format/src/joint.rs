@@ -352,11 +352,9 @@ impl<'a> Reader<'a> {
                     return Err(useless(part, word));
                 }
                 "limit" if kind.freedom() == 1 => {
-                    let limit = self.read_limit(part, word)?;
-                    let unbounded = limit.lower.is_none() && limit.upper.is_none();
-                    let is_urdf = matches!(word, "revolute" | "prismatic");
-                    if unbounded && !part.has_any(&["lower", "upper"]) && is_urdf {
-                        self.note_no_bounds(part.start(), name);
+                    let mut limit = self.read_limit(part, word)?;
+                    if matches!(word, "revolute" | "prismatic") {
+                        self.assume_bounds(part, name, &mut limit);
                     }
                     builder = builder.limit(limit);
                 }

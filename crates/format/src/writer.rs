@@ -245,8 +245,15 @@ impl Writer<'_> {
             );
         }
         if let Some(limit) = joint.limit.as_ref().filter(|_| joint.freedom() == 1) {
-            let attributes = style.optional("lower", limit.lower.as_ref())
-                + &style.optional("upper", limit.upper.as_ref())
+            // One bound left out beside the other would be read as 0.
+            let bound = |name, bound: Option<&Number>, other: Option<&Number>, endless| match bound
+            {
+                None if other.is_some() => pair(name, endless),
+                _ => style.optional(name, bound),
+            };
+            let (lower, upper) = (limit.lower.as_ref(), limit.upper.as_ref());
+            let attributes = bound("lower", lower, upper, "-1e308")
+                + &bound("upper", upper, lower, "1e308")
                 + &style.optional("effort", limit.effort.as_ref())
                 + &style.optional("velocity", limit.velocity.as_ref());
             self.line(2, &format!("<limit{attributes}/>"));

@@ -58,12 +58,11 @@ pub(super) fn within_limits(
         return None;
     }
     let sides = [1, -1].map(|way| plane.follow(&start, way));
-    let stopped_by: Vec<usize> = sides.iter().filter_map(|(_, stop)| *stop).collect();
-    if stopped_by.is_empty() {
+    // A way that no limit ends passes every pose of the circuit, whatever ends the other: a limit on one side only.
+    let [(there, Some(first)), (back, Some(last))] = sides else {
         return None;
-    }
+    };
     // From one end to the other.
-    let [there, back] = sides.map(|(way, _)| way);
     let poses: Vec<At> = back
         .into_iter()
         .rev()
@@ -75,10 +74,9 @@ pub(super) fn within_limits(
         let between = (at.angles[2] - at.angles[1]).rem_euclid(TAU);
         between.min(TAU - between)
     });
-    let mut names: Vec<String> = stopped_by
-        .iter()
-        .map(|&i| mechanism.joints()[pins[i].joint].name.clone())
-        .collect();
+    let mut names: Vec<String> = [first, last]
+        .map(|i| mechanism.joints()[pins[i].joint].name.clone())
+        .to_vec();
     names.dedup();
     Some(Reach {
         input: to_either_side(input),
