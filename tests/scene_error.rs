@@ -9,16 +9,20 @@ use kutzbach::simulate::{
 };
 use std::ops::ControlFlow;
 
-/// The joint variables at the last moment.
+/// The joint variables at the last moment, and the time of each moment of each passage.
 #[derive(Default)]
-struct Last(Vec<f64>);
+struct Last(Vec<f64>, Vec<Vec<f64>>);
 
 impl Observer for Last {
     fn begin(&mut self, _: &Passage) -> ControlFlow<()> {
+        self.1.push(Vec::new());
         ControlFlow::Continue(())
     }
 
     fn moment(&mut self, moment: &Moment<'_>) -> ControlFlow<()> {
+        if let Some(times) = self.1.last_mut() {
+            times.push(moment.time);
+        }
         self.0 = moment
             .states
             .iter()
@@ -77,6 +81,14 @@ fn run(
         &mut last,
     )
     .unwrap();
+    // The run that is told of is shown, once and to its end, and no other.
+    assert_eq!(last.1.len(), 1);
+    assert!((last.1[0].last().unwrap() - run.time).abs() <= 1e-12 * run.time);
+    assert_eq!(run.time_step, trajectory.rows[trajectory.used].time_step);
+    assert_eq!(
+        trajectory.error().is_none(),
+        trajectory.not_estimated.is_some()
+    );
     (run, trajectory, last.0)
 }
 
@@ -141,4 +153,12 @@ fn an_error_that_costs_too_much_is_told_with_its_price() {
     assert_eq!(trajectory.reached, Some(false));
     assert!(trajectory.needed.unwrap() > 60.0, "{trajectory:?}");
     assert_eq!(trajectory.used, trajectory.rows.len() - 1);
+}
+
+#[test]
+fn where_there_is_no_estimate_a_reason_is_given() {
+    let mechanism = chain(&[1.5, 0.75]);
+    let (_, trajectory, _) = run(&mechanism, (0.5, 1.0 / 240.0, 4), (None, 1e-9));
+    assert_eq!(trajectory.error(), None);
+    assert!(trajectory.not_estimated.unwrap().contains("too long"));
 }

@@ -53,6 +53,7 @@ mod scene_run;
 #[cfg(feature = "logs")]
 mod simulation_log;
 mod solids;
+mod trail;
 mod trajectory;
 mod units;
 mod velocities;

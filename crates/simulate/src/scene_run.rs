@@ -129,7 +129,7 @@ pub fn run_scene(
         options,
         Paces::of(options),
         observer,
-        &mut |_| (),
+        &mut |_, _| (),
     )
 }
 
@@ -149,6 +149,25 @@ impl Paces {
     }
 }
 
+/// A scene as it is announced.
+pub(super) fn passage_of(mechanism: &Mechanism, options: &SceneOptions) -> Passage {
+    let effects = effect_names(&options.world.effects).join(", ");
+    Passage {
+        title: if effects.is_empty() {
+            "scene without effects".to_owned()
+        } else {
+            format!("scene with {effects}")
+        },
+        branch: String::new(),
+        driven: options
+            .drives
+            .first()
+            .map(|drive| Variable::of(mechanism, drive.joint, drive.freedom)),
+        substeps: options.world.substeps,
+        duration: options.duration,
+    }
+}
+
 /// [`run_scene`] in given paces; `look` sees the world at each moment.
 pub(super) fn run_in(
     mechanism: &Mechanism,
@@ -157,7 +176,7 @@ pub(super) fn run_in(
     options: &SceneOptions,
     Paces { steps, every }: Paces,
     observer: &mut dyn Observer,
-    look: &mut dyn FnMut(&World),
+    look: &mut dyn FnMut(&World, &Moment<'_>),
 ) -> Result<SceneRun, WorldError> {
     if !(options.duration >= 0.0 && options.duration.is_finite()) {
         return Err(WorldError::Options(format!(
@@ -192,22 +211,7 @@ pub(super) fn run_in(
         wall_time: 0.0,
         step_time: 0.0,
     };
-    let effects = run.effects.join(", ");
-    let passage = Passage {
-        title: if effects.is_empty() {
-            "scene without effects".to_owned()
-        } else {
-            format!("scene with {effects}")
-        },
-        branch: String::new(),
-        driven: options
-            .drives
-            .first()
-            .map(|drive| Variable::of(mechanism, drive.joint, drive.freedom)),
-        substeps: options.world.substeps,
-        duration: options.duration,
-    };
-    let mut stopped = observer.begin(&passage).is_break();
+    let mut stopped = observer.begin(&passage_of(mechanism, options)).is_break();
     let mut states = start.to_vec();
     for step in 1..=steps {
         if stopped {
@@ -232,7 +236,6 @@ pub(super) fn run_in(
         if step % every != 0 && step != steps {
             continue;
         }
-        look(&world);
         let kinetic = world.energy().kinetic;
         run.largest_kinetic_energy = run.largest_kinetic_energy.max(kinetic);
         let gaps = world.gaps();
@@ -241,18 +244,19 @@ pub(super) fn run_in(
         if !(closure_error <= run.closure_error) {
             run.closure_error = closure_error;
         }
-        stopped = observer
-            .moment(&Moment {
-                time: world.time(),
-                done: step as f64 / steps as f64,
-                simulated: &world.link_poses(),
-                states: &states,
-                predicted: None,
-                gaps: &gaps,
-                closure_error,
-                distance: 0.0,
-            })
-            .is_break();
+        let poses = world.link_poses();
+        let moment = Moment {
+            time: world.time(),
+            done: step as f64 / steps as f64,
+            simulated: &poses,
+            states: &states,
+            predicted: None,
+            gaps: &gaps,
+            closure_error,
+            distance: 0.0,
+        };
+        look(&world, &moment);
+        stopped = observer.moment(&moment).is_break();
     }
     let last = world.energy();
     run.kinetic_energy = last.kinetic;

@@ -10,10 +10,11 @@
 //! the greatest. It is an estimate and no bound: where steps are so long that the first term does not lead, it may be off by a factor.
 
 use super::accuracy::work_of_setting;
-use super::scene_run::{Paces, run_in};
-use super::verification::{Moment, Observer, Passage, distance_between};
-use super::{SceneOptions, SceneRun, World, WorldError, WorldOptions};
-use kutzbach_closure::{Geometry, JointState, Rigid};
+use super::scene_run::{Paces, passage_of, run_in};
+use super::trail::Trail;
+use super::verification::{Moment, Observer, Passage};
+use super::{SceneOptions, SceneRun, WorldError, WorldOptions};
+use kutzbach_closure::{Geometry, JointState};
 use kutzbach_model::mechanism::Mechanism;
 use serde::Serialize;
 use std::ops::ControlFlow;
@@ -96,7 +97,8 @@ pub struct Refinement {
 }
 
 /// Runs a scene from a closed pose, at rest, and estimates how far its motion is off: with one more run in half the step, or, where an
-/// error is wanted, with steps halved until it is reached or the work is done. The run that is told of is shown to the observer.
+/// error is wanted, with steps halved until it is reached or the work is done. The observer is shown the run that is told of: while it
+/// goes on where it is known to be that, and else when it is chosen. No run is made twice.
 ///
 /// # Errors
 /// As [`run_scene`](super::run_scene).
@@ -126,24 +128,35 @@ pub fn run_scene_estimated(
         needed: None,
         not_estimated: None,
     };
-    let mut trails: Vec<Trail> = Vec::new();
+    // The two finest: no other can come to be told of.
+    let mut finest: Vec<(SceneRun, Trail)> = Vec::new();
     let mut differences: Vec<TrajectoryError> = Vec::new();
     let mut left = refinement.work;
+    // Without an error wanted the first run is told of, so that it is shown while it goes on; else the trail that is chosen is.
+    let at_once = refinement.wanted.is_none();
     for halvings in 0..MOST_HALVINGS {
         let work = each * f64::from(1 << halvings);
-        // The run that is told of is run once more, for whoever watches.
-        if halvings > 0 && work * 2.0 > left {
+        if halvings > 0 && work > left {
             break;
         }
         left -= work;
-        let Some((row, trail)) = scene.quietly(halvings, interrupted)? else {
-            break;
+        let mut quiet = Quiet(interrupted);
+        let watching: &mut dyn Observer = match at_once && halvings == 0 {
+            true => &mut *observer,
+            false => &mut quiet,
         };
-        if let Some(before) = trails.last() {
-            differences.push(trail.apart(before, &scene));
+        let (run, trail) = scene.run(halvings, watching)?;
+        if interrupted() && halvings > 0 {
+            break;
         }
-        trajectory.rows.push(row);
-        trails.push(trail);
+        if let Some((_, before)) = finest.last() {
+            differences.push(trail.apart(before, mechanism, geometry));
+        }
+        trajectory.rows.push(StepRow::of(&run));
+        if finest.len() == 2 {
+            finest.remove(0);
+        }
+        finest.push((run, trail));
         estimate(&mut trajectory.rows, &differences);
         let enough = match refinement.wanted {
             None => halvings == 1,
@@ -152,12 +165,17 @@ pub fn run_scene_estimated(
                 .last()
                 .is_some_and(|row| row.is_within(wanted)),
         };
-        if enough {
+        if enough || interrupted() {
             break;
         }
     }
     trajectory.conclude(each);
-    let run = scene.shown(trajectory.used as u32, observer)?;
+    let from_last = trajectory.rows.len() - 1 - trajectory.used;
+    let told = finest.into_iter().rev().nth(from_last);
+    let (run, trail) = told.ok_or_else(|| WorldError::Options("no run was made".to_owned()))?;
+    if !at_once {
+        trail.show(&passage_of(mechanism, options), observer);
+    }
     Ok((run, trajectory))
 }
 
@@ -184,6 +202,17 @@ fn estimate(rows: &mut [StepRow], differences: &[TrajectoryError]) {
 }
 
 impl StepRow {
+    fn of(run: &SceneRun) -> Self {
+        Self {
+            time_step: run.time_step,
+            error: None,
+            order: None,
+            energy_change: run.energy_change,
+            closure_error: run.closure_error,
+            step_time: run.step_time,
+        }
+    }
+
     fn is_within(&self, wanted: f64) -> bool {
         let off = self.error.as_ref().map(TrajectoryError::largest);
         off.is_some_and(|off| off <= wanted) && self.closure_error <= wanted
@@ -193,12 +222,18 @@ impl StepRow {
 impl Trajectory {
     /// Which run is told of, and what the error wanted would cost.
     fn conclude(&mut self, each: f64) {
-        let Some(wanted) = self.wanted else {
-            if self.rows.len() < 2 {
-                self.not_estimated = Some("a second run would take too long".to_owned());
-            }
-            return;
-        };
+        if let Some(wanted) = self.wanted {
+            self.choose(wanted, each);
+        }
+        if self.error().is_none() {
+            self.not_estimated = Some(match self.rows.len() {
+                0 | 1 => "a second run would take too long".to_owned(),
+                _ => "the runs in halved steps do not approach one another".to_owned(),
+            });
+        }
+    }
+
+    fn choose(&mut self, wanted: f64, each: f64) {
         let within = |row: &StepRow| row.is_within(wanted);
         let last = self.rows.len().saturating_sub(1);
         self.used = self.rows.iter().position(within).unwrap_or(last);
@@ -211,12 +246,6 @@ impl Trajectory {
             let order = row.order.unwrap_or(1.0).clamp(CONVERGES, HIGHEST);
             let shorter = (error.largest().max(row.closure_error) / wanted).powf(1.0 / order);
             self.needed = Some(each * f64::from(1 << self.used) * shorter.max(1.0));
-        }
-        if used.is_none_or(|row| row.error.is_none()) {
-            self.not_estimated = Some(match self.rows.len() {
-                0 | 1 => "a second run would take too long".to_owned(),
-                _ => "the runs in halved steps do not approach one another".to_owned(),
-            });
         }
     }
 
@@ -234,13 +263,6 @@ struct Halving<'a> {
     start: &'a [JointState<f64>],
     options: &'a SceneOptions,
     first: Paces,
-}
-
-/// Poses and twists of all links at the moments shown.
-struct Trail {
-    poses: Vec<Vec<Rigid<f64>>>,
-    twists: Vec<Vec<[f64; 6]>>,
-    length: f64,
 }
 
 impl Halving<'_> {
@@ -261,112 +283,25 @@ impl Halving<'_> {
         (options, paces)
     }
 
-    /// A run that is not shown; `None` where it was broken off.
-    fn quietly(
+    /// A run, and what was to be seen of it.
+    fn run(
         &self,
         halvings: u32,
-        interrupted: &dyn Fn() -> bool,
-    ) -> Result<Option<(StepRow, Trail)>, WorldError> {
+        observer: &mut dyn Observer,
+    ) -> Result<(SceneRun, Trail), WorldError> {
         let (options, paces) = self.of(halvings);
-        let mut trail = Trail {
-            poses: Vec::new(),
-            twists: Vec::new(),
-            length: 1.0,
-        };
-        let mut quiet = Quiet(interrupted);
-        let look = &mut |world: &World| {
-            trail.poses.push(world.link_poses());
-            trail.twists.push(world.link_twists());
-            trail.length = world.scale().0;
-        };
+        let mut trail = Trail::default();
         let run = run_in(
             self.mechanism,
             self.geometry,
             self.start,
             &options,
             paces,
-            &mut quiet,
-            look,
-        )?;
-        let row = StepRow {
-            time_step: options.world.time_step,
-            error: None,
-            order: None,
-            energy_change: run.energy_change,
-            closure_error: run.closure_error,
-            step_time: run.step_time,
-        };
-        Ok((!interrupted()).then_some((row, trail)))
-    }
-
-    /// A run for whoever watches.
-    fn shown(&self, halvings: u32, observer: &mut dyn Observer) -> Result<SceneRun, WorldError> {
-        let (options, paces) = self.of(halvings);
-        run_in(
-            self.mechanism,
-            self.geometry,
-            self.start,
-            &options,
-            paces,
             observer,
-            &mut |_| (),
-        )
+            &mut |world, moment| trail.keep(world, moment),
+        )?;
+        Ok((run, trail))
     }
-}
-
-impl Trail {
-    /// The largest differences from a coarser run; infinite where one ended before the other.
-    fn apart(&self, coarse: &Self, scene: &Halving<'_>) -> TrajectoryError {
-        if self.poses.len() != coarse.poses.len() {
-            return TrajectoryError {
-                worst: f64::INFINITY,
-                end: f64::INFINITY,
-                speed: f64::INFINITY,
-            };
-        }
-        let pairs = self.poses.iter().zip(&coarse.poses);
-        let apart: Vec<f64> = pairs
-            .map(|(fine, coarse)| {
-                distance_between(scene.mechanism, scene.geometry, fine, coarse, self.length)
-            })
-            .collect();
-        let greatest = |less: Option<&Self>| {
-            let mut most = 0.0f64;
-            for (moment, poses) in self.poses.iter().enumerate() {
-                for link in 0..poses.len() {
-                    let own = self.speeds(moment, link);
-                    let less = less.map_or([0.0; 6], |less| less.speeds(moment, link));
-                    let apart: [f64; 6] = std::array::from_fn(|i| own[i] - less[i]);
-                    let (turning, sliding) = apart.split_at(3);
-                    most = most.max(norm(turning)).max(norm(sliding));
-                }
-            }
-            most
-        };
-        let (fastest, changed) = (greatest(None), greatest(Some(coarse)));
-        TrajectoryError {
-            worst: apart.iter().copied().fold(0.0, f64::max),
-            end: apart.last().copied().unwrap_or(0.0),
-            speed: if changed > 0.0 {
-                changed / fastest
-            } else {
-                0.0
-            },
-        }
-    }
-
-    /// Angular velocity (rad/s) and velocity of the link's own origin (characteristic lengths per second).
-    fn speeds(&self, moment: usize, link: usize) -> [f64; 6] {
-        let [a, b, c, u, v, w] = self.twists[moment][link];
-        let [x, y, z] = self.poses[moment][link].translation;
-        let own = [u + b * z - c * y, v + c * x - a * z, w + a * y - b * x];
-        let [u, v, w] = own.map(|speed| speed / self.length);
-        [a, b, c, u, v, w]
-    }
-}
-
-fn norm(vector: &[f64]) -> f64 {
-    vector.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// Shows nothing, and asks whether to go on.

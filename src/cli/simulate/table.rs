@@ -384,7 +384,8 @@ fn trajectory_page(run: &SceneRun, trajectory: &Trajectory, page: &mut Page) {
     };
     if trajectory.reached == Some(true) {
         let text = format!(
-            "the steps were chosen by that: with them the scene stays within {wanted:.1e}, and takes {} for a simulated second",
+            "the steps were chosen by that estimate, which is no bound: the scene stays within {wanted:.1e} by it, and takes {} for a simulated \
+             second",
             seconds(run.step_time / run.time.max(f64::MIN_POSITIVE))
         );
         page.item(&text, Tint::Plain);
