@@ -367,6 +367,70 @@ fn incidence_trees_are_shown_in_every_form() {
     assert!(said.contains("no incidence tree"), "{said}");
 }
 
+/// Two tetrahedra in two pieces each: three whole ones have ten configurations, with one of the three mirrored sixteen, and a reflection turns
+/// two mirrored into one.
+#[test]
+fn bodies_in_pieces_are_put_together_first() {
+    let file = "tests/incidence/bodies_in_pieces.urdf";
+    let answer = json(&[file]);
+    assert_eq!(answer["solutions"].as_array().unwrap().len(), 10 + 3 * 16);
+    assert_eq!(answer["complete"], "proven");
+    let parts = answer["system"]["parts"].as_array().unwrap();
+    let weights = parts
+        .iter()
+        .map(|p| (p["weight"].as_u64(), p["ways"].as_u64()));
+    assert_eq!(weights.collect::<Vec<_>>(), [(Some(1), Some(2)); 2]);
+    assert_eq!(answer["system"]["tree"]["weight"], 3);
+    let shown = kutzbach(&["graph", file, "--incidence"]);
+    let shown = String::from_utf8(shown.stdout).unwrap();
+    assert!(shown.contains("put together first, into {"), "{shown}");
+}
+
+/// Example 2 of Sitharam, Zhou and Peters: trees of weight 7 and 5 over four bodies, where three leave 4.
+#[test]
+fn incidence_trees_can_be_asked_for() {
+    let file = "tests/incidence/four_in_a_ring.urdf";
+    let shown = |more: &[&str]| {
+        let mut all = vec!["graph", file, "--incidence"];
+        all.extend(more);
+        let output = kutzbach(&all);
+        assert!(output.status.success(), "{output:?}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let four = [
+        "--cover", "a", "--cover", "b", "--cover", "c", "--cover", "d",
+    ];
+    let lightest = shown(&four);
+    let said = "Incidence tree of weight 5 (as asked for; 4 is the least of 7 covering sets)";
+    assert!(lightest.contains(said), "{lightest}");
+    let heavier = shown(&["--place", "a=d", "--place", "d=c", "--place", "b=c"]);
+    assert!(
+        heavier.contains("Incidence tree of weight 7 (as asked"),
+        "{heavier}"
+    );
+    let all = shown(&["--covers"]);
+    let counts = all
+        .lines()
+        .filter_map(|line| line.trim().strip_prefix("weight "));
+    let counts: Vec<&str> = counts.collect();
+    // Any three, all four, and the two pairs that share nothing.
+    assert_eq!(counts, ["4: 4", "5: 1", "6: 2"]);
+    let refusals: [(&[&str], &str); 3] = [
+        (&["--cover", "a"], "do not have all points"),
+        (
+            &["--place", "a=b", "--place", "a=d"],
+            "`a` would be placed twice",
+        ),
+        (&["--place", "a=x"], "is not of the form CHILD=PARENT"),
+    ];
+    for (more, sentence) in refusals {
+        let mut all = vec!["graph", file, "--incidence"];
+        all.extend(more);
+        let said = refused(&all);
+        assert!(said.contains(sentence), "{said}");
+    }
+}
+
 /// A planar four-bar and Bennett's loop would be rigid with generic dimensions; nothing is implied of what they are.
 #[test]
 fn incidence_trees_imply_no_bodies_that_move() {

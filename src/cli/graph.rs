@@ -35,6 +35,20 @@ pub struct Arguments {
     /// Show which bodies are best placed by which others: the incidence tree, as text, dot or svg
     #[arg(long)]
     incidence: bool,
+    /// With `--incidence`: the lightest tree of the covering set of these bodies, in place of the lightest of all; may be repeated
+    #[arg(
+        long,
+        value_name = "BODY",
+        requires = "incidence",
+        conflicts_with = "place"
+    )]
+    cover: Vec<String>,
+    /// With `--incidence`: the tree in which CHILD is placed by PARENT, in place of the lightest; may be repeated
+    #[arg(long, value_name = "CHILD=PARENT", requires = "incidence")]
+    place: Vec<String>,
+    /// With `--incidence`: list the covering sets by the weights of their lightest trees
+    #[arg(long, requires = "incidence")]
+    covers: bool,
     /// Show which equations to ask for of bodies whose data contradict one another a little: the seam graph and a well-formed selection
     /// in it, as text, dot or svg
     #[arg(long, conflicts_with_all = ["incidence", "constructive"])]
@@ -124,11 +138,19 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
 
 /// The incidence tree of the bodies that share points.
 fn incidence(arguments: &Arguments, mechanism: &Mechanism) -> Result<u8, Failure> {
-    let found = words::IncidenceWords::of(mechanism).map_err(no_tree)?;
-    let text = match arguments.format {
-        Format::Text => harmless(&found.text()),
-        Format::Json => output::json(&found.data())?,
-        Format::Dot | Format::Svg => match found.graph() {
+    let mut found = words::IncidenceWords::of(mechanism).map_err(no_tree)?;
+    if !arguments.cover.is_empty() {
+        found = found.on_cover(&arguments.cover).map_err(no_such_tree)?;
+    }
+    if !arguments.place.is_empty() {
+        found = found.along(&arguments.place).map_err(no_such_tree)?;
+    }
+    let text = match (arguments.format, arguments.covers) {
+        (Format::Text, true) => harmless(&format!("{}{}", found.text(), found.covers_text())),
+        (Format::Text, false) => harmless(&found.text()),
+        (Format::Json, true) => output::json(&found.data_with_covers())?,
+        (Format::Json, false) => output::json(&found.data())?,
+        (Format::Dot | Format::Svg, _) => match found.graph() {
             None => harmless(&found.text()),
             Some(graph) => {
                 let tree = SpanningTree::root_at(&graph, found.root());
@@ -145,6 +167,13 @@ fn incidence(arguments: &Arguments, mechanism: &Mechanism) -> Result<u8, Failure
     };
     arguments.destination.put(&text)?;
     Ok(DONE)
+}
+
+fn no_such_tree(message: String) -> Failure {
+    Failure::Plain {
+        message,
+        help: Some("`graph FILE --incidence` lists the bodies".to_owned()),
+    }
 }
 
 fn no_tree(why: Unsuited) -> Failure {

@@ -9,11 +9,13 @@
 //! J. Symbolic Computation (2010), sections 3 and 4; M. Sitharam, Y. Zhou, J. Peters, "Reconciling conflicting
 //! combinatorial preprocessors for geometric constraint systems" (2010), section 2.
 
+mod parts;
 mod rigid;
 #[cfg(test)]
 pub(crate) mod samples;
 mod standard;
 
+pub use parts::{RigidPart, rigid_parts};
 pub use rigid::rigid_sets;
 pub use standard::{Origin, Standard, standard, with_triangles};
 

@@ -1,7 +1,7 @@
 //! Configurations by the equations of an incidence tree.
 
-use super::exact::decide;
-use super::{Complete, Configuration, Modes, Way, place, rounded};
+use super::exact::{decide, decide_with};
+use super::{Complete, Configuration, Modes, Part, Way, by_parts, extreme, place, rounded};
 use crate::placed::{Placed, Slack, Unsuited};
 use crate::real::{RealSolutions, real_solutions, real_solutions_within};
 use crate::reduced::ReducedSystem;
@@ -24,7 +24,7 @@ const MOST_BOXES: u64 = 4_000_000;
 const SHARE: f64 = 0.5;
 
 /// Systems of more unknowns than this are not searched: every one more costs ten times as much.
-const MOST_UNKNOWNS: usize = 6;
+pub(super) const MOST_UNKNOWNS: usize = 6;
 
 /// Of a mechanism whose numbers are known so far.
 pub(super) fn answer(mechanism: &Mechanism, slack: &Slack, budget: &Budget) -> Outcome {
@@ -67,13 +67,28 @@ pub(super) fn answer(mechanism: &Mechanism, slack: &Slack, budget: &Budget) -> O
         Ok(system) => system,
         Err(why) => return Outcome::NotByTree(why.to_string()),
     };
+    let part = || {
+        Budget::new(Limits {
+            time: budget.left().map(|t| t.mul_f64(SHARE)),
+            work: Some(MOST_BOXES),
+            ..budget.limits().clone()
+        })
+    };
+    if slack.share == 0.0
+        && let Some(found) = by_parts::answer(&placed, system.freedom(), &part())
+    {
+        let modes = of_parts(mechanism, &placed, found);
+        if is_finite(&modes) {
+            return Outcome::Modes(Box::new(modes), false);
+        }
+    }
     if system.freedom() > MOST_UNKNOWNS {
         return Outcome::NotByTree(format!(
             "the incidence tree leaves {} unknowns",
             system.freedom()
         ));
     }
-    let mut modes = Modes::new(way(&system));
+    let mut modes = Modes::new(way(&system, Vec::new()));
     if system.impossible.is_some() {
         return Outcome::Modes(Box::new(modes), false);
     }
@@ -83,20 +98,9 @@ pub(super) fn answer(mechanism: &Mechanism, slack: &Slack, budget: &Budget) -> O
             Complete::Unknown(too_few_equations(system.closures.len(), system.freedom()));
         return Outcome::Modes(Box::new(modes), false);
     }
-    let part = || {
-        Budget::new(Limits {
-            time: budget.left().map(|t| t.mul_f64(SHARE)),
-            work: Some(MOST_BOXES),
-            ..budget.limits().clone()
-        })
-    };
-    let configuration = |unknowns: &[f64], multiplicity: usize, proven: bool| Configuration {
-        joints: Vec::new(),
-        poses: place::link_poses(mechanism, &placed, &system.points_at(unknowns)),
-        multiplicity: Some(multiplicity),
-        proven,
-        finite: proven.then_some(0),
-        drawn: false,
+    let configuration = |unknowns: &[f64], multiplicity: usize, proven: bool| {
+        let points = system.points_at(unknowns);
+        placed_at(mechanism, &placed, &points, multiplicity, proven)
     };
     // A joint within one body that closes as it is written need not with other digits.
     let loose = placed.redundant && slack.share > 0.0;
@@ -146,11 +150,27 @@ pub(super) fn answer(mechanism: &Mechanism, slack: &Slack, budget: &Budget) -> O
     if found.is_complete() {
         return Outcome::Modes(Box::new(modes), false);
     }
-    match decide(&system, budget) {
+    // What is isolated over the reals alone is found by what it is an extreme of.
+    let extremes = match slack.share > 0.0 {
+        true => Vec::new(),
+        false => extreme::equations(&system, &part()),
+    };
+    let (decided, real_only) = match extremes.is_empty() {
+        true => (decide(&system, budget), false),
+        false => match decide(&system, &part()) {
+            Ok(RealSet::Unclear) | Err(_) => (decide_with(&system, &extremes, budget), true),
+            decided => (decided, false),
+        },
+    };
+    match decided {
         Ok(RealSet::Finite { real: all, .. }) => {
             modes.configurations = all
                 .iter()
-                .map(|(u, m)| configuration(u, *m, true))
+                .map(|(u, m)| Configuration {
+                    // Of infinitely many complex solutions none is counted.
+                    multiplicity: (!real_only).then_some(*m),
+                    ..configuration(u, *m, true)
+                })
                 .collect();
             modes.open = 0;
             if let Way::Tree { exact, .. } = &mut modes.way {
@@ -220,10 +240,41 @@ fn too_few_equations(equations: usize, unknowns: usize) -> String {
     )
 }
 
-fn way(system: &ReducedSystem) -> Way {
+/// An answer by parts.
+fn of_parts(mechanism: &Mechanism, placed: &Placed, found: by_parts::Found) -> Modes {
+    let places = found.places.iter();
+    let configurations = places.map(|place| placed_at(mechanism, placed, &place.points, 1, true));
+    let mut modes = Modes {
+        configurations: configurations.collect(),
+        ..Modes::new(way(&found.system, found.parts))
+    };
+    set_boxes(&mut modes, found.boxes);
+    modes
+}
+
+/// The configuration with all points at these places (m).
+fn placed_at(
+    mechanism: &Mechanism,
+    placed: &Placed,
+    points: &[Option<[f64; 3]>],
+    multiplicity: usize,
+    proven: bool,
+) -> Configuration {
+    Configuration {
+        joints: Vec::new(),
+        poses: place::link_poses(mechanism, placed, points),
+        multiplicity: Some(multiplicity),
+        proven,
+        finite: proven.then_some(0),
+        drawn: false,
+    }
+}
+
+fn way(system: &ReducedSystem, parts: Vec<Part>) -> Way {
     let name = |body: usize| system.collection.bodies()[body].name.clone();
     let edges = system.tree.edges.iter();
     Way::Tree {
+        parts,
         weight: system.tree.weight,
         root: name(system.tree.root),
         edges: edges

@@ -1,13 +1,29 @@
 //! Exact algebra on the equations of a tree.
 
-use crate::reduced::ReducedSystem;
-use kutzbach_algebra::{Budget, RealSet, Stop};
+use crate::reduced::{Poly, ReducedSystem};
+use kutzbach_algebra::{Budget, OverRationals, RealSet, Stop};
 
 /// Decides on a system.
 pub(super) fn decide(system: &ReducedSystem, budget: &Budget) -> Result<RealSet, Stop> {
-    let exported = system.exported();
     let canonical = |unknowns: &[f64]| canonical(system, unknowns);
-    exported.system.real_set(canonical, budget)
+    system.exported().system.real_set(canonical, budget)
+}
+
+/// Decides on a system of which more equations are known to hold at all real solutions.
+pub(super) fn decide_with(
+    system: &ReducedSystem,
+    more: &[Poly],
+    budget: &Budget,
+) -> Result<RealSet, Stop> {
+    let canonical = |unknowns: &[f64]| canonical(system, unknowns);
+    let closures = system.closures.iter().map(|c| c.polynomial.clone());
+    let relations = system.unknowns.iter().map(|u| u.relation(&system.field));
+    let all: Vec<Poly> = closures
+        .chain(relations)
+        .chain(more.iter().cloned())
+        .collect();
+    let over = OverRationals::new(&all, system.unknown_count(), &system.field);
+    over.real_set(canonical, budget)
 }
 
 /// Of the two quaternions of a rotation the one whose first component that is not zero is positive.

@@ -13,16 +13,19 @@
 //! says of itself.
 
 mod by_construction;
+mod by_parts;
 mod by_polynomials;
 mod by_tree;
 mod closing;
 mod drawn;
 mod exact;
+mod extreme;
 mod half_turn;
 mod inputs;
 mod place;
 mod rounded;
 
+pub use by_parts::Part;
 pub use half_turn::{HalfTurn, WITHIN};
 pub use place::Pose;
 
@@ -57,6 +60,8 @@ pub enum ModesError {
 pub enum Way {
     /// By the equations of an incidence tree.
     Tree {
+        /// Rigid parts that were put together before, each by a tree of its own; the tree below joins them as bodies.
+        parts: Vec<Part>,
         /// Weight of the tree: independent unknowns.
         weight: usize,
         /// The root's name, then parent and child of every edge with its weight.
@@ -305,3 +310,6 @@ impl Modes {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests_of_parts;

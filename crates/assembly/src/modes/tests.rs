@@ -116,6 +116,30 @@ fn rounded_numbers_hide_no_configuration_of_more_equations_than_unknowns() {
     assert_eq!((drawn, rounded.configurations.len()), (1, 4));
 }
 
+/// A square of side 2 with triangles of height 3 on its sides: two tips that stand on opposite sides, each a third of the height out, are
+/// √40 apart, and no two are farther. Over the complex numbers the equations have a curve.
+#[test]
+fn bars_as_long_as_they_can_be_leave_two_configurations() {
+    let with = |square: &str| {
+        let length = format!("<distance value=\"${{sqrt({square})}}\"/>");
+        rewritten("quad", &[("<distance value=\"4\"/>", &length)])
+    };
+    let stretched = with("40");
+    assert_eq!(stretched.complete, Complete::Proven);
+    assert_eq!(stretched.configurations.len(), 2);
+    for configuration in &stretched.configurations {
+        assert!(configuration.proven && configuration.finite == Some(0));
+        assert_eq!(configuration.multiplicity, None);
+    }
+    let longer = with("401/10");
+    assert_eq!(
+        (longer.configurations.len(), longer.complete),
+        (0, Complete::Proven)
+    );
+    let shorter = with("39");
+    assert!(shorter.configurations.len() > 2 || shorter.moves != Some(0));
+}
+
 /// A double configuration is split or lost by rounding; nothing closes, or a pair that are hardly apart.
 #[test]
 fn rounded_numbers_prove_nothing_of_double_configurations() {

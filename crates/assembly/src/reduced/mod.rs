@@ -133,8 +133,10 @@ impl ReducedSystem {
         let needed: Vec<usize> = (0..given)
             .filter(|&b| collection.bodies()[b].points.len() > 3)
             .collect();
+        let spread =
+            |body: usize| body < given || !is_flat(placed, &collection.bodies()[body].points);
         let tree =
-            optimal_incidence_tree(&collection, &needed, |_| true).ok_or(NotReduced::NoTree)?;
+            optimal_incidence_tree(&collection, &needed, spread).ok_or(NotReduced::NoTree)?;
         Self::along(placed, collection, tree, share)
     }
 
@@ -337,6 +339,19 @@ impl ReducedSystem {
     }
 }
 
+/// Whether the corners of a triangle are on one line: of its sides a, b, c then 4 a²b² = (a² + b² − c²)². Nothing can be placed about it.
+fn is_flat(placed: &Placed, points: &[usize]) -> bool {
+    let &[p, q, r] = points else {
+        return false;
+    };
+    let sides = [[p, q], [p, r], [q, r]].map(|[p, q]| placed.distance_square(p, q));
+    let [Some(a), Some(b), Some(c)] = sides else {
+        return false;
+    };
+    let product = &(&a + &b) - &c;
+    (&(&Number::integer(4) * &(&a * &b)) - &(&product * &product)).is_zero()
+}
+
 /// The field of all coordinates and lengths.
 fn field_of(placed: &Placed) -> Option<NumberField> {
     let mut numbers: Vec<Number> = placed.bar_squares.clone();
@@ -346,7 +361,7 @@ fn field_of(placed: &Placed) -> Option<NumberField> {
     NumberField::of(&numbers)
 }
 
-/// Every body in coordinates of its own; a triangle that turns about one point in a basis of unit vectors.
+/// Every body of the tree in coordinates of its own, no points of others; a triangle that turns about one point in a basis of unit vectors.
 fn locals(
     placed: &Placed,
     collection: &Collection,
@@ -355,6 +370,10 @@ fn locals(
 ) -> Option<Vec<Local>> {
     let mut locals = Vec::new();
     for (index, body) in collection.bodies().iter().enumerate() {
+        if !tree.cover.contains(&index) {
+            locals.push(Local::given(BTreeMap::new()));
+            continue;
+        }
         if let Some(given) = placed.bodies.get(index) {
             let mut points = BTreeMap::new();
             for (point, at) in &given.points {

@@ -72,6 +72,85 @@ pub fn optimal_incidence_tree(
     depth::shallowest(collection, &overlaps, covers, exact)
 }
 
+/// Why there is no such tree.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NoTree {
+    /// A body that two others place, or that places itself, over others or at once.
+    #[error("`{0}` would be placed twice or by itself")]
+    Twice(String),
+    /// Two bodies that nothing joins.
+    #[error("`{0}` and `{1}` are not joined: there has to be one body that is not placed")]
+    Apart(String, String),
+    /// A point that no body of the tree has.
+    #[error("no body of the tree has `{0}`")]
+    NotCovered(String),
+}
+
+/// The tree in which each child is placed by a parent, as pairs of child and parent.
+///
+/// # Errors
+/// [`NoTree`] where these are no tree, or one of bodies that do not have all points.
+pub fn tree_along(collection: &Collection, pairs: &[[usize; 2]]) -> Result<IncidenceTree, NoTree> {
+    let name = |body: usize| collection.bodies()[body].name.clone();
+    for (i, [child, parent]) in pairs.iter().enumerate() {
+        if child == parent || pairs[..i].iter().any(|[other, _]| other == child) {
+            return Err(NoTree::Twice(name(*child)));
+        }
+    }
+    let mut cover: Vec<usize> = pairs.iter().flatten().copied().collect();
+    cover.sort_unstable();
+    cover.dedup();
+    let placed = |body: &usize| pairs.iter().any(|[child, _]| child == body);
+    let mut roots = cover.iter().copied().filter(|b| !placed(b));
+    let root = match (roots.next(), cover.first()) {
+        (Some(root), _) => root,
+        // A circle.
+        (None, Some(&first)) => return Err(NoTree::Twice(name(first))),
+        (None, None) => return Err(NoTree::NotCovered(String::new())),
+    };
+    if let Some(other) = roots.next() {
+        return Err(NoTree::Apart(name(root), name(other)));
+    }
+    let overlaps = Overlaps::new(collection);
+    let mut depths = vec![(root, 0)];
+    let mut edges = Vec::new();
+    let mut next = 0;
+    while let Some(&(parent, depth)) = depths.get(next) {
+        for &[child, _] in pairs.iter().filter(|[_, p]| *p == parent) {
+            depths.push((child, depth + 1));
+            edges.push(TreeEdge {
+                parent,
+                child,
+                shared: collection.shared(parent, child),
+                weight: overlaps.weight(parent, child),
+            });
+        }
+        next += 1;
+    }
+    if let Some(&circle) = cover.iter().find(|b| !depths.iter().any(|(d, _)| d == *b)) {
+        return Err(NoTree::Twice(name(circle)));
+    }
+    let all = collection.bodies().iter().flat_map(|b| &b.points);
+    let has = |p: &usize| {
+        cover
+            .iter()
+            .any(|&b| collection.bodies()[b].points.contains(p))
+    };
+    if let Some(&point) = all.into_iter().find(|p| !has(p)) {
+        return Err(NoTree::NotCovered(collection.points()[point].clone()));
+    }
+    Ok(IncidenceTree {
+        root,
+        weight: edges.iter().map(|e| e.weight).sum(),
+        depth_sum: depths.iter().map(|(_, depth)| depth).sum(),
+        cover,
+        edges,
+        exact: false,
+        shallowest: false,
+    })
+}
+
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
@@ -150,6 +229,39 @@ mod tests {
         let tree = optimal_incidence_tree(&tetra, &[], |b| b != 3).unwrap();
         assert!(tree.weight > 3);
         assert!(optimal_incidence_tree(&tetra, &[], |b| b > 4).is_none());
+    }
+
+    /// Trees that are not the best: figure 15 of the paper, of weights 4, 8, 9, 6 and 4, the last two levels deep.
+    #[test]
+    fn trees_as_asked_have_their_weights() {
+        let quad = samples::quad_whole();
+        let along = |pairs: &[(&str, &str)]| {
+            let body = |name: &str| quad.bodies().iter().position(|b| b.name == name).unwrap();
+            let pairs: Vec<[usize; 2]> = pairs.iter().map(|(c, p)| [body(c), body(p)]).collect();
+            tree_along(&quad, &pairs).map(|tree| (tree.weight, tree.depth_sum))
+        };
+        let star = [("c1", "c5"), ("c2", "c5"), ("c3", "c5"), ("c4", "c5")];
+        assert_eq!(along(&star), Ok((4, 4)));
+        assert_eq!(
+            along(&[("c2", "c1"), ("c3", "c2"), ("c4", "c3")]),
+            Ok((9, 6))
+        );
+        assert_eq!(along(&[("k1", "c5"), ("k3", "c5")]), Ok((6, 2)));
+        let deep = [("c1", "c5"), ("k1", "c1"), ("c3", "c5"), ("k3", "c3")];
+        assert_eq!(along(&deep), Ok((4, 6)));
+        let twice = [("c1", "c5"), ("c1", "c2")];
+        assert_eq!(along(&twice), Err(NoTree::Twice("c1".to_owned())));
+        let circle = [("c1", "c5"), ("c2", "c3"), ("c3", "c2")];
+        assert_eq!(along(&circle), Err(NoTree::Twice("c2".to_owned())));
+        let apart = [("c1", "c5"), ("c2", "k2")];
+        assert_eq!(
+            along(&apart),
+            Err(NoTree::Apart("c5".to_owned(), "k2".to_owned()))
+        );
+        assert_eq!(
+            along(&[("c1", "c5")]),
+            Err(NoTree::NotCovered("p2".to_owned()))
+        );
     }
 
     /// A chain of 40 bodies, each sharing two points with the next: more than are tried one by one.

@@ -1,9 +1,9 @@
 //! An incidence tree as text, data and graph.
 
 use super::count;
-use crate::collection::{Collection, standard, with_triangles};
+use crate::collection::{Collection, RigidPart, rigid_parts, standard, with_triangles};
 use crate::placed::{Placed, Unsuited};
-use crate::tree::{IncidenceTree, covering_sets, optimal_incidence_tree};
+use crate::tree::{Cover, IncidenceTree, covering_sets, optimal_incidence_tree, tree_along};
 use kutzbach_model::graph::{ConstraintGraph, EdgeSpec, NodeSpec};
 use kutzbach_model::mechanism::Mechanism;
 use serde_json::{Value, json};
@@ -17,9 +17,17 @@ pub struct IncidenceWords {
     /// Whether each body is implied, by body.
     implied: Vec<bool>,
     is_standard: bool,
+    /// The bodies given that become one before.
+    parts: Vec<RigidPart>,
+    names: Vec<String>,
     tree: Option<IncidenceTree>,
-    covers: Option<usize>,
+    /// Weight of the best tree, where another was asked for.
+    instead_of: Option<usize>,
+    covers: Option<Vec<Cover>>,
 }
+
+/// Covering sets of one weight that are written out.
+const MOST_LISTED: usize = 20;
 
 impl IncidenceWords {
     /// Finds it.
@@ -43,12 +51,86 @@ impl IncidenceWords {
         };
         Ok(Self {
             given: given.bodies().len(),
+            parts: rigid_parts(&given),
+            names: given.bodies().iter().map(|b| b.name.clone()).collect(),
+            instead_of: None,
             tree: optimal_incidence_tree(&collection, &[], |_| true),
-            covers: covering_sets(&collection).map(|sets| sets.len()),
+            covers: covering_sets(&collection),
             collection,
             implied,
             is_standard,
         })
+    }
+
+    /// The lightest tree of this covering set in place of the best of all.
+    ///
+    /// # Errors
+    /// A sentence, where there is no such body or no such tree.
+    pub fn on_cover(mut self, names: &[String]) -> Result<Self, String> {
+        let cover: Vec<usize> = names
+            .iter()
+            .map(|name| self.body(name))
+            .collect::<Result<_, _>>()?;
+        let tree = optimal_incidence_tree(&self.collection, &cover, |b| cover.contains(&b));
+        let tree = tree.ok_or("these bodies do not have all points")?;
+        self.instead_of = self.tree.map(|best| best.weight);
+        self.tree = Some(tree);
+        Ok(self)
+    }
+
+    /// The tree of these pairs `child=parent` in place of the best of all.
+    ///
+    /// # Errors
+    /// A sentence, where there is no such body or these are no tree.
+    pub fn along(mut self, pairs: &[String]) -> Result<Self, String> {
+        let bodies = |pair: &String| {
+            let mut cuts = pair.match_indices('=').map(|(at, _)| at);
+            let both = |at: usize| {
+                Some([
+                    self.body(&pair[..at]).ok()?,
+                    self.body(&pair[at + 1..]).ok()?,
+                ])
+            };
+            let found = cuts.find_map(both);
+            found.ok_or_else(|| {
+                format!("`{pair}` is not of the form CHILD=PARENT with two bodies of the list")
+            })
+        };
+        let pairs: Vec<[usize; 2]> = pairs.iter().map(bodies).collect::<Result<_, _>>()?;
+        let tree = tree_along(&self.collection, &pairs).map_err(|why| why.to_string())?;
+        self.instead_of = self.tree.map(|best| best.weight);
+        self.tree = Some(tree);
+        Ok(self)
+    }
+
+    fn body(&self, name: &str) -> Result<usize, String> {
+        let found = self.collection.bodies().iter().position(|b| b.name == name);
+        found.ok_or_else(|| format!("there is no body `{name}` in the list"))
+    }
+
+    /// The covering sets by weight, and those of the least one by one.
+    #[must_use]
+    pub fn covers_text(&self) -> String {
+        let Some(covers) = &self.covers else {
+            return "\nThe covering sets are too many to be listed.\n".to_owned();
+        };
+        let mut by_weight: std::collections::BTreeMap<usize, Vec<&Cover>> =
+            std::collections::BTreeMap::new();
+        for cover in covers {
+            by_weight.entry(cover.weight).or_default().push(cover);
+        }
+        let mut text = format!("\n{}\n", count(covers.len(), "covering set"));
+        for (weight, sets) in by_weight {
+            let _ = writeln!(text, "  weight {weight}: {}", sets.len());
+            for set in sets.iter().take(MOST_LISTED) {
+                let names: Vec<&str> = set.bodies.iter().map(|&b| self.name(b)).collect();
+                let _ = writeln!(text, "    {}", names.join(", "));
+            }
+            if sets.len() > MOST_LISTED {
+                let _ = writeln!(text, "    and {} more", sets.len() - MOST_LISTED);
+            }
+        }
+        text
     }
 
     pub(super) fn collection(&self) -> &Collection {
@@ -103,22 +185,29 @@ impl IncidenceWords {
                 self.points(&body.points).join(", ")
             );
         }
+        for part in &self.parts {
+            let names: Vec<&str> = part
+                .bodies
+                .iter()
+                .map(|&b| self.names[b].as_str())
+                .collect();
+            let _ = writeln!(
+                text,
+                "  put together first, into {}: {}",
+                part.name,
+                names.join(", ")
+            );
+        }
         let Some(tree) = &self.tree else {
             text.push_str("\nThere is no incidence tree.\n");
             return text;
         };
-        let covers = self.covers.map_or(String::new(), |n| {
-            format!(" of {}", count(n, "covering set"))
-        });
-        let best = if tree.exact {
-            "the least"
-        } else {
-            "not known to be the least"
-        };
         let _ = writeln!(
             text,
-            "\nIncidence tree of weight {} ({best}{covers}), sum of depths {}",
-            tree.weight, tree.depth_sum
+            "\nIncidence tree of weight {} ({}), sum of depths {}",
+            tree.weight,
+            self.compared(tree),
+            tree.depth_sum
         );
         let cover: Vec<&str> = tree.cover.iter().map(|&b| self.name(b)).collect();
         let _ = writeln!(text, "  covering set: {}", cover.join(", "));
@@ -134,6 +223,36 @@ impl IncidenceWords {
             );
         }
         text
+    }
+
+    /// How a tree's weight compares with that of others.
+    fn compared(&self, tree: &IncidenceTree) -> String {
+        let covers = self.covers.as_ref().map_or(String::new(), |sets| {
+            format!(" of {}", count(sets.len(), "covering set"))
+        });
+        let best = match (tree.exact || self.instead_of.is_some(), &covers) {
+            (true, covers) if !covers.is_empty() => "the least",
+            _ => "not known to be the least",
+        };
+        match self.instead_of {
+            Some(weight) => format!("as asked for; {weight} is {best}{covers}"),
+            None => format!("{best}{covers}"),
+        }
+    }
+
+    /// Everything, for a program; with all covering sets where these are asked for.
+    #[must_use]
+    pub fn data_with_covers(&self) -> Value {
+        let sets = self.covers.iter().flatten();
+        let sets: Vec<Value> = sets
+            .map(|set| {
+                let names: Vec<&str> = set.bodies.iter().map(|&b| self.name(b)).collect();
+                json!({"bodies": names, "weight": set.weight})
+            })
+            .collect();
+        let mut data = self.data();
+        data["covers"] = json!(sets);
+        data
     }
 
     /// Everything, for a program.
@@ -171,7 +290,19 @@ impl IncidenceWords {
                 "edges": edges,
             })
         });
-        json!({ "bodies": bodies, "standard": self.is_standard, "covering_sets": self.covers, "tree": tree })
+        let parts: Vec<Value> = self
+            .parts
+            .iter()
+            .map(|part| {
+                let names: Vec<&str> = part
+                    .bodies
+                    .iter()
+                    .map(|&b| self.names[b].as_str())
+                    .collect();
+                json!({"name": part.name, "bodies": names})
+            })
+            .collect();
+        json!({ "bodies": bodies, "standard": self.is_standard, "parts": parts, "covering_sets": self.covers.as_ref().map(Vec::len), "tree": tree })
     }
 
     /// The bodies of the covering set and the edges of the tree, for pictures; `None` where there is no tree.

@@ -1,7 +1,7 @@
 //! Configurations as text and as data.
 
 use super::{count, degrees_of_freedom};
-use crate::modes::{Complete, Configuration, LeftOut, Modes, Pose, WITHIN, Way, Why};
+use crate::modes::{Complete, Configuration, LeftOut, Modes, Part, Pose, WITHIN, Way, Why};
 use kutzbach_model::mechanism::{FreedomPart, Joint, JointId, JointKind, Mechanism};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
@@ -114,6 +114,7 @@ pub fn data(mechanism: &Mechanism, modes: &Modes) -> Value {
     };
     let system = match &modes.way {
         Way::Tree {
+            parts,
             weight,
             root,
             edges,
@@ -125,6 +126,9 @@ pub fn data(mechanism: &Mechanism, modes: &Modes) -> Value {
             "variables": weight,
             "equations": equations,
             "degree": degree,
+            "parts": parts.iter().map(|part| {
+                json!({"bodies": part.bodies, "weight": part.weight, "ways": part.ways})
+            }).collect::<Vec<_>>(),
             "tree": {
                 "weight": weight,
                 "root": root,
@@ -500,6 +504,7 @@ pub fn note(configuration: &Configuration) -> String {
 fn way(text: &mut String, way: &Way) {
     match way {
         Way::Tree {
+            parts,
             weight,
             root,
             edges,
@@ -514,7 +519,8 @@ fn way(text: &mut String, way: &Way) {
                 .collect();
             let _ = writeln!(
                 text,
-                "\nHow: an incidence tree of weight {weight} from {root}: {}; {} of degree {degree} at most; {boxes} boxes{}",
+                "\nHow: {}an incidence tree of weight {weight} from {root}: {}; {} of degree {degree} at most; {boxes} boxes{}",
+                first(parts),
                 hung.join(", "),
                 count(*equations, "equation"),
                 if *exact { ", then exact algebra" } else { "" }
@@ -553,4 +559,17 @@ fn way(text: &mut String, way: &Way) {
         }
         Way::Nothing => {}
     }
+}
+
+/// What was put together before the tree.
+fn first(parts: &[Part]) -> String {
+    let all = parts.iter().map(|part| {
+        format!(
+            "{} become one body by an incidence tree of weight {}, in {}; ",
+            part.bodies.join(" and "),
+            part.weight,
+            count(part.ways, "way")
+        )
+    });
+    all.collect()
 }
