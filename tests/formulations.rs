@@ -62,7 +62,7 @@ fn disagreements(name: &str, mechanism: &Mechanism) -> Vec<String> {
         assert_eq!(links.columns(), velocities(mechanism, part));
         let (_, rounding) = entry_accuracy(&cycles);
         // Where the stated precision is too coarse to be of use, the analysis takes the numbers as they are.
-        let found = nullities(&cycles.matrix, &links, rank.stated + rounding);
+        let found = nullities(&cycles.matrix, &links, rank.open_by_digits() + rounding);
         if found[0].is_none() || found[0] != found[1] {
             wrong.push(format!(
                 "{name}: {found:?} by cycles and by links ({} and {} unknowns)",

@@ -9,7 +9,6 @@ use super::units::ValueUnits;
 use super::{DONE, UNDECIDED, load, output, terminal};
 use clap::{Args, ValueEnum};
 use kutzbach::accuracy::AccuracyOptions;
-use kutzbach::closure::{Arithmetic, Geometry};
 use kutzbach::format::{Numbers, Reading, WriteOptions, write_with};
 use kutzbach::mechanism::{FreedomPart, Mechanism};
 use kutzbach::mobility::{Analysis, ExactBudget};
@@ -309,17 +308,18 @@ fn verified(
     analysis: &Analysis,
     configuration: Option<&str>,
 ) -> Result<Verification, Failure> {
-    let geometry = Geometry::new(
-        mechanism,
-        configuration.and_then(|name| mechanism.configuration(name)),
-        &Arithmetic::double(),
-    );
     let options = VerificationOptions {
         configuration: configuration.map(str::to_owned),
         ..VerificationOptions::default()
     };
     let mut watch = Watch(Progress::new("simulating"));
-    let verification = verify(mechanism, &geometry, analysis, &options, &mut watch);
+    let verification = verify(
+        mechanism,
+        &analysis.geometry,
+        analysis,
+        &options,
+        &mut watch,
+    );
     watch.0.finish();
     verification.map_err(|error| Failure::Plain {
         message: format!("{}: {error}", arguments.source.file.display()),

@@ -11,7 +11,6 @@ use super::pose::Pose;
 use super::{DISAGREEMENT, DONE, UNDECIDED, interrupt, load, output, terminal};
 use choices::{Effect, Format, SolverChoice, substeps};
 use clap::Args;
-use kutzbach::closure::{Arithmetic, Geometry};
 use kutzbach::mobility::{AnalysisOptions, Followed, Verdict, analyse_to_follow};
 use kutzbach::simulate::verification::{Outcome, VerificationOptions, verify};
 use kutzbach::simulate::{
@@ -19,6 +18,7 @@ use kutzbach::simulate::{
 };
 use log::Log;
 use std::path::PathBuf;
+use std::sync::Arc;
 use table::Simulated;
 
 /// Simulate a mechanism: is the predicted motion confirmed? Log it for viewers
@@ -165,13 +165,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         kutzbach::motion::variable_named(mechanism, name)
             .map_err(|error| plain(error.to_string(), Some(error.help())))?;
     }
-    let geometry = Geometry::new(
-        mechanism,
-        configuration
-            .as_deref()
-            .and_then(|name| mechanism.configuration(name)),
-        &Arithmetic::double(),
-    );
+    let geometry = Arc::clone(&analysis.geometry);
     let mut options = VerificationOptions {
         branch: arguments.branch.clone(),
         configuration: configuration.clone(),

@@ -18,6 +18,7 @@
 //! Gazebo before SDFormat wrote `<joint:hinge>` and its kin with `<body1>`, `<body2>`, an `<anchor>` body, an
 //! `<anchorOffset>` in it, and an `<axis>` in the model's frame. The PR2's gripper is published like that.
 
+use super::WarningKind;
 use super::element::{Attribute, Element};
 use super::error::Outcome;
 use super::names::Named;
@@ -309,7 +310,10 @@ impl<'a> Reader<'a> {
                 "joint {} stands in the tree and inside <gazebo>; it is read once",
                 quoted(name)
             );
-            self.warn(joint.start(), message);
+            let again = WarningKind::SaidTwice {
+                joint: name.to_owned(),
+            };
+            self.warn_of(joint.start(), again, message);
             return Ok(Some(Late {
                 name: format!("{name}{IN_GAZEBO}"),
                 restates: true,
@@ -321,7 +325,10 @@ impl<'a> Reader<'a> {
                 "joint {} holds the root link in the world, as is done here anyway",
                 quoted(name)
             );
-            self.warn(joint.start(), message);
+            let again = WarningKind::SaidTwice {
+                joint: name.to_owned(),
+            };
+            self.warn_of(joint.start(), again, message);
             return Ok(None);
         }
         if let Some(other) = self.joined.get(&ordered(sides)).copied() {
@@ -330,7 +337,11 @@ impl<'a> Reader<'a> {
                 quoted(name),
                 quoted(other)
             );
-            self.warn(joint.start(), message);
+            let same = WarningKind::SameLinks {
+                joint: name.to_owned(),
+                other: other.to_owned(),
+            };
+            self.warn_of(joint.start(), same, message);
         }
         self.joined.entry(ordered(sides)).or_insert(name);
         self.joins_world |= self.is_world(parent) || self.is_world(child);
@@ -363,7 +374,11 @@ impl<'a> Reader<'a> {
             quoted(name),
             quoted(&other)
         );
-        self.warn(joint.start(), message);
+        let renamed = WarningKind::Renamed {
+            joint: name.to_owned(),
+            called: other.clone(),
+        };
+        self.warn_of(joint.start(), renamed, message);
         Ok(Some(new(other)))
     }
 
@@ -410,7 +425,7 @@ impl<'a> Reader<'a> {
             ),
             true => format!("{} inside <gazebo> and {are} read", counted_joints(count)),
         };
-        self.warn(at, message);
+        self.warn_of(at, WarningKind::InGazebo { joints: count }, message);
     }
 
     /// A link by name, the last part of a scoped one. The world becomes a link of its own, in which the root is placed.

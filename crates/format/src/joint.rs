@@ -124,7 +124,11 @@ impl<'a> Reader<'a> {
                     );
                 }
                 let kind = match own_frame {
-                    true => WarningKind::Other,
+                    true => WarningKind::ClosesLoop {
+                        joint: name.to_owned(),
+                        link: child.to_owned(),
+                        other: (*first).to_owned(),
+                    },
                     false => WarningKind::Guessed,
                 };
                 self.warn_of(joint.start(), kind, message);
@@ -419,8 +423,9 @@ impl<'a> Reader<'a> {
             velocity: self.rate(limit, "velocity"),
         };
         if word == "continuous" && (read.lower.is_some() || read.upper.is_some()) {
-            self.warn(
+            self.warn_of(
                 limit.start(),
+                WarningKind::NoLimit,
                 "a continuous joint turns without end: `lower` and `upper` are ignored",
             );
             (read.lower, read.upper) = (None, None);
@@ -429,8 +434,9 @@ impl<'a> Reader<'a> {
             && lower.value() > upper.value()
         {
             // Bullet's convention for a joint without limits, and no other range can be meant.
-            self.warn(
+            self.warn_of(
                 limit.start(),
+                WarningKind::NoLimit,
                 "a lower limit above the upper one means no limit",
             );
             (read.lower, read.upper) = (None, None);

@@ -117,11 +117,8 @@ pub struct Warning {
 }
 
 /// What a warning is about.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum WarningKind {
-    /// Anything else.
-    #[default]
-    Other,
     /// Something was taken for granted that the file does not say.
     Guessed,
     /// Something is not read that names two joints or links: the answer may be about another mechanism than the one meant.
@@ -140,6 +137,62 @@ pub enum WarningKind {
         /// Today's.
         new: String,
     },
+    /// What other readers do not heed, or read in another way.
+    ReadersDiffer {
+        /// The element or attribute.
+        what: String,
+    },
+    /// A limit that is none: of a joint that turns without end, or with the lower one above the upper one.
+    NoLimit,
+    /// A joint that closes a loop by giving a link a second place.
+    ClosesLoop {
+        /// The joint.
+        joint: String,
+        /// The link.
+        link: String,
+        /// The joint that places the link.
+        other: String,
+    },
+    /// Something of another program that is read as an element of this format.
+    ReadAs {
+        /// The joint that it is about.
+        joint: String,
+        /// The element.
+        element: String,
+    },
+    /// A joint that says what is said elsewhere: in the tree and inside `<gazebo>`, or that the root is held.
+    SaidTwice {
+        /// The joint.
+        joint: String,
+    },
+    /// Two joints between the same two links, in different places of the file.
+    SameLinks {
+        /// The joint.
+        joint: String,
+        /// The one before it.
+        other: String,
+    },
+    /// A joint that has the name of another one and is called otherwise here.
+    Renamed {
+        /// Its name in the file.
+        joint: String,
+        /// Its name here.
+        called: String,
+    },
+    /// Joints inside `<gazebo>` are read, without which the file is another mechanism.
+    InGazebo {
+        /// How many.
+        joints: usize,
+    },
+    /// An element that looks like a call of a macro and is none, or calls one that nobody defines: it is not read.
+    NotCalled {
+        /// The element.
+        element: String,
+    },
+    /// What XML does not allow is read all the same.
+    NotXml,
+    /// What the file itself has to say.
+    Said,
 }
 
 impl WarningKind {

@@ -209,7 +209,11 @@ impl<'a> Reader<'a> {
                     quoted(said.follower),
                     quoted(said.follows.leader)
                 );
-                self.warn(said.element.start(), message);
+                let kind = WarningKind::ReadAs {
+                    joint: said.follower.to_owned(),
+                    element: "mimic".to_owned(),
+                };
+                self.warn_of(said.element.start(), kind, message);
                 self.followers_in_gazebo += usize::from(said.element.name() == "plugin");
                 self.follow(said.follower, said.follows);
                 Ok(())

@@ -127,7 +127,11 @@ impl<'a> Reader<'a> {
                 quoted(name),
                 value.value()
             );
-            self.warn(element.start(), message);
+            let kind = WarningKind::ReadAs {
+                joint: name.to_owned(),
+                element: "joint".to_owned(),
+            };
+            self.warn_of(element.start(), kind, message);
             self.uses(Dialect::Own);
         }
         Ok(frame)

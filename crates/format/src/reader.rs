@@ -124,7 +124,7 @@ pub(super) fn read(
     check_root(root).map_err(one)?;
     let mut reader = Reader::new(root);
     for (at, message) in notes {
-        reader.warn(at, message);
+        reader.warn_of(at, WarningKind::NotXml, message);
     }
     if let Some(numbers) = expanded {
         reader.definitions.numbers = numbers;
@@ -381,10 +381,6 @@ impl<'a> Reader<'a> {
         self.dialect = self.dialect.max(dialect);
     }
 
-    pub(super) fn warn(&mut self, at: usize, message: impl Into<String>) {
-        self.warn_of(at, WarningKind::Other, message);
-    }
-
     pub(super) fn warn_of(&mut self, at: usize, kind: WarningKind, message: impl Into<String>) {
         self.warnings.push((at, kind, message.into()));
     }
@@ -544,12 +540,14 @@ fn counted_warnings(text: &str, warnings: Vec<(usize, WarningKind, String)>) -> 
     places(text, &kinds)
         .into_iter()
         .zip(kinds)
-        .map(|((line, column), kind)| Warning {
-            line,
-            column,
-            kind: kind_of.remove(&kind.what).unwrap_or_default(),
-            message: kind.what,
-            count: kind.count,
+        .filter_map(|((line, column), said)| {
+            Some(Warning {
+                line,
+                column,
+                kind: kind_of.remove(&said.what)?,
+                message: said.what,
+                count: said.count,
+            })
         })
         .collect()
 }

@@ -1,5 +1,6 @@
 //! Attribute values that are numbers, frames and directions.
 
+use super::WarningKind;
 use super::element::{Attribute, Element};
 use super::error::{Fault, Outcome};
 use super::hints;
@@ -166,7 +167,7 @@ impl<'a> Reader<'a> {
             }
             if self.version() < (1, 1) {
                 let at = turned.range().start;
-                self.warn(at, "`quat_xyzw` is read; other readers of URDF heed it from version 1.1 on (<robot version=\"1.1\">), and take the frame as not turned here");
+                self.warn_of(at, WarningKind::ReadersDiffer { what: "quat_xyzw".to_owned() }, "`quat_xyzw` is read; other readers of URDF heed it from version 1.1 on (<robot version=\"1.1\">), and take the frame as not turned here");
             }
             let quaternion: [Number; 4] = self.numbers(turned)?;
             if let Some(open) = quaternion.iter().find(|part| part.is_open()) {

@@ -41,7 +41,7 @@ pub(super) fn treat_alike(
 ) -> Result<(), MatrixError> {
     let small = |rank: &PartRank| rank.unknowns() > 0 && rank.unknowns() <= DENSE_COLUMNS;
     // Exact numbers that differ differ truly.
-    let rounded = |rank: &PartRank| rank.stated > 0.0;
+    let rounded = |rank: &PartRank| rank.open_by_digits() > 0.0;
     for first in 0..parts.len() {
         for second in first + 1..parts.len() {
             let (one, other) = (&ranks[first], &ranks[second]);
@@ -67,7 +67,7 @@ fn answer(rank: &PartRank) -> (Option<usize>, (usize, usize)) {
 }
 
 fn same_values(one: &PartRank, other: &PartRank) -> Result<bool, MatrixError> {
-    let stated = one.stated.max(other.stated);
+    let stated = one.open_by_digits().max(other.open_by_digits());
     let (noise, zero) = (NOISE.max(stated), LARGEST.max(stated));
     // Values from here on count as zero in one of the two, or may.
     let most = one.candidates.1.max(other.candidates.1);

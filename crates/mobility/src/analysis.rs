@@ -35,6 +35,7 @@ use kutzbach_math::matrix::MatrixError;
 use kutzbach_model::mechanism::{Configuration, Mechanism, Precision};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 use thiserror::Error;
 
 /// What to analyse.
@@ -99,6 +100,9 @@ pub struct Analysis {
     pub generic: Option<GenericCount>,
     /// How the mechanism closes.
     pub assembly: Assembly,
+    /// The mechanism in double precision where it was analysed, before assembly: the one meant, if there is one ([`Analysis::of`]). Clones
+    /// share it.
+    pub geometry: Arc<Geometry<f64>>,
     /// The rank of every part, in the order of [`Structure::parts`]; empty if it does not assemble.
     pub parts: Vec<PartRank>,
     /// The instantaneous freedom; `None` if the mechanism does not assemble: an open pose is never ranked.
@@ -193,7 +197,11 @@ pub(super) fn analyse_as_stated(
     let generic = everything
         .then(|| generic_count(mechanism, &structure))
         .transpose()?;
-    let geometry = Geometry::new(mechanism, configuration, &Arithmetic::double());
+    let geometry = Arc::new(Geometry::new(
+        mechanism,
+        configuration,
+        &Arithmetic::double(),
+    ));
     if let Some(joint) = geometry.degenerate_distance() {
         return Err(AnalysisError::NoDistance {
             joint: mechanism.joints()[joint].name.clone(),
@@ -217,7 +225,8 @@ pub(super) fn analyse_as_stated(
         })
     };
     let ranked = |assembly: Assembly, structure: Structure| -> Result<Analysis, AnalysisError> {
-        let mut analysis = Analysis::unranked(mechanism, structure, generic, assembly);
+        let drawn = Arc::clone(&geometry);
+        let mut analysis = Analysis::unranked(mechanism, structure, generic, assembly, drawn);
         if analysis.assembly.closed {
             let mut allowance = allowance.borrow_mut();
             analysis.rank(mechanism, configuration, &geometry, options, &mut allowance)?;
@@ -294,6 +303,7 @@ impl Analysis {
         structure: Structure,
         generic: Option<GenericCount>,
         assembly: Assembly,
+        geometry: Arc<Geometry<f64>>,
     ) -> Self {
         let joints = mechanism.joints().len();
         Self {
@@ -302,6 +312,7 @@ impl Analysis {
             kutzbach: kutzbach_count(mechanism),
             generic,
             assembly,
+            geometry,
             parts: Vec::new(),
             home: None,
             roles: vec![JointRole::default(); joints],
@@ -360,7 +371,7 @@ impl Analysis {
         let home = self.home_freedom(mechanism, &parts);
         if options.depth == Depth::Rank {
             // Numbers with too few digits may hold fast what is meant to move.
-            let as_meant = !parts.iter().any(|part| part.taken_literally);
+            let as_meant = !parts.iter().any(|part| part.is_taken_literally());
             self.mobility = not_asked(as_meant.then_some(home.candidates.1));
         } else {
             for (part, rank) in self.structure.parts.iter().zip(&parts) {

@@ -157,11 +157,19 @@ pub fn chart_test(
 ) -> Result<ChartTest, MatrixError> {
     let radius = first_radius(rank);
     // What the numbers leave open shifts every equation by about as much, whatever the radius.
-    let test = climb(pose, more, part, rank, kernel, radius, rank.stated)?;
+    let test = climb(
+        pose,
+        more,
+        part,
+        rank,
+        kernel,
+        radius,
+        rank.open_by_digits(),
+    )?;
     // Coarse numbers of which both readings have the same rank satisfy whatever makes them special to the last digit: such
     // numbers were chosen.
     if test.outcome == ChartOutcome::Thin
-        && rank.stated > 0.0
+        && rank.open_by_digits() > 0.0
         && rank
             .as_written
             .is_none_or(|written| Some(written) == rank.instantaneous)
@@ -211,7 +219,7 @@ pub(super) fn literal_leftover(
     // Finer rounding than doubles see.
     let Some(bits) = LADDER
         .into_iter()
-        .find(|bits| 0.5f64.powi(*bits as i32 - 12) < rank.stated)
+        .find(|bits| 0.5f64.powi(*bits as i32 - 12) < rank.open_by_digits())
         .filter(|_| rank.unknowns() <= LADDER_UNKNOWNS)
     else {
         return Ok(None);
@@ -278,7 +286,7 @@ pub(super) fn chart_in_bits(
     kernel: &Kernel,
     bits: u32,
 ) -> Result<ChartTest, MatrixError> {
-    Probes::new(pose, part, kernel).in_bits(more, (first_radius(rank), rank.stated), bits)
+    Probes::new(pose, part, kernel).in_bits(more, (first_radius(rank), rank.open_by_digits()), bits)
 }
 
 /// What all probes of a chart test share.

@@ -97,7 +97,7 @@ impl Hinges {
             points,
             accuracy: ROUNDING * rank.accuracy,
             rounding: ROUNDING * entry_accuracy(&rank.jacobian).1,
-            stated: rank.stated,
+            stated: rank.open_by_digits(),
         };
         (screws.len() >= 3).then_some(found)
     }

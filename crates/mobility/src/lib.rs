@@ -64,6 +64,7 @@ mod part_samples;
 mod passive;
 mod plane_germ;
 mod point_chains;
+mod pose_facts;
 mod pose_rank;
 mod question;
 mod redundancy;
@@ -111,15 +112,16 @@ pub use judge::{Contradiction, PartFinding, Quantity};
 pub use kutzbach::kutzbach_count;
 pub use kutzbach_closure::{Structure, constraint_graph};
 pub use limbs::{Limb, Limbs, limbs};
-pub use limit_facts::{LimitFact, limit_facts};
+pub use limit_facts::LimitFact;
 pub use meant::{AsWritten, Change, Kept, Meant};
 pub use more_digits::MoreDigits;
-pub use near_singular::{ClearerPose, NearSingular, dead_centres, near_singular, pose_of_branch};
+pub use near_singular::{ClearerPose, NearSingular, pose_of_branch};
 pub use one_engine::{
     OneEngine, chart_alone, exact_alone, germ_alone, kernel_of, rank_alone, subgroups_alone,
 };
 pub use part_mobility::part_mobility;
-pub use pose_rank::{Doubt, LADDER, PartRank, Pose, RankNote, Trial, rank_part};
+pub use pose_facts::PoseFacts;
+pub use pose_rank::{Doubt, LADDER, PartRank, Pose, RankNote, Reading, Trial, rank_part};
 pub use redundancy::SelfStresses;
 pub use redundant_directions::{JointDirections, ReactionDirection};
 pub use relative_motion::{motions_to_ground, relative_motions};

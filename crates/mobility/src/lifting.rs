@@ -111,7 +111,7 @@ fn lift(
     let mut states = pose.states.to_vec();
     section.advance_by(&mut states, &z);
     let closing = section.close(&mut states, &[], 80)?;
-    if closing.residual > 4.0 * closing.rounding + rank.stated
+    if closing.residual > 4.0 * closing.rounding + rank.open_by_digits()
         || closing.way > POLISHING * away.min(apart)
     {
         return Ok(None);
@@ -120,8 +120,13 @@ fn lift(
     // size is zero there, and nowhere else so close to it.
     let blur = closing.residual.max(closing.rounding).sqrt();
     let dimension = branch.dimension + idle.len();
-    let sharp = tangents_at(&section, &states, rank.stated, dimension)?;
-    let blurred = tangents_at(&section, &states, rank.stated + 10.0 * blur, dimension)?;
+    let sharp = tangents_at(&section, &states, rank.open_by_digits(), dimension)?;
+    let blurred = tangents_at(
+        &section,
+        &states,
+        rank.open_by_digits() + 10.0 * blur,
+        dimension,
+    )?;
     let tells = |seen: &Option<Tangents>| seen.as_ref().and_then(|t| t.instantaneous);
     let [sharp, blurred] = [sharp, blurred].map(|seen| seen.map(|(tangents, _)| tangents));
     let freedom_if_blurred = tells(&blurred);
@@ -163,7 +168,7 @@ fn lift(
             &mut states.clone(),
             there.basis,
             Some(direction),
-            rank.stated,
+            rank.open_by_digits(),
             POSES,
             away,
         )?
@@ -206,11 +211,17 @@ fn multiple_poses(
         states: there,
         blur,
         far,
-    }) = extended(section, start.pose.states, states, blur, rank.stated)?
+    }) = extended(
+        section,
+        start.pose.states,
+        states,
+        blur,
+        rank.open_by_digits(),
+    )?
     else {
         return Ok(None);
     };
-    let stated = rank.stated + 10.0 * blur;
+    let stated = rank.open_by_digits() + 10.0 * blur;
     let Some((tangents, _)) = tangents_at(section, &there, stated, instantaneous)? else {
         return Ok(None);
     };
@@ -218,7 +229,7 @@ fn multiple_poses(
         section,
         start.pose.states,
         &there,
-        rank.stated,
+        rank.open_by_digits(),
         instantaneous,
     )? {
         return Ok(None);
@@ -234,7 +245,7 @@ fn multiple_poses(
         &tangents.basis,
         dimension,
         instantaneous,
-        rank.stated,
+        rank.open_by_digits(),
     )
     .map(Some)
 }
@@ -334,7 +345,7 @@ fn stays_multiple(
     far: bool,
 ) -> Result<bool, MatrixError> {
     let tall = height_at(start.pose, start.part);
-    let rounded = start.rank.stated > start.rank.accuracy;
+    let rounded = start.rank.open_by_digits() > start.rank.accuracy;
     if rounded {
         return Ok(far);
     }
@@ -362,7 +373,8 @@ fn stays_multiple(
     let mut matrix = here.matrix;
     matrix.scale_columns();
     // Digits beyond those stated are not known, and a double zero only to the root of what they leave open.
-    let accuracy = 10.0 * (closing.residual + start.rank.stated).sqrt() + closing.rounding;
+    let accuracy =
+        10.0 * (closing.residual + start.rank.open_by_digits()).sqrt() + closing.rounding;
     let found = decide(&matrix, accuracy)?.nullity();
     if short {
         return Ok(found.is_none_or(|found| found >= freedom));
@@ -402,7 +414,12 @@ pub(super) fn idle_branch(start: &Start<'_>) -> Result<PartBranch, MatrixError> 
     // What is not idle is a zero of higher order, so that closing leaves the pose off by more than its residual.
     let blur = closing.residual.max(closing.rounding).sqrt();
     let freedom = start.kernel.basis.nullity;
-    let there = tangents_at(&section, &states, start.rank.stated + 10.0 * blur, freedom)?;
+    let there = tangents_at(
+        &section,
+        &states,
+        start.rank.open_by_digits() + 10.0 * blur,
+        freedom,
+    )?;
     let poses = match there {
         Some((tangents, _)) => match idle_there(start, &tangents) {
             Some(idle) => vec![pose_on(&section, &states, &idle, freedom)],
@@ -412,7 +429,7 @@ pub(super) fn idle_branch(start: &Start<'_>) -> Result<PartBranch, MatrixError> 
                 &tangents.basis,
                 dimension,
                 freedom,
-                start.rank.stated,
+                start.rank.open_by_digits(),
             )?,
         },
         None => Vec::new(),

@@ -46,8 +46,7 @@ const ROUNDING: f64 = 1e-12;
 
 /// What the limits say at a pose, by joint and then by coupling. A limit is as uncertain as its digits; what is within that is
 /// within the limit.
-#[must_use]
-pub fn limit_facts(mechanism: &Mechanism, states: &[JointState<f64>]) -> Vec<LimitFact> {
+pub(super) fn limit_facts(mechanism: &Mechanism, states: &[JointState<f64>]) -> Vec<LimitFact> {
     let mut found = Vec::new();
     let ranges: Vec<Option<Range>> = mechanism
         .joints()

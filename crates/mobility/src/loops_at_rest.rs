@@ -41,7 +41,8 @@ pub(super) fn with_loops_at_rest(
     options: &AnalysisOptions,
     found: &mut PartFinding,
 ) -> Result<(), AnalysisError> {
-    let exact = rank.stated <= rank.accuracy && pose.as_drawn && pose.configuration.is_none();
+    let exact =
+        rank.open_by_digits() <= rank.accuracy && pose.as_drawn && pose.configuration.is_none();
     let open = found.open().is_some() && found.pose() == Some(PoseKind::Singular);
     if !exact || !open || part.cycles.len() < 2 {
         return Ok(());
@@ -195,7 +196,7 @@ fn branches_of_part(
         let mut poses = Vec::with_capacity(branch.poses.len());
         for there in &branch.poses {
             let states = states_of_part(pose, part, left, there);
-            let seen = tangents_at(&section, &states, rank.stated, branch.dimension)?;
+            let seen = tangents_at(&section, &states, rank.open_by_digits(), branch.dimension)?;
             poses.push(PartPose {
                 states: part.joints.iter().map(|&j| states[j].clone()).collect(),
                 tangents: tangents_of_part(pose.mechanism, part, left, there),

@@ -72,7 +72,7 @@ pub struct ClearerPose {
 ///
 /// # Errors
 /// [`MatrixError`] where numbers leave their range.
-pub fn near_singular(
+pub(super) fn near_singular(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
     structure: &Structure,
@@ -152,7 +152,7 @@ fn clearer(
                 let left = 0.0.norm(&moved.residual);
                 let mut matrix = moved.matrix;
                 matrix.scale_columns();
-                let decision = decide(&matrix, rank.stated + rounding + left)?;
+                let decision = decide(&matrix, rank.open_by_digits() + rounding + left)?;
                 let same = decision.nullity().is_some() && decision.nullity() == rank.instantaneous;
                 Ok(same.then_some(decision.kept))
             })?;
@@ -220,8 +220,7 @@ pub fn pose_of_branch(
 }
 
 /// Joints of one freedom that rest at the pose while they move on the branch: dead centres, by joint index.
-#[must_use]
-pub fn dead_centres(
+pub(super) fn dead_centres(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
     structure: &Structure,

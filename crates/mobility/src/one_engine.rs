@@ -178,7 +178,7 @@ pub fn chart_alone(
         lower,
         upper: Some(upper),
         instantaneous: None,
-        margin: clearness(&test, rank.stated),
+        margin: clearness(&test, rank.open_by_digits()),
         asked: true,
         text: format!(
             "{word}; left over {:.1e} at a distance of {:.1e}, noise {:.1e}",

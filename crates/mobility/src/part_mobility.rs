@@ -15,7 +15,7 @@ use super::depth::Depth;
 use super::engines::ask_all;
 use super::judge::PartFinding;
 use super::more_digits::MoreDigits;
-use super::pose_rank::{PartRank, Pose};
+use super::pose_rank::{PartRank, Pose, Reading};
 use super::question::{Means, Question};
 use super::subgroup::{hidden_offset, subgroup_finding};
 use super::superfluous::without_spares;
@@ -57,7 +57,7 @@ fn unexplained(
         return Ok(None);
     }
     // A pose that was moved is known less well than its numbers, which are rounded all the same.
-    if rank.stated <= rounding_of(&rank.jacobian.walks, f64::EPSILON) {
+    if rank.open_by_digits() <= rounding_of(&rank.jacobian.walks, f64::EPSILON) {
         return Ok(question.looked.get().then_some(MobilityClass::Paradoxical));
     }
     if !chart.literal {
@@ -68,7 +68,7 @@ fn unexplained(
         ..rank.decision.clone()
     };
     let literal = PartRank {
-        stated: 0.0,
+        reading: Reading::Exact,
         decision,
         note: None,
         ..rank.clone()
@@ -109,7 +109,8 @@ pub(super) fn by_rank(
     let surplus = question.surplus();
     // A special mechanism written with too few digits is, taken literally, a generic one: that more equations than unknowns
     // then hold it fast may be due to the digits left out.
-    let held_by_rounding = rank.taken_literally && rank.instantaneous == Some(0) && surplus < 0;
+    let held_by_rounding =
+        rank.is_taken_literally() && rank.instantaneous == Some(0) && surplus < 0;
     let upper = if held_by_rounding {
         most_by_joints(pose.mechanism, part)
     } else {
@@ -139,7 +140,7 @@ pub(super) fn by_rank(
     };
     match known {
         None => {
-            let clear = (rank.stated == 0.0 || rank.doubt.is_some()) && !held_by_rounding;
+            let clear = (rank.open_by_digits() == 0.0 || rank.doubt.is_some()) && !held_by_rounding;
             claim.says = Says::Open(note(clear).unwrap_or_else(|| {
                 "the numbers as they are stated leave the rank at this pose open; more digits would decide it".to_owned()
             }));
@@ -287,11 +288,13 @@ pub(super) fn by_chart(
     let mut chart = chart_test(pose, more, part, rank, kernel)?;
     // More digits would show a leftover near the pose; neither rounded numbers nor large parts have them. One of high order shows
     // farther away only.
-    let only_far =
-        rank.stated > 0.5 * chart.noise && !chart.literal || rank.unknowns() > LADDER_UNKNOWNS;
+    let only_far = rank.open_by_digits() > 0.5 * chart.noise && !chart.literal
+        || rank.unknowns() > LADDER_UNKNOWNS;
     if only_far {
         confirm_on_the_way(pose, part, rank, kernel, &mut chart)?;
-    } else if chart.outcome == ChartOutcome::Regular && (rank.stated == 0.0 || chart.literal) {
+    } else if chart.outcome == ChartOutcome::Regular
+        && (rank.open_by_digits() == 0.0 || chart.literal)
+    {
         chart = far_chart(pose, more, part, rank, kernel, chart)?;
     }
     let mut claim = chart_claim(&chart, freedom);
@@ -327,7 +330,7 @@ pub(super) fn by_chart(
                 chart.radius,
                 chart.leftover,
                 chart.noise,
-                if rank.stated > 0.0 {
+                if rank.open_by_digits() > 0.0 {
                     "more digits in the file would decide"
                 } else {
                     "a pose farther from other branches would decide"
@@ -354,7 +357,7 @@ fn one_branch(
         return Ok(answer);
     }
     let followed = question.depth >= Depth::Motions;
-    let rounded = rank.stated > 0.0 && question.surplus() < freedom as i64;
+    let rounded = rank.open_by_digits() > 0.0 && question.surplus() < freedom as i64;
     let kernel = match followed || rounded {
         true => question.of_kernel()?,
         false => None,
@@ -405,7 +408,7 @@ fn confirm_on_the_way(
     let tangents = kernel.basis.vectors.clone();
     let freedom = tangents.len();
     let poses = pose.try_on(part, |states| {
-        let stated = rank.stated;
+        let stated = rank.open_by_digits();
         walk(
             &section,
             states,

@@ -141,10 +141,8 @@ pub struct PartRank {
     pub instantaneous: Option<usize>,
     /// Smallest and largest instantaneous freedom that remain possible within the stated precision.
     pub candidates: (usize, usize),
-    /// Whether the stated precision was too coarse to be used, so that the numbers were taken literally.
-    pub taken_literally: bool,
-    /// Relative uncertainty of the Jacobian by the file's stated precision; zero where the numbers are exact.
-    pub stated: f64,
+    /// How the numbers were read.
+    pub reading: Reading,
     /// Relative uncertainty of the Jacobian in double precision, whatever its cause: that of everything computed from it.
     pub accuracy: f64,
     /// What speaks against the rank though its margins are clear; then [`Self::note`] says it.
@@ -162,6 +160,18 @@ pub struct PartRank {
 }
 
 impl PartRank {
+    /// What the digits of its numbers leave open of the Jacobian (relative): see [`Reading::open`].
+    #[must_use]
+    pub fn open_by_digits(&self) -> f64 {
+        self.reading.open()
+    }
+
+    /// Whether digits are stated and the numbers were nevertheless taken as written.
+    #[must_use]
+    pub fn is_taken_literally(&self) -> bool {
+        self.reading == Reading::Literal
+    }
+
     /// Number of unknowns.
     #[must_use]
     pub fn unknowns(&self) -> usize {
@@ -183,6 +193,44 @@ impl PartRank {
             accuracy: self.decision.accuracy.max(self.accuracy),
             ..self.decision.assuming(self.matrix.columns() - freedom)
         })
+    }
+}
+
+/// How the numbers of a part were read where its rank was decided.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reading {
+    /// They are exact: nothing is open but the rounding of what was computed from them.
+    Exact,
+    /// Within the digits that they state, which leave open this much of the Jacobian, relative to its unit columns.
+    WithinDigits(f64),
+    /// As written, though digits are stated: these are so coarse that they decide nothing, or others close no better.
+    Literal,
+}
+
+impl Reading {
+    /// Within digits that leave open so much (relative); exact where that is nothing.
+    pub(crate) fn within(open: f64) -> Self {
+        match open > 0.0 {
+            true => Self::WithinDigits(open),
+            false => Self::Exact,
+        }
+    }
+
+    /// What the digits leave open of the Jacobian (relative): nothing of numbers that are exact or taken as written.
+    #[must_use]
+    pub fn open(self) -> f64 {
+        match self {
+            Self::WithinDigits(open) => open,
+            Self::Exact | Self::Literal => 0.0,
+        }
+    }
+
+    /// The same where only a share of what digits leave open counts.
+    pub(crate) fn in_share(self, share: f64) -> Self {
+        match self {
+            Self::WithinDigits(open) => Self::within(share * open),
+            other => other,
+        }
     }
 }
 

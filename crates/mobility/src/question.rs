@@ -115,7 +115,7 @@ impl<'a> Question<'a> {
 
     /// Whether the coefficients of power series are in doubt by more than rounding.
     pub fn is_rounded(&self) -> Result<bool, MatrixError> {
-        Ok(self.doubtful()?.stated > self.rank.accuracy)
+        Ok(self.doubtful()?.open_by_digits() > self.rank.accuracy)
     }
 
     fn near(&self) -> Result<Option<&Near>, MatrixError> {
@@ -130,7 +130,7 @@ impl<'a> Question<'a> {
                 false => [1.0, 1.0],
             };
             let with = |share: f64| PartRank {
-                stated: share * self.rank.stated,
+                reading: self.rank.reading.in_share(share),
                 ..self.rank.clone()
             };
             let by_kind = height_at(self.pose, self.part) > TALL;

@@ -193,7 +193,7 @@ fn moving(
         let stated = if rank.as_written == rank.instantaneous {
             0.0
         } else {
-            rank.stated
+            rank.open_by_digits()
         };
         let decision = decide(&matrix, stated + rounding + left)?;
         if decision.nullity().is_none() || decision.nullity() != rank.instantaneous {

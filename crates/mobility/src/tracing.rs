@@ -250,7 +250,7 @@ pub fn poses_of_regular_part(
     if rank.unknowns() <= WALKED_UNKNOWNS && kernel.basis.complete {
         let tangents = kernel.basis.vectors.clone();
         poses = pose.try_on(part, |states| {
-            let stated = rank.stated;
+            let stated = rank.open_by_digits();
             walk(
                 &section,
                 states,

@@ -488,7 +488,7 @@ mod tests {
         .to_vec();
         let coarse = ring(&places, [0.0; 3], Written::Decimals(3));
         let found = analysed(&coarse);
-        assert!(found.parts[0].taken_literally);
+        assert!(found.parts[0].is_taken_literally());
         assert_eq!(found.parts[0].instantaneous, Some(0));
         assert_eq!(
             (found.mobility.verdict, found.mobility.finite()),

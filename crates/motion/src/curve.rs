@@ -60,7 +60,7 @@ pub struct Curve {
 #[derive(Debug)]
 pub(super) struct WholeFrame {
     pub mechanism: Mechanism,
-    pub geometry: Geometry<f64>,
+    pub geometry: Arc<Geometry<f64>>,
     pub states: Vec<JointState<f64>>,
 }
 

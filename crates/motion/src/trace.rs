@@ -16,9 +16,10 @@ use super::requested::{RequestedVariables, requested_variables};
 use super::result::{Still, Trace, TraceError, TraceOptions};
 use super::singular::Singular;
 use super::system::SystemPose;
-use kutzbach_closure::{Arithmetic, Geometry, Part};
+use kutzbach_closure::{Geometry, Part};
 use kutzbach_mobility::{Analysis, Branch, Tangent, Verdict};
 use kutzbach_model::mechanism::Mechanism;
+use std::sync::Arc;
 
 /// Poses of a mechanism written exactly are closed to this (rad, cycle lengths).
 const CLOSED: f64 = 1e-12;
@@ -105,7 +106,7 @@ struct Tracer<'a> {
     mechanism: &'a Mechanism,
     analysis: &'a Analysis,
     branch: &'a Branch,
-    geometry: Geometry<f64>,
+    geometry: Arc<Geometry<f64>>,
     stages: Vec<Stage>,
     /// How far, and for how many poses each way, curves are followed.
     limits: (f64, usize),
@@ -132,11 +133,7 @@ impl<'a> Tracer<'a> {
         branch: &'a Branch,
         options: &TraceOptions,
     ) -> Self {
-        let configuration = options
-            .configuration
-            .as_deref()
-            .and_then(|name| mechanism.configuration(name));
-        let geometry = Geometry::new(mechanism, configuration, &Arithmetic::double());
+        let geometry = Arc::clone(&analysis.geometry);
         let offsets = mechanism.variable_offsets();
         let moves = |part: &Part, tangent: &Tangent| {
             let mut variables = part.joints.iter().flat_map(|&j| offsets[j]..offsets[j + 1]);

@@ -220,12 +220,11 @@ pub fn analysed_report_on(
     let mechanism = analysis.of(mechanism);
     super::findings::lay_over(&mut report, mechanism, &analysis);
     report.assembly.tolerance_asked = options.closure_tolerance.is_some();
-    let pose = mechanism.configuration(configuration);
-    report.four_bars = kutzbach_motion::four_bars(mechanism, &analysis, pose);
+    report.four_bars = kutzbach_motion::four_bars(mechanism, &analysis);
     let followed =
         super::inputs::lay_over(&mut report, mechanism, &analysis, configuration, inputs);
     super::pose::warn(&mut report, mechanism, &analysis, configuration);
-    super::extras::ask_between(&mut report, mechanism, &analysis, configuration, &pairs);
+    super::extras::ask_between(&mut report, mechanism, &analysis, &pairs);
     if options.ranges {
         super::ranges::lay_over(&mut report, mechanism, &analysis, configuration, followed);
     }

@@ -4,7 +4,6 @@ use super::assemble::ReportError;
 use super::definitions::closest;
 use super::motions::motion_row;
 use super::schema::{Evidence, Motion, Report, Warning, WarningKind};
-use kutzbach_closure::{Arithmetic, Geometry};
 use kutzbach_mobility::{Analysis, relative_motions};
 use kutzbach_model::mechanism::Mechanism;
 
@@ -42,7 +41,6 @@ pub(super) fn ask_between(
     report: &mut Report,
     mechanism: &Mechanism,
     analysis: &Analysis,
-    configuration: &str,
     pairs: &[(usize, usize)],
 ) {
     if pairs.is_empty() {
@@ -51,11 +49,6 @@ pub(super) fn ask_between(
     let link = |index: usize| mechanism.links()[index].name.as_str();
     let mut asked: Vec<Motion> = Vec::new();
     let mut unanswered = Vec::new();
-    let geometry = Geometry::new(
-        mechanism,
-        mechanism.configuration(configuration),
-        &Arithmetic::double(),
-    );
     let answers: Vec<_> = analysis
         .branches
         .iter()
@@ -63,7 +56,7 @@ pub(super) fn ask_between(
         .map(|branch| {
             relative_motions(
                 mechanism,
-                &geometry,
+                &analysis.geometry,
                 &analysis.structure,
                 &branch.poses,
                 pairs,

@@ -56,7 +56,7 @@ pub(super) fn lay_over(report: &mut Report, mechanism: &Mechanism, analysis: &An
             .push(Warning::new(WarningKind::Cycles, text));
     }
     let literal: Vec<usize> = (0..analysis.parts.len())
-        .filter(|&index| analysis.parts[index].taken_literally)
+        .filter(|&index| analysis.parts[index].is_taken_literally())
         .collect();
     if !literal.is_empty() {
         let text = "the numbers are stated so coarsely, for a mechanism of this size, that rounding would leave the rank \

@@ -3,7 +3,6 @@
 use super::assemble::ReportError;
 use super::definitions::closest;
 use super::schema::{DependentInput, Follower, Freedoms, InputSource, Inputs, Limb, Report};
-use kutzbach_closure::{Arithmetic, Geometry};
 use kutzbach_mobility::{Actuation, Analysis, Branch, Freedom, limbs};
 use kutzbach_model::mechanism::{Mechanism, Placement};
 use kutzbach_motion::{Motion, inputs};
@@ -105,11 +104,6 @@ pub(super) fn lay_over(
     asked: Vec<Freedom>,
 ) -> Option<Motion> {
     let branch = analysis.branches.as_ref()?.first()?;
-    let geometry = Geometry::new(
-        mechanism,
-        mechanism.configuration(configuration),
-        &Arithmetic::double(),
-    );
     let named = mechanism
         .configuration(configuration)
         .map(|_| configuration);
@@ -121,7 +115,7 @@ pub(super) fn lay_over(
     let name = |freedom: &Freedom| mechanism.joints()[freedom.joint].freedom_name(freedom.variable);
     let names = |freedoms: &[Freedom]| freedoms.iter().map(name).collect::<Vec<_>>();
     let link = |index: usize| mechanism.links()[index].name.clone();
-    let limbs = limbs(mechanism, &geometry, &analysis.structure, branch);
+    let limbs = limbs(mechanism, &analysis.geometry, &analysis.structure, branch);
     report.inputs = Some(Inputs {
         given: names(&given),
         source,

@@ -3,11 +3,7 @@
 use super::assemble::HOME;
 use super::schema::{Report, Warning, WarningKind};
 use super::text::words::{counted, figure, in_degrees, names};
-use kutzbach_closure::{Arithmetic, Geometry};
-use kutzbach_mobility::{
-    Analysis, LimitFact, NearSingular, PoseKind, dead_centres, limit_facts, near_singular,
-    pose_of_branch,
-};
+use kutzbach_mobility::{Analysis, LimitFact, NearSingular, PoseFacts, PoseKind};
 use kutzbach_model::mechanism::{FreedomPart, Mechanism};
 
 /// How the sentences begin that are about the pose itself, not about the file.
@@ -32,21 +28,13 @@ pub(super) fn warn(
     if !analysis.assembly.closed {
         return;
     }
-    limits(report, mechanism, analysis, configuration);
-    let geometry = Geometry::new(
-        mechanism,
-        mechanism.configuration(configuration),
-        &Arithmetic::double(),
-    );
-    dead(report, mechanism, analysis, &geometry);
+    let facts = PoseFacts::of(mechanism, analysis);
+    limits(report, mechanism, &facts.limits, configuration);
+    resting(report, mechanism, &facts.resting);
     if configuration == HOME && analysis.mobility.pose == Some(PoseKind::Singular) {
         singular(report, mechanism);
     }
-    let states = &analysis.assembly.states;
-    let structure = &analysis.structure;
-    // Where the equations cannot be evaluated nearby there is nothing to say.
-    let near = near_singular(mechanism, &geometry, structure, states, &analysis.parts);
-    for found in near.unwrap_or_default() {
+    for found in &facts.near {
         let block = report
             .home
             .blocks
@@ -55,7 +43,7 @@ pub(super) fn warn(
             .map_or(String::new(), |block| {
                 format!("the sub-mechanism of `{}` is ", block.name)
             });
-        let text = near_text(mechanism, &found, &block);
+        let text = near_text(mechanism, found, &block);
         let warning = Warning::new(WarningKind::NearlySingular, text);
         report.warnings.push(warning);
     }
@@ -65,12 +53,12 @@ pub(super) fn warn(
 const OFFER: &str =
     "; `--pose limits` analyses the middle of the limits, `--pose joint=value` any other pose";
 
-fn limits(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis, configuration: &str) {
+fn limits(report: &mut Report, mechanism: &Mechanism, facts: &[LimitFact], configuration: &str) {
     let mut outside: Vec<(f64, String)> = Vec::new();
     let (mut no_range, mut couplings) = (Vec::new(), Vec::new());
     let joint = |index: usize| &mechanism.joints()[index];
-    for fact in limit_facts(mechanism, &analysis.assembly.states) {
-        match fact {
+    for fact in facts {
+        match *fact {
             LimitFact::Outside {
                 joint: index,
                 value,
@@ -92,7 +80,10 @@ fn limits(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis, confi
                 "coupling `{}`: no values within the limits of its joints satisfy it",
                 mechanism.couplings()[coupling].name
             )),
-            LimitFact::Pinned { coupling, joints } => {
+            LimitFact::Pinned {
+                coupling,
+                ref joints,
+            } => {
                 let held: Vec<String> = joints
                     .iter()
                     .map(|&index| format!("`{}`", joint(index).name))
@@ -138,20 +129,10 @@ fn limits(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis, confi
     report.warnings.extend(warnings);
 }
 
-fn dead(report: &mut Report, mechanism: &Mechanism, analysis: &Analysis, geometry: &Geometry<f64>) {
-    let Some([branch]) = analysis.branches.as_deref() else {
-        return;
-    };
-    if analysis.mobility.pose != Some(PoseKind::Regular) {
-        return;
-    }
-    let (structure, states) = (&analysis.structure, &analysis.assembly.states);
-    let Some(here) = pose_of_branch(mechanism, structure, states, &analysis.parts, branch) else {
-        return;
-    };
-    let mut resting: Vec<String> = dead_centres(mechanism, geometry, structure, branch, &here)
-        .into_iter()
-        .map(|joint| mechanism.joints()[joint].name.clone())
+fn resting(report: &mut Report, mechanism: &Mechanism, joints: &[usize]) {
+    let mut resting: Vec<String> = joints
+        .iter()
+        .map(|&joint| mechanism.joints()[joint].name.clone())
         .collect();
     resting.sort_by(|a, b| super::natural_order(a, b));
     if !resting.is_empty() {

@@ -340,7 +340,7 @@ pub(crate) fn hostile() -> Report {
     report.joints[3].links[0] = "关节".repeat(100);
     report.cycles[0].joints = report.joints.iter().map(|j| j.name.clone()).collect();
     let text = "link `\u{9b}31m` \r\n has no mass";
-    report.warnings = vec![Warning::new(WarningKind::File, text)];
+    report.warnings = vec![Warning::new(WarningKind::Said, text)];
     report
 }
 
@@ -357,7 +357,7 @@ pub(crate) fn large() -> Report {
         })
         .collect();
     report.cycles[0].joints = report.joints.iter().map(|j| j.name.clone()).collect();
-    let warning = |n| Warning::new(WarningKind::File, format!("warning {n}"));
+    let warning = |n| Warning::new(WarningKind::Said, format!("warning {n}"));
     report.warnings = (0..20).map(warning).collect();
     report
 }

@@ -9,6 +9,7 @@ use super::text::Text;
 use super::value::Value;
 use super::{Outcome, Place, Run, Sort, Trouble, arguments, map};
 use crate::ReadOptions;
+use crate::WarningKind;
 use crate::error::FormatError;
 use crate::words::{did_you_mean, quoted};
 use std::path::Path;
@@ -302,7 +303,7 @@ impl<'o> Run<'o> {
         if sort != "message" {
             let call = self.call.and_then(|call| self.calls.get(call as usize));
             let place = call.map_or(Place::new(0, 0..0), |call| call.place);
-            self.warn(place, self.call, message);
+            self.warn(place, self.call, (WarningKind::Said, message));
         }
     }
 
@@ -317,16 +318,19 @@ impl<'o> Run<'o> {
             "<{}> is no call of the macro {name} and stays as it is; <xacro:{}> calls it",
             element.name, element.name
         );
-        self.warn(element.place, self.call, message);
+        let kind = WarningKind::NotCalled {
+            element: element.name.to_string(),
+        };
+        self.warn(element.place, self.call, (kind, message));
         Ok(())
     }
 
     /// Tells something beside the result, once.
-    pub(super) fn warn(&mut self, place: Place, call: Option<u32>, message: String) {
+    pub(super) fn warn(&mut self, place: Place, call: Option<u32>, told: (WarningKind, String)) {
         const MOST: usize = 100;
-        let is_told = self.warnings.iter().any(|(.., own)| *own == message);
+        let is_told = self.warnings.iter().any(|(.., own)| *own == told);
         if self.warnings.len() < MOST && !is_told {
-            self.warnings.push((place, call, message));
+            self.warnings.push((place, call, told));
         }
     }
 

@@ -30,11 +30,13 @@ pub(super) fn can_call(element: &Element) -> bool {
 }
 
 /// What is told about a call that is skipped.
-pub(super) fn message(written: &str) -> String {
-    format!(
+pub(super) fn told(written: &str) -> (WarningKind, String) {
+    let message = format!(
         "<{}> calls a macro that the file neither defines nor includes: what it stood for is not read",
         cut(written)
-    )
+    );
+    let element = cut(written).into_owned();
+    (WarningKind::NotCalled { element }, message)
 }
 
 /// The trouble about a call of a macro that is not among those known.
@@ -61,7 +63,7 @@ pub(super) fn calls(
     let in_link = |node: &Node<'_, '_>| node.ancestors().any(|outer| outer.has_tag_name("link"));
     let is_plain = is_plain(file);
     let mut faults = Vec::new();
-    let mut skipped: Vec<(usize, String, usize)> = Vec::new();
+    let mut skipped: Vec<(usize, (WarningKind, String), usize)> = Vec::new();
     for node in root.descendants().filter(is_call) {
         let start = node.range().start;
         let tag = text.get(start + 1..).unwrap_or_default();
@@ -73,11 +75,11 @@ pub(super) fn calls(
             faults.push(Fault::new(range, trouble.message).maybe_help(trouble.help));
             continue;
         }
-        let message = message(written);
-        let known = skipped.iter().position(|(_, own, _)| *own == message);
+        let told = told(written);
+        let known = skipped.iter().position(|(_, own, _)| *own == told);
         match known {
             Some(index) => skipped[index].2 += 1,
-            None if skipped.len() < MOST_TOLD => skipped.push((start, message, 1)),
+            None if skipped.len() < MOST_TOLD => skipped.push((start, told, 1)),
             None => {}
         }
     }
@@ -88,10 +90,10 @@ pub(super) fn calls(
     let places = lines_and_columns(text, &starts);
     let told = places.into_iter().zip(skipped);
     Ok(told
-        .map(|((line, column), (_, message, count))| Warning {
+        .map(|((line, column), (_, (kind, message), count))| Warning {
             line,
             column,
-            kind: WarningKind::Other,
+            kind,
             message,
             count,
         })

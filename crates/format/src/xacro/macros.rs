@@ -235,7 +235,7 @@ impl Run<'_> {
         let main = self.files.get(0);
         let is_plain = main.is_some_and(|file| leftover::is_plain(&file.name));
         if self.is_alone && (is_plain || making.level == Level::Link) {
-            self.warn(element.place, self.call, leftover::message(&element.name));
+            self.warn(element.place, self.call, leftover::told(&element.name));
             return Ok(());
         }
         Err(leftover::unknown(name, &names.macros.known()))

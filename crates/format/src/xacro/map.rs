@@ -1,6 +1,7 @@
 //! From places of the expanded text to places of the files that it was made of.
 
 use super::{Call, Place, Run, Trouble};
+use crate::WarningKind;
 use crate::error::{Fault, FormatError, MOST_FAULTS, lines_and_columns, located};
 use crate::words::counted;
 use std::collections::HashMap;
@@ -29,7 +30,7 @@ pub(crate) struct Map {
     calls: Vec<Call>,
     /// Names and texts.
     files: Vec<(String, String)>,
-    warnings: Vec<(Place, Option<u32>, String)>,
+    warnings: Vec<(Place, Option<u32>, (WarningKind, String))>,
 }
 
 impl Map {
@@ -102,7 +103,10 @@ impl Map {
     /// what the file itself said while it was expanded.
     ///
     /// All at once, in one walk over each file.
-    pub(crate) fn notes(&self, offsets: &[usize]) -> (Vec<Noted>, Vec<(Noted, String)>) {
+    pub(crate) fn notes(
+        &self,
+        offsets: &[usize],
+    ) -> (Vec<Noted>, Vec<(Noted, (WarningKind, String))>) {
         let of_text = offsets
             .iter()
             .map(|offset| self.origin(&(*offset..*offset)));
@@ -152,7 +156,7 @@ impl Map {
             })
             .collect();
         let own = noted.split_off(offsets.len());
-        let said = self.warnings.iter().map(|(.., message)| message.clone());
+        let said = self.warnings.iter().map(|(.., told)| told.clone());
         (noted, own.into_iter().zip(said).collect())
     }
 

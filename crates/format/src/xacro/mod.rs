@@ -51,7 +51,7 @@ mod yaml_scalar;
 pub(super) use output::{Expanded, number_named};
 
 use super::error::FormatError;
-use super::{ReadOptions, Warning, xml};
+use super::{ReadOptions, Warning, WarningKind, xml};
 use budget::Budget;
 use files::Files;
 use scope::Table;
@@ -173,7 +173,7 @@ struct Run<'o> {
     macros: BTreeSet<String>,
     /// Whether the main file neither defines nor includes macros.
     is_alone: bool,
-    warnings: Vec<(Place, Option<u32>, String)>,
+    warnings: Vec<(Place, Option<u32>, (WarningKind, String))>,
     budget: Budget,
 }
 

@@ -9,7 +9,7 @@ use super::map::{Map, Span};
 use super::text::Text;
 use super::value::Value;
 use super::{Outcome, Place, Run, Trouble};
-use crate::{Reading, Warning, WarningKind};
+use crate::{Reading, Warning};
 use kutzbach_math::number::Number;
 use std::ops::Range;
 use std::rc::Rc;
@@ -89,10 +89,10 @@ impl Expanded {
         }
         reading
             .warnings
-            .extend(own.into_iter().map(|(noted, said)| Warning {
+            .extend(own.into_iter().map(|(noted, (kind, said))| Warning {
                 line: noted.line,
                 column: noted.column,
-                kind: WarningKind::Other,
+                kind,
                 message: format!("{said}{}", noted.beside),
                 count: 1,
             }));

@@ -109,7 +109,7 @@ pub(in super::super) fn moving_far(
     part: &Part,
     rank: &PartRank,
 ) -> Result<Option<Vec<bool>>, MatrixError> {
-    let rounded = rank.stated > 0.0 && rank.as_written != rank.instantaneous;
+    let rounded = rank.open_by_digits() > 0.0 && rank.as_written != rank.instantaneous;
     if rounded || rank.unknowns() > LADDER_UNKNOWNS || rank.instantaneous == Some(0) {
         return Ok(None);
     }

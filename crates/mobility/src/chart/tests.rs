@@ -108,14 +108,14 @@ fn short_radii_take_more_digits() {
 fn rounded_numbers_are_regular_within_their_noise() {
     let (rank, test) = tested(&Posed::new(bennett(Written::Decimals(7))));
     assert_eq!(rank.instantaneous, Some(1), "{:?}", rank.note);
-    assert!(rank.stated > 1e-8);
+    assert!(rank.open_by_digits() > 1e-8);
     assert_eq!(test.outcome, ChartOutcome::Regular, "{test:?}");
     // Not closed to rounding, but to what the digits say.
     assert!(
         test.leftover > 1e-12 && test.leftover <= test.noise,
         "{test:?}"
     );
-    assert!(test.noise >= rank.stated);
+    assert!(test.noise >= rank.open_by_digits());
 }
 
 #[test]
@@ -187,9 +187,9 @@ fn rounding_a_special_shape_leaves_something_over() {
         let (rank, left) = literally_left(bennett(Written::Decimals(decimals)));
         let left = left.unwrap();
         assert!(
-            left < rank.stated,
+            left < rank.open_by_digits(),
             "{decimals}: {left:e} of {:e}",
-            rank.stated
+            rank.open_by_digits()
         );
         assert!(left < 0.1 * before, "{decimals}: {left:e}");
         before = left;
@@ -200,7 +200,7 @@ fn rounding_a_special_shape_leaves_something_over() {
     assert!(
         left < 1e-14 && left > 1e-18,
         "{left:e} of {:e}",
-        rank.stated
+        rank.open_by_digits()
     );
     // Nobody wrote the last digits of a double.
     let posed = Posed::known("bennett_generic");

@@ -129,7 +129,7 @@ pub(super) fn everywhere(
         configuration: pose.configuration,
         geometry: pose.geometry,
     };
-    if rank.stated > 0.0 || rank.taken_literally {
+    if rank.open_by_digits() > 0.0 || rank.is_taken_literally() {
         return Err("not asked: the numbers are rounded".to_owned());
     }
     if found.open().is_none() && found.lower() > 0 {

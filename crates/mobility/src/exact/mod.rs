@@ -178,7 +178,7 @@ fn exact_finding(
 ) -> Result<Option<ExactFinding>, String> {
     let mechanism = pose.mechanism;
     let exact = numbers_are_exact(mechanism, pose.configuration, part);
-    if rank.stated > 0.0 || rank.taken_literally || !exact {
+    if rank.open_by_digits() > 0.0 || rank.is_taken_literally() || !exact {
         return Err("not asked: the numbers are rounded".to_owned());
     }
     if is_too_large(mechanism, part) {

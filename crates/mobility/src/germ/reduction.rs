@@ -91,7 +91,7 @@ impl Germ {
         let Some(reduced) = reduce(&equations, &splitting, unknowns, degree) else {
             return Ok(None);
         };
-        let accuracy = rank.stated.max(rank.accuracy);
+        let accuracy = rank.open_by_digits().max(rank.accuracy);
         let Some(noise) = noise_of(&equations, &splitting, &reduced, accuracy)? else {
             return Ok(None);
         };

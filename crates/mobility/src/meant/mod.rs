@@ -26,6 +26,7 @@ use super::analysis::{Analysis, AnalysisError, AnalysisOptions, analyse_as_state
 use super::claim::{Bounds, Claim, Says};
 use super::depth::Depth;
 use super::exact_constraint::NoChangeSet;
+use super::pose_rank::Reading;
 use super::redundant_directions::JointDirections;
 use super::roles::JointRole;
 use super::verdict::{Nominal, judge, unassembled};
@@ -238,7 +239,9 @@ fn of_the_one_meant(
     if meant.changes.is_empty() {
         // The numbers as written close all along a motion.
         for (now, before) in analysis.parts.iter_mut().zip(&stated.parts) {
-            now.taken_literally |= before.decision.rank != now.decision.rank;
+            if before.decision.rank != now.decision.rank {
+                now.reading = Reading::Literal;
+            }
         }
         return Ok(analysis);
     }

@@ -127,7 +127,7 @@ pub(super) fn parts_meant(
         of_part.accepted = freedom;
         let rigid = finding.is_some_and(|finding| finding.open().is_none() && finding.upper() == 0);
         let literal = rank.and_then(|rank| rank.as_written);
-        let open_to = rank.map_or(0.0, |rank| rank.stated);
+        let open_to = rank.map_or(0.0, |rank| rank.open_by_digits());
         let most = rank
             .filter(|_| freedom.is_none())
             .map(|rank| rank.candidates.1);
@@ -138,7 +138,7 @@ pub(super) fn parts_meant(
             open_to: (open_to > 0.0).then_some(BEYOND_FIRST_ORDER * open_to),
         };
         if (1..=MOST_DIMENSIONS).contains(&dimensions.all.len())
-            && !(rigid && rank.is_some_and(|rank| rank.stated > 0.0))
+            && !(rigid && rank.is_some_and(|rank| rank.open_by_digits() > 0.0))
             && let Some(found) =
                 nearest_of_part(mechanism, &geometry, states, part, &dimensions, freedoms)?
         {
@@ -168,13 +168,13 @@ pub(super) fn parts_meant(
 fn leaves_a_gap(rank: &PartRank) -> bool {
     let rounding = rounding_of(&rank.jacobian.walks, f64::EPSILON);
     let open = |residual: &f64| residual.abs() > GAP * rounding;
-    rank.stated > 0.0 && rank.jacobian.residual.iter().any(open)
+    rank.open_by_digits() > 0.0 && rank.jacobian.residual.iter().any(open)
 }
 
 /// Whether the numbers of a part as written close less well, or have a higher rank, than those that they may stand for.
 fn is_else_as_written(rank: &PartRank) -> bool {
     let literally = rank.as_written != rank.instantaneous;
-    rank.stated > 0.0 && (literally || leaves_a_gap(rank))
+    rank.open_by_digits() > 0.0 && (literally || leaves_a_gap(rank))
 }
 
 /// What some number has to change by at least for the loops of a part to close at its pose, whatever moves then (units); zero where that
@@ -213,7 +213,7 @@ fn closing(
 /// Whether a part of exact numbers that holds fast would be open if they were rounded.
 fn nearly_moves(dimensions: &Dimensions<'_>, rank: &PartRank) -> bool {
     let decision = &rank.decision;
-    rank.stated == 0.0
+    rank.open_by_digits() == 0.0
         && rank.instantaneous == Some(0)
         && dimensions.all.len() <= MOST_CHOSEN
         && decision.kept <= BEYOND_FIRST_ORDER * dimensions.noise(rank.jacobian.length)

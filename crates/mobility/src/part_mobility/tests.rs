@@ -214,7 +214,7 @@ fn an_open_rank_is_said_to_be_open() {
     let found = found_with(&posed, |rank| {
         rank.instantaneous = None;
         rank.candidates = (1, 3);
-        rank.stated = 1e-4;
+        rank.reading = Reading::WithinDigits(1e-4);
         rank.note = Some(RankNote::StaysOpen { residual: 0.5 });
     });
     assert!(found.open().unwrap().contains("more digits would decide"));
@@ -224,7 +224,7 @@ fn an_open_rank_is_said_to_be_open() {
 fn a_rank_that_precision_allows_to_differ_is_open() {
     let posed = Posed::new(cylinders());
     let found = found_with(&posed, |rank| {
-        rank.stated = 1e-4;
+        rank.reading = Reading::WithinDigits(1e-4);
         rank.candidates = (1, 2);
         rank.as_written = Some(1);
     });
@@ -233,7 +233,7 @@ fn a_rank_that_precision_allows_to_differ_is_open() {
     assert!(found.open().unwrap().contains("another rank"));
     // Where the numbers as written have the other one it is known which is meant.
     let found = found_with(&posed, |rank| {
-        rank.stated = 1e-4;
+        rank.reading = Reading::WithinDigits(1e-4);
         rank.candidates = (0, 1);
         rank.as_written = Some(0);
     });
@@ -243,7 +243,7 @@ fn a_rank_that_precision_allows_to_differ_is_open() {
 #[test]
 fn what_digits_left_out_hold_fast_is_not_called_rigid() {
     let posed = Posed::new(general_four());
-    let found = found_with(&posed, |rank| rank.taken_literally = true);
+    let found = found_with(&posed, |rank| rank.reading = Reading::Literal);
     check("held", &found);
     assert_eq!((found.lower(), found.upper()), (0, 3));
     assert!(found.open().unwrap().contains("more digits"));
@@ -255,7 +255,7 @@ fn a_margin_too_thin_is_open_and_says_what_would_decide() {
     // A flat parallelogram stated so coarsely that one beside it could be meant as well.
     let posed = Posed::new(flat_parallelogram());
     let found = found_with(&posed, |rank| {
-        rank.stated = 0.02;
+        rank.reading = Reading::WithinDigits(0.02);
         rank.as_written = Some(1);
     });
     check("thin", &found);
@@ -272,7 +272,7 @@ fn a_margin_too_thin_is_open_and_says_what_would_decide() {
     );
     assert!(chart.text.contains("margin too thin"), "{}", chart.text);
     // Where both readings have the same rank, the numbers were chosen to be flat.
-    let found = found_with(&posed, |rank| rank.stated = 0.02);
+    let found = found_with(&posed, |rank| rank.reading = Reading::WithinDigits(0.02));
     check("literal", &found);
     assert_eq!((found.lower(), found.upper(), found.open()), (1, 1, None));
     assert!(found.claims()[2].text.contains("taken literally"));
@@ -296,7 +296,7 @@ fn what_cannot_be_followed_far_is_not_called_regular() {
     // A rounded triangle in a line leaves over as much as any singular pose does: not followed at all.
     let posed = Posed::new(shaky_triangle());
     let rank = PartRank {
-        stated: 1e-3,
+        reading: Reading::WithinDigits(1e-3),
         ..posed.rank()
     };
     let kernel = posed.kernel(&rank);

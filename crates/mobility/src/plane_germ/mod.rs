@@ -118,7 +118,9 @@ fn to_degree(
         leftover.evaluate_next(&mut before, y)
     })?;
     for (row, plane) in planes.into_iter().enumerate() {
-        let plane = plane.up_to(degree - GUARD).blurred(start.rank.stated);
+        let plane = plane
+            .up_to(degree - GUARD)
+            .blurred(start.rank.open_by_digits());
         if order_of(&plane)?.is_some() {
             rows.push(row);
             equations.push(plane);
@@ -129,7 +131,7 @@ fn to_degree(
     };
     let turn = curve.turn;
     curve.branches(fineness, degree, bits, |cluster| match rows[..] {
-        [row] if start.rank.stated == 0.0 => is_one(start, cluster, row, turn),
+        [row] if start.rank.open_by_digits() == 0.0 => is_one(start, cluster, row, turn),
         _ => Ok(false),
     })
 }

@@ -1,7 +1,7 @@
 //! The readings of a part's numbers, one after another: within the stated precision, as written, in more digits, as rounded otherwise.
 
 use super::{
-    BEYOND_FIRST_ORDER, Doubt, LADDER, PartRank, Pose, RankNote, TALL, height_at, known_to,
+    BEYOND_FIRST_ORDER, Doubt, LADDER, PartRank, Pose, RankNote, Reading, TALL, height_at, known_to,
 };
 use crate::hidden::bits_for_ratios;
 use crate::more_digits::MoreDigits;
@@ -296,8 +296,10 @@ impl<'a> Readings<'a> {
             as_written,
             instantaneous: decision.rank.map(|rank| columns - rank),
             candidates,
-            taken_literally: self.coarse.is_some(),
-            stated: self.stated,
+            reading: match self.coarse {
+                Some(_) => Reading::Literal,
+                None => Reading::within(self.stated),
+            },
             accuracy: self.rounding.max(self.poorer).max(f64::EPSILON),
             doubt: self.other.map(|other| Doubt::Rounded(other.rounded_at)),
             bits: self.bits,

@@ -90,14 +90,14 @@ fn rounded_numbers_have_two_readings() {
     }
     let rank = ranked(&ring(&places, [0.0; 3], Written::Decimals(6)));
     assert_eq!(rank.instantaneous, Some(1));
-    assert!(rank.stated > 1e-7 && rank.stated < 1e-4);
+    assert!(rank.open_by_digits() > 1e-7 && rank.open_by_digits() < 1e-4);
     if let Some(literal) = rank.as_written {
         assert_eq!(literal, 0);
         assert!(rank.note.is_some());
     }
     // The same as doubles states nothing about rounding.
     let rank = ranked(&tilted(1e-6, Written::Exactly));
-    assert_eq!((rank.instantaneous, rank.stated), (Some(0), 0.0));
+    assert_eq!((rank.instantaneous, rank.open_by_digits()), (Some(0), 0.0));
 }
 
 #[test]
@@ -113,14 +113,14 @@ fn coarse_numbers_are_taken_as_they_are() {
     // Centimetres with three decimals.
     let points = [[0.0, 0.0], [0.003, 0.02], [0.04, 0.05], [0.04, 0.001]];
     let rank = ranked(&ring(&planar(&points), [0.0; 3], Written::Decimals(3)));
-    assert!(rank.taken_literally);
-    assert_eq!((rank.instantaneous, rank.stated), (Some(1), 0.0));
+    assert!(rank.is_taken_literally());
+    assert_eq!((rank.instantaneous, rank.open_by_digits()), (Some(1), 0.0));
     let rank = ranked(&ring(
         &planar(&CRANK_ROCKER),
         [0.0; 3],
         Written::Decimals(3),
     ));
-    assert!(!rank.taken_literally);
+    assert!(!rank.is_taken_literally());
 }
 
 #[test]
@@ -138,7 +138,7 @@ fn rounded_spheres_are_spheres() {
         for decimals in [6, 9, 12] {
             let rank = ranked(&ring(&places, [0.0; 3], Written::Decimals(decimals)));
             assert_eq!(rank.instantaneous, Some(1), "{decimals}: {:?}", rank.note);
-            assert!(!rank.taken_literally);
+            assert!(!rank.is_taken_literally());
         }
     }
 }

@@ -48,7 +48,7 @@ pub(super) fn by_search(
     let mut searches = Searches {
         found,
         start,
-        rounded: doubtful.stated > start.rank.accuracy,
+        rounded: doubtful.open_by_digits() > start.rank.accuracy,
         before: None,
         outermost: f64::INFINITY,
         allowance: SEARCHED,

@@ -148,7 +148,7 @@ fn told(start: &Start<'_>) -> Result<Option<(Germs, Squares, String)>, Doubt> {
     let one = Extended::new(1.0, bits);
     let mut sole = Sole::of(leftover, &one)?;
     let row = sole.row;
-    let squares = squares(&mut sole, variables, &one, start.rank.stated)?;
+    let squares = squares(&mut sole, variables, &one, start.rank.open_by_digits())?;
     if squares.across.len() < 2 || squares.narrow > NARROWEST {
         return Ok(None);
     }
@@ -166,7 +166,7 @@ fn told(start: &Start<'_>) -> Result<Option<(Germs, Squares, String)>, Doubt> {
         return Ok(Some((germs, squares, said)));
     }
     // What stated digits leave open is more than any term of higher order.
-    if start.rank.stated > 0.0 || (definite && squares.null.len() > 1) {
+    if start.rank.open_by_digits() > 0.0 || (definite && squares.null.len() > 1) {
         return Ok(None);
     }
     let rest = rest_of(start, &squares, row, extra)?;

@@ -4,7 +4,7 @@ use super::super::vocabulary::PoseKind;
 use super::*;
 use crate::depth::Depth;
 use crate::engines::ask_after_chart;
-use crate::pose_rank::PartRank;
+use crate::pose_rank::{PartRank, Reading};
 use kutzbach_closure::samples::flat_parallelogram;
 
 /// What is found of a singular pose that so many freedoms are known of, its rank changed on the way.
@@ -147,7 +147,9 @@ fn what_the_noise_drowns_stays_open_with_valid_bounds() {
     let flat = Posed::new(flat_parallelogram());
     for lower in [0, 1] {
         // A mechanism stated so coarsely that nothing of its series is above the noise.
-        let finding = found_with(&flat, lower, |rank| rank.stated = 10.0);
+        let finding = found_with(&flat, lower, |rank| {
+            rank.reading = Reading::WithinDigits(10.0)
+        });
         check(&finding, 2);
         let found = finding;
         assert_eq!((found.lower(), found.upper()), (lower, 1));

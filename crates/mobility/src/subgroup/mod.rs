@@ -174,7 +174,7 @@ pub fn subgroup_finding(
             finding.adopt(mechanism, part, &counted, freedom, reading);
             // Axes that coincide within the digits may be two, between which nothing turns without effect.
             let rounding = rounding_of(&rank.jacobian.walks, f64::EPSILON);
-            if finding.finite.is_none() && rank.stated > rounding {
+            if finding.finite.is_none() && rank.open_by_digits() > rounding {
                 finding.lower = 0;
             }
         }
@@ -264,14 +264,14 @@ fn is_plain(rank: &PartRank) -> bool {
     let held = rank.instantaneous == Some(0) && rank.equations() > rank.unknowns();
     match &rank.note {
         None => true,
-        Some(_) if rank.taken_literally => !held,
+        Some(_) if rank.is_taken_literally() => !held,
         Some(_) => rank.as_written != rank.instantaneous,
     }
 }
 
 /// The greatest freedom that the rank leaves possible.
 fn greatest(rank: &PartRank) -> usize {
-    if rank.taken_literally && rank.instantaneous == Some(0) {
+    if rank.is_taken_literally() && rank.instantaneous == Some(0) {
         return rank.unknowns();
     }
     rank.instantaneous.unwrap_or(0).max(rank.candidates.1)

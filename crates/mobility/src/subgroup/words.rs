@@ -16,9 +16,9 @@ const MOST_STEPS: usize = 3;
 
 /// How the numbers are read, as the beginning of a sentence.
 pub fn reading(rank: &PartRank) -> &'static str {
-    if rank.taken_literally {
+    if rank.is_taken_literally() {
         "taking the numbers literally, "
-    } else if rank.stated > 0.0 {
+    } else if rank.open_by_digits() > 0.0 {
         "within the stated precision, "
     } else {
         ""

@@ -14,7 +14,7 @@ fn walked(posed: &Posed, toward: Option<f64>, wanted: usize, away: f64) -> Vec<P
         &mut posed.assembly.states.clone(),
         basis,
         toward,
-        rank.stated,
+        rank.open_by_digits(),
         wanted,
         away,
     )

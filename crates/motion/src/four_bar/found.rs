@@ -1,10 +1,10 @@
 //! The four-bars of a mechanism: rings of four hinges through the ground, each with a part of its own or within a larger one.
 
 use super::{EQUAL, FourBar, kind, reach};
-use kutzbach_closure::{Arithmetic, Geometry, cross_product, spanning_poses};
+use kutzbach_closure::{cross_product, spanning_poses};
 use kutzbach_math::space::dot;
 use kutzbach_mobility::Analysis;
-use kutzbach_model::mechanism::{Configuration, JointKind, Mechanism};
+use kutzbach_model::mechanism::{JointKind, Mechanism};
 use std::collections::BTreeMap;
 
 /// A joint of a ring: its index, whether the ring passes it from its predecessor, its point (m) and the direction of its axis at the pose.
@@ -39,19 +39,15 @@ impl Ring {
 }
 
 /// All four-bars of a mechanism at the pose that was analysed, in the order of their joints: rings of four hinges with parallel axes
-/// through the ground. `configuration` is the one that was analysed. None where no pose is closed.
+/// through the ground. None where no pose is closed.
 #[must_use]
-pub fn four_bars(
-    mechanism: &Mechanism,
-    analysis: &Analysis,
-    configuration: Option<&Configuration>,
-) -> Vec<FourBar> {
+pub fn four_bars(mechanism: &Mechanism, analysis: &Analysis) -> Vec<FourBar> {
     if analysis.home.is_none() {
         return Vec::new();
     }
-    let geometry = Geometry::new(mechanism, configuration, &Arithmetic::double());
+    let geometry = &analysis.geometry;
     let states = &analysis.assembly.states;
-    let (poses, _) = spanning_poses(mechanism, &geometry, states);
+    let (poses, _) = spanning_poses(mechanism, geometry, states);
     let body = bodies(mechanism);
     let ground = body[mechanism.ground().0];
     let mut found = Vec::new();

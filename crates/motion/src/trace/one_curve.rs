@@ -82,7 +82,7 @@ impl Tracer<'_> {
             milestones: Vec::new(),
             frame: Arc::new(WholeFrame {
                 mechanism: self.mechanism.clone(),
-                geometry: self.geometry.clone(),
+                geometry: Arc::clone(&self.geometry),
                 states,
             }),
         };

@@ -96,7 +96,7 @@ impl Tracer<'_> {
         let stated = stage
             .index
             .and_then(|i| self.analysis.parts.get(i))
-            .map_or(0.0, |p| p.stated);
+            .map_or(0.0, |p| p.open_by_digits());
         CLOSED.max(4.0 * stated)
     }
 }

@@ -49,13 +49,14 @@ pub use accuracy::accuracy_page;
 pub use configurations::{Shown, configurations_page};
 pub use document::{SCRIPT, STYLE, script, style};
 pub use gallery::{Entry, index, stills_index};
-use kutzbach_closure::{Arithmetic, Geometry, Rigid, spanning_poses};
+use kutzbach_closure::{Geometry, Rigid, spanning_poses};
 use kutzbach_mobility::{Analysis, AnalysisOptions, Depth, Verdict, analyse};
 use kutzbach_model::mechanism::Mechanism;
 use kutzbach_scene::{Drawing, Roles};
 use kutzbach_simulate::accuracy::Accuracy;
 use kutzbach_simulate::verification::Verification;
 use motions::{Repertoire, repertoire};
+use std::sync::Arc;
 
 /// What a page is made of.
 #[derive(Clone, Copy, Debug)]
@@ -99,7 +100,7 @@ const FAR: f64 = 4.0;
 /// The mechanism as it is drawn.
 #[derive(Debug)]
 struct Stage {
-    geometry: Geometry<f64>,
+    geometry: Arc<Geometry<f64>>,
     drawing: Drawing,
     /// What links and joints do on the first branch, or at the pose where there is none.
     roles: Roles,
@@ -129,10 +130,7 @@ impl Stage {
             Some((mechanism, analysis)) => (*mechanism, analysis),
             None => (facts.analysis.of(facts.mechanism), facts.analysis),
         };
-        let configuration = facts
-            .configuration
-            .and_then(|name| mechanism.configuration(name));
-        let geometry = Geometry::new(mechanism, configuration, &Arithmetic::double());
+        let geometry = Arc::clone(&analysis.geometry);
         let (home, _) = spanning_poses(mechanism, &geometry, &analysis.assembly.states);
         let branches = analysis.branches.as_deref().unwrap_or_default();
         let roles = Roles::of(mechanism, analysis, branches.first(), None);

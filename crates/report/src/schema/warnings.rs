@@ -14,8 +14,28 @@ pub enum WarningKind {
     Meaningless,
     /// Something in the file has a name of old.
     OldName,
-    /// Anything else about the file.
-    File,
+    /// What other readers do not heed, or read in another way.
+    ReadersDiffer,
+    /// A limit that is none.
+    NoLimit,
+    /// A joint that closes a loop by giving a link a second place.
+    ClosesLoop,
+    /// Something of another program is read as an element of this format.
+    ReadAs,
+    /// A joint says what is said elsewhere.
+    SaidTwice,
+    /// Two joints between the same two links, in different places of the file.
+    SameLinks,
+    /// A joint with the name of another one is called otherwise here.
+    Renamed,
+    /// Joints inside `<gazebo>` are read.
+    InGazebo,
+    /// An element looks like a call of a macro and is none, or of one that nobody defines.
+    NotCalled,
+    /// What XML does not allow is read all the same.
+    NotXml,
+    /// What the file itself has to say.
+    Said,
     /// The pose asked for closes in another configuration than the one drawn.
     OtherConfiguration,
     /// The pose is outside joint limits.
@@ -77,7 +97,9 @@ pub struct Warning {
     pub kind: WarningKind,
     /// Where the file gives cause for it; `null` where the mechanism does.
     pub place: Option<WarningPlace>,
-    /// The names that its kind speaks of: what is meaningless and for what, the old name and the new one.
+    /// The names that its kind speaks of, in this order: what is meaningless and for what; the old name and the new one; the joint, the
+    /// link and the joint that places it where a loop is closed; the joint and the element that it is read as, or the joint like it, or
+    /// what it is called; the element that is no call.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub names: Vec<String>,
     /// In words.
@@ -130,14 +152,24 @@ impl std::fmt::Display for Warning {
 impl From<&kutzbach_format::Warning> for Warning {
     fn from(warning: &kutzbach_format::Warning) -> Self {
         use kutzbach_format::WarningKind as Kind;
-        let (kind, names) = match &warning.kind {
-            Kind::Other => (WarningKind::File, Vec::new()),
-            Kind::Guessed => (WarningKind::Guessed, Vec::new()),
-            Kind::MayJoin => (WarningKind::MayJoin, Vec::new()),
-            Kind::Meaningless { what, of } => {
-                (WarningKind::Meaningless, vec![what.clone(), of.clone()])
+        let (kind, names): (_, Vec<&String>) = match &warning.kind {
+            Kind::Guessed => (WarningKind::Guessed, vec![]),
+            Kind::MayJoin => (WarningKind::MayJoin, vec![]),
+            Kind::Meaningless { what, of } => (WarningKind::Meaningless, vec![what, of]),
+            Kind::OldName { old, new } => (WarningKind::OldName, vec![old, new]),
+            Kind::ReadersDiffer { what } => (WarningKind::ReadersDiffer, vec![what]),
+            Kind::NoLimit => (WarningKind::NoLimit, vec![]),
+            Kind::ClosesLoop { joint, link, other } => {
+                (WarningKind::ClosesLoop, vec![joint, link, other])
             }
-            Kind::OldName { old, new } => (WarningKind::OldName, vec![old.clone(), new.clone()]),
+            Kind::ReadAs { joint, element } => (WarningKind::ReadAs, vec![joint, element]),
+            Kind::SaidTwice { joint } => (WarningKind::SaidTwice, vec![joint]),
+            Kind::SameLinks { joint, other } => (WarningKind::SameLinks, vec![joint, other]),
+            Kind::Renamed { joint, called } => (WarningKind::Renamed, vec![joint, called]),
+            Kind::InGazebo { .. } => (WarningKind::InGazebo, vec![]),
+            Kind::NotCalled { element } => (WarningKind::NotCalled, vec![element]),
+            Kind::NotXml => (WarningKind::NotXml, vec![]),
+            Kind::Said => (WarningKind::Said, vec![]),
         };
         Self {
             kind,
@@ -146,7 +178,7 @@ impl From<&kutzbach_format::Warning> for Warning {
                 column: warning.column,
                 count: warning.count,
             }),
-            names,
+            names: names.into_iter().cloned().collect(),
             text: warning.message.clone(),
         }
     }

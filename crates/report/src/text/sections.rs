@@ -626,12 +626,12 @@ mod tests {
                 column: 2,
                 count: 1,
             }),
-            ..Warning::new(WarningKind::File, text)
+            ..Warning::new(WarningKind::Said, text)
         };
         let warnings = [
             at(1, "joint `r_grip` twice"),
             at(5, "joint `l_grip` twice"),
-            Warning::new(WarningKind::File, "other"),
+            Warning::new(WarningKind::Said, "other"),
         ];
         assert_eq!(
             repeated_once(&warnings.iter().collect::<Vec<_>>()),
