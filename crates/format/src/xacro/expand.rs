@@ -7,7 +7,7 @@ use super::output::Expanded;
 use super::scope::{Entry, Table};
 use super::text::Text;
 use super::value::Value;
-use super::{Outcome, Place, Run, Sort, Trouble, arguments, map};
+use super::{Outcome, Place, Run, Sort, Told, Trouble, arguments, map};
 use crate::ReadOptions;
 use crate::WarningKind;
 use crate::error::FormatError;
@@ -326,7 +326,7 @@ impl<'o> Run<'o> {
     }
 
     /// Tells something beside the result, once.
-    pub(super) fn warn(&mut self, place: Place, call: Option<u32>, told: (WarningKind, String)) {
+    pub(super) fn warn(&mut self, place: Place, call: Option<u32>, told: Told) {
         const MOST: usize = 100;
         let is_told = self.warnings.iter().any(|(.., own)| *own == told);
         if self.warnings.len() < MOST && !is_told {

@@ -4,9 +4,9 @@
 //! published models such calls are also left over from an expansion by other means, in the looks of links and in files that
 //! call themselves plain URDF. Nobody knows what these stood for: they are skipped, with a warning.
 
-use super::Trouble;
 use super::detect::is_xacro;
 use super::element::Element;
+use super::{Told, Trouble};
 use crate::element::XACRO;
 use crate::error::{Fault, FormatError, lines_and_columns, located};
 use crate::words::{cut, did_you_mean, quoted};
@@ -30,7 +30,7 @@ pub(super) fn can_call(element: &Element) -> bool {
 }
 
 /// What is told about a call that is skipped.
-pub(super) fn told(written: &str) -> (WarningKind, String) {
+pub(super) fn told(written: &str) -> Told {
     let message = format!(
         "<{}> calls a macro that the file neither defines nor includes: what it stood for is not read",
         cut(written)
@@ -63,7 +63,7 @@ pub(super) fn calls(
     let in_link = |node: &Node<'_, '_>| node.ancestors().any(|outer| outer.has_tag_name("link"));
     let is_plain = is_plain(file);
     let mut faults = Vec::new();
-    let mut skipped: Vec<(usize, (WarningKind, String), usize)> = Vec::new();
+    let mut skipped: Vec<(usize, Told, usize)> = Vec::new();
     for node in root.descendants().filter(is_call) {
         let start = node.range().start;
         let tag = text.get(start + 1..).unwrap_or_default();

@@ -1,7 +1,6 @@
 //! From places of the expanded text to places of the files that it was made of.
 
-use super::{Call, Place, Run, Trouble};
-use crate::WarningKind;
+use super::{Call, Place, Run, Told, Trouble};
 use crate::error::{Fault, FormatError, MOST_FAULTS, lines_and_columns, located};
 use crate::words::counted;
 use std::collections::HashMap;
@@ -30,7 +29,7 @@ pub(crate) struct Map {
     calls: Vec<Call>,
     /// Names and texts.
     files: Vec<(String, String)>,
-    warnings: Vec<(Place, Option<u32>, (WarningKind, String))>,
+    warnings: Vec<(Place, Option<u32>, Told)>,
 }
 
 impl Map {
@@ -103,10 +102,7 @@ impl Map {
     /// what the file itself said while it was expanded.
     ///
     /// All at once, in one walk over each file.
-    pub(crate) fn notes(
-        &self,
-        offsets: &[usize],
-    ) -> (Vec<Noted>, Vec<(Noted, (WarningKind, String))>) {
+    pub(crate) fn notes(&self, offsets: &[usize]) -> (Vec<Noted>, Vec<(Noted, Told)>) {
         let of_text = offsets
             .iter()
             .map(|offset| self.origin(&(*offset..*offset)));

@@ -52,6 +52,7 @@ pub(super) use output::{Expanded, number_named};
 
 use super::error::FormatError;
 use super::{ReadOptions, Warning, WarningKind, xml};
+
 use budget::Budget;
 use files::Files;
 use scope::Table;
@@ -155,6 +156,9 @@ struct Call {
     parent: Option<u32>,
 }
 
+/// Something told beside the result: its kind and its words.
+type Told = (WarningKind, String);
+
 /// One expansion.
 struct Run<'o> {
     options: &'o ReadOptions,
@@ -173,7 +177,7 @@ struct Run<'o> {
     macros: BTreeSet<String>,
     /// Whether the main file neither defines nor includes macros.
     is_alone: bool,
-    warnings: Vec<(Place, Option<u32>, (WarningKind, String))>,
+    warnings: Vec<(Place, Option<u32>, Told)>,
     budget: Budget,
 }
 
