@@ -46,6 +46,8 @@ mod definitions;
 mod drake;
 mod element;
 mod error;
+#[cfg(feature = "urdf-rs")]
+mod from_urdf_rs;
 mod gazebo;
 mod guard;
 mod hints;
@@ -73,6 +75,8 @@ mod xacro;
 mod xml;
 
 pub use error::FormatError;
+#[cfg(feature = "urdf-rs")]
+pub use from_urdf_rs::urdf_text;
 pub use kept::Kept;
 pub use sketch::{is_sketch, read_sketch, read_sketch_file};
 pub use writer::{Numbers, WriteOptions, write, write_with};
