@@ -83,6 +83,7 @@ mod scene_error;
 mod simulate_cli;
 mod sketch_cli;
 mod sketch_relations;
+mod smooth_scenes;
 #[path = "stability/main.rs"]
 mod stability;
 mod subgroups;

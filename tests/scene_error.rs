@@ -5,7 +5,8 @@ use kutzbach::format::read;
 use kutzbach::mechanism::Mechanism;
 use kutzbach::simulate::verification::{Moment, Observer, Passage};
 use kutzbach::simulate::{
-    Effects, Refinement, SceneOptions, SceneRun, Trajectory, WorldOptions, run_scene_estimated,
+    Effects, Integrator, Refinement, SceneOptions, SceneRun, Trajectory, WorldOptions,
+    run_scene_estimated,
 };
 use std::ops::ControlFlow;
 
@@ -69,6 +70,8 @@ fn run(
         },
         drives: Vec::new(),
         duration,
+        integrator: Some(Integrator::Engine),
+        runge_kutta_step: time_step,
     };
     let refinement = Refinement { wanted, work };
     let mut last = Last::default();

@@ -9,12 +9,13 @@ mod table;
 use super::failure::Failure;
 use super::pose::Pose;
 use super::{DISAGREEMENT, DONE, UNDECIDED, interrupt, load, output, terminal};
-use choices::{Effect, Format, SolverChoice, substeps};
+use choices::{Effect, Format, IntegratorChoice, SolverChoice, substeps};
 use clap::Args;
 use kutzbach::mobility::{AnalysisOptions, Followed, Verdict, analyse_to_follow};
 use kutzbach::simulate::verification::{Outcome, VerificationOptions, verify};
 use kutzbach::simulate::{
-    Refinement, SceneOptions, WorldOptions, cost_table, run_scene_estimated, scene_drives,
+    RUNGE_KUTTA_STEP, Refinement, SceneOptions, WorldOptions, cost_table, run_scene_estimated,
+    scene_drives,
 };
 use log::Log;
 use std::path::PathBuf;
@@ -79,6 +80,10 @@ pub struct Arguments {
         help_heading = "The scene"
     )]
     without: Vec<Effect>,
+    /// What makes the scene move
+    #[arg(long, value_enum, default_value_t = IntegratorChoice::Auto, help_heading = "The scene")]
+    integrator: IntegratorChoice,
+
     /// Simulated seconds of the scene
     #[arg(
         long,
@@ -241,6 +246,8 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             world,
             drives: drives.clone(),
             duration: arguments.duration,
+            integrator: arguments.integrator.integrator(),
+            runge_kutta_step: arguments.time_step.unwrap_or(RUNGE_KUTTA_STEP),
         };
         let states = &analysis.assembly.states;
         let refinement = Refinement {

@@ -124,24 +124,7 @@ pub(super) fn build(
     masses: Masses,
 ) -> Result<(PhysicsWorld, Units, Built), WorldError> {
     options.check()?;
-    let joints = mechanism.joints();
-    if states.len() != joints.len() {
-        return Err(WorldError::States {
-            wanted: joints.len(),
-            given: states.len(),
-        });
-    }
-    check_joints(mechanism, geometry, states)?;
-    let (poses, _) = spanning_poses(mechanism, geometry, states);
-    for (link, pose) in mechanism.links().iter().zip(&poses) {
-        if !computable(pose) {
-            return Err(WorldError::NotFinite {
-                what: "the pose",
-                name: link.name.clone(),
-            });
-        }
-    }
-    let length = size_of(mechanism, geometry, states, &poses);
+    let (poses, length) = placed(mechanism, geometry, states)?;
     let mut built = Built::default();
     built.masses = match masses {
         Masses::Stated => inertia::of_links(mechanism, geometry, length, &mut built.notes),
@@ -213,6 +196,36 @@ pub(super) fn build(
     built.elementary = apart.joints;
     built.ground = mechanism.ground().0;
     Ok((physics, units, built))
+}
+
+/// `world_from_link` of every link at a pose, and the characteristic length there (m).
+///
+/// # Errors
+/// [`WorldError`] for a wrong number of states and for numbers that cannot be computed with.
+pub(super) fn placed(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    states: &[JointState<f64>],
+) -> Result<(Vec<Rigid<f64>>, f64), WorldError> {
+    let joints = mechanism.joints();
+    if states.len() != joints.len() {
+        return Err(WorldError::States {
+            wanted: joints.len(),
+            given: states.len(),
+        });
+    }
+    check_joints(mechanism, geometry, states)?;
+    let (poses, _) = spanning_poses(mechanism, geometry, states);
+    for (link, pose) in mechanism.links().iter().zip(&poses) {
+        if !computable(pose) {
+            return Err(WorldError::NotFinite {
+                what: "the pose",
+                name: link.name.clone(),
+            });
+        }
+    }
+    let length = size_of(mechanism, geometry, states, &poses);
+    Ok((poses, length))
 }
 
 fn held_by_impulses(built: &Built) -> usize {

@@ -18,6 +18,7 @@
 //! | `effects`, `motor` | limits, friction, damping, contact; drives |
 //! | `world`, `velocities`, `measure` | stepping, setting in motion, reading off |
 //! | `scene_run`, `trajectory` | running a scene for a while, and how far its motion is off |
+//! | `smooth` | Runge-Kutta steps for scenes without impacts and dry friction |
 //! | `cost` | what each effect costs |
 //! | [`verification`] | what all that says about a prediction |
 //!
@@ -52,6 +53,7 @@ mod options;
 mod scene_run;
 #[cfg(feature = "logs")]
 mod simulation_log;
+mod smooth;
 mod solids;
 mod trail;
 mod trajectory;
@@ -64,8 +66,11 @@ pub use cost::{CostRow, cost_table};
 pub use error::WorldError;
 pub use measure::joint_gaps;
 pub use options::{Drive, Effects, Energy, JointGap, Masses, Note, Pieces, Solver, WorldOptions};
-pub use scene_run::{SceneOptions, SceneRun, effect_names, run_scene, scene_drives};
+pub use scene_run::{
+    RUNGE_KUTTA_STEP, SceneOptions, SceneRun, effect_names, run_scene, scene_drives,
+};
 #[cfg(feature = "logs")]
 pub use simulation_log::SimulationLog;
+pub use smooth::{Integrator, SERVING, Serving};
 pub use trajectory::{Refinement, StepRow, Trajectory, TrajectoryError, run_scene_estimated};
 pub use world::World;

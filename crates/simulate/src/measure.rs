@@ -14,11 +14,11 @@ impl World {
         let joints = self.displacements.iter().enumerate();
         joints
             .map(|(joint, displacement)| {
-                let fitted = displacement.fit(&self.relative(&poses, joint));
-                match before.get(joint) {
-                    Some(before) => continued(displacement, &fitted, before),
-                    None => fitted,
-                }
+                stands(
+                    displacement,
+                    &self.relative(&poses, joint),
+                    before.get(joint),
+                )
             })
             .collect()
     }
@@ -76,15 +76,75 @@ impl World {
     /// are simulated or not; joints without a limit are left out.
     #[must_use]
     pub fn limit_violations_of(&self, states: &[JointState<f64>]) -> Vec<(usize, f64)> {
-        let joints = self.limits.iter().zip(states).enumerate();
-        joints
-            .filter_map(|(joint, (limit, state))| {
-                let [lower, upper] = (*limit)?;
-                let value = *state.values.first()?;
-                Some((joint, (lower - value).max(value - upper).max(0.0)))
-            })
-            .collect()
+        beyond(self.limits.iter().copied(), states)
     }
+}
+
+fn beyond(
+    limits: impl Iterator<Item = Option<[f64; 2]>>,
+    states: &[JointState<f64>],
+) -> Vec<(usize, f64)> {
+    let joints = limits.zip(states).enumerate();
+    joints
+        .filter_map(|(joint, (limit, state))| {
+            let [lower, upper] = limit?;
+            let value = *state.values.first()?;
+            Some((joint, (lower - value).max(value - upper).max(0.0)))
+        })
+        .collect()
+}
+
+/// [`World::limit_violations_of`] without a world.
+pub(super) fn limit_violations(
+    mechanism: &Mechanism,
+    states: &[JointState<f64>],
+) -> Vec<(usize, f64)> {
+    let joints = mechanism.joints().iter();
+    beyond(
+        joints.map(|joint| joint.bounds().map(<[f64; 2]>::from)),
+        states,
+    )
+}
+
+/// [`World::states`] of links in given poses (`world_from_link`, by link index).
+pub(super) fn joint_states(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    links: &[Rigid<f64>],
+    before: &[JointState<f64>],
+) -> Vec<JointState<f64>> {
+    let joints = geometry.displacements.iter().enumerate();
+    joints
+        .map(|(joint, displacement)| {
+            let relative = relative(mechanism, geometry, links, joint);
+            stands(displacement, &relative, before.get(joint))
+        })
+        .collect()
+}
+
+fn stands(
+    displacement: &JointDisplacement<f64>,
+    relative: &Rigid<f64>,
+    before: Option<&JointState<f64>>,
+) -> JointState<f64> {
+    let fitted = displacement.fit(relative);
+    match before {
+        Some(before) => continued(displacement, &fitted, before),
+        None => fitted,
+    }
+}
+
+/// The successor's joint frame seen from the predecessor's.
+fn relative(
+    mechanism: &Mechanism,
+    geometry: &Geometry<f64>,
+    links: &[Rigid<f64>],
+    joint: usize,
+) -> Rigid<f64> {
+    let (of, sides) = (&mechanism.joints()[joint], &geometry.sides[joint]);
+    let ends = [of.predecessor.link.0, of.successor.link.0];
+    let [p, s] = [0, 1].map(|i| links[ends[i]].compose(&sides[i]));
+    p.inverse().compose(&s)
 }
 
 /// For every joint, how far its two frames are from what it allows where the links are in given poses (`world_from_link`, by
@@ -95,14 +155,10 @@ pub fn joint_gaps(
     geometry: &Geometry<f64>,
     links: &[Rigid<f64>],
 ) -> Vec<JointGap> {
-    let joints = mechanism.joints().iter();
+    let joints = geometry.displacements.iter().enumerate();
     joints
-        .zip(&geometry.sides)
-        .zip(&geometry.displacements)
-        .map(|((joint, sides), displacement)| {
-            let ends = [joint.predecessor.link.0, joint.successor.link.0];
-            let [p, s] = [0, 1].map(|i| links[ends[i]].compose(&sides[i]));
-            gap_of(displacement, &p.inverse().compose(&s))
+        .map(|(joint, displacement)| {
+            gap_of(displacement, &relative(mechanism, geometry, links, joint))
         })
         .collect()
 }

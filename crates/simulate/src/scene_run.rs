@@ -3,9 +3,11 @@
 //! Nothing is predicted here. What is kept is what shows whether each effect does its own and nothing else: energy,
 //! touching shapes, limits exceeded, loops opened.
 
+use super::measure::{joint_gaps, joint_states, limit_violations};
+use super::smooth::{Integrator, REACHED, Serving, SmoothWorld, refusals};
 use super::verification::{Moment, Observer, Passage, largest_gap};
-use super::{Drive, Effects, Pieces, Solver, World, WorldError, WorldOptions};
-use kutzbach_closure::{Geometry, JointState};
+use super::{Drive, Effects, Energy, Pieces, Solver, World, WorldError, WorldOptions};
+use kutzbach_closure::{Geometry, JointState, Rigid};
 use kutzbach_model::mechanism::Mechanism;
 use kutzbach_motion::Variable;
 use serde::Serialize;
@@ -19,18 +21,29 @@ pub struct SceneOptions {
     pub drives: Vec<Drive>,
     /// Simulated seconds.
     pub duration: f64,
+    /// What makes it move; `None` for what its effects call for ([`SERVING`](super::SERVING)).
+    pub integrator: Option<Integrator>,
+    /// Length of a Runge-Kutta step (s); that of the engine is [`WorldOptions::time_step`].
+    pub runge_kutta_step: f64,
 }
+
+/// Length of a Runge-Kutta step where none is asked for (s): one for each moment shown.
+pub const RUNGE_KUTTA_STEP: f64 = 1.0 / MOMENTS_PER_SECOND;
 
 /// How a run went.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SceneRun {
     /// The effects, by name.
     pub effects: Vec<&'static str>,
-    /// How trees were held.
-    pub solver: Solver,
+    /// What made it move.
+    pub integrator: Integrator,
+    /// Why that was the engine, where the scene's effects or its motion called for it.
+    pub engine_because: Vec<&'static str>,
+    /// How the engine held trees; nothing where no engine moved it.
+    pub solver: Option<Solver>,
     /// Length of a step (s).
     pub time_step: f64,
-    /// Substeps of a step.
+    /// Substeps of a step of the engine; 1 where no engine moved it.
     pub substeps: usize,
     /// Simulated seconds reached.
     pub time: f64,
@@ -45,6 +58,9 @@ pub struct SceneRun {
     pub energy_change: f64,
     /// The largest kinetic energy at a moment shown (J).
     pub largest_kinetic_energy: f64,
+    /// Kinetic energy below this is hardly any (J): [`STILL`] of what falling by the mechanism's own length gives.
+    #[serde(skip)]
+    pub least_energy: f64,
     /// Whether nothing in the scene brings energy in or takes it: no drive, contact, friction, damping or limit.
     pub conservative: bool,
     /// The most pairs of shapes that touched at once.
@@ -96,6 +112,15 @@ pub fn scene_drives(mechanism: &Mechanism) -> Vec<Drive> {
         .collect()
 }
 
+/// The share of the energy of falling by its own length that a mechanism has to have for shares of its energy to tell something.
+pub(super) const STILL: f64 = 1e-6;
+
+/// m/s².
+pub(super) fn gravity_of(options: &SceneOptions) -> f64 {
+    let gravity = options.world.effects.gravity.unwrap_or_default();
+    gravity.iter().map(|g| g * g).sum::<f64>().sqrt()
+}
+
 /// Whether nothing of a scene brings energy in or takes it.
 fn is_conservative(options: &SceneOptions) -> bool {
     let Effects {
@@ -114,7 +139,8 @@ const MOMENTS_PER_SECOND: f64 = 60.0;
 /// Runs a scene from a closed pose, at rest.
 ///
 /// # Errors
-/// Where the world cannot be made or driven. That it diverges is a result: [`SceneRun::ended_early`].
+/// Where the world cannot be made or driven, or the integrator asked for cannot serve the scene. That it diverges is a result:
+/// [`SceneRun::ended_early`].
 pub fn run_scene(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
@@ -122,15 +148,62 @@ pub fn run_scene(
     options: &SceneOptions,
     observer: &mut dyn Observer,
 ) -> Result<SceneRun, WorldError> {
-    run_in(
+    let scene = Scene {
         mechanism,
         geometry,
         start,
         options,
-        Paces::of(options),
-        observer,
-        &mut |_, _| (),
-    )
+    };
+    let (mut run, because) = served(mechanism, options, &mut |integrator| {
+        let paces = Paces::of(options, integrator);
+        run_in(&scene, integrator, paces, observer, &mut |_, _| ())
+    })?;
+    run.engine_because = because;
+    Ok(run)
+}
+
+/// Runs with Runge-Kutta steps where they serve, and else, or where they turn out not to, with the engine; and says why.
+///
+/// # Errors
+/// Those of the runs, and [`WorldError::Options`] where the integrator asked for cannot serve the scene.
+pub(super) fn served<T>(
+    mechanism: &Mechanism,
+    options: &SceneOptions,
+    run: &mut dyn FnMut(Integrator) -> Result<Served<T>, WorldError>,
+) -> Result<(T, Vec<&'static str>), WorldError> {
+    let mut refused = Vec::new();
+    if options.integrator != Some(Integrator::Engine) {
+        refused = refusals(mechanism, options);
+        if refused.is_empty() {
+            match run(Integrator::RungeKutta)? {
+                Ok(done) => return Ok((done, Vec::new())),
+                Err(serving) => refused.push(serving),
+            }
+        }
+    }
+    let because: Vec<&'static str> = refused.iter().map(|serving| serving.effect).collect();
+    if options.integrator == Some(Integrator::RungeKutta) {
+        return Err(WorldError::Options(format!(
+            "Runge-Kutta steps do not serve a scene with {}",
+            because.join(", ")
+        )));
+    }
+    match run(Integrator::Engine)? {
+        Ok(done) => Ok((done, because)),
+        Err(serving) => Err(WorldError::Options(serving.because.to_owned())),
+    }
+}
+
+/// A result, or why there is none and the engine has to do it.
+pub(super) type Served<T> = Result<T, Serving>;
+
+/// What a run needs to know.
+#[derive(Clone, Copy)]
+pub(super) struct Scene<'a> {
+    pub mechanism: &'a Mechanism,
+    pub geometry: &'a Geometry<f64>,
+    pub start: &'a [JointState<f64>],
+    pub options: &'a SceneOptions,
 }
 
 /// How many steps a run has, and after how many of them a moment is shown.
@@ -141,11 +214,99 @@ pub(super) struct Paces {
 }
 
 impl Paces {
-    pub fn of(options: &SceneOptions) -> Self {
+    pub fn of(options: &SceneOptions, integrator: Integrator) -> Self {
+        let time_step = step_of(options, integrator);
         Self {
-            steps: (options.duration / options.world.time_step).round() as u64,
-            every: ((1.0 / (MOMENTS_PER_SECOND * options.world.time_step)) as u64).max(1),
+            steps: (options.duration / time_step).round() as u64,
+            every: ((1.0 / (MOMENTS_PER_SECOND * time_step)) as u64).max(1),
         }
+    }
+}
+
+fn step_of(options: &SceneOptions, integrator: Integrator) -> f64 {
+    match integrator {
+        Integrator::RungeKutta => options.runge_kutta_step,
+        Integrator::Engine => options.world.time_step,
+    }
+}
+
+/// What moves step by step, whatever makes it move.
+pub(super) trait Moves {
+    /// A step.
+    fn step(&mut self) -> Result<(), Stopped>;
+    /// s.
+    fn time(&self) -> f64;
+    /// `world_from_link`.
+    fn link_poses(&self) -> Vec<Rigid<f64>>;
+    /// In the world: angular velocity (rad/s), velocity of the point at the origin (m/s).
+    fn link_twists(&self) -> Vec<[f64; 6]>;
+    /// J.
+    fn energy(&self) -> Energy;
+    /// Pairs of shapes that touch.
+    fn contacts(&self) -> usize;
+    /// Characteristic length (m).
+    fn length(&self) -> f64;
+    /// Of all that moves (kg).
+    fn mass(&self) -> f64;
+    /// What it consists of.
+    fn pieces(&self) -> Pieces;
+    /// Constraints that it lacks.
+    fn not_simulated(&self) -> &[String];
+}
+
+/// Why there is no further step.
+#[derive(Clone, Debug)]
+pub(super) enum Stopped {
+    /// The motion left the range of numbers.
+    Early(String),
+    /// Another integrator has to do it.
+    Unserved(Serving),
+}
+
+impl Moves for World {
+    fn step(&mut self) -> Result<(), Stopped> {
+        World::step(self).map_err(|error| Stopped::Early(error.to_string()))
+    }
+
+    fn time(&self) -> f64 {
+        World::time(self)
+    }
+
+    fn link_poses(&self) -> Vec<Rigid<f64>> {
+        World::link_poses(self)
+    }
+
+    fn link_twists(&self) -> Vec<[f64; 6]> {
+        World::link_twists(self)
+    }
+
+    fn energy(&self) -> Energy {
+        World::energy(self)
+    }
+
+    fn contacts(&self) -> usize {
+        World::contacts(self)
+    }
+
+    fn length(&self) -> f64 {
+        self.scale().0
+    }
+
+    fn mass(&self) -> f64 {
+        self.built
+            .masses
+            .iter()
+            .flatten()
+            .map(|mass| mass.mass)
+            .sum()
+    }
+
+    fn pieces(&self) -> Pieces {
+        World::pieces(self)
+    }
+
+    fn not_simulated(&self) -> &[String] {
+        World::not_simulated(self)
     }
 }
 
@@ -168,16 +329,88 @@ pub(super) fn passage_of(mechanism: &Mechanism, options: &SceneOptions) -> Passa
     }
 }
 
-/// [`run_scene`] in given paces; `look` sees the world at each moment.
+impl Scene<'_> {
+    fn world(&self, integrator: Integrator) -> Result<Served<Box<dyn Moves>>, WorldError> {
+        let Self {
+            mechanism,
+            geometry,
+            start,
+            options,
+        } = self;
+        if integrator == Integrator::RungeKutta {
+            let smooth = SmoothWorld::new(mechanism, geometry, start, options)?;
+            return Ok(smooth.map(|world| Box::new(world) as Box<dyn Moves>));
+        }
+        let mut world = World::new(mechanism, geometry, start, &options.world)?;
+        for drive in &options.drives {
+            world.drive(*drive)?;
+        }
+        Ok(Ok(Box::new(world)))
+    }
+
+    /// A run that has not begun.
+    fn still(&self, integrator: Integrator, world: &dyn Moves) -> SceneRun {
+        let options = self.options;
+        let by_engine = integrator == Integrator::Engine;
+        SceneRun {
+            effects: effect_names(&options.world.effects),
+            integrator,
+            engine_because: Vec::new(),
+            solver: by_engine.then_some(options.world.solver),
+            time_step: step_of(options, integrator),
+            substeps: if by_engine { options.world.substeps } else { 1 },
+            time: 0.0,
+            pieces: world.pieces(),
+            kinetic_energy: 0.0,
+            potential_energy: 0.0,
+            energy_change: 0.0,
+            largest_kinetic_energy: 0.0,
+            least_energy: STILL * world.mass() * gravity_of(options) * world.length(),
+            conservative: is_conservative(options),
+            most_contacts: 0,
+            beyond_limit: None,
+            closure_error: 0.0,
+            ended_early: None,
+            not_simulated: world.not_simulated().to_vec(),
+            wall_time: 0.0,
+            step_time: 0.0,
+        }
+    }
+}
+
+impl SceneRun {
+    /// The energy's change in parts of the greatest kinetic energy, where nothing in the scene takes energy or gives it: an error of the
+    /// steps. What hardly moves is measured against what moves by some thousandths of its natural speed.
+    #[must_use]
+    pub fn energy_error(&self) -> Option<f64> {
+        let greatest = self.largest_kinetic_energy.max(self.least_energy);
+        (self.conservative && greatest > 0.0).then(|| self.energy_change.abs() / greatest)
+    }
+
+    /// Keeps the joint that is farthest beyond its limit.
+    fn look_at_limits(&mut self, mechanism: &Mechanism, states: &[JointState<f64>]) {
+        for (joint, beyond) in limit_violations(mechanism, states) {
+            if beyond > self.beyond_limit.as_ref().map_or(0.0, |(_, most)| *most) {
+                self.beyond_limit = Some((mechanism.joints()[joint].name.clone(), beyond));
+            }
+        }
+    }
+}
+
+/// A run in given paces; `look` sees the world at each moment.
 pub(super) fn run_in(
-    mechanism: &Mechanism,
-    geometry: &Geometry<f64>,
-    start: &[JointState<f64>],
-    options: &SceneOptions,
+    scene: &Scene<'_>,
+    integrator: Integrator,
     Paces { steps, every }: Paces,
     observer: &mut dyn Observer,
-    look: &mut dyn FnMut(&World, &Moment<'_>),
-) -> Result<SceneRun, WorldError> {
+    look: &mut dyn FnMut(&dyn Moves, &Moment<'_>),
+) -> Result<Served<SceneRun>, WorldError> {
+    let Scene {
+        mechanism,
+        geometry,
+        start,
+        options,
+    } = *scene;
     if !(options.duration >= 0.0 && options.duration.is_finite()) {
         return Err(WorldError::Options(format!(
             "a run lasts a finite number of seconds, but {} were asked for",
@@ -185,32 +418,13 @@ pub(super) fn run_in(
         )));
     }
     let begun = std::time::Instant::now();
-    let mut world = World::new(mechanism, geometry, start, &options.world)?;
-    for drive in &options.drives {
-        world.drive(*drive)?;
-    }
-    let (length, _) = world.scale();
-    let energy = world.energy().total();
-    let mut run = SceneRun {
-        effects: effect_names(&options.world.effects),
-        solver: options.world.solver,
-        time_step: options.world.time_step,
-        substeps: options.world.substeps,
-        time: 0.0,
-        pieces: world.pieces(),
-        kinetic_energy: 0.0,
-        potential_energy: 0.0,
-        energy_change: 0.0,
-        largest_kinetic_energy: 0.0,
-        conservative: is_conservative(options),
-        most_contacts: 0,
-        beyond_limit: None,
-        closure_error: 0.0,
-        ended_early: None,
-        not_simulated: world.not_simulated().to_vec(),
-        wall_time: 0.0,
-        step_time: 0.0,
+    let mut world = match scene.world(integrator)? {
+        Ok(world) => world,
+        Err(serving) => return Ok(Err(serving)),
     };
+    let length = world.length();
+    let energy = world.energy().total();
+    let mut run = scene.still(integrator, &*world);
     let mut stopped = observer.begin(&passage_of(mechanism, options)).is_break();
     let mut states = start.to_vec();
     for step in 1..=steps {
@@ -221,30 +435,36 @@ pub(super) fn run_in(
         let before = std::time::Instant::now();
         let stepped = world.step();
         run.step_time += before.elapsed().as_secs_f64();
-        if let Err(error) = stepped {
-            run.ended_early = Some(error.to_string());
-            break;
+        match stepped {
+            Ok(()) => {}
+            Err(Stopped::Unserved(serving)) => return Ok(Err(serving)),
+            Err(Stopped::Early(why)) => {
+                run.ended_early = Some(why);
+                break;
+            }
         }
-        states = world.states(&states);
+        let poses = world.link_poses();
+        states = joint_states(mechanism, geometry, &poses, &states);
         run.time = world.time();
         run.most_contacts = run.most_contacts.max(world.contacts());
-        for (joint, beyond) in world.limit_violations_of(&states) {
-            if beyond > run.beyond_limit.as_ref().map_or(0.0, |(_, most)| *most) {
-                run.beyond_limit = Some((mechanism.joints()[joint].name.clone(), beyond));
-            }
+        run.look_at_limits(mechanism, &states);
+        if integrator == Integrator::RungeKutta
+            && options.world.effects.limits
+            && run.beyond_limit.is_some()
+        {
+            return Ok(Err(REACHED));
         }
         if step % every != 0 && step != steps {
             continue;
         }
         let kinetic = world.energy().kinetic;
         run.largest_kinetic_energy = run.largest_kinetic_energy.max(kinetic);
-        let gaps = world.gaps();
+        let gaps = joint_gaps(mechanism, geometry, &poses);
         let closure_error = largest_gap(&gaps, length);
         // What is not a number must not pass for small.
         if !(closure_error <= run.closure_error) {
             run.closure_error = closure_error;
         }
-        let poses = world.link_poses();
         let moment = Moment {
             time: world.time(),
             done: step as f64 / steps as f64,
@@ -255,7 +475,7 @@ pub(super) fn run_in(
             closure_error,
             distance: 0.0,
         };
-        look(&world, &moment);
+        look(&*world, &moment);
         stopped = observer.moment(&moment).is_break();
     }
     let last = world.energy();
@@ -263,5 +483,5 @@ pub(super) fn run_in(
     run.potential_energy = last.potential;
     run.energy_change = last.total() - energy;
     run.wall_time = begun.elapsed().as_secs_f64();
-    Ok(run)
+    Ok(Ok(run))
 }

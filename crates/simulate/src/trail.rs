@@ -1,11 +1,13 @@
 //! What was to be seen of a run, kept to be compared with another one and to be shown later.
 
 use super::options::JointGap;
+use super::scene_run::{Moves, STILL, Scene, gravity_of};
 use super::trajectory::TrajectoryError;
 use super::verification::{Moment, Observer, Passage, distance_between};
-use super::world::World;
-use kutzbach_closure::{Geometry, JointState, Rigid};
-use kutzbach_model::mechanism::Mechanism;
+use kutzbach_closure::{JointState, Rigid};
+
+/// Travel below this is rounding (characteristic lengths, rad).
+const NO_TRAVEL: f64 = 1e-9;
 
 /// All links and joints at the moments shown.
 #[derive(Default)]
@@ -27,8 +29,8 @@ struct Shown {
 
 impl Trail {
     /// Keeps a moment.
-    pub fn keep(&mut self, world: &World, moment: &Moment<'_>) {
-        self.length = world.scale().0;
+    pub fn keep(&mut self, world: &dyn Moves, moment: &Moment<'_>) {
+        self.length = world.length();
         self.moments.push(Shown {
             time: moment.time,
             done: moment.done,
@@ -62,12 +64,7 @@ impl Trail {
     }
 
     /// The largest differences from a coarser run; infinite where one ended before the other.
-    pub fn apart(
-        &self,
-        coarse: &Self,
-        mechanism: &Mechanism,
-        geometry: &Geometry<f64>,
-    ) -> TrajectoryError {
+    pub fn apart(&self, coarse: &Self, scene: &Scene<'_>) -> TrajectoryError {
         if self.moments.len() != coarse.moments.len() {
             return TrajectoryError {
                 worst: f64::INFINITY,
@@ -77,9 +74,18 @@ impl Trail {
         }
         let pairs = self.moments.iter().zip(&coarse.moments);
         let (mut worst, mut end) = (0.0, 0.0);
-        let (mut fastest, mut changed) = (0.0, 0.0);
+        // A speed whose energy is hardly any, and one that moves nothing in the time there is.
+        let natural = (STILL * gravity_of(scene.options) / self.length).sqrt();
+        let mut fastest = natural.max(NO_TRAVEL / scene.options.duration);
+        let mut changed = 0.0;
         for (fine, coarse) in pairs {
-            end = distance_between(mechanism, geometry, &fine.poses, &coarse.poses, self.length);
+            end = distance_between(
+                scene.mechanism,
+                scene.geometry,
+                &fine.poses,
+                &coarse.poses,
+                self.length,
+            );
             worst = larger(worst, end);
             for link in 0..fine.poses.len() {
                 let [own, less] = [fine, coarse].map(|shown| shown.speeds(link, self.length));

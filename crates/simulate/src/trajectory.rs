@@ -3,14 +3,15 @@
 //! # The estimate
 //! Let x(h) be the motion with steps of h, and x(h) − x = C hᵖ + … (Richardson 1911). Then x(h) − x(h/2) = (2ᵖ − 1) C (h/2)ᵖ, so that
 //! the finer of two runs is off by their difference over 2ᵖ − 1, and the coarser by 2ᵖ times as much. Differences of three runs
-//! tell p; with two it is taken as 1, which is that of the engine's steps. Where p comes out below [`CONVERGES`], as after an
-//! impact that one run has and the other has not, the runs do not approach one another, and nothing is claimed.
+//! tell p. With two runs the coarser is told of by the integrator's own order, and the finer as if p were 1. Where p comes out below
+//! [`CONVERGES`], as after an impact that one run has and the other has not, the runs do not approach one another, and nothing is claimed.
 //!
 //! What is compared is all links at all moments that both runs show: poses (characteristic lengths, rad), and twists as a share of
 //! the greatest. It is an estimate and no bound: where steps are so long that the first term does not lead, it may be off by a factor.
 
 use super::accuracy::work_of_setting;
-use super::scene_run::{Paces, passage_of, run_in};
+use super::scene_run::{Moves, Paces, Scene, Served, passage_of, run_in, served};
+use super::smooth::{Integrator, SmoothWorld};
 use super::trail::Trail;
 use super::verification::{Moment, Observer, Passage};
 use super::{SceneOptions, SceneRun, WorldError, WorldOptions};
@@ -22,8 +23,17 @@ use std::ops::ControlFlow;
 /// The least order that counts as one.
 const CONVERGES: f64 = 0.5;
 
-/// The highest order that is believed: that of a symmetric step. What seems higher is chance.
-const HIGHEST: f64 = 2.0;
+/// What is known of the order of an integrator: that which the coarser of two runs is taken to have until a third shows it, and the
+/// highest that is believed. What seems higher is chance.
+const fn orders(integrator: Integrator) -> (f64, f64) {
+    match integrator {
+        Integrator::RungeKutta => (5.0, 5.0),
+        Integrator::Engine => (1.0, 2.0),
+    }
+}
+
+/// Differences of this size are rounding, which shorter steps do not make smaller (characteristic lengths, rad, shares).
+const ROUNDING: f64 = 1e-10;
 
 /// How far a run is off.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -63,6 +73,8 @@ pub struct StepRow {
     pub order: Option<f64>,
     /// Energy at the end less that at the start (J).
     pub energy_change: f64,
+    /// Its size in parts of the greatest kinetic energy, where nothing takes energy or gives it.
+    pub energy_error: Option<f64>,
     /// Largest gap of any joint (characteristic lengths, rad).
     pub closure_error: f64,
     /// Seconds on the clock that the steps took.
@@ -112,92 +124,136 @@ pub fn run_scene_estimated(
     (refinement, interrupted): (Refinement, &dyn Fn() -> bool),
     observer: &mut dyn Observer,
 ) -> Result<(SceneRun, Trajectory), WorldError> {
-    let scene = Halving {
+    let scene = Scene {
         mechanism,
         geometry,
         start,
         options,
-        first: Paces::of(options),
     };
-    let each = options.duration * work_of_setting(mechanism, geometry, start, &options.world)?;
-    let mut trajectory = Trajectory {
-        rows: Vec::new(),
-        used: 0,
-        wanted: refinement.wanted,
-        reached: None,
-        needed: None,
-        not_estimated: None,
-    };
-    // The two finest: no other can come to be told of.
-    let mut finest: Vec<(SceneRun, Trail)> = Vec::new();
-    let mut differences: Vec<TrajectoryError> = Vec::new();
-    let mut left = refinement.work;
-    // Without an error wanted the first run is told of, so that it is shown while it goes on; else the trail that is chosen is.
-    let at_once = refinement.wanted.is_none();
-    for halvings in 0..MOST_HALVINGS {
-        let work = each * f64::from(1 << halvings);
-        if halvings > 0 && work > left {
-            break;
-        }
-        left -= work;
-        let mut quiet = Quiet(interrupted);
-        let watching: &mut dyn Observer = match at_once && halvings == 0 {
-            true => &mut *observer,
-            false => &mut quiet,
-        };
-        let (run, trail) = scene.run(halvings, watching)?;
-        if interrupted() && halvings > 0 {
-            break;
-        }
-        if let Some((_, before)) = finest.last() {
-            differences.push(trail.apart(before, mechanism, geometry));
-        }
-        trajectory.rows.push(StepRow::of(&run));
-        if finest.len() == 2 {
-            finest.remove(0);
-        }
-        finest.push((run, trail));
-        estimate(&mut trajectory.rows, &differences);
-        let enough = match refinement.wanted {
-            None => halvings == 1,
-            Some(wanted) => trajectory
-                .rows
-                .last()
-                .is_some_and(|row| row.is_within(wanted)),
-        };
-        if enough || interrupted() {
-            break;
-        }
-    }
-    trajectory.conclude(each);
-    let from_last = trajectory.rows.len() - 1 - trajectory.used;
-    let told = finest.into_iter().rev().nth(from_last);
-    let (run, trail) = told.ok_or_else(|| WorldError::Options("no run was made".to_owned()))?;
-    if !at_once {
-        trail.show(&passage_of(mechanism, options), observer);
-    }
+    let ((mut run, trajectory), because) = served(mechanism, options, &mut |integrator| {
+        let halving = Halving { scene, integrator };
+        halving.estimated(refinement, interrupted, observer)
+    })?;
+    run.engine_because = because;
     Ok((run, trajectory))
+}
+
+impl Halving<'_> {
+    fn estimated(
+        &self,
+        refinement: Refinement,
+        interrupted: &dyn Fn() -> bool,
+        observer: &mut dyn Observer,
+    ) -> Result<Served<(SceneRun, Trajectory)>, WorldError> {
+        let each = match self.work()? {
+            Ok(work) => self.scene.options.duration * work,
+            Err(serving) => return Ok(Err(serving)),
+        };
+        let mut trajectory = Trajectory {
+            rows: Vec::new(),
+            used: 0,
+            wanted: refinement.wanted,
+            reached: None,
+            needed: None,
+            not_estimated: None,
+        };
+        // The two finest: no other can come to be told of.
+        let mut finest: Vec<(SceneRun, Trail)> = Vec::new();
+        let mut differences: Vec<TrajectoryError> = Vec::new();
+        let mut left = refinement.work;
+        // Without an error wanted the engine's first run is told of, so that it is shown while it goes on; else the trail that is chosen is.
+        let at_once = refinement.wanted.is_none() && self.integrator == Integrator::Engine;
+        for halvings in 0..MOST_HALVINGS {
+            let work = each * f64::from(1 << halvings);
+            if halvings > 0 && work > left {
+                break;
+            }
+            left -= work;
+            let mut quiet = Quiet(interrupted);
+            let watching: &mut dyn Observer = match at_once && halvings == 0 {
+                true => &mut *observer,
+                false => &mut quiet,
+            };
+            let (run, trail) = match self.run(halvings, watching)? {
+                Ok(done) => done,
+                Err(serving) => return Ok(Err(serving)),
+            };
+            if interrupted() && halvings > 0 {
+                break;
+            }
+            if let Some((_, before)) = finest.last() {
+                differences.push(trail.apart(before, &self.scene));
+            }
+            trajectory.rows.push(StepRow::of(&run));
+            if finest.len() == 2 {
+                finest.remove(0);
+            }
+            finest.push((run, trail));
+            estimate(&mut trajectory.rows, &differences, self.integrator);
+            let enough = match refinement.wanted {
+                None => halvings == 1,
+                Some(wanted) => trajectory
+                    .rows
+                    .last()
+                    .is_some_and(|row| row.is_within(wanted)),
+            };
+            if enough || interrupted() {
+                break;
+            }
+        }
+        trajectory.conclude(each, self.integrator);
+        let from_last = trajectory.rows.len() - 1 - trajectory.used;
+        let told = finest.into_iter().rev().nth(from_last);
+        let (run, trail) = told.ok_or_else(|| WorldError::Options("no run was made".to_owned()))?;
+        if !at_once {
+            trail.show(
+                &passage_of(self.scene.mechanism, self.scene.options),
+                observer,
+            );
+        }
+        Ok(Ok((run, trajectory)))
+    }
+
+    /// About how many seconds of work a simulated second takes in the first steps.
+    fn work(&self) -> Result<Served<f64>, WorldError> {
+        let Scene {
+            mechanism,
+            geometry,
+            start,
+            options,
+        } = self.scene;
+        Ok(match self.integrator {
+            Integrator::RungeKutta => SmoothWorld::new(mechanism, geometry, start, options)?
+                .map(|world| world.seconds_per_second()),
+            Integrator::Engine => Ok(work_of_setting(mechanism, geometry, start, &options.world)?),
+        })
+    }
 }
 
 /// Steps are halved so often at most.
 const MOST_HALVINGS: u32 = 20;
 
-/// Fills in what differences tell: of each run but the first from the difference before it, of the first from that after it.
-fn estimate(rows: &mut [StepRow], differences: &[TrajectoryError]) {
-    let mut order = 1.0;
+/// Fills in what differences tell: of each run but the first from the difference before it, of the first from that after it. Until a third
+/// run shows the order, the finer of two runs is given no more credit than a method of first order has.
+fn estimate(rows: &mut [StepRow], differences: &[TrajectoryError], integrator: Integrator) {
+    let (assumed, highest) = orders(integrator);
+    let mut orders = (1.0, assumed);
     for (index, apart) in differences.iter().enumerate() {
         let seen = index
             .checked_sub(1)
             .map(|before| (differences[before].worst / apart.worst).log2())
             .filter(|order| order.is_finite());
         rows[index + 1].order = seen;
-        order = seen.map_or(order, |seen: f64| seen.clamp(0.0, HIGHEST));
-        let ratio = f64::powf(2.0, order);
+        let rounding = apart.largest() <= ROUNDING;
+        if let Some(seen) = seen {
+            let order = seen.clamp(if rounding { 1.0 } else { 0.0 }, highest);
+            orders = (order, order);
+        }
+        let [finer, coarser] = [orders.0, orders.1].map(|order| f64::powf(2.0, order));
         // What is exact in both runs is off by nothing.
-        let known = apart.largest().is_finite() && (order >= CONVERGES || apart.worst == 0.0);
-        let finer = known.then(|| apart.times(1.0 / (ratio - 1.0)));
-        rows[index + 1].error = finer;
-        rows[index].error = finer.map(|finer| finer.times(ratio));
+        let known = apart.largest().is_finite() && (orders.0 >= CONVERGES || apart.worst == 0.0);
+        rows[index + 1].error = known.then(|| apart.times(1.0 / (finer - 1.0)));
+        rows[index].error = known.then(|| apart.times(coarser / (coarser - 1.0)));
     }
 }
 
@@ -208,6 +264,7 @@ impl StepRow {
             error: None,
             order: None,
             energy_change: run.energy_change,
+            energy_error: run.energy_error(),
             closure_error: run.closure_error,
             step_time: run.step_time,
         }
@@ -215,15 +272,17 @@ impl StepRow {
 
     fn is_within(&self, wanted: f64) -> bool {
         let off = self.error.as_ref().map(TrajectoryError::largest);
-        off.is_some_and(|off| off <= wanted) && self.closure_error <= wanted
+        // A speed that is off by a share takes energy off by twice that.
+        let kept = self.energy_error.is_none_or(|off| off <= 2.0 * wanted);
+        off.is_some_and(|off| off <= wanted) && self.closure_error <= wanted && kept
     }
 }
 
 impl Trajectory {
     /// Which run is told of, and what the error wanted would cost.
-    fn conclude(&mut self, each: f64) {
+    fn conclude(&mut self, each: f64, integrator: Integrator) {
         if let Some(wanted) = self.wanted {
-            self.choose(wanted, each);
+            self.choose(wanted, each, integrator);
         }
         if self.error().is_none() {
             self.not_estimated = Some(match self.rows.len() {
@@ -233,7 +292,8 @@ impl Trajectory {
         }
     }
 
-    fn choose(&mut self, wanted: f64, each: f64) {
+    fn choose(&mut self, wanted: f64, each: f64, integrator: Integrator) {
+        let (assumed, highest) = orders(integrator);
         let within = |row: &StepRow| row.is_within(wanted);
         let last = self.rows.len().saturating_sub(1);
         self.used = self.rows.iter().position(within).unwrap_or(last);
@@ -243,7 +303,7 @@ impl Trajectory {
             && let Some(row) = used
             && let Some(error) = &row.error
         {
-            let order = row.order.unwrap_or(1.0).clamp(CONVERGES, HIGHEST);
+            let order = row.order.unwrap_or(assumed).clamp(CONVERGES, highest);
             let shorter = (error.largest().max(row.closure_error) / wanted).powf(1.0 / order);
             self.needed = Some(each * f64::from(1 << self.used) * shorter.max(1.0));
         }
@@ -258,49 +318,40 @@ impl Trajectory {
 
 /// A scene, to be run in halved steps.
 struct Halving<'a> {
-    mechanism: &'a Mechanism,
-    geometry: &'a Geometry<f64>,
-    start: &'a [JointState<f64>],
-    options: &'a SceneOptions,
-    first: Paces,
+    scene: Scene<'a>,
+    integrator: Integrator,
 }
 
 impl Halving<'_> {
-    fn of(&self, halvings: u32) -> (SceneOptions, Paces) {
-        let finer = f64::from(1u32 << halvings);
-        let world = WorldOptions {
-            time_step: self.options.world.time_step / finer,
-            ..self.options.world
-        };
-        let paces = Paces {
-            steps: self.first.steps << halvings,
-            every: self.first.every << halvings,
-        };
-        let options = SceneOptions {
-            world,
-            ..self.options.clone()
-        };
-        (options, paces)
-    }
-
     /// A run, and what was to be seen of it.
     fn run(
         &self,
         halvings: u32,
         observer: &mut dyn Observer,
-    ) -> Result<(SceneRun, Trail), WorldError> {
-        let (options, paces) = self.of(halvings);
+    ) -> Result<Served<(SceneRun, Trail)>, WorldError> {
+        let given = self.scene.options;
+        let finer = f64::from(1u32 << halvings);
+        let options = SceneOptions {
+            world: WorldOptions {
+                time_step: given.world.time_step / finer,
+                ..given.world
+            },
+            runge_kutta_step: given.runge_kutta_step / finer,
+            ..given.clone()
+        };
+        let first = Paces::of(given, self.integrator);
+        let paces = Paces {
+            steps: first.steps << halvings,
+            every: first.every << halvings,
+        };
+        let scene = Scene {
+            options: &options,
+            ..self.scene
+        };
         let mut trail = Trail::default();
-        let run = run_in(
-            self.mechanism,
-            self.geometry,
-            self.start,
-            &options,
-            paces,
-            observer,
-            &mut |world, moment| trail.keep(world, moment),
-        )?;
-        Ok((run, trail))
+        let look = &mut |world: &dyn Moves, moment: &Moment<'_>| trail.keep(world, moment);
+        let run = run_in(&scene, self.integrator, paces, observer, look)?;
+        Ok(run.map(|run| (run, trail)))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use clap::ValueEnum;
 use kutzbach::mechanism::Mechanism;
-use kutzbach::simulate::{Effects, Solver};
+use kutzbach::simulate::{Effects, Integrator, Solver};
 
 /// Form of the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -31,6 +31,28 @@ impl SolverChoice {
             Self::Auto => vec![Solver::Multibody, Solver::Impulse],
             Self::Multibody => vec![Solver::Multibody],
             Self::Impulse => vec![Solver::Impulse],
+        }
+    }
+}
+
+/// What makes a scene move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum IntegratorChoice {
+    /// Runge-Kutta steps where the motion is smooth, and the engine where something touches, sticks or stops
+    Auto,
+    /// Steps of order five on the loops' constraints
+    RungeKutta,
+    /// The physics engine, as a second opinion
+    Engine,
+}
+
+impl IntegratorChoice {
+    /// `None` for what the scene calls for.
+    pub fn integrator(self) -> Option<Integrator> {
+        match self {
+            Self::Auto => None,
+            Self::RungeKutta => Some(Integrator::RungeKutta),
+            Self::Engine => Some(Integrator::Engine),
         }
     }
 }

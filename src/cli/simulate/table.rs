@@ -9,7 +9,7 @@ use kutzbach::report::text::{Cell, Column, Layout, Page, Table, Tint};
 use kutzbach::simulate::verification::{
     BranchVerification, Finding, Outcome, Pushing, Verification,
 };
-use kutzbach::simulate::{CostRow, SceneRun, Solver, Trajectory, TrajectoryError};
+use kutzbach::simulate::{CostRow, Integrator, SceneRun, Solver, Trajectory, TrajectoryError};
 use serde_json::{Value, json};
 
 /// Held joints, or runs of them, named on a first screen.
@@ -301,19 +301,38 @@ fn scene_page(run: &SceneRun, page: &mut Page) {
     } else {
         run.effects.join(", ")
     };
+    let with = match run.solver {
+        Some(solver) => format!(
+            " with {}, {}",
+            counted(run.substeps, "substep"),
+            solver.word()
+        ),
+        None => String::new(),
+    };
     page.paragraph(
         &format!(
-            "{effects}; {:.2} s in steps of {:.2} ms with {}, {}; took {}",
+            "{effects}; {:.2} s by {} of {:.2} ms{with}; took {}",
             run.time,
+            match run.integrator {
+                Integrator::RungeKutta => "Runge-Kutta steps (order five)",
+                Integrator::Engine => "steps of the physics engine",
+            },
             1e3 * run.time_step,
-            counted(run.substeps, "substep"),
-            run.solver.word(),
             seconds(run.wall_time)
         ),
         Tint::Plain,
         "  ",
         "  ",
     );
+    if !run.engine_because.is_empty() {
+        page.item(
+            &format!(
+                "the engine's, as Runge-Kutta steps do not serve {}",
+                run.engine_because.join(", ")
+            ),
+            Tint::Quiet,
+        );
+    }
     let mut facts = vec![
         energy(run),
         format!("closure error at most {:.1e}", run.closure_error),
@@ -346,8 +365,7 @@ fn energy(run: &SceneRun) -> String {
         "energy at the end {total:.4} J ({:.4} kinetic); {:+.4} J since the start",
         run.kinetic_energy, run.energy_change
     );
-    if run.conservative && run.largest_kinetic_energy > 0.0 {
-        let share = run.energy_change.abs() / run.largest_kinetic_energy;
+    if let Some(share) = run.energy_error() {
         text.push_str(&format!(
             ", which nothing in the scene takes or gives: an error of the steps, {} of the greatest kinetic energy",
             percent(share)

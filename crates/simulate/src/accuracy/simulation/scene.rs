@@ -5,7 +5,10 @@ use super::grid::Grid;
 use super::watch::{Stopped, Watch};
 use crate::accuracy::result::{Scene, State};
 use crate::accuracy::work::work_of;
-use crate::{Drive, Effects, SceneOptions, WorldError, WorldOptions, effect_names, run_scene};
+use crate::{
+    Drive, Effects, Integrator, RUNGE_KUTTA_STEP, SceneOptions, WorldError, WorldOptions,
+    effect_names, run_scene,
+};
 use kutzbach_closure::{Geometry, JointState};
 use kutzbach_model::mechanism::Mechanism;
 
@@ -33,6 +36,8 @@ pub(in crate::accuracy) fn scene_rows(
                 },
                 drives: drives.to_vec(),
                 duration: grid.scene,
+                integrator: Some(Integrator::Engine),
+                runge_kutta_step: RUNGE_KUTTA_STEP,
             };
             let mut stopped = Stopped {
                 inner: watched,
