@@ -9,7 +9,7 @@
 //! ordinary differential equation, smooth, that leaves the constraints' manifold alone, and any method for such equations keeps its order
 //! (Hairer and Wanner 1996, *Solving Ordinary Differential Equations II*, VII.2). Nothing drifts, and a redundant row contradicts nothing.
 
-use super::constraint::{Gradient, Held, Moving, Placed, Row};
+use super::constraint::{Gradient, Held, Moving, Placed, Row, Turning};
 use super::factor::{Elimination, End, Factor};
 use super::relation::{Coordinate, Measure, Relation};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
@@ -350,6 +350,9 @@ impl System {
             Some(along) => self.close(state, time, along, (&mut *here, &mut *scratch))?,
             None => self.place(state, scratch),
         }
+        if !self.counts_turns(&scratch.placed) {
+            return Err(Lost::Unreachable);
+        }
         self.linearise(scratch, here);
         self.keep_speeds(state, here, scratch);
         self.accelerate(state, here, scratch);
@@ -367,6 +370,27 @@ impl System {
             }
         }
         Ok(())
+    }
+
+    /// Whether turns have not come so far since the step began that they could be mistaken by a whole one.
+    fn counts_turns(&self, placed: &[Placed]) -> bool {
+        let near = |turning: &Turning, joint: usize| {
+            (turning.angle(&placed[joint]) - turning.near).abs() < MOST_TURN
+        };
+        let joints = self.joints.iter().enumerate();
+        let terms = self.relations.iter().flat_map(|relation| &relation.terms);
+        joints
+            .flat_map(|(joint, held)| held.rows.iter().map(move |row| (joint, row)))
+            .all(|(joint, row)| match row {
+                Row::Helix { turning, .. } => near(turning, joint),
+                _ => true,
+            })
+            && terms
+                .into_iter()
+                .all(|(coordinate, _)| match &coordinate.measure {
+                    Measure::Turn(turning) => near(turning, coordinate.joint),
+                    Measure::Travel(_) => true,
+                })
     }
 
     /// Takes out of the velocities what the constraints do not allow, and puts in what drives want.
@@ -522,11 +546,7 @@ impl System {
             Measure::Travel(_) => None,
         });
         for (turning, placed) in helices.chain(turns) {
-            let angle = turning.angle(placed);
-            if !((angle - turning.near).abs() < MOST_TURN) {
-                return Err(Lost::Unreachable);
-            }
-            turning.near = angle;
+            turning.near = turning.angle(placed);
         }
         Ok(())
     }
