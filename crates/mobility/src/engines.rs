@@ -3,18 +3,21 @@
 //! An engine is asked where it may tell something that is not known; what it says is a [`Claim`](super::claim::Claim), which the judge
 //! holds against all others. A new engine is a file and a row.
 
-use super::analysis::AnalysisError;
 use super::depth::Depth;
 use super::exact::ask_exact;
 use super::judge::PartFinding;
 use super::loops_at_rest::with_loops_at_rest;
+use super::more_digits::MoreDigits;
+use super::options::AnalysisError;
 use super::part_mobility::{by_chart, by_closed_form, by_independence, by_rank, by_subgroups};
-use super::question::{Means, Question};
+use super::pose_rank::{PartRank, Pose};
+use super::question::{Means, OfWhole, Question};
 use super::singular::{
     arrangement, complex_bound, form, is_multiple, one_variable, polygon, search, splitting,
     variables,
 };
 use super::vocabulary::{EngineName, PoseKind};
+use kutzbach_closure::{Part, Structure};
 
 /// One engine.
 struct Engine {
@@ -128,6 +131,23 @@ pub fn engines() -> impl Iterator<Item = (EngineName, &'static str)> {
     ENGINES.iter().map(|engine| (engine.name, engine.because))
 }
 
+/// Asks the engines about one part, but for those that ask others again or have a budget. Below [`Depth::Motions`] the branch of a
+/// regular pose comes without poses on it.
+///
+/// # Errors
+/// [`AnalysisError`] where numbers overflow.
+pub fn part_mobility(
+    pose: &Pose<'_>,
+    more: &mut MoreDigits,
+    structure: &Structure,
+    part: &Part,
+    rank: &PartRank,
+    depth: Depth,
+) -> Result<PartFinding, AnalysisError> {
+    let question = Question::new(pose, structure, (part, rank), depth);
+    ask_all(&question, &mut Means { more, whole: None })
+}
+
 /// Asks all engines that may tell something about a part.
 ///
 /// # Errors
@@ -184,8 +204,9 @@ fn loops_at_rest(
         ..
     } = *question;
     match &means.whole {
-        Some((options, _)) => {
-            with_loops_at_rest(pose, means.more, structure, (part, rank), options, found)
+        Some(OfWhole { options, again, .. }) => {
+            let asked = (*options, *again);
+            with_loops_at_rest(pose, means.more, structure, (part, rank), asked, found)
         }
         None => Ok(()),
     }
@@ -197,7 +218,7 @@ fn exact(
     found: &mut PartFinding,
 ) -> Result<(), AnalysisError> {
     let wanted = found.open().is_some() || question.depth == Depth::Everything;
-    if let Some((_, allowance)) = means.whole.as_mut().filter(|_| wanted) {
+    if let Some(OfWhole { allowance, .. }) = means.whole.as_mut().filter(|_| wanted) {
         ask_exact(
             question.pose,
             question.part,

@@ -1,6 +1,8 @@
 //! An analysis for whoever follows the motion it predicts.
 
-use super::analysis::{Analysis, AnalysisError, AnalysisOptions, analyse};
+use super::analyse::analyse;
+use super::analysis::Analysis;
+use super::options::{AnalysisError, AnalysisOptions};
 use super::vocabulary::Verdict;
 use kutzbach_model::mechanism::Mechanism;
 

@@ -19,7 +19,9 @@ mod across_joints;
 mod actuation;
 mod advice;
 mod alike;
+mod analyse;
 mod analysis;
+mod as_stated;
 mod branch;
 mod branch_facts;
 mod branch_roles;
@@ -44,6 +46,7 @@ mod germ_zeros;
 mod hidden;
 mod idle;
 mod idle_directions;
+mod intended;
 mod judge;
 mod kutzbach;
 mod leftover;
@@ -57,6 +60,7 @@ mod more_digits;
 mod near_singular;
 mod one_engine;
 mod one_sided;
+mod options;
 mod part_mobility;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
@@ -89,7 +93,8 @@ mod without_body;
 
 pub use actuation::{Actuation, DependentInput, Follower, Freedom, actuation};
 pub use advice::{Advice, advice_for_part};
-pub use analysis::{Analysis, AnalysisError, AnalysisOptions, HomeFreedom, analyse};
+pub use analyse::analyse;
+pub use analysis::{Analysis, HomeFreedom};
 pub use branch::{Branch, BranchPose, IdleLink, RelativeMotion, Tangent};
 pub use branch_facts::{BranchFacts, branch_facts};
 pub use branch_roles::branch_roles;
@@ -98,7 +103,7 @@ pub use claim::{Answer, Bounds, Claim, PartBranch, Says};
 pub use coupling_locks::{LockingCoupling, freedom_locked_by_couplings, locking_couplings};
 pub use cycles::{CycleFacts, cycle_facts};
 pub use depth::Depth;
-pub use engines::engines;
+pub use engines::{engines, part_mobility};
 pub use exact::ExactBudget;
 pub use exact_constraint::{ChangeSets, JointChange, NoChangeSet};
 pub use followed::{Followed, analyse_to_follow};
@@ -108,18 +113,19 @@ pub use germ::{
 };
 pub use germ_zeros::{GermBranch, GermZeroOptions, GermZeros, HalfBranch, Isolation, germ_zeros};
 pub use idle::idle_links;
+pub use intended::{AsWritten, Change, Kept, Meant};
 pub use judge::{Contradiction, PartFinding, Quantity};
 pub use kutzbach::kutzbach_count;
 pub use kutzbach_closure::{Structure, constraint_graph};
 pub use limbs::{Limb, Limbs, limbs};
 pub use limit_facts::LimitFact;
-pub use meant::{AsWritten, Change, Kept, Meant};
+
 pub use more_digits::MoreDigits;
 pub use near_singular::{ClearerPose, NearSingular, pose_of_branch};
 pub use one_engine::{
     OneEngine, chart_alone, exact_alone, germ_alone, kernel_of, rank_alone, subgroups_alone,
 };
-pub use part_mobility::part_mobility;
+pub use options::{AnalysisError, AnalysisOptions};
 pub use pose_facts::PoseFacts;
 pub use pose_rank::{Doubt, LADDER, PartRank, Pose, RankNote, Reading, Trial, rank_part};
 pub use redundancy::SelfStresses;

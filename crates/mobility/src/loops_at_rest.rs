@@ -12,7 +12,6 @@
 //! Cost: the engines once for every loop, and once for what is left. Asked only of exact numbers where all other engines leave a
 //! singular pose open.
 
-use super::analysis::{AnalysisError, AnalysisOptions, analyse_as_stated};
 use super::branch::{Branch, BranchPose, Tangent};
 use super::chart::Kernel;
 use super::claim::{Answer, Bounds, Claim, PartBranch};
@@ -20,8 +19,9 @@ use super::depth::Depth;
 use super::idle_directions::{AT_REST, idle_directions};
 use super::judge::PartFinding;
 use super::more_digits::MoreDigits;
-use super::part_mobility::part_mobility;
+use super::options::{AnalysisError, AnalysisOptions};
 use super::pose_rank::{PartRank, Pose, TALL, height_at, rank_part_with};
+use super::question::{Again, Means, Question};
 use super::tracing::{KERNEL_LIMIT, PartPose, tangents_at};
 use super::vocabulary::{EngineName, PoseKind, Scope, SingularKind};
 use kutzbach_closure::{JointState, Part, Section, Structure};
@@ -38,7 +38,7 @@ pub(super) fn with_loops_at_rest(
     more: &mut MoreDigits,
     structure: &Structure,
     (part, rank): (&Part, &PartRank),
-    options: &AnalysisOptions,
+    (options, again): (&AnalysisOptions, &Again),
     found: &mut PartFinding,
 ) -> Result<(), AnalysisError> {
     let exact =
@@ -47,7 +47,7 @@ pub(super) fn with_loops_at_rest(
     if !exact || !open || part.cycles.len() < 2 {
         return Ok(());
     }
-    let still = joints_at_rest(pose, more, structure, part)?;
+    let still = joints_at_rest(pose, more, structure, part, again)?;
     if still.is_empty() {
         return Ok(());
     }
@@ -63,7 +63,7 @@ pub(super) fn with_loops_at_rest(
         depth: Depth::Motions,
         closure_tolerance: None,
     };
-    let answer = analyse_as_stated(&left, &asked)?;
+    let answer = (again.mechanism)(&left, &asked)?;
     let names: Vec<&str> = still
         .iter()
         .map(|&joint| pose.mechanism.joints()[joint].name.as_str())
@@ -121,6 +121,7 @@ fn joints_at_rest(
     more: &mut MoreDigits,
     structure: &Structure,
     part: &Part,
+    again: &Again,
 ) -> Result<BTreeSet<usize>, AnalysisError> {
     let mut still = BTreeSet::new();
     for cycle in &part.cycles {
@@ -145,7 +146,9 @@ fn joints_at_rest(
         if kernel.basis.nullity == idle.len() {
             continue;
         }
-        let found = part_mobility(pose, more, structure, &own, &rank, Depth::Verdict)?;
+        let question = Question::new(pose, structure, (&own, &rank), Depth::Verdict);
+        let mut means = Means { more, whole: None };
+        let found = (again.part)(&question, &mut means)?;
         if found.open().is_some() || found.upper() != idle.len() {
             continue;
         }

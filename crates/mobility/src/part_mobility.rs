@@ -5,16 +5,14 @@
 //!
 //! A verdict is never given on a thin margin: what an engine cannot tell, it leaves open and says why.
 
-use super::analysis::AnalysisError;
 use super::chart::{
     ChartOutcome, ChartTest, Kernel, LADDER_UNKNOWNS, chart_test, far_chart, literal_leftover,
 };
 use super::claim::{Answer, Bounds, Claim, PartBranch, Says};
 use super::closed_form::closed_form;
 use super::depth::Depth;
-use super::engines::ask_all;
 use super::judge::PartFinding;
-use super::more_digits::MoreDigits;
+use super::options::AnalysisError;
 use super::pose_rank::{PartRank, Pose, Reading};
 use super::question::{Means, Question};
 use super::subgroup::{hidden_offset, subgroup_finding};
@@ -22,7 +20,6 @@ use super::superfluous::without_spares;
 use super::tracing::{WALKED_UNKNOWNS, poses_of_regular_part, walk};
 use super::tree_bound::most_by_joints;
 use super::vocabulary::{CertificateLevel, EngineName, MobilityClass, PoseKind, Scope};
-use kutzbach_closure::Structure;
 use kutzbach_closure::{Part, Section, rounding_of};
 use kutzbach_math::matrix::{MatrixError, RankDecision, Real};
 
@@ -76,23 +73,6 @@ fn unexplained(
     let found = of(part, &literal)?;
     let unexplained = found.looked.then_some(MobilityClass::Paradoxical);
     Ok(found.class.or(unexplained))
-}
-
-/// Asks the engines about one part, but for those that ask others again or have a budget. Below [`Depth::Motions`] the branch of a
-/// regular pose comes without poses on it.
-///
-/// # Errors
-/// [`AnalysisError`] where numbers overflow.
-pub fn part_mobility(
-    pose: &Pose<'_>,
-    more: &mut MoreDigits,
-    structure: &Structure,
-    part: &Part,
-    rank: &PartRank,
-    depth: Depth,
-) -> Result<PartFinding, AnalysisError> {
-    let question = Question::new(pose, structure, (part, rank), depth);
-    ask_all(&question, &mut Means { more, whole: None })
 }
 
 type Asked = Result<(), AnalysisError>;

@@ -1,17 +1,20 @@
 //! What is asked about one part, and what engines share: computed when one first needs it.
 
-use super::analysis::AnalysisOptions;
+use super::analysis::Analysis;
 use super::chart::{ChartTest, Kernel};
 use super::depth::Depth;
 use super::exact::ExactAllowance;
 use super::idle_directions::idle_directions;
+use super::judge::PartFinding;
 use super::lifting::Start;
 use super::more_digits::MoreDigits;
+use super::options::{AnalysisError, AnalysisOptions};
 use super::pose_rank::{PartRank, Pose, TALL, height_at};
 use super::tracing::KERNEL_LIMIT;
 use super::vocabulary::MobilityClass;
 use kutzbach_closure::{Part, Structure};
 use kutzbach_math::matrix::MatrixError;
+use kutzbach_model::mechanism::Mechanism;
 use std::cell::{Cell, OnceCell};
 
 /// A part at a pose.
@@ -38,7 +41,21 @@ pub(super) struct Question<'a> {
 pub(super) struct Means<'a> {
     pub more: &'a mut MoreDigits,
     /// What is asked of the whole mechanism; `None` where a loop is asked about for the sake of its part.
-    pub whole: Option<(&'a AnalysisOptions, &'a mut ExactAllowance)>,
+    pub whole: Option<OfWhole<'a>>,
+}
+
+/// What is asked of the whole mechanism, what exact algebra may still do, and how an engine asks all engines again.
+pub(super) struct OfWhole<'a> {
+    pub options: &'a AnalysisOptions,
+    pub allowance: &'a mut ExactAllowance,
+    pub again: &'a Again,
+}
+
+/// All engines asked again: of a mechanism, and of a part without its budget. Handed to the engines, which need not know who asks
+/// them.
+pub(super) struct Again {
+    pub mechanism: fn(&Mechanism, &AnalysisOptions) -> Result<Analysis, AnalysisError>,
+    pub part: fn(&Question<'_>, &mut Means<'_>) -> Result<PartFinding, AnalysisError>,
 }
 
 /// What is near a singular pose.

@@ -3,8 +3,8 @@
 //! Parts do not influence one another, so that the configuration space near the pose is a product: freedoms add, a branch
 //! of the whole is one branch of every part, and the pose is singular where that of some part is.
 
+use super::intended::{AsWritten, Change, Kept};
 use super::judge::PartFinding;
-use super::meant::{AsWritten, Change, Kept};
 use super::vocabulary::{CertificateLevel, MobilityClass, PoseKind, SingularKind, Verdict};
 use kutzbach_closure::Assembly;
 use kutzbach_closure::Structure;

@@ -3,8 +3,8 @@
 //! Counting and the tables of joints and couplings need the mechanism alone and are filled in here. What an analysis finds
 //! is laid over them; what it does not reach stays `null`.
 
+use super::asked::{HOME, Options, ReportError};
 use super::natural::natural_order;
-use super::play::PlayAsked;
 use super::schema::{
     Assembly, Constants, CouplingRow, Home, JointRow, LiteralAt, LiteralReading, Mobility, Report,
     SCHEMA, Size, Source, Timing, Warning, WrittenKind, WrittenStyle,
@@ -12,16 +12,10 @@ use super::schema::{
 use kutzbach_format::Reading;
 use kutzbach_math::number::Number;
 use kutzbach_mobility::Verdict;
-use kutzbach_mobility::{
-    Analysis, AnalysisError, AnalysisOptions, Depth, ExactBudget, analyse, kutzbach_count,
-};
+use kutzbach_mobility::{Analysis, AnalysisOptions, Depth, analyse, kutzbach_count};
 use kutzbach_model::mechanism::{Coupling, LiteralPlace, Mechanism, Placement, Precision, Written};
 use petgraph::unionfind::UnionFind;
 use std::time::Instant;
-use thiserror::Error;
-
-/// The name of the pose with all joint variables zero.
-pub(crate) const HOME: &str = "home";
 
 /// What is reported on.
 #[derive(Clone, Copy, Debug)]
@@ -36,99 +30,6 @@ pub struct Input<'a> {
     pub warnings: &'a [Warning],
     /// What of the file was not read.
     pub skipped: &'a [String],
-}
-
-/// What to report.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Options {
-    /// The configuration to analyse; `None` is the home pose.
-    pub configuration: Option<String>,
-    /// How much work exact algebra may do for the verdict.
-    pub exact: ExactBudget,
-    /// Whether to say how long the stages took.
-    pub timing: bool,
-    /// Whether to tell what every engine found.
-    pub evidence: bool,
-    /// Pairs of links: how does the first move, seen from the second?
-    pub between: Vec<(String, String)>,
-    /// The gap up to which a loop counts as closed (m); what the file's digits say if `None`.
-    pub closure_tolerance: Option<f64>,
-    /// Names of joints, or of single freedoms such as `slider.trans`, that are to count as the inputs; where there are none, those
-    /// that the file names.
-    pub inputs: Vec<String>,
-    /// Whether to follow branches that are curves, for the ranges of their joints.
-    pub ranges: bool,
-    /// Whether to say what play the joints need, and for what clearance.
-    pub play: Option<PlayAsked>,
-}
-
-/// Why there is no report.
-#[derive(Clone, Debug, Error)]
-pub enum ReportError {
-    /// The analysis could not be made.
-    #[error(transparent)]
-    Analysis(#[from] AnalysisError),
-    /// The mechanism has no configuration of that name.
-    #[error("there is no configuration `{name}` in `{mechanism}`")]
-    UnknownConfiguration {
-        /// The name asked for.
-        name: String,
-        /// The mechanism.
-        mechanism: String,
-        /// Those it has.
-        known: Vec<String>,
-    },
-    /// The mechanism has no link of that name.
-    #[error("there is no link `{name}` in `{mechanism}`")]
-    UnknownLink {
-        /// The name asked for.
-        name: String,
-        /// The mechanism.
-        mechanism: String,
-        /// The name it has that is closest, if one is close.
-        nearest: Option<String>,
-    },
-    /// No freedom of the mechanism has that name.
-    #[error("`{name}` cannot be an input of `{mechanism}`: {}", if *.fixed { "the joint has no freedom" } else { "it has no joint of that name" })]
-    UnknownInput {
-        /// The name asked for.
-        name: String,
-        /// The mechanism.
-        mechanism: String,
-        /// Whether a joint without freedom has it.
-        fixed: bool,
-        /// The name of a joint that is closest, if one is close.
-        nearest: Option<String>,
-    },
-}
-
-impl ReportError {
-    /// How to mend it.
-    #[must_use]
-    pub fn help(&self) -> String {
-        match self {
-            Self::Analysis(_) => "see the format's description of this element".to_owned(),
-            Self::UnknownConfiguration { known, .. } if known.is_empty() => {
-                "the file names none; without `--at` the home pose is analysed".to_owned()
-            }
-            Self::UnknownConfiguration { known, .. } => {
-                format!("it has: home, {}", known.join(", "))
-            }
-            Self::UnknownLink {
-                nearest: Some(nearest),
-                ..
-            } => format!("did you mean `{nearest}`?"),
-            Self::UnknownLink { .. } => "`kutzbach graph FILE` lists all links".to_owned(),
-            Self::UnknownInput { fixed: true, .. } => "name a joint that can move".to_owned(),
-            Self::UnknownInput {
-                nearest: Some(nearest),
-                ..
-            } => format!("did you mean `{nearest}`?"),
-            Self::UnknownInput { .. } => {
-                "`kutzbach report FILE --verbose` lists all joints".to_owned()
-            }
-        }
-    }
 }
 
 /// The report on a mechanism read from a file.

@@ -1,6 +1,6 @@
 //! What a report holds only where it was asked for: the motions of named pairs of links, and what every engine found.
 
-use super::assemble::ReportError;
+use super::asked::ReportError;
 use super::definitions::closest;
 use super::motions::motion_row;
 use super::schema::{Evidence, Motion, Report, Warning, WarningKind};

@@ -1,6 +1,6 @@
 //! Useful and idle freedoms, and what the inputs of a mechanism do.
 
-use super::assemble::ReportError;
+use super::asked::ReportError;
 use super::definitions::closest;
 use super::schema::{DependentInput, Follower, Freedoms, InputSource, Inputs, Limb, Report};
 use kutzbach_mobility::{Actuation, Analysis, Branch, Freedom, limbs};

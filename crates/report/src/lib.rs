@@ -38,6 +38,7 @@
 
 #[cfg(feature = "simulate")]
 pub mod accuracy;
+mod asked;
 mod assemble;
 mod assembly;
 mod change_sets;
@@ -63,9 +64,8 @@ pub(crate) mod samples;
 mod schema;
 pub mod text;
 
-pub use assemble::{
-    Input, Options, ReportError, analysed_report, analysed_report_on, report, report_on,
-};
+pub use asked::{Options, PlayAsked, ReportError};
+pub use assemble::{Input, analysed_report, analysed_report_on, report, report_on};
 pub use assembly::{ASSEMBLED, assembled_file};
 pub use change_sets::{ChangeSets, Component, JointReplacement, PartChanges, RedundantDirection};
 pub use expectation::{Comparison, Disagreement, compare};
@@ -75,11 +75,10 @@ pub use kutzbach_mobility::{
 };
 pub use kutzbach_motion::{FourBar, FourBarKind, GrashofClass, Swing};
 pub use natural::natural_order;
-pub use play::{JointPlay, Play, PlayAsked};
 pub use schema::{
     Advice, Assembly, Block, Branch, Certificate, Constants, CouplingRow, Cycle, DependentInput,
     Evidence, Follower, Freedoms, Gap, GenericCount, Home, Idle, InputSource, Inputs, JointPlace,
-    JointRange, JointRow, Limb, LiteralReading, Mobility, Motion, Nominal, OutsideLimit, Relation,
-    Report, Reversal, SCHEMA, Size, Source, Stage, Timing, Tree, TreeLink, Warning, WarningKind,
-    WarningPlace,
+    JointPlay, JointRange, JointRow, Limb, LiteralReading, Mobility, Motion, Nominal, OutsideLimit,
+    Play, Relation, Report, Reversal, SCHEMA, Size, Source, Stage, Timing, Tree, TreeLink, Warning,
+    WarningKind, WarningPlace,
 };

@@ -1,6 +1,6 @@
 //! What a careful owner should know of the pose: limits, dead centres, singular poses nearby. Sentences for the warnings.
 
-use super::assemble::HOME;
+use super::asked::HOME;
 use super::schema::{Report, Warning, WarningKind};
 use super::text::words::{counted, figure, in_degrees, names};
 use kutzbach_mobility::{Analysis, LimitFact, NearSingular, PoseFacts, PoseKind};

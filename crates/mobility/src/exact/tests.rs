@@ -2,7 +2,7 @@ use super::question::tangent_dimension;
 use super::*;
 use crate::claim::Answer;
 use crate::depth::Depth;
-use crate::part_mobility::part_mobility;
+use crate::engines::part_mobility;
 use crate::part_samples::{Posed, fresh};
 use crate::verdict::judge;
 use crate::vocabulary::{PoseKind, SingularKind, Verdict};

@@ -1,9 +1,10 @@
 use super::moved::{moved, with_moved};
 use super::*;
-use crate::analysis::{AnalysisOptions, finding_of};
+use crate::as_stated::finding_of;
 use crate::depth::Depth;
 use crate::exact::{ExactAllowance, ask_exact};
 use crate::more_digits::MoreDigits;
+use crate::options::AnalysisOptions;
 use crate::part_samples::Posed;
 use crate::pose_rank::{PartRank, rank_part};
 use crate::vocabulary::Scope;

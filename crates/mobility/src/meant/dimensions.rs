@@ -1,9 +1,11 @@
 //! The numbers of a part that may be others than they are written, and a geometry that follows them.
 
-use super::rounding;
 use kutzbach_closure::{Geometry, JointNumbers, JointState, Part};
 use kutzbach_math::number::Number;
-use kutzbach_model::mechanism::{Joint, Mechanism};
+use kutzbach_model::mechanism::{Joint, JointId, Mechanism, Precision};
+
+/// Files of two decimals hold chosen numbers, unless they do not close: then they are rounded like others.
+pub(super) const ROUNDED_DECIMALS: i32 = 2;
 
 /// One number that may change.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -158,4 +160,18 @@ impl<'a> Dimensions<'a> {
         }
         changes
     }
+}
+
+/// The precision at which the numbers of a joint's sub-mechanism are rounded; `None` where they are exact, or printed doubles.
+pub(super) fn rounding(mechanism: &Mechanism, joint: usize) -> Option<Precision> {
+    let precision = *mechanism.precision_of(JointId(joint));
+    if precision.is_of_doubles() {
+        return None;
+    }
+    if !precision.is_exact() {
+        return Some(precision);
+    }
+    let decimals = precision.decimals.filter(|d| *d >= ROUNDED_DECIMALS)?;
+    let by_hand = precision.by_hand().is_some();
+    (!by_hand).then(|| precision.known_to(0.5 * 10f64.powi(-decimals)))
 }

@@ -1,6 +1,6 @@
 //! Parts that no numbers within the digits let move.
 
-use super::nominal;
+use super::nominal::nominal;
 use super::parts::PartMeant;
 use crate::analysis::Analysis;
 use crate::claim::{Answer, Bounds, Claim};

@@ -15,6 +15,7 @@ mod held_fast;
 mod least_largest;
 mod nearest;
 mod noise;
+mod nominal;
 mod parts;
 mod poses;
 mod relations;
@@ -22,85 +23,38 @@ mod relations;
 #[allow(clippy::unwrap_used)]
 mod tests;
 
-use super::analysis::{Analysis, AnalysisError, AnalysisOptions, analyse_as_stated};
+use super::analysis::Analysis;
+use super::as_stated::analyse_as_stated;
 use super::claim::{Bounds, Claim, Says};
 use super::depth::Depth;
 use super::exact_constraint::NoChangeSet;
+use super::intended::{AsWritten, Meant};
+use super::options::{AnalysisError, AnalysisOptions};
 use super::pose_rank::Reading;
 use super::redundant_directions::JointDirections;
 use super::roles::JointRole;
 use super::verdict::{Nominal, judge, unassembled};
 use super::vocabulary::{EngineName, Scope, Verdict};
-use dimensions::turns;
+use dimensions::{ROUNDED_DECIMALS, rounding};
 use held_fast::held_fast;
 use kutzbach_closure::Part;
-use kutzbach_model::mechanism::{Configuration, JointId, Mechanism, Precision};
-use parts::{PartMeant, parts_meant};
-pub use relations::Kept;
+use kutzbach_model::mechanism::{Configuration, JointId, Mechanism};
+use nominal::{nominal, sorted};
+use parts::{PartMeant, WITHIN, parts_meant};
 
 /// The mechanism meant is computed to so much (relative to its size, or rad).
 const COMPUTED_TO: f64 = 1e-11;
 
-/// Files of two decimals hold chosen numbers, unless they do not close: then they are rounded like others.
-const ROUNDED_DECIMALS: i32 = 2;
-
-/// Numbers are within their digits up to so many units. What was rounded once differs by one at most; a quarter more is for numbers
-/// that were converted, and rounded, before, and for the second order.
-const WITHIN: f64 = 1.25;
-
-/// A number that the mechanism meant has otherwise.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Change {
-    /// Joint index.
-    pub joint: usize,
-    /// Place in [`kutzbach_model::mechanism::Joint::numbers`].
-    pub place: usize,
-    /// The number as written (m, rad).
-    pub from: f64,
-    /// The number meant.
-    pub to: f64,
-    /// How far the digits allow it to be (m, rad).
-    pub within: f64,
-}
-
-/// The mobile mechanism nearest to a file's numbers.
-#[derive(Clone, Debug)]
-pub struct Meant {
-    /// The mechanism, its numbers known to rounding.
-    pub mechanism: Mechanism,
-    /// What differs, largest in units of its uncertainty first.
-    pub changes: Vec<Change>,
-}
-
-impl Change {
-    /// The change in units of what the digits leave open: up to 1 it lies within them.
-    #[must_use]
-    pub fn units(&self) -> f64 {
-        (self.to - self.from).abs() / self.within
+fn meant_of(mechanism: &Mechanism, parts: &[&PartMeant]) -> Meant {
+    let numbers = parts.iter().flat_map(|part| part.numbers.clone());
+    let size = parts.iter().map(|part| part.length).fold(0.0, f64::max);
+    Meant {
+        mechanism: mechanism
+            .clone()
+            .with_joint_numbers(numbers)
+            .with_precision(COMPUTED_TO * size.min(1.0)),
+        changes: sorted(parts.iter().flat_map(|part| part.changes.clone()).collect()),
     }
-}
-
-impl Meant {
-    fn of(mechanism: &Mechanism, parts: &[&PartMeant]) -> Self {
-        let numbers = parts.iter().flat_map(|part| part.numbers.clone());
-        let size = parts.iter().map(|part| part.length).fold(0.0, f64::max);
-        Self {
-            mechanism: mechanism
-                .clone()
-                .with_joint_numbers(numbers)
-                .with_precision(COMPUTED_TO * size.min(1.0)),
-            changes: sorted(parts.iter().flat_map(|part| part.changes.clone()).collect()),
-        }
-    }
-}
-
-/// The numbers taken literally.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct AsWritten {
-    /// What they leave.
-    pub verdict: Verdict,
-    /// Freedom, where it is decided.
-    pub finite: Option<usize>,
 }
 
 /// Completes an analysis that hangs on rounding by a look at the mechanism meant.
@@ -159,7 +113,7 @@ fn within_digits(
     let all: Vec<&PartMeant> = parts.iter().collect();
     let known = parts.iter().all(|part| part.nearest.is_some());
     if known {
-        let nearest = Meant::of(mechanism, &all);
+        let nearest = meant_of(mechanism, &all);
         stated.nearest = (!nearest.changes.is_empty()).then(|| Box::new(nearest));
     }
     let typed = |part: &PartMeant| is_typed(mechanism, &stated.structure.parts[part.index]);
@@ -230,7 +184,7 @@ fn of_the_one_meant(
     stated: Analysis,
     parts: &[&PartMeant],
 ) -> Result<Analysis, AnalysisError> {
-    let meant = Meant::of(mechanism, parts);
+    let meant = meant_of(mechanism, parts);
     let mut analysis = analyse_as_stated(&meant.mechanism, options)?;
     let moves = parts.iter().any(|part| part.freedom > 0);
     let Some(finite) = analysis.mobility.finite().filter(|f| *f > 0 || !moves) else {
@@ -327,59 +281,6 @@ fn opened(mechanism: &Mechanism, mut stated: Analysis, parts: &[PartMeant]) -> A
     stated.mobility = judge(mechanism, &stated.structure, &stated.findings);
     stated.branches = None;
     stated
-}
-
-fn nominal(parts: &[&PartMeant], finite: usize) -> Nominal {
-    let misfit = |part: &&PartMeant| {
-        let open = part.nearest.as_ref().map_or(0.0, |nearest| nearest.misfit);
-        open * part.length
-    };
-    let distance = |part: &&PartMeant| {
-        let (far, turn) = farthest(&part.changes);
-        far.max(turn * part.length)
-    };
-    Nominal {
-        finite,
-        tolerance: parts.iter().map(misfit).fold(0.0, f64::max),
-        distance: Some(parts.iter().map(distance).fold(0.0, f64::max)),
-        known_to: None,
-        within_digits: parts.iter().all(|part| part.units() <= WITHIN),
-        noise: false,
-        changes: sorted(parts.iter().flat_map(|part| part.changes.clone()).collect()),
-        kept: parts.iter().flat_map(|part| part.kept.clone()).collect(),
-    }
-}
-
-/// Largest change of a length (m), and of an angle or a direction (rad).
-fn farthest(changes: &[Change]) -> (f64, f64) {
-    let largest = |turning: bool| {
-        changes
-            .iter()
-            .filter(|change| turns(change.place) == turning)
-            .map(|change| (change.to - change.from).abs())
-            .fold(0.0, f64::max)
-    };
-    (largest(false), largest(true))
-}
-
-fn sorted(mut changes: Vec<Change>) -> Vec<Change> {
-    changes.retain(|change| change.to != change.from);
-    changes.sort_by(|a, b| b.units().total_cmp(&a.units()));
-    changes
-}
-
-/// The precision at which the numbers of a joint's sub-mechanism are rounded; `None` where they are exact, or printed doubles.
-fn rounding(mechanism: &Mechanism, joint: usize) -> Option<Precision> {
-    let precision = *mechanism.precision_of(JointId(joint));
-    if precision.is_of_doubles() {
-        return None;
-    }
-    if !precision.is_exact() {
-        return Some(precision);
-    }
-    let decimals = precision.decimals.filter(|d| *d >= ROUNDED_DECIMALS)?;
-    let by_hand = precision.by_hand().is_some();
-    (!by_hand).then(|| precision.known_to(0.5 * 10f64.powi(-decimals)))
 }
 
 /// Whether the numbers of a part are somebody's choice and not rounded to their decimals.

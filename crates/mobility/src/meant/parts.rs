@@ -5,9 +5,9 @@ use super::dimensions::{Dimension, Dimensions};
 use super::giving_way::least_change_to_give_way;
 use super::nearest::{Nearest, Search};
 use super::poses::Loops;
-use super::relations::{Kept, Relations};
-use super::{Change, WITHIN};
+use super::relations::Relations;
 use crate::analysis::Analysis;
+use crate::intended::{Change, Kept};
 use crate::judge::PartFinding;
 use crate::pose_rank::{BEYOND_FIRST_ORDER, PartRank};
 use crate::tree_bound::most_by_joints;
@@ -17,6 +17,10 @@ use kutzbach_closure::{
 use kutzbach_math::matrix::{DENSE_COLUMNS, MatrixError, relative_singular_values};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Configuration, Mechanism};
+
+/// Numbers are within their digits up to so many units. What was rounded once differs by one at most; a quarter more is for numbers
+/// that were converted, and rounded, before, and for the second order.
+pub(super) const WITHIN: f64 = 1.25;
 
 /// So many numbers of freedoms are tried for a part.
 const TRIES: usize = 3;

@@ -11,6 +11,7 @@
 //! than the relations of its kind that were asked for.
 
 use super::dimensions::{Dimensions, turns};
+use crate::intended::Kept;
 use crate::vocabulary::RelationKind;
 use kutzbach_closure::{Geometry, Part};
 use kutzbach_math::space::{Vector, cross, dot, length, subtract};
@@ -199,17 +200,6 @@ impl Relation {
             }
         }
     }
-}
-
-/// A relation that rounded numbers nearly satisfy, and that the mechanism meant satisfies exactly.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Kept {
-    /// What is exact.
-    pub kind: RelationKind,
-    /// The joints whose axes or points are related: two of one link, or two of each of two.
-    pub joints: Vec<usize>,
-    /// The angle (rad), where it is one.
-    pub angle: Option<f64>,
 }
 
 impl Relations {

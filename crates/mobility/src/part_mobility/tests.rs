@@ -3,6 +3,7 @@ use super::super::part_samples::{
 };
 use super::*;
 use crate::RankNote;
+use crate::engines::part_mobility;
 use crate::families::bennett_row;
 use kutzbach_closure::samples::{Written, flat_parallelogram, four_bar, general_four, sarrus};
 

@@ -1,10 +1,10 @@
 //! What accuracy costs: a section of the page, and a page of its own.
 
-use super::Assets;
 use super::blocks;
 use super::document::{definition_list, shell};
 use super::escape::escaped;
 use super::names::Names;
+use super::stage::Assets;
 use crate::accuracy::{figure, page};
 use crate::text::Layout;
 use kutzbach_simulate::accuracy::Accuracy;

@@ -6,7 +6,7 @@ use super::document::shell;
 use super::drawing::{motion, packed, page_data, placed, roles};
 use super::escape::{escaped, in_script};
 use super::names::Names;
-use super::{Assets, Facts, Stage};
+use super::stage::{Assets, Facts, Stage};
 use crate::picture::sketch::Sketch;
 use kutzbach_motion::Variable;
 

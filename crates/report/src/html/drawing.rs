@@ -6,7 +6,7 @@ use super::data::{
 };
 use super::motions::Played;
 use super::names::{Names, shown};
-use super::{Facts, Stage};
+use super::stage::{Facts, Stage};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use kutzbach_closure::Rigid;

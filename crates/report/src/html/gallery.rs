@@ -2,7 +2,7 @@
 
 use super::document::shell;
 use super::escape::escaped;
-use super::{Assets, Stage};
+use super::stage::{Assets, Stage};
 use crate::Report;
 use crate::text::{verdict, words::counted};
 use kutzbach_mobility::{MobilityClass, SingularKind, Verdict};

@@ -2,7 +2,7 @@
 
 use super::escape::escaped;
 use super::motions::Played;
-use super::{Facts, Stage};
+use super::stage::{Facts, Stage};
 use crate::picture::plot::{Axis, Form, Level, Mark, MarkKind, Plot, Scale, Series};
 use crate::text::words::{counted, figure};
 use kutzbach_closure::jacobian;

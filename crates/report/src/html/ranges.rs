@@ -1,6 +1,6 @@
 //! How far every joint goes along the motions shown.
 
-use super::Stage;
+use super::stage::Stage;
 use crate::text::words::figure;
 use kutzbach_model::mechanism::Mechanism;
 use kutzbach_motion::{EndReason, Range};

@@ -1,8 +1,9 @@
-use super::motions::{Played, repertoire};
+use super::motions::{Played, Repertoire, repertoire};
 use super::ranges::ranges;
 use super::*;
 use crate::{Input, Options, analysed_report_on};
 use kutzbach_mobility::{AnalysisOptions, analyse};
+use kutzbach_model::mechanism::Mechanism;
 use kutzbach_motion::EventKind;
 
 fn own(name: &str) -> Mechanism {

@@ -1,6 +1,5 @@
 //! Branches of the configuration space, and how links move on them.
 
-use super::is_false;
 use serde::{Deserialize, Serialize};
 
 /// A branch of the configuration space through the pose, described at a generic pose of its own.
@@ -33,7 +32,7 @@ pub struct Idle {
     /// In how many ways.
     pub freedom: usize,
     /// Whether they hang between balls: a rod or a leg that spins about its own line.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub rod: bool,
 }
 
@@ -71,9 +70,9 @@ pub struct Motion {
     /// count among its rotations.
     pub tilts: Option<f64>,
     /// Whether [`pitches`](Self::pitches) are the extremes of the whole branch, which was followed from end to end.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub whole_branch: bool,
     /// Whether this pair of links was asked for by name.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub asked: bool,
 }

@@ -1,7 +1,6 @@
 //! Joints, couplings, and what to change about them.
 
 use super::super::change_sets::RedundantDirection;
-use super::is_false;
 use serde::{Deserialize, Serialize};
 
 /// One joint.
@@ -53,7 +52,7 @@ pub struct JointRange {
     /// Whether it is an angle.
     pub angle: bool,
     /// Whether the motion goes on beyond what was followed.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub at_least: bool,
 }
 

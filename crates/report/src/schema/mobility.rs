@@ -53,7 +53,7 @@ pub struct Nominal {
     #[serde(default = "yes")]
     pub within_digits: bool,
     /// Whether it differs by the noise of numbers that a program printed: less than a millionth of the loop's size.
-    #[serde(default, skip_serializing_if = "super::is_false")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub noise: bool,
     /// The numbers that it has otherwise, those that change most first; empty where it was not computed.
     #[serde(default)]
@@ -100,7 +100,7 @@ pub struct AsWritten {
 /// What one engine found of one block (D20).
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Evidence {
-    /// The block, by the name it has in [`Home::blocks`](super::Home::blocks).
+    /// The block, by the name it has in [`Home::blocks`](crate::Home::blocks).
     pub block: String,
     /// The engine.
     pub engine: String,

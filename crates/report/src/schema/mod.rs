@@ -17,6 +17,7 @@ mod branches;
 mod inputs;
 mod joints;
 mod mobility;
+mod play;
 mod pose;
 mod source;
 mod structure;
@@ -27,6 +28,7 @@ pub use branches::{Branch, Idle, Motion};
 pub use inputs::{DependentInput, Follower, Freedoms, InputSource, Inputs, Limb};
 pub use joints::{Advice, CouplingRow, JointRange, JointRow};
 pub use mobility::{AsWritten, Certificate, Change, Evidence, Mobility, Nominal, Relation};
+pub use play::{JointPlay, Play};
 pub use pose::{Block, Home};
 pub use source::{
     Constants, GenericCount, LiteralAt, LiteralReading, Size, Source, Stage, Timing, WrittenKind,
@@ -93,7 +95,7 @@ pub struct Report {
     pub change_sets: Option<ChangeSets>,
     /// The play that joints need for the motion to go through with the numbers as written; only where asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub play: Option<super::play::Play>,
+    pub play: Option<Play>,
     /// What a careful reader should know: oddities of the file, short margins.
     pub warnings: Vec<Warning>,
     /// What of the file was not read, because it says nothing about motion.
@@ -115,12 +117,6 @@ impl Report {
         matches!(self.mobility.verdict, Verdict::Mobile | Verdict::Rigid)
             && self.motions.iter().all(known)
     }
-}
-
-// By reference, as serde calls it.
-#[allow(clippy::trivially_copy_pass_by_ref)]
-fn is_false(value: &bool) -> bool {
-    !*value
 }
 
 #[cfg(test)]

@@ -26,7 +26,7 @@ pub struct Cycle {
 }
 
 /// The spanning tree: that of the file, rooted at the ground (D15). The joints that are not in it close the loops; they are
-/// those with [`JointRow::closes_loop`](super::JointRow::closes_loop), unless a link is held by such joints alone.
+/// those with [`JointRow::closes_loop`](crate::JointRow::closes_loop), unless a link is held by such joints alone.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Tree {
     /// The root link.

@@ -6,7 +6,7 @@ use super::sections::{more, rows_of};
 use super::style::Tint;
 use super::table::{Cell, Column, Subject, Table};
 use super::words::{counted, figure, in_degrees, metres, names};
-use crate::assemble::HOME;
+use crate::asked::HOME;
 use crate::schema::{Assembly, Gap, JointPlace, Report};
 use kutzbach_mobility::Verdict;
 

@@ -4,7 +4,7 @@ use super::page::Page;
 use super::style::Tint;
 use super::table::{Cell, Column, Subject, Table};
 use super::words::{counted, figure, in_degrees, metres, names, times};
-use crate::play::Play;
+use crate::schema::Play;
 use crate::schema::Report;
 
 /// A gap below this (m) needs no play that anybody could make.
