@@ -111,6 +111,12 @@ fn relations_on_open_chains_cost_what_their_loops_cost() {
     ]);
     assert_eq!(answer["relations"].as_array().unwrap().len(), 9);
     assert_eq!(answer["relations"][8]["verdict"], "not reached");
+    // By what it forbids at the drawn pose, without the basis for its dimension.
+    let answer = json(&["mechanisms/bennett.urdf", "--incremental", "--time", "0"]);
+    for relation in answer["relations"].as_array().unwrap() {
+        assert_eq!(relation["verdict"], "accepted");
+        assert!(relation["dimension"].is_null());
+    }
 }
 
 #[test]

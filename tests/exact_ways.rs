@@ -3,8 +3,8 @@
 use crate::support::folder;
 use kutzbach::algebra::{
     Budget, ExactAnswer, ExactOptions, Formulation, Limits, Method, MonomialOrder, Polynomial,
-    RelationVerdict, Stop, SystemOptions, exact_answer, groebner_basis, radical_contains,
-    relation_by_relation, relations_of,
+    RelationVerdict, Stop, SystemOptions, accepted_at_home, exact_answer, groebner_basis,
+    radical_contains, relation_by_relation, relations_of,
 };
 use kutzbach::format::read_file;
 use kutzbach::mechanism::Mechanism;
@@ -250,6 +250,32 @@ fn relations_in_any_order_are_judged_as_ideals_say() {
         .map(|file| compared(file, 2, &mut seed));
     let (all, refused) = found.fold((0, 0), |a, b| (a.0 + b.0, a.1 + b.1));
     assert!(all > 20 && refused > 2, "{all} {refused}");
+}
+
+/// What the drawn pose says without a basis is what the bases say; of relations that repeat others it says nothing.
+#[test]
+fn relations_accepted_at_the_drawn_pose_are_accepted() {
+    let options = SystemOptions {
+        formulation: Formulation::Positional,
+        ..SystemOptions::default()
+    };
+    let (mut known, mut silent) = (0, 0);
+    for file in FILES {
+        let mechanism = mechanism(file);
+        let (system, given) = relations_of(&mechanism, &options).unwrap();
+        let findings = relation_by_relation(&given, &Budget::new(Limits::seconds(100.0))).unwrap();
+        for from in 0..findings.len() {
+            let before = &findings[..from];
+            let accepted = accepted_at_home(&mechanism, (&system, &given), before);
+            for (accepted, finding) in accepted.iter().zip(&findings[from..]) {
+                let right = !accepted || finding.verdict == RelationVerdict::Accepted;
+                assert!(right, "{file}: {}", finding.name);
+                known += usize::from(*accepted);
+                silent += usize::from(finding.verdict != RelationVerdict::Accepted);
+            }
+        }
+    }
+    assert!(known > 50 && silent > 5, "{known} {silent}");
 }
 
 /// Too long for every commit.

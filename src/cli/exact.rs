@@ -8,9 +8,9 @@ use super::{BAD_INPUT, DONE, UNDECIDED, load, output, terminal};
 use clap::{Args, ValueEnum};
 use kutzbach::algebra::{
     BlockAnswer, BlockFinding, Budget, ExactOptions, Formulation, Limits, Method, MonomialOrder,
-    Progress, Reader, Stop, SystemError, SystemOptions, assembly_conditions, entries_in,
-    exact_answer, exact_by_blocks, motion_conditions, polynomial_system, relation_by_relation,
-    relations_of, without_loops, written_for,
+    Progress, Reader, Stop, SystemError, SystemOptions, accepted_at_home, assembly_conditions,
+    entries_in, exact_answer, exact_by_blocks, motion_conditions, polynomial_system,
+    relation_by_relation, relations_of, without_loops, written_for,
 };
 use kutzbach::graph::ConstraintGraph;
 use kutzbach::mechanism::Mechanism;
@@ -397,10 +397,14 @@ impl Arguments {
             Ok(findings) => (findings, None),
             Err((stop, findings)) => (findings, Some(stop)),
         };
+        let at_home = match stopped {
+            None => Vec::new(),
+            Some(_) => accepted_at_home(mechanism, (&system, &given), &findings),
+        };
         let report = relations_report(
             mechanism,
             (&system, &given.relations),
-            &findings,
+            (&findings, &at_home),
             stopped,
             request,
         );

@@ -24,8 +24,8 @@ mod zero_dimensional;
 pub use answer::{
     BlockAnswer, BlockFinding, ByBlocks, ClosingSet, Closings, Condition, CycleAnswer,
     DesignConditions, ExactAnswer, ExactOptions, Exception, Exceptions, Family, FixedVariable,
-    Method, Ordered, Piece, ProvenMotion, Scope, Settled, Solutions, assembly_conditions, closings,
-    exact_answer, exact_by_blocks, motion_conditions, relations_of,
+    Method, Ordered, Piece, ProvenMotion, Scope, Settled, Solutions, accepted_at_home,
+    assembly_conditions, closings, exact_answer, exact_by_blocks, motion_conditions, relations_of,
 };
 pub use components::{
     AlgebraicNumber, Component, Decomposition, Hints, Incomplete, Irreducible, RealPoints,

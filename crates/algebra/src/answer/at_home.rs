@@ -5,6 +5,7 @@
 //! the others or less: they determine the poses of all links. A rank modulo a prime is never larger than the true one.
 
 use super::ExactOptions;
+use crate::strategy::{RelationFinding, RelationVerdict, Relations};
 use crate::system::ModularSystem;
 use crate::{Formulation, Origin, PolynomialSystem, SystemOptions, polynomial_system};
 use kutzbach_model::mechanism::Mechanism;
@@ -28,6 +29,80 @@ pub(super) fn bounds(
     let exact = tree.filter(|tree| tree.home.exact().is_some());
     let least = exact.as_ref().map_or(0, least);
     Some((least.max(self::least(system)).min(most), most))
+}
+
+/// Six freedoms of one body seen from another.
+const FREE: usize = 6;
+
+/// Of the relations after those with findings, in positional form, which are accepted by what they forbid to first order at the drawn pose; none is
+/// where that pose is no exact solution, and of the others nothing is said.
+///
+/// What earlier relations leave is smooth at the pose if their derivatives are independent there, with as many as each has by itself, and its
+/// tangents are their kernel. A relation that vanished wherever they do would have derivatives that vanish on all of these. The pose satisfies it with them, so
+/// that it is not inconsistent either. Ranks are those modulo a prime, which are never too large; that they are not too small is seen
+/// by the freedoms of the joints and of the bodies.
+#[must_use]
+pub fn accepted_at_home(
+    mechanism: &Mechanism,
+    (system, given): (&PolynomialSystem, &Relations),
+    findings: &[RelationFinding],
+) -> Vec<bool> {
+    let later = given.relations.len() - findings.len();
+    let mut accepted = vec![false; later];
+    if given.bodies.is_none() || system.home.exact().is_none() {
+        return accepted;
+    }
+    let left = |relations: &[usize]| {
+        let names = relations.iter().map(|&r| given.relations[r].name.as_str());
+        nullity_with(mechanism, system, &names.collect::<Vec<_>>())
+    };
+    let forbidden = |relation: usize| {
+        let joint = mechanism.joint_named(&given.relations[relation].name)?;
+        Some(FREE - mechanism.joint(joint).freedom())
+    };
+    let free = FREE * (mechanism.links().len() - 1);
+    if left(&[]) != Some(free) {
+        return accepted;
+    }
+    let told = findings.iter().enumerate();
+    let told = told.filter(|(_, finding)| finding.verdict == RelationVerdict::Accepted);
+    let mut before: Vec<usize> = told.map(|(relation, _)| relation).collect();
+    // What all of these forbid together, and each by itself.
+    let smooth = |relations: &[usize]| {
+        let own = relations.iter().map(|&r| {
+            let forbidden = forbidden(r)?;
+            (left(&[r])? + forbidden == free).then_some(forbidden)
+        });
+        let sum: usize = own.sum::<Option<usize>>()?;
+        let left = left(relations)?;
+        (left + sum == free).then_some(left)
+    };
+    for (place, relation) in (findings.len()..given.relations.len()).enumerate() {
+        let Some(dimension) = smooth(&before) else {
+            break;
+        };
+        before.push(relation);
+        match left(&before) {
+            Some(left) if left < dimension => accepted[place] = true,
+            _ => break,
+        }
+    }
+    accepted
+}
+
+/// Unknowns less the rank at the drawn pose of what always holds and of joints of these names.
+fn nullity_with(
+    mechanism: &Mechanism,
+    system: &PolynomialSystem,
+    joints: &[&str],
+) -> Option<usize> {
+    let mut part = system.clone();
+    part.equations.retain(|equation| match equation.origin {
+        Origin::Joint { joint } => joints.contains(&mechanism.joint(joint).name.as_str()),
+        Origin::Cycle { .. } | Origin::Coupling { .. } => false,
+        _ => true,
+    });
+    Some(nullity(&part.home_modulo(0, MEMORY)?))
 }
 
 /// Unknowns less equations.

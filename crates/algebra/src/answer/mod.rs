@@ -19,6 +19,7 @@ mod same_poses;
 mod solutions;
 mod subgroup;
 
+pub use at_home::accepted_at_home;
 pub use blocks::{BlockAnswer, BlockFinding, ByBlocks, exact_by_blocks};
 pub use closings::{ClosingSet, Closings, closings};
 pub use conditions::{Condition, DesignConditions, Family, assembly_conditions, motion_conditions};

@@ -15,7 +15,7 @@ pub struct RelationRow {
     pub name: String,
     /// `accepted`, `redundant`, `inconsistent` or `not reached`.
     pub verdict: &'static str,
-    /// Complex dimension of what the relations accepted so far leave possible.
+    /// Complex dimension of what the relations accepted so far leave possible; none where time did not suffice for it.
     pub dimension: Option<usize>,
     /// Polynomials of the basis after it; in positional form, of the loops that it is in.
     pub basis: Option<usize>,
@@ -42,15 +42,17 @@ pub struct Relations {
     pub relaxations: Vec<String>,
 }
 
-/// The management of constraints as data.
+/// The management of constraints as data; `at_home` says of the relations after those with findings which are accepted all the same.
 #[must_use]
 pub fn relations_report(
     mechanism: &Mechanism,
     (system, relations): (&PolynomialSystem, &[Relation]),
-    findings: &[RelationFinding],
+    (findings, at_home): (&[RelationFinding], &[bool]),
     stopped: Option<Stop>,
     request: &Request,
 ) -> Relations {
+    let known = at_home.iter().copied().chain(std::iter::repeat(false));
+    let later = relations.iter().skip(findings.len()).zip(known);
     Relations {
         schema: EXACT_SCHEMA,
         mechanism: mechanism.name().to_owned(),
@@ -60,7 +62,7 @@ pub fn relations_report(
         relations: findings
             .iter()
             .map(|finding| row(finding, relations))
-            .chain(relations.iter().skip(findings.len()).map(not_reached))
+            .chain(later.map(|(relation, accepted)| without_basis(relation, accepted)))
             .collect(),
         relaxations: system.relaxations.iter().map(ToString::to_string).collect(),
     }
@@ -83,10 +85,13 @@ fn row(finding: &RelationFinding, relations: &[Relation]) -> RelationRow {
     }
 }
 
-fn not_reached(relation: &Relation) -> RelationRow {
+fn without_basis(relation: &Relation, accepted: bool) -> RelationRow {
     RelationRow {
         name: relation.name.clone(),
-        verdict: NOT_REACHED,
+        verdict: match accepted {
+            true => "accepted",
+            false => NOT_REACHED,
+        },
         dimension: None,
         basis: None,
         because_of: Vec::new(),
