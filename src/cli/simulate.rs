@@ -260,6 +260,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
                 run_scene_estimated(mechanism, &geometry, states, &scene, how, observer)
             })?
             .map_err(|error| refused(error.to_string()))?;
+        log.tell(&table::off_text(&run.1))?;
         simulated.scene = Some(run);
     }
     simulated.stopped = simulated.verification.stopped || interrupt::asked();

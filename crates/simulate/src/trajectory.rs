@@ -24,13 +24,16 @@ use std::ops::ControlFlow;
 const CONVERGES: f64 = 0.5;
 
 /// What is known of the order of an integrator: that which the coarser of two runs is taken to have until a third shows it, and the
-/// highest that is believed. What seems higher is chance.
+/// highest that is believed.
 const fn orders(integrator: Integrator) -> (f64, f64) {
     match integrator {
         Integrator::RungeKutta => (5.0, 5.0),
         Integrator::Engine => (1.0, 2.0),
     }
 }
+
+/// An order that is higher than the highest by more than this is no order.
+const BY_CHANCE: f64 = 2.0;
 
 /// Differences of this size are rounding, which shorter steps do not make smaller (characteristic lengths, rad, shares).
 const ROUNDING: f64 = 1e-10;
@@ -246,7 +249,13 @@ fn estimate(rows: &mut [StepRow], differences: &[TrajectoryError], integrator: I
         rows[index + 1].order = seen;
         let rounding = apart.largest() <= ROUNDING;
         if let Some(seen) = seen {
-            let order = seen.clamp(if rounding { 1.0 } else { 0.0 }, highest);
+            // Where a difference collapses the one before was none of steps that are short enough, and tells nothing of the next.
+            let believed = if seen > highest + BY_CHANCE {
+                1.0
+            } else {
+                seen
+            };
+            let order = believed.clamp(if rounding { 1.0 } else { 0.0 }, highest);
             orders = (order, order);
         }
         let [finer, coarser] = [orders.0, orders.1].map(|order| f64::powf(2.0, order));

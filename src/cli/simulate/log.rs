@@ -259,6 +259,18 @@ impl<'a> Log<'a> {
         )
     }
 
+    /// A sentence at the time that the log has come to.
+    ///
+    /// # Errors
+    /// Where the log cannot be written.
+    pub fn tell(&mut self, text: &str) -> Result<(), Failure> {
+        let Some((recorder, path)) = self.recorder.as_mut().zip(self.path) else {
+            return Ok(());
+        };
+        let told = recorder.log(self.until, Level::Info, text);
+        told.map_err(|error| unwritten(path, &error))
+    }
+
     /// Writes the outcome and closes the log; what was logged, where there is one.
     ///
     /// # Errors

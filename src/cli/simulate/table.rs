@@ -383,9 +383,9 @@ fn percent(share: f64) -> String {
     }
 }
 
-/// How far the motion of the scene is off, by runs in halved steps.
-fn trajectory_page(run: &SceneRun, trajectory: &Trajectory, page: &mut Page) {
-    let off = match (trajectory.error(), &trajectory.not_estimated) {
+/// About how far the motion of a scene is off, or why that is not known.
+pub fn off_text(trajectory: &Trajectory) -> String {
+    match (trajectory.error(), &trajectory.not_estimated) {
         (Some(error), _) => format!(
             "the motion is off by about {:.1e} at its worst and {:.1e} at the end (characteristic lengths, rad), speeds by {} of the \
              greatest: by runs in halved steps",
@@ -395,8 +395,12 @@ fn trajectory_page(run: &SceneRun, trajectory: &Trajectory, page: &mut Page) {
         ),
         (None, Some(why)) => format!("how far the motion is off is not known: {why}"),
         (None, None) => "how far the motion is off is not known".to_owned(),
-    };
-    page.item(&off, Tint::Plain);
+    }
+}
+
+/// How far the motion of the scene is off, by runs in halved steps.
+fn trajectory_page(run: &SceneRun, trajectory: &Trajectory, page: &mut Page) {
+    page.item(&off_text(trajectory), Tint::Plain);
     let Some(wanted) = trajectory.wanted else {
         return;
     };

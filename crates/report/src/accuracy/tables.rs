@@ -1,9 +1,9 @@
 //! The page: a table for each stage, and the choice.
 
-use crate::text::words::{capitalised, counted, duration, figure};
+use crate::text::words::{capitalised, counted, duration, figure, metres};
 use crate::text::{Cell, Column, Layout, Page, Table, Tint};
-use kutzbach_simulate::Solver;
 use kutzbach_simulate::accuracy::{Accuracy, Choice, Claim, Scene, Setting, State};
+use kutzbach_simulate::{Integrator, Solver};
 
 /// What was measured, as a page.
 #[must_use]
@@ -232,6 +232,82 @@ fn scene_table(scene: &Scene, page: &mut Page) {
         "  ",
     );
     settings(&scene.rows, false, page);
+    scene_steps(scene, page);
+}
+
+/// How far the motion of the scene is off in halved steps, and what a digit costs.
+fn scene_steps(scene: &Scene, page: &mut Page) {
+    if scene.steps.is_empty() {
+        return;
+    }
+    page.gap();
+    page.paragraph(
+        "How far the motion itself is off (characteristic lengths, rad), by runs in halved steps:",
+        Tint::Plain,
+        "  ",
+        "  ",
+    );
+    let mut table = Table::new()
+        .column("integrator", Column::Words)
+        .column("step", Column::Words)
+        .column("motion off by", Column::Numbers)
+        .column("speeds", Column::Numbers)
+        .column("energy", Column::Numbers)
+        .column("closure error", Column::Numbers)
+        .column("per simulated second", Column::Numbers);
+    for row in &scene.steps {
+        let number = |value: Option<f64>| value.map_or("–".to_owned(), error);
+        table.row(vec![
+            Cell::new(integrator(row.integrator)),
+            Cell::new(step_text(row.time_step)),
+            Cell::new(number(row.off)),
+            Cell::new(number(row.speeds)),
+            Cell::new(format!("{:+.1e} J", row.energy_change)),
+            Cell::new(error(row.closure_error)),
+            Cell::new(duration(row.timing.seconds_per_second)),
+        ]);
+    }
+    page.table(table, "scene steps");
+    for of in [Integrator::RungeKutta, Integrator::Engine] {
+        if let Some(text) = price(scene, of) {
+            page.paragraph(&text, Tint::Plain, "  ", "  ");
+        }
+    }
+}
+
+fn integrator(integrator: Integrator) -> &'static str {
+    match integrator {
+        Integrator::RungeKutta => "Runge-Kutta",
+        Integrator::Engine => "engine",
+    }
+}
+
+/// Errors below this are roundings, which no work makes smaller.
+const ROUNDING: f64 = 1e-12;
+
+/// What a ten-thousandth of the machine's length costs with an integrator, and each digit more.
+fn price(scene: &Scene, of: Integrator) -> Option<String> {
+    let known = scene.steps.iter().filter(|row| row.integrator == of);
+    let points: Vec<(f64, f64)> = known
+        .filter_map(|row| Some((row.off?, row.timing.seconds_per_second)))
+        .filter(|(off, seconds)| *off > ROUNDING && *seconds > 0.0)
+        .collect();
+    let (first, last) = (points.first()?, points.last()?);
+    let digits = (first.0 / last.0).log10();
+    if !(digits >= 1.0) {
+        return None;
+    }
+    let dearer = (last.1 / first.1).powf(1.0 / digits);
+    let (off, seconds) = points.iter().find(|(off, _)| *off <= 1e-4).unwrap_or(last);
+    Some(format!(
+        "{}: {} costs {} for a second of motion, each further digit {dearer:.1} times as much.",
+        match of {
+            Integrator::RungeKutta => "Runge-Kutta steps",
+            Integrator::Engine => "The engine",
+        },
+        metres(off * scene.length),
+        duration(*seconds)
+    ))
 }
 
 fn settings(rows: &[Setting], predicted: bool, page: &mut Page) {

@@ -51,7 +51,7 @@ pub use measure::{AccuracyError, AccuracyOptions, Stage, measure, measure_settin
 pub use pareto::pareto_front;
 pub use result::{
     Accuracy, Claim, Driven, Effect, EffectTiming, Motion, MotionTiming, RunTiming, SCHEMA, Scene,
-    Setting, Simulation, State, Traced, TracedTiming, Way, WayTiming,
+    SceneStep, Setting, Simulation, State, Traced, TracedTiming, Way, WayTiming,
 };
 pub use simulation::Grid;
 pub(crate) use work::work_of_setting;

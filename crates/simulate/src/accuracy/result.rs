@@ -1,8 +1,8 @@
 //! What is told of one mechanism. Fields named `timing` differ from run to run, nothing else does.
 
 use super::choose::Choice;
-use crate::Solver;
 use crate::verification::{FINE_ENOUGH, NEAR};
+use crate::{Integrator, Solver};
 use kutzbach_mobility::CertificateLevel;
 use serde::{Deserialize, Serialize};
 
@@ -286,8 +286,33 @@ pub struct Scene {
     pub effects: Vec<String>,
     /// Simulated seconds.
     pub seconds: f64,
-    /// Every setting; only the closure error is known.
+    /// Every setting of the engine; only the closure error is known.
     pub rows: Vec<Setting>,
+    /// How far the motion is off, in halved steps of each integrator that serves the scene.
+    #[serde(default)]
+    pub steps: Vec<SceneStep>,
+    /// Characteristic length (m).
+    #[serde(default)]
+    pub length: f64,
+}
+
+/// The scene in steps of one length.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SceneStep {
+    /// What made it move.
+    pub integrator: Integrator,
+    /// Length of a step (s).
+    pub time_step: f64,
+    /// About how far links are off at the worst moment (characteristic lengths, rad); absent where runs do not approach one another.
+    pub off: Option<f64>,
+    /// About how far speeds are off, in parts of the greatest.
+    pub speeds: Option<f64>,
+    /// Energy at the end less that at the start (J).
+    pub energy_change: f64,
+    /// Largest gap of any joint (characteristic lengths, rad).
+    pub closure_error: f64,
+    /// How long it takes.
+    pub timing: RunTiming,
 }
 
 /// What one effect costs.

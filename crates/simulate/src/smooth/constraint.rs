@@ -19,17 +19,15 @@ use nalgebra::{Matrix3, Vector3};
 
 type Vector = Vector3<f64>;
 
-/// A frame on a body: the ground is the last one.
+/// A point of a body: the ground is the last one.
 #[derive(Clone, Debug)]
 pub(super) struct Side {
     pub body: usize,
-    /// Origin, from the centre of mass and along the principal axes (m).
+    /// From the centre of mass and along the principal axes (m).
     pub at: Vector,
-    /// `body_from_joint`.
-    pub turn: Matrix3<f64>,
 }
 
-/// A joint between two bodies; its directions are given in the joint frames.
+/// A joint between two bodies; its directions are given along the bodies' own axes.
 #[derive(Clone, Debug)]
 pub(super) struct Held {
     pub sides: [Side; 2],
@@ -55,9 +53,10 @@ pub(super) enum Row {
 /// The turn of the far side about an axis that both sides share, counted over whole turns from a value before.
 #[derive(Clone, Debug)]
 pub(super) struct Turning {
-    pub axis: Vector,
-    first: Vector,
-    second: Vector,
+    /// On the near side.
+    axis: Vector,
+    /// Two directions across it, on each side.
+    across: [[Vector; 2]; 2],
     /// A turn less than half a turn away (rad).
     pub near: f64,
 }
@@ -65,7 +64,7 @@ pub(super) struct Turning {
 /// How two sides stand.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placed {
-    /// `world_from_joint`.
+    /// `world_from_body`.
     pub turns: [Matrix3<f64>; 2],
     /// From each body's centre of mass to its frame's origin (m).
     pub arms: [Vector; 2],
@@ -89,21 +88,19 @@ pub(super) struct Gradient {
 }
 
 impl Turning {
-    pub fn new(axis: &[f64; 3], near: f64) -> Self {
+    /// About an axis that is given in both joint frames, with the rotations `body_from_joint`.
+    pub fn new(axis: &[f64; 3], near: f64, turns: &[Matrix3<f64>; 2]) -> Self {
         let (first, second) = kutzbach_closure::across(axis);
         Self {
-            axis: (*axis).into(),
-            first: first.into(),
-            second: second.into(),
+            axis: turns[0] * Vector::from(*axis),
+            across: turns.map(|turn| [turn * Vector::from(first), turn * Vector::from(second)]),
             near,
         }
     }
 
     /// The turn (rad).
     pub fn angle(&self, placed: &Placed) -> f64 {
-        let [a, b] = placed
-            .turns
-            .map(|turn| [turn * self.first, turn * self.second]);
+        let [a, b] = [0, 1].map(|side| self.across[side].map(|v| placed.turns[side] * v));
         let sine = b[0].dot(&a[1]) - b[1].dot(&a[0]);
         let cosine = b[0].dot(&a[0]) + b[1].dot(&a[1]);
         let angle = sine.atan2(cosine);
@@ -123,7 +120,7 @@ impl Held {
         let [a, b] = &self.sides;
         let arms = [a, b].map(|side| rotations[side.body] * side.at);
         Placed {
-            turns: [a, b].map(|side| rotations[side.body] * side.turn),
+            turns: [a, b].map(|side| rotations[side.body]),
             arms,
             apart: (centres[b.body] - centres[a.body]) + (arms[1] - arms[0]),
         }
@@ -234,8 +231,12 @@ impl Row {
     }
 }
 
-/// The rows of a joint: six less its freedoms. `value` is its screw's turn at the start.
-pub(super) fn rows_of(joint: &JointDisplacement<f64>, pitch: f64, value: f64) -> Vec<Row> {
+/// The rows of a joint: six less its freedoms. `value` is its screw's turn at the start; `turns` are `body_from_joint`.
+pub(super) fn rows_of(
+    joint: &JointDisplacement<f64>,
+    (pitch, value): (f64, f64),
+    turns: &[Matrix3<f64>; 2],
+) -> Vec<Row> {
     use JointKind as K;
     const X: [f64; 3] = [1.0, 0.0, 0.0];
     const Y: [f64; 3] = [0.0, 1.0, 0.0];
@@ -244,12 +245,12 @@ pub(super) fn rows_of(joint: &JointDisplacement<f64>, pitch: f64, value: f64) ->
     let w = *joint.second_axis();
     let offset = |side: usize, along: [f64; 3]| Row::Offset {
         side,
-        along: along.into(),
+        along: turns[side] * Vector::from(along),
     };
     let at_point = || [X, Y, Z].map(|u| offset(0, u)).to_vec();
     let across = |near: [f64; 3], far: [f64; 3]| Row::Across {
-        near: near.into(),
-        far: far.into(),
+        near: turns[0] * Vector::from(near),
+        far: turns[1] * Vector::from(far),
         cosine: Vector::from(near).dot(&Vector::from(far)),
     };
     let (y, z) = if joint.kind().uses_axis() {
@@ -261,7 +262,7 @@ pub(super) fn rows_of(joint: &JointDisplacement<f64>, pitch: f64, value: f64) ->
     // Near parallel frames the three products are the rotation's components.
     let no_turn = || vec![across(X, Y), across(Y, Z), across(Z, X)];
     let helix = || Row::Helix {
-        turning: Turning::new(&e, value),
+        turning: Turning::new(&e, value, turns),
         pitch,
     };
     match joint.kind() {
@@ -285,8 +286,8 @@ pub(super) fn rows_of(joint: &JointDisplacement<f64>, pitch: f64, value: f64) ->
         K::LineOnPlane => vec![
             offset(1, w),
             Row::Across {
-                near: e.into(),
-                far: w.into(),
+                near: turns[0] * Vector::from(e),
+                far: turns[1] * Vector::from(w),
                 cosine: 0.0,
             },
         ],
@@ -337,16 +338,20 @@ mod tests {
         Matrix3::from_fn(|i, j| rigid.rotation[i][j])
     }
 
+    /// `body_from_joint` on either side.
+    fn frames() -> [Matrix3<f64>; 2] {
+        [0.5, 1.5].map(|x| matrix(&Rigid::exponential(&[x, -0.4, 0.3 * x], &[0.0; 3])))
+    }
+
     /// Two bodies that move as given, with frames off their centres of mass.
     fn held(kind: JointKind, value: f64) -> Held {
-        let turned = |x: f64| Rigid::exponential(&[x, -0.4, 0.3 * x], &[0.0; 3]);
+        let turns = frames();
         Held {
             sides: [0, 1].map(|body| Side {
                 body,
                 at: Vector::new(0.3, -0.2, 0.5) * (1.0 + body as f64),
-                turn: matrix(&turned(0.5 + body as f64)),
             }),
-            rows: rows_of(&joint(kind), 0.3, value),
+            rows: rows_of(&joint(kind), (0.3, value), &turns),
         }
     }
 
@@ -354,9 +359,9 @@ mod tests {
     fn stand(held: &Held, first: &Rigid<f64>, reached: &Rigid<f64>) -> [(Matrix3<f64>, Vector); 2] {
         let [a, b] = &held.sides;
         let (rotation, centre) = (matrix(first), Vector::from(first.translation));
-        let turn = rotation * a.turn * matrix(reached) * b.turn.transpose();
-        let origin =
-            centre + rotation * a.at + rotation * a.turn * Vector::from(reached.translation);
+        let [near, far] = frames();
+        let turn = rotation * near * matrix(reached) * far.transpose();
+        let origin = centre + rotation * a.at + rotation * near * Vector::from(reached.translation);
         [(rotation, centre), (turn, origin - turn * b.at)]
     }
 

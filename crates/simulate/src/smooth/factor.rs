@@ -60,6 +60,14 @@ pub(super) struct Factor {
 }
 
 impl Factor {
+    /// How many rows are independent.
+    pub fn rank(&self) -> usize {
+        self.inverse
+            .iter()
+            .filter(|inverse| **inverse != 0.0)
+            .count()
+    }
+
     /// Whether a row is left out, as one that follows from others.
     pub fn leaves_out(&self, row: usize) -> bool {
         self.inverse[row] == 0.0

@@ -26,11 +26,11 @@ use kutzbach_model::mechanism::{JointKind, Mechanism};
 use nalgebra::{Matrix3, Vector3};
 use relation::{Coordinate, Measure, Relation};
 use runge_kutta::{EVALUATIONS, Stepper};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use system::{Body, Lost, NUMBERS, System};
 
 /// What makes a scene move step by step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Integrator {
     /// Runge-Kutta steps of order five on the constraints.
@@ -326,36 +326,36 @@ impl Builder<'_> {
         }
     }
 
-    fn side(&self, link: usize, frame: &Rigid<f64>) -> Side {
-        let (body, offset) = &self.places[link];
-        let placed = if *body < self.bodies.len() {
-            offset.inverse().compose(frame)
-        } else {
-            offset.compose(frame)
-        };
-        Side {
-            body: *body,
-            at: placed.translation.into(),
-            turn: Matrix3::from_fn(|i, j| placed.rotation[i][j]),
-        }
+    /// Where a joint's frames are on the two bodies.
+    fn sides(&self, joint: usize) -> ([Side; 2], [Matrix3<f64>; 2]) {
+        let of = &self.mechanism.joints()[joint];
+        let links = [of.predecessor.link.0, of.successor.link.0];
+        let placed = [0, 1].map(|side| {
+            let (body, offset) = &self.places[links[side]];
+            let frame = &self.geometry.sides[joint][side];
+            if *body < self.bodies.len() {
+                offset.inverse().compose(frame)
+            } else {
+                offset.compose(frame)
+            }
+        });
+        let turns = [0, 1].map(|side| Matrix3::from_fn(|i, j| placed[side].rotation[i][j]));
+        let sides = [0, 1].map(|side| Side {
+            body: self.places[links[side]].0,
+            at: placed[side].translation.into(),
+        });
+        (sides, turns)
     }
 
     fn joints(&self) -> Vec<Held> {
-        let joints = self.mechanism.joints().iter().enumerate();
+        let joints = self.geometry.displacements.iter().enumerate();
         joints
-            .map(|(index, joint)| {
-                let [near, far] = &self.geometry.sides[index];
+            .map(|(index, displacement)| {
                 let turned = self.start[index].values.last().copied().unwrap_or(0.0);
+                let (sides, turns) = self.sides(index);
                 Held {
-                    sides: [
-                        self.side(joint.predecessor.link.0, near),
-                        self.side(joint.successor.link.0, far),
-                    ],
-                    rows: rows_of(
-                        &self.geometry.displacements[index],
-                        self.pitch(index),
-                        turned,
-                    ),
+                    sides,
+                    rows: rows_of(displacement, (self.pitch(index), turned), &turns),
                 }
             })
             .collect()
@@ -370,10 +370,10 @@ impl Builder<'_> {
     /// The variable of a joint of one freedom.
     fn coordinate(&self, joint: usize) -> Coordinate {
         let displacement = &self.geometry.displacements[joint];
-        let axis = displacement.axis();
+        let (axis, (_, turns)) = (displacement.axis(), self.sides(joint));
         let measure = match displacement.kind() {
-            JointKind::Prismatic => Measure::Travel((*axis).into()),
-            _ => Measure::Turn(Turning::new(axis, self.value(joint))),
+            JointKind::Prismatic => Measure::Travel(turns[0] * Vector3::from(*axis)),
+            _ => Measure::Turn(Turning::new(axis, self.value(joint), &turns)),
         };
         Coordinate { joint, measure }
     }

@@ -57,6 +57,8 @@ pub(super) struct Stepper {
     derivatives: [Vec<f64>; STAGES],
     reached: Vec<f64>,
     scratch: Scratch,
+    /// Independent constraints at the start.
+    rank: usize,
 }
 
 impl Stepper {
@@ -74,6 +76,7 @@ impl Stepper {
             begin: Linearised::default(),
             latest: Linearised::default(),
             scratch: Scratch::default(),
+            rank: 0,
         };
         let Self {
             state,
@@ -87,6 +90,7 @@ impl Stepper {
         system.derivative((&mut *state, 0.0), None, latest, scratch, first)?;
         system.derivative((&mut *state, 0.0), Some(latest), begin, scratch, first)?;
         system.arrive(state, 0.0, scratch)?;
+        stepper.rank = stepper.begin.rank();
         Ok(stepper)
     }
 
@@ -95,7 +99,13 @@ impl Stepper {
     /// # Errors
     /// Where the constraints cannot be reached however short it is.
     pub fn step(&mut self, system: &mut System, length: f64) -> Result<(), Lost> {
-        self.steps(system, length, MOST_HALVINGS)
+        self.steps(system, length, MOST_HALVINGS)?;
+        // A motion that is let go where two branches meet, or where a shaky mechanism is drawn, has no equation: it begins with fewer
+        // independent constraints than it goes on with. Where it comes through such a pose, it goes straight on.
+        if self.begin.rank() > self.rank {
+            return Err(Lost::Independent);
+        }
+        Ok(())
     }
 
     fn steps(&mut self, system: &mut System, length: f64, halvings: u32) -> Result<(), Lost> {

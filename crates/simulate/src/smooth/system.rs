@@ -64,6 +64,13 @@ pub(super) struct Linearised {
     factor: Factor,
 }
 
+impl Linearised {
+    /// How many constraints are independent here.
+    pub fn rank(&self) -> usize {
+        self.factor.rank()
+    }
+}
+
 /// What an evaluation needs beside.
 #[derive(Debug, Default)]
 pub(super) struct Scratch {
@@ -78,6 +85,8 @@ pub(super) struct Scratch {
     begun: Vec<f64>,
     pushed: Vec<[f64; 6]>,
     forces: Vec<[f64; 6]>,
+    /// States from which the constraints were reached slowly.
+    hard: usize,
 }
 
 /// Why a state has no derivative.
@@ -104,6 +113,12 @@ const MOST_TURN: f64 = 2.0;
 
 /// Corrections shrink by the turn in a step.
 const MOST_CORRECTIONS: usize = 40;
+
+/// Corrections that double the digits need no more than this; near a singular pose each gives one bit.
+const FEW_CORRECTIONS: usize = 8;
+
+/// A motion that passes a singular pose meets some such states, one that stays there nothing else.
+const MOST_HARD: usize = 100;
 
 /// Where they shrink by less, it is not by the turn in a step but near a singular pose.
 const SLOW: f64 = 0.7;
@@ -285,7 +300,13 @@ impl System {
         }
         state.copy_from_slice(&scratch.begun);
         before = f64::INFINITY;
-        for _ in 0..MOST_CORRECTIONS {
+        for correction in 0..MOST_CORRECTIONS {
+            if correction == FEW_CORRECTIONS {
+                scratch.hard += 1;
+                if scratch.hard > MOST_HARD {
+                    break;
+                }
+            }
             self.look(state, time, scratch);
             self.linearise(scratch, here);
             let off = self.largest(&scratch.values, |row| !here.factor.leaves_out(row));
