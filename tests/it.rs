@@ -65,6 +65,7 @@ mod log_readers;
 mod long_runs;
 mod margins;
 mod mechanism_table;
+mod mjcf;
 mod models;
 mod near_singular;
 mod play;

@@ -14,6 +14,9 @@ pub(super) const MOST_BYTES: usize = 64 << 20;
 /// A mechanism file nests five levels deep; foreign elements inside it rarely twenty.
 pub(super) const MOST_LEVELS: usize = 64;
 
+/// In MJCF bodies stand inside bodies: a chain of so many, which nothing here follows by recursion.
+pub(super) const MOST_BODIES_DEEP: usize = 4096;
+
 /// The parser compares the attributes of an element pairwise; this bounds the work per element.
 pub(super) const MOST_ATTRIBUTES: usize = 64;
 
@@ -90,10 +93,15 @@ pub(super) fn check_structure(text: &str) -> Outcome<Option<Range<usize>>> {
             }
             if !tag.empty {
                 open.push(start..tag.name_end);
-                if open.len() > MOST_LEVELS {
+                let root = open.first().and_then(|root| text.get(root.clone()));
+                let most = match root {
+                    Some("<mujoco" | "<mujocoinclude") => MOST_BODIES_DEEP,
+                    _ => MOST_LEVELS,
+                };
+                if open.len() > most {
                     return Err(Fault::new(
                         start..tag.name_end,
-                        format!("elements are nested more than {MOST_LEVELS} levels deep"),
+                        format!("elements are nested more than {most} levels deep"),
                     )
                     .help("a mechanism file needs five levels; is a closing tag missing?"));
                 }

@@ -58,6 +58,7 @@ mod link;
 mod loop_joint;
 mod mentions;
 mod mimic;
+mod mjcf;
 mod mujoco;
 mod names;
 mod number_text;
@@ -97,7 +98,8 @@ pub struct Reading {
     pub warnings: Vec<Warning>,
     /// What is not read because it says nothing about motion, in file order.
     pub skipped: Vec<Skipped>,
-    /// The smallest dialect that the file belongs to: `urdf`, `urdf+` or `kutzbach-urdf`; `xacro` for one that was expanded.
+    /// The smallest dialect that the file belongs to: `urdf`, `urdf+` or `kutzbach-urdf`; `xacro` for one that was expanded;
+    /// `mjcf`.
     pub format: &'static str,
     /// What is kept of the rest for writing it back.
     pub kept: Kept,
@@ -277,8 +279,16 @@ fn read_text(
     base: Option<&Path>,
     options: &ReadOptions,
 ) -> Result<Reading, FormatError> {
-    let mut reading = match xacro::expand(text, file, base, options)? {
-        Source::Plain(warnings) => {
+    let source = match mjcf::is_mjcf(text) {
+        true => None,
+        false => Some(xacro::expand(text, file, base, options)?),
+    };
+    let mut reading = match source {
+        None => {
+            let whole = mjcf::whole(text, file, base)?;
+            mjcf::read(&whole, options).map_err(|faults| whole.located(faults))?
+        }
+        Some(Source::Plain(warnings)) => {
             let mut reading =
                 reader::read(text, options, None).map_err(|faults| located(file, text, faults))?;
             reading.warnings.extend(warnings);
@@ -287,7 +297,7 @@ fn read_text(
                 .sort_by_key(|warning| (warning.line, warning.column));
             reading
         }
-        Source::Expanded(expanded) => {
+        Some(Source::Expanded(expanded)) => {
             // The expansion has used the settings up.
             let left = ReadOptions {
                 settings: Vec::new(),

@@ -5,13 +5,28 @@
 //! `0.5 0.5 0.5 0.5`, states them in full.
 
 use kutzbach_math::number::Number;
+use kutzbach_model::mechanism::Precision;
 
 /// Decimals of angles in full double precision.
 const FULL: usize = 15;
 
 /// Roll, pitch and yaw (rad, about fixed axes) of a quaternion x, y, z, w of any length; `None` for the zero quaternion.
 pub(super) fn roll_pitch_yaw(quaternion: &[Number; 4]) -> Option<[Number; 3]> {
-    let [x, y, z, w] = quaternion.each_ref().map(Number::value);
+    let values = quaternion.each_ref().map(Number::value);
+    stated(angles(values)?, decimals_of(quaternion))
+}
+
+/// Roll, pitch and yaw of a quaternion that was computed, stated in full.
+pub(super) fn angles_of(quaternion: [f64; 4]) -> Option<[Number; 3]> {
+    stated(angles(quaternion)?, FULL)
+}
+
+fn stated(angles: [f64; 3], decimals: usize) -> Option<[Number; 3]> {
+    let [roll, pitch, yaw] = angles.map(|angle| Number::decimal(&format!("{angle:.decimals$}")));
+    Some([roll.ok()?, pitch.ok()?, yaw.ok()?])
+}
+
+fn angles([x, y, z, w]: [f64; 4]) -> Option<[f64; 3]> {
     let length = x.hypot(y).hypot(z.hypot(w));
     if !(length > 0.0 && length.is_finite()) {
         return None;
@@ -19,7 +34,7 @@ pub(super) fn roll_pitch_yaw(quaternion: &[Number; 4]) -> Option<[Number; 3]> {
     let [x, y, z, w] = [x, y, z, w].map(|part| part / length);
     // The sine of the pitch, which rounding may carry beyond 1.
     let sine = 2.0 * (w * y - z * x);
-    let angles = if sine.abs() >= 1.0 - 1e-15 {
+    Some(if sine.abs() >= 1.0 - 1e-15 {
         // Straight up or down, roll and yaw turn about one axis: all of it is told as yaw.
         let yaw = -2.0 * sine.signum() * x.atan2(w);
         [0.0, sine.signum() * std::f64::consts::FRAC_PI_2, yaw]
@@ -29,27 +44,38 @@ pub(super) fn roll_pitch_yaw(quaternion: &[Number; 4]) -> Option<[Number; 3]> {
             sine.asin(),
             (2.0 * (w * z + x * y)).atan2(1.0 - 2.0 * (y * y + z * z)),
         ]
-    };
-    let decimals = decimals_of(quaternion);
-    let [roll, pitch, yaw] = angles.map(|angle| Number::decimal(&format!("{angle:.decimals$}")));
-    Some([roll.ok()?, pitch.ok()?, yaw.ok()?])
+    })
 }
 
-/// The decimals that the angles are stated with.
-fn decimals_of(quaternion: &[Number; 4]) -> usize {
-    let squares = quaternion
-        .iter()
-        .fold(Number::zero(), |sum, part| &sum + &(part * part));
-    if squares == Number::one() {
-        return FULL;
-    }
-    quaternion
+/// The decimals of numbers that were rounded to them; `None` where they were chosen, with fewer than anybody rounds to.
+fn most_decimals(numbers: &[Number]) -> Option<usize> {
+    numbers
         .iter()
         .filter_map(Number::stated)
         .filter(|stated| stated.significant > 0)
         .map(|stated| stated.decimals)
         .max()
-        .map_or(FULL, |most| usize::try_from(most).unwrap_or(0).min(FULL))
+        .filter(|most| *most > Precision::EXACT_DECIMALS)
+        .map(|most| usize::try_from(most).unwrap_or(0).min(FULL))
+}
+
+/// The decimals that the angles are stated with: those of a unit quaternion that was rounded to them. One of another length, such as
+/// `1 0 0 1`, was chosen and says its angle in full.
+fn decimals_of(quaternion: &[Number; 4]) -> usize {
+    let Some(decimals) = most_decimals(quaternion) else {
+        return FULL;
+    };
+    let squares = quaternion
+        .iter()
+        .fold(Number::zero(), |sum, part| &sum + &(part * part));
+    // Parts that are off by half a unit each change the square of the length by up to twice their sum.
+    let parts: f64 = quaternion.iter().map(|part| part.value().abs()).sum();
+    let open = parts * 0.1f64.powi(i32::try_from(decimals).unwrap_or(0));
+    let off = (squares.value() - 1.0).abs();
+    match squares == Number::one() || off > 2.0 * open {
+        true => FULL,
+        false => decimals,
+    }
 }
 
 #[cfg(test)]
@@ -86,6 +112,18 @@ mod tests {
             for (a, b) in found.iter().zip(expected) {
                 assert!((a - b).abs() < 1e-14, "{text}: {found:?}");
             }
+        }
+    }
+
+    #[test]
+    fn a_quaternion_of_another_length_or_of_few_decimals_says_its_angle_in_full() {
+        for (text, yaw) in [
+            ("0 0 1 1", FRAC_PI_2),
+            ("0 0 0.7 0.7", FRAC_PI_2),
+            ("0 0 0.1 0.9", 2.0 * 0.1f64.atan2(0.9)),
+            ("0 0 0.38268 0.23", 2.0 * 0.38268f64.atan2(0.23)),
+        ] {
+            assert!((angles(text)[2] - yaw).abs() < 1e-14, "{text}");
         }
     }
 

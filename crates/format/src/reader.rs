@@ -529,7 +529,10 @@ impl<'a> Reader<'a> {
 }
 
 /// Warnings with lines and columns in file order, those that say the same counted.
-fn counted_warnings(text: &str, warnings: Vec<(usize, WarningKind, String)>) -> Vec<Warning> {
+pub(super) fn counted_warnings(
+    text: &str,
+    warnings: Vec<(usize, WarningKind, String)>,
+) -> Vec<Warning> {
     let mut tally = Tally::default();
     let mut kind_of = HashMap::new();
     for (start, kind, message) in warnings {
@@ -553,7 +556,7 @@ fn counted_warnings(text: &str, warnings: Vec<(usize, WarningKind, String)>) -> 
 }
 
 /// What was skipped with lines and columns, in file order.
-fn counted_skips(text: &str, unread: Tally<'_>) -> Vec<Skipped> {
+pub(super) fn counted_skips(text: &str, unread: Tally<'_>) -> Vec<Skipped> {
     let kinds = unread.kinds();
     places(text, &kinds)
         .into_iter()

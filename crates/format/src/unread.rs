@@ -113,6 +113,14 @@ impl<'a> Tally<'a> {
         });
     }
 
+    /// An element that any file of its format may have.
+    pub(super) fn standard(&mut self, element: Element<'a>) {
+        self.element(element);
+        if let Some(index) = self.by_element.get(element.written_name()) {
+            self.kinds[*index].standard = true;
+        }
+    }
+
     pub(super) fn text(&mut self, start: usize, what: String) {
         if let Some(index) = self.by_text.get(&what) {
             self.again(*index, start);
@@ -153,6 +161,16 @@ impl<'a> Tally<'a> {
                     .help("without `--strict` it is skipped and told")
             })
             .collect()
+    }
+
+    /// The same in another text: where a place of this one is there, and what is said of it.
+    pub(super) fn moved(mut self, place: impl Fn(usize) -> (usize, String)) -> Self {
+        for kind in &mut self.kinds {
+            let (start, beside) = place(kind.start);
+            kind.start = start;
+            kind.what.push_str(&beside);
+        }
+        self
     }
 
     /// The kinds in file order.

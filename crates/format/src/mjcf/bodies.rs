@@ -1,0 +1,343 @@
+//! Bodies, the frames between them, and their joints.
+
+use super::pose::exactly;
+use super::{BRINGS_BODIES, Known, Mjcf, Place, WORLD};
+use crate::WarningKind;
+use crate::element::Element;
+use crate::error::Outcome;
+use crate::words::quoted;
+use kutzbach_math::number::Number;
+use kutzbach_model::mechanism::{Direction, Dynamics, Frame, JointBuilder, JointKind, Limit};
+
+pub(super) fn tree(name: &str, kind: JointKind, parent: &str, child: &str) -> JointBuilder {
+    JointBuilder::tree(name, kind, parent, child)
+}
+
+/// Elements of a body that say nothing about how it moves.
+const STANDARD: [&str; 6] = ["geom", "inertial", "light", "camera", "plugin", "user"];
+
+/// An element of the tree that is still to be read.
+struct Open<'a> {
+    element: Element<'a>,
+    place: Place,
+    /// The class that the body around it gives.
+    class: Option<&'a str>,
+}
+
+impl<'a> Mjcf<'a> {
+    /// All bodies of the world.
+    pub(super) fn bodies(&mut self, world: Element<'a>) -> Outcome<()> {
+        let place = Place {
+            link: WORLD.to_owned(),
+            chain: Vec::new(),
+        };
+        // Nesting is bounded by memory alone: no recursion.
+        let mut open = Vec::new();
+        self.inside(world, &place, None, &mut open)?;
+        while let Some(Open {
+            element,
+            place,
+            class,
+        }) = open.pop()
+        {
+            let of = self.classes.of(element, class)?;
+            let own = element.attribute("childclass").map(|own| own.value);
+            let class = own.or(class);
+            let mut place = place;
+            place.chain.push(self.frame(element, of)?);
+            if element.name() == "frame" {
+                self.inside(element, &place, class, &mut open)?;
+                continue;
+            }
+            let link = self.make_body(element, &place, class)?;
+            let inner = Place {
+                link,
+                chain: Vec::new(),
+            };
+            self.inside(element, &inner, class, &mut open)?;
+        }
+        Ok(())
+    }
+
+    /// Keeps what is inside a body, a frame or the world, the first on top.
+    fn inside(
+        &mut self,
+        element: Element<'a>,
+        place: &Place,
+        class: Option<&'a str>,
+        open: &mut Vec<Open<'a>>,
+    ) -> Outcome<()> {
+        let mut found = Vec::new();
+        for part in element.elements() {
+            match part.name() {
+                "body" | "frame" => found.push(Open {
+                    element: part,
+                    place: place.clone(),
+                    class,
+                }),
+                "site" => self.site(part, place, class)?,
+                "joint" | "freejoint" => {
+                    let in_body = element.name() == "body";
+                    if !in_body {
+                        let message = format!("<{}> belongs into a <body>", part.name());
+                        return Err(part.fault(message));
+                    }
+                }
+                name if BRINGS_BODIES.contains(&name) => {
+                    let message =
+                        format!("<{name}> is not read, and the bodies that it makes would be lost");
+                    return Err(part
+                        .fault(message)
+                        .help("save the model as MuJoCo compiled it: mj_saveLastXML"));
+                }
+                name if STANDARD.contains(&name) => self.unread.standard(part),
+                _ => self.unread.element(part),
+            }
+        }
+        open.extend(found.into_iter().rev());
+        Ok(())
+    }
+
+    fn site(&mut self, site: Element<'a>, place: &Place, class: Option<&'a str>) -> Outcome<()> {
+        let Some(name) = site.attribute("name") else {
+            return Ok(());
+        };
+        let of = self.classes.of(site, class)?;
+        let mut place = place.clone();
+        place.chain.push(self.frame(site, of)?);
+        self.sites.insert(name.value, place);
+        Ok(())
+    }
+
+    /// Makes a body and its joints; the name of its link.
+    fn make_body(
+        &mut self,
+        body: Element<'a>,
+        place: &Place,
+        class: Option<&'a str>,
+    ) -> Outcome<String> {
+        let name = match body.attribute("name") {
+            Some(name) if self.links.contains_key(name.value) => {
+                return Err(name.fault(format!("two bodies are called {}", quoted(name.value))));
+            }
+            Some(name) => name.value.to_owned(),
+            None => Self::unused(&self.links, "body"),
+        };
+        if body
+            .attribute("mocap")
+            .is_some_and(|word| word.value == "true")
+        {
+            self.mocap
+                .extend(body.attribute("name").map(|name| name.value));
+        }
+        self.links.insert(name.clone(), body.range());
+        let joints: Vec<Element<'a>> = body
+            .elements()
+            .filter(|part| matches!(part.name(), "joint" | "freejoint"))
+            .collect();
+        let free = joints
+            .iter()
+            .find(|joint| self.word(**joint, class) == Ok("free"));
+        if let Some(free) = free {
+            return self.float(*free, &joints, (name, place));
+        }
+        if joints.is_empty() {
+            let (parent, frame) = self.at(place, &name);
+            let joint = self.name_of(None, &format!("{name}_fixed"), body)?;
+            self.builder.link(&name);
+            self.builder
+                .joint(tree(&joint, JointKind::Fixed, &parent, &name).origin(frame));
+            return Ok(name);
+        }
+        let mut place = place.clone();
+        let last = joints.len() - 1;
+        for (index, joint) in joints.into_iter().enumerate() {
+            let to = match index == last {
+                true => name.clone(),
+                false => Self::unused(&self.links, &format!("{name}_{}", index + 1)),
+            };
+            self.links.insert(to.clone(), body.range());
+            self.builder.link(&to);
+            self.make_joint(joint, class, &place, (&name, &to))?;
+            place = Place {
+                link: to,
+                chain: Vec::new(),
+            };
+        }
+        Ok(name)
+    }
+
+    fn float(
+        &mut self,
+        free: Element<'a>,
+        joints: &[Element<'a>],
+        (name, place): (String, &Place),
+    ) -> Outcome<String> {
+        if joints.len() > 1 {
+            return Err(free.fault("a body that floats has no other joint"));
+        }
+        if place.link != WORLD {
+            return Err(free.fault("only bodies of the world itself can float"));
+        }
+        let (parent, frame) = self.at(place, &name);
+        let joint = self.name_of(
+            free.attribute("name").map(|own| own.value),
+            &format!("{name}_free"),
+            free,
+        )?;
+        self.builder.link(&name);
+        self.builder.floating(&joint, &parent, &name, frame);
+        Ok(name)
+    }
+
+    /// The type of a joint, as the file says it.
+    fn word(&self, joint: Element<'a>, class: Option<&'a str>) -> Result<&'a str, ()> {
+        if joint.name() == "freejoint" {
+            return Ok("free");
+        }
+        let class = self.classes.of(joint, class).map_err(|_| ())?;
+        let word = self.classes.attribute(joint, class, "type");
+        Ok(word.map_or("hinge", |word| word.value))
+    }
+
+    fn name_of(&mut self, own: Option<&str>, made: &str, element: Element<'a>) -> Outcome<String> {
+        let name = match own {
+            Some(own) if self.names.contains_key(own) => {
+                return Err(element.fault(format!("two joints are called {}", quoted(own))));
+            }
+            Some(own) => own.to_owned(),
+            None => Self::unused(&self.names, made),
+        };
+        self.names.insert(name.clone(), element.range());
+        Ok(name)
+    }
+
+    fn make_joint(
+        &mut self,
+        joint: Element<'a>,
+        class: Option<&'a str>,
+        place: &Place,
+        (body, to): (&str, &str),
+    ) -> Outcome<()> {
+        let of = self.classes.of(joint, class)?;
+        let attribute = |name: &str| self.classes.attribute(joint, of, name);
+        let kind = match attribute("type").map_or("hinge", |word| word.value) {
+            "hinge" => JointKind::Revolute,
+            "slide" => JointKind::Prismatic,
+            "ball" => JointKind::Spherical,
+            other => {
+                let message = format!("there is no type of joint {}", quoted(other));
+                return Err(joint.fault(message).help("hinge, slide, ball or free"));
+            }
+        };
+        let mut at = Frame::identity();
+        if let Some(position) = attribute("pos").filter(|_| kind != JointKind::Prismatic) {
+            at.position = exactly(position)?;
+        }
+        let axis = match attribute("axis") {
+            Some(axis) => {
+                let numbers: [Number; 3] = exactly(axis)?;
+                if numbers.iter().all(Number::is_zero) {
+                    return Err(axis.fault("the axis has no direction: its length is zero"));
+                }
+                Direction(numbers)
+            }
+            None => Direction([Number::zero(), Number::zero(), Number::one()]),
+        };
+        let limit = match kind {
+            JointKind::Spherical => None,
+            _ => self.limit(joint, of, kind)?,
+        };
+        let number = |name: &str| -> Outcome<Option<Number>> {
+            let Some(attribute) = attribute(name) else {
+                return Ok(None);
+            };
+            let [first, ..] = &super::pose::numbers(attribute)?[..] else {
+                return Ok(None);
+            };
+            Ok(Some(first.clone()))
+        };
+        let dynamics = Dynamics {
+            damping: number("damping")?,
+            friction: number("frictionloss")?,
+        };
+        let own = joint.attribute("name").map(|own| own.value);
+        let name = self.name_of(own, &format!("{body}_joint"), joint)?;
+        let mut place = place.clone();
+        place.chain.push(at.clone());
+        let (parent, origin) = self.at(&place, body);
+        let held = own.is_some_and(|own| self.held.contains(own));
+        let made = match held {
+            true => tree(&name, JointKind::Fixed, &parent, to),
+            false => tree(&name, kind, &parent, to),
+        };
+        let mut made = made.origin(origin).successor_origin(at);
+        if kind != JointKind::Spherical && !held {
+            made = made.axis(axis);
+            if dynamics.damping.is_some() || dynamics.friction.is_some() {
+                made = made.dynamics(dynamics);
+            }
+            made = limit.into_iter().fold(made, JointBuilder::limit);
+        }
+        self.builder.joint(made);
+        if let Some(own) = own {
+            self.joints.insert(
+                own,
+                Known {
+                    kind,
+                    element: joint,
+                },
+            );
+        }
+        Ok(())
+    }
+
+    /// The limits of a joint, from the pose drawn.
+    fn limit(&self, joint: Element<'a>, class: &str, kind: JointKind) -> Outcome<Option<Limit>> {
+        let attribute = |name: &str| self.classes.attribute(joint, class, name);
+        let Some(range) = attribute("range") else {
+            return Ok(None);
+        };
+        let [lower, upper]: [Number; 2] = exactly(range)?;
+        let proper = lower.value() < upper.value();
+        let limited = match attribute("limited").map_or("auto", |word| word.value) {
+            "true" => true,
+            "false" => false,
+            _ => self.compiler.autolimits && proper,
+        };
+        if !limited {
+            return Ok(None);
+        }
+        if !proper {
+            return Err(range.fault(
+                "the lower limit of a joint that is limited has to be below the upper one",
+            ));
+        }
+        let zero = match attribute("ref") {
+            Some(zero) => {
+                let [zero] = exactly(zero)?;
+                zero
+            }
+            None => Number::zero(),
+        };
+        let from_here = |bound: &Number| {
+            let bound = bound - &zero;
+            match kind {
+                JointKind::Revolute => self.angle(&bound),
+                _ => bound,
+            }
+        };
+        Ok(Some(Limit {
+            lower: Some(from_here(&lower)),
+            upper: Some(from_here(&upper)),
+            effort: None,
+            velocity: None,
+        }))
+    }
+
+    /// A warning that the answer hangs on.
+    pub(super) fn guessed(&mut self, element: Element<'a>, message: String) {
+        self.warnings
+            .push((element.start(), WarningKind::Guessed, message));
+    }
+}

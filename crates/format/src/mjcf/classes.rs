@@ -1,0 +1,105 @@
+//! Default classes: what an element that leaves an attribute out takes it from.
+
+use crate::element::{Attribute, Element};
+use crate::error::Outcome;
+use crate::words::{did_you_mean, quoted};
+use std::collections::BTreeMap;
+
+/// The name of the class that all others come from, where the file gives it none.
+pub(super) const MAIN: &str = "main";
+
+/// A class: the one that it comes from, and its elements.
+#[derive(Default)]
+struct Class<'a> {
+    from: Option<&'a str>,
+    elements: Vec<Element<'a>>,
+}
+
+/// All classes of a file, by name.
+#[derive(Default)]
+pub(super) struct Classes<'a> {
+    all: BTreeMap<&'a str, Class<'a>>,
+    main: Option<&'a str>,
+}
+
+impl<'a> Classes<'a> {
+    /// Takes `<default>` of the root element; classes inside come from it.
+    ///
+    /// # Errors
+    /// A class inside another one without a name, and two classes of one name.
+    pub(super) fn read(&mut self, default: Element<'a>) -> Outcome<()> {
+        let mut open = vec![(default, None)];
+        while let Some((element, from)) = open.pop() {
+            let name = match (element.attribute("class"), from) {
+                (Some(name), _) => name.value,
+                (None, None) => MAIN,
+                (None, Some(_)) => {
+                    return Err(element
+                        .fault("a default class inside another one needs a name")
+                        .help("<default class=\"...\">"));
+                }
+            };
+            if from.is_none() {
+                self.main = Some(name);
+            }
+            if self.all.contains_key(name) && from.is_some() {
+                return Err(
+                    element.fault(format!("two default classes are called {}", quoted(name)))
+                );
+            }
+            let class = self.all.entry(name).or_default();
+            class.from = from;
+            for part in element.elements() {
+                match part.name() {
+                    "default" => open.push((part, Some(name))),
+                    _ => class.elements.push(part),
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The class of an element: its own, the one that a body gives to what is inside it, or that of the file.
+    ///
+    /// # Errors
+    /// A class that the file does not define.
+    pub(super) fn of(&self, element: Element<'a>, inherited: Option<&'a str>) -> Outcome<&'a str> {
+        let own = element.attribute("class");
+        let name = own.map_or(inherited, |own| Some(own.value));
+        if let Some(own) = own
+            && !self.all.contains_key(own.value)
+        {
+            let known = self.all.keys().copied();
+            return Err(own
+                .fault(format!("there is no default class {}", quoted(own.value)))
+                .maybe_help(did_you_mean(own.value, known, ("`", "`"))));
+        }
+        Ok(name.or(self.main).unwrap_or(MAIN))
+    }
+
+    /// An attribute of an element of a class, from where it is found first: the element, its class, those that the class comes from.
+    pub(super) fn attribute(
+        &self,
+        element: Element<'a>,
+        class: &str,
+        name: &str,
+    ) -> Option<Attribute<'a>> {
+        element
+            .attribute(name)
+            .or_else(|| self.says(class, element.name(), name))
+    }
+
+    /// What a class says of the attribute of an element of some name.
+    pub(super) fn says(&self, class: &str, element: &str, name: &str) -> Option<Attribute<'a>> {
+        let mut class = self.all.get(class);
+        while let Some(here) = class {
+            let own = here.elements.iter().filter(|own| own.name() == element);
+            let found = own.rev().find_map(|own| own.attribute(name));
+            if found.is_some() {
+                return found;
+            }
+            class = here.from.and_then(|from| self.all.get(from));
+        }
+        None
+    }
+}

@@ -1,0 +1,332 @@
+//! MJCF, the format of MuJoCo: bodies inside bodies, joints in the body that they move, and equalities that close loops.
+//!
+//! Read from the text, since its decimals say how well numbers are known; MuJoCo's compiler hands over seventeen digits of each. The pose
+//! drawn, `qpos0`, is that of all joints at their `ref`, which is 0 here: limits are shifted by it.
+//!
+//! | MJCF | here |
+//! |---|---|
+//! | body | link; with several joints, a link more for each but the last |
+//! | hinge, slide, ball, free | revolute, prismatic, spherical, a floating link |
+//! | `<connect>` | spherical joint, closed at the pose drawn, or between two sites |
+//! | two of them between the same two bodies; three | the hinge on the line of both; a fixed joint |
+//! | `<weld>` | fixed joint, or spherical where `torquescale` is 0 |
+//! | `<joint>` in `<equality>` | `<mimic>`; without a second joint, a fixed joint |
+//! | `<tendon>` in `<equality>`, of fixed tendons of two joints | `<mimic>` |
+//! | actuators of joints | motors |
+//!
+//! Names are those of the file; what has none is named after its body. What would lose bodies or constraints is an error.
+//!
+//! Source: the XML reference of MuJoCo 3 and 4, and what its compiler makes of such files.
+
+mod bodies;
+mod classes;
+mod equality;
+mod include;
+mod pose;
+
+use super::element::Element;
+use super::error::{Fault, Outcome};
+use super::kept::Kept;
+use super::reader::{counted_skips, counted_warnings};
+use super::unread::Tally;
+use super::words::{did_you_mean, quoted};
+use super::{ReadOptions, Reading, WarningKind, xml};
+use classes::Classes;
+pub(super) use include::{Whole, whole};
+use kutzbach_math::number::Number;
+use kutzbach_model::mechanism::{Entity, Frame, JointKind, MechanismBuilder};
+use pose::Compiler;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+/// The link that stands for MuJoCo's world.
+pub(super) const WORLD: &str = "world";
+
+/// Elements of the root that say nothing about the motion.
+const STANDARD: [&str; 9] = [
+    "option",
+    "size",
+    "visual",
+    "statistic",
+    "asset",
+    "contact",
+    "sensor",
+    "custom",
+    "extension",
+];
+
+/// Elements that would bring bodies with them which are not read.
+const BRINGS_BODIES: [&str; 4] = ["attach", "replicate", "composite", "flexcomp"];
+
+/// A joint of the file.
+struct Known<'a> {
+    kind: JointKind,
+    element: Element<'a>,
+}
+
+/// A frame in a link, as the frames one after another that lead to it.
+#[derive(Clone)]
+struct Place {
+    link: String,
+    chain: Vec<Frame>,
+}
+
+struct Mjcf<'a> {
+    builder: MechanismBuilder,
+    compiler: Compiler,
+    classes: Classes<'a>,
+    /// Links and joints by the names that they have here, and where they are written.
+    links: BTreeMap<String, Range<usize>>,
+    names: BTreeMap<String, Range<usize>>,
+    joints: BTreeMap<&'a str, Known<'a>>,
+    sites: BTreeMap<&'a str, Place>,
+    mocap: BTreeSet<&'a str>,
+    /// Joints that an equality holds where they are drawn.
+    held: BTreeSet<&'a str>,
+    warnings: Vec<(usize, WarningKind, String)>,
+    unread: Tally<'a>,
+}
+
+/// Whether a text is MJCF: its root element says so.
+pub(super) fn is_mjcf(text: &str) -> bool {
+    let mut rest = text.trim_start_matches('\u{feff}');
+    loop {
+        rest = rest.trim_start();
+        let end = match rest {
+            _ if rest.starts_with("<!--") => "-->",
+            _ if rest.starts_with("<?") => "?>",
+            _ => break,
+        };
+        let Some(after) = rest.find(end) else {
+            return false;
+        };
+        rest = &rest[after + end.len()..];
+    }
+    let name = rest.strip_prefix('<').unwrap_or_default();
+    let ends = |c: char| c.is_whitespace() || matches!(c, '/' | '>');
+    matches!(name.split(ends).next(), Some("mujoco" | "mujocoinclude"))
+}
+
+/// Reads MJCF.
+///
+/// # Errors
+/// Up to twenty faults, the first one foremost.
+pub(super) fn read(whole: &Whole, options: &ReadOptions) -> Result<Reading, Vec<Fault>> {
+    let text = &whole.text;
+    let document = xml::parse(text).map_err(|fault| vec![fault])?;
+    let root = Element::root(&document, text);
+    if let Some(name) = options
+        .settings
+        .iter()
+        .map(|(name, _)| name)
+        .chain(&options.symbolic)
+        .next()
+    {
+        let message = format!("MJCF has no measure {}", quoted(name));
+        return Err(vec![
+            root.fault(message)
+                .help("leave `--set` and `--symbolic` out"),
+        ]);
+    }
+    let name = root.attribute("model").map_or("mujoco", |name| name.value);
+    let mut mjcf = Mjcf {
+        builder: MechanismBuilder::new(name),
+        compiler: Compiler::default(),
+        classes: Classes::default(),
+        links: BTreeMap::new(),
+        names: BTreeMap::new(),
+        joints: BTreeMap::new(),
+        sites: BTreeMap::new(),
+        mocap: BTreeSet::new(),
+        held: BTreeSet::new(),
+        warnings: Vec::new(),
+        unread: Tally::default(),
+    };
+    mjcf.all(root).map_err(|fault| vec![fault])?;
+    if options.strict {
+        let faults = mjcf.unread.faults(text);
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+    }
+    mjcf.finish(whole, root)
+}
+
+impl<'a> Mjcf<'a> {
+    fn all(&mut self, root: Element<'a>) -> Outcome<()> {
+        let sections = |name: &'static str| root.elements().filter(move |e| e.name() == name);
+        for compiler in sections("compiler") {
+            self.compile(compiler)?;
+        }
+        for default in sections("default") {
+            self.classes.read(default)?;
+        }
+        for equality in sections("equality") {
+            self.note_held(equality)?;
+        }
+        self.links.insert(WORLD.to_owned(), root.range());
+        self.builder.link(WORLD);
+        for world in sections("worldbody") {
+            self.bodies(world)?;
+        }
+        for equality in sections("equality") {
+            self.equalities(equality, root)?;
+        }
+        for part in root.elements() {
+            match part.name() {
+                "compiler" | "default" | "equality" | "worldbody" | "tendon" => {}
+                "actuator" => self.actuators(part),
+                name if STANDARD.contains(&name) => self.unread.standard(part),
+                _ => self.unread.element(part),
+            }
+        }
+        Ok(())
+    }
+
+    fn compile(&mut self, element: Element<'a>) -> Outcome<()> {
+        if let Some(angle) = element.attribute("angle") {
+            self.compiler.degrees = match angle.value {
+                "degree" => true,
+                "radian" => false,
+                _ => return Err(angle.fault("an angle is in `degree` or in `radian`")),
+            };
+        }
+        if let Some(sequence) = element.attribute("eulerseq") {
+            let letters: Vec<char> = sequence.value.chars().collect();
+            let known = letters.iter().all(|letter| "xyzXYZ".contains(*letter));
+            let letters: Result<[char; 3], _> = letters.try_into();
+            self.compiler.sequence = letters
+                .ok()
+                .filter(|_| known)
+                .ok_or_else(|| sequence.fault("expected three of the letters x, y, z, X, Y, Z"))?;
+        }
+        if let Some(coordinate) = element
+            .attribute("coordinate")
+            .filter(|c| c.value == "global")
+        {
+            return Err(coordinate.fault(
+                "global coordinates are not read, and by MuJoCo no more since version 2.3.3",
+            ));
+        }
+        if let Some(says) = element.attribute("autolimits") {
+            self.compiler.autolimits = says.value != "false";
+        }
+        Ok(())
+    }
+
+    /// A name that nothing of its sort has yet.
+    fn unused(taken: &BTreeMap<String, Range<usize>>, wanted: &str) -> String {
+        let mut name = wanted.to_owned();
+        let mut number = 2;
+        while taken.contains_key(&name) {
+            name = format!("{wanted}_{number}");
+            number += 1;
+        }
+        name
+    }
+
+    /// A body that an equality names.
+    fn body(&self, attribute: super::element::Attribute<'a>) -> Outcome<&'a str> {
+        match self.links.contains_key(attribute.value) {
+            true => Ok(attribute.value),
+            false => {
+                let known = self.links.keys().map(String::as_str);
+                Err(attribute
+                    .fault(format!("there is no body {}", quoted(attribute.value)))
+                    .maybe_help(did_you_mean(attribute.value, known, ("`", "`"))))
+            }
+        }
+    }
+
+    /// The link and the frame in it at the end of a chain. Where turned frames follow one another, links are put between: products of
+    /// rounded numbers would have other digits.
+    fn at(&mut self, place: &Place, name: &str) -> (String, Frame) {
+        let mut chain: Vec<Frame> = Vec::new();
+        for frame in &place.chain {
+            let straight = chain.last().is_some_and(|last| !is_turned(last));
+            match chain.last_mut().filter(|_| straight) {
+                Some(last) => {
+                    let sum = [0, 1, 2].map(|i| sum(&last.position[i], &frame.position[i]));
+                    *last = Frame {
+                        position: sum,
+                        roll_pitch_yaw: frame.roll_pitch_yaw.clone(),
+                    };
+                }
+                None if frame.is_identity() => {}
+                None => chain.push(frame.clone()),
+            }
+        }
+        let own = chain.pop().unwrap_or_else(Frame::identity);
+        let mut link = place.link.clone();
+        for frame in chain {
+            let between = Self::unused(&self.links, &format!("{name}_frame"));
+            let joint = Self::unused(&self.names, &format!("{name}_frame"));
+            let range = self.links.get(&link).cloned().unwrap_or(0..0);
+            self.links.insert(between.clone(), range.clone());
+            self.names.insert(joint.clone(), range);
+            self.builder.link(&between);
+            let fixed = bodies::tree(&joint, JointKind::Fixed, &link, &between);
+            self.builder.joint(fixed.origin(frame));
+            link = between;
+        }
+        (link, own)
+    }
+
+    fn actuators(&mut self, all: Element<'a>) {
+        for actuator in all.elements() {
+            let joint = actuator
+                .attribute("joint")
+                .or_else(|| actuator.attribute("jointinparent"));
+            let moved = joint.filter(|joint| {
+                let known = self.joints.get(joint.value);
+                known.is_some_and(|known| known.kind.freedom() == 1)
+                    && !self.held.contains(joint.value)
+            });
+            match moved {
+                Some(joint) => {
+                    self.builder.actuate(joint.value);
+                }
+                None => self.unread.element(actuator),
+            }
+        }
+    }
+
+    fn finish(self, whole: &Whole, root: Element<'a>) -> Result<Reading, Vec<Fault>> {
+        let mechanism = self.builder.build().map_err(|error| {
+            let place = match &error.entity {
+                Entity::Link(name) => self.links.get(name),
+                Entity::Joint(name) | Entity::Coupling(name) => self.names.get(name),
+                _ => None,
+            };
+            let range = place.cloned().unwrap_or_else(|| root.range());
+            vec![Fault::new(range, error.to_string()).maybe_help(error.help)]
+        })?;
+        let main = whole.main();
+        let warnings = self.warnings.into_iter().map(|(at, kind, message)| {
+            let (at, beside) = whole.place(at);
+            (at, kind, message + &beside)
+        });
+        let unread = self.unread.moved(|at| whole.place(at));
+        Ok(Reading {
+            mechanism,
+            warnings: counted_warnings(main, warnings.collect()),
+            skipped: counted_skips(main, unread),
+            format: "mjcf",
+            kept: Kept::default(),
+            expect_at: None,
+        })
+    }
+}
+
+/// A sum that keeps the digits of a number to which nothing is added.
+fn sum(a: &Number, b: &Number) -> Number {
+    match (a.is_zero(), b.is_zero()) {
+        (true, _) => b.clone(),
+        (_, true) => a.clone(),
+        _ => a + b,
+    }
+}
+
+fn is_turned(frame: &Frame) -> bool {
+    frame.roll_pitch_yaw.iter().any(|angle| !angle.is_zero())
+}

@@ -1,0 +1,263 @@
+//! Numbers, positions and the five ways in which MJCF turns a frame.
+//!
+//! What can be said exactly is: turns about one axis of the frame, and `euler` in the order that roll, pitch and yaw have themselves.
+//! Others are worked out in doubles; of quaternions the decimals stay known ([`quaternion`](crate::quaternion)).
+
+use super::Mjcf;
+use crate::element::{Attribute, Element};
+use crate::error::Outcome;
+use crate::quaternion::{angles_of, roll_pitch_yaw};
+use crate::values::LARGEST;
+use crate::words::counted;
+use kutzbach_math::number::Number;
+use kutzbach_model::mechanism::Frame;
+
+/// What `<compiler>` says.
+pub(super) struct Compiler {
+    /// Whether angles are in degrees.
+    pub(super) degrees: bool,
+    /// The axes of `euler`, in small letters where they turn with the frame.
+    pub(super) sequence: [char; 3],
+    /// Whether a range without `limited` limits.
+    pub(super) autolimits: bool,
+}
+
+impl Default for Compiler {
+    fn default() -> Self {
+        Self {
+            degrees: true,
+            sequence: ['x', 'y', 'z'],
+            autolimits: true,
+        }
+    }
+}
+
+/// The five attributes of which a frame may have one.
+const TURNS: [&str; 5] = ["quat", "euler", "axisangle", "xyaxes", "zaxis"];
+
+/// All numbers of an attribute.
+pub(super) fn numbers(attribute: Attribute<'_>) -> Outcome<Vec<Number>> {
+    let words = attribute.value.split_ascii_whitespace();
+    words
+        .map(|word| {
+            let number = Number::decimal(word);
+            number
+                .ok()
+                .filter(|number| number.value().abs() <= LARGEST)
+                .ok_or_else(|| {
+                    attribute.fault(format!("`{}` is no number", crate::words::cut(word)))
+                })
+        })
+        .collect()
+}
+
+/// As many numbers as asked for.
+pub(super) fn exactly<const N: usize>(attribute: Attribute<'_>) -> Outcome<[Number; N]> {
+    let found = numbers(attribute)?;
+    let count = found.len();
+    found
+        .try_into()
+        .map_err(|_| attribute.fault(format!("expected {}, found {count}", counted(N, "number"))))
+}
+
+/// Quaternions as x, y, z, w.
+fn product(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
+    let [ax, ay, az, aw] = a;
+    let [bx, by, bz, bw] = b;
+    [
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+        aw * bw - ax * bx - ay * by - az * bz,
+    ]
+}
+
+fn about(axis: [f64; 3], angle: f64) -> [f64; 4] {
+    let (sine, cosine) = (angle / 2.0).sin_cos();
+    let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let [x, y, z] = axis.map(|part| part / length * sine);
+    [x, y, z, cosine]
+}
+
+/// The quaternion of a rotation that takes the axes to these columns, which are orthonormal.
+fn of_columns([x, y, z]: [[f64; 3]; 3]) -> [f64; 4] {
+    let trace = x[0] + y[1] + z[2];
+    // The largest of the four parts is divided by: Shepperd's method.
+    let parts = [
+        [
+            1.0 + x[0] - y[1] - z[2],
+            y[0] + x[1],
+            z[0] + x[2],
+            y[2] - z[1],
+        ],
+        [
+            y[0] + x[1],
+            1.0 - x[0] + y[1] - z[2],
+            z[1] + y[2],
+            z[0] - x[2],
+        ],
+        [
+            z[0] + x[2],
+            z[1] + y[2],
+            1.0 - x[0] - y[1] + z[2],
+            x[1] - y[0],
+        ],
+        [y[2] - z[1], z[0] - x[2], x[1] - y[0], 1.0 + trace],
+    ];
+    let diagonal = |i: usize| parts[i][i];
+    let largest = (0..4).max_by(|&i, &j| diagonal(i).total_cmp(&diagonal(j)));
+    let row = parts[largest.unwrap_or(3)];
+    let length = row.iter().map(|x| x * x).sum::<f64>().sqrt();
+    row.map(|part| part / length)
+}
+
+fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
+    let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    (length > 1e-12).then(|| v.map(|x| x / length))
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+impl<'a> Mjcf<'a> {
+    /// An angle in the unit of the file.
+    pub(super) fn angle(&self, number: &Number) -> Number {
+        match self.compiler.degrees {
+            true => number.radians(),
+            false => number.clone(),
+        }
+    }
+
+    /// The frame of an element of a class: `pos` and how it is turned.
+    pub(super) fn frame(&self, element: Element<'a>, class: &str) -> Outcome<Frame> {
+        let mut frame = Frame::identity();
+        let attribute = |name: &str| self.classes.attribute(element, class, name);
+        if let Some(position) = attribute("pos") {
+            frame.position = exactly(position)?;
+        }
+        let own: Vec<&str> = TURNS
+            .into_iter()
+            .filter(|name| element.attribute(name).is_some())
+            .collect();
+        if let [_, second, ..] = own[..] {
+            return Err(element.fault(format!(
+                "the frame is turned twice, the second time by `{second}`"
+            )));
+        }
+        let turned = match own.first() {
+            Some(name) => element.attribute(name).map(|turn| (*name, turn)),
+            None => TURNS
+                .into_iter()
+                .find_map(|name| Some((name, attribute(name)?))),
+        };
+        if let Some((name, turn)) = turned {
+            frame.roll_pitch_yaw = self.turned(name, turn)?;
+        }
+        Ok(frame)
+    }
+
+    fn turned(&self, name: &str, turn: Attribute<'a>) -> Outcome<[Number; 3]> {
+        let none = || {
+            turn.fault(format!(
+                "`{name}` says no direction: it has a length of zero"
+            ))
+        };
+        match name {
+            "quat" => {
+                let [w, x, y, z] = exactly(turn)?;
+                roll_pitch_yaw(&[x, y, z, w]).ok_or_else(none)
+            }
+            "euler" => self.euler(exactly(turn)?).ok_or_else(none),
+            "axisangle" => {
+                let [x, y, z, angle] = exactly(turn)?;
+                let angle = self.angle(&angle);
+                one_axis(&[&x, &y, &z], &angle)
+                    .or_else(|| {
+                        let axis = unit([&x, &y, &z].map(Number::value))?;
+                        angles_of(about(axis, angle.value()))
+                    })
+                    .ok_or_else(none)
+            }
+            "xyaxes" => {
+                let all: [Number; 6] = exactly(turn)?;
+                let [a, b, c, d, e, f] = all.each_ref().map(Number::value);
+                let columns = unit([a, b, c]).and_then(|x| {
+                    let y = [d, e, f];
+                    let along: f64 = (0..3).map(|i| x[i] * y[i]).sum();
+                    let y = unit([0, 1, 2].map(|i| y[i] - along * x[i]))?;
+                    Some([x, y, cross(x, y)])
+                });
+                let found = columns.and_then(|columns| angles_of(of_columns(columns)));
+                found.ok_or_else(none)
+            }
+            _ => {
+                let all: [Number; 3] = exactly(turn)?;
+                let z = unit(all.each_ref().map(Number::value)).ok_or_else(none)?;
+                // The least turn that takes z there.
+                let axis = cross([0.0, 0.0, 1.0], z);
+                let sine = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
+                let turn = match sine > 1e-12 {
+                    true => about(axis, sine.atan2(z[2])),
+                    false if z[2] > 0.0 => [0.0, 0.0, 0.0, 1.0],
+                    false => [1.0, 0.0, 0.0, 0.0],
+                };
+                angles_of(turn).ok_or_else(none)
+            }
+        }
+    }
+
+    /// Roll, pitch and yaw of `euler`.
+    fn euler(&self, angles: [Number; 3]) -> Option<[Number; 3]> {
+        let angles = angles.map(|angle| self.angle(&angle));
+        let sequence = self.compiler.sequence;
+        let index = |axis: char| match axis.to_ascii_lowercase() {
+            'x' => 0,
+            'y' => 1,
+            _ => 2,
+        };
+        let turning: Vec<usize> = (0..3).filter(|&i| !angles[i].is_zero()).collect();
+        // Turns about axes that stay, x first, or about axes that turn along, z first, are roll, pitch and yaw.
+        let fixed = |a: usize, b: usize| {
+            let (a, b) = (sequence[a], sequence[b]);
+            a.is_ascii_uppercase() && b.is_ascii_uppercase() && index(a) < index(b)
+                || a.is_ascii_lowercase() && b.is_ascii_lowercase() && index(a) > index(b)
+        };
+        if turning.windows(2).all(|pair| fixed(pair[0], pair[1])) {
+            let mut found = [Number::zero(), Number::zero(), Number::zero()];
+            for i in turning {
+                found[index(sequence[i])] = angles[i].clone();
+            }
+            return Some(found);
+        }
+        let mut whole = [0.0, 0.0, 0.0, 1.0];
+        for i in turning {
+            let mut axis = [0.0; 3];
+            axis[index(sequence[i])] = 1.0;
+            let turn = about(axis, angles[i].value());
+            whole = match sequence[i].is_ascii_lowercase() {
+                true => product(whole, turn),
+                false => product(turn, whole),
+            };
+        }
+        angles_of(whole)
+    }
+}
+
+/// A turn about an axis of the frame.
+fn one_axis(axis: &[&Number; 3], angle: &Number) -> Option<[Number; 3]> {
+    let along: Vec<usize> = (0..3).filter(|&i| !axis[i].is_zero()).collect();
+    let [along] = along[..] else {
+        return None;
+    };
+    let mut found = [Number::zero(), Number::zero(), Number::zero()];
+    found[along] = match axis[along].value() > 0.0 {
+        true => angle.clone(),
+        false => -angle.clone(),
+    };
+    Some(found)
+}
