@@ -7,6 +7,7 @@ use kutzbach::algebra::{
 };
 use kutzbach::format::{ReadOptions, read_with};
 use kutzbach::mechanism::{JointId, Mechanism};
+use kutzbach::mobility::{AnalysisOptions, Depth, analyse};
 use std::path::Path;
 
 /// Generous: a slow machine must not fail a test of mathematics.
@@ -432,4 +433,92 @@ fn roots_are_not_negative() {
     let open = system(&written(&none, &["L"], &[]), Formulation::Canonical);
     let found = assembly_conditions(&open, &budget()).unwrap();
     assert!(texts(&open, &found).contains(&"sqrt(L) - 4".to_owned()));
+}
+
+/// What has to hold in real numbers, as `apart <= others`.
+fn reaches(file: &str, symbolic: &[&str], settings: &[(&str, &str)]) -> Vec<String> {
+    let mechanism = open(file, symbolic, settings);
+    let both = [Formulation::Canonical, Formulation::Positional].map(|formulation| {
+        let found = system(&mechanism, formulation).reaches().into_iter();
+        let mut found: Vec<String> = found
+            .map(|reach| format!("{} <= {}", reach.apart, reach.others.join(" + ")))
+            .collect();
+        found.sort();
+        found
+    });
+    assert_eq!(both[0], both[1], "{file}");
+    both[0].clone()
+}
+
+/// Finite mobility at values; `None` where nothing closes.
+fn freedom(file: &str, settings: &[(&str, &str)]) -> Option<usize> {
+    let options = AnalysisOptions {
+        depth: Depth::Verdict,
+        ..AnalysisOptions::default()
+    };
+    let analysis = analyse(&open(file, &[], settings), &options).unwrap();
+    analysis.mobility.finite()
+}
+
+/// The example of Ruiz 1994, section 2.2: two lines and a length, nothing or one or two freedoms by their distance and whether they are parallel.
+#[test]
+fn a_bar_on_two_lines_has_to_reach() {
+    let file = "bar_on_two_lines";
+    for turn in ["pi/2", "pi/3", "0"] {
+        let lines = [("turn", turn)];
+        assert_eq!(reaches(file, &["L"], &lines), ["2 <= |L|"]);
+        let at = |length: &str| freedom(file, &[("L", length), ("turn", turn)]);
+        let touching = if turn == "0" { 2 } else { 1 };
+        assert_eq!(
+            ["3/2", "2", "5/2"].map(at),
+            [None, Some(touching), Some(2)],
+            "{turn}"
+        );
+    }
+    // Where nothing is open there is nothing to say.
+    assert_eq!(reaches(file, &[], &[]), Vec::<String>::new());
+}
+
+/// Of a planar polygon they are sufficient as well: 40 four-bars, none of whose lengths is just the sum of the others.
+#[test]
+fn no_length_is_more_than_the_others_together() {
+    let file = "four_bar_lengths";
+    let names = ["a", "b", "c", "d"];
+    let all = reaches(file, &names, &[]);
+    assert_eq!(
+        all,
+        [
+            "|a| <= |b| + |c| + |d|",
+            "|b| <= |a| + |c| + |d|",
+            "|c| <= |a| + |b| + |d|",
+            "|d| <= |a| + |b| + |c|"
+        ]
+    );
+    // What holds whatever `a` is goes without saying.
+    assert_eq!(reaches(file, &["a"], &[]), ["|a| <= 4 + 4 + 5"]);
+    let long = [("d", "20")];
+    assert_eq!(
+        reaches(file, &["a"], &long),
+        ["20 <= |a| + 4 + 4", "|a| <= 4 + 4 + 20"]
+    );
+    let mut seed = 11u64;
+    let mut closing = 0;
+    for _ in 0..40 {
+        let mut lengths = [0u64; 4].map(|_| {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            1 << ((seed >> 33) % 5)
+        });
+        // An odd sum.
+        lengths[3] += (lengths.iter().sum::<u64>() + 1) % 2;
+        let fits = lengths.iter().all(|l| 2 * l <= lengths.iter().sum());
+        let texts = lengths.map(|l| l.to_string());
+        let settings: Vec<(&str, &str)> = names
+            .iter()
+            .copied()
+            .zip(texts.iter().map(String::as_str))
+            .collect();
+        assert_eq!(freedom(file, &settings), fits.then_some(1), "{lengths:?}");
+        closing += usize::from(fits);
+    }
+    assert!(closing > 10 && closing < 35, "{closing}");
 }

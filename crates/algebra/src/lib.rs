@@ -46,8 +46,8 @@ pub use strategy::{
 };
 pub use system::{
     CycleEquations, Equation, FieldElement, FieldGenerator, Formulation, HomePose, Meaning,
-    ModularSystem, NumberField, Origin, PolynomialSystem, Relaxation, SystemError, SystemOptions,
-    Variable, polynomial_system,
+    ModularSystem, NumberField, Origin, PolynomialSystem, Reach, Relaxation, SystemError,
+    SystemOptions, Variable, polynomial_system,
 };
 pub use univariate::{RealRoot, Univariate};
 pub use without_loops::{WithoutLoops, without_loops};

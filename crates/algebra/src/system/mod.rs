@@ -48,6 +48,7 @@ mod number_field;
 mod numbers;
 mod poly;
 mod positional;
+mod reach;
 mod relative_displacement;
 mod roots;
 mod space;
@@ -60,6 +61,7 @@ pub use error::SystemError;
 pub use home::HomePose;
 pub use modular::ModularSystem;
 pub use number_field::{FieldElement, FieldGenerator, NumberField};
+pub use reach::Reach;
 pub(super) use relative_displacement::{ExactVector, Reduce, RelativeDisplacement, Unavailable};
 pub use variables::{Meaning, Variable};
 

@@ -5,7 +5,7 @@ use super::text::stopped;
 use crate::text::words::counted;
 use crate::text::{Layout, Page, Tint};
 use kutzbach_algebra::{
-    DesignConditions, Exception, Exceptions, Family, Meaning, PolynomialSystem, Stop,
+    DesignConditions, Exception, Exceptions, Family, Meaning, PolynomialSystem, Reach, Stop,
 };
 use kutzbach_model::mechanism::Mechanism;
 use serde::Serialize;
@@ -40,6 +40,17 @@ pub struct ExceptionRow {
     pub only_if: Vec<String>,
 }
 
+/// A length that must not be larger than others together, for a pose in real numbers.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ReachRow {
+    /// The joints that keep the ends of the side; the same twice for a rod.
+    pub between: [String; 2],
+    /// How far these are apart at least.
+    pub apart: String,
+    /// The lengths that have to make up for it.
+    pub others: Vec<String>,
+}
+
 /// Conditions on measures that were left open.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Conditions {
@@ -65,6 +76,8 @@ pub struct Conditions {
     pub exceptions: Option<Vec<ExceptionRow>>,
     /// Whether these are all.
     pub exceptions_complete: Option<bool>,
+    /// What has to hold as well for a pose in real numbers, as far as it is the sides of loops: necessary.
+    pub reaches: Vec<ReachRow>,
     /// What the equations leave out of the mechanism.
     pub relaxations: Vec<String>,
 }
@@ -122,6 +135,16 @@ pub fn conditions_report(
             all.found.iter().map(row).collect()
         }),
         exceptions_complete: exceptions.map(|all| all.complete),
+        reaches: {
+            let name =
+                |joint: kutzbach_model::mechanism::JointId| mechanism.joint(joint).name.clone();
+            let row = |reach: Reach| ReachRow {
+                between: reach.between.map(name),
+                apart: reach.apart,
+                others: reach.others,
+            };
+            system.reaches().into_iter().map(row).collect()
+        },
         relaxations: system.relaxations.iter().map(ToString::to_string).collect(),
     }
 }
@@ -186,6 +209,9 @@ pub fn render_conditions(report: &Conditions, layout: Layout) -> String {
     for exception in report.exceptions.iter().flatten() {
         page.item(&exception_text(exception), Tint::Notable);
     }
+    for reach in impossible_or(&report.reaches, report) {
+        page.item(&reach_text(reach), Tint::Notable);
+    }
     if report.exceptions_complete == Some(false) {
         page.item("there may be other exceptions", Tint::Notable);
     }
@@ -199,7 +225,7 @@ pub fn render_conditions(report: &Conditions, layout: Layout) -> String {
     };
     page.paragraph(
         &format!(
-            "{} ({}), {open}. The conditions are necessary. Complex solutions count: where none is excluded, real ones may ask for more, such as lengths that reach.",
+            "{} ({}), {open}. The conditions are necessary. Complex solutions count: where none is excluded, real ones may ask for more.",
             report.mechanism, report.file
         ),
         Tint::Quiet,
@@ -216,6 +242,10 @@ fn headline(report: &Conditions) -> String {
     } else {
         format!("can move with `{}` taking every position", report.question)
     };
+    let real = match report.reaches.is_empty() {
+        true => "is not said",
+        false => "at most where lengths reach",
+    };
     let some_left_out = !report.relaxations.is_empty();
     let has_exceptions = report.exceptions.as_ref().is_none_or(|all| !all.is_empty());
     match report.conditions.as_deref() {
@@ -224,12 +254,10 @@ fn headline(report: &Conditions) -> String {
             "Undecided whether it {does}: what the equations hold restricts no value, but they do not hold all of the mechanism."
         ),
         Some([]) if has_exceptions || report.exceptions_complete != Some(true) => {
-            format!(
-                "It {does} for almost all values, in complex numbers; in real ones is not said."
-            )
+            format!("It {does} for almost all values, in complex numbers; in real ones {real}.")
         }
         Some([]) => {
-            format!("It {does} whatever the values, in complex numbers; in real ones is not said.")
+            format!("It {does} whatever the values, in complex numbers; in real ones {real}.")
         }
         Some(rows) if rows.iter().any(|row| row.factors.is_empty()) => {
             format!("There are no values for which it {does}.")
@@ -239,6 +267,31 @@ fn headline(report: &Conditions) -> String {
         }
         Some(_) => format!("It {does} only if all of this holds:"),
     }
+}
+
+/// How far lengths have to reach; nothing where there is no pose whatever they do.
+fn impossible_or<'a>(reaches: &'a [ReachRow], report: &Conditions) -> &'a [ReachRow] {
+    let rows = report.conditions.iter().flatten();
+    match rows.into_iter().any(|row| row.factors.is_empty()) {
+        true => &[],
+        false => reaches,
+    }
+}
+
+fn reach_text(reach: &ReachRow) -> String {
+    let others = match reach.others.as_slice() {
+        [] => "0".to_owned(),
+        others => others.join(" + "),
+    };
+    let [one, other] = &reach.between;
+    let who = match one == other {
+        true => format!("`{one}` is that long"),
+        false => format!("`{one}` and `{other}` are that far apart"),
+    };
+    format!(
+        "in real numbers only where {} <= {others}: {who}",
+        reach.apart
+    )
 }
 
 /// Where there is no solution.
