@@ -119,6 +119,7 @@ fn loops_couplings_and_mimics() {
             CouplingOrigin::Ratio { ratio, carrier, .. } => {
                 assert_eq!((ratio.value(), carrier.map(|link| link.0)), (6.0, Some(1)));
             }
+            CouplingOrigin::Linear => panic!("no sum"),
         }
     }
     assert_eq!(
@@ -707,4 +708,51 @@ fn a_quaternion_turns_a_frame_as_its_angles_do() {
     assert!(with("rpy='0 0 1' quat_xyzw='0 0 0 1'").is_err());
     assert!(with("quat_xyzw='0 0 0 0'").is_err());
     assert!(with("quat_xyzw='0 0 1'").is_err());
+}
+
+#[test]
+fn couplings_are_sums_over_any_number_of_joints() {
+    let arm = |name: &str| {
+        format!(
+            "<link name='{name}'/><joint name='j{name}' type='continuous'><parent link='base'/><child link='{name}'/></joint>"
+        )
+    };
+    let text = |inside: &str| {
+        let arms: String = ["a", "b", "c", "d"].map(arm).concat();
+        format!("<robot name='sums'><link name='base'/>{arms}{inside}</robot>")
+    };
+    let sum = "<coupling name='s' offset='0.5'><term joint='ja' coefficient='1'/><term joint='jb' coefficient='${1/3}'/><term joint='jd' coefficient='-2'/></coupling>";
+    let read = reading(&text(sum));
+    let coupling = &read.mechanism.couplings()[0];
+    assert_eq!(coupling.origin, CouplingOrigin::Linear);
+    let terms: Vec<(usize, f64)> = coupling
+        .terms
+        .iter()
+        .map(|term| (term.joint.0, term.factor.value()))
+        .collect();
+    assert_eq!(terms, [(0, 1.0), (1, 1.0 / 3.0), (3, -2.0)]);
+    assert_eq!(coupling.offset.value(), 0.5);
+    let again = reading(&write(&read.mechanism)).mechanism;
+    assert_eq!(difference(&read.mechanism, &again), None);
+    for (inside, told) in [
+        (
+            "<coupling name='s'><term joint='ja' coefficient='1'/><term joint='ja' coefficient='2'/></coupling>",
+            "joint `ja` has two terms",
+        ),
+        (
+            "<coupling name='s'><term joint='ja' coefficient='0'/></coupling>",
+            "coefficient that is not zero",
+        ),
+        (
+            "<coupling name='s'><term joint='jx' coefficient='1'/></coupling>",
+            "`jx`",
+        ),
+        (
+            "<coupling name='s'><term joint='ja' coefficient='1'/><ratio value='1'/></coupling>",
+            "<ratio> beside <term>",
+        ),
+    ] {
+        let error = kutzbach::format::read(&text(inside), "sums", &[]).unwrap_err();
+        assert!(error.message.contains(told), "{error}");
+    }
 }

@@ -274,7 +274,7 @@ fn parts_of(mechanism: &Mechanism, own: &dyn Fn(&str) -> Option<String>) -> Vec<
 
 /// Whether two of the test's mechanisms can be put together by [`mounted`].
 fn plain(draft: &Draft) -> bool {
-    let couplings = draft.mimics.is_empty() && draft.ratios.is_empty();
+    let couplings = draft.mimics.is_empty() && draft.ratios.is_empty() && draft.sums.is_empty();
     let on_ground = draft
         .placed
         .iter()

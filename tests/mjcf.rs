@@ -74,6 +74,22 @@ fn equalities_leave_what_they_say() {
     let terms = &mechanism.couplings()[0].terms;
     let ratio = terms[1].factor.value() / terms[0].factor.value();
     assert!((ratio + 1.5).abs() < 1e-15);
+    // The sum of three turns is that of the tendon; a second tendon takes a share of it.
+    let of_three = tendon.replace("</fixed>", r#"<joint joint="b" coef="1"/></fixed><fixed name="u"><joint joint="b" coef="0.5"/></fixed>"#);
+    for (equality, coefficients) in [
+        (r#"<tendon tendon1="t"/>"#, [2.0, -3.0, 1.0]),
+        (
+            r#"<tendon tendon1="t" tendon2="u" polycoef="0 4 0 0 0"/>"#,
+            [2.0, -3.0, -1.0],
+        ),
+    ] {
+        let text = four_bar(equality) + &of_three;
+        assert_eq!(finite(&text), Some(2));
+        let mechanism = self::mechanism(&text);
+        let terms = mechanism.couplings()[0].terms.iter();
+        let found: Vec<f64> = terms.map(|term| term.factor.value()).collect();
+        assert_eq!(found, coefficients);
+    }
 }
 
 #[test]

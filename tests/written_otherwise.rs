@@ -35,7 +35,10 @@ fn rewritten(draft: &Draft, seed: u64) -> (Draft, BTreeMap<String, String>) {
     let parallel = draft.is_parallel();
     // Decimals beside fractions would state a precision that the file does not.
     let decimals = parallel && !draft.has_fractions();
-    let couplings = !(draft.mimics.is_empty() && draft.ratios.is_empty() && draft.poses.is_empty());
+    let couplings = !(draft.mimics.is_empty()
+        && draft.ratios.is_empty()
+        && draft.sums.is_empty()
+        && draft.poses.is_empty());
     if seed & 1 != 0 && parallel && !couplings {
         draft = draft.with_another_tree(seed);
     }

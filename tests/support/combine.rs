@@ -54,7 +54,7 @@ fn renamed(mut draft: Draft, suffix: &str) -> Draft {
 #[must_use]
 pub fn mounted(mut first: Draft, carrier: &str, second: Draft) -> Draft {
     assert!(first.poses.is_empty() && second.poses.is_empty());
-    assert!(second.mimics.is_empty() && second.ratios.is_empty());
+    assert!(second.mimics.is_empty() && second.ratios.is_empty() && second.sums.is_empty());
     let mut second = renamed(second, "_2");
     let root = second.ground.clone();
     let change = |name: &mut String| {

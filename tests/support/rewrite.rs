@@ -55,6 +55,14 @@ pub struct DraftRatio {
     pub carrier: Option<String>,
 }
 
+/// A sum over joints: its name, joints with coefficients, and what it is.
+#[derive(Clone)]
+pub struct DraftSum {
+    pub name: String,
+    pub terms: Vec<(String, Number)>,
+    pub offset: Number,
+}
+
 /// The name of a pose, and joints with their values.
 pub type DraftPose = (String, Vec<(String, Vec<Number>)>);
 
@@ -68,6 +76,7 @@ pub struct Draft {
     pub placed: Vec<Placed>,
     pub mimics: Vec<DraftMimic>,
     pub ratios: Vec<DraftRatio>,
+    pub sums: Vec<DraftSum>,
     /// Named poses.
     pub poses: Vec<DraftPose>,
 }
@@ -112,6 +121,7 @@ impl Draft {
             placed,
             mimics: Vec::new(),
             ratios: Vec::new(),
+            sums: Vec::new(),
             poses: Vec::new(),
         };
         for configuration in mechanism.configurations() {
@@ -122,6 +132,18 @@ impl Draft {
         }
         for coupling in mechanism.couplings() {
             match &coupling.origin {
+                CouplingOrigin::Linear => draft.sums.push(DraftSum {
+                    name: coupling.name.clone(),
+                    terms: (coupling.terms.iter())
+                        .map(|term| {
+                            (
+                                mechanism.joint(term.joint).name.clone(),
+                                term.factor.clone(),
+                            )
+                        })
+                        .collect(),
+                    offset: coupling.offset.clone(),
+                }),
                 CouplingOrigin::Ratio {
                     predecessor,
                     successor,
@@ -196,6 +218,14 @@ impl Draft {
                 [one, other],
                 ratio.ratio.clone(),
             );
+        }
+        for DraftSum {
+            name,
+            terms,
+            offset,
+        } in &self.sums
+        {
+            builder.linear_coupling(name, terms.clone(), offset.clone());
         }
         for (name, values) in &self.poses {
             builder.configuration(name, values.clone());
@@ -440,6 +470,9 @@ impl Draft {
             ratio.ends = ratio.ends.clone().map(|end| links[&end].clone());
             ratio.carrier = ratio.carrier.as_ref().map(|link| links[link].clone());
         }
+        for (joint, _) in self.sums.iter_mut().flat_map(|sum| &mut sum.terms) {
+            *joint = joints[joint].clone();
+        }
         for (joint, _) in self.poses.iter_mut().flat_map(|(_, values)| values) {
             *joint = joints[joint].clone();
         }
@@ -452,6 +485,7 @@ impl Draft {
     #[must_use]
     pub fn with_another_tree(mut self, seed: u64) -> Self {
         assert!(self.mimics.is_empty() && self.ratios.is_empty() && self.poses.is_empty());
+        assert!(self.sums.is_empty());
         let old_origins = self.origins();
         let at = |end: &End| sum(&old_origins[&end.link], &end.frame.position);
         let mut random = Shuffle(seed);

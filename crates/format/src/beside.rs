@@ -6,6 +6,7 @@ use super::error::Outcome;
 use super::names::Named;
 use super::reader::{Dialect, Reader};
 use super::words::{alternatives, did_you_mean, quoted};
+use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{
     Assumption, CouplingOrigin, Expectation, LinkId, Mechanism, Scene,
 };
@@ -26,7 +27,13 @@ impl<'a> Reader<'a> {
     pub(super) fn read_coupling(&mut self, coupling: Element<'a>) -> Outcome<()> {
         self.uses(Dialect::UrdfPlus);
         self.other_closures = true;
-        self.note_foreign_attributes(coupling, &["name", "type"])?;
+        self.note_foreign_attributes(coupling, &["name", "type", "offset"])?;
+        if coupling.elements().any(|part| part.name() == "term") {
+            return self.read_sum(coupling);
+        }
+        if let Some(offset) = coupling.attribute("offset") {
+            return Err(offset.fault("a coupling by a ratio of rates has no offset"));
+        }
         // URDF+'s parsers (ROAM-Lab-ND/generalized_rbda, ClusterTreeParsing.cpp) read every coupling as one of rolling; the
         // word is optional.
         one_of(coupling, "type", &["rolling"])?;
@@ -66,6 +73,32 @@ impl<'a> Reader<'a> {
         }
         self.builder
             .coupling_on(carrier, name, [predecessor, successor], ratio);
+        Ok(())
+    }
+
+    /// `<coupling name offset><term joint coefficient/>…</coupling>`: a sum over joints.
+    fn read_sum(&mut self, coupling: Element<'a>) -> Outcome<()> {
+        self.uses(Dialect::Own);
+        let name = self.directory.add(Named::Coupling, coupling)?;
+        let offset = self.optional_number(coupling, "offset")?;
+        let mut terms = Vec::new();
+        for part in coupling.children()? {
+            if part.name() != "term" {
+                let message = format!(
+                    "<{}> beside <term> has no meaning in a coupling",
+                    part.name()
+                );
+                return Err(part
+                    .fault(message)
+                    .help("joints with coefficients, or two links with a ratio"));
+            }
+            self.leaf(part, &["joint", "coefficient"])?;
+            let joint = self.directory.refer(Named::Joint, part, "joint")?;
+            let coefficient = self.number(part.required("coefficient")?)?;
+            terms.push((joint.to_owned(), coefficient));
+        }
+        self.builder
+            .linear_coupling(name, terms, offset.unwrap_or_else(Number::zero));
         Ok(())
     }
 

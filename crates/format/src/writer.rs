@@ -81,7 +81,7 @@ fn written(mechanism: &Mechanism, kept: Option<&Kept>, numbers: Numbers) -> Stri
     };
     writer.line(0, "<?xml version=\"1.0\"?>");
     writer.comments(0, kept.map_or(&[], |kept| &kept.head));
-    let ratio = |coupling: &Coupling| matches!(coupling.origin, CouplingOrigin::Ratio { .. });
+    let ratio = |coupling: &Coupling| !matches!(coupling.origin, CouplingOrigin::Mimic { .. });
     if mechanism.joints().iter().any(|joint| joint.closes_loop)
         || mechanism.couplings().iter().any(ratio)
     {
@@ -101,7 +101,7 @@ fn written(mechanism: &Mechanism, kept: Option<&Kept>, numbers: Numbers) -> Stri
         .iter()
         .filter_map(|coupling| match coupling.origin {
             CouplingOrigin::Mimic { follower, .. } => Some((follower.0, coupling)),
-            CouplingOrigin::Ratio { .. } => None,
+            CouplingOrigin::Ratio { .. } | CouplingOrigin::Linear => None,
         })
         .collect();
     for (index, joint) in mechanism.joints().iter().enumerate() {
@@ -348,6 +348,19 @@ impl Writer<'_> {
                     2,
                     &format!("<ratio{}/>", pair("value", &style.number(ratio))),
                 );
+                self.line(1, "</coupling>");
+            } else if coupling.origin == CouplingOrigin::Linear {
+                let offset = match coupling.offset.is_zero() {
+                    true => String::new(),
+                    false => pair("offset", &style.number(&coupling.offset)),
+                };
+                let name = pair("name", &coupling.name);
+                self.line(1, &format!("<coupling{name}{offset}>"));
+                for term in &coupling.terms {
+                    let joint = pair("joint", &mechanism.joint(term.joint).name);
+                    let coefficient = pair("coefficient", &style.number(&term.factor));
+                    self.line(2, &format!("<term{joint}{coefficient}/>"));
+                }
                 self.line(1, "</coupling>");
             }
         }

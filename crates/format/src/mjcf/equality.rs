@@ -334,18 +334,24 @@ impl<'a> Mjcf<'a> {
             }
         }
         sum.retain(|(name, factor)| !factor.is_zero() && !self.held.contains(name));
-        let [(one, a), (other, b)] = &sum[..] else {
-            let message = format!(
-                "an equality of tendons over {} joints is not read, and it constrains",
-                sum.len()
-            );
-            self.warnings
-                .push((part.start(), WarningKind::MayJoin, message));
+        if let [(one, a), (other, b)] = &sum[..] {
+            let over = |x: &Number| x.checked_div(a).map_err(|why| part.fault(why.to_string()));
+            let (multiplier, offset) = (over(&-b)?, over(&offset)?);
+            self.builder.mimic(one, other, multiplier, offset);
             return Ok(());
-        };
-        let over = |x: &Number| x.checked_div(a).map_err(|why| part.fault(why.to_string()));
-        let (multiplier, offset) = (over(&-b)?, over(&offset)?);
-        self.builder.mimic(one, other, multiplier, offset);
+        }
+        if sum.is_empty() {
+            self.unread.text(
+                part.start(),
+                "an equality of tendons over no joint".to_owned(),
+            );
+            return Ok(());
+        }
+        let name = self.name_of_closure(part, "coupling");
+        let terms = sum
+            .into_iter()
+            .map(|(joint, factor)| (joint.to_owned(), factor));
+        self.builder.linear_coupling(&name, terms.collect(), offset);
         Ok(())
     }
 }

@@ -55,6 +55,8 @@ pub enum CouplingOrigin {
         /// Offset (rad or m).
         offset: Number,
     },
+    /// `<coupling>` with `<term>`s: the sum of joint variables with these coefficients is the offset.
+    Linear,
 }
 
 /// One linear equation `Σ factor · variable = offset` between joint variables; it counts as one constraint.

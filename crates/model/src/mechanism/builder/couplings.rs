@@ -33,6 +33,11 @@ pub(super) enum Relation {
         multiplier: Number,
         offset: Number,
     },
+    /// A sum over variables of joints.
+    Linear {
+        terms: Vec<(String, Number)>,
+        offset: Number,
+    },
 }
 
 /// Resolves all couplings, in their order. `order` is the placement order of the links.
@@ -47,7 +52,7 @@ pub(super) fn resolve_couplings(
     let mut couplings = Vec::with_capacity(specs.len());
     for CouplingSpec { name, relation } in specs {
         let entity = match &relation {
-            Relation::Ratio { .. } => Entity::Coupling(name.clone()),
+            Relation::Ratio { .. } | Relation::Linear { .. } => Entity::Coupling(name.clone()),
             Relation::Mimic { follower, .. } => Entity::Joint(follower.clone()),
         };
         names.add_coupling(&name, &entity)?;
@@ -104,10 +109,47 @@ pub(super) fn resolve_couplings(
                     },
                 }
             }
+            Relation::Linear { terms, offset } => {
+                check_finite(&entity, "offset", &offset)?;
+                Coupling {
+                    name,
+                    terms: linear_terms(&entity, terms, joints, names)?,
+                    offset,
+                    origin: CouplingOrigin::Linear,
+                }
+            }
         });
     }
     check_mimic_circles(&couplings, joints)?;
     Ok(couplings)
+}
+
+/// The terms of a sum, each joint once; what has a coefficient of zero has no part in it.
+fn linear_terms(
+    entity: &Entity,
+    terms: Vec<(String, Number)>,
+    joints: &[Joint],
+    names: &Names,
+) -> Result<Vec<CouplingTerm>, MechanismError> {
+    let mut all: Vec<CouplingTerm> = Vec::with_capacity(terms.len());
+    for (name, factor) in terms {
+        check_finite(entity, "coefficient", &factor)?;
+        let joint = names.joint(entity, &name, || {
+            format!("a term names joint `{name}`, which does not exist")
+        })?;
+        check_one_freedom(entity, &joints[joint.0])?;
+        if all.iter().any(|term| term.joint == joint) {
+            let twice = format!("joint `{name}` has two terms");
+            return Err(MechanismError::new(entity.clone(), twice));
+        }
+        all.push(CouplingTerm { joint, factor });
+    }
+    all.retain(|term| !term.factor.is_zero());
+    if all.is_empty() {
+        let none = "a coupling needs a joint with a coefficient that is not zero";
+        return Err(MechanismError::new(entity.clone(), none));
+    }
+    Ok(all)
 }
 
 fn mimic_joint(
@@ -130,7 +172,7 @@ fn check_mimic_circles(couplings: &[Coupling], joints: &[Joint]) -> Result<(), M
             CouplingOrigin::Mimic {
                 follower, leader, ..
             } => Some((follower, leader)),
-            CouplingOrigin::Ratio { .. } => None,
+            CouplingOrigin::Ratio { .. } | CouplingOrigin::Linear => None,
         })
         .collect();
     let mut settled: BTreeSet<JointId> = BTreeSet::new();

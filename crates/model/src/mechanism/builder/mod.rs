@@ -200,6 +200,20 @@ impl MechanismBuilder {
         self
     }
 
+    /// Couples any number of joints of one freedom: `Σ coefficient × variable = offset` (rad, m).
+    pub fn linear_coupling(
+        &mut self,
+        name: &str,
+        terms: Vec<(String, Number)>,
+        offset: Number,
+    ) -> &mut Self {
+        self.couplings.push(CouplingSpec {
+            name: name.to_owned(),
+            relation: Relation::Linear { terms, offset },
+        });
+        self
+    }
+
     /// Holds this link fixed instead of the tree's root.
     pub fn ground(&mut self, link: &str) -> &mut Self {
         self.ground = Some(link.to_owned());

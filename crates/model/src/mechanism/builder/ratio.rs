@@ -349,7 +349,7 @@ mod tests {
     fn assumed(mechanism: &Mechanism) -> &[Assumption] {
         match &mechanism.couplings()[0].origin {
             CouplingOrigin::Ratio { assumed, .. } => assumed,
-            CouplingOrigin::Mimic { .. } => panic!("no ratio"),
+            _ => panic!("no ratio"),
         }
     }
 
