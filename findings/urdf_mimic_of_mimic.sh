@@ -2,9 +2,9 @@
 # yourdfpy 0.0.60, urchin 0.0.30, mujoco 4.0.0: a <mimic> of a joint that is itself a <mimic> is answered in three ways.
 #
 # URDF names the leader by its joint and does not ask that the leader be free: a gear train is written as each wheel following the one
-# before. For a driver at 0.2, a second wheel of -2 times the driver and a third of -3 times the second, with an offset of 0.1, the third is at 1.3. MuJoCo makes an
-# equality of each <mimic>, and they hold together at 1.3. yourdfpy takes the second wheel for 0 when it moves the third, which it
-# prints while loading; the third stays at its offset. In urchin the third is not moved at all, not by its offset either, and nothing is said.
+# before. For a driver at 0.2, a second wheel at -2 times the driver and a third at -3 times the second plus 0.1, the third is at 1.3.
+# MuJoCo makes an equality of each <mimic>, and they hold together there. yourdfpy takes the second wheel for 0 when it moves the third, which
+# it prints while loading; the third stays at its offset. In urchin the third is not moved at all, not by its offset either, and nothing is said.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
