@@ -105,6 +105,33 @@ fn a_spoiled_loop_is_not_confirmed_although_it_turns() {
 }
 
 #[test]
+fn what_has_nothing_to_act_on_is_named() {
+    let file = "mechanisms/bennett.urdf";
+    let still = json(&[file, "--duration", "1", "--integrator", "engine"]);
+    assert!(still["scene"].is_null());
+    let named = &still["idle_options"];
+    assert_eq!(named, &serde_json::json!(["--integrator", "--duration"]));
+    let output = simulate(&[file, "--duration", "1"]);
+    let words = text(&output.stdout)
+        .split_whitespace()
+        .collect::<Vec<_>>()
+        .join(" ");
+    assert!(words.contains("`--duration` changes nothing"), "{words}");
+    let scene = [
+        "--with", "gravity", "--with", "friction", "--with", "limits",
+    ];
+    let run = json(&[&[file, "--duration", "0.1"][..], &scene].concat());
+    assert!(run["idle_options"].is_null());
+    let idle = run["scene"]["idle_effects"].as_array().unwrap();
+    let idle: Vec<_> = idle
+        .iter()
+        .map(|row| row["effect"].as_str().unwrap())
+        .collect();
+    assert_eq!(idle, ["limits", "friction"]);
+    assert_eq!(run["scene"]["integrator"], "runge_kutta");
+}
+
+#[test]
 fn rigid_mechanisms_stay_where_they_are_pushed() {
     let output = simulate(&["tests/zoo/triangle_3r_rigid.urdf", "--strict"]);
     assert_eq!(output.status.code(), Some(0));
@@ -275,6 +302,10 @@ fn what_cannot_be_simulated_is_refused_with_a_hint() {
         (&["--duration=-1"], "-1"),
         (&["--samples", "1"], "samples"),
         (&["--with", "magic"], "magic"),
+        (
+            &["--with", "limits", "--without", "limits"],
+            "contradict one another",
+        ),
     ] {
         let output = simulate(&[&[bennett, "--mcap", log], words].concat());
         let message = text(&output.stderr);

@@ -84,14 +84,9 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value_t = IntegratorChoice::Auto, help_heading = "The scene")]
     integrator: IntegratorChoice,
 
-    /// Simulated seconds of the scene
-    #[arg(
-        long,
-        value_name = "SECONDS",
-        default_value_t = 2.0,
-        help_heading = "The scene"
-    )]
-    duration: f64,
+    /// Simulated seconds of the scene [default: 2]
+    #[arg(long, value_name = "SECONDS", help_heading = "The scene")]
+    duration: Option<f64>,
     /// Say what each effect costs
     #[arg(long, help_heading = "The scene")]
     cost: bool,
@@ -127,6 +122,24 @@ fn budget(text: &str) -> Result<f64, String> {
         _ => Err(format!("`{text}` is no number of seconds, zero or more")),
     }
 }
+
+/// Options given that concern a scene.
+fn idle_options(arguments: &Arguments) -> Vec<&'static str> {
+    [
+        (
+            "--integrator",
+            arguments.integrator != IntegratorChoice::Auto,
+        ),
+        ("--duration", arguments.duration.is_some()),
+        ("--without", !arguments.without.is_empty()),
+    ]
+    .into_iter()
+    .filter_map(|(name, given)| given.then_some(name))
+    .collect()
+}
+
+/// Simulated seconds of a scene where none are asked for.
+const DURATION: f64 = 2.0;
 
 /// Seconds of work that a scene may take with all runs in halved steps that tell how far it is off.
 const SCENE_WORK: f64 = 20.0;
@@ -192,10 +205,13 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     }
     .check()
     .map_err(|error| refused(error.to_string()))?;
-    if !(arguments.duration >= 0.0 && arguments.duration.is_finite()) {
+    if let Some(contradiction) = choices::contradiction(&arguments.with, &arguments.without) {
+        return Err(refused(contradiction));
+    }
+    let duration = arguments.duration.unwrap_or(DURATION);
+    if !(duration >= 0.0 && duration.is_finite()) {
         return Err(refused(format!(
-            "a scene lasts a finite number of seconds, but {} were asked for",
-            arguments.duration
+            "a scene lasts a finite number of seconds, but {duration} were asked for"
         )));
     }
     if arguments.mcap.is_some() && !(2..=10_000_000).contains(&arguments.samples) {
@@ -237,6 +253,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         verification,
         scene: None,
         cost: None,
+        idle: match called_for {
+            true => Vec::new(),
+            false => idle_options(arguments),
+        },
         log: None,
         stopped: false,
     };
@@ -245,7 +265,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         let scene = SceneOptions {
             world,
             drives: drives.clone(),
-            duration: arguments.duration,
+            duration,
             integrator: arguments.integrator.integrator(),
             runge_kutta_step: arguments.time_step.unwrap_or(RUNGE_KUTTA_STEP),
         };

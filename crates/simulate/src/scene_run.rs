@@ -8,7 +8,8 @@ use super::smooth::{Integrator, REACHED, Serving, SmoothWorld, refusals};
 use super::verification::{Moment, Observer, Passage, largest_gap};
 use super::{Drive, Effects, Energy, Pieces, Solver, World, WorldError, WorldOptions};
 use kutzbach_closure::{Geometry, JointState, Rigid};
-use kutzbach_model::mechanism::Mechanism;
+use kutzbach_math::number::Number;
+use kutzbach_model::mechanism::{Dynamics, Mechanism};
 use kutzbach_motion::Variable;
 use serde::Serialize;
 
@@ -35,6 +36,8 @@ pub const RUNGE_KUTTA_STEP: f64 = 1.0 / MOMENTS_PER_SECOND;
 pub struct SceneRun {
     /// The effects, by name.
     pub effects: Vec<&'static str>,
+    /// Those of them that have nothing to act on.
+    pub idle_effects: Vec<IdleEffect>,
     /// What made it move.
     pub integrator: Integrator,
     /// Why that was the engine, where the scene's effects or its motion called for it.
@@ -93,6 +96,56 @@ pub fn effect_names(effects: &Effects) -> Vec<&'static str> {
     ]
     .into_iter()
     .filter_map(|(name, on)| on.then_some(name))
+    .collect()
+}
+
+/// An effect that is on and has nothing to act on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct IdleEffect {
+    /// Its name.
+    pub effect: &'static str,
+    /// Why.
+    pub because: &'static str,
+}
+
+/// Effects that are on and have nothing to act on.
+#[must_use]
+pub fn idle_effects(mechanism: &Mechanism, effects: &Effects) -> Vec<IdleEffect> {
+    let joints = mechanism.joints();
+    let states = |of: fn(&Dynamics) -> &Option<Number>| {
+        let stated = joints.iter().filter_map(|joint| joint.dynamics.as_ref());
+        stated
+            .filter_map(|dynamics| of(dynamics).as_ref())
+            .any(|number| number.value() > 0.0)
+    };
+    let solid = mechanism
+        .links()
+        .iter()
+        .filter(|link| !link.collisions.is_empty());
+    [
+        (
+            "contact",
+            effects.contact && solid.count() < 2,
+            "fewer than two links have collision shapes",
+        ),
+        (
+            "limits",
+            effects.limits && joints.iter().all(|joint| joint.bounds().is_none()),
+            "no joint of one freedom has a limit",
+        ),
+        (
+            "friction",
+            effects.friction && !states(|dynamics| &dynamics.friction),
+            "no joint states any",
+        ),
+        (
+            "damping",
+            effects.damping && !states(|dynamics| &dynamics.damping),
+            "no joint states any",
+        ),
+    ]
+    .into_iter()
+    .filter_map(|(effect, idle, because)| idle.then_some(IdleEffect { effect, because }))
     .collect()
 }
 
@@ -354,6 +407,7 @@ impl Scene<'_> {
         let by_engine = integrator == Integrator::Engine;
         SceneRun {
             effects: effect_names(&options.world.effects),
+            idle_effects: idle_effects(self.mechanism, &options.world.effects),
             integrator,
             engine_because: Vec::new(),
             solver: by_engine.then_some(options.world.solver),

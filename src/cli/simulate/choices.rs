@@ -72,10 +72,19 @@ pub enum Effect {
     Damping,
 }
 
+/// The first effect that is both to be added and left out.
+pub fn contradiction(with: &[Effect], without: &[Effect]) -> Option<String> {
+    let both = with.iter().find(|effect| without.contains(effect))?;
+    let name = both.to_possible_value()?.get_name().to_owned();
+    Some(format!(
+        "`--with {name}` and `--without {name}` contradict one another"
+    ))
+}
+
 /// Gravity where the file names none (m/s²).
 const EARTH: [f64; 3] = [0.0, 0.0, -9.81];
 
-/// The effects of the file's scene, with some added and others left out; what is left out stays out.
+/// The effects of the file's scene, with some added and others left out.
 pub fn effects(mechanism: &Mechanism, with: &[Effect], without: &[Effect]) -> Effects {
     let mut effects = Effects::of_scene(mechanism);
     for (chosen, on) in [(with, true), (without, false)] {

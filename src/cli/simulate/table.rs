@@ -32,6 +32,8 @@ pub struct Simulated<'a> {
     /// The scene, and how far its motion is off.
     pub scene: Option<(SceneRun, Trajectory)>,
     pub cost: Option<Vec<CostRow>>,
+    /// Options given that have nothing to act on.
+    pub idle: Vec<&'static str>,
     pub log: Option<(String, Summary)>,
     /// Whether Ctrl-C ended it.
     pub stopped: bool,
@@ -136,6 +138,12 @@ pub fn text(simulated: &Simulated<'_>, layout: Layout) -> String {
                 Tint::Quiet,
             );
         }
+    }
+    for option in &simulated.idle {
+        page.item(
+            &format!("`{option}` changes nothing: nothing calls for a scene"),
+            Tint::Doubtful,
+        );
     }
     if let Some((path, summary)) = &simulated.log {
         page.gap();
@@ -350,6 +358,10 @@ fn scene_page(run: &SceneRun, page: &mut Page) {
     for fact in &facts {
         page.item(fact, Tint::Plain);
     }
+    for idle in &run.idle_effects {
+        let text = format!("{} adds nothing: {}", idle.effect, idle.because);
+        page.item(&text, Tint::Quiet);
+    }
     for missing in &run.not_simulated {
         page.item(&format!("not simulated: {missing}"), Tint::Bad);
     }
@@ -510,6 +522,9 @@ pub fn json(simulated: &Simulated<'_>, timing: bool) -> Value {
             "messages": summary.messages,
             "until": summary.until,
         });
+    }
+    if !simulated.idle.is_empty() {
+        value["idle_options"] = json!(simulated.idle);
     }
     if timing {
         value["timing"] = times(simulated);
