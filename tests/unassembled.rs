@@ -8,11 +8,11 @@
 use crate::support::{assert_none, folder, mechanism_files};
 use kutzbach::algebra::{Budget, ExactOptions, Limits, exact_answer};
 use kutzbach::assembly::modes::{Complete, Question, assembly_modes};
-use kutzbach::format::{Reading, read};
+use kutzbach::format::{self, ReadOptions, Reading, property_names, read};
 use kutzbach::matrix::SplitMix64;
 use kutzbach::mobility::Verdict;
 use kutzbach::report::text::{Layout, render};
-use kutzbach::report::{Options, Report, analysed_report};
+use kutzbach::report::{Misfit, Options, Report, analysed_report, misfits};
 
 fn read_with(text: &str, name: &str, values: &[(&str, &str)]) -> Reading {
     let settings: Vec<(String, String)> = values
@@ -351,6 +351,64 @@ fn what_is_drawn_open_is_closed_and_decided() {
 fn what_a_measure_makes_inconsistent_is_proved_and_named() {
     let (_, missed) = judge_inconsistent(1);
     assert_none(&missed);
+}
+
+/// What has to hold of `measure`, which is left open at a value.
+fn misfits_at(file: &str, value: &str) -> Vec<Misfit> {
+    let path = folder("tests/inconsistent").join(format!("{file}.urdf"));
+    let text = std::fs::read_to_string(path).unwrap();
+    assert_eq!(property_names(&text), ["measure"]);
+    misfits(&property_names(&text), |name| {
+        let options = ReadOptions {
+            settings: vec![("measure".to_owned(), value.to_owned())],
+            symbolic: vec![name.to_owned()],
+            ..ReadOptions::default()
+        };
+        Some(format::read_with(&text, file, &options).unwrap().mechanism)
+    })
+}
+
+/// A measure is named where it rules a pose out, and nowhere else. A loop on the sphere and one with a sleeve ask for inequalities of angles and of a
+/// distance from an axis, which are not derived.
+#[test]
+fn measures_that_rule_a_pose_out_are_named() {
+    let mut silent = Vec::new();
+    for (file, without, with, _) in INCONSISTENT {
+        for value in with {
+            assert_eq!(misfits_at(file, value), [], "{file} {value}");
+        }
+        for value in without.iter().step_by(3) {
+            match misfits_at(file, value).as_slice() {
+                [only] => assert!(!only.needs.is_empty()),
+                _ => silent.push(file),
+            }
+        }
+    }
+    silent.dedup();
+    assert_eq!(silent, ["sleeve_and_crank", "spherical_four_bar"]);
+    let [only] = misfits_at("four_bar", "8").try_into().unwrap();
+    assert_eq!(
+        (only.value, only.needs),
+        (Some(8.0), vec!["|measure| <= 2 + 4 + 1".to_owned()])
+    );
+}
+
+#[test]
+fn the_measure_stands_in_the_first_sentence() {
+    let output = crate::support::program()
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args([
+            "report",
+            "mechanisms/oldham_measures.urdf",
+            "--set",
+            "L12=1/2",
+        ])
+        .output()
+        .unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let said = "With the other measures as they are, `L12` is 0.5, and";
+    assert!(words.join(" ").contains(said), "{text}");
 }
 
 mod corpus {

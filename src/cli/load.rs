@@ -2,10 +2,10 @@
 
 use super::failure::Failure;
 use clap::Args;
-use kutzbach::format::{ReadOptions, Reading, read_file_with, read_with};
+use kutzbach::format::{ReadOptions, Reading, property_names, read_file_with, read_with};
 use kutzbach::mobility::Analysis;
 use kutzbach::report::html::Prepared;
-use kutzbach::report::{Options, Report, analysed_report};
+use kutzbach::report::{Misfit, Options, Report, analysed_report, misfits};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -51,6 +51,18 @@ impl Source {
     /// As [`Self::read`]; also a name that the file does not define.
     pub fn read_symbolic(&self, symbolic: &[String]) -> Result<Reading, Failure> {
         self.read_with(symbolic, false)
+    }
+
+    /// Measures whose values rule a pose out, each by itself; none of a file on standard input, which can be read once only.
+    pub fn misfits(&self) -> Vec<Misfit> {
+        let text = std::fs::read_to_string(&self.file).unwrap_or_default();
+        let mut names = property_names(&text);
+        // What was set is what is asked about.
+        names.sort_by_key(|name| !self.settings.iter().any(|(set, _)| set == name));
+        misfits(&names, |name| {
+            let reading = self.read_symbolic(&[name.to_owned()]).ok()?;
+            Some(reading.mechanism)
+        })
     }
 
     /// How to read it.

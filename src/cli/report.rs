@@ -207,6 +207,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         });
     }
     let (mut report, analysis) = load::analysed(&reading, &arguments.source.file, &options)?;
+    if report.assembly.proven_open {
+        report.assembly.misfits = arguments.source.misfits();
+    }
     let elsewhere = elsewhere.map(|told| Warning::new(WarningKind::OtherConfiguration, told));
     report.warnings.extend(elsewhere);
     let text = match arguments.format {

@@ -74,6 +74,7 @@ pub(super) fn assembly(mechanism: &Mechanism, found: &closure::Assembly) -> Asse
         proof: found
             .proven_open
             .map(|open| proof(mechanism, open, found.held.len())),
+        misfits: Vec::new(),
         released: found.released.as_deref().map(places),
         reversal: found.reversal.map(|reversal| Reversal {
             cycle: name(reversal.joint),

@@ -51,6 +51,7 @@ mod findings;
 #[cfg(feature = "html")]
 pub mod html;
 mod inputs;
+mod misfits;
 mod motions;
 mod natural;
 #[cfg(feature = "simulate")]
@@ -74,11 +75,12 @@ pub use kutzbach_mobility::{
     CertificateLevel, MobilityClass, PoseKind, RelationKind, SingularKind, Verdict,
 };
 pub use kutzbach_motion::{FourBar, FourBarKind, GrashofClass, Swing};
+pub use misfits::misfits;
 pub use natural::natural_order;
 pub use schema::{
     Advice, Assembly, Block, Branch, Certificate, Constants, CouplingRow, Cycle, DependentInput,
     Evidence, Follower, Freedoms, Gap, GenericCount, Home, Idle, InputSource, Inputs, JointPlace,
-    JointPlay, JointRange, JointRow, Limb, LiteralReading, Mobility, Motion, Nominal, OutsideLimit,
-    Play, Relation, Report, Reversal, SCHEMA, Size, Source, Stage, Timing, Tree, TreeLink, Warning,
-    WarningKind, WarningPlace,
+    JointPlay, JointRange, JointRow, Limb, LiteralReading, Misfit, Mobility, Motion, Nominal,
+    OutsideLimit, Play, Relation, Report, Reversal, SCHEMA, Size, Source, Stage, Timing, Tree,
+    TreeLink, Warning, WarningKind, WarningPlace,
 };

@@ -19,7 +19,7 @@ use kutzbach_model::mechanism::{JointId, JointKind};
 const MOST_WORK: u64 = 1_000_000;
 
 /// A side of a loop that must not be longer than all the others together, for a pose in real numbers.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Reach {
     /// The joints that keep the ends of the side; the same twice for a rod.
     pub between: [JointId; 2],
@@ -27,6 +27,8 @@ pub struct Reach {
     pub apart: String,
     /// The lengths of the others.
     pub others: Vec<String>,
+    /// By how much it is longer than all others at the file's values (m); negative where they reach.
+    pub excess: f64,
 }
 
 /// Points p + Σ tᵢ dᵢ.
@@ -69,6 +71,27 @@ impl PolynomialSystem {
         all
     }
 
+    /// The value of a polynomial in measures and algebraic numbers at the file's values, and the sum of the sizes of its terms; `None` where an unknown
+    /// occurs.
+    #[must_use]
+    pub fn value_in_file(&self, polynomial: &Polynomial) -> Option<(f64, f64)> {
+        let own = &self.construction;
+        let unknowns = self.variables.len() - own.generators.len();
+        let mut sums = (0.0, 0.0);
+        for (exponents, coefficient) in polynomial.terms() {
+            if exponents[..unknowns].iter().any(|&e| e > 0) {
+                return None;
+            }
+            let powers = exponents[unknowns..].iter().zip(&own.generators);
+            let start = fraction::to_f64(&from_rational(coefficient));
+            let term = powers.fold(start, |term, (&e, &g)| {
+                term * own.field.approximate(&Element::generator(g)).powi(e as i32)
+            });
+            sums = (sums.0 + term, sums.1 + term.abs());
+        }
+        Some(sums)
+    }
+
     fn of_cycle(&self, cycle: &CycleEquations) -> Option<Vec<Reach>> {
         let mut field = self.construction.field.clone();
         let sides = self.sides(cycle, &mut field)?;
@@ -88,11 +111,14 @@ impl PolynomialSystem {
             if !may_be_too_long(&field, side, others.iter().map(|&other| &sides[other])) {
                 return None;
             }
+            let metres = |side: &Side| field.approximate(&side.square).sqrt();
+            let reach: f64 = others.iter().map(|&other| metres(&sides[other])).sum();
             let others: Vec<String> = others.iter().map(|&other| lengths[other].clone()).collect();
             (!others.contains(&lengths[own])).then(|| Reach {
                 between: side.between,
                 apart: lengths[own].clone(),
                 others,
+                excess: metres(side) - reach,
             })
         });
         Some(found.collect())
@@ -117,6 +143,12 @@ impl PolynomialSystem {
         // What follows the last corner leads to the first one.
         let first = corners.first_mut()?;
         first.1 = step.then(&*field, &first.1);
+        // A point has one place; across parallel axes, one line along them.
+        let most = match across_axes(models, &mut corners, field) {
+            true => 1,
+            false => 0,
+        };
+        let is_point = |directions: &Vec<Vector<Element>>| directions.len() <= most;
         let start = corners
             .iter()
             .position(|c| matches!(c.2, Passage::Kept(..)))?;
@@ -132,7 +164,7 @@ impl PolynomialSystem {
         };
         sides.extend(rod.iter().map(|square| as_rod(last, square)));
         let mut place = Some(Flat::origin(behind));
-        let mut rigid = behind.is_empty();
+        let mut rigid = is_point(behind);
         for offset in 1..=corners.len() {
             let (joint, step, passage) = &corners[(start + offset) % corners.len()];
             place = place.map(|flat| flat.seen_from(step, field));
@@ -146,13 +178,13 @@ impl PolynomialSystem {
                     sides.push(Side {
                         between: [last, *joint],
                         square,
-                        rigid: rigid && before.is_empty(),
+                        rigid: rigid && is_point(before),
                     });
                     if offset < corners.len() {
                         sides.extend(rod.iter().map(|square| as_rod(*joint, square)));
                     }
                     last = *joint;
-                    rigid = behind.is_empty();
+                    rigid = is_point(behind);
                     place = Some(Flat::origin(behind));
                 }
                 Passage::Slides(directions) => {
@@ -180,6 +212,50 @@ fn may_be_too_long<'a>(field: &Field, side: &Side, others: impl Iterator<Item = 
     // Doubles decide what is clear to a millionth only; the rest is told.
     let clear = length(side) * (1.0 + 1e-6);
     is_open(side) || !open.is_empty() && fixed.into_iter().map(length).sum::<f64>() < clear
+}
+
+/// Where all axes are parallel, and nothing but slides is between them, every point may be anywhere on the line through it along the axes, and
+/// cylinders and screws keep such lines as hinges do: then the corners are those lines.
+fn across_axes(
+    models: &[JointModel],
+    corners: &mut [(JointId, Pose<Element>, Passage)],
+    field: &Field,
+) -> bool {
+    let turning = |joint: JointId| match models[joint.0].kind {
+        JointKind::Revolute | JointKind::Cylindrical | JointKind::Screw => {
+            models[joint.0].axis.as_ref().map(|axis| &axis.direction)
+        }
+        _ => None,
+    };
+    let slides = |joint: JointId| {
+        matches!(
+            models[joint.0].kind,
+            JointKind::Prismatic | JointKind::PlanarTranslation
+        )
+    };
+    let Some(first) = corners.iter().position(|c| turning(c.0).is_some()) else {
+        return false;
+    };
+    let Some(mut along) = turning(corners[first].0).cloned() else {
+        return false;
+    };
+    for offset in 1..=corners.len() {
+        let (joint, step, _) = &corners[(first + offset) % corners.len()];
+        along = apply(field, &step.inverse(field).rotation, &along);
+        match turning(*joint) {
+            Some(axis) if cross(field, &along, axis).iter().all(Element::is_zero) => {
+                along = axis.clone()
+            }
+            None if slides(*joint) => {}
+            _ => return false,
+        }
+    }
+    for (joint, _, passage) in corners {
+        if let Some(axis) = turning(*joint) {
+            *passage = Passage::Kept(vec![axis.clone()], vec![axis.clone()], None);
+        }
+    }
+    true
 }
 
 fn passage(model: &JointModel, forward: bool) -> Passage {

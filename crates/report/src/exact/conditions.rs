@@ -136,14 +136,8 @@ pub fn conditions_report(
         }),
         exceptions_complete: exceptions.map(|all| all.complete),
         reaches: {
-            let name =
-                |joint: kutzbach_model::mechanism::JointId| mechanism.joint(joint).name.clone();
-            let row = |reach: Reach| ReachRow {
-                between: reach.between.map(name),
-                apart: reach.apart,
-                others: reach.others,
-            };
-            system.reaches().into_iter().map(row).collect()
+            let found = system.reaches().into_iter();
+            found.map(|reach| reach_row(mechanism, reach)).collect()
         },
         relaxations: system.relaxations.iter().map(ToString::to_string).collect(),
     }
@@ -279,19 +273,31 @@ fn impossible_or<'a>(reaches: &'a [ReachRow], report: &Conditions) -> &'a [Reach
 }
 
 fn reach_text(reach: &ReachRow) -> String {
-    let others = match reach.others.as_slice() {
-        [] => "0".to_owned(),
-        others => others.join(" + "),
-    };
     let [one, other] = &reach.between;
     let who = match one == other {
         true => format!("`{one}` is that long"),
         false => format!("`{one}` and `{other}` are that far apart"),
     };
-    format!(
-        "in real numbers only where {} <= {others}: {who}",
-        reach.apart
-    )
+    let needed = inequality(&reach.apart, &reach.others);
+    format!("in real numbers only where {needed}: {who}")
+}
+
+/// A length, and what has to make up for it.
+pub(crate) fn inequality(apart: &str, others: &[String]) -> String {
+    match others {
+        [] => format!("{apart} <= 0"),
+        others => format!("{apart} <= {}", others.join(" + ")),
+    }
+}
+
+fn reach_row(mechanism: &Mechanism, reach: Reach) -> ReachRow {
+    ReachRow {
+        between: reach
+            .between
+            .map(|joint| mechanism.joint(joint).name.clone()),
+        apart: reach.apart,
+        others: reach.others,
+    }
 }
 
 /// Where there is no solution.

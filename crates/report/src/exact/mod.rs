@@ -10,7 +10,10 @@ mod text;
 mod values;
 
 pub use blocks::{BlockRow, BlocksReport, blocks_report, render_blocks};
-pub use conditions::{ConditionRow, Conditions, FamilyRow, conditions_report, render_conditions};
+pub(crate) use conditions::inequality;
+pub use conditions::{
+    ConditionRow, Conditions, FamilyRow, ReachRow, conditions_report, render_conditions,
+};
 pub use loopless::{LooplessReport, loopless_report, render_loopless};
 pub use motions::Motion;
 pub use relations::{RelationRow, Relations, relations_report, render_relations};

@@ -43,6 +43,9 @@ pub struct Assembly {
     /// Why the loops close at no pose, or at none with the held joints as they are, in one clause.
     #[serde(default)]
     pub proof: Option<String>,
+    /// Measures of the file whose values alone rule a pose out: see [`misfits`](crate::misfits). Not looked for by [`report`](crate::report()).
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub misfits: Vec<Misfit>,
     /// Where the loops do not close with the held joints as they are, but do once these are released: where that takes them.
     #[serde(default)]
     pub released: Option<Vec<JointPlace>>,
@@ -52,6 +55,17 @@ pub struct Assembly {
     /// Whether dimensions were changed too, to those that rounded numbers mean.
     #[serde(default)]
     pub dimensions_changed: bool,
+}
+
+/// A measure whose value in the file rules a pose out, whatever the pose.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Misfit {
+    /// The property or argument.
+    pub measure: String,
+    /// Its value in the file (m); `null` of an angle.
+    pub value: Option<f64>,
+    /// What it has to satisfy with all others as they are, of which the file's value violates all: necessary for a pose.
+    pub needs: Vec<String>,
 }
 
 /// Where assembly took a joint.

@@ -23,7 +23,7 @@ mod source;
 mod structure;
 mod warnings;
 
-pub use assembly::{Assembly, Gap, JointPlace, OutsideLimit, Reversal};
+pub use assembly::{Assembly, Gap, JointPlace, Misfit, OutsideLimit, Reversal};
 pub use branches::{Branch, Idle, Motion};
 pub use inputs::{DependentInput, Follower, Freedoms, InputSource, Inputs, Limb};
 pub use joints::{Advice, CouplingRow, JointRange, JointRow};

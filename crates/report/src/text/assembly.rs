@@ -324,6 +324,25 @@ fn nearest(assembly: &Assembly) -> Option<&Gap> {
         .max_by(|a, b| miss(a).total_cmp(&miss(b)))
 }
 
+/// Measures that are named in the first sentence.
+const MOST_MISFITS: usize = 3;
+
+/// Which measures rule a pose out, each by itself; empty where none is known to.
+fn misfits(assembly: &Assembly) -> String {
+    let all = assembly.misfits.iter().take(MOST_MISFITS).map(|misfit| {
+        let needs = misfit.needs.join(" and ");
+        match misfit.value {
+            Some(value) => format!("`{}` is {}, and {needs} is needed", misfit.measure, value),
+            None => format!("for `{}` {needs} is needed", misfit.measure),
+        }
+    });
+    let all: Vec<String> = all.collect();
+    match all.is_empty() {
+        true => String::new(),
+        false => format!(" With the other measures as they are, {}.", all.join("; ")),
+    }
+}
+
 /// The first sentence on a mechanism without a closed pose: that there is none is said only where it is proved.
 pub(super) fn unassembled(assembly: &Assembly) -> String {
     let nearest = nearest(assembly).map(|gap| {
@@ -337,8 +356,9 @@ pub(super) fn unassembled(assembly: &Assembly) -> String {
     if let Some(proof) = &assembly.proof {
         let nearest = nearest.map_or(String::new(), |nearest| format!(" ({nearest})"));
         return format!(
-            "Does not assemble ({}): no pose closes it, since {proof}{nearest}, so there is no pose to analyse.",
-            cite::ASSEMBLED
+            "Does not assemble ({}): no pose closes it, since {proof}{nearest}, so there is no pose to analyse.{}",
+            cite::ASSEMBLED,
+            misfits(assembly)
         );
     }
     let starts = assembly
