@@ -16,6 +16,13 @@ use std::ops::Range;
 /// is still 1e-5 of the pivot, which one refinement removes.
 const LEAST_PIVOT: f64 = 1e-11;
 
+/// Entries are sums of a few dozen products of numbers near one, in parts of the row's own entry.
+const ROUNDING: f64 = 1e-15;
+
+/// A pivot that is not clear of what rounding has put it off by is none: next to a singular pose a small pivot magnifies the rounding of
+/// those after it.
+const CLEAR: f64 = 10.0;
+
 /// Some rows of the constraints and the body that they act on.
 #[derive(Clone, Debug)]
 pub(super) struct End {
@@ -57,6 +64,8 @@ pub(super) struct Factor {
     /// 1/D by row; zero for rows that are left out.
     inverse: Vec<f64>,
     diagonal: Vec<f64>,
+    /// About how far rounding has put each pivot off: by ε times its row's own entry, and what smaller pivots before have made of theirs.
+    noise: Vec<f64>,
 }
 
 impl Factor {
@@ -155,6 +164,8 @@ impl Elimination {
         factor.inverse.fill(0.0);
         factor.diagonal.resize(self.rows, 0.0);
         factor.diagonal.fill(0.0);
+        factor.noise.resize(self.rows, 0.0);
+        factor.noise.fill(0.0);
         for front in &self.fronts {
             let (before, here) = factor.values.split_at_mut(front.place);
             let n = front.rows.len();
@@ -165,7 +176,12 @@ impl Elimination {
             for (child, goes) in &front.children {
                 front.add_child(&self.fronts[*child], goes, before, matrix);
             }
-            front.eliminate(matrix, &factor.diagonal, &mut factor.inverse);
+            let rows = (
+                &factor.diagonal[..],
+                &mut factor.noise[..],
+                &mut factor.inverse[..],
+            );
+            front.eliminate(matrix, rows);
         }
     }
 
@@ -240,13 +256,18 @@ impl Front {
         }
     }
 
-    fn eliminate(&self, matrix: &mut [f64], diagonal: &[f64], inverse: &mut [f64]) {
+    fn eliminate(
+        &self,
+        matrix: &mut [f64],
+        (diagonal, noise, inverse): (&[f64], &mut [f64], &mut [f64]),
+    ) {
         let n = self.rows.len();
         for k in 0..self.pivots {
             let (done, rest) = matrix.split_at_mut((k + 1) * n);
             let column = &mut done[k * n..];
             let (pivot, row) = (column[k], self.rows[k]);
-            if !(pivot > LEAST_PIVOT * diagonal[row]) {
+            let off = noise[row] + ROUNDING * diagonal[row];
+            if !(pivot > LEAST_PIVOT * diagonal[row] && pivot > CLEAR * off) {
                 column[k + 1..].fill(0.0);
                 continue;
             }
@@ -260,8 +281,10 @@ impl Front {
                     }
                 }
             }
-            for entry in &mut column[k + 1..] {
+            for (entry, &below) in column[k + 1..].iter_mut().zip(&self.rows[k + 1..]) {
                 *entry /= pivot;
+                // To first order a pivot that is off by δ puts what is left below off by l² δ.
+                noise[below] += *entry * *entry * off;
             }
         }
     }

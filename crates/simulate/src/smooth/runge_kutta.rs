@@ -51,7 +51,7 @@ const MOST_HALVINGS: u32 = 8;
 pub(super) struct Stepper {
     pub state: Vec<f64>,
     time: f64,
-    /// At the beginning of a step, and at the latest stage.
+    /// At the beginning of a step, or of one before it, and at the latest stage.
     begin: Linearised,
     latest: Linearised,
     derivatives: [Vec<f64>; STAGES],
@@ -141,7 +141,10 @@ impl Stepper {
         system.arrive(&self.reached, time, &mut self.scratch)?;
         self.time = time;
         std::mem::swap(&mut self.state, &mut self.reached);
-        std::mem::swap(&mut self.begin, &mut self.latest);
+        // Within a hair of a singular pose a constraint counts for none. Directions that still have it bring the next step back better.
+        if self.latest.rank() >= self.begin.rank() {
+            std::mem::swap(&mut self.begin, &mut self.latest);
+        }
         self.derivatives.swap(0, STAGES - 1);
         Ok(())
     }
