@@ -93,6 +93,62 @@ fn equalities_leave_what_they_say() {
 }
 
 #[test]
+fn joints_may_follow_several_and_one_another() {
+    let wheel = |name: &str| format!(r#"<body><joint name="{name}"/></body>"#);
+    let wheels: String = ["a", "b", "c", "d"].map(wheel).concat();
+    let left = |equality: &str| finite(&format!("<worldbody>{wheels}</worldbody><equality>{equality}</equality>"));
+    let follows = |one: &str, other: &str| format!(r#"<joint joint1="{one}" joint2="{other}"/>"#);
+    let held = |one: &str| format!(r#"<joint joint1="{one}"/>"#);
+    for (equality, expected) in [
+        (follows("a", "b") + &follows("b", "c"), 2),
+        (follows("a", "b") + &follows("a", "c"), 2),
+        (follows("a", "b") + &follows("b", "a"), 3),
+        (follows("a", "b") + &follows("b", "c") + &follows("c", "a"), 2),
+        // The same again says nothing new.
+        (follows("a", "b") + &follows("a", "b"), 3),
+        (held("a") + &follows("b", "a"), 2),
+        (held("b") + &follows("b", "a"), 2),
+        (held("a") + &held("b") + &follows("b", "a"), 2),
+    ] {
+        assert_eq!(left(&equality), Some(expected), "{equality}");
+    }
+}
+
+#[test]
+fn names_that_are_made_are_none_of_the_file() {
+    let text = r#"<worldbody><body><joint/><body><joint/></body></body><body name="body"><joint name="body_2_joint"/><joint/></body>
+        <body name="body_1"/></worldbody>"#;
+    let mechanism = mechanism(text);
+    assert_eq!((mechanism.links().len(), mechanism.freedom()), (6, 4));
+}
+
+#[test]
+fn sections_of_defaults_say_something_of_one_class() {
+    let text = r#"<default class="robot"><joint type="slide"/><default class="arm"><joint axis="1 0 0"/></default></default>
+        <default><joint damping="2"/></default>
+        <worldbody><body><joint class="robot"/><body><joint class="arm"/></body></body></worldbody>"#;
+    let mechanism = mechanism(text);
+    for joint in mechanism.joints() {
+        assert_eq!(joint.kind, JointKind::Prismatic);
+        let dynamics = joint.dynamics.as_ref().unwrap();
+        assert_eq!(dynamics.damping.as_ref().unwrap().value(), 2.0);
+    }
+}
+
+#[test]
+fn a_site_from_one_point_to_another_is_between_them() {
+    let ends = r#"<site name="s" fromto="1 0 0 3 0 0"/>"#;
+    let text = format!(
+        r#"<worldbody>{ends}<body pos="2 0 0"><joint/><site name="t"/></body></worldbody>
+        <equality><connect site1="s" site2="t"/></equality>"#
+    );
+    let mechanism = mechanism(&text);
+    let side = &mechanism.joint(mechanism.joint_named("s_t").unwrap()).predecessor;
+    assert_eq!(side.frame.position.each_ref().map(|x| x.value()), [2.0, 0.0, 0.0]);
+    assert_eq!(finite(&text), Some(1));
+}
+
+#[test]
 fn joints_of_a_body_follow_one_another() {
     let body = |joints: &str| {
         format!(

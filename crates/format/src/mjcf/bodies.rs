@@ -1,6 +1,6 @@
 //! Bodies, the frames between them, and their joints.
 
-use super::pose::exactly;
+use super::pose::{exactly, least_turn};
 use super::{BRINGS_BODIES, Known, Mjcf, Place, WORLD};
 use crate::WarningKind;
 use crate::element::Element;
@@ -104,7 +104,11 @@ impl<'a> Mjcf<'a> {
         };
         let of = self.classes.of(site, class)?;
         let mut place = place.clone();
-        place.chain.push(self.frame(site, of)?);
+        let mut frame = self.frame(site, of)?;
+        if let Some(ends) = self.classes.attribute(site, of, "fromto") {
+            frame = between(exactly(ends)?).ok_or_else(|| ends.fault("the two points of `fromto` are one"))?;
+        }
+        place.chain.push(frame);
         self.sites.insert(name.value, place);
         Ok(())
     }
@@ -121,7 +125,7 @@ impl<'a> Mjcf<'a> {
                 return Err(name.fault(format!("two bodies are called {}", quoted(name.value))));
             }
             Some(name) => name.value.to_owned(),
-            None => Self::unused(&self.links, "body"),
+            None => self.unused(&self.links, "body"),
         };
         if body
             .attribute("mocap")
@@ -154,7 +158,7 @@ impl<'a> Mjcf<'a> {
         for (index, joint) in joints.into_iter().enumerate() {
             let to = match index == last {
                 true => name.clone(),
-                false => Self::unused(&self.links, &format!("{name}_{}", index + 1)),
+                false => self.unused(&self.links, &format!("{name}_{}", index + 1)),
             };
             self.links.insert(to.clone(), body.range());
             self.builder.link(&to);
@@ -206,7 +210,7 @@ impl<'a> Mjcf<'a> {
                 return Err(element.fault(format!("two joints are called {}", quoted(own))));
             }
             Some(own) => own.to_owned(),
-            None => Self::unused(&self.names, made),
+            None => self.unused(&self.names, made),
         };
         self.names.insert(name.clone(), element.range());
         Ok(name)
@@ -340,4 +344,15 @@ impl<'a> Mjcf<'a> {
         self.warnings
             .push((element.start(), WarningKind::Guessed, message));
     }
+}
+
+/// The frame of a site that is drawn from one point to another: in the middle, its z axis along them.
+fn between([a, b, c, d, e, f]: [Number; 6]) -> Option<Frame> {
+    let (from, to) = ([a, b, c], [d, e, f]);
+    let half = Number::ratio(1, 2)?;
+    let along = [0, 1, 2].map(|i| from[i].value() - to[i].value());
+    Some(Frame {
+        position: [0, 1, 2].map(|i| &(&from[i] + &to[i]) * &half),
+        roll_pitch_yaw: least_turn(along)?,
+    })
 }

@@ -19,7 +19,8 @@ struct Class<'a> {
 #[derive(Default)]
 pub(super) struct Classes<'a> {
     all: BTreeMap<&'a str, Class<'a>>,
-    main: Option<&'a str>,
+    /// Names that sections of the root element give the class of the whole file: there is one, however many sections say something of it.
+    of_file: Vec<&'a str>,
 }
 
 impl<'a> Classes<'a> {
@@ -31,17 +32,17 @@ impl<'a> Classes<'a> {
         let mut open = vec![(default, None)];
         while let Some((element, from)) = open.pop() {
             let name = match (element.attribute("class"), from) {
-                (Some(name), _) => name.value,
-                (None, None) => MAIN,
+                (name, None) => {
+                    self.of_file.extend(name.map(|name| name.value));
+                    MAIN
+                }
+                (Some(name), Some(_)) => name.value,
                 (None, Some(_)) => {
                     return Err(element
                         .fault("a default class inside another one needs a name")
                         .help("<default class=\"...\">"));
                 }
             };
-            if from.is_none() {
-                self.main = Some(name);
-            }
             if self.all.contains_key(name) && from.is_some() {
                 return Err(
                     element.fault(format!("two default classes are called {}", quoted(name)))
@@ -66,7 +67,9 @@ impl<'a> Classes<'a> {
     pub(super) fn of(&self, element: Element<'a>, inherited: Option<&'a str>) -> Outcome<&'a str> {
         let own = element.attribute("class");
         let name = own.map_or(inherited, |own| Some(own.value));
-        if let Some(own) = own
+        let name = name.filter(|name| !self.of_file.contains(name));
+        if let Some(own) = own.filter(|own| !self.of_file.contains(&own.value))
+            && own.value != MAIN
             && !self.all.contains_key(own.value)
         {
             let known = self.all.keys().copied();
@@ -74,7 +77,7 @@ impl<'a> Classes<'a> {
                 .fault(format!("there is no default class {}", quoted(own.value)))
                 .maybe_help(did_you_mean(own.value, known, ("`", "`"))));
         }
-        Ok(name.or(self.main).unwrap_or(MAIN))
+        Ok(name.unwrap_or(MAIN))
     }
 
     /// An attribute of an element of a class, from where it is found first: the element, its class, those that the class comes from.

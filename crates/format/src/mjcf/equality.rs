@@ -110,7 +110,7 @@ impl<'a> Mjcf<'a> {
 
     fn name_of_closure(&mut self, part: Element<'a>, made: &str) -> String {
         let own = part.attribute("name").map_or(made, |own| own.value);
-        let name = Self::unused(&self.names, own);
+        let name = self.unused(&self.names, own);
         self.names.insert(name.clone(), part.range());
         name
     }
@@ -275,8 +275,43 @@ impl<'a> Mjcf<'a> {
             None => vec![Number::zero(), Number::one()],
         };
         let (offset, multiplier) = self.linear(part, &terms)?;
-        self.builder.mimic(follower, leader, multiplier, offset);
+        let sum = vec![(follower, Number::one()), (leader, -&multiplier)];
+        self.couple(part, sum, offset)
+    }
+
+    /// Couples joints by a sum: two of them by a mimic, as long as no joint follows two others or, by way of others, itself.
+    fn couple(&mut self, part: Element<'a>, mut sum: Vec<(&'a str, Number)>, offset: Number) -> Outcome<()> {
+        // What is held has no value but 0.
+        sum.retain(|(name, factor)| !factor.is_zero() && !self.held.contains(name));
+        if sum.is_empty() {
+            let message = format!("<{}> between joints that stand still anyway", part.name());
+            self.unread.text(part.start(), message);
+            return Ok(());
+        }
+        if let [(follower, a), (leader, b)] = &sum[..]
+            && self.may_follow(follower, leader)
+        {
+            let over = |x: &Number| x.checked_div(a).map_err(|why| part.fault(why.to_string()));
+            let (multiplier, offset) = (over(&-b)?, over(&offset)?);
+            self.followers.insert(follower, leader);
+            self.builder.mimic(follower, leader, multiplier, offset);
+            return Ok(());
+        }
+        let name = self.name_of_closure(part, "coupling");
+        let terms = sum.into_iter().map(|(joint, factor)| (joint.to_owned(), factor));
+        self.builder.linear_coupling(&name, terms.collect(), offset);
         Ok(())
+    }
+
+    fn may_follow(&self, follower: &str, leader: &str) -> bool {
+        let mut at = Some(leader);
+        while let Some(joint) = at {
+            if joint == follower {
+                return false;
+            }
+            at = self.followers.get(joint).copied();
+        }
+        !self.followers.contains_key(follower)
     }
 
     /// The first two coefficients of a polynomial; where there are others it is linear at the pose drawn only, which is told.
@@ -333,26 +368,7 @@ impl<'a> Mjcf<'a> {
                 }
             }
         }
-        sum.retain(|(name, factor)| !factor.is_zero() && !self.held.contains(name));
-        if let [(one, a), (other, b)] = &sum[..] {
-            let over = |x: &Number| x.checked_div(a).map_err(|why| part.fault(why.to_string()));
-            let (multiplier, offset) = (over(&-b)?, over(&offset)?);
-            self.builder.mimic(one, other, multiplier, offset);
-            return Ok(());
-        }
-        if sum.is_empty() {
-            self.unread.text(
-                part.start(),
-                "an equality of tendons over no joint".to_owned(),
-            );
-            return Ok(());
-        }
-        let name = self.name_of_closure(part, "coupling");
-        let terms = sum
-            .into_iter()
-            .map(|(joint, factor)| (joint.to_owned(), factor));
-        self.builder.linear_coupling(&name, terms.collect(), offset);
-        Ok(())
+        self.couple(part, sum, offset)
     }
 }
 

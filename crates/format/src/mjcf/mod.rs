@@ -81,6 +81,10 @@ struct Mjcf<'a> {
     joints: BTreeMap<&'a str, Known<'a>>,
     sites: BTreeMap<&'a str, Place>,
     mocap: BTreeSet<&'a str>,
+    /// All names that the file gives bodies and joints, which nothing else is called by.
+    given: BTreeSet<&'a str>,
+    /// Which joint every follower follows.
+    followers: BTreeMap<&'a str, &'a str>,
     /// Joints that an equality holds where they are drawn.
     held: BTreeSet<&'a str>,
     warnings: Vec<(usize, WarningKind, String)>,
@@ -138,6 +142,8 @@ pub(super) fn read(whole: &Whole, options: &ReadOptions) -> Result<Reading, Vec<
         joints: BTreeMap::new(),
         sites: BTreeMap::new(),
         mocap: BTreeSet::new(),
+        given: BTreeSet::new(),
+        followers: BTreeMap::new(),
         held: BTreeSet::new(),
         warnings: Vec::new(),
         unread: Tally::default(),
@@ -163,6 +169,13 @@ impl<'a> Mjcf<'a> {
         }
         for equality in sections("equality") {
             self.note_held(equality)?;
+        }
+        let mut open = vec![root];
+        while let Some(element) = open.pop() {
+            let named = matches!(element.name(), "body" | "joint" | "freejoint");
+            let name = element.attribute("name").filter(|_| named);
+            self.given.extend(name.map(|name| name.value));
+            open.extend(element.elements());
         }
         self.links.insert(WORLD.to_owned(), root.range());
         self.builder.link(WORLD);
@@ -214,11 +227,11 @@ impl<'a> Mjcf<'a> {
         Ok(())
     }
 
-    /// A name that nothing of its sort has yet.
-    fn unused(taken: &BTreeMap<String, Range<usize>>, wanted: &str) -> String {
+    /// A name that nothing of its sort has, nor will have.
+    fn unused(&self, taken: &BTreeMap<String, Range<usize>>, wanted: &str) -> String {
         let mut name = wanted.to_owned();
         let mut number = 2;
-        while taken.contains_key(&name) {
+        while taken.contains_key(&name) || self.given.contains(name.as_str()) {
             name = format!("{wanted}_{number}");
             number += 1;
         }
@@ -259,8 +272,8 @@ impl<'a> Mjcf<'a> {
         let own = chain.pop().unwrap_or_else(Frame::identity);
         let mut link = place.link.clone();
         for frame in chain {
-            let between = Self::unused(&self.links, &format!("{name}_frame"));
-            let joint = Self::unused(&self.names, &format!("{name}_frame"));
+            let between = self.unused(&self.links, &format!("{name}_frame"));
+            let joint = self.unused(&self.names, &format!("{name}_frame"));
             let range = self.links.get(&link).cloned().unwrap_or(0..0);
             self.links.insert(between.clone(), range.clone());
             self.names.insert(joint.clone(), range);

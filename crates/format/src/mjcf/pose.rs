@@ -197,16 +197,7 @@ impl<'a> Mjcf<'a> {
             }
             _ => {
                 let all: [Number; 3] = exactly(turn)?;
-                let z = unit(all.each_ref().map(Number::value)).ok_or_else(none)?;
-                // The least turn that takes z there.
-                let axis = cross([0.0, 0.0, 1.0], z);
-                let sine = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
-                let turn = match sine > 1e-12 {
-                    true => about(axis, sine.atan2(z[2])),
-                    false if z[2] > 0.0 => [0.0, 0.0, 0.0, 1.0],
-                    false => [1.0, 0.0, 0.0, 0.0],
-                };
-                angles_of(turn).ok_or_else(none)
+                least_turn(all.each_ref().map(Number::value)).ok_or_else(none)
             }
         }
     }
@@ -246,6 +237,18 @@ impl<'a> Mjcf<'a> {
         }
         angles_of(whole)
     }
+}
+
+/// The least turn that takes z to a direction of any length.
+pub(super) fn least_turn(direction: [f64; 3]) -> Option<[Number; 3]> {
+    let z = unit(direction)?;
+    let axis = cross([0.0, 0.0, 1.0], z);
+    let sine = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
+    angles_of(match sine > 1e-12 {
+        true => about(axis, sine.atan2(z[2])),
+        false if z[2] > 0.0 => [0.0, 0.0, 0.0, 1.0],
+        false => [1.0, 0.0, 0.0, 0.0],
+    })
 }
 
 /// A turn about an axis of the frame.
