@@ -96,14 +96,21 @@ fn equalities_leave_what_they_say() {
 fn joints_may_follow_several_and_one_another() {
     let wheel = |name: &str| format!(r#"<body><joint name="{name}"/></body>"#);
     let wheels: String = ["a", "b", "c", "d"].map(wheel).concat();
-    let left = |equality: &str| finite(&format!("<worldbody>{wheels}</worldbody><equality>{equality}</equality>"));
+    let left = |equality: &str| {
+        finite(&format!(
+            "<worldbody>{wheels}</worldbody><equality>{equality}</equality>"
+        ))
+    };
     let follows = |one: &str, other: &str| format!(r#"<joint joint1="{one}" joint2="{other}"/>"#);
     let held = |one: &str| format!(r#"<joint joint1="{one}"/>"#);
     for (equality, expected) in [
         (follows("a", "b") + &follows("b", "c"), 2),
         (follows("a", "b") + &follows("a", "c"), 2),
         (follows("a", "b") + &follows("b", "a"), 3),
-        (follows("a", "b") + &follows("b", "c") + &follows("c", "a"), 2),
+        (
+            follows("a", "b") + &follows("b", "c") + &follows("c", "a"),
+            2,
+        ),
         // The same again says nothing new.
         (follows("a", "b") + &follows("a", "b"), 3),
         (held("a") + &follows("b", "a"), 2),
@@ -143,8 +150,13 @@ fn a_site_from_one_point_to_another_is_between_them() {
         <equality><connect site1="s" site2="t"/></equality>"#
     );
     let mechanism = mechanism(&text);
-    let side = &mechanism.joint(mechanism.joint_named("s_t").unwrap()).predecessor;
-    assert_eq!(side.frame.position.each_ref().map(|x| x.value()), [2.0, 0.0, 0.0]);
+    let side = &mechanism
+        .joint(mechanism.joint_named("s_t").unwrap())
+        .predecessor;
+    assert_eq!(
+        side.frame.position.each_ref().map(|x| x.value()),
+        [2.0, 0.0, 0.0]
+    );
     assert_eq!(finite(&text), Some(1));
 }
 

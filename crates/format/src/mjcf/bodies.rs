@@ -106,7 +106,8 @@ impl<'a> Mjcf<'a> {
         let mut place = place.clone();
         let mut frame = self.frame(site, of)?;
         if let Some(ends) = self.classes.attribute(site, of, "fromto") {
-            frame = between(exactly(ends)?).ok_or_else(|| ends.fault("the two points of `fromto` are one"))?;
+            frame = between(exactly(ends)?)
+                .ok_or_else(|| ends.fault("the two points of `fromto` are one"))?;
         }
         place.chain.push(frame);
         self.sites.insert(name.value, place);

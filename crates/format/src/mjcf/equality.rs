@@ -280,7 +280,12 @@ impl<'a> Mjcf<'a> {
     }
 
     /// Couples joints by a sum: two of them by a mimic, as long as no joint follows two others or, by way of others, itself.
-    fn couple(&mut self, part: Element<'a>, mut sum: Vec<(&'a str, Number)>, offset: Number) -> Outcome<()> {
+    fn couple(
+        &mut self,
+        part: Element<'a>,
+        mut sum: Vec<(&'a str, Number)>,
+        offset: Number,
+    ) -> Outcome<()> {
         // What is held has no value but 0.
         sum.retain(|(name, factor)| !factor.is_zero() && !self.held.contains(name));
         if sum.is_empty() {
@@ -298,7 +303,9 @@ impl<'a> Mjcf<'a> {
             return Ok(());
         }
         let name = self.name_of_closure(part, "coupling");
-        let terms = sum.into_iter().map(|(joint, factor)| (joint.to_owned(), factor));
+        let terms = sum
+            .into_iter()
+            .map(|(joint, factor)| (joint.to_owned(), factor));
         self.builder.linear_coupling(&name, terms.collect(), offset);
         Ok(())
     }
