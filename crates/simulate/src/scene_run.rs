@@ -61,7 +61,7 @@ pub struct SceneRun {
     pub energy_change: f64,
     /// The largest kinetic energy at a moment shown (J).
     pub largest_kinetic_energy: f64,
-    /// Kinetic energy below this is hardly any (J): [`STILL`] of what falling by the mechanism's own length gives.
+    /// Kinetic energy below this is hardly any (J): a millionth of what falling by the mechanism's own length gives.
     #[serde(skip)]
     pub least_energy: f64,
     /// Whether nothing in the scene brings energy in or takes it: no drive, contact, friction, damping or limit.
