@@ -34,7 +34,7 @@ pub struct Facts<'a> {
 pub enum Assets {
     /// In itself: one file.
     Inside,
-    /// In [`SCRIPT`] and [`STYLE`] in the same folder, for many pages.
+    /// In [`SCRIPT`](super::SCRIPT) and [`STYLE`](super::STYLE) in the same folder, for many pages.
     Beside,
 }
 
