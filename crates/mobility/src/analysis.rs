@@ -33,14 +33,14 @@ pub struct HomeFreedom {
     pub redundant: Option<i64>,
 }
 
-/// The analysis of a mechanism at a pose. What its [`Depth`] leaves out is empty or `None`, as said field by field.
+/// The analysis of a mechanism at a pose. What its [`Depth`](crate::Depth) leaves out is empty or `None`, as said field by field.
 #[derive(Clone, Debug)]
 pub struct Analysis {
     /// Topology.
     pub structure: Structure,
     /// Kutzbach's count.
     pub kutzbach: i64,
-    /// The count at random geometry; `None` unless [`Depth::Everything`] is asked for.
+    /// The count at random geometry; `None` unless [`Depth::Everything`](crate::Depth::Everything) is asked for.
     pub generic: Option<GenericCount>,
     /// How the mechanism closes.
     pub assembly: Assembly,
@@ -51,30 +51,30 @@ pub struct Analysis {
     pub parts: Vec<PartRank>,
     /// The instantaneous freedom; `None` if the mechanism does not assemble: an open pose is never ranked.
     pub home: Option<HomeFreedom>,
-    /// Roles of all joints, by joint index; nothing known of any unless [`Depth::Everything`] is asked for.
+    /// Roles of all joints, by joint index; nothing known of any unless [`Depth::Everything`](crate::Depth::Everything) is asked for.
     pub roles: Vec<JointRole>,
     /// Indeterminate reaction directions of all joints, by joint index; `None` where the rank is open.
     pub redundant_wrenches: Vec<Option<usize>>,
-    /// Facts of the cycles shown; none unless [`Depth::Everything`] is asked for.
+    /// Facts of the cycles shown; none unless [`Depth::Everything`](crate::Depth::Everything) is asked for.
     pub cycles: Vec<CycleFacts>,
-    /// Repair advice, best first; none unless [`Depth::Everything`] is asked for.
+    /// Repair advice, best first; none unless [`Depth::Everything`](crate::Depth::Everything) is asked for.
     pub advice: Vec<Advice>,
-    /// Couplings and links that can be left out, each by itself, of parts in a regular pose; none unless [`Depth::Everything`] is asked
+    /// Couplings and links that can be left out, each by itself, of parts in a regular pose; none unless [`Depth::Everything`](crate::Depth::Everything) is asked
     /// for.
     pub superfluous: Vec<Superfluous>,
     /// Couplings that agree with the loops at the pose and not beyond, with the finite freedom of their part without them, by part; as far
-    /// as subgroups prove it, and none unless [`Depth::Everything`] is asked for.
+    /// as subgroups prove it, and none unless [`Depth::Everything`](crate::Depth::Everything) is asked for.
     pub contradicting: BTreeMap<usize, Vec<LockingCoupling>>,
     /// Sets of joints to relax after which no constraint is redundant and the finite mobility is what it was: an entry for each
     /// part with redundant constraints, of which one set each is to be taken; or why there are none.
     pub change_sets: Result<Vec<ChangeSets>, NoChangeSet>,
-    /// Where redundant constraints act, by joint index; empty for joints without any, and unless [`Depth::Everything`] is
+    /// Where redundant constraints act, by joint index; empty for joints without any, and unless [`Depth::Everything`](crate::Depth::Everything) is
     /// asked for.
     pub directions: Vec<JointDirections>,
-    /// What the engines found of every part, in the order of [`Structure::parts`]; none at [`Depth::Rank`].
+    /// What the engines found of every part, in the order of [`Structure::parts`]; none at [`Depth::Rank`](crate::Depth::Rank).
     pub findings: Vec<PartFinding>,
     /// The branches through the pose; `None` while not decided, where there are too many to list, or below
-    /// [`Depth::Motions`].
+    /// [`Depth::Motions`](crate::Depth::Motions).
     pub branches: Option<Vec<Branch>>,
     /// The verdict.
     pub mobility: Mobility,
