@@ -677,6 +677,7 @@ fn poses_of_traces_close_on_all_joints_and_keep_limits() {
             let mut notes = motion.notes.iter();
             notes.any(|note| note.contains(&format!("`{}` starts outside", joint.name)))
         };
+        let offsets = mechanism.variable_offsets();
         let mut wrong = Vec::new();
         for sample in &motion.samples {
             let poses: Vec<Option<At>> = sample
@@ -693,7 +694,7 @@ fn poses_of_traces_close_on_all_joints_and_keep_limits() {
                 let Some((lower, upper)) = joint.bounds() else {
                     continue;
                 };
-                let value = sample.states[index].values[0];
+                let value = sample.values[offsets[index]];
                 if !ignored(joint) && !(lower - 1e-8..=upper + 1e-8).contains(&value) {
                     wrong.push(format!("{name}: `{}` at {value}", joint.name));
                 }

@@ -69,3 +69,34 @@ fn a_miura_sheet_folds_alike_everywhere() {
         }
     }
 }
+
+/// Factors and predictions are kept from pose to pose: what is asked for before must not show.
+#[test]
+fn a_pose_is_the_same_whatever_was_asked_for_before() {
+    for (mechanism, poses) in [
+        (scissor_lift(40).unwrap(), 300),
+        (scissor_lift(2).unwrap(), 3000),
+    ] {
+        let analysis = analysis(&mechanism);
+        let options = TraceOptions {
+            samples: 2,
+            ..TraceOptions::default()
+        };
+        let motion = trace(&mechanism, &analysis, &options).unwrap();
+        let mut curve = motion.into_motion().unwrap().curve;
+        let fresh = curve.clone();
+        let (first, last) = curve.arclengths();
+        for index in 0..poses {
+            let arclength = first + (last - first) * (index as f64 + 0.3) / poses as f64;
+            let next = curve.pose_at_arclength(arclength).unwrap();
+            assert!(next.closure < 3e-14, "{:e}", next.closure);
+            if index % 7 != 0 {
+                continue;
+            }
+            let alone = fresh.clone().pose_at_arclength(arclength).unwrap();
+            let pairs = next.pose.values.iter().zip(&alone.pose.values);
+            let apart = pairs.fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
+            assert!(apart < 1e-11, "{arclength}: {apart:e}");
+        }
+    }
+}

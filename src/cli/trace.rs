@@ -1,5 +1,6 @@
 //! `kutzbach trace FILE`: the predicted motion along a branch.
 
+mod csv;
 pub mod drawn;
 mod table;
 
@@ -177,7 +178,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         .map_err(|error| plain(error.to_string(), error.help()))?;
     let text = match arguments.format {
         Format::Text => table::text(mechanism, changed, &traced, &drawn.points, arguments.units),
-        Format::Csv => table::csv(mechanism, &traced, &drawn.points),
+        Format::Csv => csv::csv(mechanism, &traced, &drawn.points),
         Format::Json => output::json(&table::json(mechanism, changed, &traced, &drawn.points))?,
         Format::Svg => drawn.svg(mechanism, &traced)?,
     };

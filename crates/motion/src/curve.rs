@@ -6,12 +6,12 @@
 
 use super::bridge::Bridge;
 use super::cubic::Cubic;
+use super::links::WholeFrame;
 use super::node::Node;
 use super::solver::{Along, Solver};
 use super::system::SystemPose;
 use super::vectors::{dot, length};
-use kutzbach_closure::{Geometry, JointState, Rigid, spanning_poses};
-use kutzbach_model::mechanism::Mechanism;
+use kutzbach_closure::{JointState, Rigid};
 use std::sync::Arc;
 
 /// An interpolated pose that is closed better than this (rad, cycle lengths) is left as it is.
@@ -19,6 +19,9 @@ const WELL_CLOSED: f64 = 1e-14;
 
 /// Steps of least length where Newton's method does not serve: on shaky branches the closure falls to a quarter each time.
 const POLISHINGS: usize = 24;
+
+/// What the pose before was off by serves a prediction up to so many times its own share; from beside a node it is rounding.
+const MOST_SHARE: f64 = 4.0;
 
 /// What predicts the poses between two nodes.
 #[derive(Clone, Debug)]
@@ -54,14 +57,23 @@ pub struct Curve {
     /// (arclength, value) of the driven variable at nodes and at its dead centres, in order.
     pub(super) milestones: Vec<(f64, f64)>,
     pub(super) frame: Arc<WholeFrame>,
+    /// How far the last pose asked for was off its prediction.
+    pub(super) beside: Option<Beside>,
 }
 
-/// What is needed to tell a pose of the part as one of the whole mechanism.
-#[derive(Debug)]
-pub(super) struct WholeFrame {
-    pub mechanism: Mechanism,
-    pub geometry: Arc<Geometry<f64>>,
-    pub states: Vec<JointState<f64>>,
+/// How far a pose between two nodes is off the cubic through both.
+#[derive(Clone, Debug)]
+pub(super) struct Beside {
+    segment: usize,
+    u: f64,
+    off: Vec<f64>,
+}
+
+impl Beside {
+    /// What a cubic is off by is u² (1 − u)² times a vector that changes little along a segment.
+    fn share(u: f64) -> f64 {
+        (u * (1.0 - u)).powi(2)
+    }
 }
 
 impl Curve {
@@ -206,13 +218,13 @@ impl Curve {
             self.nodes[segment].arc + u * (self.nodes[segment + 1].arc - self.nodes[segment].arc);
         match &self.shapes[segment] {
             Shape::Cubic(cubic) => {
-                let mut pose = self.nodes[segment].pose.clone();
-                self.solver.system.advance(&mut pose, &cubic.at(u));
                 let mut across = cubic.velocity(u);
                 let size = length(&across);
                 across.iter_mut().for_each(|x| *x /= size);
+                let mut pose = self.guess(segment, (cubic, u), Some(&across));
                 let guess = pose.clone();
-                if let Some(done) = self.solver.correct(&mut pose, Along::Across(&across)) {
+                if let Some(done) = self.solver.correct_next(&mut pose, Along::Across(&across)) {
+                    self.beside = self.off_prediction(segment, cubic, u, &pose);
                     return Some(CurvePose {
                         arclength: arc,
                         pose,
@@ -264,6 +276,45 @@ impl Curve {
                 Some(best)
             }
         }
+    }
+
+    /// What is predicted between two nodes: as far off the cubic as the pose asked for before was, in the plane across a direction if one
+    /// is given.
+    fn guess(
+        &self,
+        segment: usize,
+        (cubic, u): (&Cubic, f64),
+        across: Option<&[f64]>,
+    ) -> SystemPose {
+        let mut way = cubic.at(u);
+        if let Some(beside) = self.beside.as_ref().filter(|b| b.segment == segment) {
+            let share = Beside::share(u) / Beside::share(beside.u);
+            if share < MOST_SHARE {
+                let along = across.map_or(0.0, |across| dot(&beside.off, across));
+                for (i, (way, off)) in way.iter_mut().zip(&beside.off).enumerate() {
+                    *way += share * (off - across.map_or(0.0, |across| along * across[i]));
+                }
+            }
+        }
+        let mut pose = self.nodes[segment].pose.clone();
+        self.solver.system.advance(&mut pose, &way);
+        pose
+    }
+
+    fn off_prediction(
+        &self,
+        segment: usize,
+        cubic: &Cubic,
+        u: f64,
+        pose: &SystemPose,
+    ) -> Option<Beside> {
+        let mut off = vec![0.0; self.solver.system.unknowns()];
+        let from = &self.nodes[segment].pose;
+        self.solver.system.way(from, pose, &mut off);
+        off.iter_mut()
+            .zip(&cubic.at(u))
+            .for_each(|(off, at)| *off -= at);
+        Some(Beside { segment, u, off })
     }
 
     /// The unit tangent at a pose of a segment, forward.
@@ -452,14 +503,14 @@ impl Curve {
                 }
                 u = next;
             }
-            let mut pose = self.nodes[segment].pose.clone();
-            self.solver.system.advance(&mut pose, &cubic.at(u));
+            let mut pose = self.guess(segment, (cubic, u), None);
             if cubic.speed(self.drive, u).abs() > 1e-3 * gap
                 && let Some(done) = self
                     .solver
-                    .correct(&mut pose, Along::Value(self.drive, value))
+                    .correct_next(&mut pose, Along::Value(self.drive, value))
                 && done.way < 0.1 * gap
             {
+                self.beside = self.off_prediction(segment, cubic, u, &pose);
                 // Where the plane across the cubic at u passes through the pose found.
                 let mut z = vec![0.0; self.solver.system.unknowns()];
                 self.solver
@@ -515,7 +566,22 @@ impl Curve {
     /// `world_from_link` of every link at a pose of the curve, by link index.
     #[must_use]
     pub fn link_poses(&self, pose: &SystemPose) -> Vec<Rigid<f64>> {
-        let frame = &*self.frame;
-        spanning_poses(&frame.mechanism, &frame.geometry, &self.states(pose)).0
+        self.frame.link_poses(&self.solver.system, pose)
+    }
+
+    /// The values of all joint variables of the mechanism at a pose of the curve, joint by joint (rad, m).
+    #[must_use]
+    pub fn values(&self, pose: &SystemPose) -> Vec<f64> {
+        self.frame.values(pose)
+    }
+
+    /// Values of all joint variables of the mechanism, such as those of a sample, joint by joint.
+    #[must_use]
+    pub fn by_joint(&self, values: &[f64]) -> Vec<Vec<f64>> {
+        let mut rest = values.iter().copied();
+        let joints = self.frame.mechanism.joints().iter();
+        joints
+            .map(|joint| rest.by_ref().take(joint.freedom()).collect())
+            .collect()
     }
 }

@@ -40,6 +40,7 @@ mod deflation;
 mod follow;
 mod four_bar;
 mod inputs;
+mod links;
 mod node;
 mod pieces;
 mod pitch;

@@ -2,7 +2,7 @@
 
 use super::curve::Curve;
 use super::inputs::Variable;
-use kutzbach_closure::{JointState, Rigid};
+use kutzbach_closure::Rigid;
 use thiserror::Error;
 
 /// Where nothing else is said, a hinge is followed for so many turns, a slide for as many radians in part lengths.
@@ -221,8 +221,6 @@ pub struct Sample {
     /// All joint variables of the mechanism, joint by joint (rad, m); hinges counted through full turns, balls as rotation
     /// vectors.
     pub values: Vec<f64>,
-    /// The states of all joints.
-    pub states: Vec<JointState<f64>>,
     /// `world_from_link` of every link.
     pub links: Vec<Rigid<f64>>,
     /// Largest loop equation left (rad, cycle lengths).

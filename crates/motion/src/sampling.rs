@@ -2,7 +2,6 @@
 
 use super::curve::{Curve, CurvePose};
 use super::result::{End, EndReason, Sample, Spacing, TraceOptions, Unreached};
-use kutzbach_closure::JointState;
 
 pub(super) struct Sampled {
     pub spacing: Spacing,
@@ -10,23 +9,13 @@ pub(super) struct Sampled {
     pub unreached: Vec<Unreached>,
 }
 
-/// All values of all joints, one after another.
-pub(super) fn all_values(states: &[JointState<f64>]) -> Vec<f64> {
-    states
-        .iter()
-        .flat_map(|s| s.values.iter().copied())
-        .collect()
-}
-
 fn tell(curve: &Curve, found: CurvePose) -> Sample {
-    let states = curve.states(&found.pose);
     Sample {
         arclength: found.arclength,
         drive: found.pose.values[curve.drive],
-        values: all_values(&states),
+        values: curve.values(&found.pose),
         links: curve.link_poses(&found.pose),
         closure: found.closure,
-        states,
     }
 }
 

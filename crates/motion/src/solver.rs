@@ -26,13 +26,20 @@ const STEP_LIMIT: usize = 16;
 /// A step longer than this (metric) is no correction.
 const LONGEST_STEP: f64 = 1.0;
 
+/// Factors of another pose serve as long as every step leaves no more than this share of the equations' errors, the first of a hundredth:
+/// from a prediction good to six digits, five such steps are rounding, each of which costs a tenth of a factorization.
+const CONTRACTION: f64 = 0.03;
+
+/// Errors below this are made of rounding after another step.
+const NEARLY_ROUNDED: f64 = 1e-13;
+
 /// Singular values below this share of the largest ask for no step in [`Solver::polish`].
 const NEARLY_VANISHING: f64 = 1e-3;
 
 #[derive(Clone, Debug)]
 enum Rows {
     Dense(DenseRows),
-    Sparse(SparseRows),
+    Sparse(Box<SparseRows>),
 }
 
 /// The condition that singles out one pose of the curve.
@@ -60,11 +67,15 @@ pub(super) struct Solver {
     /// Unknowns that are held, with their values.
     holds: Vec<(usize, f64)>,
     rows: Rows,
+    /// Whether the last factorization was of independent equations.
+    factored: bool,
     deflation: Option<Deflation>,
     evaluation: Evaluation,
     right: Vec<f64>,
     step: Vec<f64>,
     row: Vec<f64>,
+    /// Equations met to this are met to rounding: a displacement of each joint of the longest loop rounds them by ε.
+    rounding: f64,
     /// Largest closure that counts as closed: rounding, or what the file's digits leave.
     pub allowed: f64,
     /// A pose whose equations and condition are met to this is taken as it is; zero asks for rounding.
@@ -115,17 +126,20 @@ impl Solver {
             if !sparse.choose(entries).ok()? {
                 return None;
             }
-            Rows::Sparse(sparse)
+            Rows::Sparse(Box::new(sparse))
         };
+        let longest = system.longest_cycle();
         let mut solver = Self {
             system,
             holds,
             rows,
+            factored: false,
             deflation,
             evaluation,
             right: vec![0.0; equations],
             step: vec![0.0; unknowns],
             row: vec![0.0; unknowns],
+            rounding: f64::EPSILON * longest as f64,
             allowed,
             tolerance: 0.0,
             reach: TraceOptions::default().reach,
@@ -147,6 +161,11 @@ impl Solver {
 
     fn look(&mut self, pose: &SystemPose) {
         self.system.evaluate(pose, &mut self.evaluation);
+        self.read_right(pose);
+    }
+
+    /// What the equations and conditions are off by at the pose last evaluated.
+    fn read_right(&mut self, pose: &SystemPose) {
         self.right.clear();
         self.right
             .extend(self.evaluation.residual.iter().map(|r| -r));
@@ -160,6 +179,11 @@ impl Solver {
     }
 
     fn factor(&mut self, pose: &SystemPose) -> bool {
+        self.factored = self.factor_rows(pose);
+        self.factored
+    }
+
+    fn factor_rows(&mut self, pose: &SystemPose) -> bool {
         let n = self.system.unknowns();
         let first = self.system.equations();
         match &mut self.rows {
@@ -215,6 +239,7 @@ impl Solver {
 
     /// Chooses these equations from now on, or the most independent ones each time.
     pub fn fix(&mut self, chosen: Option<Vec<usize>>) {
+        self.factored = false;
         if let Rows::Dense(dense) = &mut self.rows {
             dense.fix(chosen);
         }
@@ -239,7 +264,7 @@ impl Solver {
     pub fn shortest(&self, right: &[f64], x: &mut [f64]) {
         match &self.rows {
             Rows::Dense(dense) => dense.solve(right, x),
-            Rows::Sparse(sparse) => sparse.solve(right, x),
+            Rows::Sparse(sparse) => sparse.solve(right, x, true),
         }
     }
 
@@ -250,7 +275,7 @@ impl Solver {
 
     /// Largest loop equation at a pose.
     pub fn closure_of(&mut self, pose: &SystemPose) -> f64 {
-        self.system.evaluate(pose, &mut self.evaluation);
+        self.system.residual(pose, &mut self.evaluation);
         self.evaluation.largest()
     }
 
@@ -308,36 +333,60 @@ impl Solver {
     /// Moves a pose onto the curve. `None` where that does not converge or some equation stays open; the pose is then of no
     /// use.
     pub fn correct(&mut self, pose: &mut SystemPose, along: Along<'_>) -> Option<Corrected> {
+        self.correct_with(pose, along, false)
+    }
+
+    /// As [`Self::correct`], for poses asked for one after another: with the factors of the one before where these serve.
+    pub fn correct_next(&mut self, pose: &mut SystemPose, along: Along<'_>) -> Option<Corrected> {
+        let kept = self.factored && self.deflation.is_none();
+        self.correct_with(pose, along, kept)
+    }
+
+    fn correct_with(
+        &mut self,
+        pose: &mut SystemPose,
+        along: Along<'_>,
+        mut kept: bool,
+    ) -> Option<Corrected> {
         let mut way = 0.0;
         let mut before = f64::INFINITY;
-        let mut factored = false;
+        let mut off_before = f64::INFINITY;
+        let mut factored = kept;
         for _ in 0..STEP_LIMIT {
-            self.look(pose);
+            if kept {
+                self.system.residual(pose, &mut self.evaluation);
+                self.read_right(pose);
+            } else {
+                self.look(pose);
+            }
             let rest = self.fill_condition(pose, along);
+            let closure = self.closure();
             if self.is_good_enough(rest) {
-                let closure = self.closure();
                 return Some(Corrected { way, closure });
+            }
+            if kept {
+                let off = self.off(rest);
+                // Where rounding is larger than it is meant to be, a step more brings what can be had.
+                let nearly = off <= 10.0 * self.rounding;
+                let rounded = off <= self.rounding || (nearly && off_before <= NEARLY_ROUNDED);
+                if rounded && closure <= self.allowed {
+                    return Some(Corrected { way, closure });
+                }
+                let falls = nearly || off <= CONTRACTION * off_before.min(CONTRACTION);
+                off_before = off;
+                if !falls {
+                    (kept, factored) = (false, false);
+                    continue;
+                }
             }
             if !factored && !self.factor(pose) {
                 return None;
             }
-            let mut step = std::mem::take(&mut self.step);
-            self.shortest(&self.right, &mut step);
-            let tangent = self.tangent();
-            let amount = (rest - dot(&self.row, &step)) / dot(&self.row, tangent);
-            step.iter_mut()
-                .zip(tangent)
-                .for_each(|(s, t)| *s += amount * t);
-            let length = dot(&step, &step).sqrt();
-            let usable = length <= LONGEST_STEP;
-            if usable {
-                self.system.advance(pose, &step);
-            }
-            self.step = step;
-            if !usable {
-                return None;
-            }
+            let length = self.step(pose, rest, kept)?;
             way += length;
+            if kept {
+                continue;
+            }
             // Rounding: residuals are off by some 1e-16 per joint passed, so that steps do not fall below about as much.
             let stalled = length >= 0.5 * before && before < 1e-11;
             if length < 1e-15 || stalled {
@@ -350,9 +399,41 @@ impl Solver {
             factored = length < 1e-2 * before.min(1.0) || length < 1e-7;
             before = length;
         }
-        self.system.evaluate(pose, &mut self.evaluation);
+        self.system.residual(pose, &mut self.evaluation);
         let closure = self.closure();
         (closure <= self.allowed && before < 1e-6).then_some(Corrected { way, closure })
+    }
+
+    /// Takes the step that the last factorization asks for, and returns its length; `None` for one that is no correction. A rough one is to
+    /// be judged by what it leaves.
+    fn step(&mut self, pose: &mut SystemPose, rest: f64, rough: bool) -> Option<f64> {
+        let mut step = std::mem::take(&mut self.step);
+        match &self.rows {
+            Rows::Dense(dense) => dense.solve(&self.right, &mut step),
+            Rows::Sparse(sparse) => sparse.solve(&self.right, &mut step, !rough),
+        }
+        let tangent = self.tangent();
+        let amount = (rest - dot(&self.row, &step)) / dot(&self.row, tangent);
+        step.iter_mut()
+            .zip(tangent)
+            .for_each(|(s, t)| *s += amount * t);
+        let length = dot(&step, &step).sqrt();
+        let usable = length <= LONGEST_STEP;
+        if usable {
+            self.system.advance(pose, &step);
+        }
+        self.step = step;
+        usable.then_some(length)
+    }
+
+    /// How far the chosen equations and the condition, off by `rest`, are from being met.
+    fn off(&self, rest: f64) -> f64 {
+        let chosen = match &self.rows {
+            Rows::Dense(dense) => dense.chosen(),
+            Rows::Sparse(sparse) => sparse.chosen(),
+        };
+        let all = chosen.iter().map(|&equation| self.right[equation].abs());
+        all.fold(rest.abs(), f64::max)
     }
 
     /// Whether every equation, and the condition that is off by `rest`, is met to the tolerance.

@@ -1,6 +1,6 @@
 //! The independent equations of a large part: chosen once at a pose of the branch, factored sparsely at every pose.
 
-use kutzbach_math::matrix::{Factorization, MatrixError, Real, SparseMatrix, factor};
+use kutzbach_math::matrix::{Factorization, MatrixError, Real, Refactoring, SparseMatrix, factor};
 
 /// Equations are told from combinations of others by remainders above these, relative to the largest entry: at a pose of
 /// the branch, closed to rounding, true dependence leaves about 1e-13; the others are tried where fewer equations than
@@ -20,6 +20,7 @@ pub(super) struct SparseRows {
     chosen: Vec<usize>,
     /// Chosen equations as columns, and their factor.
     columns: Option<(SparseMatrix<f64>, Factorization<f64>)>,
+    refactoring: Refactoring<f64>,
     /// The unit vector that no chosen equation sees.
     pub tangent: Vec<f64>,
 }
@@ -42,6 +43,7 @@ impl SparseRows {
             position: vec![None; equations],
             chosen: Vec::new(),
             columns: None,
+            refactoring: Refactoring::default(),
             tangent: (0..unknowns).map(|_| random.symmetric()).collect(),
         }
     }
@@ -89,7 +91,7 @@ impl SparseRows {
             .filter_map(|(row, column, value)| Some((column, self.position[row]?, value)))
             .collect();
         let matrix = SparseMatrix::from_triplets(self.unknowns, self.chosen.len(), 0.0, kept)?;
-        let found = factor(&matrix, 0.0)?;
+        let found = self.refactoring.factor(&matrix, 0.0)?;
         let sound = found.rank() == self.chosen.len();
         self.columns = Some((matrix, found));
         if !sound {
@@ -99,7 +101,7 @@ impl SparseRows {
         let before = tangent.clone();
         for _ in 0..SWEEPS {
             let seen = self.seen(&tangent);
-            let across = self.shortest(&seen);
+            let across = self.shortest(&seen, true);
             tangent.iter_mut().zip(&across).for_each(|(t, a)| *t -= a);
             if !normalise(&mut tangent) {
                 self.tangent = before;
@@ -118,30 +120,33 @@ impl SparseRows {
     }
 
     /// The shortest x that the chosen equations see as `right` (by place), by the seminormal equations, corrected
-    /// (Björck 1996, section 6.6.5).
-    fn shortest(&self, right: &[f64]) -> Vec<f64> {
+    /// (Björck 1996, section 6.6.5) unless what is left is corrected elsewhere.
+    fn shortest(&self, right: &[f64], mut corrected: bool) -> Vec<f64> {
         let Some((matrix, factorization)) = &self.columns else {
             return vec![0.0; self.unknowns];
         };
         let mut x = vec![0.0; self.unknowns];
         let mut left = right.to_vec();
-        for _ in 0..2 {
+        loop {
             factorization.triangle.forward_substitute(&mut left);
             factorization.triangle.back_substitute(&mut left);
             let Ok(step) = matrix.multiply(&left) else {
                 return vec![f64::NAN; self.unknowns];
             };
             x.iter_mut().zip(&step).for_each(|(x, s)| *x += s);
+            if !std::mem::take(&mut corrected) {
+                return x;
+            }
             let seen = self.seen(&x);
             left = right.iter().zip(&seen).map(|(r, s)| r - s).collect();
         }
-        x
     }
 
-    /// As [`super::rows::DenseRows::solve`].
-    pub fn solve(&self, right: &[f64], x: &mut [f64]) {
+    /// As [`super::rows::DenseRows::solve`]. Steps whose effect is looked at need not be corrected for the condition of the
+    /// equations, which the seminormal ones square.
+    pub fn solve(&self, right: &[f64], x: &mut [f64], corrected: bool) {
         let own: Vec<f64> = self.chosen.iter().map(|e| right[*e]).collect();
-        x.copy_from_slice(&self.shortest(&own));
+        x.copy_from_slice(&self.shortest(&own, corrected));
     }
 
     /// As [`super::rows::DenseRows::least_singular_value`].
@@ -204,7 +209,7 @@ mod tests {
                 .collect();
             let (mut one, mut two) = (vec![0.0; n], vec![0.0; n]);
             dense.solve(&right, &mut one);
-            sparse.solve(&right, &mut two);
+            sparse.solve(&right, &mut two, true);
             for (a, b) in one.iter().zip(&two) {
                 assert!((a - b).abs() < 1e-9, "{stages}: {a} {b}");
             }

@@ -48,7 +48,7 @@ pub fn record_motion<W: Write>(
     let mut before = f64::NEG_INFINITY;
     for sample in samples {
         let time = begins + (sample.arclength - first) / PACE;
-        let joints = values_of(&sample.states);
+        let joints = motion.curve.by_joint(&sample.values);
         let predicted = Motion {
             joints: &joints,
             ..Motion::of_links(&sample.links)

@@ -259,57 +259,9 @@ fn aligned(rows: &[Vec<String>], right: &[bool]) -> Vec<String> {
 }
 
 /// The rotation of a pose as a unit quaternion (w, x, y, z).
-fn quaternion(pose: &Rigid<f64>) -> [f64; 4] {
+pub(super) fn quaternion(pose: &Rigid<f64>) -> [f64; 4] {
     let [x, y, z, w] = pose.quaternion();
     [w, x, y, z]
-}
-
-/// A field of a row: quoted where a name has a comma, a quotation mark or a line break in it (RFC 4180).
-fn field(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
-    }
-}
-
-/// One row per pose: drive value, arclength, closure, joint variables by name, then x y z and qw qx qy qz of every link, then x y z of
-/// every point asked for.
-/// Nothing but the header where nothing moves.
-pub fn csv(mechanism: &Mechanism, trace: &Trace, points: &[LinkPoint]) -> String {
-    let mut header = vec![
-        "drive".to_owned(),
-        "arclength".to_owned(),
-        "closure".to_owned(),
-    ];
-    header.extend(Variable::all(mechanism).iter().map(|v| field(&v.name)));
-    for link in mechanism.links() {
-        for part in ["x", "y", "z", "qw", "qx", "qy", "qz"] {
-            header.push(field(&format!("{}.{part}", link.name)));
-        }
-    }
-    for point in points {
-        for part in ["x", "y", "z"] {
-            header.push(field(&format!("{}.{part}", point.name)));
-        }
-    }
-    let mut text = header.join(",");
-    text.push('\n');
-    for sample in trace.motion().iter().flat_map(|m| &m.samples) {
-        let mut row = vec![sample.drive, sample.arclength, sample.closure];
-        row.extend(&sample.values);
-        for pose in &sample.links {
-            row.extend(pose.translation);
-            row.extend(quaternion(pose));
-        }
-        let places = points.iter().filter_map(|point| point.place(&sample.links));
-        row.extend(places.flatten());
-        // The shortest digits that give the same number back.
-        let row: Vec<String> = row.iter().map(|x| format!("{x:?}")).collect();
-        text.push_str(&row.join(","));
-        text.push('\n');
-    }
-    text
 }
 
 fn event_json(kind: &EventKind) -> Value {

@@ -121,6 +121,40 @@ pub fn factor<R: Real>(
     factor_as_planned(matrix, &prepare(matrix), tolerance)
 }
 
+/// Factors matrices of one pattern one after another: the order of elimination is found once, and anew only for entries at new
+/// places.
+#[derive(Clone, Debug, Default)]
+pub struct Refactoring<R> {
+    before: Option<(SparseMatrix<R>, EliminationPlan)>,
+}
+
+impl<R: Real> Refactoring<R> {
+    /// As [`factor`], with the same result but for rounding.
+    ///
+    /// # Errors
+    /// Those of [`factor`].
+    pub fn factor(
+        &mut self,
+        matrix: &SparseMatrix<R>,
+        tolerance: f64,
+    ) -> Result<Factorization<R>, MatrixError> {
+        let before = self.before.take().filter(|(m, _)| m.has_shape_of(matrix));
+        let planned = match before {
+            Some(planned) if planned.0.covers(matrix) => planned,
+            // An entry may vanish at a pose: the order serves both patterns from here on.
+            Some((pattern, _)) => {
+                let both = pattern.united(matrix);
+                let plan = prepare(&both);
+                (both, plan)
+            }
+            None => (matrix.clone(), prepare(matrix)),
+        };
+        let found = factor_as_planned(matrix, &planned.1, tolerance);
+        self.before = Some(planned);
+        found
+    }
+}
+
 /// [`factor`] with the plan of the same matrix at hand.
 pub(crate) fn factor_as_planned<R: Real>(
     matrix: &SparseMatrix<R>,

@@ -60,7 +60,7 @@ pub use big::Big;
 pub use coloops::{Coloops, coloops};
 pub use error::MatrixError;
 pub use extended::Extended;
-pub use frontal::{Factorization, factor};
+pub use frontal::{Factorization, Refactoring, factor};
 pub use held_step::held_step;
 pub use least_squares::LeastSquares;
 pub use modular::{Field61, ModularFactorization, factor_modular, modular_rank};

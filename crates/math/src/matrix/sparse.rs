@@ -244,7 +244,43 @@ impl<T: Ring> SparseMatrix<T> {
     }
 }
 
+impl<T> SparseMatrix<T> {
+    /// Whether shape and blocks are those of another matrix.
+    pub(crate) fn has_shape_of<U>(&self, other: &SparseMatrix<U>) -> bool {
+        (self.rows, self.columns) == (other.rows, other.columns)
+            && self.block_starts == other.block_starts
+    }
+
+    /// Whether another matrix of the same shape has entries only where this one has some.
+    pub(crate) fn covers<U>(&self, other: &SparseMatrix<U>) -> bool {
+        (0..self.rows).all(|row| {
+            let own = &self.entries[self.row_starts[row]..self.row_starts[row + 1]];
+            let mut own = own.iter().map(|(column, _)| column);
+            let others = &other.entries[other.row_starts[row]..other.row_starts[row + 1]];
+            others.iter().all(|(column, _)| own.any(|c| c == column))
+        })
+    }
+}
+
 impl<R: Real> SparseMatrix<R> {
+    /// The entries of two matrices of the same shape, all one.
+    pub(crate) fn united(&self, other: &Self) -> Self {
+        let mut both = self.clone();
+        both.row_starts = vec![0];
+        both.entries.clear();
+        for row in 0..self.rows {
+            let all = self.row(row).iter().chain(other.row(row));
+            let mut columns: Vec<usize> = all.map(|(column, _)| *column).collect();
+            columns.sort_unstable();
+            columns.dedup();
+            let one = self.zero.constant(1.0);
+            both.entries
+                .extend(columns.into_iter().map(|column| (column, one.clone())));
+            both.row_starts.push(both.entries.len());
+        }
+        both
+    }
+
     /// Largest magnitude among the entries as a double, zero for a matrix without entries.
     ///
     /// # Errors

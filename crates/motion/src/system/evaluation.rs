@@ -1,7 +1,7 @@
 //! The equations and their derivatives at a pose.
 
 use super::rotations::inverse_right_jacobian;
-use super::{LoopSystem, SystemPose};
+use super::{CompiledCycle, CompiledFactor, LoopSystem, SystemPose};
 use kutzbach_closure::{Rigid, cross_product};
 
 /// The equations of a part at a pose.
@@ -30,6 +30,15 @@ impl Evaluation {
 impl LoopSystem {
     /// Residual and Jacobian at a pose. Allocates only the first time.
     pub fn evaluate(&self, pose: &SystemPose, out: &mut Evaluation) {
+        self.walk(pose, out, true);
+    }
+
+    /// The residual alone, at half the cost: no Jacobian is in `out` then.
+    pub(crate) fn residual(&self, pose: &SystemPose, out: &mut Evaluation) {
+        self.walk(pose, out, false);
+    }
+
+    fn walk(&self, pose: &SystemPose, out: &mut Evaluation, jacobian: bool) {
         out.residual.clear();
         out.entries.clear();
         for cycle in &self.cycles {
@@ -47,22 +56,9 @@ impl LoopSystem {
                 if passage.forward {
                     here = here.compose(frame);
                 }
-                let sign = if passage.forward { 1.0 } else { -1.0 };
-                let arm = [0, 1, 2].map(|i| here.translation[i] - cycle.centre[i]);
-                for (offset, (angular, linear)) in factor.generators.iter().enumerate() {
-                    let unit = sign / self.weights[factor.first + offset];
-                    let turn = here.rotate(angular);
-                    let slide = here.rotate(linear);
-                    let moment = cross_product(&arm, &turn);
-                    let inverse = unit * cycle.inverse_length;
-                    out.entries.push([
-                        unit * turn[0],
-                        unit * turn[1],
-                        unit * turn[2],
-                        inverse * (moment[0] + slide[0]),
-                        inverse * (moment[1] + slide[1]),
-                        inverse * (moment[2] + slide[2]),
-                    ]);
+                if jacobian {
+                    let sign = if passage.forward { 1.0 } else { -1.0 };
+                    self.push_entries(cycle, factor, (&here, sign), &mut out.entries);
                 }
                 if !passage.forward {
                     here = here.compose(&frame.inverse());
@@ -82,6 +78,32 @@ impl LoopSystem {
                 .map(|(unknown, factor)| factor * pose.values[*unknown])
                 .sum();
             out.residual.push(sum - coupling.offset);
+        }
+    }
+
+    /// The derivatives of a cycle's closure by a factor's variables, passed at a displacement.
+    fn push_entries(
+        &self,
+        cycle: &CompiledCycle,
+        factor: &CompiledFactor,
+        (here, sign): (&Rigid<f64>, f64),
+        entries: &mut Vec<[f64; 6]>,
+    ) {
+        let arm = [0, 1, 2].map(|i| here.translation[i] - cycle.centre[i]);
+        for (offset, (angular, linear)) in factor.generators.iter().enumerate() {
+            let unit = sign / self.weights[factor.first + offset];
+            let turn = here.rotate(angular);
+            let slide = here.rotate(linear);
+            let moment = cross_product(&arm, &turn);
+            let inverse = unit * cycle.inverse_length;
+            entries.push([
+                unit * turn[0],
+                unit * turn[1],
+                unit * turn[2],
+                inverse * (moment[0] + slide[0]),
+                inverse * (moment[1] + slide[1]),
+                inverse * (moment[2] + slide[2]),
+            ]);
         }
     }
 

@@ -32,6 +32,17 @@ impl LoopSystem {
         pose
     }
 
+    /// The place of a joint of the mechanism among those of the part.
+    pub(crate) fn place_of(&self, joint: usize) -> Option<usize> {
+        self.joints.iter().position(|own| own.joint == joint)
+    }
+
+    /// The displacement of a joint, by its place in the part.
+    pub(crate) fn displacement_at(&self, place: usize, pose: &SystemPose) -> Rigid<f64> {
+        let (first, count) = self.joints[place].factors;
+        self.displacements[place].displacement_of(&pose.frames[first..first + count])
+    }
+
     /// Puts the part's joints into the states of the mechanism.
     pub fn put(&self, pose: &SystemPose, states: &mut [JointState<f64>]) {
         for joint in &self.joints {
@@ -201,11 +212,8 @@ impl LoopSystem {
     #[must_use]
     pub fn separation(&self, a: &SystemPose, b: &SystemPose) -> f64 {
         let mut largest = 0.0f64;
-        for (joint, displacement) in self.joints.iter().zip(&self.displacements) {
-            let (first, count) = joint.factors;
-            let of = |pose: &SystemPose| {
-                displacement.displacement_of(&pose.frames[first..first + count])
-            };
+        for place in 0..self.joints.len() {
+            let of = |pose: &SystemPose| self.displacement_at(place, pose);
             let off = of(a).inverse().compose(&of(b));
             let turn = norm(&off.rotation_vector());
             largest = largest.max(turn).max(norm(&off.translation) / self.length);

@@ -7,7 +7,7 @@ use crate::inputs::Variable;
 use crate::node::SAME;
 use crate::ranges::ranges;
 use crate::result::{End, EndReason, Event, EventKind, Held, Motion, TraceOptions};
-use crate::sampling::{all_values, sample};
+use crate::sampling::sample;
 use kutzbach_mobility::Branch;
 use std::sync::Arc;
 
@@ -97,7 +97,7 @@ impl Tracer<'_> {
             kind,
             arclength: at.arclength,
             drive: at.pose.values[curve.drive],
-            values: all_values(&curve.states(&at.pose)),
+            values: curve.values(&at.pose),
         };
         for dead in found.dead.clone() {
             let kind = EventKind::DeadCentre {

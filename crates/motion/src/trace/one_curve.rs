@@ -1,9 +1,10 @@
 //! One curve with everything that is found on it.
 
 use super::{Found, Stage, Tracer};
-use crate::curve::{Curve, WholeFrame};
+use crate::curve::Curve;
 use crate::dead_centres::{DeadCentre, LOCKED, dead_centres};
 use crate::follow::{Bounds, Stop, follow};
+use crate::links::WholeFrame;
 use crate::node::{Node, SAME, node_at};
 use crate::pieces::Assembled;
 use crate::result::TraceError;
@@ -80,11 +81,13 @@ impl Tracer<'_> {
             closed,
             drive,
             milestones: Vec::new(),
-            frame: Arc::new(WholeFrame {
-                mechanism: self.mechanism.clone(),
-                geometry: Arc::clone(&self.geometry),
+            frame: Arc::new(WholeFrame::new(
+                self.mechanism,
+                &self.geometry,
+                system,
                 states,
-            }),
+            )),
+            beside: None,
         };
         let dead = dead_centres(&mut curve);
         curve.milestones = milestones(&curve, &dead);

@@ -4,8 +4,8 @@ use proptest::prelude::*;
 
 use super::super::jacobi;
 use super::super::{
-    Big, MatrixError, Method, SparseMatrix, SplitMix64, coloops, decide, decide_by_qr,
-    decide_by_singular_values, null_basis, null_vectors,
+    Big, Factorization, MatrixError, Method, Refactoring, SparseMatrix, SplitMix64, coloops,
+    decide, decide_by_qr, decide_by_singular_values, factor, null_basis, null_vectors,
 };
 use super::{from_rows, product, random_rows};
 
@@ -294,5 +294,33 @@ fn degenerate_shapes_and_bad_numbers() {
             Some(2),
             "{extreme:e}"
         );
+    }
+}
+
+#[test]
+fn a_kept_order_of_elimination_serves_where_entries_vanish_or_appear() {
+    let entries = |by: f64, corner: f64| {
+        let chain = (0..6).flat_map(move |i| [(i, i, 2.0 + by), (i + 1, i, by * i as f64)]);
+        let all = chain.chain([(6, 0, corner)]);
+        SparseMatrix::from_triplets(7, 6, 0.0, all).unwrap()
+    };
+    let mut kept = Refactoring::default();
+    for (by, corner) in [(1.0, 0.0), (0.0, 0.0), (0.5, 3.0), (2.0, 0.0)] {
+        let matrix = entries(by, corner);
+        let (one, two) = (
+            kept.factor(&matrix, 0.0).unwrap(),
+            factor(&matrix, 0.0).unwrap(),
+        );
+        assert_eq!((one.rank(), two.rank()), (6, 6));
+        // R of A and R of A in another order have the same product of pivots and the same solutions of R' R x = b.
+        let solve = |found: &Factorization<f64>| {
+            let mut x: Vec<f64> = (0..6).map(|i| 1.0 + i as f64).collect();
+            found.triangle.forward_substitute(&mut x);
+            found.triangle.back_substitute(&mut x);
+            x
+        };
+        for (a, b) in solve(&one).iter().zip(solve(&two)) {
+            assert!((a - b).abs() < 1e-13, "{a} {b}");
+        }
     }
 }
