@@ -17,6 +17,7 @@ mod book;
 mod branch_facts;
 mod browser;
 mod brute_force;
+mod cad;
 mod change_sets;
 mod cli;
 mod cli_docs;

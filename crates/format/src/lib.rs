@@ -41,6 +41,7 @@
 mod actuation;
 mod assumed;
 mod beside;
+mod cad;
 mod closures;
 mod definitions;
 mod drake;
@@ -99,7 +100,7 @@ pub struct Reading {
     /// What is not read because it says nothing about motion, in file order.
     pub skipped: Vec<Skipped>,
     /// The smallest dialect that the file belongs to: `urdf`, `urdf+` or `kutzbach-urdf`; `xacro` for one that was expanded;
-    /// `mjcf`.
+    /// `mjcf`; `asmt`.
     pub format: &'static str,
     /// What is kept of the rest for writing it back.
     pub kept: Kept,
@@ -286,6 +287,16 @@ pub fn property_names(text: &str) -> Vec<String> {
     names
 }
 
+impl ReadOptions {
+    /// A fault where a measure is named and the format has none.
+    fn without_measures(&self, format: &str) -> Option<Fault> {
+        let set = self.settings.iter().map(|(name, _)| name);
+        let name = set.chain(&self.symbolic).next()?;
+        let message = format!("{format} has no measure {}", words::quoted(name));
+        Some(Fault::new(0..0, message).help("leave `--set` and `--symbolic` out"))
+    }
+}
+
 /// Reads a text, with some of its properties left symbolic, or strictly.
 ///
 /// # Errors
@@ -302,11 +313,14 @@ fn read_text(
     base: Option<&Path>,
     options: &ReadOptions,
 ) -> Result<Reading, FormatError> {
-    let source = match mjcf::is_mjcf(text) {
+    let source = match mjcf::is_mjcf(text) || cad::is_asmt(text) {
         true => None,
         false => Some(xacro::expand(text, file, base, options)?),
     };
     let mut reading = match source {
+        None if cad::is_asmt(text) => {
+            cad::read_asmt(text, options).map_err(|faults| located(file, text, faults))?
+        }
         None => {
             let whole = mjcf::whole(text, file, base)?;
             mjcf::read(&whole, options).map_err(|faults| whole.located(faults))?

@@ -5,6 +5,7 @@
 //! `0.5 0.5 0.5 0.5`, states them in full.
 
 use kutzbach_math::number::Number;
+use kutzbach_math::space::{cross, dot};
 use kutzbach_model::mechanism::Precision;
 
 /// Decimals of angles in full double precision.
@@ -19,6 +20,71 @@ pub(super) fn roll_pitch_yaw(quaternion: &[Number; 4]) -> Option<[Number; 3]> {
 /// Roll, pitch and yaw of a quaternion that was computed, stated in full.
 pub(super) fn angles_of(quaternion: [f64; 4]) -> Option<[Number; 3]> {
     stated(angles(quaternion)?, FULL)
+}
+
+/// Roll, pitch and yaw of a matrix of rotation by its rows; `None` where it is none: its columns are not orthonormal, or left-handed.
+///
+/// Solvers store matrices that are off by what they stop at, so the rotation taken is one near by: the turn that the columns say best. A
+/// matrix that is orthonormal in doubles says its angles in full, and another one with as many decimals as its larger entries have.
+pub(super) fn roll_pitch_yaw_of_rows(rows: &[[Number; 3]; 3]) -> Option<[Number; 3]> {
+    let columns = [0, 1, 2].map(|j| [0, 1, 2].map(|i| rows[i][j].value()));
+    let [x, y, z] = &columns;
+    let off = (0..3)
+        .flat_map(|j| (0..=j).map(move |k| (j, k)))
+        .map(|(j, k)| (dot(&columns[j], &columns[k]) - if j == k { 1.0 } else { 0.0 }).abs())
+        .fold(0.0, f64::max);
+    if !(off <= NEARLY_ORTHONORMAL && dot(&cross(x, y), z) > 0.0) {
+        return None;
+    }
+    let larger: Vec<Number> = rows
+        .as_flattened()
+        .iter()
+        .filter(|entry| entry.value().abs() > 1e-3)
+        .cloned()
+        .collect();
+    let decimals = match off <= ORTHONORMAL {
+        true => FULL,
+        false => most_decimals(&larger).unwrap_or(FULL),
+    };
+    stated(angles(of_columns(columns))?, decimals)
+}
+
+/// Products of columns of a matrix in doubles are off by so much, with some steps of computing behind it.
+const ORTHONORMAL: f64 = 3e-15;
+
+/// Products of columns beyond this are no rotation that was rounded to three decimals, or left by a solver.
+const NEARLY_ORTHONORMAL: f64 = 3e-3;
+
+/// The quaternion of a rotation that takes the axes to these columns, which are orthonormal.
+pub(super) fn of_columns([x, y, z]: [[f64; 3]; 3]) -> [f64; 4] {
+    let trace = x[0] + y[1] + z[2];
+    // The largest of the four parts is divided by: Shepperd's method.
+    let parts = [
+        [
+            1.0 + x[0] - y[1] - z[2],
+            y[0] + x[1],
+            z[0] + x[2],
+            y[2] - z[1],
+        ],
+        [
+            y[0] + x[1],
+            1.0 - x[0] + y[1] - z[2],
+            z[1] + y[2],
+            z[0] - x[2],
+        ],
+        [
+            z[0] + x[2],
+            z[1] + y[2],
+            1.0 - x[0] - y[1] + z[2],
+            x[1] - y[0],
+        ],
+        [y[2] - z[1], z[0] - x[2], x[1] - y[0], 1.0 + trace],
+    ];
+    let diagonal = |i: usize| parts[i][i];
+    let largest = (0..4).max_by(|&i, &j| diagonal(i).total_cmp(&diagonal(j)));
+    let row = parts[largest.unwrap_or(3)];
+    let length = row.iter().map(|x| x * x).sum::<f64>().sqrt();
+    row.map(|part| part / length)
 }
 
 fn stated(angles: [f64; 3], decimals: usize) -> Option<[Number; 3]> {

@@ -1,5 +1,6 @@
 //! Equalities: what closes loops, and what couples joints.
 
+use super::anchors::{Held, meaning};
 use super::pose::{exactly, numbers};
 use super::{Mjcf, WORLD};
 use crate::WarningKind;
@@ -8,7 +9,7 @@ use crate::error::Outcome;
 use crate::quaternion::roll_pitch_yaw;
 use crate::words::{did_you_mean, quoted};
 use kutzbach_math::number::Number;
-use kutzbach_model::mechanism::{Direction, Frame, JointBuilder, JointKind};
+use kutzbach_model::mechanism::{Frame, JointBuilder, JointKind};
 
 /// A `<connect>` by bodies: its element, the bodies, and the point in the first one.
 struct Connect<'a> {
@@ -125,48 +126,43 @@ impl<'a> Mjcf<'a> {
             position: anchor.clone(),
             ..Frame::identity()
         };
-        let mut along: Vec<[Number; 3]> = Vec::new();
-        for connect in &group[1..] {
-            let way = [0, 1, 2].map(|i| &connect.anchor[i] - &first.anchor[i]);
-            if way.iter().all(Number::is_zero) {
-                continue;
-            }
-            along.push(way);
-        }
-        let independent = |a: &[Number; 3], b: &[Number; 3]| {
-            (0..3).any(|i| {
-                let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-                !(&(&a[j] * &b[k]) - &(&a[k] * &b[j])).is_zero()
-            })
-        };
-        let spread = along.iter().any(|way| independent(&along[0], way));
+        let anchors: Vec<[Number; 3]> = group.iter().map(|c| c.anchor.clone()).collect();
+        let meaning = meaning(&anchors);
         let name = self.name_of_closure(first.element, &format!("{one}_{other}"));
-        let (kind, axis) = match along.first() {
-            None => (JointKind::Spherical, None),
-            Some(_) if spread => (JointKind::Fixed, None),
-            Some(way) => (JointKind::Revolute, Some(Direction(way.clone()))),
+        let (kind, axis, what) = match meaning.held {
+            Held::Point => (JointKind::Spherical, None, "one, a ball"),
+            Held::Line(way) => {
+                let what = "the hinge on the line of their anchors";
+                (JointKind::Revolute, Some(way), what)
+            }
+            Held::All => (JointKind::Fixed, None, "a fixed joint"),
         };
         let mut joint =
             JointBuilder::closing(&name, kind, one, other).at_home(one, at(&first.anchor), false);
         joint = axis.into_iter().fold(joint, JointBuilder::axis);
         self.builder.joint(joint);
-        if kind != JointKind::Spherical {
-            let what = match kind {
-                JointKind::Revolute => "the hinge on the line of their anchors",
-                _ => "a fixed joint",
-            };
-            let message = format!(
-                "{} <connect> between {} and {} are read as {what}",
-                group.len(),
-                quoted(one),
-                quoted(other)
-            );
-            let kind = WarningKind::ReadAs {
+        if group.len() == 1 {
+            return Ok(());
+        }
+        let within = match (meaning.is_unclear, meaning.within_digits) {
+            (true, _) => ", though their anchors differ by few units of their last digits",
+            (_, true) => ": within the digits of their anchors they are that",
+            _ => "",
+        };
+        let message = format!(
+            "{} <connect> between {} and {} are read as {what}{within}",
+            group.len(),
+            quoted(one),
+            quoted(other)
+        );
+        let kind = match meaning.is_unclear {
+            true => WarningKind::Guessed,
+            false => WarningKind::ReadAs {
                 joint: name,
                 element: "connect".to_owned(),
-            };
-            self.warnings.push((first.element.start(), kind, message));
-        }
+            },
+        };
+        self.warnings.push((first.element.start(), kind, message));
         Ok(())
     }
 

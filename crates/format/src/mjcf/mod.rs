@@ -18,6 +18,7 @@
 //!
 //! Source: the XML reference of MuJoCo 3 and 4, and what its compiler makes of such files.
 
+mod anchors;
 mod bodies;
 mod classes;
 mod equality;
@@ -119,18 +120,8 @@ pub(super) fn read(whole: &Whole, options: &ReadOptions) -> Result<Reading, Vec<
     let text = &whole.text;
     let document = xml::parse(text).map_err(|fault| vec![fault])?;
     let root = Element::root(&document, text);
-    if let Some(name) = options
-        .settings
-        .iter()
-        .map(|(name, _)| name)
-        .chain(&options.symbolic)
-        .next()
-    {
-        let message = format!("MJCF has no measure {}", quoted(name));
-        return Err(vec![
-            root.fault(message)
-                .help("leave `--set` and `--symbolic` out"),
-        ]);
+    if let Some(fault) = options.without_measures("MJCF") {
+        return Err(vec![fault]);
     }
     let name = root.attribute("model").map_or("mujoco", |name| name.value);
     let mut mjcf = Mjcf {

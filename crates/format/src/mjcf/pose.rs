@@ -6,10 +6,11 @@
 use super::Mjcf;
 use crate::element::{Attribute, Element};
 use crate::error::Outcome;
-use crate::quaternion::{angles_of, roll_pitch_yaw};
+use crate::quaternion::{angles_of, of_columns, roll_pitch_yaw};
 use crate::values::LARGEST;
 use crate::words::counted;
 use kutzbach_math::number::Number;
+use kutzbach_math::space::cross;
 use kutzbach_model::mechanism::Frame;
 
 /// What `<compiler>` says.
@@ -79,49 +80,9 @@ fn about(axis: [f64; 3], angle: f64) -> [f64; 4] {
     [x, y, z, cosine]
 }
 
-/// The quaternion of a rotation that takes the axes to these columns, which are orthonormal.
-fn of_columns([x, y, z]: [[f64; 3]; 3]) -> [f64; 4] {
-    let trace = x[0] + y[1] + z[2];
-    // The largest of the four parts is divided by: Shepperd's method.
-    let parts = [
-        [
-            1.0 + x[0] - y[1] - z[2],
-            y[0] + x[1],
-            z[0] + x[2],
-            y[2] - z[1],
-        ],
-        [
-            y[0] + x[1],
-            1.0 - x[0] + y[1] - z[2],
-            z[1] + y[2],
-            z[0] - x[2],
-        ],
-        [
-            z[0] + x[2],
-            z[1] + y[2],
-            1.0 - x[0] - y[1] + z[2],
-            x[1] - y[0],
-        ],
-        [y[2] - z[1], z[0] - x[2], x[1] - y[0], 1.0 + trace],
-    ];
-    let diagonal = |i: usize| parts[i][i];
-    let largest = (0..4).max_by(|&i, &j| diagonal(i).total_cmp(&diagonal(j)));
-    let row = parts[largest.unwrap_or(3)];
-    let length = row.iter().map(|x| x * x).sum::<f64>().sqrt();
-    row.map(|part| part / length)
-}
-
 fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
     let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
     (length > 1e-12).then(|| v.map(|x| x / length))
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }
 
 impl<'a> Mjcf<'a> {
@@ -190,7 +151,7 @@ impl<'a> Mjcf<'a> {
                     let y = [d, e, f];
                     let along: f64 = (0..3).map(|i| x[i] * y[i]).sum();
                     let y = unit([0, 1, 2].map(|i| y[i] - along * x[i]))?;
-                    Some([x, y, cross(x, y)])
+                    Some([x, y, cross(&x, &y)])
                 });
                 let found = columns.and_then(|columns| angles_of(of_columns(columns)));
                 found.ok_or_else(none)
@@ -242,7 +203,7 @@ impl<'a> Mjcf<'a> {
 /// The least turn that takes z to a direction of any length.
 pub(super) fn least_turn(direction: [f64; 3]) -> Option<[Number; 3]> {
     let z = unit(direction)?;
-    let axis = cross([0.0, 0.0, 1.0], z);
+    let axis = cross(&[0.0, 0.0, 1.0], &z);
     let sine = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
     angles_of(match sine > 1e-12 {
         true => about(axis, sine.atan2(z[2])),
