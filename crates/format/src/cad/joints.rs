@@ -335,16 +335,15 @@ fn raised(side: &Side, height: &Number) -> Side {
     }
     let z = pose_of(&side.frame).rotate(&[0.0, 0.0, 1.0]);
     let main = (0..3).find(|&i| (z[i].abs() - 1.0).abs() < 1e-12);
-    for i in 0..3 {
+    for (i, at) in raised.frame.position.iter_mut().enumerate() {
         let add = match main {
             // Along an axis of the part the sum keeps its digits.
             Some(main) if main != i => continue,
-            Some(_) if z[i] > 0.0 => height.clone(),
+            Some(main) if z[main] > 0.0 => height.clone(),
             Some(_) => -height.clone(),
             None => in_full(z[i] * height.value()),
         };
-        let at = &raised.frame.position[i];
-        raised.frame.position[i] = if at.is_zero() { add } else { at + &add };
+        *at = if at.is_zero() { add } else { &*at + &add };
     }
     raised
 }

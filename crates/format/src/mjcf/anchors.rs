@@ -140,9 +140,9 @@ mod tests {
             .map(|text| {
                 let numbers: Vec<Number> = text
                     .split(' ')
-                    .map(|word| Number::decimal(word).unwrap())
+                    .map(|word| Number::decimal(word).expect("a number"))
                     .collect();
-                numbers.try_into().unwrap()
+                numbers.try_into().expect("three numbers")
             })
             .collect();
         meaning(&anchors)
