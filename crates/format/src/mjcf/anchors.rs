@@ -190,8 +190,8 @@ mod tests {
                 ("line", true),
             ),
             (&["0 0 0", "1 0 0", "0 1 0"], ("all", false)),
-            // Few decimals are chosen: a millimetre beside the line is meant.
-            (&["0 0 0", "0.1 0 0", "0.2 0.001 0"], ("all", false)),
+            // Few decimals are chosen: a centimetre beside the line is meant.
+            (&["0 0 0", "0.1 0 0", "0.2 0.01 0"], ("all", false)),
         ] {
             assert_eq!(word(anchors), expected, "{anchors:?}");
         }
