@@ -69,6 +69,7 @@ mod mechanism_table;
 mod mjcf;
 mod models;
 mod near_singular;
+mod other_programs;
 mod play;
 mod polynomial_systems;
 mod pose_warnings;
