@@ -42,6 +42,7 @@ mod asked;
 mod assemble;
 mod assembly;
 mod change_sets;
+pub mod convert;
 pub mod definitions;
 pub mod exact;
 mod expectation;
