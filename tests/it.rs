@@ -21,6 +21,7 @@ mod change_sets;
 mod cli;
 mod cli_docs;
 mod components;
+mod convert_cli;
 mod depths;
 mod derivatives;
 mod digits;
