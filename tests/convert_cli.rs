@@ -100,6 +100,12 @@ fn every_kind_of_joint_is_written() {
             expected,
             "{kind}"
         );
+        // The tree seen from its end: every joint is written backwards.
+        let held = text.replace("</robot>", "<ground link=\"arm\"/></robot>");
+        let held = read(&held, "one.urdf", &[]).unwrap();
+        assert_eq!(finite(&held), expected, "{kind}");
+        let again = through_mjcf(&held, Hinges::TwoPoints);
+        assert_eq!(finite(&again), expected, "{kind} backwards");
         let urdf = to_urdf(&reading.mechanism).unwrap();
         assert_eq!(urdf.not_said, Vec::<String>::new());
         let again = read(&urdf.text, "tree.urdf", &[]).unwrap();

@@ -38,7 +38,7 @@ impl Mjcf<'_> {
             [(follower, a), (leader, b)] => {
                 let at = offset.checked_div(a).ok()?;
                 let ratio = (-b).checked_div(a).ok()?;
-                self.polynomial(&name, follower, Some(leader), &at, Some(&ratio));
+                self.polynomial(&name, follower, Some(leader.as_str()), &at, Some(&ratio));
             }
             _ => self.sum(&name, &terms, &offset),
         }

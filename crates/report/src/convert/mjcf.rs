@@ -253,7 +253,8 @@ impl Mjcf<'_> {
         let slide = slide.and_then(|slide| names.get(slide));
         if let (Some(slide), Some(turn), Some(pitch)) = (slide, turn, pitch(joint)) {
             let name = self.unused(&format!("{}.lead", joint.name));
-            self.polynomial(&name, slide, Some(&turn), &Number::zero(), Some(&pitch));
+            let turn = turn.as_str();
+            self.polynomial(&name, slide, Some(turn), &Number::zero(), Some(&pitch));
         }
     }
 

@@ -61,9 +61,10 @@ pub(super) fn is_identity(pose: &Rigid<f64>) -> bool {
 /// Whether a pose does not turn, but for rounding errors.
 pub(super) fn is_straight(pose: &Rigid<f64>) -> bool {
     pose.rotation.iter().enumerate().all(|(i, row)| {
-        row.iter()
-            .enumerate()
-            .all(|(j, x)| (x - if i == j { 1.0 } else { 0.0 }).abs() < SAME)
+        row.iter().enumerate().all(|(j, x)| {
+            let expected = f64::from(u8::from(i == j));
+            (*x - expected).abs() < SAME
+        })
     })
 }
 

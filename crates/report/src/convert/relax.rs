@@ -25,7 +25,7 @@ pub struct Relaxed {
 /// As [`report`].
 pub fn relaxed(reading: &Reading, file: &str) -> Result<Relaxed, ReportError> {
     let before = report(reading, file, &Options::default())?;
-    let as_it_was = |note: &str, independent| {
+    let as_it_was = |note: &str, independent: bool| {
         Ok(Relaxed {
             mechanism: reading.mechanism.clone(),
             notes: vec![note.to_owned()],
@@ -42,8 +42,8 @@ pub fn relaxed(reading: &Reading, file: &str) -> Result<Relaxed, ReportError> {
     let mechanism = &reading.mechanism;
     let sets = before.change_sets.as_ref();
     let of_closures = sets.and_then(|sets| first_sets(mechanism, sets, true));
-    let of_any = || sets.and_then(|sets| first_sets(mechanism, sets, false));
-    let found = [of_closures, slots(mechanism), of_any()];
+    let of_any = sets.and_then(|sets| first_sets(mechanism, sets, false));
+    let found = [of_closures, slots(mechanism), of_any];
     for changes in found.into_iter().flatten() {
         if let Some(relaxed) = attempt(reading, file, &before, &changes)? {
             return Ok(relaxed);

@@ -1,6 +1,6 @@
 //! The bodies of a mechanism as a tree that begins at the ground, each with its place in the one before it.
 
-use super::parts::{Part, parts};
+use super::parts::{Motion, Part, parts};
 use super::place::{Place, is_identity};
 use kutzbach_closure::{Geometry, Rigid};
 use kutzbach_model::mechanism::{JointId, JointKind, LinkId, Mechanism, Placement};
@@ -168,7 +168,7 @@ pub(super) fn parts_of(
 ) -> Vec<Part> {
     let joint = mechanism.joint(id);
     let standing = drawn(geometry, joint.kind, id);
-    let own = parts(joint, standing.as_ref());
+    let mut own = parts(joint, standing.as_ref());
     let [predecessor, successor] = &geometry.sides[id.0];
     if forward {
         return own.iter().map(|part| part.moved(successor)).collect();
@@ -177,6 +177,24 @@ pub(super) fn parts_of(
         Some(standing) => predecessor.compose(standing),
         None => predecessor.clone(),
     };
+    if joint.kind == JointKind::Distance {
+        turn_at_the_other_end(&mut own);
+        return own.iter().map(|part| part.moved(&from)).collect();
+    }
     let seen = own.iter().rev().map(|part| part.moved(&from).reversed());
     seen.collect()
+}
+
+/// Exchanges the ends of a rod: MuJoCo lets nothing turn behind a ball in one body.
+fn turn_at_the_other_end(rod: &mut [Part]) {
+    let (Some(first), Some(last)) = (rod.first(), rod.last()) else {
+        return;
+    };
+    let (start, end) = (first.point.clone(), last.point.clone());
+    for part in rod {
+        part.point = match part.motion {
+            Motion::Ball => start.clone(),
+            Motion::Turn | Motion::Slide => end.clone(),
+        };
+    }
 }

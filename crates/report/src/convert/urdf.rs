@@ -320,9 +320,9 @@ fn z() -> Direction {
 }
 
 /// The text with a comment behind its first line on what it does not say.
-fn with_comment(text: &str, not_said: &[String]) -> String {
-    let (Some((first, rest)), false) = (text.split_once('\n'), not_said.is_empty()) else {
-        return text.to_owned();
+fn with_comment(file: &str, not_said: &[String]) -> String {
+    let (Some((first, rest)), false) = (file.split_once('\n'), not_said.is_empty()) else {
+        return file.to_owned();
     };
     let mut comment = String::from("<!-- Not said here:\n");
     for one in not_said {
