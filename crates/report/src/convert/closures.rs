@@ -223,7 +223,7 @@ impl Mjcf<'_> {
             names,
             site: None,
         };
-        self.equalities.push(if open {
+        let equality = if open {
             let own = escaped(&self.unused(&format!("{}.site", joint.name))).into_owned();
             let there = self.site(successor.link, &successor.frame, &joint.name);
             carrier.site = Some(own.clone());
@@ -232,7 +232,8 @@ impl Mjcf<'_> {
             let there = self.body_name(successor.link);
             let own = &carrier.name;
             format!("<weld name=\"{weld}\" body1=\"{there}\" body2=\"{own}\"/>")
-        });
+        };
+        self.equalities.push(equality);
         self.carriers
             .entry(joint.predecessor.link)
             .or_default()
