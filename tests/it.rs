@@ -22,6 +22,7 @@ mod change_sets;
 mod cli;
 mod cli_docs;
 mod components;
+mod convert_cli;
 mod depths;
 mod derivatives;
 mod digits;

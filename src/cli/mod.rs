@@ -5,6 +5,7 @@
 mod accuracy;
 mod assemble;
 mod check;
+mod convert;
 mod exact;
 mod excerpt;
 mod explain;
@@ -53,6 +54,7 @@ struct Arguments {
 enum Command {
     Report(report::Arguments),
     Check(check::Arguments),
+    Convert(convert::Arguments),
     Simulate(Box<simulate::Arguments>),
     Graph(graph::Arguments),
     Exact(exact::Arguments),
@@ -70,6 +72,7 @@ pub fn run() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Report(arguments) => report::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Convert(arguments) => convert::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Graph(arguments) => graph::run(&arguments),
         Command::Exact(arguments) => exact::run(&arguments),

@@ -81,7 +81,7 @@ pub use error::FormatError;
 pub use from_urdf_rs::urdf_text;
 pub use kept::Kept;
 pub use sketch::{is_sketch, read_sketch, read_sketch_file};
-pub use writer::{Numbers, WriteOptions, write, write_with};
+pub use writer::{Numbers, WriteOptions, escaped, write, write_with};
 
 use error::{Fault, located};
 use kutzbach_model::mechanism::Mechanism;

@@ -557,7 +557,8 @@ fn pair(name: &str, value: &str) -> String {
 }
 
 /// A value as an attribute can hold it. White space other than the space would be read back as a space if not escaped.
-pub(crate) fn escaped(value: &str) -> Cow<'_, str> {
+#[must_use]
+pub fn escaped(value: &str) -> Cow<'_, str> {
     let plain = |c: char| !matches!(c, '&' | '<' | '>' | '"') && is_xml(c) && !c.is_control();
     if value.chars().all(plain) {
         return Cow::Borrowed(value);

@@ -33,6 +33,7 @@
 //! | `html` | how a report becomes a page that moves |
 //! | `accuracy` | what every way to an answer costs, as a page and as a figure |
 //! | `exact` | what the polynomials say, as data and as a page |
+//! | `convert` | the mechanism in the words of other programs |
 //! | `picture` | plots, the mechanism drawn, a sign for each answer: still, as SVG |
 //! | `definitions` | what a word means |
 
@@ -42,6 +43,7 @@ mod asked;
 mod assemble;
 mod assembly;
 mod change_sets;
+pub mod convert;
 pub mod definitions;
 pub mod exact;
 mod expectation;

@@ -31,6 +31,7 @@ mod model;
 mod number_style;
 mod precision;
 mod rational_rotations;
+mod replaced;
 mod residues;
 mod scene;
 mod set_aside;

@@ -1,0 +1,171 @@
+//! Numbers, directions and frames, as other programs read them.
+
+use kutzbach_closure::Rigid;
+use kutzbach_math::number::Number;
+use kutzbach_model::mechanism::Frame;
+
+/// A direction or a point.
+pub(super) type Triple = [Number; 3];
+
+/// Decimals that end within so many places are written whole: as many as a double has digits.
+const PLACES: u32 = 17;
+
+/// What is computed from entries of about 1 and lies below this is a zero with its rounding errors.
+const NOISE: f64 = 1e-15;
+
+/// How far the entries of a pose may be from those of the identity, which it then is: some thousand roundings.
+const SAME: f64 = 1e-12;
+
+/// A computed double.
+pub(super) fn rounded(x: f64) -> Number {
+    if x.abs() < NOISE {
+        return Number::zero();
+    }
+    Number::from_f64(x).unwrap_or_else(Number::zero)
+}
+
+/// Computed doubles.
+pub(super) fn triple(v: [f64; 3]) -> Triple {
+    v.map(rounded)
+}
+
+/// The doubles of a triple.
+pub(super) fn values(v: &Triple) -> [f64; 3] {
+    v.each_ref().map(Number::value)
+}
+
+pub(super) fn zeros() -> Triple {
+    [Number::zero(), Number::zero(), Number::zero()]
+}
+
+/// A number: a literal as it was read, what ends as a decimal whole, anything else as a double that reads back the same.
+pub(super) fn text(number: &Number) -> String {
+    if let Some(literal) = number.literal_text() {
+        return literal.to_owned();
+    }
+    let short = number.decimal_text(PLACES);
+    short.unwrap_or_else(|| format!("{:?}", number.value() + 0.0))
+}
+
+/// Numbers with spaces between them.
+pub(super) fn texts(numbers: &[Number]) -> String {
+    let words: Vec<String> = numbers.iter().map(text).collect();
+    words.join(" ")
+}
+
+/// Whether a pose is the identity, but for rounding errors.
+pub(super) fn is_identity(pose: &Rigid<f64>) -> bool {
+    is_straight(pose) && pose.translation.iter().all(|x| x.abs() < SAME)
+}
+
+/// Whether a pose does not turn, but for rounding errors.
+pub(super) fn is_straight(pose: &Rigid<f64>) -> bool {
+    pose.rotation.iter().enumerate().all(|(i, row)| {
+        row.iter().enumerate().all(|(j, x)| {
+            let expected = f64::from(u8::from(i == j));
+            (*x - expected).abs() < SAME
+        })
+    })
+}
+
+/// The pose of a frame.
+pub(super) fn rigid(frame: &Frame) -> Rigid<f64> {
+    let mut pose = Rigid::translation(values(&frame.position));
+    for (axis, angle) in frame.roll_pitch_yaw.iter().enumerate().rev() {
+        let (sine, cosine) = angle.value().sin_cos();
+        let direction = [0, 1, 2].map(|i| if i == axis { 1.0 } else { 0.0 });
+        pose = pose.compose(&Rigid::rotation(&direction, &cosine, &sine));
+    }
+    pose
+}
+
+/// Where a frame is in another one.
+#[derive(Clone, Debug)]
+pub(super) enum Place {
+    /// As the file says it.
+    Stated(Frame),
+    /// Computed.
+    Computed(Rigid<f64>),
+}
+
+impl Place {
+    /// `pos` and `euler` (of the sequence XYZ) or `quat`, each left out where it is zero.
+    pub(super) fn attributes(&self) -> String {
+        match self {
+            Self::Stated(frame) => {
+                let said = |name: &str, numbers: &Triple| match numbers.iter().all(Number::is_zero)
+                {
+                    true => String::new(),
+                    false => format!(" {name}=\"{}\"", texts(numbers)),
+                };
+                said("pos", &frame.position) + &said("euler", &frame.roll_pitch_yaw)
+            }
+            Self::Computed(pose) => {
+                let mut words = String::new();
+                let position = triple(pose.translation);
+                if !position.iter().all(Number::is_zero) {
+                    words = format!(" pos=\"{}\"", texts(&position));
+                }
+                if !is_straight(pose) {
+                    let [x, y, z, w] = pose.quaternion().map(rounded);
+                    words += &format!(" quat=\"{}\"", texts(&[w, x, y, z]));
+                }
+                words
+            }
+        }
+    }
+
+    /// As position, roll, pitch and yaw.
+    pub(super) fn frame(&self) -> Frame {
+        match self {
+            Self::Stated(frame) => frame.clone(),
+            Self::Computed(pose) => Frame {
+                position: triple(pose.translation),
+                roll_pitch_yaw: triple(roll_pitch_yaw(pose)),
+            },
+        }
+    }
+}
+
+/// Roll, pitch and yaw; where the pitch is a right angle the roll is taken as zero.
+fn roll_pitch_yaw(pose: &Rigid<f64>) -> [f64; 3] {
+    let r = &pose.rotation;
+    let flat = r[0][0].hypot(r[1][0]);
+    let pitch = (-r[2][0]).atan2(flat);
+    if flat > SAME {
+        [r[2][1].atan2(r[2][2]), pitch, r[1][0].atan2(r[0][0])]
+    } else {
+        [0.0, pitch, (-r[0][1]).atan2(r[1][1])]
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_written_as_they_were_read() {
+        let literal = Number::decimal("0.100").unwrap();
+        assert_eq!(text(&literal), "0.100");
+        assert_eq!(text(&Number::ratio(1, 8).unwrap()), "0.125");
+        assert_eq!(text(&Number::ratio(1, 3).unwrap()), "0.3333333333333333");
+        assert_eq!(text(&rounded(-3e-17)), "0");
+    }
+
+    #[test]
+    fn angles_of_a_pose_give_it_back() {
+        for angles in [[0.3, -0.7, 1.9], [0.0, std::f64::consts::FRAC_PI_2, 0.4]] {
+            let mut pose = Rigid::identity(&1.0);
+            for (axis, angle) in angles.iter().enumerate().rev() {
+                let mut direction = [0.0; 3];
+                direction[axis] = 1.0;
+                let turn = Rigid::rotation(&direction, &angle.cos(), &angle.sin());
+                pose = pose.compose(&turn);
+            }
+            for (found, expected) in roll_pitch_yaw(&pose).iter().zip(angles) {
+                assert!((found - expected).abs() < 1e-12);
+            }
+        }
+    }
+}
