@@ -66,6 +66,7 @@ mod quaternion;
 mod reader;
 mod relax;
 mod restated;
+mod sdf;
 mod sketch;
 mod unread;
 mod values;
@@ -99,7 +100,7 @@ pub struct Reading {
     /// What is not read because it says nothing about motion, in file order.
     pub skipped: Vec<Skipped>,
     /// The smallest dialect that the file belongs to: `urdf`, `urdf+` or `kutzbach-urdf`; `xacro` for one that was expanded;
-    /// `mjcf`.
+    /// `mjcf`, `sdf`.
     pub format: &'static str,
     /// What is kept of the rest for writing it back.
     pub kept: Kept,
@@ -302,11 +303,15 @@ fn read_text(
     base: Option<&Path>,
     options: &ReadOptions,
 ) -> Result<Reading, FormatError> {
-    let source = match mjcf::is_mjcf(text) {
+    let is_sdf = sdf::is_sdf(text);
+    let source = match is_sdf || mjcf::is_mjcf(text) {
         true => None,
         false => Some(xacro::expand(text, file, base, options)?),
     };
     let mut reading = match source {
+        None if is_sdf => {
+            sdf::read(text, options).map_err(|faults| located(file, text, faults))?
+        }
         None => {
             let whole = mjcf::whole(text, file, base)?;
             mjcf::read(&whole, options).map_err(|faults| whole.located(faults))?
