@@ -309,9 +309,7 @@ fn read_text(
         false => Some(xacro::expand(text, file, base, options)?),
     };
     let mut reading = match source {
-        None if is_sdf => {
-            sdf::read(text, options).map_err(|faults| located(file, text, faults))?
-        }
+        None if is_sdf => sdf::read(text, options).map_err(|faults| located(file, text, faults))?,
         None => {
             let whole = mjcf::whole(text, file, base)?;
             mjcf::read(&whole, options).map_err(|faults| whole.located(faults))?

@@ -139,6 +139,8 @@ impl<'a> Sdf<'a> {
         if kind.freedom() == 1 {
             let (limit, dynamics) = self.limits(axis)?;
             (made.limit, made.dynamics) = (limit, dynamics);
+        } else {
+            self.skip_limits(&[axis, axis2]);
         }
         if let Some(listed) = self.joints.get_mut(index) {
             listed.kind = Some(kind);
@@ -356,6 +358,16 @@ impl<'a> Sdf<'a> {
             (limit.lower, limit.upper) = (None, None);
         }
         Ok((limit, dynamics))
+    }
+
+    /// Notes limits of joints that turn about two axes, which are not read.
+    fn skip_limits(&mut self, axes: &[Option<Element<'a>>]) {
+        for axis in axes.iter().flatten() {
+            if let Some(limit) = axis.elements().find(|part| part.name() == "limit") {
+                let what = "<limit> of a joint that has not one axis".to_owned();
+                self.unread.text(limit.start(), what);
+            }
+        }
     }
 
     /// What a joint follows: `<mimic>` of its axis, or Drake's beside it.

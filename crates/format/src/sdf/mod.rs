@@ -61,6 +61,8 @@ const AXES_IN_MODEL: (u32, u32) = (1, 4);
 struct Sdf<'a> {
     builder: MechanismBuilder,
     version: (u32, u32),
+    /// What the link that stands for the world is called here.
+    world: String,
     graph: Graph,
     /// Models; the first one is the world around them.
     scopes: Vec<Scope<'a>>,
@@ -128,6 +130,7 @@ impl<'a> Sdf<'a> {
         Ok(Self {
             builder: MechanismBuilder::new(name_of(root)),
             version: version_of(root)?,
+            world: "world".to_owned(),
             graph: Graph::new(root.range()),
             scopes: vec![Scope::world()],
             links: Vec::new(),
@@ -190,7 +193,9 @@ impl<'a> Sdf<'a> {
     fn unknown(&mut self, element: Element<'a>, parent: &str, known: &[&str]) -> Outcome<()> {
         if element.written_name().starts_with("xacro:") {
             let message = format!("<{}> is not evaluated here", cut(element.written_name()));
-            return Err(element.fault(message).help("expand the file with xacro first"));
+            return Err(element
+                .fault(message)
+                .help("expand the file with xacro first"));
         }
         if let Some(meant) = slip_of(element.name(), known.iter().copied()) {
             let message = format!(

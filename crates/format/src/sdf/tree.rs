@@ -10,9 +10,6 @@ use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Direction, Dynamics, Frame, JointBuilder, JointKind, Limit};
 use std::collections::VecDeque;
 
-/// The name of the world's link.
-const WORLD: &str = "world";
-
 /// Which links are joined to one another, however: a forest of links, the world behind the last one.
 struct Joined(Vec<usize>);
 
@@ -64,9 +61,9 @@ impl<'a> Sdf<'a> {
             _ => world,
         };
         if root == world {
-            let name = Self::unused(&self.link_names, WORLD);
-            self.builder.link(&name);
-            self.builder.ground(&name);
+            self.world = Self::unused(&self.link_names, &self.world);
+            self.builder.link(&self.world);
+            self.builder.ground(&self.world);
         }
         for link in &self.links {
             self.builder.link(&link.name);
@@ -286,7 +283,7 @@ impl<'a> Sdf<'a> {
 
     fn name_of(&self, body: Body) -> &str {
         let link = body.and_then(|link| self.links.get(link));
-        link.map_or(WORLD, |link| &link.name)
+        link.map_or(&self.world, |link| &link.name)
     }
 }
 
