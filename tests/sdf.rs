@@ -160,7 +160,6 @@ fn a_second_joint_of_one_child_closes_a_loop_as_drawn() {
         ("0 1 0 0 0 0", "0 0 0"),
         ("0 1 0 0 0 0.3", "0 0 0"),
         ("0.25 1.125 0 0 0 0.7", "0 0 -0.2"),
-        ("0 1 0 3.1415926535897931 0 0.3", "0 0 0.1"),
     ] {
         let reading = model(&four_bar(coupler, turn));
         assert_eq!(finite(&reading), Some(1), "{coupler}");
@@ -174,13 +173,12 @@ fn a_second_joint_of_one_child_closes_a_loop_as_drawn() {
 
 #[test]
 fn right_angles_of_few_decimals_are_right_angles_before_poses_are_multiplied() {
-    let upright = |text: &str| text.replace("<model name='m'>", "<model name='m'>");
     let turned = four_bar("0 1 0 0 0 1.5708", "1.5708 0 1.5708");
     let turned = turned.replace(
         "<axis><xyz>0 0 1</xyz></axis>",
         "<axis><xyz expressed_in='__model__'>0 0 1</xyz></axis>",
     );
-    let reading = model(&upright(&turned));
+    let reading = model(&turned);
     assert_eq!(finite(&reading), Some(1));
     let analysis = analysis(&reading.mechanism);
     assert!(analysis.assembly.closed, "{}", analysis.assembly.residual);

@@ -129,6 +129,10 @@ impl<'a> Sdf<'a> {
             return Err(word.fault(message).help("revolute, continuous, prismatic, screw, ball, universal, revolute2, gearbox, fixed and piston are"));
         };
         let mut made = Made::new(name, kind, sides, node);
+        if kind == JointKind::Fixed && sides[1].is_none() {
+            // Old files hold a link by the world as its child, which places no link.
+            made.sides.reverse();
+        }
         let [axis, axis2] = [only(joint, "axis")?, only(joint, "axis2")?];
         if kind.uses_axis() {
             self.read_axes(joint, scope, [axis, axis2], &mut made)?;

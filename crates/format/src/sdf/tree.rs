@@ -5,7 +5,7 @@ use super::joints::Made;
 use super::{Body, Sdf, pose};
 use crate::WarningKind;
 use crate::error::Outcome;
-use crate::words::{listed, quoted};
+use crate::words::listed;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Direction, Dynamics, Frame, JointBuilder, JointKind, Limit};
 use std::collections::VecDeque;
@@ -185,20 +185,21 @@ impl<'a> Sdf<'a> {
             is_child[made.sides[1].unwrap_or(world)] |= made.at[0] == made.at[1];
         }
         let mut loose = Vec::new();
-        for children in [false, true] {
-            for link in 0..world {
-                if tree.placed[link] || is_child[link] != children {
-                    continue;
-                }
-                self.float(link, tree.root)?;
-                if !joined.are_joined(link, world) {
-                    joined.join(link, world);
-                    loose.push(link);
-                }
-                tree.place(link);
-                tree.grow(&self.made, world);
+        let (children, others): (Vec<usize>, Vec<usize>) =
+            (0..world).partition(|link| is_child[*link]);
+        for link in others.into_iter().chain(children) {
+            if tree.placed[link] {
+                continue;
             }
+            self.float(link, tree.root)?;
+            if !joined.are_joined(link, world) {
+                joined.join(link, world);
+                loose.push(link);
+            }
+            tree.place(link);
+            tree.grow(&self.made, world);
         }
+        loose.sort_unstable();
         let Some(first) = loose.first().and_then(|link| self.links.get(*link)) else {
             return Ok(());
         };
@@ -258,11 +259,8 @@ impl<'a> Sdf<'a> {
         let from = self.node_of_body(body);
         let of_link = body.unwrap_or(usize::MAX);
         let mut frame = self.seen(from, made.at[side], of_link)?;
-        match made.turned_as {
-            Some(node) if node != made.at[side] => {
-                frame.roll_pitch_yaw = self.seen(from, node, of_link)?.roll_pitch_yaw;
-            }
-            _ => {}
+        if let Some(node) = made.turned_as.filter(|node| *node != made.at[side]) {
+            frame.roll_pitch_yaw = self.seen(from, node, of_link)?.roll_pitch_yaw;
         }
         Ok(frame)
     }
