@@ -59,7 +59,7 @@ fn not_a_robot() {
     let row =
         |text: &str, line, column, message, help| (text.to_owned(), line, column, message, help);
     check(&[
-        row("<sdf version='1.6'/>", 1, 1, "needed <robot>, found <sdf>", "another format"),
+        row("<sdf version='1.6'/>", 1, 1, "<sdf> holds no <model>", "<model>"),
         row("<Robot name='r'/>", 1, 1, "needed <robot>, found <Robot>", "did you mean <robot>?"),
         row("<html/>", 1, 1, "needed <robot>", ""),
         row("<robot name='r'/>", 1, 1, "there is no link", "<link"),

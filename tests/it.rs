@@ -84,6 +84,7 @@ mod robot_page;
 mod rounding;
 mod same_bytes;
 mod scene_error;
+mod sdf;
 mod simulate_cli;
 mod sketch_cli;
 mod sketch_relations;

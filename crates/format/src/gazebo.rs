@@ -169,18 +169,10 @@ impl<'a> Reader<'a> {
 
     fn read_sdf_joint(&mut self, joint: Element<'a>) -> Outcome<()> {
         let word = joint.required("type")?;
-        let kind = match word.value {
-            "revolute" | "continuous" => JointKind::Revolute,
-            "prismatic" => JointKind::Prismatic,
-            "screw" => JointKind::Screw,
-            "ball" => JointKind::Spherical,
-            "universal" | "revolute2" => JointKind::Universal,
-            "fixed" => JointKind::Fixed,
-            other => {
-                return Err(word
-                    .fault(format!("a joint of the type {} inside <gazebo> is not read", quoted(other)))
-                    .help("revolute, continuous, prismatic, screw, ball, universal, revolute2 and fixed are; a <loop> or <coupling> may say the same"));
-            }
+        let Some(kind) = kind_of(word.value) else {
+            return Err(word
+                .fault(format!("a joint of the type {} inside <gazebo> is not read", quoted(word.value)))
+                .help("revolute, continuous, prismatic, screw, ball, universal, revolute2 and fixed are; a <loop> or <coupling> may say the same"));
         };
         let mut place = None;
         let (mut parent, mut child) = (None, None);
@@ -584,14 +576,11 @@ impl<'a> Reader<'a> {
                     ("dynamics", "friction") => &mut dynamics.friction,
                     _ => continue,
                 };
-                // SDFormat: an effort or a rate of -1 is no limit either.
                 let is_rate = matches!(value.name(), "effort" | "velocity");
                 *read = value
                     .value()
                     .and_then(|value| self.number(value).ok())
-                    .filter(|number| {
-                        number.value().abs() < 1e15 && !(is_rate && number.value() < 0.0)
-                    });
+                    .filter(|number| is_limit(number, is_rate));
             }
         }
         let crossed =
@@ -606,9 +595,7 @@ impl<'a> Reader<'a> {
     fn lead_of_thread(&mut self, element: Element<'a>) -> Outcome<Number> {
         let value = needed(element)?;
         let pitch = self.number(value)?;
-        let turn = &Number::integer(-2) * &Number::pi();
-        turn.checked_div(&pitch)
-            .map_err(|_| value.fault("a thread needs a pitch that is not zero"))
+        lead_of(&pitch).ok_or_else(|| value.fault("a thread needs a pitch that is not zero"))
     }
 }
 
@@ -626,12 +613,37 @@ fn freedoms(count: usize) -> String {
     }
 }
 
+/// The kind of joint that a word of SDFormat stands for.
+pub(super) fn kind_of(word: &str) -> Option<JointKind> {
+    Some(match word {
+        "revolute" | "continuous" => JointKind::Revolute,
+        "prismatic" => JointKind::Prismatic,
+        "screw" => JointKind::Screw,
+        "ball" => JointKind::Spherical,
+        "universal" | "revolute2" => JointKind::Universal,
+        "fixed" => JointKind::Fixed,
+        _ => return None,
+    })
+}
+
+/// Whether a number limits: 1e16 is written where nothing does, and an effort or a rate of -1.
+pub(super) fn is_limit(number: &Number, is_rate: bool) -> bool {
+    number.value().abs() < 1e15 && !(is_rate && number.value() < 0.0)
+}
+
+/// Metres per turn, right-handed, from radians per metre, left-handed; `None` of zero.
+pub(super) fn lead_of(pitch: &Number) -> Option<Number> {
+    let turn = &Number::integer(-2) * &Number::pi();
+    turn.checked_div(pitch).ok()
+}
+
 /// The two links of a joint, whichever is which.
 pub(super) fn ordered([a, b]: [&str; 2]) -> [&str; 2] {
     if a <= b { [a, b] } else { [b, a] }
 }
 
-fn needed(element: Element<'_>) -> Outcome<Attribute<'_>> {
+/// The text in an element that has to have one.
+pub(super) fn needed(element: Element<'_>) -> Outcome<Attribute<'_>> {
     element.value().ok_or_else(|| {
         let message = format!(
             "<{}> needs a value and nothing else inside",

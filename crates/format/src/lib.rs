@@ -43,6 +43,7 @@ mod assumed;
 mod beside;
 mod cad;
 mod closures;
+mod content;
 mod definitions;
 mod drake;
 mod element;
@@ -67,6 +68,7 @@ mod quaternion;
 mod reader;
 mod relax;
 mod restated;
+mod sdf;
 mod sketch;
 mod unread;
 mod values;
@@ -83,6 +85,7 @@ pub use kept::Kept;
 pub use sketch::{is_sketch, read_sketch, read_sketch_file};
 pub use writer::{Numbers, WriteOptions, escaped, write, write_with};
 
+use content::Content;
 use error::{Fault, located};
 use kutzbach_model::mechanism::Mechanism;
 use std::fs::File;
@@ -100,7 +103,7 @@ pub struct Reading {
     /// What is not read because it says nothing about motion, in file order.
     pub skipped: Vec<Skipped>,
     /// The smallest dialect that the file belongs to: `urdf`, `urdf+` or `kutzbach-urdf`; `xacro` for one that was expanded;
-    /// `mjcf`; `asmt`.
+    /// `mjcf`, `sdf`, `asmt`.
     pub format: &'static str,
     /// What is kept of the rest for writing it back.
     pub kept: Kept,
@@ -313,18 +316,13 @@ fn read_text(
     base: Option<&Path>,
     options: &ReadOptions,
 ) -> Result<Reading, FormatError> {
-    let source = match mjcf::is_mjcf(text) || cad::is_asmt(text) {
-        true => None,
-        false => Some(xacro::expand(text, file, base, options)?),
+    let content = content::of(text);
+    let source = match content {
+        Content::Robot => Some(xacro::expand(text, file, base, options)?),
+        _ => None,
     };
     let mut reading = match source {
-        None if cad::is_asmt(text) => {
-            cad::read_asmt(text, options).map_err(|faults| located(file, text, faults))?
-        }
-        None => {
-            let whole = mjcf::whole(text, file, base)?;
-            mjcf::read(&whole, options).map_err(|faults| whole.located(faults))?
-        }
+        None => read_foreign(content, text, file, base, options)?,
         Some(Source::Plain(warnings)) => {
             let mut reading =
                 reader::read(text, options, None).map_err(|faults| located(file, text, faults))?;
@@ -353,6 +351,27 @@ fn read_text(
         reading.mechanism = reading.mechanism.with_precision(uncertainty);
     }
     Ok(reading)
+}
+
+/// Reads a text of another program's format.
+fn read_foreign(
+    content: Content,
+    text: &str,
+    file: &str,
+    base: Option<&Path>,
+    options: &ReadOptions,
+) -> Result<Reading, FormatError> {
+    let read = match content {
+        Content::Sdf => sdf::read(text, options),
+        Content::Asmt => cad::read_asmt(text, options),
+        Content::Mjcf => {
+            let whole = mjcf::whole(text, file, base)?;
+            return mjcf::read(&whole, options).map_err(|faults| whole.located(faults));
+        }
+        Content::Robot => reader::read(text, options, None),
+        Content::Other(what) => Err(vec![what.fault()]),
+    };
+    read.map_err(|faults| located(file, text, faults))
 }
 
 /// The plain URDF that a xacro file stands for, as ROS would expand it, with numbers as doubles. The text of a file
@@ -391,6 +410,9 @@ fn bytes_with<T>(
 ) -> Result<T, FormatError> {
     if let Some(fault) = guard::size_fault(bytes.len() as u64) {
         return Err(located(file, "", vec![fault]));
+    }
+    if let Some(other) = content::of_bytes(bytes) {
+        return Err(located(file, "", vec![other.fault()]));
     }
     match guard::text_of(bytes) {
         Ok(text) => read(text),

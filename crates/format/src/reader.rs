@@ -177,9 +177,8 @@ fn check_root(root: Element<'_>) -> Outcome<()> {
     }
     let fault = root.fault(format!("needed <robot>, found <{}>", root.written_name()));
     Err(match root.name() {
-        "sdf" | "mujoco" | "mjcf" | "model" => {
-            fault.help("this is another format; only URDF and its extensions are read")
-        }
+        "mjcf" | "model" => fault
+            .help("this is another format; URDF and its extensions, <mujoco> and <sdf> are read"),
         "sketch" => fault.help("a sketch is shown by `kutzbach graph FILE --constructive`"),
         name => fault
             .help("a mechanism file is one <robot name=\"...\"> element")

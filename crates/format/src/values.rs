@@ -21,6 +21,29 @@ const LONGEST_SHARED: usize = 24;
 /// Bounds the memory for sharing.
 const MOST_SHARED: usize = 4096;
 
+/// All numbers of an attribute, or of the text in an element, where there are no expressions.
+pub(super) fn numbers(attribute: Attribute<'_>) -> Outcome<Vec<Number>> {
+    let words = attribute.value.split_ascii_whitespace();
+    words
+        .map(|word| {
+            let number = Number::decimal(word);
+            number
+                .ok()
+                .filter(|number| number.value().abs() <= LARGEST)
+                .ok_or_else(|| attribute.fault(format!("`{}` is no number", cut(word))))
+        })
+        .collect()
+}
+
+/// As many numbers as asked for.
+pub(super) fn exactly<const N: usize>(attribute: Attribute<'_>) -> Outcome<[Number; N]> {
+    let found = numbers(attribute)?;
+    let count = found.len();
+    found
+        .try_into()
+        .map_err(|_| attribute.fault(format!("expected {}, found {count}", counted(N, "number"))))
+}
+
 impl<'a> Reader<'a> {
     /// One number.
     pub(super) fn number(&mut self, attribute: Attribute<'a>) -> Outcome<Number> {

@@ -9,6 +9,26 @@ use std::ops::Range;
 /// Bounds the memory of a parsed text; a mechanism of 100,000 links has about two million nodes.
 const MOST_NODES: u32 = 4_000_000;
 
+/// The name of the root element, before anything is parsed; empty where the text does not start like XML.
+pub(super) fn root_name(text: &str) -> &str {
+    let mut rest = text.trim_start_matches('\u{feff}');
+    loop {
+        rest = rest.trim_start();
+        let end = match rest {
+            _ if rest.starts_with("<!--") => "-->",
+            _ if rest.starts_with("<?") => "?>",
+            _ => break,
+        };
+        let Some((_, after)) = rest.split_once(end) else {
+            return "";
+        };
+        rest = after;
+    }
+    let name = rest.strip_prefix('<').unwrap_or_default();
+    let ends = |c: char| c.is_whitespace() || matches!(c, '/' | '>');
+    name.split(ends).next().unwrap_or_default()
+}
+
 /// Parses a text that is safe to parse.
 pub(super) fn parse(text: &str) -> Outcome<Document<'_>> {
     if let Some(fault) = guard::size_fault(text.len() as u64) {

@@ -92,26 +92,6 @@ struct Mjcf<'a> {
     unread: Tally<'a>,
 }
 
-/// Whether a text is MJCF: its root element says so.
-pub(super) fn is_mjcf(text: &str) -> bool {
-    let mut rest = text.trim_start_matches('\u{feff}');
-    loop {
-        rest = rest.trim_start();
-        let end = match rest {
-            _ if rest.starts_with("<!--") => "-->",
-            _ if rest.starts_with("<?") => "?>",
-            _ => break,
-        };
-        let Some(after) = rest.find(end) else {
-            return false;
-        };
-        rest = &rest[after + end.len()..];
-    }
-    let name = rest.strip_prefix('<').unwrap_or_default();
-    let ends = |c: char| c.is_whitespace() || matches!(c, '/' | '>');
-    matches!(name.split(ends).next(), Some("mujoco" | "mujocoinclude"))
-}
-
 /// Reads MJCF.
 ///
 /// # Errors
@@ -323,7 +303,7 @@ impl<'a> Mjcf<'a> {
 }
 
 /// A sum that keeps the digits of a number to which nothing is added.
-fn sum(a: &Number, b: &Number) -> Number {
+pub(super) fn sum(a: &Number, b: &Number) -> Number {
     match (a.is_zero(), b.is_zero()) {
         (true, _) => b.clone(),
         (_, true) => a.clone(),
@@ -331,6 +311,7 @@ fn sum(a: &Number, b: &Number) -> Number {
     }
 }
 
-fn is_turned(frame: &Frame) -> bool {
+/// Whether a frame is turned.
+pub(super) fn is_turned(frame: &Frame) -> bool {
     frame.roll_pitch_yaw.iter().any(|angle| !angle.is_zero())
 }

@@ -7,8 +7,7 @@ use super::Mjcf;
 use crate::element::{Attribute, Element};
 use crate::error::Outcome;
 use crate::quaternion::{angles_of, of_columns, roll_pitch_yaw};
-use crate::values::LARGEST;
-use crate::words::counted;
+pub(super) use crate::values::{exactly, numbers};
 use kutzbach_math::number::Number;
 use kutzbach_math::space::cross;
 use kutzbach_model::mechanism::Frame;
@@ -35,31 +34,6 @@ impl Default for Compiler {
 
 /// The five attributes of which a frame may have one.
 const TURNS: [&str; 5] = ["quat", "euler", "axisangle", "xyaxes", "zaxis"];
-
-/// All numbers of an attribute.
-pub(super) fn numbers(attribute: Attribute<'_>) -> Outcome<Vec<Number>> {
-    let words = attribute.value.split_ascii_whitespace();
-    words
-        .map(|word| {
-            let number = Number::decimal(word);
-            number
-                .ok()
-                .filter(|number| number.value().abs() <= LARGEST)
-                .ok_or_else(|| {
-                    attribute.fault(format!("`{}` is no number", crate::words::cut(word)))
-                })
-        })
-        .collect()
-}
-
-/// As many numbers as asked for.
-pub(super) fn exactly<const N: usize>(attribute: Attribute<'_>) -> Outcome<[Number; N]> {
-    let found = numbers(attribute)?;
-    let count = found.len();
-    found
-        .try_into()
-        .map_err(|_| attribute.fault(format!("expected {}, found {count}", counted(N, "number"))))
-}
 
 /// Quaternions as x, y, z, w.
 fn product(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {

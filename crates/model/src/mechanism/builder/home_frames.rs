@@ -54,6 +54,37 @@ pub(super) fn close_at_home(
     Ok(())
 }
 
+impl Frame {
+    /// The frame at the end of one chain, seen from the end of another one that starts at the same place; each frame of a chain is given in
+    /// the one before. Exact where the cosines and sines on the way have closed forms, otherwise in doubles; `None` where it is not finite.
+    ///
+    /// ```
+    /// # use kutzbach_model as kutzbach;
+    /// use kutzbach::mechanism::Frame;
+    /// # fn found() -> Option<()> {
+    /// let (up, side) = (Frame::at_point([0.0, 0.0, 3.0])?, Frame::at_point([2.0, 0.0, 0.0])?);
+    /// let found = Frame::between(&[&side], &[&up, &side])?;
+    /// assert_eq!(found, up);
+    /// # Some(()) }
+    /// # assert!(found().is_some());
+    /// ```
+    #[must_use]
+    pub fn between(from: &[&Self], to: &[&Self]) -> Option<Self> {
+        between::<Number>(from, to).or_else(|| between::<f64>(from, to))
+    }
+}
+
+fn between<R: Real>(from: &[&Frame], to: &[&Frame]) -> Option<Frame> {
+    let along = |chain: &[&Frame]| {
+        chain
+            .iter()
+            .try_fold(Pose::identity(), |pose: Pose<R>, frame| {
+                Some(pose.then(&Pose::of(frame)?))
+            })
+    };
+    along(from)?.inverse().then(&along(to)?).frame()
+}
+
 /// The links and the joints that place them.
 struct Tree<'a> {
     links: &'a [Link],
