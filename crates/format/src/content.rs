@@ -17,6 +17,8 @@ pub(super) enum Content {
     Sdf,
     /// OndselSolver's.
     Asmt,
+    /// A document of FreeCAD.
+    FreeCad,
     /// One that is known and not read.
     Other(Other),
 }
@@ -72,6 +74,17 @@ const LOG: Other = Other {
     instead: "logs are looked at with Rerun or Foxglove; read the mechanism file that this was made from",
 };
 
+/// A zip file that is no document of FreeCAD.
+pub(super) const ARCHIVE: Other = Other {
+    name: "a zip file without a FreeCAD document",
+    instead: "unpack it, and read the mechanism file inside; a package of USD is exported as MJCF or URDF",
+};
+
+/// Whether bytes are a zip file.
+pub(super) fn is_zip(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06")
+}
+
 /// The format of bytes that are no text; `None` where they may be text, or a document of FreeCAD.
 pub(super) fn of_bytes(bytes: &[u8]) -> Option<Other> {
     let starts: [(&[u8], Other); 5] = [
@@ -92,6 +105,7 @@ pub(super) fn of(text: &str) -> Content {
         "sdf" => return Content::Sdf,
         "COLLADA" => return Content::Other(COLLADA),
         "OpenSimDocument" => return Content::Other(OPENSIM),
+        "Document" if cad::is_document(text) => return Content::FreeCad,
         "" => {}
         _ => return Content::Robot,
     }

@@ -103,7 +103,7 @@ pub struct Reading {
     /// What is not read because it says nothing about motion, in file order.
     pub skipped: Vec<Skipped>,
     /// The smallest dialect that the file belongs to: `urdf`, `urdf+` or `kutzbach-urdf`; `xacro` for one that was expanded;
-    /// `mjcf`, `sdf`, `asmt`.
+    /// `mjcf`, `sdf`, `asmt`, `freecad`.
     pub format: &'static str,
     /// What is kept of the rest for writing it back.
     pub kept: Kept,
@@ -364,6 +364,7 @@ fn read_foreign(
     let read = match content {
         Content::Sdf => sdf::read(text, options),
         Content::Asmt => cad::read_asmt(text, options),
+        Content::FreeCad => cad::read_freecad(text, options),
         Content::Mjcf => {
             let whole = mjcf::whole(text, file, base)?;
             return mjcf::read(&whole, options).map_err(|faults| whole.located(faults));
@@ -383,8 +384,8 @@ pub fn expanded_file(path: impl AsRef<Path>, options: &ReadOptions) -> Result<St
     let path = path.as_ref();
     let file = path.display().to_string();
     let bytes = bytes_of(path).map_err(|fault| located(&file, "", vec![fault]))?;
-    bytes_with(&bytes, &file, |text| {
-        Ok(match xacro::expand(text, &file, Some(path), options)? {
+    bytes_with(&bytes, &file, |text, file| {
+        Ok(match xacro::expand(text, file, Some(path), options)? {
             Source::Plain(_) => text.to_owned(),
             Source::Expanded(expanded) => expanded.plain,
         })
@@ -400,22 +401,28 @@ pub fn read_bytes(
     file: &str,
     settings: &[(String, String)],
 ) -> Result<Reading, FormatError> {
-    bytes_with(bytes, file, |text| read(text, file, settings))
+    bytes_with(bytes, file, |text, file| read(text, file, settings))
 }
 
 fn bytes_with<T>(
     bytes: &[u8],
     file: &str,
-    read: impl FnOnce(&str) -> Result<T, FormatError>,
+    read: impl FnOnce(&str, &str) -> Result<T, FormatError>,
 ) -> Result<T, FormatError> {
     if let Some(fault) = guard::size_fault(bytes.len() as u64) {
         return Err(located(file, "", vec![fault]));
+    }
+    if content::is_zip(bytes) {
+        let document = cad::document(bytes)
+            .and_then(|found| found.ok_or_else(|| content::ARCHIVE.fault()))
+            .map_err(|fault| located(file, "", vec![fault]))?;
+        return read(&document, &format!("{file}/Document.xml"));
     }
     if let Some(other) = content::of_bytes(bytes) {
         return Err(located(file, "", vec![other.fault()]));
     }
     match guard::text_of(bytes) {
-        Ok(text) => read(text),
+        Ok(text) => read(text, file),
         Err((valid, fault)) => {
             let span = fault.range.clone();
             let error = located(file, valid, vec![fault]);
@@ -451,8 +458,8 @@ pub fn read_file_with(
     let path = path.as_ref();
     let file = path.display().to_string();
     let bytes = bytes_of(path).map_err(|fault| located(&file, "", vec![fault]))?;
-    bytes_with(&bytes, &file, |text| {
-        read_text(text, &file, Some(path), options)
+    bytes_with(&bytes, &file, |text, file| {
+        read_text(text, file, Some(path), options)
     })
 }
 

@@ -4,7 +4,7 @@
 //! depends on. Angles are in radians.
 
 use super::blocks::{Block, lines};
-use super::{Assembly, CadJoint, End, Kind, Part, Side};
+use super::{Assembly, CadJoint, End, Kind, Part, Side, one_after_another};
 use crate::error::{Fault, Outcome};
 use crate::quaternion::roll_pitch_yaw_of_rows;
 use crate::words::{did_you_mean, quoted};
@@ -125,8 +125,7 @@ impl<'a> Reader<'a> {
                 let name = marker.required("Name")?.word();
                 let side = Side {
                     part: index,
-                    frame: one_after_another(&at, &own)
-                        .ok_or_else(|| marker.fault("its frame cannot be worked out"))?,
+                    frame: one_after_another(&at, &own),
                 };
                 self.markers.insert(format!("{path}/{name}"), side);
             }
@@ -264,31 +263,6 @@ fn frame(block: &Block<'_, '_>) -> Outcome<Frame> {
         })?;
     }
     Ok(frame)
-}
-
-/// A frame in another one. Straight ones add up and keep their digits; after a turn the position is worked out in doubles.
-fn one_after_another(first: &Frame, second: &Frame) -> Option<Frame> {
-    if second.is_identity() {
-        return Some(first.clone());
-    }
-    let straight = first.roll_pitch_yaw.iter().all(Number::is_zero);
-    if straight {
-        let position = [0, 1, 2].map(|i| {
-            let (a, b) = (&first.position[i], &second.position[i]);
-            match (a.is_zero(), b.is_zero()) {
-                (true, _) => b.clone(),
-                (_, true) => a.clone(),
-                _ => a + b,
-            }
-        });
-        return Some(Frame {
-            position,
-            roll_pitch_yaw: second.roll_pitch_yaw.clone(),
-        });
-    }
-    Some(super::joints::frame_of(
-        &super::pose_of(first).compose(&super::pose_of(second)),
-    ))
 }
 
 /// What a joint says of its markers; none of a kind that is unknown.

@@ -18,12 +18,15 @@
 mod asmt;
 mod blocks;
 mod couplings;
+mod freecad;
 mod joints;
 
 pub(super) use asmt::{is_asmt, read as read_asmt};
+pub(super) use freecad::{document, is_document, read as read_freecad};
 
 use super::error::{Fault, Outcome};
 use super::kept::Kept;
+use super::mjcf::sum;
 use super::reader::{counted_skips, counted_warnings};
 use super::unread::Tally;
 use super::{Reading, WarningKind};
@@ -260,4 +263,18 @@ fn pose_of(frame: &Frame) -> Rigid<f64> {
         .compose(&turned([0.0, 0.0, 1.0], yaw))
         .compose(&turned([0.0, 1.0, 0.0], pitch))
         .compose(&turned([1.0, 0.0, 0.0], roll))
+}
+
+/// A frame in another one. Straight ones add up and keep their digits; after a turn the position is worked out in doubles.
+fn one_after_another(first: &Frame, second: &Frame) -> Frame {
+    if second.is_identity() {
+        return first.clone();
+    }
+    if first.roll_pitch_yaw.iter().any(|angle| !angle.is_zero()) {
+        return joints::frame_of(&pose_of(first).compose(&pose_of(second)));
+    }
+    Frame {
+        position: [0, 1, 2].map(|i| sum(&first.position[i], &second.position[i])),
+        roll_pitch_yaw: second.roll_pitch_yaw.clone(),
+    }
 }
