@@ -481,3 +481,35 @@ fn bodies_may_be_nested_deeply() {
         Placement::Joint(_)
     ));
 }
+
+#[test]
+fn joints_in_frames_of_their_body_are_turned_and_moved_with_them() {
+    // In frames that are turned by a quarter about x, their y is the body's z; the hinge lies where the frame puts it.
+    let plain = four_bar(r#"<connect body1="coupler" body2="rocker" anchor="2 0 0"/>"#);
+    assert_eq!(finite(&plain), Some(1));
+    let framed = plain
+        .replace(
+            r#"<joint name="a"/>"#,
+            r#"<frame euler="90 0 0"><joint name="a" axis="0 1 0"/></frame>"#,
+        )
+        .replace(
+            r#"<joint name="c"/>"#,
+            r#"<frame pos="0.5 0 0"><frame euler="90 0 0"><joint name="c" axis="0 1 0" pos="-0.5 0 0"/></frame></frame>"#,
+        );
+    assert_eq!(finite(&framed), Some(1));
+    let moved = framed.replace(r#"pos="-0.5 0 0""#, r#"pos="-0.25 0 0.25""#);
+    let hinge = |text: &str| {
+        let mechanism = mechanism(text);
+        let joint = mechanism.joint_named("c").unwrap();
+        let place = &mechanism.joint(joint).predecessor.frame.position;
+        place.each_ref().map(|part| part.value())
+    };
+    for (found, expected) in hinge(&framed).into_iter().zip([2.0, 0.0, 0.0]) {
+        assert!((found - expected).abs() < 1e-12);
+    }
+    // z of the frame is the body's -y.
+    for (found, expected) in hinge(&moved).into_iter().zip([2.25, -0.25, 0.0]) {
+        assert!((found - expected).abs() < 1e-12);
+    }
+    assert!(model(r#"<worldbody><frame><joint/></frame></worldbody>"#).is_err());
+}

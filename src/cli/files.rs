@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 const STACK: usize = 8 << 20;
 
 /// Extensions of mechanism files in a folder.
-const EXTENSIONS: [&str; 1] = ["urdf"];
+const EXTENSIONS: [&str; 4] = ["urdf", "sdf", "asmt", "FCStd"];
 
 /// Folders in folders are followed this deep, which ends circles of links too.
 const DEEPEST: usize = 16;
@@ -38,7 +38,10 @@ pub fn mechanism_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     if files.is_empty() {
         return Err(Failure::Plain {
             message: "there is no mechanism file".to_owned(),
-            help: Some("folders are searched for files that end in `.urdf`".to_owned()),
+            help: Some(
+                "folders are searched for files that end in `.urdf`, `.sdf`, `.asmt` or `.FCStd`"
+                    .to_owned(),
+            ),
         });
     }
     Ok(files.into_iter().collect())

@@ -48,6 +48,7 @@ mod definitions;
 mod drake;
 mod element;
 mod error;
+mod frames;
 #[cfg(feature = "urdf-rs")]
 mod from_urdf_rs;
 mod gazebo;

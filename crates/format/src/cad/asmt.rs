@@ -4,8 +4,9 @@
 //! depends on. Angles are in radians.
 
 use super::blocks::{Block, lines};
-use super::{Assembly, CadJoint, End, Kind, Part, Side, one_after_another};
+use super::{Assembly, CadJoint, End, Kind, Part, Side};
 use crate::error::{Fault, Outcome};
+use crate::frames::one_after_another;
 use crate::quaternion::roll_pitch_yaw_of_rows;
 use crate::words::{did_you_mean, quoted};
 use crate::{ReadOptions, Reading, WarningKind};

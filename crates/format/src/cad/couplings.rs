@@ -7,9 +7,9 @@
 //! a pinion rolls by `x_J + r·θ = const`, so `−(u·x)·s + r·(w·z)·φ = const`; a screw moves by `2π·z_J − p·θ = const`, so
 //! `−2π·(u·z)·s − p·(w·z)·φ = const`; gears turn by `r_I·θ_I + r_J·θ_J = const`, each about its own z axis.
 
-use super::joints::in_full;
 use super::{CadJoint, Kind, Maker, Side};
 use crate::error::Outcome;
+use crate::frames::in_full;
 use kutzbach_math::number::Number;
 use kutzbach_math::space::dot;
 

@@ -9,6 +9,7 @@
 use super::{Assembly, CadJoint, End, Kind, Part, Side};
 use crate::element::{Attribute, Element};
 use crate::error::{Fault, Outcome};
+use crate::frames::one_after_another;
 use crate::quaternion::roll_pitch_yaw;
 use crate::values::exactly;
 use crate::words::quoted;
@@ -519,7 +520,7 @@ impl<'a> Reader<'a> {
         chain.push(frame);
         let mut whole = Frame::identity();
         for frame in &chain {
-            whole = super::one_after_another(&whole, frame);
+            whole = one_after_another(&whole, frame);
         }
         Ok(Found::Side(Side { part, frame: whole }, element))
     }

@@ -1,15 +1,11 @@
 //! What each kind of joint becomes.
 
-use super::{Bounds, CadJoint, End, Kind, Maker, Mover, Side, pose_of};
+use super::{Bounds, CadJoint, End, Kind, Maker, Mover, Side};
 use crate::error::Outcome;
+use crate::frames::{frame_of, in_full, pose_of};
 use kutzbach_math::number::Number;
 use kutzbach_math::space::Rigid;
 use kutzbach_model::mechanism::{Direction, Frame, JointBuilder, JointKind, Limit};
-
-/// Numbers in full double precision.
-pub(super) fn in_full(value: f64) -> Number {
-    Number::decimal(&format!("{value:.15}")).unwrap_or_else(|_| Number::zero())
-}
 
 fn axis(index: usize) -> Direction {
     Direction([0, 1, 2].map(|i| match i == index {
@@ -307,16 +303,6 @@ impl Maker<'_> {
             &[tip, sides[1].clone()],
         );
         Ok(())
-    }
-}
-
-/// A frame in doubles as one that is stated in full.
-pub(super) fn frame_of(pose: &Rigid<f64>) -> Frame {
-    let columns = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|e| pose.rotate(&e));
-    Frame {
-        position: pose.apply(&[0.0; 3]).map(in_full),
-        roll_pitch_yaw: crate::quaternion::angles_of(crate::quaternion::of_columns(columns))
-            .unwrap_or_else(|| Frame::identity().roll_pitch_yaw),
     }
 }
 

@@ -25,8 +25,8 @@ pub(super) use asmt::{is_asmt, read as read_asmt};
 pub(super) use freecad::{document, is_document, read as read_freecad};
 
 use super::error::{Fault, Outcome};
+use super::frames::pose_of;
 use super::kept::Kept;
-use super::mjcf::sum;
 use super::reader::{counted_skips, counted_warnings};
 use super::unread::Tally;
 use super::{Reading, WarningKind};
@@ -248,33 +248,5 @@ impl Maker<'_> {
             kept: Kept::default(),
             expect_at: None,
         })
-    }
-}
-
-/// A frame in doubles: roll, pitch and yaw about fixed axes, then the position.
-fn pose_of(frame: &Frame) -> Rigid<f64> {
-    let position = frame.position.each_ref().map(Number::value);
-    let turned = |axis: [f64; 3], angle: &Number| {
-        let (sine, cosine) = angle.value().sin_cos();
-        Rigid::rotation(&axis, &cosine, &sine)
-    };
-    let [roll, pitch, yaw] = &frame.roll_pitch_yaw;
-    Rigid::translation(position)
-        .compose(&turned([0.0, 0.0, 1.0], yaw))
-        .compose(&turned([0.0, 1.0, 0.0], pitch))
-        .compose(&turned([1.0, 0.0, 0.0], roll))
-}
-
-/// A frame in another one. Straight ones add up and keep their digits; after a turn the position is worked out in doubles.
-fn one_after_another(first: &Frame, second: &Frame) -> Frame {
-    if second.is_identity() {
-        return first.clone();
-    }
-    if first.roll_pitch_yaw.iter().any(|angle| !angle.is_zero()) {
-        return joints::frame_of(&pose_of(first).compose(&pose_of(second)));
-    }
-    Frame {
-        position: [0, 1, 2].map(|i| sum(&first.position[i], &second.position[i])),
-        roll_pitch_yaw: second.roll_pitch_yaw.clone(),
     }
 }

@@ -5,6 +5,7 @@ use super::{BRINGS_BODIES, Known, Mjcf, Place, WORLD};
 use crate::WarningKind;
 use crate::element::Element;
 use crate::error::Outcome;
+use crate::frames::one_after_another;
 use crate::words::quoted;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Direction, Dynamics, Frame, JointBuilder, JointKind, Limit};
@@ -22,6 +23,13 @@ struct Open<'a> {
     place: Place,
     /// The class that the body around it gives.
     class: Option<&'a str>,
+}
+
+/// A joint, its class, and the frames inside its body that it stands in, as one.
+struct Jointed<'a> {
+    element: Element<'a>,
+    class: Option<&'a str>,
+    frame: Frame,
 }
 
 impl<'a> Mjcf<'a> {
@@ -77,8 +85,7 @@ impl<'a> Mjcf<'a> {
                 }),
                 "site" => self.site(part, place, class)?,
                 "joint" | "freejoint" => {
-                    let in_body = element.name() == "body";
-                    if !in_body {
+                    if place.link == WORLD {
                         let message = format!("<{}> belongs into a <body>", part.name());
                         return Err(part.fault(message));
                     }
@@ -136,15 +143,12 @@ impl<'a> Mjcf<'a> {
                 .extend(body.attribute("name").map(|name| name.value));
         }
         self.links.insert(name.clone(), body.range());
-        let joints: Vec<Element<'a>> = body
-            .elements()
-            .filter(|part| matches!(part.name(), "joint" | "freejoint"))
-            .collect();
+        let joints = self.joints_of(body, class)?;
         let free = joints
             .iter()
-            .find(|joint| self.word(**joint, class) == Ok("free"));
+            .find(|joint| self.word(joint.element, joint.class) == Ok("free"));
         if let Some(free) = free {
-            return self.float(*free, &joints, (name, place));
+            return self.float(free.element, joints.len(), (name, place));
         }
         if joints.is_empty() {
             let (parent, frame) = self.at(place, &name);
@@ -163,7 +167,7 @@ impl<'a> Mjcf<'a> {
             };
             self.links.insert(to.clone(), body.range());
             self.builder.link(&to);
-            self.make_joint(joint, class, &place, (&name, &to))?;
+            self.make_joint(&joint, &place, (&name, &to))?;
             place = Place {
                 link: to,
                 chain: Vec::new(),
@@ -175,10 +179,10 @@ impl<'a> Mjcf<'a> {
     fn float(
         &mut self,
         free: Element<'a>,
-        joints: &[Element<'a>],
+        joints: usize,
         (name, place): (String, &Place),
     ) -> Outcome<String> {
-        if joints.len() > 1 {
+        if joints > 1 {
             return Err(free.fault("a body that floats has no other joint"));
         }
         if place.link != WORLD {
@@ -217,14 +221,50 @@ impl<'a> Mjcf<'a> {
         Ok(name)
     }
 
+    /// The joints of a body, those in frames inside it included, in the order of the file.
+    fn joints_of(&self, body: Element<'a>, class: Option<&'a str>) -> Outcome<Vec<Jointed<'a>>> {
+        let mut found = Vec::new();
+        let mut open = vec![Jointed {
+            element: body,
+            class,
+            frame: Frame::identity(),
+        }];
+        while let Some(here) = open.pop() {
+            if here.element.name() != "body" && here.element.name() != "frame" {
+                found.push(here);
+                continue;
+            }
+            let mut inside = Vec::new();
+            for part in here.element.elements() {
+                let (class, frame) = match part.name() {
+                    "joint" | "freejoint" => (here.class, here.frame.clone()),
+                    "frame" => {
+                        let of = self.classes.of(part, here.class)?;
+                        let own = part.attribute("childclass").map(|own| own.value);
+                        let frame = one_after_another(&here.frame, &self.frame(part, of)?);
+                        (own.or(here.class), frame)
+                    }
+                    _ => continue,
+                };
+                inside.push(Jointed {
+                    element: part,
+                    class,
+                    frame,
+                });
+            }
+            open.extend(inside.into_iter().rev());
+        }
+        Ok(found)
+    }
+
     fn make_joint(
         &mut self,
-        joint: Element<'a>,
-        class: Option<&'a str>,
+        jointed: &Jointed<'a>,
         place: &Place,
         (body, to): (&str, &str),
     ) -> Outcome<()> {
-        let of = self.classes.of(joint, class)?;
+        let joint = jointed.element;
+        let of = self.classes.of(joint, jointed.class)?;
         let attribute = |name: &str| self.classes.attribute(joint, of, name);
         let kind = match attribute("type").map_or("hinge", |word| word.value) {
             "hinge" => JointKind::Revolute,
@@ -239,6 +279,7 @@ impl<'a> Mjcf<'a> {
         if let Some(position) = attribute("pos").filter(|_| kind != JointKind::Prismatic) {
             at.position = exactly(position)?;
         }
+        let at = one_after_another(&jointed.frame, &at);
         let axis = match attribute("axis") {
             Some(axis) => {
                 let numbers: [Number; 3] = exactly(axis)?;
@@ -249,8 +290,20 @@ impl<'a> Mjcf<'a> {
             }
             None => Direction([Number::zero(), Number::zero(), Number::one()]),
         };
+        for name in ["stiffness", "springref"] {
+            if let Some(spring) = attribute(name) {
+                self.unread
+                    .text(spring.range().start, format!("`{name}` of a joint"));
+            }
+        }
         let limit = match kind {
-            JointKind::Spherical => None,
+            JointKind::Spherical => {
+                if let Some(range) = attribute("range") {
+                    self.unread
+                        .text(range.range().start, "`range` of a ball".to_owned());
+                }
+                None
+            }
             _ => self.limit(joint, of, kind)?,
         };
         let number = |name: &str| -> Outcome<Option<Number>> {

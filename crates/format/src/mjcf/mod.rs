@@ -27,6 +27,7 @@ mod pose;
 
 use super::element::Element;
 use super::error::{Fault, Outcome};
+use super::frames::{is_turned, sum};
 use super::kept::Kept;
 use super::reader::{counted_skips, counted_warnings};
 use super::unread::Tally;
@@ -300,18 +301,4 @@ impl<'a> Mjcf<'a> {
             expect_at: None,
         })
     }
-}
-
-/// A sum that keeps the digits of a number to which nothing is added.
-pub(super) fn sum(a: &Number, b: &Number) -> Number {
-    match (a.is_zero(), b.is_zero()) {
-        (true, _) => b.clone(),
-        (_, true) => a.clone(),
-        _ => a + b,
-    }
-}
-
-/// Whether a frame is turned.
-pub(super) fn is_turned(frame: &Frame) -> bool {
-    frame.roll_pitch_yaw.iter().any(|angle| !angle.is_zero())
 }
