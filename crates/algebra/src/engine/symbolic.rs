@@ -57,6 +57,12 @@ pub(super) struct Seed {
     pub(super) tail_only: bool,
 }
 
+/// Effort of a planned entry: a product of monomials is looked up, mostly far away in memory.
+const EFFORT_OF_ENTRY: u64 = 25;
+
+/// Effort of looking whether a leading monomial divides one.
+const EFFORT_OF_MASKS: u64 = 1;
+
 /// A plan under construction.
 pub(super) struct Planner<'a> {
     reducers: Reducers<'a>,
@@ -139,13 +145,11 @@ impl<'a> Planner<'a> {
                     .number_of_product(factor, (&seed.multiplier, hash))?,
             );
         }
-        let before = self.entries;
         self.entries += columns.len() as u64 + 1;
         self.budget.check_entries(self.entries)?;
-        // Looking at the clock for every row would cost more than short rows.
-        if before >> 12 != self.entries >> 12 {
-            self.budget.check()?;
-        }
+        let effort = EFFORT_OF_ENTRY * (columns.len() as u64 + 1);
+        self.budget
+            .toil(effort + EFFORT_OF_MASKS * self.masks.len() as u64)?;
         Ok(PlannedRow {
             element: seed.element,
             columns,
