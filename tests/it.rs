@@ -21,6 +21,7 @@ mod cad;
 mod change_sets;
 mod cli;
 mod cli_docs;
+mod clock;
 mod components;
 mod depths;
 mod derivatives;

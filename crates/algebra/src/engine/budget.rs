@@ -38,8 +38,11 @@ pub fn entries_in(memory: u64) -> u64 {
 /// machine of 2024, release build, so that a second of that core is 10⁹; other machines take longer or shorter over the same effort.
 const EFFORT_PER_SECOND: f64 = 1e9;
 
-/// Effort of one unit of [`Budget::spend`]: an entry of a matrix that is filled, a product of some words, or of remainders.
+/// Effort of one unit of [`Budget::spend`]: an entry of a matrix that is filled, or a number of some words that is put in its place.
 const EFFORT_OF_WORK: u64 = 20;
+
+/// Effort of one unit of [`Budget::multiply`].
+const EFFORT_OF_PRODUCT: u64 = 4;
 
 impl Limits {
     /// The effort that stands for so many seconds, and two gigabytes. A time that is negative or no number is none at all; one that is
@@ -163,6 +166,15 @@ impl Budget {
     pub fn spend(&self, work: u64) -> Result<(), Stop> {
         self.work.set(self.work.get().saturating_add(work));
         self.toil(work.saturating_mul(EFFORT_OF_WORK))
+    }
+
+    /// Adds as much work as products of words, or of remainders, in long rows, then tells whether to go on.
+    ///
+    /// # Errors
+    /// [`Stop`] with the first limit that was reached.
+    pub(crate) fn multiply(&self, products: u64) -> Result<(), Stop> {
+        self.work.set(self.work.get().saturating_add(products));
+        self.toil(products.saturating_mul(EFFORT_OF_PRODUCT))
     }
 
     /// Adds effort that is no work, in nanoseconds that it takes about, then tells whether to go on.

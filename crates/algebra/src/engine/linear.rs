@@ -112,9 +112,9 @@ fn most_products<C>(matrix: &Matrix<C>) -> usize {
     pivots + matrix.columns
 }
 
-/// Effort of reducing so many rows modulo a prime. Which pivots a row meets is not known before; about a quarter of them.
+/// Effort of reducing so many rows modulo a prime. Which pivots a row meets is not known before: half of them.
 fn effort<C>(rows: usize, matrix: &Matrix<C>) -> u64 {
-    rows as u64 * most_products(matrix) as u64 / 4
+    rows as u64 * most_products(matrix) as u64 / 2
 }
 
 impl Coefficient for Rational {

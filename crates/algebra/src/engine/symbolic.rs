@@ -58,7 +58,10 @@ pub(super) struct Seed {
 }
 
 /// Effort of a planned entry: a product of monomials is looked up, mostly far away in memory.
-const EFFORT_OF_ENTRY: u64 = 25;
+const EFFORT_OF_ENTRY: u64 = 30;
+
+/// Effort of putting a column in its place among the others.
+const EFFORT_OF_COLUMN: u64 = 200;
 
 /// Effort of looking whether a leading monomial divides one.
 const EFFORT_OF_MASKS: u64 = 1;
@@ -121,7 +124,8 @@ impl<'a> Planner<'a> {
             }
             next += 1;
         }
-        self.budget.check()?;
+        self.budget
+            .toil(EFFORT_OF_COLUMN * self.columns.len() as u64)?;
         Ok(self.sorted(order))
     }
 
