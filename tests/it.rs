@@ -36,6 +36,7 @@ mod exact_ways;
 mod exact_words;
 mod exact_zoo;
 mod explained;
+mod false_predictions;
 mod families;
 mod format_errors;
 mod format_files;
