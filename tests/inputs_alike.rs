@@ -13,7 +13,6 @@ use kutzbach::simulate::verification::{DrivenMotion, VerificationOptions};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 fn fixture(name: &str, text: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("inputs_alike");
@@ -108,7 +107,7 @@ fn disagreements(name: &str, text: &str) -> Vec<String> {
     let question = Question {
         held: None,
         limits: Limits {
-            time: Some(Duration::ZERO),
+            effort: Some(0),
             ..Limits::default()
         },
     };

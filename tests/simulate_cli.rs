@@ -318,6 +318,44 @@ fn what_cannot_be_simulated_is_refused_with_a_hint() {
     }
 }
 
+#[test]
+fn options_that_change_nothing_are_refused() {
+    let file = "mechanisms/planar_four_bar.urdf";
+    for (words, idle, with) in [
+        (
+            &["simulate", file, "--samples", "50"][..],
+            "--samples",
+            "--mcap",
+        ),
+        (&["simulate", file, "--timing"], "--timing", "--format json"),
+        (
+            &["simulate", file, "--verbose", "--format", "json"],
+            "--verbose",
+            "--format text",
+        ),
+        (
+            &["accuracy", file, "--verbose", "--format", "svg"],
+            "--verbose",
+            "--format text",
+        ),
+        (
+            &["trace", file, "--units", "rad-m", "--format", "csv"],
+            "--units",
+            "--format text",
+        ),
+    ] {
+        let output = crate::support::program().args(words).output().unwrap();
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{words:?}: {message}");
+        assert!(
+            message.contains(&format!("`{idle}` changes nothing")),
+            "{message}"
+        );
+        assert!(message.contains(with), "{message}");
+        assert!(output.stdout.is_empty());
+    }
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_leaves_a_message_and_no_file() {

@@ -1,5 +1,7 @@
 //! Scenes moved by Runge-Kutta steps, against closed forms, independent integrations and the physics engine.
 
+use crate::support;
+
 use kutzbach::closure::{Arithmetic, Geometry, JointState};
 use kutzbach::format::read;
 use kutzbach::mechanism::Mechanism;
@@ -554,4 +556,70 @@ fn the_book_s_table_says_which_integrator_serves_which_effect() {
         let row = format!("| {} | {by} | {} |", serving.effect, serving.because);
         assert!(page.contains(&row), "{row}");
     }
+}
+
+/// What `--accuracy` promises of one scene: whether the error wanted was said to be reached, and what is left of it against a run in a tenth
+/// of the step.
+fn promised(mechanism: &Mechanism, wanted: f64) -> Option<(bool, f64)> {
+    let (geometry, start) = at_start(mechanism);
+    let scene = |steps: f64| SceneOptions {
+        runge_kutta_step: steps,
+        ..options(mechanism, 0.3, 1)
+    };
+    let estimate = |options: &SceneOptions, wanted, last: &mut Last| {
+        let refinement = Refinement { wanted, work: 5.0 };
+        let how = (refinement, &(|| false) as &dyn Fn() -> bool);
+        run_scene_estimated(mechanism, &geometry, &start, options, how, last).ok()
+    };
+    let mut last = Last::default();
+    let (run, trajectory) = estimate(&scene(RUNGE_KUTTA_STEP), Some(wanted), &mut last)?;
+    if trajectory.reached != Some(true) {
+        return Some((false, 0.0));
+    }
+    let mut fine = scene(run.time_step / 10.0);
+    fine.world.time_step = run.time_step / 10.0;
+    fine.integrator = Some(run.integrator);
+    let mut reference = Last::default();
+    run_scene(mechanism, &geometry, &start, &fine, &mut reference).ok()?;
+    Some((true, apart(mechanism, &last, &reference) / wanted))
+}
+
+/// Over the reference mechanisms under gravity, a sample of them.
+#[test]
+#[ignore = "too long for every commit: run by `cargo corpus`, in CI"]
+fn the_error_wanted_is_kept_by_the_reference_mechanisms() {
+    let all = support::own_mechanisms().into_iter().chain(support::zoo());
+    let drawn: Vec<(String, Mechanism)> = support::sample(all, 6)
+        .into_iter()
+        .filter(|(_, mechanism)| mechanism.joints().len() <= 40)
+        .filter_map(|(name, mechanism)| {
+            let text = kutzbach::format::write(&mechanism);
+            let text = match mechanism.scene() {
+                Some(_) => text,
+                None => text.replace("</robot>", &format!("{GRAVITY}</robot>")),
+            };
+            Some((name.clone(), read(&text, &name, &[]).ok()?.mechanism))
+        })
+        .collect();
+    let found = support::in_parallel(&drawn, |(name, mechanism)| {
+        [1e-3, 1e-4, 1e-6].map(|wanted| (format!("{name} {wanted:e}"), promised(mechanism, wanted)))
+    });
+    let told: Vec<_> = found.into_iter().flatten().collect();
+    let reached: Vec<_> = told
+        .iter()
+        .filter_map(|(name, told)| Some((name, (*told)?)))
+        .filter(|(_, (reached, _))| *reached)
+        .collect();
+    let broken: Vec<_> = reached
+        .iter()
+        .filter(|(_, (_, share))| !(*share <= 1.0))
+        .collect();
+    println!(
+        "{} scenes and errors, {} said to be reached, {} kept: not {broken:?}",
+        told.len(),
+        reached.len(),
+        reached.len() - broken.len()
+    );
+    assert!(reached.len() >= support::at_least(150), "{}", reached.len());
+    assert!(100 * broken.len() <= reached.len(), "{broken:?}");
 }

@@ -7,7 +7,7 @@ use crate::support;
 
 use kutzbach::closure::{Arithmetic, Geometry};
 use kutzbach::mechanism::Mechanism;
-use kutzbach::mobility::{PoseKind, Verdict};
+use kutzbach::mobility::{CertificateLevel, PoseKind, Verdict};
 use kutzbach::simulate::verification::{
     Moment, Observer, Outcome, Passage, Unobserved, Verification, VerificationOptions, verify,
 };
@@ -29,6 +29,9 @@ const LEFT_OPEN: [(&str, &str); 3] = [
         "of its branches one bends so sharply that the finest rung is not fine enough",
     ),
 ];
+
+/// Mechanisms of which a rod spins about the line through its balls and nothing else moves.
+const UNSEEN: [&str; 1] = ["ss_pair"];
 
 fn short() -> VerificationOptions {
     VerificationOptions {
@@ -150,6 +153,32 @@ fn an_unknown_branch_is_an_error() {
     assert!(error.unwrap_err().to_string().ends_with("there are none"));
 }
 
+/// What misses by a part in 10¹² moves in every simulation; its loops do not close on the way.
+#[test]
+fn loops_that_miss_by_less_than_a_simulation_feels_contradict_nothing() {
+    for name in ["isolated_by_1e-12", "three_cranks_one_longer_1e-12"] {
+        let file = folder("tests/near").join(format!("{name}.urdf"));
+        let mechanism = kutzbach::format::read_file(file, &[]).unwrap().mechanism;
+        let mut analysis = analysis(&mechanism);
+        assert_eq!(analysis.mobility.verdict, Verdict::Rigid, "{name}");
+        // As if nothing had been proved.
+        analysis.mobility.level = CertificateLevel::Numeric;
+        let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
+        let found = verify(&mechanism, &geometry, &analysis, &short(), &mut Unobserved).unwrap();
+        assert_eq!(found.finding.outcome, Outcome::Inconclusive, "{name}");
+        assert!(found.pushing.unwrap().rungs.last().unwrap().moved > 0.2);
+    }
+}
+
+/// What moves is to be seen: a confirmed spin of a rod would confirm anything.
+#[test]
+fn the_spin_of_a_rod_between_balls_is_no_evidence() {
+    let found = verification(&zoo_mechanism("ss_pair"), &short());
+    assert_eq!(found.verdict, Verdict::Mobile);
+    assert_eq!(found.finding.outcome, Outcome::Inconclusive);
+    assert!(found.finding.why.contains("spin"), "{}", found.finding.why);
+}
+
 /// A loop whose closing joint follows another: another joint closes it in the simulation, and the coupling is held.
 #[test]
 fn a_coupled_joint_that_closes_a_loop_is_simulated() {
@@ -200,6 +229,12 @@ mod corpus {
             let outcome = found.finding.outcome;
             let listed = LEFT_OPEN.iter().any(|(open, _)| *open == name);
             let regular = analysis.mobility.pose == Some(PoseKind::Regular);
+            if UNSEEN.contains(&name.as_str()) {
+                return match outcome {
+                    Outcome::Inconclusive => Vec::new(),
+                    _ => vec![format!("{name}: {outcome:?}, of a spin that nothing shows")],
+                };
+            }
             if listed && found.verdict == Verdict::Mobile && regular {
                 return vec![format!("{name}: regular, and listed as left open")];
             }

@@ -1,6 +1,6 @@
 //! `kutzbach accuracy FILE`: what every way to an answer costs, and how far off it is.
 
-use super::failure::Failure;
+use super::failure::{Failure, refuse_idle};
 use super::pose::Pose;
 use super::progress::Progress;
 use super::simulate::aside::{Listener, Sender, aside};
@@ -85,6 +85,11 @@ const SETTINGS: f64 = 6.0;
 /// # Errors
 /// Where the file cannot be read, has no such configuration, branch or joint, or output cannot be written.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    refuse_idle(&[(
+        arguments.verbose && arguments.format != Format::Text,
+        "--verbose",
+        "`--format text`: the other forms have every detail",
+    )])?;
     let mut reading = arguments.source.read()?;
     let configuration = arguments.pose.configure(&mut reading)?;
     let mechanism = &reading.mechanism;

@@ -32,7 +32,7 @@ pub struct Arguments {
     /// Hold no joint, and say what moves
     #[arg(long, conflicts_with = "hold")]
     free: bool,
-    /// Stop after so many seconds and say what is known
+    /// Stop after the work of about so many seconds, the same on every machine, and say what is known
     #[arg(long, value_name = "SECONDS", default_value_t = 10.0)]
     budget: f64,
     /// Exit with code 3 if it is not known whether these are all
@@ -125,11 +125,11 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     })
 }
 
-/// Steps of the work that do not look at the clock may take this share of the budget, and so many seconds, more.
-const GRACE: (f64, f64) = (0.1, 1.0);
+/// Steps that do not ask whether to go on may take so many seconds after Ctrl-C.
+const GRACE: f64 = 2.0;
 
-/// Works while Ctrl-C, the budget and a sign of life are seen to. Work that does not end in time is left alone, and ends with
-/// the program.
+/// Works while Ctrl-C and a sign of life are seen to. Work that does not end soon after Ctrl-C is left alone, and ends with the program.
+/// Nothing else depends on the clock.
 fn watched(
     mechanism: &Mechanism,
     question: Question,
@@ -144,17 +144,18 @@ fn watched(
         let _ = send.send(assembly_modes(&own, &asked));
     });
     let mut sign = Sign::new(budget);
+    let mut pressed = None;
     loop {
         match receive.recv_timeout(Duration::from_millis(50)) {
             Ok(result) => return result,
-            Err(mpsc::RecvTimeoutError::Disconnected) => return Ok(Modes::out_of_time(&question)),
+            Err(mpsc::RecvTimeoutError::Disconnected) => return Ok(Modes::interrupted(&question)),
             Err(mpsc::RecvTimeoutError::Timeout) => {}
         }
         if interrupt::asked() {
             cancelled.store(true, Ordering::Relaxed);
-        }
-        if sign.seconds() > budget * (1.0 + GRACE.0) + GRACE.1 {
-            return Ok(Modes::out_of_time(&question));
+            if sign.seconds() > *pressed.get_or_insert(sign.seconds()) + GRACE {
+                return Ok(Modes::interrupted(&question));
+            }
         }
         sign.tick(|| "looking for configurations".to_owned());
     }

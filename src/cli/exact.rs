@@ -71,7 +71,7 @@ pub struct Arguments {
     /// List the equations or the basis; may be repeated
     #[arg(long, value_enum)]
     print: Vec<Print>,
-    /// Stop after so many seconds and say what is known
+    /// Stop after the work of about so many seconds, the same on every machine, and say what is known
     #[arg(
         long,
         value_name = "SECONDS",
@@ -353,11 +353,8 @@ impl Arguments {
     }
 
     /// What is told of work that could not be broken off: a form of its own, since there is no answer.
-    fn out_of_time(&self, phase: &str) -> String {
-        let why = format!(
-            "the time (`--time`, {} s) was over long ago, and this step could not be broken off; nothing is proved",
-            self.time
-        );
+    fn interrupted(&self, phase: &str) -> String {
+        let why = "it was interrupted, and this step could not be broken off; nothing is proved";
         let file = self.source.file.display().to_string();
         let phase = match phase {
             "" => "writing the equations",
@@ -485,14 +482,14 @@ fn blocks_with_loops(mechanism: &Mechanism) -> usize {
     blocks.iter().filter(|block| !block.bridge).count()
 }
 
-/// Work that cannot be broken off within so many times its time, and this many seconds, is given up.
-const GRACE: (f64, f64) = (1.25, 5.0);
+/// Steps that do not ask whether to go on may take so long after Ctrl-C.
+const GRACE: Duration = Duration::from_secs(5);
 
 /// Where no bar is drawn, work that takes longer says so once (s).
 const SILENCE: Duration = Duration::from_secs(3);
 
-/// Does the work under a time limit, with a sign of life on standard error after a second or three, and ends it at Ctrl-C.
-/// A step that does not look at the clock is given up some time later: then the process ends here.
+/// Does the work within its limits, with a sign of life on standard error after a second or three, and ends it at Ctrl-C.
+/// A step that does not end then is given up some time later: then the process ends here. Nothing else depends on the clock.
 fn watched<T>(arguments: &Arguments, work: impl FnOnce(&Budget) -> T) -> T {
     interrupt::listen();
     let seconds = arguments.time;
@@ -510,23 +507,24 @@ fn watched<T>(arguments: &Arguments, work: impl FnOnce(&Budget) -> T) -> T {
         scope.spawn(|| {
             let began = Instant::now();
             let mut sign = Sign::new(seconds);
+            let mut pressed: Option<Instant> = None;
             let mut silent = !std::io::stderr().is_terminal();
             while !over.load(Ordering::Relaxed) {
                 std::thread::park_timeout(Duration::from_millis(100));
                 if interrupt::asked() {
                     cancelled.store(true, Ordering::Relaxed);
+                    if pressed.get_or_insert_with(Instant::now).elapsed() > GRACE {
+                        give_up(arguments, &progress.phase());
+                    }
                 }
                 sign.tick(|| format!("{}, {} entries", progress.phase(), progress.work()));
                 if silent && began.elapsed() > SILENCE && !over.load(Ordering::Relaxed) {
                     silent = false;
                     eprintln!(
-                        "{}: {}; for {seconds} s at most (`--time`)",
+                        "{}: {}; for about {seconds} s at most (`--time`)",
                         visible(&file),
                         progress.phase()
                     );
-                }
-                if began.elapsed().as_secs_f64() > GRACE.0 * seconds + GRACE.1 {
-                    give_up(arguments, &progress.phase());
                 }
             }
         });
@@ -538,10 +536,9 @@ fn watched<T>(arguments: &Arguments, work: impl FnOnce(&Budget) -> T) -> T {
 
 /// Says that there is no answer, and ends the process.
 fn give_up(arguments: &Arguments, phase: &str) -> ! {
-    let text = arguments.out_of_time(phase);
+    let text = arguments.interrupted(phase);
     let code = match arguments.destination.put(&text) {
-        Ok(()) if arguments.strict => UNDECIDED,
-        Ok(()) => DONE,
+        Ok(()) => INTERRUPTED,
         Err(failure) => {
             failure.tell();
             BAD_INPUT

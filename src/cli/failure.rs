@@ -166,3 +166,17 @@ fn rendered(fault: &Fault, color: bool) -> String {
     }
     text
 }
+
+/// Refuses options that would change nothing: whether each is given where it is idle, its name, and what it goes with.
+///
+/// # Errors
+/// For the first of them.
+pub fn refuse_idle(options: &[(bool, &str, &str)]) -> Result<(), Failure> {
+    match options.iter().find(|(idle, _, _)| *idle) {
+        None => Ok(()),
+        Some((_, option, with)) => Err(Failure::Plain {
+            message: format!("`{option}` changes nothing here"),
+            help: Some(format!("it goes with {with}")),
+        }),
+    }
+}

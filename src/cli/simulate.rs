@@ -6,7 +6,7 @@ mod log;
 mod setting;
 mod table;
 
-use super::failure::Failure;
+use super::failure::{Failure, refuse_idle};
 use super::pose::Pose;
 use super::{DISAGREEMENT, DONE, UNDECIDED, interrupt, load, output, terminal};
 use choices::{Effect, Format, IntegratorChoice, SolverChoice, substeps};
@@ -90,14 +90,9 @@ pub struct Arguments {
     /// Say what each effect costs
     #[arg(long, help_heading = "The scene")]
     cost: bool,
-    /// Poses of the predicted motion in the log
-    #[arg(
-        long,
-        value_name = "N",
-        default_value_t = 200,
-        help_heading = "The log"
-    )]
-    samples: usize,
+    /// Poses of the predicted motion in the log [default: 200]
+    #[arg(long, value_name = "N", help_heading = "The log")]
+    samples: Option<usize>,
     /// Form of the answer
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -153,6 +148,24 @@ const COST_STEPS: usize = 500;
 /// Where the file cannot be read, has no such configuration, branch or joint, no world can be made, or output cannot be
 /// written.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let (text, log) = (arguments.format == Format::Text, arguments.mcap.is_some());
+    refuse_idle(&[
+        (
+            arguments.samples.is_some() && !log,
+            "--samples",
+            "`--mcap LOG`",
+        ),
+        (
+            arguments.timing && text,
+            "--timing",
+            "`--format json`: the text has times",
+        ),
+        (
+            arguments.verbose && !text,
+            "--verbose",
+            "`--format text`: JSON has every detail",
+        ),
+    ])?;
     let mut reading = arguments.source.read()?;
     let configuration = arguments.pose.configure(&mut reading)?;
     let mechanism = &reading.mechanism;
@@ -214,10 +227,11 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             "a scene lasts a finite number of seconds, but {duration} were asked for"
         )));
     }
-    if arguments.mcap.is_some() && !(2..=10_000_000).contains(&arguments.samples) {
+    if let Some(samples) = arguments.samples
+        && !(2..=10_000_000).contains(&samples)
+    {
         return Err(refused(format!(
-            "{} samples; from 2 to 10000000 are possible",
-            arguments.samples
+            "{samples} samples; from 2 to 10000000 are possible"
         )));
     }
 

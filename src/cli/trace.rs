@@ -4,7 +4,7 @@ mod csv;
 pub mod drawn;
 mod table;
 
-use super::failure::Failure;
+use super::failure::{Failure, refuse_idle};
 use super::pose::{Pose, measured};
 use super::units::ValueUnits;
 use super::{DONE, load, output};
@@ -47,9 +47,9 @@ pub struct Arguments {
     /// Form of the answer
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-    /// Units of values in the text; data are in radians and metres
-    #[arg(long, value_enum, default_value_t = ValueUnits::RadM)]
-    units: ValueUnits,
+    /// Units of values in the text; data are in radians and metres [default: rad-m]
+    #[arg(long, value_enum)]
+    units: Option<ValueUnits>,
     #[command(flatten)]
     destination: output::Destination,
     #[command(flatten)]
@@ -131,6 +131,12 @@ impl Drive {
 /// # Errors
 /// Where the file cannot be read, has no such configuration, branch or joint, or the output cannot be written.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let text = arguments.format == Format::Text;
+    refuse_idle(&[(
+        arguments.units.is_some() && !text,
+        "--units",
+        "`--format text`: data are in radians and metres",
+    )])?;
     let mut reading = arguments.source.read()?;
     let configuration = arguments.pose.configure(&mut reading)?;
     let mechanism = &reading.mechanism;
@@ -177,7 +183,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let traced = trace(mechanism, &analysis, &options)
         .map_err(|error| plain(error.to_string(), error.help()))?;
     let text = match arguments.format {
-        Format::Text => table::text(mechanism, changed, &traced, &drawn.points, arguments.units),
+        Format::Text => {
+            let units = arguments.units.unwrap_or(ValueUnits::RadM);
+            table::text(mechanism, changed, &traced, &drawn.points, units)
+        }
         Format::Csv => csv::csv(mechanism, &traced, &drawn.points),
         Format::Json => output::json(&table::json(mechanism, changed, &traced, &drawn.points))?,
         Format::Svg => drawn.svg(mechanism, &traced)?,

@@ -53,6 +53,7 @@ mod rows;
 #[allow(clippy::unwrap_used)]
 mod samples;
 mod sampling;
+mod shown;
 mod singular;
 mod solver;
 mod sparse_rows;

@@ -371,6 +371,8 @@ pub struct Motion {
     pub length_unit: f64,
     /// What a reader should know.
     pub notes: Vec<String>,
+    /// Whether something is seen to move: more than rods that spin about the line through their balls.
+    pub shown: bool,
     /// The curve itself.
     pub curve: Curve,
 }

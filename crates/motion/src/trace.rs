@@ -14,6 +14,7 @@ use super::follow::Stop;
 use super::inputs::Variable;
 use super::requested::{RequestedVariables, requested_variables};
 use super::result::{Still, Trace, TraceError, TraceOptions};
+use super::shown::Hidden;
 use super::singular::Singular;
 use super::system::SystemPose;
 use kutzbach_closure::{Geometry, Part};
@@ -248,6 +249,10 @@ impl<'a> Tracer<'a> {
         Ok(Trace::Moving(Box::new(
             self.motion(found, drive, branches, notes, options),
         )))
+    }
+
+    fn hidden(&self) -> Hidden {
+        Hidden::new(self.mechanism, &self.geometry, self.branch)
     }
 
     /// The inputs, where it matters what they are: something is driven without being asked for, or something is held.

@@ -26,6 +26,9 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+/// Poses of the predicted motion where no number is asked for.
+const SAMPLES: usize = 200;
+
 /// Seconds between the predicted motion and what follows.
 const PAUSE: f64 = 0.5;
 
@@ -144,7 +147,7 @@ impl<'a> Log<'a> {
             let wanted = TraceOptions {
                 branch: Some(branch.name.clone()),
                 drive: options.drive.clone(),
-                samples: arguments.samples,
+                samples: arguments.samples.unwrap_or(SAMPLES),
                 configuration: options.configuration.clone(),
                 ..TraceOptions::default()
             };

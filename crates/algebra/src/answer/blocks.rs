@@ -78,7 +78,7 @@ pub struct ByBlocks {
     pub free: usize,
 }
 
-/// Asks every block with a loop or a coupling by itself: for its dimension, and that at the drawn pose. The time is shared
+/// Asks every block with a loop or a coupling by itself: for its dimension, and that at the drawn pose. The effort is shared
 /// among them. Options that name joints or a configuration are not heeded.
 #[must_use]
 pub fn exact_by_blocks(mechanism: &Mechanism, options: &ExactOptions, budget: &Budget) -> ByBlocks {
@@ -100,7 +100,7 @@ pub fn exact_by_blocks(mechanism: &Mechanism, options: &ExactOptions, budget: &B
     let count = tied.len();
     let blocks = tied.iter().enumerate().map(|(index, block)| {
         let loops = loops(block);
-        let part = budget.with_share_of_time(1.0 / (count - index) as f64);
+        let part = budget.with_share(1.0 / (count - index) as f64);
         let found = match loops {
             0 => linear(mechanism, block, freedom(block)),
             _ => asked(mechanism, block, &simple, options, &part),

@@ -52,7 +52,7 @@ use solutions::isolated_solutions;
 /// Most sets of free variables that are listed.
 const FREE_SETS: usize = 64;
 
-/// Share of the time that the whole system may take, so that some is left for its cycles.
+/// Share of the effort that the whole system may take, so that some is left for its cycles.
 const SHARE_OF_THE_WHOLE: f64 = 0.8;
 
 /// Share of it that the basis may take where the cases of [`Method::Incremental`] have told the dimension already.
@@ -179,7 +179,7 @@ pub fn exact_answer(
 ) -> Result<ExactAnswer, SystemError> {
     let mut answer = ExactAnswer::unasked(mechanism, options)?;
     // Should the whole be out of reach, its cycles may not be.
-    let most = budget.with_share_of_time(SHARE_OF_THE_WHOLE);
+    let most = budget.with_share(SHARE_OF_THE_WHOLE);
     answer.stopped = answer.find_whole(mechanism, options, &most).err();
     budget.take_over(&most);
     if matches!(answer.stopped, Some((_, Stop::Cancelled))) {
@@ -283,7 +283,7 @@ impl ExactAnswer {
                 let equations = incremental.simpler(&problem.equations);
                 self.cases = Some(incremental);
                 // What is read off a basis is the same whichever way led to it; where there is none, the cases tell it.
-                let share = budget.with_share_of_time(SHARE_OF_THE_BASIS);
+                let share = budget.with_share(SHARE_OF_THE_BASIS);
                 let basis = basis_by_parts(&equations, problem.variables, &options.order, &share);
                 budget.take_over(&share);
                 match basis {

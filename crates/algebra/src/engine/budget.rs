@@ -3,14 +3,15 @@
 use std::cell::Cell;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::{Duration, Instant};
 use thiserror::Error;
 
 /// Limits of a computation; `None` is no limit.
+///
+/// None of them reads a clock: the same question ends at the same place on every machine, whatever else the machine does.
 #[derive(Clone, Debug, Default)]
 pub struct Limits {
-    /// Wall time. Whether a computation ends within it depends on the machine.
-    pub time: Option<Duration>,
+    /// Effort, in steps that take about a nanosecond: see [`Limits::seconds`].
+    pub effort: Option<u64>,
     /// Work, in entries of the matrices that are eliminated; the same on every machine.
     pub work: Option<u64>,
     /// Entries of the largest matrix: what bounds the memory.
@@ -33,18 +34,25 @@ pub fn entries_in(memory: u64) -> u64 {
     memory / BYTES_PER_ENTRY
 }
 
+/// Effort that stands for a second. What counts effort states for each kind of step how many nanoseconds it took on one core of a
+/// machine of 2024, release build, so that a second of that core is 10⁹; other machines take longer or shorter over the same effort.
+const EFFORT_PER_SECOND: f64 = 1e9;
+
+/// Effort of one unit of [`Budget::spend`]: an entry of a matrix that is filled, or a number of some words that is put in its place.
+const EFFORT_OF_WORK: u64 = 20;
+
+/// Effort of one unit of [`Budget::multiply`].
+const EFFORT_OF_PRODUCT: u64 = 4;
+
 impl Limits {
-    /// So many seconds and two gigabytes. A time that is negative or no number is no time at all; one
-    /// too large for a clock is no limit.
+    /// The effort that stands for so many seconds, and two gigabytes. A time that is negative or no number is none at all; one that is
+    /// infinite is no limit.
     #[must_use]
     pub fn seconds(seconds: f64) -> Self {
-        let time = if seconds > 0.0 {
-            Duration::try_from_secs_f64(seconds).ok()
-        } else {
-            Some(Duration::ZERO)
-        };
+        // Saturating; not a number becomes zero.
+        let effort = (seconds * EFFORT_PER_SECOND) as u64;
         Self {
-            time,
+            effort: (seconds != f64::INFINITY).then_some(effort),
             entries: Some(entries_in(MEMORY)),
             ..Self::default()
         }
@@ -78,7 +86,7 @@ impl Progress {
 /// Why a computation has no answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum Stop {
-    /// The time was over.
+    /// The effort that a time stands for was used up.
     #[error("the time limit was reached")]
     Time,
     /// The work was used up.
@@ -102,17 +110,18 @@ pub enum Stop {
 #[derive(Clone, Debug)]
 pub struct Budget {
     limits: Limits,
-    started: Instant,
+    /// Shared with all copies and parts.
+    effort: Arc<AtomicU64>,
     work: Cell<u64>,
 }
 
 impl Budget {
-    /// Starts the clock.
+    /// Nothing is used yet.
     #[must_use]
     pub fn new(limits: Limits) -> Self {
         Self {
             limits,
-            started: Instant::now(),
+            effort: Arc::default(),
             work: Cell::new(0),
         }
     }
@@ -135,11 +144,11 @@ impl Budget {
         &self.limits
     }
 
-    /// The time that is left; `None` where there is no limit.
+    /// The effort that is left; `None` where there is no limit.
     #[must_use]
-    pub fn left(&self) -> Option<Duration> {
-        let left = |time: Duration| time.saturating_sub(self.started.elapsed());
-        self.limits.time.map(left)
+    pub fn left(&self) -> Option<u64> {
+        let used = self.effort.load(Ordering::Relaxed);
+        self.limits.effort.map(|most| most.saturating_sub(used))
     }
 
     /// Whether to go on.
@@ -147,7 +156,7 @@ impl Budget {
     /// # Errors
     /// [`Stop`] with the first limit that was reached.
     pub fn check(&self) -> Result<(), Stop> {
-        self.spend(0)
+        self.toil(0)
     }
 
     /// Adds work, then tells whether to go on.
@@ -156,6 +165,26 @@ impl Budget {
     /// [`Stop`] with the first limit that was reached.
     pub fn spend(&self, work: u64) -> Result<(), Stop> {
         self.work.set(self.work.get().saturating_add(work));
+        self.toil(work.saturating_mul(EFFORT_OF_WORK))
+    }
+
+    /// Adds as much work as products of words, or of remainders, in long rows, then tells whether to go on.
+    ///
+    /// # Errors
+    /// [`Stop`] with the first limit that was reached.
+    pub(crate) fn multiply(&self, products: u64) -> Result<(), Stop> {
+        self.work.set(self.work.get().saturating_add(products));
+        self.toil(products.saturating_mul(EFFORT_OF_PRODUCT))
+    }
+
+    /// Adds effort that is no work, in nanoseconds that it takes about, then tells whether to go on.
+    ///
+    /// # Errors
+    /// [`Stop`] with the first limit that was reached.
+    pub fn toil(&self, effort: u64) -> Result<(), Stop> {
+        // Copies of a budget are not used at once: no sum is lost.
+        let used = self.effort.load(Ordering::Relaxed).saturating_add(effort);
+        self.effort.store(used, Ordering::Relaxed);
         let limits = &self.limits;
         if let Some(progress) = &limits.progress {
             progress.work.store(self.work.get(), Ordering::Relaxed);
@@ -170,10 +199,7 @@ impl Budget {
         if limits.work.is_some_and(|most| self.work.get() > most) {
             return Err(Stop::Work);
         }
-        if limits
-            .time
-            .is_some_and(|most| self.started.elapsed() > most)
-        {
+        if limits.effort.is_some_and(|most| used > most) {
             return Err(Stop::Time);
         }
         Ok(())
@@ -187,13 +213,22 @@ impl Budget {
         copy
     }
 
-    /// A copy with at most a share of the time that is left.
-    pub(crate) fn with_share_of_time(&self, share: f64) -> Self {
+    /// A copy with at most a share of the effort that is left.
+    pub(crate) fn with_share(&self, share: f64) -> Self {
         let mut copy = self.clone();
-        let used = self.started.elapsed();
-        let shared = |time: Duration| used + time.saturating_sub(used).mul_f64(share);
-        copy.limits.time = copy.limits.time.map(shared);
+        let used = self.effort.load(Ordering::Relaxed);
+        let shared = |left: u64| used.saturating_add((left as f64 * share) as u64);
+        copy.limits.effort = self.left().map(shared);
         copy
+    }
+
+    /// A budget with at most a share of the effort that is left, which what it uses is taken from, and with work of its own.
+    #[must_use]
+    pub fn part(&self, share: f64, work: Option<u64>) -> Self {
+        let mut part = self.with_share(share);
+        part.limits.work = work;
+        part.work = Cell::new(0);
+        part
     }
 
     /// Takes over the work done on a copy of this budget.
@@ -250,12 +285,12 @@ mod tests {
             ..Limits::default()
         });
         assert_eq!(entries.spend_matrix(11), Err(Stop::Memory));
-        let time = Budget::new(Limits {
-            time: Some(Duration::ZERO),
+        let effort = Budget::new(Limits {
+            effort: Some(10),
             ..Limits::default()
         });
-        std::thread::sleep(Duration::from_millis(1));
-        assert_eq!(time.check(), Err(Stop::Time));
+        assert_eq!(effort.toil(10), Ok(()));
+        assert_eq!(effort.toil(1), Err(Stop::Time));
         let flag = Arc::new(AtomicBool::new(false));
         let stopped = Budget::new(Limits {
             cancelled: Some(Arc::clone(&flag)),
@@ -268,10 +303,24 @@ mod tests {
 
     #[test]
     fn seconds_that_are_none_leave_no_time() {
-        assert_eq!(Limits::seconds(f64::NAN).time, Some(Duration::ZERO));
-        assert_eq!(Limits::seconds(-1.0).time, Some(Duration::ZERO));
-        assert_eq!(Limits::seconds(1.5).time, Some(Duration::from_millis(1500)));
-        assert_eq!(Limits::seconds(f64::INFINITY).time, None);
+        assert_eq!(Limits::seconds(f64::NAN).effort, Some(0));
+        assert_eq!(Limits::seconds(-1.0).effort, Some(0));
+        assert_eq!(Limits::seconds(1.5).effort, Some(1_500_000_000));
+        assert_eq!(Limits::seconds(f64::INFINITY).effort, None);
+    }
+
+    #[test]
+    fn what_a_part_uses_is_taken_from_the_whole() {
+        let whole = Budget::new(Limits {
+            effort: Some(100),
+            ..Limits::default()
+        });
+        let part = whole.part(0.5, Some(3));
+        assert_eq!(part.toil(50), Ok(()));
+        assert_eq!((part.left(), whole.left()), (Some(0), Some(50)));
+        assert_eq!(part.toil(1), Err(Stop::Time));
+        assert_eq!(whole.part(1.0, Some(3)).spend(4), Err(Stop::Work));
+        assert_eq!((whole.work(), whole.check()), (0, Err(Stop::Time)));
     }
 
     #[test]

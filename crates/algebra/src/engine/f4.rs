@@ -331,7 +331,7 @@ impl<'a, C: Coefficient> F4<'a, C> {
         let active: Vec<usize> = (0..heads.len()).filter(|&i| heads[i].active).collect();
         let mut minimal = Vec::new();
         for &i in &active {
-            self.budget.check()?;
+            self.budget.toil(active.len() as u64)?;
             let multiple = active.iter().any(|&k| {
                 k != i
                     && heads[k].mask & !heads[i].mask == 0

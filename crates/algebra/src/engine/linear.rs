@@ -47,7 +47,7 @@ impl Coefficient for Zp {
         let mut found: Vec<SparseRow<Self>> = Vec::new();
         let mut live = Vec::new();
         for (number, rows) in rows.chunks(piece).enumerate() {
-            budget.check()?;
+            budget.toil(effort(rows.len(), &matrix))?;
             for row in &found[matrix.pivots.rows.len() - known..] {
                 let at = matrix.pivots.coefficients.len();
                 matrix.pivots.coefficients.push(row.coefficients.clone());
@@ -71,7 +71,7 @@ impl Coefficient for Zp {
     fn reduce(matrix: Matrix<Self>, budget: &Budget) -> Result<Vec<SparseRow<Self>>, Stop> {
         let mut reduced = Vec::with_capacity(matrix.rows.len());
         for rows in matrix.rows.chunks(rows_at_once(&matrix)) {
-            budget.check()?;
+            budget.toil(effort(rows.len(), &matrix))?;
             reduced.extend(Zp::reduce_rows(&matrix.pivots, rows, matrix.columns));
         }
         Ok(reduced)
@@ -104,8 +104,17 @@ fn reduced_by_each_other(
 
 /// Reducing one row costs at most the entries of all pivots.
 fn rows_at_once<C>(matrix: &Matrix<C>) -> usize {
+    (PIECE / most_products(matrix).max(1)).max(1)
+}
+
+fn most_products<C>(matrix: &Matrix<C>) -> usize {
     let pivots: usize = matrix.pivots.rows.iter().map(|(_, c)| c.len()).sum();
-    (PIECE / (pivots + matrix.columns).max(1)).max(1)
+    pivots + matrix.columns
+}
+
+/// Effort of reducing so many rows modulo a prime. Which pivots a row meets is not known before: half of them.
+fn effort<C>(rows: usize, matrix: &Matrix<C>) -> u64 {
+    rows as u64 * most_products(matrix) as u64 / 2
 }
 
 impl Coefficient for Rational {

@@ -74,6 +74,12 @@ pub(super) fn rational_basis(
     .run(modulo)
 }
 
+/// Effort of a fraction from its remainder, for every word of the modulus, beside that which grows with their square.
+const EFFORT_OF_FRACTION: u64 = 50;
+
+/// Effort of a remainder modulo one prime more, beside that which grows with its words.
+const EFFORT_OF_REMAINDER: u64 = 100;
+
 struct Search<'a> {
     equations: Vec<Terms<Rational>>,
     variables: usize,
@@ -96,7 +102,7 @@ impl Search<'_> {
         *modulo = Some((test.prime, test.dimension(self.variables)));
         // Small coefficients can be read off a single prime.
         let mut alone = Group::of(&test);
-        alone.add(&test, self.order)?;
+        alone.add(&test, self.order, self.budget)?;
         if let Some(candidate) = alone.candidate(self.budget)? {
             let second = self.full_image(true)?;
             match self.verdict(&candidate, &second, 2)? {
@@ -198,7 +204,7 @@ impl Search<'_> {
             self.groups.push(Group::of(image));
             self.groups.len() - 1
         });
-        self.groups[at].add(image, self.order)
+        self.groups[at].add(image, self.order, self.budget)
     }
 
     /// The largest group, the older one of two equal ones.
@@ -285,7 +291,7 @@ impl Group {
         image.basis.iter().map(Terms::lead).eq(leads.map(Some))
     }
 
-    fn add(&mut self, image: &Image, order: &MonomialOrder) -> Result<(), Stop> {
+    fn add(&mut self, image: &Image, order: &MonomialOrder, budget: &Budget) -> Result<(), Stop> {
         if image
             .basis
             .iter()
@@ -302,6 +308,8 @@ impl Group {
                 values.push(term.map_or(0, |(_, c)| c.value()));
             }
         }
+        let words = self.modulus.bits().div_ceil(64);
+        budget.toil(self.remainders.len() as u64 * (EFFORT_OF_REMAINDER + 2 * words))?;
         try_garner(
             &mut self.remainders,
             &mut self.modulus,
@@ -350,7 +358,8 @@ impl Group {
         let mut basis = Vec::with_capacity(self.layout.len());
         let mut rest = &self.remainders[..];
         for monomials in &self.layout {
-            budget.check()?;
+            let words = self.modulus.bits().div_ceil(64);
+            budget.toil(monomials.len() as u64 * words * (EFFORT_OF_FRACTION + words))?;
             let (remainders, others) = rest.split_at(monomials.len());
             rest = others;
             let Some(values) = fractions(remainders, &context, &self.modulus, &bound) else {
@@ -427,14 +436,18 @@ mod tests {
         // x³ + 101 x + 5, of which x disappears modulo 101.
         let first = image(101, &[(3, 1), (0, 5)]);
         let mut group = Group::of(&first);
-        group.add(&first, &ORDER).unwrap();
+        group.add(&first, &ORDER, &Budget::unlimited()).unwrap();
         for prime in [1009, 1013, 1019] {
             let next = image(prime, &[(3, 1), (1, 101), (0, 5)]);
             assert!(group.fits(&next));
-            group.add(&next, &ORDER).unwrap();
+            group.add(&next, &ORDER, &Budget::unlimited()).unwrap();
         }
         group
-            .add(&image(103, &[(3, 1), (1, 101), (0, 5)]), &ORDER)
+            .add(
+                &image(103, &[(3, 1), (1, 101), (0, 5)]),
+                &ORDER,
+                &Budget::unlimited(),
+            )
             .unwrap();
         let candidate = group.candidate(&Budget::unlimited()).unwrap().unwrap();
         let expected: Vec<Rational> = [1, 101, 5].map(|c| Rational::from_integer(c.into())).into();

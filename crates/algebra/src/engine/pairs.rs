@@ -37,6 +37,9 @@ impl Head {
     }
 }
 
+/// Effort of making a pair, beside that of looking whether another one divides it.
+const EFFORT_OF_PAIR: u64 = 100;
+
 /// Pairs that are still to be reduced.
 #[derive(Debug, Default)]
 pub(super) struct Pairs {
@@ -129,9 +132,7 @@ impl Pairs {
         candidates.sort_by_key(|c| (c.degree, !c.coprime));
         let mut kept: Vec<usize> = Vec::new();
         for (i, candidate) in candidates.iter().enumerate() {
-            if i % 64 == 0 {
-                budget.check()?;
-            }
+            budget.toil(EFFORT_OF_PAIR + kept.len() as u64)?;
             let superfluous = kept.iter().any(|&k| {
                 let smaller = &candidates[k].pair;
                 smaller.mask & !candidate.pair.mask == 0

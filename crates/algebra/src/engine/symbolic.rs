@@ -57,6 +57,15 @@ pub(super) struct Seed {
     pub(super) tail_only: bool,
 }
 
+/// Effort of a planned entry: a product of monomials is looked up, mostly far away in memory.
+const EFFORT_OF_ENTRY: u64 = 30;
+
+/// Effort of putting a column in its place among the others.
+const EFFORT_OF_COLUMN: u64 = 200;
+
+/// Effort of looking whether a leading monomial divides one.
+const EFFORT_OF_MASKS: u64 = 1;
+
 /// A plan under construction.
 pub(super) struct Planner<'a> {
     reducers: Reducers<'a>,
@@ -115,7 +124,8 @@ impl<'a> Planner<'a> {
             }
             next += 1;
         }
-        self.budget.check()?;
+        self.budget
+            .toil(EFFORT_OF_COLUMN * self.columns.len() as u64)?;
         Ok(self.sorted(order))
     }
 
@@ -139,13 +149,11 @@ impl<'a> Planner<'a> {
                     .number_of_product(factor, (&seed.multiplier, hash))?,
             );
         }
-        let before = self.entries;
         self.entries += columns.len() as u64 + 1;
         self.budget.check_entries(self.entries)?;
-        // Looking at the clock for every row would cost more than short rows.
-        if before >> 12 != self.entries >> 12 {
-            self.budget.check()?;
-        }
+        let effort = EFFORT_OF_ENTRY * (columns.len() as u64 + 1);
+        self.budget
+            .toil(effort + EFFORT_OF_MASKS * self.masks.len() as u64)?;
         Ok(PlannedRow {
             element: seed.element,
             columns,

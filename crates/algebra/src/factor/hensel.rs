@@ -105,7 +105,7 @@ fn lift_pair(
     let (mut g, mut h) = (integers(g), integers(h));
     let (mut s, mut t) = (integers(&s), integers(&t));
     for (i, m) in moduli.iter().enumerate().skip(1) {
-        budget.spend((target.len() * target.len()) as u64 * m.bits().div_ceil(64))?;
+        budget.multiply((target.len() * target.len()) as u64 * m.bits().div_ceil(64))?;
         let error = difference(target, &product(&g, &h, m), m);
         let (q, r) = divided(&product(&s, &error, m), &h, m);
         g = sum(&g, &sum(&product(&t, &error, m), &product(&q, &g, m), m), m);

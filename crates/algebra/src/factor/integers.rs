@@ -146,7 +146,7 @@ fn recombine(
         let mut set: Vec<usize> = (0..size).collect();
         let mut hit = None;
         loop {
-            budget.spend(size as u64 * modulus.bits().div_ceil(64))?;
+            budget.multiply(size as u64 * modulus.bits().div_ceil(64))?;
             sets_left = sets_left.saturating_sub(1);
             if sets_left == 0 {
                 found.push(rest.primitive());

@@ -42,11 +42,11 @@ struct Frobenius {
 
 impl Frobenius {
     fn new(modulus: &[u64], prime: u64, budget: &Budget) -> Result<Self, Stop> {
-        budget.spend(multiplications(modulus.len()))?;
+        budget.multiply(multiplications(modulus.len()))?;
         let first = power(&[0, 1], prime, modulus, prime);
         let mut images = vec![remainder(&[1], modulus, prime)];
         for i in 0..modulus.len().saturating_sub(2) {
-            budget.spend((modulus.len() * modulus.len()) as u64)?;
+            budget.multiply((modulus.len() * modulus.len()) as u64)?;
             let next = product(&images[i], &first, prime);
             images.push(remainder(&next, modulus, prime));
         }
@@ -54,7 +54,7 @@ impl Frobenius {
     }
 
     fn of(&self, argument: &[u64], budget: &Budget) -> Result<Residues, Stop> {
-        budget.spend((self.images.len() * self.images.len()) as u64)?;
+        budget.multiply((self.images.len() * self.images.len()) as u64)?;
         let mut sum = vec![0; self.images.len()];
         for (&c, image) in argument.iter().zip(&self.images) {
             for (entry, &value) in sum.iter_mut().zip(image) {
@@ -89,7 +89,7 @@ fn split_equal_degrees(
             factors.push(group);
             continue;
         }
-        budget.spend(multiplications(group.len()))?;
+        budget.multiply(multiplications(group.len()))?;
         let residue = trimmed((1..group.len()).map(|_| draws.below(prime)).collect());
         let mut conjugate = residue.clone();
         let mut norm = residue;

@@ -155,14 +155,14 @@ fn lift_two(
         for (m, a) in &first.parts {
             for (n, b) in &second.parts {
                 if order_of(m) + order_of(n) == level {
-                    budget.spend(size)?;
+                    budget.multiply(size)?;
                     let monomial: Vec<u32> = m.iter().zip(n).map(|(x, y)| x + y).collect();
                     missing.add(&monomial, &-&(a * b));
                 }
             }
         }
         for (monomial, e) in missing.parts {
-            budget.spend(size)?;
+            budget.multiply(size)?;
             let correction = &(&u * &e) % g;
             let rest = &(&e - &(&correction * h)) / g;
             first.add(&monomial, &correction);

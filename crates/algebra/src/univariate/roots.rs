@@ -95,7 +95,7 @@ impl Univariate {
         let mut roots = Vec::new();
         let mut waiting = vec![(scaled.collect::<Vec<BigInt>>(), BigInt::zero(), 0_u64)];
         while let Some((inside, position, level)) = waiting.pop() {
-            budget.spend((inside.len() * inside.len()) as u64)?;
+            budget.multiply((inside.len() * inside.len()) as u64)?;
             match sign_changes(&inside) {
                 0 => {}
                 1 => roots.push(RealRoot {

@@ -237,7 +237,7 @@ impl Quotient {
             match column {
                 Column::Standard(place) => values[*place] += *c * &common,
                 Column::Combination(vector) => {
-                    budget.spend(words(c) * words(&vector.denominator) * values.len() as u64)?;
+                    budget.multiply(words(c) * words(&vector.denominator) * values.len() as u64)?;
                     let factor = *c * (&common / &vector.denominator);
                     for (value, v) in values.iter_mut().zip(&vector.values) {
                         if !v.is_zero() {
@@ -329,7 +329,7 @@ fn standard_monomials(
     let mut monomials = Vec::new();
     let mut level = BTreeSet::from([vec![0; variables]]);
     while !level.is_empty() {
-        budget.spend((level.len() * heads.len()) as u64)?;
+        budget.multiply((level.len() * heads.len()) as u64)?;
         level.retain(|m| !heads.iter().any(|head| divides(head, m)));
         monomials.extend(level.iter().cloned());
         level = level

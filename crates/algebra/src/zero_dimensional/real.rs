@@ -112,7 +112,7 @@ fn enclose(
     let mut root = root;
     let mut digits = bits + 16;
     loop {
-        budget.spend(digits.div_ceil(64) * functions.len() as u64 * factor.degree() as u64)?;
+        budget.multiply(digits.div_ceil(64) * functions.len() as u64 * factor.degree() as u64)?;
         root = factor.refine(&root, digits);
         if let Some(value) = exact_value(factor, &root) {
             return Ok(exact_coordinates(functions, &value));

@@ -72,7 +72,7 @@ impl Multiplication {
             if c.is_zero() {
                 continue;
             }
-            budget.spend(words(c) * words(&self.denominator) * column.len() as u64)?;
+            budget.multiply(words(c) * words(&self.denominator) * column.len() as u64)?;
             for (entry, v) in product.iter_mut().zip(column) {
                 if !v.is_zero() {
                     *entry += c * v;
@@ -99,11 +99,17 @@ pub(super) fn representation(
     for i in 0..n {
         powers.push(multiplication.times(&powers[i], budget)?);
     }
+    let longest = |values: &[BigInt]| values.iter().map(words).max().unwrap_or(1);
+    for power in &powers {
+        budget.multiply(longest(power) * longest(&traces.values) * n as u64)?;
+    }
     // The traces of the powers are integers: those of a matrix of integers.
     let sums: Vec<BigInt> = powers
         .iter()
         .map(|power| product_sum(traces, power) / &traces.denominator)
         .collect();
+    let digits = longest(&sums);
+    budget.multiply((n * n) as u64 * digits * digits / 4)?;
     let polynomial = from_power_sums(&sums);
     // Values of the form itself, not of its multiple.
     let values = stretched(&polynomial, &multiplication.denominator).primitive();

@@ -50,7 +50,7 @@ impl Image {
                 }
             }
         }
-        budget.spend((n * n * n) as u64)?;
+        budget.multiply((n * n * n) as u64)?;
         // Power sums of the values, then Newton's identities, then what is not repeated.
         let mut power = vec![0; n];
         power[0] = 1;
@@ -87,7 +87,7 @@ impl Image {
             .collect();
         for (variable, &exponent) in monomial.iter().enumerate() {
             for _ in 0..exponent {
-                budget.spend((n * n * n) as u64)?;
+                budget.multiply((n * n * n) as u64)?;
                 for product in &mut products {
                     *product = times(&self.tables[variable], product, self.prime);
                 }

@@ -84,7 +84,7 @@ pub(super) fn rank_and_signature(
         }
         let pivot = matrix[step][step].clone();
         let size = words(&pivot);
-        budget.spend((n - step).pow(2) as u64 * size * size)?;
+        budget.multiply((n - step).pow(2) as u64 * size * size)?;
         for i in step + 1..n {
             for j in i..n {
                 let value = (&pivot * &matrix[i][j] - &matrix[i][step] * &matrix[step][j]) / &last;

@@ -6,12 +6,12 @@
 
 use super::{Complete, Configuration, Modes, Way, place};
 use crate::placed::Slack;
-use kutzbach_algebra::{Budget, Limits};
+use kutzbach_algebra::Budget;
 use kutzbach_constructive::analysis::s_tree;
 use kutzbach_constructive::construction::{Construction, Outcome, Shape};
 use kutzbach_constructive::planar::Planar;
 use kutzbach_constructive::sketch::{Element, Sketch};
-use kutzbach_constructive::together::together_within;
+use kutzbach_constructive::together::together_from;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::Mechanism;
 
@@ -24,11 +24,7 @@ pub(super) fn at_once(mechanism: &Mechanism, budget: &Budget) -> Option<Modes> {
     let planar = Planar::of(mechanism).ok()?;
     let sketch = &planar.sketch.sketch;
     let tree = s_tree(sketch.graph());
-    let limits = Limits {
-        time: budget.left(),
-        ..budget.limits().clone()
-    };
-    let found = together_within(sketch, &tree, &limits);
+    let found = together_from(sketch, &tree, budget);
     let cores = found.cores.iter().map(|core| core.elements.len()).collect();
     let mut modes = Modes::new(Way::AtOnce { cores });
     for (shapes, multiplicity) in found.solutions(sketch, MOST_LISTED)? {
@@ -186,7 +182,8 @@ mod tests {
     use super::super::{inputs, place::apart};
     use super::*;
     use crate::samples;
-    use kutzbach_algebra::{Budget, Limits};
+    use kutzbach_algebra::Budget;
+    use kutzbach_algebra::Limits;
     use std::fmt::Write;
     use std::path::Path;
 

@@ -6,7 +6,7 @@ use crate::placed::{Placed, Slack, Unsuited};
 use crate::real::{RealSolutions, real_solutions, real_solutions_within};
 use crate::reduced::ReducedSystem;
 use crate::words::count;
-use kutzbach_algebra::{Budget, Limits, RealSet};
+use kutzbach_algebra::{Budget, RealSet};
 use kutzbach_model::mechanism::Mechanism;
 
 /// What came of it.
@@ -17,10 +17,10 @@ pub(super) enum Outcome {
     NotByTree(String),
 }
 
-/// Boxes that a search may look at: a minute's work, so that there is an end without a clock as well.
+/// Boxes that a search may look at: a minute's work, so that there is an end without a limit as well.
 const MOST_BOXES: u64 = 4_000_000;
 
-/// Share of the time for subdivision, so that some is left for exact algebra.
+/// Share of the effort for subdivision, so that some is left for exact algebra.
 const SHARE: f64 = 0.5;
 
 /// Systems of more unknowns than this are not searched: every one more costs ten times as much.
@@ -67,13 +67,7 @@ pub(super) fn answer(mechanism: &Mechanism, slack: &Slack, budget: &Budget) -> O
         Ok(system) => system,
         Err(why) => return Outcome::NotByTree(why.to_string()),
     };
-    let part = || {
-        Budget::new(Limits {
-            time: budget.left().map(|t| t.mul_f64(SHARE)),
-            work: Some(MOST_BOXES),
-            ..budget.limits().clone()
-        })
-    };
+    let part = || budget.part(SHARE, Some(MOST_BOXES));
     if slack.share == 0.0
         && let Some(found) = by_parts::answer(&placed, system.freedom(), &part())
     {

@@ -27,7 +27,7 @@ pub(super) fn tell(
     let Complete::Unknown(_) = modes.complete else {
         return;
     };
-    // The analysis does not look at the clock.
+    // The analysis counts no effort.
     let (proposed, finite) = match in_time {
         true => inputs::freedoms_left(fixed),
         false => (Vec::new(), None),

@@ -31,10 +31,9 @@ pub use place::Pose;
 
 use crate::placed::{Gap, Placed};
 use crate::reduced::{Exported, ReducedSystem};
-use kutzbach_algebra::{Budget, Limits};
+use kutzbach_algebra::{Budget, Limits, Stop};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{HoldError, JointId, Mechanism};
-use std::time::Instant;
 use thiserror::Error;
 
 /// What is asked.
@@ -198,7 +197,6 @@ const MANY_STEPS: usize = 4;
 /// # Errors
 /// [`ModesError`] for joints that cannot be held; everything else is an answer.
 pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Modes, ModesError> {
-    let began = Instant::now();
     let inputs::Proposed {
         held,
         not_held,
@@ -216,10 +214,7 @@ pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Mode
         drawn,
         never_closes,
     } = place::start(&fixed);
-    // What finding the inputs took is part of the budget.
-    let mut limits = question.limits.clone();
-    limits.time = limits.time.map(|t| t.saturating_sub(began.elapsed()));
-    let budget = Budget::new(limits);
+    let budget = Budget::new(question.limits.clone());
     let joints: Vec<JointId> = (0..fixed.joints().len()).map(JointId).collect();
     let (algebraic, _) = fixed.with_rational_rotations(&joints);
     let slack = rounded::slack(&fixed);
@@ -242,7 +237,7 @@ pub fn assembly_modes(mechanism: &Mechanism, question: &Question) -> Result<Mode
     modes.freedom = freedom;
     let test = closing::Test::new(&fixed, &slack);
     test.leave_open_ones_out(&mut modes);
-    let in_time = budget.left().is_none_or(|left| !left.is_zero());
+    let in_time = budget.left().is_none_or(|left| left > 0);
     drawn::tell(&mut modes, &fixed, drawn.as_ref(), slack.share, in_time);
     test.leave_those_beyond_limits_out(&mut modes);
     // Joints by the mechanism as it was asked about: those held have their values.
@@ -295,12 +290,12 @@ impl Modes {
         }
     }
 
-    /// The answer where there was no time for one.
+    /// The answer where none was waited for.
     #[must_use]
-    pub fn out_of_time(question: &Question) -> Self {
+    pub fn interrupted(question: &Question) -> Self {
         Self {
             held: question.held.clone().unwrap_or_default(),
-            complete: Complete::Unknown("the time limit was reached".to_owned()),
+            complete: Complete::Unknown(Stop::Cancelled.to_string()),
             moves: None,
             ..Self::new(Way::Nothing)
         }

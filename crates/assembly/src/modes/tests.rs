@@ -3,14 +3,10 @@
 use super::*;
 use crate::samples;
 use std::path::Path;
-use std::time::Duration;
 
 fn modes_of(name: &str) -> Modes {
     let question = Question {
-        limits: Limits {
-            time: Some(Duration::from_secs(60)),
-            ..Limits::default()
-        },
+        limits: Limits::seconds(60.0),
         held: None,
     };
     assembly_modes(&samples::own(name), &question).unwrap()

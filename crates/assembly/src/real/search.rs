@@ -52,6 +52,9 @@ pub(super) struct Found {
     pub(super) crowded: bool,
 }
 
+/// Effort of a box for each coefficient of its equations and each variable: slopes, Krawczyk's operator, and cuts, several times over.
+const EFFORT_OF_COEFFICIENT: u64 = 8;
+
 /// Boxes left open after which a search ends: isolated solutions leave a few each, curves thousands.
 const MOST_OPEN: usize = 600;
 
@@ -85,8 +88,14 @@ pub(super) fn search(
         }];
         while let Some(cell) = waiting.pop() {
             found.boxes += 1;
-            if found.boxes % 64 == 0
-                && let Err(stop) = budget.spend(64)
+            let entries = cell
+                .tensors
+                .iter()
+                .map(|t| t.coefficients.len())
+                .sum::<usize>() as u64;
+            if let Err(stop) = budget
+                .toil(EFFORT_OF_COEFFICIENT * count as u64 * entries)
+                .and_then(|()| budget.spend(1))
             {
                 found.stopped = Some(stop);
             }

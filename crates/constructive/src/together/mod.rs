@@ -85,9 +85,15 @@ pub fn together(sketch: &Sketch, tree: &STree) -> Together {
     together_within(sketch, tree, &Limits::default())
 }
 
-/// The same within other limits, for each core.
+/// The same within other limits, of which those of work are for each core.
 #[must_use]
 pub fn together_within(sketch: &Sketch, tree: &STree, limits: &Limits) -> Together {
+    together_from(sketch, tree, &Budget::new(limits.clone()))
+}
+
+/// The same with what is left of a budget.
+#[must_use]
+pub fn together_from(sketch: &Sketch, tree: &STree, budget: &Budget) -> Together {
     let peeled = part::peeled(sketch);
     let tries = match sketch.relations().is_empty() {
         true => vec![part::leaves(sketch, tree), peeled],
@@ -105,15 +111,10 @@ pub fn together_within(sketch: &Sketch, tree: &STree, limits: &Limits) -> Togeth
         if cores.is_empty() || !reduces(sketch, &cores) {
             continue;
         }
-        let budget = || {
-            Budget::new(Limits {
-                work: limits.work.or(Some(WORK)),
-                ..limits.clone()
-            })
-        };
+        let work = budget.limits().work.or(Some(WORK));
         let cores: Vec<Core> = cores
             .into_iter()
-            .map(|elements| Core::solved(sketch, elements, &budget()))
+            .map(|elements| Core::solved(sketch, elements, &budget.part(1.0, work)))
             .collect();
         let total = total(sketch, &cores);
         let nothing_stands = total.is_none() && cores.iter().all(|c| c.places().is_some());

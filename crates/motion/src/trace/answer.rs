@@ -17,7 +17,7 @@ impl Tracer<'_> {
         mut found: Found,
         drive: Variable,
         branches: &[Branch],
-        notes: Vec<String>,
+        mut notes: Vec<String>,
         options: &TraceOptions,
     ) -> Motion {
         let system = Arc::clone(&found.curve.solver.system);
@@ -27,6 +27,13 @@ impl Tracer<'_> {
             Variable::of(self.mechanism, joint, freedom)
         };
         let events = self.events(&mut found);
+        let shown = self.hidden().is_shown(&found.curve);
+        if !shown {
+            notes.push(
+                "nothing is seen to move: what is traced is the spin of rods between balls"
+                    .to_owned(),
+            );
+        }
         let ends = if found.curve.closed {
             Vec::new()
         } else {
@@ -81,6 +88,7 @@ impl Tracer<'_> {
             allowed_closure: found.curve.solver.allowed,
             length_unit: system.length(),
             notes,
+            shown,
             curve: found.curve,
         }
     }

@@ -106,11 +106,14 @@ impl Tracer<'_> {
             let stage = self.stage_of(candidate.joint);
             stage.is_some_and(|stage| stage.index.is_some())
         };
-        candidates.sort_by_key(|candidate| !in_a_loop(candidate));
-        let mut best: Option<(f64, Found, Variable)> = None;
+        // A joint of a rod that spins may do no more than spin it.
+        let hidden = self.hidden();
+        let spins = |candidate: &Variable| hidden.touches(self.mechanism, candidate.joint);
+        candidates.sort_by_key(|candidate| (!in_a_loop(candidate), spins(candidate)));
+        let mut best: Option<((bool, f64), Found, Variable)> = None;
         let mut refused = None;
         for candidate in candidates.into_iter().take(CANDIDATES) {
-            if best.is_some() && !in_a_loop(&candidate) {
+            if best.as_ref().is_some_and(|((shown, _), _, _)| *shown) && !in_a_loop(&candidate) {
                 break;
             }
             let (found, variable) = match self.curve_driven_by(&candidate, (hold, inputs)) {
@@ -123,12 +126,12 @@ impl Tracer<'_> {
                 Err(error) => return Err(error),
             };
             let score = self.score(&found, &variable);
-            if best
-                .as_ref()
-                .is_none_or(|(known, _, _)| score > known * (1.0 + 1e-9))
-            {
-                best = Some((score, found, variable));
-                if score.is_infinite() {
+            let shown = hidden.is_shown(&found.curve);
+            if best.as_ref().is_none_or(|((known, most), _, _)| {
+                (shown && !*known) || (shown == *known && score > most * (1.0 + 1e-9))
+            }) {
+                best = Some(((shown, score), found, variable));
+                if shown && score.is_infinite() {
                     break;
                 }
             }

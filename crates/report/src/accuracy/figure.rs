@@ -10,8 +10,8 @@ use crate::picture::markup::{escaped, put, px};
 use crate::picture::plot::{Axis, Form, Level, Mark, MarkKind, Plot, STYLE, Scale, Series, Value};
 use crate::text::clipped;
 use crate::text::words::duration;
-use kutzbach_simulate::Solver;
 use kutzbach_simulate::accuracy::{Accuracy, Claim, Setting, Way};
+use kutzbach_simulate::{Integrator, Solver};
 
 /// Width of the picture and height of the plot in it (px).
 const WIDTH: f64 = 860.0;
@@ -124,6 +124,7 @@ impl Figure<'_> {
             Some(scene) if accuracy.simulation.rows.is_empty() => (&scene.rows, false),
             _ => (&accuracy.simulation.rows, true),
         };
+        let scene = scene_series(accuracy);
         let point = |row: &Setting| Some((row.seconds()?, row.error()?.max(LEAST)));
         let traced: Vec<(f64, f64, String)> = accuracy
             .motion
@@ -142,6 +143,7 @@ impl Figure<'_> {
             .iter()
             .filter_map(point)
             .chain(traced.iter().map(|(x, y, _)| (*x, *y)))
+            .chain(scene.iter().flat_map(|s| &s.values).map(|v| (v.x, v.y)))
             .collect();
         if all.is_empty() {
             return None;
@@ -216,6 +218,7 @@ impl Figure<'_> {
                     .collect(),
             });
         }
+        plot.series.extend(scene);
         // At the border the line would be no line.
         let [first, last] = plot.x.drawn_range();
         if first < 0.99 && last > 1.01 {
@@ -233,6 +236,36 @@ impl Figure<'_> {
         }
         Some(plot)
     }
+}
+
+/// How far the motion of the file's scene is off, by the time that it takes: a line for every integrator that serves it.
+fn scene_series(accuracy: &Accuracy) -> Vec<Series> {
+    let steps = || accuracy.scene.iter().flat_map(|scene| &scene.steps);
+    [
+        (Integrator::RungeKutta, "the scene: Runge-Kutta", 3),
+        (Integrator::Engine, "the scene: engine", 4),
+    ]
+    .into_iter()
+    .filter_map(|(integrator, name, colour)| {
+        let values: Vec<Value> = steps()
+            .filter(|row| row.integrator == integrator && row.timing.seconds_per_second > 0.0)
+            .filter_map(|row| {
+                Some(Value {
+                    x: row.timing.seconds_per_second,
+                    y: row.off?.max(LEAST),
+                    label: Some(step_text(row.time_step)),
+                })
+            })
+            .collect();
+        (!values.is_empty()).then(|| Series {
+            name: name.to_owned(),
+            unit: String::new(),
+            colour,
+            form: Form::Points,
+            values,
+        })
+    })
+    .collect()
 }
 
 /// How a claim is drawn, and what it is called in the legend.

@@ -28,6 +28,8 @@ pub(super) struct DrivenWay {
     pub to: f64,
     /// Why it goes no farther, for people.
     pub ends: String,
+    /// Whether something is seen to move: not so where all that is driven is the spin of rods between balls.
+    shown: bool,
     /// (time, value of the driven variable) along the way at a pace at which no joint goes faster than [`RATE`]; times
     /// ascend from zero.
     schedule: Vec<(f64, f64)>,
@@ -63,6 +65,9 @@ const SHARE: f64 = 0.85;
 
 /// A way shorter than this (rad, part lengths) shows nothing.
 const SHORTEST: f64 = 0.02;
+
+/// Why a motion is not put to the test that nobody could see.
+const UNSEEN: &str = "all that moves is the spin of rods about the lines through their balls: no joint and no point would show it";
 
 /// Longest way of a freedom of a ball (rad): its rotation vector is unambiguous up to half a turn.
 const BALL_WAY: f64 = 2.0;
@@ -114,6 +119,9 @@ pub(super) fn ways_along(
         return Ok(Vec::new());
     }
     let first = motion_of(mechanism, analysis, branch, configuration, drive)?;
+    if drive.is_some() && !first.shown {
+        return Err(UNSEEN.to_owned());
+    }
     let mut ways = vec![way_of(mechanism, geometry, (length, longest), first)?];
     if drive.is_some() {
         return Ok(ways);
@@ -142,7 +150,11 @@ pub(super) fn ways_along(
         )?;
         ways.push(way_of(mechanism, geometry, (length, longest), motion)?);
     }
-    Ok(ways)
+    ways.retain(|way| way.shown);
+    match ways.is_empty() {
+        true => Err(UNSEEN.to_owned()),
+        false => Ok(ways),
+    }
 }
 
 /// The variable of a part that moves most at a generic pose, by name where several do: what is driven where it is not known which
@@ -207,6 +219,7 @@ fn way_of(
     (length, longest): (f64, f64),
     mut motion: Motion,
 ) -> Result<DrivenWay, String> {
+    let shown = motion.shown;
     let nothing = "no pose of the branch is found";
     let least = least_margin(&motion.curve);
     let origin = origin(&motion.curve, least);
@@ -243,6 +256,7 @@ fn way_of(
             from,
             to: best.to,
             ends: best.ends,
+            shown,
             schedule: best.schedule,
         }),
         _ => Err(format!(

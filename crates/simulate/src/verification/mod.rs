@@ -25,6 +25,7 @@
 //! - [`Observer`]: logs and progress bars look on.
 
 mod budget;
+mod closing;
 mod driven_motion;
 mod driven_way;
 mod error;

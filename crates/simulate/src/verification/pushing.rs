@@ -7,10 +7,12 @@
 
 use super::VerificationError;
 use super::budget::{Budget, Size};
+use super::closing::closes;
 use super::ladder::{Finding, LEVEL_ORDER, Outcome, order_between};
 use super::observer::{Moment, Observer, Passage};
 use crate::{Drive, Masses, Solver, World, WorldOptions};
 use kutzbach_closure::{Geometry, JointState, variable_unit};
+use kutzbach_mobility::Structure;
 use kutzbach_model::mechanism::Mechanism;
 use kutzbach_motion::Variable;
 use serde::Serialize;
@@ -29,8 +31,15 @@ const EFFORT: f64 = 10.0;
 pub const STAYED: f64 = 0.03;
 
 /// A joint that goes this far with all gaps below [`TIGHT`] goes as far as a free one: finer substeps will not stop it. That
-/// contradicts nothing: loops that miss by less than the gaps are rigid on paper all the same.
+/// by itself contradicts nothing: loops that miss by less than the gaps are rigid on paper all the same.
 const WENT_FREELY: f64 = 0.2;
+
+/// Corrections that close the loops of a simulated pose are at most so many of its gaps: many joints in a row add theirs.
+const NEAR: f64 = 100.0;
+
+/// Moments of one push whose poses all close exactly, from a joint's having moved by [`STAYED`] on: that many poses on the way are no
+/// isolated ones.
+const ENOUGH: usize = 3;
 
 /// Gaps (characteristic lengths, rad) that explain no motion of [`WENT_FREELY`]: even where they hold a joint by their
 /// fourth root only, as at the flattest isolated poses known, they would have to be 0.2⁴.
@@ -50,6 +59,8 @@ pub struct PushRung {
     pub moved: f64,
     /// Largest gap of any joint in that push (characteristic lengths, rad).
     pub closure_error: f64,
+    /// Whether the loops of every pose looked at in that push can be closed to rounding next to it, once it had moved.
+    pub closes: bool,
     /// Pushes made.
     pub pushes: usize,
     /// Seconds on the clock.
@@ -72,6 +83,9 @@ pub struct Pushing {
 pub(super) struct Pushed<'a> {
     pub mechanism: &'a Mechanism,
     pub geometry: &'a Geometry<f64>,
+    pub structure: &'a Structure,
+    /// Whether rigidity is proved by exact algebra, which no closing to rounding contradicts.
+    pub proved: bool,
     pub states: &'a [JointState<f64>],
     pub solver: Solver,
     pub time_step: f64,
@@ -85,6 +99,8 @@ pub(super) struct Pushed<'a> {
 struct Push {
     moved: f64,
     closure_error: f64,
+    /// Moments at which something had moved, and those of them whose poses close to rounding.
+    closing: [usize; 2],
     stopped: bool,
 }
 
@@ -127,6 +143,7 @@ impl Pushed<'_> {
                 farthest: String::new(),
                 moved: 0.0,
                 closure_error: 0.0,
+                closes: false,
                 pushes: 0,
                 wall_time: 0.0,
             };
@@ -143,6 +160,7 @@ impl Pushed<'_> {
                 if !(push.moved <= rung.moved) || rung.pushes == 1 {
                     rung.moved = push.moved;
                     rung.closure_error = push.closure_error;
+                    rung.closes = push.closing[0] >= ENOUGH && push.closing[0] == push.closing[1];
                     rung.farthest = title;
                 }
                 if push.stopped {
@@ -161,7 +179,7 @@ impl Pushed<'_> {
             left = moved;
             rung.wall_time = begun.elapsed().as_secs_f64();
             rungs.push(rung);
-            if let Some(finding) = judge_pushing(&rungs) {
+            if let Some(finding) = judge_pushing(&rungs, self.proved) {
                 return Ok(Pushing {
                     rungs,
                     finding,
@@ -212,6 +230,7 @@ impl Pushed<'_> {
         let mut push = Push {
             moved: 0.0,
             closure_error: 0.0,
+            closing: [0; 2],
             stopped: false,
         };
         push.stopped = observer
@@ -244,6 +263,14 @@ impl Pushed<'_> {
             ] {
                 if !(now <= *most) {
                     *most = now;
+                }
+            }
+            if moved > STAYED && closure_error <= TIGHT {
+                let reach = NEAR * closure_error.max(f64::EPSILON);
+                let (mechanism, structure) = (self.mechanism, self.structure);
+                push.closing[0] += 1;
+                if closes(mechanism, self.geometry, structure, &states, reach) {
+                    push.closing[1] += 1;
                 }
             }
             push.stopped = observer
@@ -280,9 +307,10 @@ impl Pushed<'_> {
     }
 }
 
-/// Judges the rungs so far; `None` where finer substeps may still decide.
+/// Judges the rungs so far; `None` where finer substeps may still decide. What is `proved` rigid by exact algebra is not contradicted by
+/// loops that close to rounding.
 #[must_use]
-pub fn judge_pushing(rungs: &[PushRung]) -> Option<Finding> {
+pub fn judge_pushing(rungs: &[PushRung], proved: bool) -> Option<Finding> {
     let last = rungs.last()?;
     if last.moved <= STAYED {
         return Some(Finding::new(
@@ -295,6 +323,15 @@ pub fn judge_pushing(rungs: &[PushRung]) -> Option<Finding> {
                     last.moved, last.farthest
                 ),
             },
+        ));
+    }
+    if last.moved >= WENT_FREELY && last.closure_error <= TIGHT && last.closes && !proved {
+        return Some(Finding::new(
+            Outcome::Contradicted,
+            format!(
+                "pushed at {}, it moved by {:.2}, and at every pose looked at on the way its loops close to rounding",
+                last.farthest, last.moved
+            ),
         ));
     }
     if last.moved >= WENT_FREELY && last.closure_error <= TIGHT {
@@ -346,6 +383,7 @@ mod tests {
             farthest: "+crank".to_owned(),
             moved,
             closure_error,
+            closes: false,
             pushes: 8,
             wall_time: 0.0,
         }
@@ -353,12 +391,19 @@ mod tests {
 
     #[test]
     fn what_stays_is_rigid_and_what_runs_free_is_not() {
-        let of = |moved, error| judge_pushing(&[rung(moved, error)]).map(|f| f.outcome);
+        let of = |moved, error| judge_pushing(&[rung(moved, error)], false).map(|f| f.outcome);
         assert_eq!(of(1e-4, 1e-5), Some(Outcome::Confirmed));
         assert_eq!(of(0.4, 1e-7), Some(Outcome::Inconclusive));
         assert_eq!(of(0.4, 1e-3), None);
         assert_eq!(of(0.1, 1e-7), None);
         assert_eq!(of(f64::NAN, 1e-7), None);
+        let closed = PushRung {
+            closes: true,
+            ..rung(0.4, 1e-7)
+        };
+        let of = |proved| judge_pushing(std::slice::from_ref(&closed), proved).map(|f| f.outcome);
+        assert_eq!(of(false), Some(Outcome::Contradicted));
+        assert_eq!(of(true), Some(Outcome::Inconclusive));
         assert_eq!(gave_way(&[rung(0.4, 1e-3)]).outcome, Outcome::Inconclusive);
     }
 }

@@ -18,7 +18,7 @@ use super::pushing::{Pushed, Pushing};
 use super::{FreedomCount, VerificationError, count_freedoms};
 use crate::{JointGap, Masses, Solver, World, WorldOptions};
 use kutzbach_closure::Geometry;
-use kutzbach_mobility::{Analysis, Branch, Verdict};
+use kutzbach_mobility::{Analysis, Branch, CertificateLevel, Verdict};
 use kutzbach_model::mechanism::Mechanism;
 use serde::Serialize;
 
@@ -251,6 +251,8 @@ fn verify_rigid(
         let pushed = Pushed {
             mechanism,
             geometry,
+            structure: &analysis.structure,
+            proved: analysis.mobility.level == CertificateLevel::Exact,
             states: &analysis.assembly.states,
             solver,
             time_step: options.time_step,
@@ -346,12 +348,24 @@ fn listed(things: &[String]) -> String {
     }
 }
 
+/// Loops open by so much (characteristic lengths, rad) hold nothing together.
+const OPEN: f64 = 0.1;
+
 /// The outcome of one way, from the solvers tried: one that confirms is enough, since a solver can fail to move what moves
 /// but not close what does not fit; a contradiction has to come from all of them.
 fn of_one_way(ladders: &[Ladder]) -> Finding {
-    let with = |outcome| ladders.iter().find(|l| l.finding.outcome == outcome);
+    let with = |outcome| ladders.iter().filter(move |l| l.finding.outcome == outcome);
+    // A simulation whose loops are open by a good part of the machine says nothing for or against.
+    let held = |ladder: &&Ladder| {
+        ladder
+            .rungs
+            .last()
+            .is_some_and(|rung| rung.closure_error < OPEN)
+    };
     let found = with(Outcome::Confirmed)
-        .or_else(|| with(Outcome::Inconclusive))
+        .next()
+        .or_else(|| with(Outcome::Inconclusive).find(held))
+        .or_else(|| with(Outcome::Contradicted).next())
         .or_else(|| ladders.last());
     found.map_or_else(|| undecided(&[]), |ladder| ladder.finding.clone())
 }
