@@ -35,7 +35,6 @@ use super::words::{did_you_mean, quoted};
 use super::{ReadOptions, Reading, WarningKind, xml};
 use classes::Classes;
 pub(super) use include::{Whole, whole};
-use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Entity, Frame, JointKind, MechanismBuilder};
 use pose::Compiler;
 use std::collections::{BTreeMap, BTreeSet};
