@@ -457,10 +457,32 @@ pub fn read_file_with(
     options: &ReadOptions,
 ) -> Result<Reading, FormatError> {
     let path = path.as_ref();
+    let bytes = file_bytes(path)?;
+    read_bytes_of(&bytes, &path.display().to_string(), Some(path), options)
+}
+
+/// The bytes of a file, to be read several times with [`read_bytes_of`].
+///
+/// # Errors
+/// A file that cannot be read, or has more than 64 MiB.
+pub fn file_bytes(path: impl AsRef<Path>) -> Result<Vec<u8>, FormatError> {
+    let path = path.as_ref();
     let file = path.display().to_string();
-    let bytes = bytes_of(path).map_err(|fault| located(&file, "", vec![fault]))?;
-    bytes_with(&bytes, &file, |text, file| {
-        read_text(text, file, Some(path), options)
+    bytes_of(path).map_err(|fault| located(&file, "", vec![fault]))
+}
+
+/// Reads the bytes of a file that errors call `file`; what it includes is looked for beside `base`, its path, where that is known.
+///
+/// # Errors
+/// As [`read_bytes`] and [`read_with`].
+pub fn read_bytes_of(
+    bytes: &[u8],
+    file: &str,
+    base: Option<&Path>,
+    options: &ReadOptions,
+) -> Result<Reading, FormatError> {
+    bytes_with(bytes, file, |text, file| {
+        read_text(text, file, base, options)
     })
 }
 
