@@ -171,7 +171,10 @@ impl Table {
     }
 
     fn csv(&self, row: &Row, line: &mut String) {
-        let measures = row.values.iter().map(|value| value.shown.clone());
+        let measures = row
+            .values
+            .iter()
+            .map(|value| visible(&value.shown).into_owned());
         let cells = self.columns().map(|column| match cell(row, column) {
             Cell::Empty => String::new(),
             Cell::Number(number) => number,
