@@ -249,7 +249,10 @@ fn what_cannot_be_asked_is_refused() {
         (&["--over", "off=0..1:0"][..], "from 1 to"),
         (&["--over", "off=1", "--over", "off=2"][..], "varied twice"),
         (&["--over", "off=1", "--shard", "3/2"][..], "1/5"),
-        (&["--over", "off=1", "--sample", "halton:3"][..], "sobol:1000"),
+        (
+            &["--over", "off=1", "--sample", "halton:3"][..],
+            "sobol:1000",
+        ),
         (&[][..], "--over"),
     ] {
         let output = sweep(&[&[SPOILED][..], wrong].concat());
