@@ -65,6 +65,7 @@ mod mjcf;
 mod mujoco;
 mod names;
 mod number_text;
+mod property_names;
 mod quaternion;
 mod reader;
 mod relax;
@@ -83,6 +84,7 @@ pub use error::FormatError;
 #[cfg(feature = "urdf-rs")]
 pub use from_urdf_rs::urdf_text;
 pub use kept::Kept;
+pub use property_names::property_names;
 pub use sketch::{is_sketch, read_sketch, read_sketch_file};
 pub use writer::{Numbers, WriteOptions, escaped, write, write_with};
 
@@ -266,29 +268,6 @@ pub struct ReadOptions {
     /// into for packages, nor is any variable set for `$(env NAME)` and `$(optenv NAME default)`, so that a text means the same
     /// everywhere.
     pub without_environment: bool,
-}
-
-/// Names of the properties and arguments that a text defines itself, in its order, each once: those that [`ReadOptions::symbolic`] can name, without those of
-/// files that it includes. None of a text that is no XML.
-#[must_use]
-pub fn property_names(text: &str) -> Vec<String> {
-    let Ok(document) = roxmltree::Document::parse(text) else {
-        return Vec::new();
-    };
-    let defines = |node: &roxmltree::Node<'_, '_>| {
-        matches!(node.tag_name().name(), "property" | "arg")
-            && node.tag_name().namespace().is_some()
-    };
-    let mut names: Vec<String> = Vec::new();
-    for node in document.descendants().filter(defines) {
-        if let Some(name) = node
-            .attribute("name")
-            .filter(|n| !names.iter().any(|own| own == n))
-        {
-            names.push(name.to_owned());
-        }
-    }
-    names
 }
 
 impl ReadOptions {
