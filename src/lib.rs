@@ -19,6 +19,7 @@
 //! 15. [`record`]: logs of both for viewers.
 //! 16. [`families`]: mechanisms of any size for examples, benches and tests.
 //! 17. [`report`]: what a person or a program reads.
+//! 18. [`sweep`]: the same question of many members of a family.
 
 #[doc(inline)]
 pub use kutzbach_algebra as algebra;
@@ -39,7 +40,7 @@ pub use kutzbach_model::{graph, mechanism};
 #[doc(inline)]
 pub use kutzbach_motion as motion;
 #[doc(inline)]
-pub use kutzbach_report as report;
+pub use kutzbach_report::{self as report, sweep};
 #[cfg(feature = "simulate")]
 #[doc(inline)]
 pub use kutzbach_simulate::{self as simulate, accuracy};

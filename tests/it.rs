@@ -96,6 +96,7 @@ mod stability;
 mod subgroups;
 mod superfluous;
 mod support;
+mod sweep_cli;
 mod thesis_rows;
 mod thesis_systems;
 mod trace;

@@ -1,15 +1,12 @@
 //! Many mechanism files: which ones, and something done with each.
 
 use super::failure::Failure;
+use super::pool::{Event, in_order};
 use std::collections::BTreeSet;
 use std::io::{IsTerminal, Write};
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc;
 use std::time::{Duration, Instant};
-
-/// Stack of a worker, as large as a main thread's usually is.
-const STACK: usize = 8 << 20;
 
 /// Extensions of mechanism files in a folder.
 const EXTENSIONS: [&str; 4] = ["urdf", "sdf", "asmt", "FCStd"];
@@ -78,46 +75,22 @@ pub fn cannot_read(path: &Path, error: &std::io::Error) -> Failure {
 
 /// Does something with every file, as many at a time as there are processors; results in the order of files.
 pub fn each<T: Send>(files: &[PathBuf], work: impl Fn(&Path) -> T + Sync) -> Vec<T> {
-    let workers = std::thread::available_parallelism()
-        .map_or(1, std::num::NonZero::get)
-        .min(files.len());
-    let next = AtomicUsize::new(0);
-    let (send, receive) = mpsc::channel();
-    let mut results: Vec<Option<T>> = files.iter().map(|_| None).collect();
-    std::thread::scope(|scope| {
-        for _ in 0..workers {
-            let (send, next, work) = (send.clone(), &next, &work);
-            let one_after_another = move || {
-                while let Some((index, file)) = {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    files.get(index).map(|file| (index, file))
-                } {
-                    if send.send((index, work(file))).is_err() {
-                        break;
-                    }
-                }
-            };
-            let spawned = std::thread::Builder::new()
-                .stack_size(STACK)
-                .spawn_scoped(scope, one_after_another);
-            // Fewer workers do the same work; with none at all it is done below.
-            if spawned.is_err() {
-                break;
-            }
+    let mut results = Vec::with_capacity(files.len());
+    let mut progress = Progress::new(files.len());
+    let one = |index: u64| {
+        let file = usize::try_from(index).ok().and_then(|at| files.get(at));
+        file.map(|file| work(file))
+    };
+    // Of all that are done before their turn the results are kept: they are not many.
+    in_order(files.len() as u64, u64::MAX, one, |done, event| {
+        progress.reached(usize::try_from(done).unwrap_or(usize::MAX));
+        if let Event::Next(result) = event {
+            results.extend(result);
         }
-        drop(send);
-        let mut progress = Progress::new(files.len());
-        for (index, result) in receive {
-            results[index] = Some(result);
-            progress.step();
-        }
-        progress.clear();
+        ControlFlow::Continue(())
     });
+    progress.clear();
     results
-        .into_iter()
-        .zip(files)
-        .map(|(done, file)| done.unwrap_or_else(|| work(file)))
-        .collect()
 }
 
 /// A count on standard error for whoever waits longer than a second; none where standard error is no terminal.
@@ -140,8 +113,8 @@ impl Progress {
         }
     }
 
-    fn step(&mut self) {
-        self.done += 1;
+    fn reached(&mut self, done: usize) {
+        self.done = done;
         let due = self
             .shown
             .is_none_or(|last| last.elapsed() > Duration::from_millis(100));

@@ -16,12 +16,14 @@ mod graph;
 mod interrupt;
 mod load;
 mod output;
+mod pool;
 mod pose;
 mod progress;
 mod report;
 mod shells;
 mod simulate;
 mod sketch;
+mod sweep;
 mod terminal;
 mod trace;
 mod units;
@@ -60,6 +62,7 @@ enum Command {
     Exact(exact::Arguments),
     Assemble(assemble::Arguments),
     Trace(trace::Arguments),
+    Sweep(sweep::Arguments),
     Accuracy(accuracy::Arguments),
     Gallery(gallery::Arguments),
     Explain(explain::Arguments),
@@ -78,6 +81,7 @@ pub fn run() -> ExitCode {
         Command::Exact(arguments) => exact::run(&arguments),
         Command::Assemble(arguments) => assemble::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
+        Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Accuracy(arguments) => accuracy::run(&arguments),
         Command::Gallery(arguments) => gallery::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),

@@ -65,6 +65,7 @@ mod mjcf;
 mod mujoco;
 mod names;
 mod number_text;
+mod property_names;
 mod quaternion;
 mod reader;
 mod relax;
@@ -83,6 +84,7 @@ pub use error::FormatError;
 #[cfg(feature = "urdf-rs")]
 pub use from_urdf_rs::urdf_text;
 pub use kept::Kept;
+pub use property_names::property_names;
 pub use sketch::{is_sketch, read_sketch, read_sketch_file};
 pub use writer::{Numbers, WriteOptions, escaped, write, write_with};
 
@@ -268,29 +270,6 @@ pub struct ReadOptions {
     pub without_environment: bool,
 }
 
-/// Names of the properties and arguments that a text defines itself, in its order, each once: those that [`ReadOptions::symbolic`] can name, without those of
-/// files that it includes. None of a text that is no XML.
-#[must_use]
-pub fn property_names(text: &str) -> Vec<String> {
-    let Ok(document) = roxmltree::Document::parse(text) else {
-        return Vec::new();
-    };
-    let defines = |node: &roxmltree::Node<'_, '_>| {
-        matches!(node.tag_name().name(), "property" | "arg")
-            && node.tag_name().namespace().is_some()
-    };
-    let mut names: Vec<String> = Vec::new();
-    for node in document.descendants().filter(defines) {
-        if let Some(name) = node
-            .attribute("name")
-            .filter(|n| !names.iter().any(|own| own == n))
-        {
-            names.push(name.to_owned());
-        }
-    }
-    names
-}
-
 impl ReadOptions {
     /// A fault where a measure is named and the format has none.
     fn without_measures(&self, format: &str) -> Option<Fault> {
@@ -457,10 +436,32 @@ pub fn read_file_with(
     options: &ReadOptions,
 ) -> Result<Reading, FormatError> {
     let path = path.as_ref();
+    let bytes = file_bytes(path)?;
+    read_bytes_of(&bytes, &path.display().to_string(), Some(path), options)
+}
+
+/// The bytes of a file, to be read several times with [`read_bytes_of`].
+///
+/// # Errors
+/// A file that cannot be read, or has more than 64 MiB.
+pub fn file_bytes(path: impl AsRef<Path>) -> Result<Vec<u8>, FormatError> {
+    let path = path.as_ref();
     let file = path.display().to_string();
-    let bytes = bytes_of(path).map_err(|fault| located(&file, "", vec![fault]))?;
-    bytes_with(&bytes, &file, |text, file| {
-        read_text(text, file, Some(path), options)
+    bytes_of(path).map_err(|fault| located(&file, "", vec![fault]))
+}
+
+/// Reads the bytes of a file that errors call `file`; what it includes is looked for beside `base`, its path, where that is known.
+///
+/// # Errors
+/// As [`read_bytes`] and [`read_with`].
+pub fn read_bytes_of(
+    bytes: &[u8],
+    file: &str,
+    base: Option<&Path>,
+    options: &ReadOptions,
+) -> Result<Reading, FormatError> {
+    bytes_with(bytes, file, |text, file| {
+        read_text(text, file, base, options)
     })
 }
 

@@ -229,7 +229,7 @@ fn blocks(analysis: &Analysis) -> Vec<Block> {
 }
 
 /// How far the decision of a part is from being another: the smaller of its clearances from the tolerance on both sides.
-fn margin(part: &PartRank) -> f64 {
+pub(super) fn margin(part: &PartRank) -> f64 {
     let decision = &part.decision;
     let above = if decision.kept > 0.0 {
         decision.kept / decision.tolerance
@@ -313,7 +313,7 @@ fn verdict(mechanism: &Mechanism, analysis: &Analysis) -> Mobility {
 }
 
 /// Whether a joint rests on every branch; at the pose itself where there is none, or none is known.
-fn joint_role(analysis: &Analysis, joint: usize) -> JointRole {
+pub(super) fn joint_role(analysis: &Analysis, joint: usize) -> JointRole {
     let Some(branches) = analysis.branches.as_ref().filter(|b| !b.is_empty()) else {
         return analysis.roles[joint].clone();
     };

@@ -35,6 +35,7 @@
 //! | `exact` | what the polynomials say, as data and as a page |
 //! | `convert` | the mechanism in the words of other programs |
 //! | `picture` | plots, the mechanism drawn, a sign for each answer: still, as SVG |
+//! | `sweep` | the same question of many members of a family, a row for each |
 //! | `definitions` | what a word means |
 
 #[cfg(feature = "simulate")]
@@ -65,6 +66,7 @@ mod ranges;
 #[allow(clippy::wildcard_imports)]
 pub(crate) mod samples;
 mod schema;
+pub mod sweep;
 pub mod text;
 
 pub use asked::{Options, PlayAsked, ReportError};

@@ -1,0 +1,404 @@
+//! The members of a family, and what is found of each.
+
+use super::plan::{Plan, Shard};
+use super::values::Value;
+use crate::asked::HOME;
+use crate::findings::{joint_role, margin};
+use crate::natural::natural_order;
+use kutzbach_format::{FormatError, ReadOptions, Reading, property_names, read_bytes_of};
+use kutzbach_mobility::{
+    Analysis, AnalysisOptions, Depth, MobilityClass, PoseKind, SingularKind, Verdict, analyse,
+    generic_count,
+};
+use kutzbach_model::mechanism::Mechanism;
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
+
+/// A file in memory, and how it is to be read.
+#[derive(Clone, Debug)]
+pub struct MeasuredFile {
+    /// Its bytes.
+    pub bytes: Vec<u8>,
+    /// What errors call it.
+    pub file: String,
+    /// Its path, beside which included files are looked for.
+    pub base: Option<PathBuf>,
+    /// How it is read; measures that are not varied may have settings here.
+    pub options: ReadOptions,
+}
+
+impl MeasuredFile {
+    /// A text that is no file, read as any text is.
+    #[must_use]
+    pub fn of_text(text: &str, file: &str) -> Self {
+        Self {
+            bytes: text.as_bytes().to_vec(),
+            file: file.to_owned(),
+            base: None,
+            options: ReadOptions::default(),
+        }
+    }
+
+    /// A number made from its bytes (FNV-1a, 64 bits), by which a file that has changed is known.
+    #[must_use]
+    pub fn hash(&self) -> u64 {
+        self.bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+            (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
+        })
+    }
+
+    fn read(&self, settings: Vec<(String, String)>) -> Result<Reading, FormatError> {
+        let options = ReadOptions {
+            settings,
+            ..self.options.clone()
+        };
+        read_bytes_of(&self.bytes, &self.file, self.base.as_deref(), &options)
+    }
+}
+
+/// Whether there is an answer for a variant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// It was analysed at a closed pose.
+    Analysed,
+    /// No closed pose was found.
+    Unassembled,
+    /// With these values the file is no mechanism.
+    Invalid,
+}
+
+impl Status {
+    /// The word in a table.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Analysed => "analysed",
+            Self::Unassembled => "unassembled",
+            Self::Invalid => "invalid",
+        }
+    }
+}
+
+/// What is found of a variant; what was not asked, or is not decided, is `None`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Facts {
+    /// Kutzbach's count.
+    pub kutzbach: Option<i64>,
+    /// The count at random geometry.
+    pub generic: Option<i64>,
+    /// Instantaneous freedom.
+    pub instantaneous: Option<usize>,
+    /// Redundant constraints.
+    pub redundant: Option<i64>,
+    /// How many times its tolerance the rank of the weakest part is away from being another one; `None` where nothing was
+    /// ranked or no value is near.
+    pub margin: Option<f64>,
+    /// Finite freedom.
+    pub finite: Option<usize>,
+    /// The verdict.
+    pub verdict: Option<Verdict>,
+    /// Regular or singular.
+    pub pose: Option<PoseKind>,
+    /// In which way singular.
+    pub kind: Option<SingularKind>,
+    /// Why it is mobile.
+    pub class: Option<MobilityClass>,
+    /// How many branches pass through the pose.
+    pub branches: Option<usize>,
+    /// Names of locked joints, in natural order; `None` where it is open of some joint whether it is.
+    pub locked: Option<Vec<String>>,
+}
+
+/// The answer for one variant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// Whether there is one.
+    pub status: Status,
+    /// Why there is none, or why it is open.
+    pub reason: Option<String>,
+    /// What was found.
+    pub facts: Facts,
+}
+
+impl Outcome {
+    fn invalid(reason: String) -> Self {
+        Self {
+            status: Status::Invalid,
+            reason: Some(reason),
+            facts: Facts::default(),
+        }
+    }
+}
+
+/// A variant and its answer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Its number in the whole sweep, counted from 0.
+    pub index: u64,
+    /// The values of the measures, in the order of [`Plan::names`].
+    pub values: Vec<Value>,
+    /// What was found.
+    pub outcome: Outcome,
+}
+
+/// A file with named measures, the values they take, and what is asked of each variant.
+#[derive(Clone, Debug)]
+pub struct Family {
+    source: MeasuredFile,
+    plan: Plan,
+    asked: AnalysisOptions,
+}
+
+impl Family {
+    /// A family. The configuration asked for is that of all members; without one it is the home pose.
+    ///
+    /// # Errors
+    /// A file that is no mechanism with its own values either; a measure that it does not have.
+    pub fn new(
+        source: MeasuredFile,
+        plan: Plan,
+        asked: AnalysisOptions,
+    ) -> Result<Self, Box<FormatError>> {
+        let family = Self {
+            source,
+            plan,
+            asked,
+        };
+        let first = family.plan.values(0).unwrap_or_default();
+        let Err(error) = family.source.read(family.settings(&first)) else {
+            return Ok(family);
+        };
+        // The first variant may be invalid by its values; what is wrong with the file, or with a name, is so in all of them.
+        let settings = family.source.options.settings.clone();
+        family.source.read(settings)?;
+        let known = property_names(&String::from_utf8_lossy(&family.source.bytes));
+        let is_known = |name: &str| known.iter().any(|own| own == name);
+        match family.plan.names().all(is_known) {
+            true => Ok(family),
+            false => Err(Box::new(error)),
+        }
+    }
+
+    /// Which variants it has.
+    #[must_use]
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// The file.
+    #[must_use]
+    pub fn source(&self) -> &MeasuredFile {
+        &self.source
+    }
+
+    /// How much is asked.
+    #[must_use]
+    pub fn depth(&self) -> Depth {
+        self.asked.depth
+    }
+
+    /// The gap up to which loops count as closed, where one was given.
+    #[must_use]
+    pub fn closure_tolerance(&self) -> Option<f64> {
+        self.asked.closure_tolerance
+    }
+
+    /// The rows of a share, each computed when it is asked for.
+    pub fn variants(&self, shard: Shard) -> impl Iterator<Item = Row> {
+        let count = shard.count(self.plan.count());
+        (0..count).map_while(move |place| self.row(shard.index(place)))
+    }
+
+    /// One row; `None` beyond the last variant.
+    #[must_use]
+    pub fn row(&self, index: u64) -> Option<Row> {
+        let values = self.plan.values(index)?;
+        let outcome = self.verdict(&values);
+        Some(Row {
+            index,
+            values,
+            outcome,
+        })
+    }
+
+    /// What is found with these values of the measures, in the order of [`Plan::names`].
+    ///
+    /// A fault of this program in one variant is its reason, so that the others are still answered.
+    #[must_use]
+    pub fn verdict(&self, values: &[Value]) -> Outcome {
+        catch_unwind(AssertUnwindSafe(|| self.analysed(values)))
+            .unwrap_or_else(|fault| Outcome::invalid(told(&*fault)))
+    }
+
+    fn settings(&self, values: &[Value]) -> Vec<(String, String)> {
+        let own = self.source.options.settings.iter().cloned();
+        let varied = self.plan.names().zip(values);
+        // Of two settings with one name the later holds.
+        own.chain(varied.map(|(name, value)| (name.to_owned(), value.setting.clone())))
+            .collect()
+    }
+
+    fn analysed(&self, values: &[Value]) -> Outcome {
+        let reading = match self.source.read(self.settings(values)) {
+            Ok(reading) => reading,
+            Err(error) => return Outcome::invalid(error.to_string()),
+        };
+        let mechanism = &reading.mechanism;
+        let mut options = self.asked.clone();
+        if options.configuration.is_none() && mechanism.configuration(HOME).is_some() {
+            options.configuration = Some(HOME.to_owned());
+        }
+        match analyse(mechanism, &options) {
+            Ok(analysis) => outcome(mechanism, &analysis, options.depth),
+            Err(error) => Outcome::invalid(error.to_string()),
+        }
+    }
+}
+
+/// What is found, and why not more.
+fn outcome(given: &Mechanism, analysis: &Analysis, depth: Depth) -> Outcome {
+    let mobility = &analysis.mobility;
+    let mut facts = Facts {
+        kutzbach: Some(analysis.kutzbach),
+        ..Facts::default()
+    };
+    let Some(home) = &analysis.home else {
+        facts.verdict = (depth > Depth::Rank).then_some(mobility.verdict);
+        return Outcome {
+            status: Status::Unassembled,
+            reason: Some(mobility.certificate.clone()),
+            facts,
+        };
+    };
+    facts.instantaneous = home.instantaneous;
+    facts.redundant = home.redundant;
+    facts.margin = analysis
+        .parts
+        .iter()
+        .filter(|part| part.unknowns() > 0 && part.equations() > 0)
+        .map(margin)
+        .min_by(f64::total_cmp)
+        .filter(|margin| margin.is_finite());
+    let mut reason = None;
+    if depth == Depth::Rank {
+        if home.instantaneous.is_none() {
+            let (least, most) = home.candidates;
+            reason = Some(format!(
+                "the margin does not tell: between {least} and {most} instantaneous freedoms"
+            ));
+        }
+    } else {
+        judged(&mut facts, analysis.of(given), analysis);
+        if mobility.finite().is_none() {
+            reason = mobility.why.first().cloned();
+        }
+    }
+    Outcome {
+        status: Status::Analysed,
+        reason,
+        facts,
+    }
+}
+
+/// What goes beyond the rank.
+fn judged(facts: &mut Facts, mechanism: &Mechanism, analysis: &Analysis) {
+    let mobility = &analysis.mobility;
+    facts.generic = match &analysis.generic {
+        Some(generic) => Some(generic.mobility),
+        None => generic_count(mechanism, &analysis.structure)
+            .ok()
+            .map(|generic| generic.mobility),
+    };
+    facts.verdict = Some(mobility.verdict);
+    facts.finite = mobility.finite();
+    facts.pose = mobility.pose;
+    facts.kind = mobility.kind;
+    facts.class = mobility.class;
+    facts.branches = analysis.branches.as_ref().map(Vec::len);
+    facts.locked = locked(mechanism, analysis);
+}
+
+/// Names of joints that rest on every branch.
+fn locked(mechanism: &Mechanism, analysis: &Analysis) -> Option<Vec<String>> {
+    let mut names = Vec::new();
+    for (index, joint) in mechanism.joints().iter().enumerate() {
+        if joint.freedom() > 0 && joint_role(analysis, index).locked? {
+            names.push(joint.name.clone());
+        }
+    }
+    names.sort_by(|a, b| natural_order(a, b));
+    Some(names)
+}
+
+/// What a panic said.
+fn told(fault: &(dyn Any + Send)) -> String {
+    let said = fault
+        .downcast_ref::<&str>()
+        .copied()
+        .or_else(|| fault.downcast_ref::<String>().map(String::as_str))
+        .unwrap_or("it says nothing");
+    format!("a fault of this program: {said}")
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::values::Over;
+    use super::*;
+
+    /// A hinge at a place that there is none of where `lead` is 0.
+    const TEXT: &str = r#"<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">
+  <xacro:property name="lead" value="1"/>
+  <link name="base"/> <link name="nut"/>
+  <joint name="turn" type="revolute">
+    <parent link="base"/><child link="nut"/><origin xyz="${1/lead} 0 0"/><axis xyz="0 0 1"/>
+  </joint>
+</robot>"#;
+
+    fn family(over: &str, depth: Depth) -> Result<Family, Box<FormatError>> {
+        let plan = Plan::new(vec![Over::read(over).unwrap()], None).unwrap();
+        let options = AnalysisOptions {
+            depth,
+            ..AnalysisOptions::default()
+        };
+        Family::new(MeasuredFile::of_text(TEXT, "r.urdf"), plan, options)
+    }
+
+    #[test]
+    fn an_invalid_member_is_a_row_with_its_reason() {
+        let family = family("lead=0..1:3", Depth::Verdict).unwrap();
+        let rows: Vec<Row> = family.variants(Shard::default()).collect();
+        let status: Vec<Status> = rows.iter().map(|row| row.outcome.status).collect();
+        let expected = [Status::Invalid, Status::Analysed, Status::Analysed];
+        assert_eq!(status, expected);
+        let reason = rows[0].outcome.reason.as_ref().unwrap();
+        assert!(reason.starts_with("r.urdf:5:"), "{reason}");
+        let facts = &rows[1].outcome.facts;
+        assert_eq!((facts.finite, facts.generic), (Some(1), Some(1)));
+        assert_eq!(facts.verdict, Some(Verdict::Mobile));
+        assert_eq!(facts.margin, None);
+        assert!(family.row(3).is_none());
+    }
+
+    #[test]
+    fn the_rank_alone_gives_no_verdict() {
+        let row = family("lead=2", Depth::Rank).unwrap().row(0).unwrap();
+        assert_eq!(row.outcome.facts.instantaneous, Some(1));
+        assert_eq!(row.outcome.facts.verdict, None);
+        assert_eq!(row.outcome.reason, None);
+    }
+
+    #[test]
+    fn a_measure_that_the_file_does_not_have_is_an_error() {
+        let error = family("led=1,2", Depth::Rank).unwrap_err();
+        assert!(error.to_string().contains("`led`"), "{error}");
+    }
+
+    #[test]
+    fn a_fault_is_told() {
+        assert_eq!(told(&"oh"), "a fault of this program: oh");
+        assert_eq!(told(&"oh".to_owned()), "a fault of this program: oh");
+        assert_eq!(told(&7), "a fault of this program: it says nothing");
+    }
+}

@@ -1,0 +1,349 @@
+//! Which variants a sweep has: all combinations of values or a sample of them, and shares of the work.
+
+use super::points::{SOBOL_DIMENSIONS, Sobol, random_parts};
+use super::values::{Over, SweepError, Value, WAYS};
+use serde::Serialize;
+use std::fmt;
+
+/// Points instead of all combinations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sample {
+    /// The first points of a Sobol sequence, which fill the ranges evenly; up to eight measures.
+    Sobol(u64),
+    /// Pseudo-random points, always the same.
+    Random(u64),
+}
+
+impl Sample {
+    /// Reads `sobol:1000` or `random:1000`.
+    ///
+    /// # Errors
+    /// [`SweepError`] where it is written otherwise.
+    pub fn read(written: &str) -> Result<Self, SweepError> {
+        let wrong = || {
+            SweepError::new(
+                format!("needed sobol:N or random:N, found `{written}`"),
+                "for example `sobol:1000`",
+            )
+        };
+        let (kind, count) = written.split_once(':').ok_or_else(wrong)?;
+        let count: u64 = count.trim().parse().map_err(|_| wrong())?;
+        match kind.trim() {
+            _ if count == 0 => Err(wrong()),
+            // Its points repeat then.
+            "sobol" if count <= 1 << 32 => Ok(Self::Sobol(count)),
+            "random" => Ok(Self::Random(count)),
+            _ => Err(wrong()),
+        }
+    }
+
+    /// How many points.
+    #[must_use]
+    pub fn count(self) -> u64 {
+        match self {
+            Self::Sobol(count) | Self::Random(count) => count,
+        }
+    }
+}
+
+impl fmt::Display for Sample {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Sobol(count) => write!(f, "sobol:{count}"),
+            Self::Random(count) => write!(f, "random:{count}"),
+        }
+    }
+}
+
+/// A share of the variants, for one of several machines: every so-manieth of them, so that all shares take about as long.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    /// Which share, counted from 1.
+    number: u64,
+    /// How many shares.
+    of: u64,
+}
+
+impl Default for Shard {
+    /// All of it.
+    fn default() -> Self {
+        Self { number: 1, of: 1 }
+    }
+}
+
+impl Shard {
+    /// Reads `2/5`.
+    ///
+    /// # Errors
+    /// [`SweepError`] where it is written otherwise, or there is no such share.
+    pub fn read(written: &str) -> Result<Self, SweepError> {
+        let parsed = written
+            .split_once('/')
+            .and_then(|(number, of)| {
+                let number: u64 = number.trim().parse().ok()?;
+                Some(Self {
+                    number,
+                    of: of.trim().parse().ok()?,
+                })
+            })
+            .filter(|shard| (1..=shard.of).contains(&shard.number));
+        parsed.ok_or_else(|| {
+            SweepError::new(
+                format!("needed the number of a share and how many there are, found `{written}`"),
+                "the shares of five are 1/5, 2/5, 3/5, 4/5 and 5/5",
+            )
+        })
+    }
+
+    /// How many of so many variants are in it.
+    #[must_use]
+    pub fn count(&self, all: u64) -> u64 {
+        let first = self.number - 1;
+        all.saturating_sub(first).div_ceil(self.of)
+    }
+
+    /// The number of the variant at a place of this share; both are counted from 0.
+    #[must_use]
+    pub fn index(&self, place: u64) -> u64 {
+        place
+            .saturating_mul(self.of)
+            .saturating_add(self.number - 1)
+    }
+}
+
+impl fmt::Display for Shard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.number, self.of)
+    }
+}
+
+/// All variants of a sweep, in an order that depends on nothing else: of combinations the last measure changes first.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Plan {
+    over: Vec<Over>,
+    sample: Option<Sample>,
+    sobol: Option<Sobol>,
+    count: u64,
+}
+
+/// What was asked, as the first line of the results states it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Asked {
+    /// The measures and their values as they were written.
+    pub over: Vec<String>,
+    /// The sample, if one is taken.
+    pub sample: Option<String>,
+}
+
+impl Plan {
+    /// The combinations of all values, or a sample.
+    ///
+    /// # Errors
+    /// [`SweepError`] where there is no measure, one stands there twice, or there is no telling how many variants there are.
+    pub fn new(over: Vec<Over>, sample: Option<Sample>) -> Result<Self, SweepError> {
+        if over.is_empty() {
+            return Err(SweepError::new("there is no measure to vary", WAYS));
+        }
+        for (place, one) in over.iter().enumerate() {
+            if over.iter().take(place).any(|other| other.name == one.name) {
+                return Err(SweepError::new(
+                    format!("the measure `{}` is varied twice", one.name),
+                    "give all its values at once",
+                ));
+            }
+        }
+        let dimensions = over.len();
+        let sobol = match sample {
+            Some(Sample::Sobol(_)) => Some(Sobol::new(dimensions).ok_or_else(|| {
+                SweepError::new(
+                    format!("a Sobol sequence of up to {SOBOL_DIMENSIONS} measures is there, found {dimensions}"),
+                    "take `random` for more",
+                )
+            })?),
+            _ => None,
+        };
+        let count = match sample {
+            Some(sample) => sample.count(),
+            None => combinations(&over)?,
+        };
+        Ok(Self {
+            over,
+            sample,
+            sobol,
+            count,
+        })
+    }
+
+    /// How many variants there are.
+    #[must_use]
+    pub fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// The names of the measures, in their order.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.over.iter().map(|over| over.name.as_str())
+    }
+
+    /// The values of all measures in a variant, counted from 0; `None` beyond the last one.
+    #[must_use]
+    pub fn values(&self, index: u64) -> Option<Vec<Value>> {
+        if index >= self.count {
+            return None;
+        }
+        if let Some(sample) = self.sample {
+            let parts = match (&self.sobol, sample) {
+                (Some(sobol), Sample::Sobol(_)) => sobol.parts(index),
+                _ => random_parts(index, self.over.len()),
+            };
+            let values = self.over.iter().zip(parts);
+            return values
+                .map(|(over, part)| over.values.sampled(part))
+                .collect();
+        }
+        let mut rest = index;
+        let mut values = Vec::with_capacity(self.over.len());
+        for over in self.over.iter().rev() {
+            let count = over.values.count()?.max(1);
+            values.push(over.values.at(rest % count)?);
+            rest /= count;
+        }
+        values.reverse();
+        Some(values)
+    }
+
+    /// What was asked.
+    #[must_use]
+    pub fn asked(&self) -> Asked {
+        Asked {
+            over: self
+                .over
+                .iter()
+                .map(|over| over.written().to_owned())
+                .collect(),
+            sample: self.sample.map(|sample| sample.to_string()),
+        }
+    }
+}
+
+/// How many combinations there are.
+fn combinations(over: &[Over]) -> Result<u64, SweepError> {
+    let mut all = 1_u64;
+    for one in over {
+        let count = one.values.count().ok_or_else(|| {
+            SweepError::new(
+                format!("the range of `{}` has no count", one.name),
+                format!("write `{}:101`, or take a sample of it", one.written()),
+            )
+        })?;
+        all = all.checked_mul(count).ok_or_else(|| {
+            SweepError::new(
+                "there are too many combinations to be counted",
+                "take a sample of them",
+            )
+        })?;
+    }
+    Ok(all)
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn plan(over: &[&str], sample: Option<&str>) -> Result<Plan, SweepError> {
+        let over = over
+            .iter()
+            .map(|one| Over::read(one))
+            .collect::<Result<_, _>>()?;
+        Plan::new(over, sample.map(Sample::read).transpose()?)
+    }
+
+    fn shown(plan: &Plan) -> Vec<Vec<String>> {
+        (0..plan.count())
+            .map(|index| {
+                let values = plan.values(index).unwrap();
+                values.into_iter().map(|value| value.shown).collect()
+            })
+            .collect()
+    }
+
+    #[test]
+    fn the_last_measure_changes_first() {
+        let plan = plan(&["a=0..0.01:3", "b=0.1, pi/4"], None).unwrap();
+        assert_eq!(
+            shown(&plan),
+            [
+                ["0", "0.1"],
+                ["0", "pi/4"],
+                ["0.005", "0.1"],
+                ["0.005", "pi/4"],
+                ["0.01", "0.1"],
+                ["0.01", "pi/4"],
+            ]
+        );
+        assert_eq!(plan.values(2).unwrap()[0].setting, "1/200");
+        assert_eq!(plan.values(6), None);
+        assert_eq!(plan.names().collect::<Vec<_>>(), ["a", "b"]);
+    }
+
+    #[test]
+    fn samples_take_ranges_and_lists() {
+        let sampled = plan(&["a=1..3", "b=x,y", "c=0..10:11"], Some("sobol:4")).unwrap();
+        assert_eq!(
+            shown(&sampled),
+            [
+                ["1", "x", "0"],
+                ["2", "y", "5"],
+                ["2.5", "x", "2"],
+                ["1.5", "y", "8"],
+            ]
+        );
+        let random = plan(&["a=1..3"], Some("random:50")).unwrap();
+        let values: Vec<f64> = shown(&random)
+            .iter()
+            .map(|v| v[0].parse().unwrap())
+            .collect();
+        assert!(values.iter().all(|x| (1.0..3.0).contains(x)));
+        assert_eq!(shown(&random), shown(&random.clone()));
+    }
+
+    #[test]
+    fn shares_are_the_whole() {
+        for of in [1, 2, 5, 40] {
+            let mut all: Vec<u64> = (1..=of)
+                .flat_map(|number| {
+                    let shard = Shard::read(&format!("{number}/{of}")).unwrap();
+                    (0..shard.count(17)).map(move |place| shard.index(place))
+                })
+                .collect();
+            all.sort_unstable();
+            assert_eq!(all, (0..17).collect::<Vec<u64>>(), "{of}");
+        }
+    }
+
+    #[test]
+    fn what_is_written_otherwise_is_refused() {
+        for wrong in [
+            "a",
+            "a=",
+            "=1",
+            "a=1..",
+            "a=1..2:0",
+            "a=1..2:x",
+            "a=pi..2:3",
+            "a=1,,2",
+        ] {
+            assert!(Over::read(wrong).is_err(), "{wrong}");
+        }
+        for wrong in ["sobol", "sobol:0", "halton:3", "random:-1"] {
+            assert!(Sample::read(wrong).is_err(), "{wrong}");
+        }
+        for wrong in ["0/2", "3/2", "1", "1/0"] {
+            assert!(Shard::read(wrong).is_err(), "{wrong}");
+        }
+        assert!(plan(&["a=0..1"], None).is_err());
+        assert!(plan(&["a=0..1:2", "a=3"], None).is_err());
+        assert!(plan(&[], None).is_err());
+    }
+}
