@@ -43,7 +43,7 @@ impl Measured {
     pub fn stated(number: &Number) -> Result<Self, GeometryError> {
         let value = number.value();
         let half_unit = match number.stated() {
-            Some(stated) if stated.decimals > 0 => 0.5 * 10f64.powi(-stated.decimals),
+            Some(stated) if stated.decimals > 0 => (0.5 * 10f64.powi(-stated.decimals)).next_up(),
             _ => 0.0,
         };
         let own = Self::new(value, half_unit)?;
