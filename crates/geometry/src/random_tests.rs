@@ -74,12 +74,21 @@ struct Case {
 
 impl Case {
     fn new(random: &mut SplitMix64) -> Self {
-        Self {
+        let mut case = Self {
             p: triple(random),
             q: triple(random),
             u: not_zero(random),
             v: not_zero(random),
+        };
+        // By chance alone lines would coincide in one case of a thousand.
+        let choice = random.next_u64();
+        if choice.is_multiple_of(4) {
+            case.v = case.u.map(|x| -x);
         }
+        if choice.is_multiple_of(3) {
+            case.q = [0, 1, 2].map(|i| case.p[i] + case.u[i]);
+        }
+        case
     }
 }
 
@@ -213,7 +222,7 @@ fn no_answer_about_integers_is_wrong() {
         }
     }
     // Every predicate was seen to hold, in both forms.
-    assert!(held.iter().all(|count| *count > 20), "{held:?}");
+    assert!(held.iter().all(|count| *count > 300), "{held:?}");
 }
 
 #[test]
@@ -236,7 +245,7 @@ fn answers_within_digits_never_contradict_the_integers() {
         }
     }
     assert!(
-        undecided > CASES && decided > CASES,
+        undecided > CASES / 2 && decided > CASES,
         "{undecided}, {decided}"
     );
 }
