@@ -1,8 +1,8 @@
 //! Random small integers against determinants of integers: no answer may be wrong.
 
 use crate::{
-    Answer, Direction, Entity, Found, Line, Measured, Plane, Point, Scalar, Segment, coincide,
-    colinear, contained, coplanar, intersection, parallel, perpendicular,
+    Answer, Direction, Entity, Found, GeometryError, Line, Measured, Plane, Point, Scalar, Segment,
+    coincide, colinear, contained, coplanar, intersection, parallel, perpendicular,
 };
 use kutzbach_math::matrix::SplitMix64;
 use kutzbach_math::number::Number;
@@ -118,90 +118,74 @@ fn made<S: Scalar>(case: &Case, mut numbers: impl FnMut(Whole) -> [S; 3]) -> Opt
     })
 }
 
-/// Every predicate of a case beside what the integers say.
-fn answers<S: Scalar>(case: &Case, made: &Made<S>) -> Vec<(&'static str, Answer, bool)> {
-    let Case { p, q, u, v } = *case;
-    let offset = difference(q, p);
-    let back = difference(p, q);
-    let one_direction = dependent(u, v);
-    let way = product(back, v);
-    let on_segment = dependent(back, v) && way >= 0 && way <= product(v, v);
-    let line_in_plane = product(u, v) == 0 && product(back, v) == 0;
-    let one_line = one_direction && dependent(offset, u);
-    let one_plane = one_direction && product(offset, u) == 0;
-    let rows = [
-        (
-            "parallel lines",
-            parallel(&made.first, &made.second),
-            one_direction,
-        ),
-        (
-            "parallel line, plane",
-            parallel(&made.first, &made.plane),
-            product(u, v) == 0,
-        ),
-        (
-            "parallel planes",
-            parallel(&made.plane, &made.other_plane),
-            one_direction,
-        ),
+type Row = (&'static str, Result<Answer, GeometryError>, bool);
+
+/// Predicates of directions beside what the integers say.
+fn of_directions<S: Scalar>(case: &Case, made: &Made<S>) -> Vec<Row> {
+    let (line, plane) = (&made.first, &made.plane);
+    let alike = dependent(case.u, case.v);
+    let across = product(case.u, case.v) == 0;
+    vec![
+        ("parallel lines", parallel(line, &made.second), alike),
+        ("parallel line, plane", parallel(line, plane), across),
+        ("parallel planes", parallel(plane, &made.other_plane), alike),
         (
             "perpendicular lines",
-            perpendicular(&made.first, &made.segment),
-            product(u, v) == 0,
+            perpendicular(line, &made.segment),
+            across,
         ),
         (
             "perpendicular line, plane",
-            perpendicular(&made.first, &made.plane),
-            one_direction,
+            perpendicular(line, plane),
+            alike,
         ),
-        (
-            "coincident lines",
-            coincide(&made.first, &made.second),
-            one_line,
-        ),
+    ]
+}
+
+/// Predicates of places beside what the integers say.
+fn of_places<S: Scalar>(case: &Case, made: &Made<S>) -> Vec<Row> {
+    let Case { p, q, u, v } = *case;
+    let (offset, back) = (difference(q, p), difference(p, q));
+    let way = product(back, v);
+    let on_line = dependent(back, v);
+    let on_segment = on_line && way >= 0 && way <= product(v, v);
+    let in_plane = product(back, v) == 0;
+    let one_line = dependent(u, v) && dependent(offset, u);
+    let one_plane = dependent(u, v) && in_plane;
+    let flat = determinant([offset, u, v]) == 0;
+    let (point, line, plane) = (&made.point, &made.first, &made.plane);
+    let (second, segment) = (&made.second, &made.segment);
+    let along_plane = product(u, v) == 0;
+    vec![
+        ("coincident lines", coincide(line, second), one_line),
         (
             "coincident planes",
-            coincide(&made.plane, &made.other_plane),
+            coincide(plane, &made.other_plane),
             one_plane,
         ),
-        (
-            "colinear line, segment",
-            colinear(&made.first, &made.segment),
-            one_line,
-        ),
-        (
-            "colinear point, line",
-            colinear(&made.point, &made.second),
-            dependent(back, v),
-        ),
-        (
-            "coplanar lines",
-            coplanar(&made.first, &made.second),
-            determinant([offset, u, v]) == 0,
-        ),
-        (
-            "contained in line",
-            contained(&made.point, &made.second),
-            dependent(back, v),
-        ),
+        ("colinear line, segment", colinear(line, segment), one_line),
+        ("colinear point, line", colinear(point, second), on_line),
+        ("coplanar lines", coplanar(line, second), flat),
+        ("contained in line", contained(point, second), on_line),
         (
             "contained in segment",
-            contained(&made.point, &made.segment),
+            contained(point, segment),
             on_segment,
         ),
-        (
-            "contained in plane",
-            contained(&made.point, &made.plane),
-            product(back, v) == 0,
-        ),
+        ("contained in plane", contained(point, plane), in_plane),
         (
             "line contained in plane",
-            contained(&made.first, &made.plane),
-            line_in_plane,
+            contained(line, plane),
+            along_plane && in_plane,
         ),
-    ];
-    rows.into_iter()
+    ]
+}
+
+/// Every predicate of a case beside what the integers say.
+fn answers<S: Scalar>(case: &Case, made: &Made<S>) -> Vec<(&'static str, Answer, bool)> {
+    of_directions(case, made)
+        .into_iter()
+        .chain(of_places(case, made))
         .map(|(name, answer, truth)| (name, answer.unwrap(), truth))
         .collect()
 }
