@@ -1,0 +1,58 @@
+//! Static geometric reasoning: what points, straight lines, planes and segments are to each other.
+//!
+//! # Two forms
+//! Every function is written once over [`Scalar`] and has two forms by the numbers that it is given:
+//! - **exact** over `kutzbach_math::number::Number`: fractions, roots, algebraic numbers. An answer is proven; where an
+//!   expression has no separation bound ([`ZeroTest::Indistinguishable`](kutzbach_math::number::ZeroTest)) the answer is
+//!   [`Answer::Indistinguishable`];
+//! - **tolerant** over [`Measured`]: doubles, each with its uncertainty, carried along as intervals. The answer is *yes* or
+//!   *no* where it is the same for all values within the digits, and [`Answer::WithinDigits`] elsewhere.
+//!
+//! # Logical and constructive
+//! Logical functions ([`coincide`], [`colinear`], [`coplanar`], [`contained`], [`parallel`], [`perpendicular`]) give an
+//! [`Answer`]. Constructive ones ([`distance`], [`intersection`], ...) have to choose a case to have a result: what cannot be
+//! told from zero counts as zero there, and [`Outcome::certainty`] says so. Functions take [`Entity`] values, since what
+//! something is may be known only at run time; a pair of arguments for which a function has no meaning is an error.
+//!
+//! # Entities are valid
+//! A direction is never zero, a line never goes through one point only: what is degenerate, or may be within its digits, is
+//! an error when it is made. Numbers that are left open (`Number::parameter`) are taken at their values.
+//!
+//! # What is not here yet
+//! Solids, shells, faces, loops and edges with their connectivity, `convex` and `concave`, hulls in space, curved surfaces,
+//! transformations, and STEP files. A segment stands for an edge that is by itself; a polygon is a list of its corners.
+
+mod angle;
+mod decide;
+mod distance;
+mod entity;
+mod error;
+mod intersection;
+mod join;
+mod logical;
+mod measured;
+mod planar;
+mod projection;
+#[cfg(test)]
+mod random_tests;
+mod scalar;
+#[cfg(test)]
+mod tests;
+mod triple;
+mod world;
+
+pub use angle::{Angles, angle_between, signed_angle_between};
+pub use decide::{Answer, Certainty, Outcome, Sign};
+pub use distance::distance;
+pub use entity::{Direction, Entity, Found, Kind, Line, Plane, Point, Segment, Vector};
+pub use error::GeometryError;
+pub use intersection::intersection;
+pub use join::{Feet, join_perpend, perpend};
+pub use logical::{coincide, colinear, contained, coplanar, parallel, perpendicular};
+pub use measured::Measured;
+pub use planar::{
+    Place, Side, calculate_normal, classify, classify_in_polygon, planar_hull, sort_angular,
+};
+pub use projection::projection;
+pub use scalar::Scalar;
+pub use world::{Id, World, WorldError};

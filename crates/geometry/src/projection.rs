@@ -1,0 +1,112 @@
+//! Shadows: of points, lines and segments on lines and planes.
+
+use crate::decide::{Decider, Outcome};
+use crate::entity::{Direction, Entity, Found, Line, Plane, Point, Segment, no_pair};
+use crate::error::GeometryError;
+use crate::intersection::{of_lines, with_plane};
+use crate::join::{on_line, on_plane};
+use crate::scalar::Scalar;
+use crate::triple::{cross, minus};
+
+/// The shadow of the first on the second, along a direction; perpendicular where none is given.
+///
+/// Of a point on a line or a plane, of a line or a segment on a plane: a line whose direction is that of the light has a
+/// point for a shadow. Nothing where the direction runs along the plane, and where a point's ray misses the line.
+///
+/// # Errors
+/// For other pairs, and beyond the range of numbers.
+pub fn projection<S: Scalar>(
+    a: &Entity<S>,
+    on: &Entity<S>,
+    light: Option<&Direction<S>>,
+) -> Result<Outcome<Found<S>>, GeometryError> {
+    let mut decider = Decider::default();
+    let found = match (a, on) {
+        (Entity::Point(p), Entity::Line(line)) => match light {
+            None => Found::Point(Point(on_line(&p.0, line)?)),
+            Some(light) => point_along(p, light, line, &mut decider)?,
+        },
+        (Entity::Point(p), Entity::Plane(plane)) => {
+            match shadow(&p.0, plane, light, &mut decider)? {
+                Some(point) => Found::Point(Point(point)),
+                None => Found::Nothing,
+            }
+        }
+        (Entity::Line(line), Entity::Plane(plane)) => of_line(line, plane, light, &mut decider)?,
+        (Entity::Segment(segment), Entity::Plane(plane)) => {
+            of_segment(segment, plane, light, &mut decider)?
+        }
+        _ => return Err(no_pair("projection", a, on)),
+    };
+    Ok(decider.outcome(found))
+}
+
+fn point_along<S: Scalar>(
+    point: &Point<S>,
+    light: &Direction<S>,
+    line: &Line<S>,
+    decider: &mut Decider,
+) -> Result<Found<S>, GeometryError> {
+    let ray = Line::new(point.clone(), light.clone());
+    Ok(match of_lines(line, &ray, decider)? {
+        Found::Point(found) => Found::Point(found),
+        // Along the line itself there is no one point.
+        _ => Found::Nothing,
+    })
+}
+
+/// The shadow of a point on a plane.
+fn shadow<S: Scalar>(
+    point: &[S; 3],
+    plane: &Plane<S>,
+    light: Option<&Direction<S>>,
+    decider: &mut Decider,
+) -> Result<Option<[S; 3]>, GeometryError> {
+    let Some(light) = light else {
+        return Ok(Some(on_plane(point, plane)?));
+    };
+    let ray = Line::new(Point(point.clone()), light.clone());
+    Ok(match with_plane(&ray, plane, decider)? {
+        Found::Point(found) => Some(found.0),
+        _ => None,
+    })
+}
+
+fn of_line<S: Scalar>(
+    line: &Line<S>,
+    plane: &Plane<S>,
+    light: Option<&Direction<S>>,
+    decider: &mut Decider,
+) -> Result<Found<S>, GeometryError> {
+    let Some(point) = shadow(&line.point().0, plane, light, decider)? else {
+        return Ok(Found::Nothing);
+    };
+    let direction = line.direction().components();
+    let normal = plane.normal().components();
+    let light = light.unwrap_or(plane.normal()).components();
+    // The plane of light through the line meets the plane along this.
+    let shade = cross(&cross(direction, light), normal);
+    if decider.vanishes(&cross(direction, light)) || decider.vanishes(&shade) {
+        return Ok(Found::Point(Point(point)));
+    }
+    Ok(Found::Line(Line::new(Point(point), Direction::new(shade)?)))
+}
+
+fn of_segment<S: Scalar>(
+    segment: &Segment<S>,
+    plane: &Plane<S>,
+    light: Option<&Direction<S>>,
+    decider: &mut Decider,
+) -> Result<Found<S>, GeometryError> {
+    let from = shadow(&segment.from().0, plane, light, decider)?;
+    let to = shadow(&segment.to().0, plane, light, decider)?;
+    let (Some(from), Some(to)) = (from, to) else {
+        return Ok(Found::Nothing);
+    };
+    let direction = segment.direction().components();
+    let light = light.unwrap_or(plane.normal()).components();
+    if decider.vanishes(&cross(direction, light)) || decider.vanishes(&minus(&to, &from)) {
+        return Ok(Found::Point(Point(from)));
+    }
+    Ok(Found::Segment(Segment::new(Point(from), Point(to))?))
+}

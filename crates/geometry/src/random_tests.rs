@@ -1,0 +1,262 @@
+//! Random small integers against determinants of integers: no answer may be wrong.
+
+use crate::{
+    Answer, Direction, Entity, Found, GeometryError, Line, Measured, Plane, Point, Scalar, Segment,
+    coincide, colinear, contained, coplanar, intersection, parallel, perpendicular,
+};
+use kutzbach_math::matrix::SplitMix64;
+use kutzbach_math::number::Number;
+
+const CASES: usize = 10_000;
+
+type Whole = [i128; 3];
+
+fn exact(v: Whole) -> [Number; 3] {
+    v.map(|x| Number::integer(x as i64))
+}
+
+fn tolerant(v: Whole) -> [Measured; 3] {
+    v.map(|x| Measured::new(x as f64, 0.0).unwrap())
+}
+
+/// Numbers within a hundredth of the integers, and as uncertain: the integers are among what they may be.
+fn shaken(v: Whole, random: &mut SplitMix64) -> [Measured; 3] {
+    v.map(|x| Measured::new(x as f64 + 0.01 * random.symmetric(), 0.0101).unwrap())
+}
+
+fn component(random: &mut SplitMix64) -> i128 {
+    i128::from(random.next_u64() % 5) - 2
+}
+
+fn triple(random: &mut SplitMix64) -> Whole {
+    [component(random), component(random), component(random)]
+}
+
+fn not_zero(random: &mut SplitMix64) -> Whole {
+    loop {
+        let v = triple(random);
+        if v != [0, 0, 0] {
+            return v;
+        }
+    }
+}
+
+/// The determinant of three rows, by the rule of Sarrus: no product of vectors is shared with the library.
+fn determinant([a, b, c]: [Whole; 3]) -> i128 {
+    a[0] * b[1] * c[2] + a[1] * b[2] * c[0] + a[2] * b[0] * c[1]
+        - a[2] * b[1] * c[0]
+        - a[0] * b[2] * c[1]
+        - a[1] * b[0] * c[2]
+}
+
+/// Whether two rows are of rank one at most: all minors of two columns are zero.
+fn dependent(a: Whole, b: Whole) -> bool {
+    [(0, 1), (0, 2), (1, 2)]
+        .into_iter()
+        .all(|(i, j)| a[i] * b[j] == a[j] * b[i])
+}
+
+fn product(a: Whole, b: Whole) -> i128 {
+    (0..3).map(|i| a[i] * b[i]).sum()
+}
+
+fn difference(a: Whole, b: Whole) -> Whole {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// What the four random vectors of a case say: two points, two vectors that are not zero.
+struct Case {
+    p: Whole,
+    q: Whole,
+    u: Whole,
+    v: Whole,
+}
+
+impl Case {
+    fn new(random: &mut SplitMix64) -> Self {
+        let mut case = Self {
+            p: triple(random),
+            q: triple(random),
+            u: not_zero(random),
+            v: not_zero(random),
+        };
+        // By chance alone lines would coincide in one case of a thousand.
+        let choice = random.next_u64();
+        if choice.is_multiple_of(4) {
+            case.v = case.u.map(|x| -x);
+        }
+        if choice.is_multiple_of(3) {
+            case.q = [0, 1, 2].map(|i| case.p[i] + case.u[i]);
+        }
+        case
+    }
+}
+
+/// The entities of a case in one of the forms; `None` where their digits do not tell a direction from zero.
+struct Made<S> {
+    point: Entity<S>,
+    first: Entity<S>,
+    second: Entity<S>,
+    segment: Entity<S>,
+    plane: Entity<S>,
+    other_plane: Entity<S>,
+}
+
+fn made<S: Scalar>(case: &Case, mut numbers: impl FnMut(Whole) -> [S; 3]) -> Option<Made<S>> {
+    let (p, q) = (Point(numbers(case.p)), Point(numbers(case.q)));
+    let u = Direction::new(numbers(case.u)).ok()?;
+    let v = Direction::new(numbers(case.v)).ok()?;
+    let sum = [0, 1, 2].map(|i| case.q[i] + case.v[i]);
+    let segment = Segment::new(q.clone(), Point(numbers(sum))).ok()?;
+    Some(Made {
+        point: p.clone().into(),
+        first: Line::new(p.clone(), u.clone()).into(),
+        second: Line::new(q.clone(), v.clone()).into(),
+        segment: segment.into(),
+        plane: Plane::new(q, v).into(),
+        other_plane: Plane::new(p, u).into(),
+    })
+}
+
+type Row = (&'static str, Result<Answer, GeometryError>, bool);
+
+/// Predicates of directions beside what the integers say.
+fn of_directions<S: Scalar>(case: &Case, made: &Made<S>) -> Vec<Row> {
+    let (line, plane) = (&made.first, &made.plane);
+    let alike = dependent(case.u, case.v);
+    let across = product(case.u, case.v) == 0;
+    vec![
+        ("parallel lines", parallel(line, &made.second), alike),
+        ("parallel line, plane", parallel(line, plane), across),
+        ("parallel planes", parallel(plane, &made.other_plane), alike),
+        (
+            "perpendicular lines",
+            perpendicular(line, &made.segment),
+            across,
+        ),
+        (
+            "perpendicular line, plane",
+            perpendicular(line, plane),
+            alike,
+        ),
+    ]
+}
+
+/// Predicates of places beside what the integers say.
+fn of_places<S: Scalar>(case: &Case, made: &Made<S>) -> Vec<Row> {
+    let Case { p, q, u, v } = *case;
+    let (offset, back) = (difference(q, p), difference(p, q));
+    let way = product(back, v);
+    let on_line = dependent(back, v);
+    let on_segment = on_line && way >= 0 && way <= product(v, v);
+    let in_plane = product(back, v) == 0;
+    let one_line = dependent(u, v) && dependent(offset, u);
+    let one_plane = dependent(u, v) && in_plane;
+    let flat = determinant([offset, u, v]) == 0;
+    let (point, line, plane) = (&made.point, &made.first, &made.plane);
+    let (second, segment) = (&made.second, &made.segment);
+    let along_plane = product(u, v) == 0;
+    vec![
+        ("coincident lines", coincide(line, second), one_line),
+        (
+            "coincident planes",
+            coincide(plane, &made.other_plane),
+            one_plane,
+        ),
+        ("colinear line, segment", colinear(line, segment), one_line),
+        ("colinear point, line", colinear(point, second), on_line),
+        ("coplanar lines", coplanar(line, second), flat),
+        ("contained in line", contained(point, second), on_line),
+        (
+            "contained in segment",
+            contained(point, segment),
+            on_segment,
+        ),
+        ("contained in plane", contained(point, plane), in_plane),
+        (
+            "line contained in plane",
+            contained(line, plane),
+            along_plane && in_plane,
+        ),
+    ]
+}
+
+/// Every predicate of a case beside what the integers say.
+fn answers<S: Scalar>(case: &Case, made: &Made<S>) -> Vec<(&'static str, Answer, bool)> {
+    of_directions(case, made)
+        .into_iter()
+        .chain(of_places(case, made))
+        .map(|(name, answer, truth)| (name, answer.unwrap(), truth))
+        .collect()
+}
+
+#[test]
+fn no_answer_about_integers_is_wrong() {
+    let mut random = SplitMix64::new(56);
+    let mut held = [0_usize; 14];
+    for _ in 0..CASES {
+        let case = Case::new(&mut random);
+        let (p, q, u, v) = (case.p, case.q, case.u, case.v);
+        let by_fractions = answers(&case, &made(&case, exact).unwrap());
+        let by_doubles = answers(&case, &made(&case, tolerant).unwrap());
+        for (row, (name, answer, truth)) in by_fractions.into_iter().chain(by_doubles).enumerate() {
+            let expected = if truth { Answer::Yes } else { Answer::No };
+            assert_eq!(answer, expected, "{name}: {p:?} {q:?} {u:?} {v:?}");
+            held[row % 14] += usize::from(truth);
+        }
+    }
+    // Every predicate was seen to hold, in both forms.
+    assert!(held.iter().all(|count| *count > 300), "{held:?}");
+}
+
+#[test]
+fn answers_within_digits_never_contradict_the_integers() {
+    let mut random = SplitMix64::new(57);
+    let (mut undecided, mut decided) = (0, 0);
+    for _ in 0..CASES {
+        let case = Case::new(&mut random);
+        let Some(made) = made(&case, |v| shaken(v, &mut random)) else {
+            continue;
+        };
+        for (name, answer, truth) in answers(&case, &made) {
+            let (p, q, u, v) = (case.p, case.q, case.u, case.v);
+            let wrong = answer == if truth { Answer::No } else { Answer::Yes };
+            assert!(!wrong, "{name}: {p:?} {q:?} {u:?} {v:?}");
+            match answer {
+                Answer::WithinDigits => undecided += 1,
+                _ => decided += 1,
+            }
+        }
+    }
+    assert!(
+        undecided > CASES / 2 && decided > CASES,
+        "{undecided}, {decided}"
+    );
+}
+
+#[test]
+fn points_of_lines_and_planes_are_fractions() {
+    let mut random = SplitMix64::new(58);
+    let mut met = 0;
+    for _ in 0..CASES {
+        let case = Case::new(&mut random);
+        let made = made(&case, exact).unwrap();
+        let found = intersection(&made.first, &made.plane).unwrap().value;
+        let rise = product(case.u, case.v);
+        let height = product(difference(case.q, case.p), case.v);
+        match found {
+            Found::Point(Point(x)) => {
+                met += 1;
+                for (i, found) in x.iter().enumerate() {
+                    let numerator = case.p[i] * rise + case.u[i] * height;
+                    let expected = Number::ratio(numerator as i64, rise as i64).unwrap();
+                    assert_eq!(*found, expected);
+                }
+            }
+            Found::Line(_) => assert!(rise == 0 && height == 0),
+            Found::Nothing => assert!(rise == 0 && height != 0),
+            other => panic!("{other:?}"),
+        }
+    }
+    assert!(met > CASES / 2);
+}
