@@ -1,5 +1,6 @@
 //! Bodies, the frames between them, and their joints.
 
+use super::mass::Load;
 use super::pose::{exactly, least_turn};
 use super::{BRINGS_BODIES, Known, Mjcf, Place, WORLD};
 use crate::WarningKind;
@@ -15,7 +16,7 @@ pub(super) fn tree(name: &str, kind: JointKind, parent: &str, child: &str) -> Jo
 }
 
 /// Elements of a body that say nothing about how it moves.
-const STANDARD: [&str; 6] = ["geom", "inertial", "light", "camera", "plugin", "user"];
+const STANDARD: [&str; 4] = ["light", "camera", "plugin", "user"];
 
 /// An element of the tree that is still to be read.
 struct Open<'a> {
@@ -25,11 +26,11 @@ struct Open<'a> {
     class: Option<&'a str>,
 }
 
-/// A joint, its class, and the frames inside its body that it stands in, as one.
-struct Jointed<'a> {
-    element: Element<'a>,
-    class: Option<&'a str>,
-    frame: Frame,
+/// Something in a body, its class, and the frames inside the body that it stands in, as one.
+pub(super) struct Found<'a> {
+    pub(super) element: Element<'a>,
+    pub(super) class: Option<&'a str>,
+    pub(super) frame: Frame,
 }
 
 impl<'a> Mjcf<'a> {
@@ -97,6 +98,8 @@ impl<'a> Mjcf<'a> {
                         .fault(message)
                         .help("save the model as MuJoCo compiled it: mj_saveLastXML"));
                 }
+                // Read with the body itself.
+                "geom" | "inertial" => {}
                 name if STANDARD.contains(&name) => self.unread.standard(part),
                 _ => self.unread.element(part),
             }
@@ -143,30 +146,37 @@ impl<'a> Mjcf<'a> {
                 .extend(body.attribute("name").map(|name| name.value));
         }
         self.links.insert(name.clone(), body.range());
-        let joints = self.joints_of(body, class)?;
+        let joints = self.parts_of(body, class, &["joint", "freejoint"])?;
+        let load = self.load_of(body, class)?;
         let free = joints
             .iter()
             .find(|joint| self.word(joint.element, joint.class) == Ok("free"));
         if let Some(free) = free {
-            return self.float(free.element, joints.len(), (name, place));
+            return self.float(free.element, joints.len(), (name, place), load);
         }
         if joints.is_empty() {
             let (parent, frame) = self.at(place, &name);
             let joint = self.name_of(None, &format!("{name}_fixed"), body)?;
-            self.builder.link(&name);
+            self.add_link(&name, load);
             self.builder
                 .joint(tree(&joint, JointKind::Fixed, &parent, &name).origin(frame));
             return Ok(name);
         }
         let mut place = place.clone();
         let last = joints.len() - 1;
+        let mut load = Some(load);
         for (index, joint) in joints.into_iter().enumerate() {
             let to = match index == last {
                 true => name.clone(),
                 false => self.unused(&self.links, &format!("{name}_{}", index + 1)),
             };
             self.links.insert(to.clone(), body.range());
-            self.builder.link(&to);
+            match load.take_if(|_| index == last) {
+                Some(load) => self.add_link(&to, load),
+                None => {
+                    self.builder.link(&to);
+                }
+            }
             self.make_joint(&joint, &place, (&name, &to))?;
             place = Place {
                 link: to,
@@ -176,11 +186,18 @@ impl<'a> Mjcf<'a> {
         Ok(name)
     }
 
+    /// Adds a link with what it weighs and looks like.
+    pub(super) fn add_link(&mut self, name: &str, load: Load) {
+        self.builder
+            .detailed_link(name, load.inertial, load.collisions, load.visuals);
+    }
+
     fn float(
         &mut self,
         free: Element<'a>,
         joints: usize,
         (name, place): (String, &Place),
+        load: Load,
     ) -> Outcome<String> {
         if joints > 1 {
             return Err(free.fault("a body that floats has no other joint"));
@@ -194,7 +211,7 @@ impl<'a> Mjcf<'a> {
             &format!("{name}_free"),
             free,
         )?;
-        self.builder.link(&name);
+        self.add_link(&name, load);
         self.builder.floating(&joint, &parent, &name, frame);
         Ok(name)
     }
@@ -221,23 +238,28 @@ impl<'a> Mjcf<'a> {
         Ok(name)
     }
 
-    /// The joints of a body, those in frames inside it included, in the order of the file.
-    fn joints_of(&self, body: Element<'a>, class: Option<&'a str>) -> Outcome<Vec<Jointed<'a>>> {
+    /// What a body has of some names, in frames inside it too, in the order of the file.
+    pub(super) fn parts_of(
+        &self,
+        body: Element<'a>,
+        class: Option<&'a str>,
+        names: &[&str],
+    ) -> Outcome<Vec<Found<'a>>> {
         let mut found = Vec::new();
-        let mut open = vec![Jointed {
+        let mut open = vec![Found {
             element: body,
             class,
             frame: Frame::identity(),
         }];
         while let Some(here) = open.pop() {
-            if here.element.name() != "body" && here.element.name() != "frame" {
+            if names.contains(&here.element.name()) {
                 found.push(here);
                 continue;
             }
             let mut inside = Vec::new();
             for part in here.element.elements() {
                 let (class, frame) = match part.name() {
-                    "joint" | "freejoint" => (here.class, here.frame.clone()),
+                    name if names.contains(&name) => (here.class, here.frame.clone()),
                     "frame" => {
                         let of = self.classes.of(part, here.class)?;
                         let own = part.attribute("childclass").map(|own| own.value);
@@ -246,7 +268,7 @@ impl<'a> Mjcf<'a> {
                     }
                     _ => continue,
                 };
-                inside.push(Jointed {
+                inside.push(Found {
                     element: part,
                     class,
                     frame,
@@ -259,7 +281,7 @@ impl<'a> Mjcf<'a> {
 
     fn make_joint(
         &mut self,
-        jointed: &Jointed<'a>,
+        jointed: &Found<'a>,
         place: &Place,
         (body, to): (&str, &str),
     ) -> Outcome<()> {
@@ -400,8 +422,8 @@ impl<'a> Mjcf<'a> {
     }
 }
 
-/// The frame of a site that is drawn from one point to another: in the middle, its z axis along them.
-fn between([a, b, c, d, e, f]: [Number; 6]) -> Option<Frame> {
+/// The frame of a site or a geom that is drawn from one point to another: in the middle, its z axis along them.
+pub(super) fn between([a, b, c, d, e, f]: [Number; 6]) -> Option<Frame> {
     let (from, to) = ([a, b, c], [d, e, f]);
     let half = Number::ratio(1, 2)?;
     let along = [0, 1, 2].map(|i| from[i].value() - to[i].value());

@@ -13,6 +13,7 @@
 //! | `<joint>` in `<equality>` | `<mimic>`; without a second joint, a fixed joint |
 //! | `<tendon>` in `<equality>`, of fixed tendons of two joints | `<mimic>` |
 //! | actuators of joints | motors |
+//! | `<inertial>`, `<geom>` | masses and shapes |
 //!
 //! Names are those of the file; what has none is named after its body. What would lose bodies or constraints is an error.
 //!
@@ -23,7 +24,9 @@ mod bodies;
 mod classes;
 mod equality;
 mod include;
+mod mass;
 mod pose;
+mod shapes;
 
 use super::element::Element;
 use super::error::{Fault, Outcome};
@@ -37,6 +40,7 @@ use classes::Classes;
 pub(super) use include::{Whole, whole};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Entity, Frame, JointKind, MechanismBuilder};
+use mass::Load;
 use pose::Compiler;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -55,6 +59,15 @@ const STANDARD: [&str; 9] = [
     "sensor",
     "custom",
     "extension",
+];
+
+/// Attributes of `<compiler>` that change masses and are not read.
+const CHANGES_MASSES: [&str; 5] = [
+    "inertiagrouprange",
+    "boundmass",
+    "boundinertia",
+    "balanceinertia",
+    "settotalmass",
 ];
 
 /// Elements that would bring bodies with them which are not read.
@@ -150,7 +163,13 @@ impl<'a> Mjcf<'a> {
             open.extend(element.elements());
         }
         self.links.insert(WORLD.to_owned(), root.range());
-        self.builder.link(WORLD);
+        let mut ground = Load::default();
+        for world in sections("worldbody") {
+            let own = self.load_of(world, None)?;
+            ground.collisions.extend(own.collisions);
+            ground.visuals.extend(own.visuals);
+        }
+        self.add_link(WORLD, ground);
         for world in sections("worldbody") {
             self.bodies(world)?;
         }
@@ -195,6 +214,19 @@ impl<'a> Mjcf<'a> {
         }
         if let Some(says) = element.attribute("autolimits") {
             self.compiler.autolimits = says.value != "false";
+        }
+        if let Some(says) = element.attribute("inertiafromgeom") {
+            self.compiler.mass_of_geoms = match says.value {
+                "true" => Some(true),
+                "false" => Some(false),
+                _ => None,
+            };
+        }
+        for name in CHANGES_MASSES {
+            if let Some(says) = element.attribute(name) {
+                let what = format!("`{name}` of <compiler>");
+                self.unread.text(says.range().start, what);
+            }
         }
         Ok(())
     }

@@ -20,6 +20,8 @@ pub(super) struct Compiler {
     pub(super) sequence: [char; 3],
     /// Whether a range without `limited` limits.
     pub(super) autolimits: bool,
+    /// Whether masses are those of the geoms: always, never, or where there is no `<inertial>`.
+    pub(super) mass_of_geoms: Option<bool>,
 }
 
 impl Default for Compiler {
@@ -28,6 +30,7 @@ impl Default for Compiler {
             degrees: true,
             sequence: ['x', 'y', 'z'],
             autolimits: true,
+            mass_of_geoms: None,
         }
     }
 }
