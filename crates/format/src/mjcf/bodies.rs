@@ -1,5 +1,6 @@
 //! Bodies, the frames between them, and their joints.
 
+use super::keys::Coordinate;
 use super::mass::Load;
 use super::pose::{exactly, least_turn};
 use super::{BRINGS_BODIES, Known, Mjcf, Place, WORLD};
@@ -9,7 +10,7 @@ use crate::error::Outcome;
 use crate::frames::one_after_another;
 use crate::words::quoted;
 use kutzbach_math::number::Number;
-use kutzbach_model::mechanism::{Direction, Dynamics, Frame, JointBuilder, JointKind, Limit};
+use kutzbach_model::mechanism::{Frame, JointBuilder, JointKind};
 
 pub(super) fn tree(name: &str, kind: JointKind, parent: &str, child: &str) -> JointBuilder {
     JointBuilder::tree(name, kind, parent, child)
@@ -212,6 +213,12 @@ impl<'a> Mjcf<'a> {
             free,
         )?;
         self.add_link(&name, load);
+        self.coordinates.push(Coordinate {
+            joint: joint.clone(),
+            width: 7,
+            zero: Number::zero(),
+            is_held: false,
+        });
         self.builder.floating(&joint, &parent, &name, frame);
         Ok(name)
     }
@@ -288,30 +295,13 @@ impl<'a> Mjcf<'a> {
         let joint = jointed.element;
         let of = self.classes.of(joint, jointed.class)?;
         let attribute = |name: &str| self.classes.attribute(joint, of, name);
-        let kind = match attribute("type").map_or("hinge", |word| word.value) {
-            "hinge" => JointKind::Revolute,
-            "slide" => JointKind::Prismatic,
-            "ball" => JointKind::Spherical,
-            other => {
-                let message = format!("there is no type of joint {}", quoted(other));
-                return Err(joint.fault(message).help("hinge, slide, ball or free"));
-            }
-        };
+        let kind = self.kind_of(joint, of)?;
         let mut at = Frame::identity();
         if let Some(position) = attribute("pos").filter(|_| kind != JointKind::Prismatic) {
             at.position = exactly(position)?;
         }
         let at = one_after_another(&jointed.frame, &at);
-        let axis = match attribute("axis") {
-            Some(axis) => {
-                let numbers: [Number; 3] = exactly(axis)?;
-                if numbers.iter().all(Number::is_zero) {
-                    return Err(axis.fault("the axis has no direction: its length is zero"));
-                }
-                Direction(numbers)
-            }
-            None => Direction([Number::zero(), Number::zero(), Number::one()]),
-        };
+        let axis = self.axis_of(joint, of)?;
         for name in ["stiffness", "springref"] {
             if let Some(spring) = attribute(name) {
                 self.unread
@@ -328,25 +318,19 @@ impl<'a> Mjcf<'a> {
             }
             _ => self.limit(joint, of, kind)?,
         };
-        let number = |name: &str| -> Outcome<Option<Number>> {
-            let Some(attribute) = attribute(name) else {
-                return Ok(None);
-            };
-            let [first, ..] = &super::pose::numbers(attribute)?[..] else {
-                return Ok(None);
-            };
-            Ok(Some(first.clone()))
-        };
-        let dynamics = Dynamics {
-            damping: number("damping")?,
-            friction: number("frictionloss")?,
-        };
+        let dynamics = self.dynamics_of(joint, of)?;
         let own = joint.attribute("name").map(|own| own.value);
         let name = self.name_of(own, &format!("{body}_joint"), joint)?;
         let mut place = place.clone();
         place.chain.push(at.clone());
         let (parent, origin) = self.at(&place, body);
         let held = own.is_some_and(|own| self.held.contains(own));
+        self.coordinates.push(Coordinate {
+            joint: name.clone(),
+            width: if kind == JointKind::Spherical { 4 } else { 1 },
+            zero: self.reference(joint, of, kind)?,
+            is_held: held,
+        });
         let made = match held {
             true => tree(&name, JointKind::Fixed, &parent, to),
             false => tree(&name, kind, &parent, to),
@@ -370,49 +354,6 @@ impl<'a> Mjcf<'a> {
             );
         }
         Ok(())
-    }
-
-    /// The limits of a joint, from the pose drawn.
-    fn limit(&self, joint: Element<'a>, class: &str, kind: JointKind) -> Outcome<Option<Limit>> {
-        let attribute = |name: &str| self.classes.attribute(joint, class, name);
-        let Some(range) = attribute("range") else {
-            return Ok(None);
-        };
-        let [lower, upper]: [Number; 2] = exactly(range)?;
-        let proper = lower.value() < upper.value();
-        let limited = match attribute("limited").map_or("auto", |word| word.value) {
-            "true" => true,
-            "false" => false,
-            _ => self.compiler.autolimits && proper,
-        };
-        if !limited {
-            return Ok(None);
-        }
-        if !proper {
-            return Err(range.fault(
-                "the lower limit of a joint that is limited has to be below the upper one",
-            ));
-        }
-        let zero = match attribute("ref") {
-            Some(zero) => {
-                let [zero] = exactly(zero)?;
-                zero
-            }
-            None => Number::zero(),
-        };
-        let from_here = |bound: &Number| {
-            let bound = bound - &zero;
-            match kind {
-                JointKind::Revolute => self.angle(&bound),
-                _ => bound,
-            }
-        };
-        Ok(Some(Limit {
-            lower: Some(from_here(&lower)),
-            upper: Some(from_here(&upper)),
-            effort: None,
-            velocity: None,
-        }))
     }
 
     /// A warning that the answer hangs on.

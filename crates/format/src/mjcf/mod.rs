@@ -14,6 +14,7 @@
 //! | `<tendon>` in `<equality>`, of fixed tendons of two joints | `<mimic>` |
 //! | actuators of joints | motors |
 //! | `<inertial>`, `<geom>` | masses and shapes |
+//! | `<key>` | configuration |
 //!
 //! Names are those of the file; what has none is named after its body. What would lose bodies or constraints is an error.
 //!
@@ -24,6 +25,8 @@ mod bodies;
 mod classes;
 mod equality;
 mod include;
+mod joint;
+mod keys;
 mod mass;
 mod pose;
 mod shapes;
@@ -38,6 +41,7 @@ use super::words::{did_you_mean, quoted};
 use super::{ReadOptions, Reading, WarningKind, xml};
 use classes::Classes;
 pub(super) use include::{Whole, whole};
+use keys::Coordinate;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Entity, Frame, JointKind, MechanismBuilder};
 use mass::Load;
@@ -102,6 +106,11 @@ struct Mjcf<'a> {
     followers: BTreeMap<&'a str, &'a str>,
     /// Joints that an equality holds where they are drawn.
     held: BTreeSet<&'a str>,
+    /// Joints that a motor drives.
+    driven: BTreeSet<&'a str>,
+    /// What `qpos` of a key is made of, in its order.
+    coordinates: Vec<Coordinate>,
+    key_names: BTreeSet<String>,
     warnings: Vec<(usize, WarningKind, String)>,
     unread: Tally<'a>,
 }
@@ -130,6 +139,9 @@ pub(super) fn read(whole: &Whole, options: &ReadOptions) -> Result<Reading, Vec<
         given: BTreeSet::new(),
         followers: BTreeMap::new(),
         held: BTreeSet::new(),
+        driven: BTreeSet::new(),
+        coordinates: Vec::new(),
+        key_names: BTreeSet::new(),
         warnings: Vec::new(),
         unread: Tally::default(),
     };
@@ -178,11 +190,14 @@ impl<'a> Mjcf<'a> {
         }
         for part in root.elements() {
             match part.name() {
-                "compiler" | "default" | "equality" | "worldbody" | "tendon" => {}
+                "compiler" | "default" | "equality" | "worldbody" | "tendon" | "keyframe" => {}
                 "actuator" => self.actuators(part),
                 name if STANDARD.contains(&name) => self.unread.standard(part),
                 _ => self.unread.element(part),
             }
+        }
+        for keyframe in sections("keyframe") {
+            self.keys(keyframe, root)?;
         }
         Ok(())
     }
@@ -301,6 +316,7 @@ impl<'a> Mjcf<'a> {
             });
             match moved {
                 Some(joint) => {
+                    self.driven.insert(joint.value);
                     self.builder.actuate(joint.value);
                 }
                 None => self.unread.element(actuator),
