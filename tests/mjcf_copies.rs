@@ -1,6 +1,8 @@
 //! MJCF: keys as configurations, and copies of what is in `<replicate>`.
 
+use kutzbach::closure::{Arithmetic, Geometry};
 use kutzbach::format::{FormatError, Reading, read};
+use kutzbach::mechanism::Mechanism;
 
 fn try_model(inside: &str) -> Result<Reading, FormatError> {
     read(&format!("<mujoco>{inside}</mujoco>"), "model.xml", &[])
@@ -41,7 +43,9 @@ fn keys_are_configurations_from_the_pose_drawn() {
     let names: Vec<&str> = found.iter().map(|(name, _)| &name[..]).collect();
     assert_eq!(names, ["home", "key"]);
     let half_turn = std::f64::consts::FRAC_PI_2;
-    for ((_, positions), expected) in found.iter().zip([[1.5 - half_turn, 0.25], [-half_turn, 0.0]])
+    for ((_, positions), expected) in found
+        .iter()
+        .zip([[1.5 - half_turn, 0.25], [-half_turn, 0.0]])
     {
         let joints: Vec<&str> = positions.iter().map(|(joint, _)| &joint[..]).collect();
         assert_eq!(joints, ["a", "s"]);
@@ -87,4 +91,142 @@ fn two_keys_of_one_name_are_an_error() {
     )
     .unwrap_err();
     assert!(error.message.contains("two configurations"), "{error}");
+}
+
+fn names(mechanism: &Mechanism) -> (Vec<&str>, Vec<&str>) {
+    let links = mechanism.links().iter().map(|link| &link.name[..]);
+    let joints = mechanism.joints().iter().map(|joint| &joint.name[..]);
+    (links.collect(), joints.collect())
+}
+
+fn place(mechanism: &Mechanism, link: &str) -> [f64; 3] {
+    let geometry = Geometry::new(mechanism, None, &Arithmetic::double());
+    geometry.home[mechanism.link_named(link).unwrap().0].translation
+}
+
+fn is_near(found: [f64; 3], expected: [f64; 3]) {
+    for (a, b) in found.into_iter().zip(expected) {
+        assert!((a - b).abs() < 1e-12, "{found:?} {expected:?}");
+    }
+}
+
+#[test]
+fn copies_are_what_they_are_written_out() {
+    let copied = model(
+        r#"<worldbody><replicate count="3" offset="0.1 0 0" sep="_"><body name="b" pos="0 1 0"><joint name="j" axis="0 1 0"/>
+        <body name="c" pos="0 0 2"><joint name="k"/></body></body></replicate><body name="last"/></worldbody>
+        <equality><joint name="e" joint1="j" joint2="k"/></equality><actuator><motor name="m" joint="j"/></actuator>"#,
+    );
+    let mut bodies = String::new();
+    let (mut equalities, mut motors) = (String::new(), String::new());
+    for i in 0..3 {
+        bodies += &format!(
+            r#"<body name="b_{i}" pos="0.{i} 1 0"><joint name="j_{i}" axis="0 1 0"/>
+            <body name="c_{i}" pos="0 0 2"><joint name="k_{i}"/></body></body>"#
+        );
+        equalities += &format!(r#"<joint name="e_{i}" joint1="j_{i}" joint2="k_{i}"/>"#);
+        motors += &format!(r#"<motor joint="j_{i}"/>"#);
+    }
+    let written = model(&format!(
+        r#"<worldbody>{bodies}<body name="last"/></worldbody><equality>{equalities}</equality><actuator>{motors}</actuator>"#
+    ));
+    let (a, b) = (&copied.mechanism, &written.mechanism);
+    assert_eq!(names(a), names(b));
+    for (a, b) in a.joints().iter().zip(b.joints()) {
+        assert_eq!(a.predecessor.frame, b.predecessor.frame);
+        assert_eq!(a.kind, b.kind);
+    }
+    assert_eq!(a.actuated(), b.actuated());
+    assert_eq!((a.couplings().len(), b.couplings().len()), (3, 3));
+}
+
+#[test]
+fn copies_are_moved_and_turned_again_and_again() {
+    let around = model(
+        r#"<worldbody><replicate count="4" euler="0 0 90"><body name="b" pos="1 0 0.5"><joint/></body></replicate></worldbody>"#,
+    );
+    let corners = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
+    for (i, [x, y]) in corners.into_iter().enumerate() {
+        is_near(place(&around.mechanism, &format!("b{i}")), [x, y, 0.5]);
+    }
+    // As MuJoCo 4.0.0 has them.
+    let moved = model(
+        r#"<worldbody><replicate count="3" offset="1 0 0" euler="0 0 90"><body name="b" pos="0 1 0"><joint/></body></replicate></worldbody>"#,
+    );
+    for (i, at) in [[0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]].into_iter().enumerate() {
+        is_near(place(&moved.mechanism, &format!("b{i}")), at);
+    }
+    let step = r#"pos="0.3 -0.2 0.1" euler="20 30 0""#;
+    let body = r#"<body name="b2" pos="1 2 3"><joint/></body>"#;
+    let nested = model(&format!(
+        "<worldbody><frame {step}><frame {step}>{body}</frame></frame></worldbody>"
+    ));
+    let again = model(&format!(
+        "<worldbody><replicate count='3' {}>{}</replicate></worldbody>",
+        step.replace("pos=", "offset="),
+        body.replace("b2", "b")
+    ));
+    is_near(
+        place(&again.mechanism, "b2"),
+        place(&nested.mechanism, "b2"),
+    );
+}
+
+#[test]
+fn replicates_inside_replicates_multiply() {
+    let reading = model(
+        r#"<worldbody><replicate count="2" offset="1 0 0" sep="-"><replicate count="11" sep="_" offset="0 1 0">
+        <body name="b"><joint name="j"/></body></replicate></replicate></worldbody>
+        <tendon><fixed name="t"><joint joint="j" coef="1"/></fixed></tendon><equality><tendon tendon1="t"/></equality>"#,
+    );
+    let (links, _) = names(&reading.mechanism);
+    assert_eq!(links.len(), 23);
+    assert_eq!(links[1..3], ["b_00-0", "b_01-0"]);
+    assert_eq!(links[22], "b_10-1");
+    is_near(place(&reading.mechanism, "b_10-1"), [1.0, 10.0, 0.0]);
+    assert_eq!(reading.mechanism.couplings().len(), 22);
+    let none = model(
+        r#"<worldbody><replicate count="0"><body name="b"/></replicate><body name="c"/></worldbody>"#,
+    );
+    assert_eq!(names(&none.mechanism).0, ["world", "c"]);
+}
+
+#[test]
+fn what_cannot_be_copied_is_told_with_its_place() {
+    let pair = |equality: &str| {
+        format!(
+            "<worldbody><body><joint name='o'/></body><replicate count='2' offset='1 0 0'><body name='b'><joint name='j'/></body></replicate></worldbody>\n<equality>{equality}</equality>"
+        )
+    };
+    for (inside, line, told) in [
+        (
+            "<worldbody>\n<replicate count='1000'>\n<replicate count='101'/></replicate></worldbody>".to_owned(),
+            3,
+            "more than 100000 copies",
+        ),
+        (
+            "<worldbody><body>\n<replicate count='2'>\n<joint/></replicate></body></worldbody>".to_owned(),
+            3,
+            "cannot stand directly in <replicate>",
+        ),
+        (
+            "<worldbody>\n<replicate count='-1'/></worldbody>".to_owned(),
+            2,
+            "how many copies",
+        ),
+        (
+            "<worldbody>\n<replicate count='2'>\n<body name='b'>\n<joint type='x'/></body></replicate></worldbody>".to_owned(),
+            4,
+            "no type of joint `x`",
+        ),
+        (pair("<joint joint1='j' joint2='o'/>"), 2, "`o` is in other copies"),
+        (pair("<joint joint1='j2' joint2='o'/>"), 2, "no joint `j2`"),
+    ] {
+        let error = try_model(&inside).unwrap_err();
+        assert!(error.message.contains(told), "{error}");
+        assert_eq!(error.line, line, "{error}");
+    }
+    // By the names of the copies.
+    let mixed = model(&pair("<joint joint1='j1' joint2='o'/>"));
+    assert_eq!(mixed.mechanism.couplings().len(), 1);
 }

@@ -13,6 +13,7 @@
 //! | `<joint>` in `<equality>` | `<mimic>`; without a second joint, a fixed joint |
 //! | `<tendon>` in `<equality>`, of fixed tendons of two joints | `<mimic>` |
 //! | actuators of joints | motors |
+//! | `<replicate>` | its copies, written out before anything is read |
 //! | `<inertial>`, `<geom>` | masses and shapes |
 //! | `<key>` | configuration |
 //!
@@ -29,6 +30,7 @@ mod joint;
 mod keys;
 mod mass;
 mod pose;
+mod replicate;
 mod shapes;
 
 use super::element::Element;
@@ -75,7 +77,7 @@ const CHANGES_MASSES: [&str; 5] = [
 ];
 
 /// Elements that would bring bodies with them which are not read.
-const BRINGS_BODIES: [&str; 4] = ["attach", "replicate", "composite", "flexcomp"];
+const BRINGS_BODIES: [&str; 3] = ["attach", "composite", "flexcomp"];
 
 /// A joint of the file.
 struct Known<'a> {
@@ -203,22 +205,7 @@ impl<'a> Mjcf<'a> {
     }
 
     fn compile(&mut self, element: Element<'a>) -> Outcome<()> {
-        if let Some(angle) = element.attribute("angle") {
-            self.compiler.degrees = match angle.value {
-                "degree" => true,
-                "radian" => false,
-                _ => return Err(angle.fault("an angle is in `degree` or in `radian`")),
-            };
-        }
-        if let Some(sequence) = element.attribute("eulerseq") {
-            let letters: Vec<char> = sequence.value.chars().collect();
-            let known = letters.iter().all(|letter| "xyzXYZ".contains(*letter));
-            let letters: Result<[char; 3], _> = letters.try_into();
-            self.compiler.sequence = letters
-                .ok()
-                .filter(|_| known)
-                .ok_or_else(|| sequence.fault("expected three of the letters x, y, z, X, Y, Z"))?;
-        }
+        self.compiler.take_angles(element)?;
         if let Some(coordinate) = element
             .attribute("coordinate")
             .filter(|c| c.value == "global")
