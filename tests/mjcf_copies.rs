@@ -153,7 +153,10 @@ fn copies_are_moved_and_turned_again_and_again() {
     let moved = model(
         r#"<worldbody><replicate count="3" offset="1 0 0" euler="0 0 90"><body name="b" pos="0 1 0"><joint/></body></replicate></worldbody>"#,
     );
-    for (i, at) in [[0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]].into_iter().enumerate() {
+    for (i, at) in [[0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
+        .into_iter()
+        .enumerate()
+    {
         is_near(place(&moved.mechanism, &format!("b{i}")), at);
     }
     let step = r#"pos="0.3 -0.2 0.1" euler="20 30 0""#;

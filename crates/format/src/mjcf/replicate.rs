@@ -166,12 +166,7 @@ impl<'a> Plan<'a> {
     }
 
     /// Notes the name of an element of a sort that others name, and that it becomes longer in copies.
-    fn named(
-        &mut self,
-        element: Element<'a>,
-        sort: Option<Sort>,
-        ends: Option<&Rc<Vec<String>>>,
-    ) {
+    fn named(&mut self, element: Element<'a>, sort: Option<Sort>, ends: Option<&Rc<Vec<String>>>) {
         let Some(name) = element.attribute("name") else {
             return;
         };
