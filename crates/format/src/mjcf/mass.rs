@@ -57,6 +57,9 @@ impl<'a> Mjcf<'a> {
         let mut lumps = Lumps::default();
         for found in self.parts_of(body, class, &["geom", "inertial"])? {
             let read = match found.element.name() {
+                "inertial" if stated.is_some() => {
+                    Err(found.element.fault("the body has one already"))
+                }
                 "inertial" => self.inertial(&found).map(|own| stated = Some(own)),
                 _ => self
                     .geom(&found)

@@ -21,7 +21,10 @@ use std::ops::Range;
 use std::rc::Rc;
 
 /// Copies in all, at most.
-const MOST_COPIES: usize = 100_000;
+const MOST_COPIES: f64 = 100_000.0;
+
+/// What is added to a name, in bytes at most: replicates nested without end would fill the memory.
+const LONGEST_END: usize = 1000;
 
 /// What stands directly in a replicate belongs to the body around it, and cannot be there twice.
 const OF_BODIES: [&str; 3] = ["joint", "freejoint", "inertial"];
@@ -79,7 +82,7 @@ struct Plan<'a> {
     copied: BTreeMap<(Sort, &'a str), Rc<Vec<String>>>,
     /// What has a name elsewhere.
     plain: BTreeSet<(Sort, &'a str)>,
-    copies: usize,
+    copies: f64,
 }
 
 /// An element of the tree, and the ends of the names of its copies.
@@ -177,13 +180,21 @@ impl<'a> Plan<'a> {
         };
         self.marks.push((name.range().end, Mark::Name));
         if let Some(key) = key {
-            // The same name in two replicates, which differ by `sep`.
-            let ends = match self.copied.get(&key) {
-                Some(known) => Rc::new(known.iter().chain(ends.iter()).cloned().collect()),
-                None => Rc::clone(ends),
-            };
-            self.copied.insert(key, ends);
+            // Two replicates that differ by `sep` may use one name.
+            self.copied
+                .entry(key)
+                .and_modify(|known| Rc::make_mut(known).extend(ends.iter().cloned()))
+                .or_insert_with(|| Rc::clone(ends));
         }
+    }
+
+    /// Counts copies that are to be made; what is wrong where they are too many.
+    fn count(&mut self, more: f64) -> Result<(), String> {
+        if self.copies + more > MOST_COPIES {
+            return Err(format!("more than {MOST_COPIES} copies are made in all"));
+        }
+        self.copies += more;
+        Ok(())
     }
 
     /// Plans the copies of a replicate; what the names of their parts end with, within the copies of the replicates around it.
@@ -208,14 +219,17 @@ impl<'a> Plan<'a> {
             return Err(says.fault("needed how many copies are made"));
         }
         let times = around.map_or(1, Vec::len);
-        if count * times as f64 + self.copies as f64 > MOST_COPIES as f64 {
-            return Err(says.fault(format!("more than {MOST_COPIES} copies are made in all")));
-        }
+        self.count(count * times.max(1) as f64)
+            .map_err(|message| says.fault(message))?;
         // At most MOST_COPIES, and whole.
         let count = count as usize;
-        self.copies += count * times;
         let own = element.attribute("sep").map_or("", |sep| sep.value);
         let digits = count.saturating_sub(1).to_string().len();
+        let outer = around.and_then(|around| around.first()).map_or(0, String::len);
+        if outer + own.len() + digits > LONGEST_END {
+            let message = format!("names of copies become longer by more than {LONGEST_END} bytes");
+            return Err(element.fault(message));
+        }
         let suffixes: Vec<String> = (0..count)
             .map(|index| format!("{own}{index:0digits$}"))
             .collect();
@@ -265,19 +279,20 @@ impl<'a> Plan<'a> {
             self.named(part, sort, None);
             return Ok(());
         };
-        for reference in &references {
-            if ends_of(reference).is_none_or(|own| own != ends) {
-                let (_, name) = reference;
-                let message = format!(
-                    "{} is in other copies than what <{}> names beside it",
-                    quoted(name.value),
-                    part.name()
-                );
-                return Err(name.fault(message).help(
-                    "write one of each pair, by the names of the copies: name, sep and index",
-                ));
-            }
+        let is_other =
+            |reference: &&(Sort, Attribute<'a>)| ends_of(reference).is_none_or(|own| own != ends);
+        if let Some((_, name)) = references.iter().find(is_other) {
+            let message = format!(
+                "{} is in other copies than what <{}> names beside it",
+                quoted(name.value),
+                part.name()
+            );
+            return Err(name
+                .fault(message)
+                .help("write one of each pair, by the names of the copies: name, sep and index"));
         }
+        self.count(ends.len() as f64)
+            .map_err(|message| part.fault(message))?;
         let marks = references.iter().map(|(_, name)| name.range().end);
         let marks: Vec<usize> = marks.collect();
         self.marks
