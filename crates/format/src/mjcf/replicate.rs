@@ -225,7 +225,9 @@ impl<'a> Plan<'a> {
         let count = count as usize;
         let own = element.attribute("sep").map_or("", |sep| sep.value);
         let digits = count.saturating_sub(1).to_string().len();
-        let outer = around.and_then(|around| around.first()).map_or(0, String::len);
+        let outer = around
+            .and_then(|around| around.first())
+            .map_or(0, String::len);
         if outer + own.len() + digits > LONGEST_END {
             let message = format!("names of copies become longer by more than {LONGEST_END} bytes");
             return Err(element.fault(message));
