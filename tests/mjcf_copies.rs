@@ -159,20 +159,29 @@ fn copies_are_moved_and_turned_again_and_again() {
     {
         is_near(place(&moved.mechanism, &format!("b{i}")), at);
     }
-    let step = r#"pos="0.3 -0.2 0.1" euler="20 30 0""#;
-    let body = r#"<body name="b2" pos="1 2 3"><joint/></body>"#;
-    let nested = model(&format!(
-        "<worldbody><frame {step}><frame {step}>{body}</frame></frame></worldbody>"
-    ));
-    let again = model(&format!(
-        "<worldbody><replicate count='3' {}>{}</replicate></worldbody>",
-        step.replace("pos=", "offset="),
-        body.replace("b2", "b")
-    ));
-    is_near(
-        place(&again.mechanism, "b2"),
-        place(&nested.mechanism, "b2"),
+    // Angles are multiplied, which is not the turn done again.
+    let tumbled = model(
+        r#"<worldbody><replicate count="4" offset="0.3 -0.2 0.1" euler="20 30 0"><body name="b"><joint/></body></replicate></worldbody>"#,
     );
+    let places = [
+        ("b1", [0.3, -0.2, 0.1]),
+        ("b2", [0.609808, -0.366255, -0.027978]),
+        ("b3", [0.84641, -0.384602, -0.317258]),
+    ];
+    for (name, at) in places {
+        let found = place(&tumbled.mechanism, name);
+        for (a, b) in found.into_iter().zip(at) {
+            assert!((a - b).abs() < 1e-6, "{name}: {found:?}");
+        }
+    }
+    let turned = model(
+        r#"<worldbody><frame euler="60 90 0"><body name="b"><joint/></body></frame></worldbody>"#,
+    );
+    let axis = |mechanism: &Mechanism, name: &str| {
+        let geometry = Geometry::new(mechanism, None, &Arithmetic::double());
+        geometry.home[mechanism.link_named(name).unwrap().0].rotate(&[1.0, 2.0, 3.0])
+    };
+    is_near(axis(&tumbled.mechanism, "b3"), axis(&turned.mechanism, "b"));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! `<replicate count offset euler sep>`: copies of what is inside, written out before anything is read.
 //!
-//! Copy i is a `<frame>` that is moved and turned i times, and every name in it ends with `sep` and i, padded to the digits of the last one; where
+//! Copy i is a `<frame>` that is moved and turned i times as far, and every name in it ends with `sep` and i, padded to the digits of the last one; where
 //! replicates are nested, the inner one's comes first. What in `<equality>`, `<tendon>` and `<actuator>` names something by the name that it
 //! has inside is written once for each copy, with the names of that copy. So much is what MuJoCo's compiler makes of such files.
 
@@ -9,12 +9,10 @@ use super::pose::{Compiler, exactly};
 use crate::element::{Attribute, Element};
 use crate::error::{FormatError, Outcome};
 use crate::frames::pose_of;
-use crate::quaternion::of_columns;
 use crate::words::quoted;
 use crate::writer::escaped;
 use crate::{guard, xml};
 use kutzbach_math::number::Number;
-use kutzbach_math::space::Rigid;
 use kutzbach_model::mechanism::Frame;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -315,8 +313,9 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// The frames of copies, as elements that are open. What can be said exactly is: moves without a turn, turns about one axis of the frame, and moves
-/// along it.
+/// The frames of copies, as elements that are open. MuJoCo turns copy i by i times each angle of `euler`, which of several angles is not the turn
+/// done i times, and moves it from the one before by the offset as that one is turned. Where copies are moved along the axis that they are turned
+/// about, or not turned, that is a multiple too.
 fn frames(element: Element<'_>, count: usize, compiler: &Compiler) -> Outcome<Vec<String>> {
     let zero = || [Number::zero(), Number::zero(), Number::zero()];
     let offset: [Number; 3] = match element.attribute("offset") {
@@ -328,37 +327,33 @@ fn frames(element: Element<'_>, count: usize, compiler: &Compiler) -> Outcome<Ve
         None => zero(),
     };
     let turning: Vec<usize> = (0..3).filter(|&i| !euler[i].is_zero()).collect();
-    let is_about_one = turning.len() < 2;
     let is_along = match turning[..] {
         [] => true,
         [one] => (0..3).all(|i| offset[i].is_zero() || i == compiler.axis(one)),
         _ => false,
     };
-    let roll_pitch_yaw = compiler.euler(euler.clone()).unwrap_or_else(zero);
-    let step = pose_of(&Frame {
-        position: offset.clone(),
-        roll_pitch_yaw,
-    });
-    let mut pose = Rigid::identity(&0.0);
+    let mut at = [0.0; 3];
     let mut found = Vec::with_capacity(count);
     for index in 0..count {
+        let angles = euler.each_ref().map(|angle| times(angle, index));
         let [x, y, z] = match is_along {
             true => offset.each_ref().map(|part| times(part, index)),
-            false => pose.apply(&[0.0; 3]).map(|part| format!("{part:.15}")),
-        };
-        let turn = match is_about_one {
-            true => {
-                let [a, b, c] = euler.each_ref().map(|angle| times(angle, index));
-                format!("euler=\"{a} {b} {c}\"")
-            }
             false => {
-                let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-                let [i, j, k, w] = of_columns(axes.map(|axis| pose.rotate(&axis)));
-                format!("quat=\"{w:.17} {i:.17} {j:.17} {k:.17}\"")
+                let here = at.map(|part| format!("{part:.15}"));
+                let angles = angles
+                    .each_ref()
+                    .map(|angle| Number::decimal(angle).unwrap_or_else(|_| Number::zero()));
+                let turned = pose_of(&Frame {
+                    position: offset.clone(),
+                    roll_pitch_yaw: compiler.euler(angles).unwrap_or_else(zero),
+                });
+                let step = turned.rotate(&offset.each_ref().map(Number::value));
+                at = [0, 1, 2].map(|i| at[i] + step[i]);
+                here
             }
         };
-        found.push(format!("<frame pos=\"{x} {y} {z}\" {turn}>"));
-        pose = pose.compose(&step);
+        let [a, b, c] = angles;
+        found.push(format!("<frame pos=\"{x} {y} {z}\" euler=\"{a} {b} {c}\">"));
     }
     Ok(found)
 }
