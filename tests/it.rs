@@ -70,6 +70,8 @@ mod long_runs;
 mod margins;
 mod mechanism_table;
 mod mjcf;
+mod mjcf_copies;
+mod mjcf_masses;
 mod models;
 mod near_singular;
 mod other_programs;

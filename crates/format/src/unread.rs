@@ -135,6 +135,14 @@ impl<'a> Tally<'a> {
         });
     }
 
+    /// The same of what any file of its format may have.
+    pub(super) fn standard_text(&mut self, start: usize, what: String) {
+        self.text(start, what.clone());
+        if let Some(index) = self.by_text.get(&what) {
+            self.kinds[*index].standard = true;
+        }
+    }
+
     fn again(&mut self, index: usize, start: usize) {
         let kind = &mut self.kinds[index];
         kind.count += 1;

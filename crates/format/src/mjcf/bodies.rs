@@ -1,5 +1,7 @@
 //! Bodies, the frames between them, and their joints.
 
+use super::keys::Coordinate;
+use super::mass::Load;
 use super::pose::{exactly, least_turn};
 use super::{BRINGS_BODIES, Known, Mjcf, Place, WORLD};
 use crate::WarningKind;
@@ -8,14 +10,14 @@ use crate::error::Outcome;
 use crate::frames::one_after_another;
 use crate::words::quoted;
 use kutzbach_math::number::Number;
-use kutzbach_model::mechanism::{Direction, Dynamics, Frame, JointBuilder, JointKind, Limit};
+use kutzbach_model::mechanism::{Frame, JointBuilder, JointKind};
 
 pub(super) fn tree(name: &str, kind: JointKind, parent: &str, child: &str) -> JointBuilder {
     JointBuilder::tree(name, kind, parent, child)
 }
 
 /// Elements of a body that say nothing about how it moves.
-const STANDARD: [&str; 6] = ["geom", "inertial", "light", "camera", "plugin", "user"];
+const STANDARD: [&str; 4] = ["light", "camera", "plugin", "user"];
 
 /// An element of the tree that is still to be read.
 struct Open<'a> {
@@ -25,11 +27,11 @@ struct Open<'a> {
     class: Option<&'a str>,
 }
 
-/// A joint, its class, and the frames inside its body that it stands in, as one.
-struct Jointed<'a> {
-    element: Element<'a>,
-    class: Option<&'a str>,
-    frame: Frame,
+/// Something in a body, its class, and the frames inside the body that it stands in, as one.
+pub(super) struct Found<'a> {
+    pub(super) element: Element<'a>,
+    pub(super) class: Option<&'a str>,
+    pub(super) frame: Frame,
 }
 
 impl<'a> Mjcf<'a> {
@@ -97,6 +99,8 @@ impl<'a> Mjcf<'a> {
                         .fault(message)
                         .help("save the model as MuJoCo compiled it: mj_saveLastXML"));
                 }
+                // Read with the body itself.
+                "geom" | "inertial" => {}
                 name if STANDARD.contains(&name) => self.unread.standard(part),
                 _ => self.unread.element(part),
             }
@@ -143,30 +147,37 @@ impl<'a> Mjcf<'a> {
                 .extend(body.attribute("name").map(|name| name.value));
         }
         self.links.insert(name.clone(), body.range());
-        let joints = self.joints_of(body, class)?;
+        let joints = self.parts_of(body, class, &["joint", "freejoint"])?;
+        let load = self.load_of(body, class)?;
         let free = joints
             .iter()
             .find(|joint| self.word(joint.element, joint.class) == Ok("free"));
         if let Some(free) = free {
-            return self.float(free.element, joints.len(), (name, place));
+            return self.float(free.element, joints.len(), (name, place), load);
         }
         if joints.is_empty() {
             let (parent, frame) = self.at(place, &name);
             let joint = self.name_of(None, &format!("{name}_fixed"), body)?;
-            self.builder.link(&name);
+            self.add_link(&name, load);
             self.builder
                 .joint(tree(&joint, JointKind::Fixed, &parent, &name).origin(frame));
             return Ok(name);
         }
         let mut place = place.clone();
         let last = joints.len() - 1;
+        let mut load = Some(load);
         for (index, joint) in joints.into_iter().enumerate() {
             let to = match index == last {
                 true => name.clone(),
                 false => self.unused(&self.links, &format!("{name}_{}", index + 1)),
             };
             self.links.insert(to.clone(), body.range());
-            self.builder.link(&to);
+            match load.take_if(|_| index == last) {
+                Some(load) => self.add_link(&to, load),
+                None => {
+                    self.builder.link(&to);
+                }
+            }
             self.make_joint(&joint, &place, (&name, &to))?;
             place = Place {
                 link: to,
@@ -176,11 +187,18 @@ impl<'a> Mjcf<'a> {
         Ok(name)
     }
 
+    /// Adds a link with what it weighs and looks like.
+    pub(super) fn add_link(&mut self, name: &str, load: Load) {
+        self.builder
+            .detailed_link(name, load.inertial, load.collisions, load.visuals);
+    }
+
     fn float(
         &mut self,
         free: Element<'a>,
         joints: usize,
         (name, place): (String, &Place),
+        load: Load,
     ) -> Outcome<String> {
         if joints > 1 {
             return Err(free.fault("a body that floats has no other joint"));
@@ -194,7 +212,13 @@ impl<'a> Mjcf<'a> {
             &format!("{name}_free"),
             free,
         )?;
-        self.builder.link(&name);
+        self.add_link(&name, load);
+        self.coordinates.push(Coordinate {
+            joint: joint.clone(),
+            width: 7,
+            zero: Number::zero(),
+            is_held: false,
+        });
         self.builder.floating(&joint, &parent, &name, frame);
         Ok(name)
     }
@@ -221,23 +245,28 @@ impl<'a> Mjcf<'a> {
         Ok(name)
     }
 
-    /// The joints of a body, those in frames inside it included, in the order of the file.
-    fn joints_of(&self, body: Element<'a>, class: Option<&'a str>) -> Outcome<Vec<Jointed<'a>>> {
+    /// What a body has of some names, in frames inside it too, in the order of the file.
+    pub(super) fn parts_of(
+        &self,
+        body: Element<'a>,
+        class: Option<&'a str>,
+        names: &[&str],
+    ) -> Outcome<Vec<Found<'a>>> {
         let mut found = Vec::new();
-        let mut open = vec![Jointed {
+        let mut open = vec![Found {
             element: body,
             class,
             frame: Frame::identity(),
         }];
         while let Some(here) = open.pop() {
-            if here.element.name() != "body" && here.element.name() != "frame" {
+            if names.contains(&here.element.name()) {
                 found.push(here);
                 continue;
             }
             let mut inside = Vec::new();
             for part in here.element.elements() {
                 let (class, frame) = match part.name() {
-                    "joint" | "freejoint" => (here.class, here.frame.clone()),
+                    name if names.contains(&name) => (here.class, here.frame.clone()),
                     "frame" => {
                         let of = self.classes.of(part, here.class)?;
                         let own = part.attribute("childclass").map(|own| own.value);
@@ -246,7 +275,7 @@ impl<'a> Mjcf<'a> {
                     }
                     _ => continue,
                 };
-                inside.push(Jointed {
+                inside.push(Found {
                     element: part,
                     class,
                     frame,
@@ -259,37 +288,20 @@ impl<'a> Mjcf<'a> {
 
     fn make_joint(
         &mut self,
-        jointed: &Jointed<'a>,
+        jointed: &Found<'a>,
         place: &Place,
         (body, to): (&str, &str),
     ) -> Outcome<()> {
         let joint = jointed.element;
         let of = self.classes.of(joint, jointed.class)?;
         let attribute = |name: &str| self.classes.attribute(joint, of, name);
-        let kind = match attribute("type").map_or("hinge", |word| word.value) {
-            "hinge" => JointKind::Revolute,
-            "slide" => JointKind::Prismatic,
-            "ball" => JointKind::Spherical,
-            other => {
-                let message = format!("there is no type of joint {}", quoted(other));
-                return Err(joint.fault(message).help("hinge, slide, ball or free"));
-            }
-        };
+        let kind = self.kind_of(joint, of)?;
         let mut at = Frame::identity();
         if let Some(position) = attribute("pos").filter(|_| kind != JointKind::Prismatic) {
             at.position = exactly(position)?;
         }
         let at = one_after_another(&jointed.frame, &at);
-        let axis = match attribute("axis") {
-            Some(axis) => {
-                let numbers: [Number; 3] = exactly(axis)?;
-                if numbers.iter().all(Number::is_zero) {
-                    return Err(axis.fault("the axis has no direction: its length is zero"));
-                }
-                Direction(numbers)
-            }
-            None => Direction([Number::zero(), Number::zero(), Number::one()]),
-        };
+        let axis = self.axis_of(joint, of)?;
         for name in ["stiffness", "springref"] {
             if let Some(spring) = attribute(name) {
                 self.unread
@@ -306,25 +318,19 @@ impl<'a> Mjcf<'a> {
             }
             _ => self.limit(joint, of, kind)?,
         };
-        let number = |name: &str| -> Outcome<Option<Number>> {
-            let Some(attribute) = attribute(name) else {
-                return Ok(None);
-            };
-            let [first, ..] = &super::pose::numbers(attribute)?[..] else {
-                return Ok(None);
-            };
-            Ok(Some(first.clone()))
-        };
-        let dynamics = Dynamics {
-            damping: number("damping")?,
-            friction: number("frictionloss")?,
-        };
+        let dynamics = self.dynamics_of(joint, of)?;
         let own = joint.attribute("name").map(|own| own.value);
         let name = self.name_of(own, &format!("{body}_joint"), joint)?;
         let mut place = place.clone();
         place.chain.push(at.clone());
         let (parent, origin) = self.at(&place, body);
         let held = own.is_some_and(|own| self.held.contains(own));
+        self.coordinates.push(Coordinate {
+            joint: name.clone(),
+            width: if kind == JointKind::Spherical { 4 } else { 1 },
+            zero: self.reference(joint, of, kind)?,
+            is_held: held,
+        });
         let made = match held {
             true => tree(&name, JointKind::Fixed, &parent, to),
             false => tree(&name, kind, &parent, to),
@@ -350,49 +356,6 @@ impl<'a> Mjcf<'a> {
         Ok(())
     }
 
-    /// The limits of a joint, from the pose drawn.
-    fn limit(&self, joint: Element<'a>, class: &str, kind: JointKind) -> Outcome<Option<Limit>> {
-        let attribute = |name: &str| self.classes.attribute(joint, class, name);
-        let Some(range) = attribute("range") else {
-            return Ok(None);
-        };
-        let [lower, upper]: [Number; 2] = exactly(range)?;
-        let proper = lower.value() < upper.value();
-        let limited = match attribute("limited").map_or("auto", |word| word.value) {
-            "true" => true,
-            "false" => false,
-            _ => self.compiler.autolimits && proper,
-        };
-        if !limited {
-            return Ok(None);
-        }
-        if !proper {
-            return Err(range.fault(
-                "the lower limit of a joint that is limited has to be below the upper one",
-            ));
-        }
-        let zero = match attribute("ref") {
-            Some(zero) => {
-                let [zero] = exactly(zero)?;
-                zero
-            }
-            None => Number::zero(),
-        };
-        let from_here = |bound: &Number| {
-            let bound = bound - &zero;
-            match kind {
-                JointKind::Revolute => self.angle(&bound),
-                _ => bound,
-            }
-        };
-        Ok(Some(Limit {
-            lower: Some(from_here(&lower)),
-            upper: Some(from_here(&upper)),
-            effort: None,
-            velocity: None,
-        }))
-    }
-
     /// A warning that the answer hangs on.
     pub(super) fn guessed(&mut self, element: Element<'a>, message: String) {
         self.warnings
@@ -400,8 +363,8 @@ impl<'a> Mjcf<'a> {
     }
 }
 
-/// The frame of a site that is drawn from one point to another: in the middle, its z axis along them.
-fn between([a, b, c, d, e, f]: [Number; 6]) -> Option<Frame> {
+/// The frame of a site or a geom that is drawn from one point to another: in the middle, its z axis along them.
+pub(super) fn between([a, b, c, d, e, f]: [Number; 6]) -> Option<Frame> {
     let (from, to) = ([a, b, c], [d, e, f]);
     let half = Number::ratio(1, 2)?;
     let along = [0, 1, 2].map(|i| from[i].value() - to[i].value());

@@ -92,6 +92,19 @@ impl<'a> Classes<'a> {
             .or_else(|| self.says(class, element.name(), name))
     }
 
+    /// All that an element and its classes say of an attribute, what counts most first.
+    pub(super) fn each(&self, element: Element<'a>, class: &str, name: &str) -> Vec<Attribute<'a>> {
+        let mut found: Vec<Attribute<'a>> = element.attribute(name).into_iter().collect();
+        let mut class = self.all.get(class);
+        while let Some(here) = class {
+            let own = here.elements.iter();
+            let own = own.filter(|own| own.name() == element.name());
+            found.extend(own.rev().filter_map(|own| own.attribute(name)));
+            class = here.from.and_then(|from| self.all.get(from));
+        }
+        found
+    }
+
     /// What a class says of the attribute of an element of some name.
     pub(super) fn says(&self, class: &str, element: &str, name: &str) -> Option<Attribute<'a>> {
         let mut class = self.all.get(class);

@@ -19,7 +19,8 @@ struct Connect<'a> {
 }
 
 impl<'a> Mjcf<'a> {
-    fn is_active(&self, element: Element<'a>) -> Outcome<bool> {
+    /// Whether an equality counts from the start.
+    pub(super) fn is_active(&self, element: Element<'a>) -> Outcome<bool> {
         let class = self.classes.of(element, None)?;
         let own = element.attribute("active");
         let says = own.or_else(|| self.classes.says(class, "equality", "active"));

@@ -3,6 +3,7 @@
 //! MuJoCo looks for files beside the main one; one that is not there is looked for beside the file that names it. A file can be included
 //! once.
 
+use super::replicate::replicated;
 use crate::error::{Fault, FormatError, Outcome, lines_and_columns, located};
 use crate::words::quoted;
 use crate::{guard, xml};
@@ -20,7 +21,7 @@ struct Source {
 }
 
 /// A stretch of the whole text.
-struct Piece {
+pub(super) struct Piece {
     /// Where it starts in the whole text.
     start: usize,
     /// Which file it is from, and where it starts there.
@@ -45,10 +46,10 @@ struct Part {
     depth: usize,
 }
 
-/// The text with what it includes.
+/// The text with what it includes, and with the copies that replicates make.
 ///
 /// # Errors
-/// A file that cannot be read, is no XML, or is included twice.
+/// A file that cannot be read, is no XML, or is included twice, and copies that cannot be made.
 pub(crate) fn whole(text: &str, file: &str, base: Option<&Path>) -> Result<Whole, FormatError> {
     let mut whole = Whole {
         text: String::new(),
@@ -71,7 +72,7 @@ pub(crate) fn whole(text: &str, file: &str, base: Option<&Path>) -> Result<Whole
             return Err(located(name, text, vec![fault]));
         }
     }
-    Ok(whole)
+    replicated(whole)
 }
 
 impl Whole {
@@ -189,6 +190,32 @@ impl Whole {
     /// The text of the main file.
     pub(crate) fn main(&self) -> &str {
         self.sources.first().map_or("", |main| &main.text)
+    }
+
+    /// The same files with another text made of theirs.
+    pub(super) fn rewritten(self, text: String, pieces: Vec<Piece>) -> Self {
+        Self {
+            text,
+            pieces,
+            sources: self.sources,
+        }
+    }
+
+    /// Where the stretch after the one at a place begins.
+    pub(super) fn next_piece(&self, at: usize) -> Option<usize> {
+        let after = self.pieces.partition_point(|piece| piece.start <= at);
+        Some(self.pieces.get(after)?.start)
+    }
+
+    /// A stretch of another text that starts there and is from this place.
+    pub(super) fn piece_of(&self, at: usize, start: usize) -> Option<Piece> {
+        let piece = self.piece(at)?;
+        Some(Piece {
+            start,
+            source: piece.source,
+            offset: piece.offset + (at - piece.start),
+            at: piece.at,
+        })
     }
 
     fn piece(&self, at: usize) -> Option<&Piece> {

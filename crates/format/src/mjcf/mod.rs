@@ -13,6 +13,9 @@
 //! | `<joint>` in `<equality>` | `<mimic>`; without a second joint, a fixed joint |
 //! | `<tendon>` in `<equality>`, of fixed tendons of two joints | `<mimic>` |
 //! | actuators of joints | motors |
+//! | `<replicate>` | its copies, written out before anything is read |
+//! | `<inertial>`, `<geom>` | masses and shapes |
+//! | `<key>` | configuration |
 //!
 //! Names are those of the file; what has none is named after its body. What would lose bodies or constraints is an error.
 //!
@@ -23,7 +26,12 @@ mod bodies;
 mod classes;
 mod equality;
 mod include;
+mod joint;
+mod keys;
+mod mass;
 mod pose;
+mod replicate;
+mod shapes;
 
 use super::element::Element;
 use super::error::{Fault, Outcome};
@@ -35,7 +43,10 @@ use super::words::{did_you_mean, quoted};
 use super::{ReadOptions, Reading, WarningKind, xml};
 use classes::Classes;
 pub(super) use include::{Whole, whole};
+use keys::Coordinate;
+use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Entity, Frame, JointKind, MechanismBuilder};
+use mass::Load;
 use pose::Compiler;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -56,8 +67,17 @@ const STANDARD: [&str; 9] = [
     "extension",
 ];
 
+/// Attributes of `<compiler>` that change masses and are not read.
+const CHANGES_MASSES: [&str; 5] = [
+    "inertiagrouprange",
+    "boundmass",
+    "boundinertia",
+    "balanceinertia",
+    "settotalmass",
+];
+
 /// Elements that would bring bodies with them which are not read.
-const BRINGS_BODIES: [&str; 4] = ["attach", "replicate", "composite", "flexcomp"];
+const BRINGS_BODIES: [&str; 3] = ["attach", "composite", "flexcomp"];
 
 /// A joint of the file.
 struct Known<'a> {
@@ -88,6 +108,11 @@ struct Mjcf<'a> {
     followers: BTreeMap<&'a str, &'a str>,
     /// Joints that an equality holds where they are drawn.
     held: BTreeSet<&'a str>,
+    /// Joints that a motor drives.
+    driven: BTreeSet<&'a str>,
+    /// What `qpos` of a key is made of, in its order.
+    coordinates: Vec<Coordinate>,
+    key_names: BTreeSet<String>,
     warnings: Vec<(usize, WarningKind, String)>,
     unread: Tally<'a>,
 }
@@ -116,6 +141,9 @@ pub(super) fn read(whole: &Whole, options: &ReadOptions) -> Result<Reading, Vec<
         given: BTreeSet::new(),
         followers: BTreeMap::new(),
         held: BTreeSet::new(),
+        driven: BTreeSet::new(),
+        coordinates: Vec::new(),
+        key_names: BTreeSet::new(),
         warnings: Vec::new(),
         unread: Tally::default(),
     };
@@ -149,7 +177,13 @@ impl<'a> Mjcf<'a> {
             open.extend(element.elements());
         }
         self.links.insert(WORLD.to_owned(), root.range());
-        self.builder.link(WORLD);
+        let mut ground = Load::default();
+        for world in sections("worldbody") {
+            let own = self.load_of(world, None)?;
+            ground.collisions.extend(own.collisions);
+            ground.visuals.extend(own.visuals);
+        }
+        self.add_link(WORLD, ground);
         for world in sections("worldbody") {
             self.bodies(world)?;
         }
@@ -158,32 +192,20 @@ impl<'a> Mjcf<'a> {
         }
         for part in root.elements() {
             match part.name() {
-                "compiler" | "default" | "equality" | "worldbody" | "tendon" => {}
+                "compiler" | "default" | "equality" | "worldbody" | "tendon" | "keyframe" => {}
                 "actuator" => self.actuators(part),
                 name if STANDARD.contains(&name) => self.unread.standard(part),
                 _ => self.unread.element(part),
             }
         }
+        for keyframe in sections("keyframe") {
+            self.keys(keyframe, root)?;
+        }
         Ok(())
     }
 
     fn compile(&mut self, element: Element<'a>) -> Outcome<()> {
-        if let Some(angle) = element.attribute("angle") {
-            self.compiler.degrees = match angle.value {
-                "degree" => true,
-                "radian" => false,
-                _ => return Err(angle.fault("an angle is in `degree` or in `radian`")),
-            };
-        }
-        if let Some(sequence) = element.attribute("eulerseq") {
-            let letters: Vec<char> = sequence.value.chars().collect();
-            let known = letters.iter().all(|letter| "xyzXYZ".contains(*letter));
-            let letters: Result<[char; 3], _> = letters.try_into();
-            self.compiler.sequence = letters
-                .ok()
-                .filter(|_| known)
-                .ok_or_else(|| sequence.fault("expected three of the letters x, y, z, X, Y, Z"))?;
-        }
+        self.compiler.take_angles(element)?;
         if let Some(coordinate) = element
             .attribute("coordinate")
             .filter(|c| c.value == "global")
@@ -194,6 +216,19 @@ impl<'a> Mjcf<'a> {
         }
         if let Some(says) = element.attribute("autolimits") {
             self.compiler.autolimits = says.value != "false";
+        }
+        if let Some(says) = element.attribute("inertiafromgeom") {
+            self.compiler.mass_of_geoms = match says.value {
+                "true" => Some(true),
+                "false" => Some(false),
+                _ => None,
+            };
+        }
+        for name in CHANGES_MASSES {
+            if let Some(says) = element.attribute(name) {
+                let what = format!("`{name}` of <compiler>");
+                self.unread.text(says.range().start, what);
+            }
         }
         Ok(())
     }
@@ -268,6 +303,7 @@ impl<'a> Mjcf<'a> {
             });
             match moved {
                 Some(joint) => {
+                    self.driven.insert(joint.value);
                     self.builder.actuate(joint.value);
                 }
                 None => self.unread.element(actuator),

@@ -20,6 +20,8 @@ pub(super) struct Compiler {
     pub(super) sequence: [char; 3],
     /// Whether a range without `limited` limits.
     pub(super) autolimits: bool,
+    /// Whether masses are those of the geoms: always, never, or where there is no `<inertial>`.
+    pub(super) mass_of_geoms: Option<bool>,
 }
 
 impl Default for Compiler {
@@ -28,7 +30,83 @@ impl Default for Compiler {
             degrees: true,
             sequence: ['x', 'y', 'z'],
             autolimits: true,
+            mass_of_geoms: None,
         }
+    }
+}
+
+impl Compiler {
+    /// Takes what an element says of angles.
+    pub(super) fn take_angles(&mut self, element: Element<'_>) -> Outcome<()> {
+        if let Some(angle) = element.attribute("angle") {
+            self.degrees = match angle.value {
+                "degree" => true,
+                "radian" => false,
+                _ => return Err(angle.fault("an angle is in `degree` or in `radian`")),
+            };
+        }
+        if let Some(sequence) = element.attribute("eulerseq") {
+            let letters: Vec<char> = sequence.value.chars().collect();
+            let known = letters.iter().all(|letter| "xyzXYZ".contains(*letter));
+            let letters: Result<[char; 3], _> = letters.try_into();
+            self.sequence = letters
+                .ok()
+                .filter(|_| known)
+                .ok_or_else(|| sequence.fault("expected three of the letters x, y, z, X, Y, Z"))?;
+        }
+        Ok(())
+    }
+
+    /// An angle in the unit of the file.
+    fn angle(&self, number: &Number) -> Number {
+        match self.degrees {
+            true => number.radians(),
+            false => number.clone(),
+        }
+    }
+
+    /// Which axis an angle of `euler` turns about.
+    pub(super) fn axis(&self, angle: usize) -> usize {
+        self.sequence.get(angle).map_or(0, |axis| index_of(*axis))
+    }
+
+    /// Roll, pitch and yaw of `euler`.
+    pub(super) fn euler(&self, angles: [Number; 3]) -> Option<[Number; 3]> {
+        let angles = angles.map(|angle| self.angle(&angle));
+        let sequence = self.sequence;
+        let turning: Vec<usize> = (0..3).filter(|&i| !angles[i].is_zero()).collect();
+        // Turns about axes that stay, x first, or about axes that turn along, z first, are roll, pitch and yaw.
+        let fixed = |a: usize, b: usize| {
+            let (a, b) = (sequence[a], sequence[b]);
+            a.is_ascii_uppercase() && b.is_ascii_uppercase() && index_of(a) < index_of(b)
+                || a.is_ascii_lowercase() && b.is_ascii_lowercase() && index_of(a) > index_of(b)
+        };
+        if turning.windows(2).all(|pair| fixed(pair[0], pair[1])) {
+            let mut found = [Number::zero(), Number::zero(), Number::zero()];
+            for i in turning {
+                found[index_of(sequence[i])] = angles[i].clone();
+            }
+            return Some(found);
+        }
+        let mut whole = [0.0, 0.0, 0.0, 1.0];
+        for i in turning {
+            let mut axis = [0.0; 3];
+            axis[index_of(sequence[i])] = 1.0;
+            let turn = about(axis, angles[i].value());
+            whole = match sequence[i].is_ascii_lowercase() {
+                true => product(whole, turn),
+                false => product(turn, whole),
+            };
+        }
+        angles_of(whole)
+    }
+}
+
+fn index_of(axis: char) -> usize {
+    match axis.to_ascii_lowercase() {
+        'x' => 0,
+        'y' => 1,
+        _ => 2,
     }
 }
 
@@ -62,10 +140,7 @@ fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
 impl<'a> Mjcf<'a> {
     /// An angle in the unit of the file.
     pub(super) fn angle(&self, number: &Number) -> Number {
-        match self.compiler.degrees {
-            true => number.radians(),
-            false => number.clone(),
-        }
+        self.compiler.angle(number)
     }
 
     /// The frame of an element of a class: `pos` and how it is turned.
@@ -107,7 +182,7 @@ impl<'a> Mjcf<'a> {
                 let [w, x, y, z] = exactly(turn)?;
                 roll_pitch_yaw(&[x, y, z, w]).ok_or_else(none)
             }
-            "euler" => self.euler(exactly(turn)?).ok_or_else(none),
+            "euler" => self.compiler.euler(exactly(turn)?).ok_or_else(none),
             "axisangle" => {
                 let [x, y, z, angle] = exactly(turn)?;
                 let angle = self.angle(&angle);
@@ -135,42 +210,6 @@ impl<'a> Mjcf<'a> {
                 least_turn(all.each_ref().map(Number::value)).ok_or_else(none)
             }
         }
-    }
-
-    /// Roll, pitch and yaw of `euler`.
-    fn euler(&self, angles: [Number; 3]) -> Option<[Number; 3]> {
-        let angles = angles.map(|angle| self.angle(&angle));
-        let sequence = self.compiler.sequence;
-        let index = |axis: char| match axis.to_ascii_lowercase() {
-            'x' => 0,
-            'y' => 1,
-            _ => 2,
-        };
-        let turning: Vec<usize> = (0..3).filter(|&i| !angles[i].is_zero()).collect();
-        // Turns about axes that stay, x first, or about axes that turn along, z first, are roll, pitch and yaw.
-        let fixed = |a: usize, b: usize| {
-            let (a, b) = (sequence[a], sequence[b]);
-            a.is_ascii_uppercase() && b.is_ascii_uppercase() && index(a) < index(b)
-                || a.is_ascii_lowercase() && b.is_ascii_lowercase() && index(a) > index(b)
-        };
-        if turning.windows(2).all(|pair| fixed(pair[0], pair[1])) {
-            let mut found = [Number::zero(), Number::zero(), Number::zero()];
-            for i in turning {
-                found[index(sequence[i])] = angles[i].clone();
-            }
-            return Some(found);
-        }
-        let mut whole = [0.0, 0.0, 0.0, 1.0];
-        for i in turning {
-            let mut axis = [0.0; 3];
-            axis[index(sequence[i])] = 1.0;
-            let turn = about(axis, angles[i].value());
-            whole = match sequence[i].is_ascii_lowercase() {
-                true => product(whole, turn),
-                false => product(turn, whole),
-            };
-        }
-        angles_of(whole)
     }
 }
 

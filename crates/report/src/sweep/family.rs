@@ -174,7 +174,8 @@ impl Family {
         family.source.read(settings)?;
         let known = property_names(&String::from_utf8_lossy(&family.source.bytes));
         let is_known = |name: &str| known.iter().any(|own| own == name);
-        match family.plan.names().all(is_known) {
+        let all_known = family.plan.names().all(is_known);
+        match all_known {
             true => Ok(family),
             false => Err(Box::new(error)),
         }

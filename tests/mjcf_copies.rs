@@ -1,0 +1,244 @@
+//! MJCF: keys as configurations, and copies of what is in `<replicate>`.
+
+use kutzbach::closure::{Arithmetic, Geometry};
+use kutzbach::format::{FormatError, Reading, read};
+use kutzbach::mechanism::Mechanism;
+
+fn try_model(inside: &str) -> Result<Reading, FormatError> {
+    read(&format!("<mujoco>{inside}</mujoco>"), "model.xml", &[])
+}
+
+fn model(inside: &str) -> Reading {
+    try_model(inside).unwrap_or_else(|error| panic!("{error}\n{inside}"))
+}
+
+/// The configurations: names, joints, and values.
+fn poses(reading: &Reading) -> Vec<(String, Vec<(String, f64)>)> {
+    let mechanism = &reading.mechanism;
+    let pose = |configuration: &kutzbach::mechanism::Configuration| {
+        let positions = configuration.positions.iter().map(|(joint, values)| {
+            let name = mechanism.joint(*joint).name.clone();
+            (name, values[0].value())
+        });
+        (configuration.name.clone(), positions.collect())
+    };
+    mechanism.configurations().iter().map(pose).collect()
+}
+
+fn skipped(reading: &Reading) -> Vec<&str> {
+    reading.skipped.iter().map(|skip| &skip.what[..]).collect()
+}
+
+const ARM: &str = r#"<worldbody><body name="base"><freejoint name="f"/>
+    <body name="arm"><joint name="a" ref="90"/><body name="hand"><joint name="s" type="slide" ref="0.5"/></body></body>
+    <body name="head"><joint name="b" type="ball"/></body></body></worldbody>"#;
+
+#[test]
+fn keys_are_configurations_from_the_pose_drawn() {
+    let reading = model(&format!(
+        r#"{ARM}<keyframe><key name="home" qpos="0 0 1 1 0 0 0 1.5 0.75 1 0 0 0"/><key qpos="0 0 1 1 0 0 0 0 0.5 1 0 0 0" qvel="0"/>
+        <key name="short" qpos="1 2"/><key name="still"/></keyframe>"#
+    ));
+    let found = poses(&reading);
+    let names: Vec<&str> = found.iter().map(|(name, _)| &name[..]).collect();
+    assert_eq!(names, ["home", "key"]);
+    let half_turn = std::f64::consts::FRAC_PI_2;
+    for ((_, positions), expected) in found
+        .iter()
+        .zip([[1.5 - half_turn, 0.25], [-half_turn, 0.0]])
+    {
+        let joints: Vec<&str> = positions.iter().map(|(joint, _)| &joint[..]).collect();
+        assert_eq!(joints, ["a", "s"]);
+        for ((_, value), expected) in positions.iter().zip(expected) {
+            assert!((value - expected).abs() < 1e-12, "{positions:?}");
+        }
+    }
+    assert_eq!(
+        skipped(&reading),
+        [
+            "values of balls and floating bodies in <key>",
+            "`qvel` of <key>",
+            "<key> with 2 numbers in `qpos`, where the joints have 13",
+            "<key> without `qpos`",
+        ]
+    );
+}
+
+#[test]
+fn with_equalities_a_key_says_where_the_motors_are() {
+    let tied = |rest: &str| {
+        model(&format!(
+            r#"<worldbody><body name="x"><joint name="a"/><body name="y" pos="1 0 0"><joint name="b"/></body></body></worldbody>
+            <equality><joint joint1="b" joint2="a" polycoef="0 0.5 0 0 0"/></equality>
+            <keyframe><key name="k" qpos="0.4 0.2"/></keyframe>{rest}"#
+        ))
+    };
+    let driven = tied(r#"<actuator><motor joint="a"/></actuator>"#);
+    let expected = ("k".to_owned(), vec![("a".to_owned(), 0.4)]);
+    assert_eq!(poses(&driven), [expected]);
+    let free = tied("");
+    assert!(poses(&free).is_empty());
+    assert_eq!(
+        skipped(&free),
+        ["<key> of a mechanism with equalities and without motors"]
+    );
+}
+
+#[test]
+fn two_keys_of_one_name_are_an_error() {
+    let error = try_model(
+        r#"<worldbody><body><joint/></body></worldbody><keyframe><key name="k" qpos="0"/><key name="k" qpos="1"/></keyframe>"#,
+    )
+    .unwrap_err();
+    assert!(error.message.contains("two configurations"), "{error}");
+}
+
+fn names(mechanism: &Mechanism) -> (Vec<&str>, Vec<&str>) {
+    let links = mechanism.links().iter().map(|link| &link.name[..]);
+    let joints = mechanism.joints().iter().map(|joint| &joint.name[..]);
+    (links.collect(), joints.collect())
+}
+
+fn place(mechanism: &Mechanism, link: &str) -> [f64; 3] {
+    let geometry = Geometry::new(mechanism, None, &Arithmetic::double());
+    geometry.home[mechanism.link_named(link).unwrap().0].translation
+}
+
+fn is_near(found: [f64; 3], expected: [f64; 3]) {
+    for (a, b) in found.into_iter().zip(expected) {
+        assert!((a - b).abs() < 1e-12, "{found:?} {expected:?}");
+    }
+}
+
+#[test]
+fn copies_are_what_they_are_written_out() {
+    let copied = model(
+        r#"<worldbody><replicate count="3" offset="0.1 0 0" sep="_"><body name="b" pos="0 1 0"><joint name="j" axis="0 1 0"/>
+        <body name="c" pos="0 0 2"><joint name="k"/></body></body></replicate><body name="last"/></worldbody>
+        <equality><joint name="e" joint1="j" joint2="k"/></equality><actuator><motor name="m" joint="j"/></actuator>"#,
+    );
+    let mut bodies = String::new();
+    let (mut equalities, mut motors) = (String::new(), String::new());
+    for i in 0..3 {
+        bodies += &format!(
+            r#"<body name="b_{i}" pos="0.{i} 1 0"><joint name="j_{i}" axis="0 1 0"/>
+            <body name="c_{i}" pos="0 0 2"><joint name="k_{i}"/></body></body>"#
+        );
+        equalities += &format!(r#"<joint name="e_{i}" joint1="j_{i}" joint2="k_{i}"/>"#);
+        motors += &format!(r#"<motor joint="j_{i}"/>"#);
+    }
+    let written = model(&format!(
+        r#"<worldbody>{bodies}<body name="last"/></worldbody><equality>{equalities}</equality><actuator>{motors}</actuator>"#
+    ));
+    let (a, b) = (&copied.mechanism, &written.mechanism);
+    assert_eq!(names(a), names(b));
+    for (a, b) in a.joints().iter().zip(b.joints()) {
+        assert_eq!(a.predecessor.frame, b.predecessor.frame);
+        assert_eq!(a.kind, b.kind);
+    }
+    assert_eq!(a.actuated(), b.actuated());
+    assert_eq!((a.couplings().len(), b.couplings().len()), (3, 3));
+}
+
+#[test]
+fn copies_are_moved_and_turned_again_and_again() {
+    let around = model(
+        r#"<worldbody><replicate count="4" euler="0 0 90"><body name="b" pos="1 0 0.5"><joint/></body></replicate></worldbody>"#,
+    );
+    let corners = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
+    for (i, [x, y]) in corners.into_iter().enumerate() {
+        is_near(place(&around.mechanism, &format!("b{i}")), [x, y, 0.5]);
+    }
+    // As MuJoCo 4.0.0 has them.
+    let moved = model(
+        r#"<worldbody><replicate count="3" offset="1 0 0" euler="0 0 90"><body name="b" pos="0 1 0"><joint/></body></replicate></worldbody>"#,
+    );
+    for (i, at) in [[0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
+        .into_iter()
+        .enumerate()
+    {
+        is_near(place(&moved.mechanism, &format!("b{i}")), at);
+    }
+    // Angles are multiplied, which is not the turn done again.
+    let tumbled = model(
+        r#"<worldbody><replicate count="4" offset="0.3 -0.2 0.1" euler="20 30 0"><body name="b"><joint/></body></replicate></worldbody>"#,
+    );
+    let places = [
+        ("b1", [0.3, -0.2, 0.1]),
+        ("b2", [0.609808, -0.366255, -0.027978]),
+        ("b3", [0.84641, -0.384602, -0.317258]),
+    ];
+    for (name, at) in places {
+        let found = place(&tumbled.mechanism, name);
+        for (a, b) in found.into_iter().zip(at) {
+            assert!((a - b).abs() < 1e-6, "{name}: {found:?}");
+        }
+    }
+    let turned = model(
+        r#"<worldbody><frame euler="60 90 0"><body name="b"><joint/></body></frame></worldbody>"#,
+    );
+    let axis = |mechanism: &Mechanism, name: &str| {
+        let geometry = Geometry::new(mechanism, None, &Arithmetic::double());
+        geometry.home[mechanism.link_named(name).unwrap().0].rotate(&[1.0, 2.0, 3.0])
+    };
+    is_near(axis(&tumbled.mechanism, "b3"), axis(&turned.mechanism, "b"));
+}
+
+#[test]
+fn replicates_inside_replicates_multiply() {
+    let reading = model(
+        r#"<worldbody><replicate count="2" offset="1 0 0" sep="-"><replicate count="11" sep="_" offset="0 1 0">
+        <body name="b"><joint name="j"/></body></replicate></replicate></worldbody>
+        <tendon><fixed name="t"><joint joint="j" coef="1"/></fixed></tendon><equality><tendon tendon1="t"/></equality>"#,
+    );
+    let (links, _) = names(&reading.mechanism);
+    assert_eq!(links.len(), 23);
+    assert_eq!(links[1..3], ["b_00-0", "b_01-0"]);
+    assert_eq!(links[22], "b_10-1");
+    is_near(place(&reading.mechanism, "b_10-1"), [1.0, 10.0, 0.0]);
+    assert_eq!(reading.mechanism.couplings().len(), 22);
+    let none = model(
+        r#"<worldbody><replicate count="0"><body name="b"/></replicate><body name="c"/></worldbody>"#,
+    );
+    assert_eq!(names(&none.mechanism).0, ["world", "c"]);
+}
+
+#[test]
+fn what_cannot_be_copied_is_told_with_its_place() {
+    let pair = |equality: &str| {
+        format!(
+            "<worldbody><body><joint name='o'/></body><replicate count='2' offset='1 0 0'><body name='b'><joint name='j'/></body></replicate></worldbody>\n<equality>{equality}</equality>"
+        )
+    };
+    for (inside, line, told) in [
+        (
+            "<worldbody>\n<replicate count='1000'>\n<replicate count='101'/></replicate></worldbody>".to_owned(),
+            3,
+            "more than 100000 copies",
+        ),
+        (
+            "<worldbody><body>\n<replicate count='2'>\n<joint/></replicate></body></worldbody>".to_owned(),
+            3,
+            "cannot stand directly in <replicate>",
+        ),
+        (
+            "<worldbody>\n<replicate count='-1'/></worldbody>".to_owned(),
+            2,
+            "how many copies",
+        ),
+        (
+            "<worldbody>\n<replicate count='2'>\n<body name='b'>\n<joint type='x'/></body></replicate></worldbody>".to_owned(),
+            4,
+            "no type of joint `x`",
+        ),
+        (pair("<joint joint1='j' joint2='o'/>"), 2, "`o` is in other copies"),
+        (pair("<joint joint1='j2' joint2='o'/>"), 2, "no joint `j2`"),
+    ] {
+        let error = try_model(&inside).unwrap_err();
+        assert!(error.message.contains(told), "{error}");
+        assert_eq!(error.line, line, "{error}");
+    }
+    // By the names of the copies.
+    let mixed = model(&pair("<joint joint1='j1' joint2='o'/>"));
+    assert_eq!(mixed.mechanism.couplings().len(), 1);
+}
