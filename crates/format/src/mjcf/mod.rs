@@ -44,7 +44,6 @@ use super::{ReadOptions, Reading, WarningKind, xml};
 use classes::Classes;
 pub(super) use include::{Whole, whole};
 use keys::Coordinate;
-use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Entity, Frame, JointKind, MechanismBuilder};
 use mass::Load;
 use pose::Compiler;
