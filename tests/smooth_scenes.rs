@@ -558,6 +558,25 @@ fn the_book_s_table_says_which_integrator_serves_which_effect() {
     }
 }
 
+/// Which constraints follow from others is decided the same along a lift of any length.
+#[test]
+fn a_lift_of_a_hundred_stages_falls_without_the_engine() {
+    for stages in [10, 100] {
+        let lift = kutzbach::families::scissor_lift(stages).unwrap();
+        let mut text = kutzbach::format::write(&lift);
+        for name in lift.links().iter().map(|link| &link.name) {
+            let heavy = link(name, 1.0, [0.5, 0.3, 0.0], 1.0);
+            text = text.replace(&format!("<link name=\"{name}\"/>"), &heavy);
+        }
+        assert_eq!(text.matches("<inertial>").count(), lift.links().len());
+        let text = text.replace("</robot>", &format!("{GRAVITY}</robot>"));
+        let heavy = read(&text, "lift.urdf", &[]).unwrap().mechanism;
+        let (run, _) = run(&heavy, 0.1, 6);
+        let lost = run.energy_change.abs();
+        assert!(lost < 1e-6 * run.largest_kinetic_energy, "{stages}: {lost}");
+    }
+}
+
 /// What `--accuracy` promises of one scene: whether the error wanted was said to be reached, and what is left of it against a run in a tenth
 /// of the step.
 fn promised(mechanism: &Mechanism, wanted: f64) -> Option<(bool, f64)> {

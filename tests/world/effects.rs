@@ -116,6 +116,53 @@ fn damping_and_friction_are_as_large_as_stated() {
     }
 }
 
+/// A block of 2 kg on a rail that falls by 0.6 in its length, from rest: what resists it, and how far it slides in a second.
+#[test]
+fn a_block_slides_down_a_slope_as_its_equation_says_and_the_error_falls_with_the_step() {
+    let pull = 9.81 * 0.6;
+    let rate: f64 = 4.0 / 2.0;
+    let damped = pull / rate * (1.0 - (1.0 - (-rate).exp()) / rate);
+    for (dynamics, wanted) in [
+        ("", 0.5 * pull),
+        (r#"<dynamics friction="5"/>"#, 0.5 * (pull - 5.0 / 2.0)),
+        (r#"<dynamics damping="4"/>"#, damped),
+        // More than pulls: it stays.
+        (r#"<dynamics friction="12"/>"#, 0.0),
+    ] {
+        let placed = Placed::new(parse(&format!(
+            r#"<robot name="slope"><link name="ground"/><link name="block"><inertial><mass value="2"/>
+            <inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial></link>
+            <joint name="rail" type="prismatic"><parent link="ground"/><child link="block"/><axis xyz="0.8 0 -0.6"/>{dynamics}</joint></robot>"#
+        )));
+        let effects = Effects {
+            gravity: Some([0.0, 0.0, -9.81]),
+            friction: true,
+            damping: true,
+            ..Effects::default()
+        };
+        for solver in SOLVERS {
+            let slid = |steps: usize| {
+                let options = options(solver, effects, 1.0 / steps as f64, 1);
+                let mut world = placed.world(&options);
+                for _ in 0..steps {
+                    world.step().unwrap();
+                }
+                world.states(&placed.geometry.states)[0].values[0]
+            };
+            let off = [100, 200, 400].map(|steps| (slid(steps) - wanted).abs());
+            if wanted == 0.0 {
+                assert!(off.iter().all(|off| *off < 1e-9), "{solver:?}: {off:?}");
+                continue;
+            }
+            assert!(off[0] < 0.02 * wanted, "{solver:?} {dynamics}: {off:?}");
+            for pair in off.windows(2) {
+                let order = (pair[0] / pair[1]).log2();
+                assert!((order - 1.0).abs() < 0.15, "{solver:?} {dynamics}: {off:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn limits_stop_a_joint_only_where_they_are_simulated() {
     let limit = r#"<limit lower="-0.2" upper="0.1" effort="1" velocity="1"/>"#;
