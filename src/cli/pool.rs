@@ -204,7 +204,7 @@ mod tests {
             10,
             |index| index,
             |_, event| match event {
-                Event::Next(index) if index == 20 => ControlFlow::Break(()),
+                Event::Next(20) => ControlFlow::Break(()),
                 Event::Next(_) => {
                     seen += 1;
                     ControlFlow::Continue(())

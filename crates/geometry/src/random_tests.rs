@@ -16,12 +16,14 @@ fn exact(v: Whole) -> [Number; 3] {
 }
 
 fn tolerant(v: Whole) -> [Measured; 3] {
-    v.map(|x| Measured::new(x as f64, 0.0).unwrap())
+    v.map(|x| Measured::new(x as f64, 0.0).expect("valid by construction"))
 }
 
 /// Numbers within a hundredth of the integers, and as uncertain: the integers are among what they may be.
 fn shaken(v: Whole, random: &mut SplitMix64) -> [Measured; 3] {
-    v.map(|x| Measured::new(x as f64 + 0.01 * random.symmetric(), 0.0101).unwrap())
+    v.map(|x| {
+        Measured::new(x as f64 + 0.01 * random.symmetric(), 0.0101).expect("valid by construction")
+    })
 }
 
 fn component(random: &mut SplitMix64) -> i128 {
@@ -186,7 +188,7 @@ fn answers<S: Scalar>(case: &Case, made: &Made<S>) -> Vec<(&'static str, Answer,
     of_directions(case, made)
         .into_iter()
         .chain(of_places(case, made))
-        .map(|(name, answer, truth)| (name, answer.unwrap(), truth))
+        .map(|(name, answer, truth)| (name, answer.expect("valid by construction"), truth))
         .collect()
 }
 
@@ -197,8 +199,11 @@ fn no_answer_about_integers_is_wrong() {
     for _ in 0..CASES {
         let case = Case::new(&mut random);
         let (p, q, u, v) = (case.p, case.q, case.u, case.v);
-        let by_fractions = answers(&case, &made(&case, exact).unwrap());
-        let by_doubles = answers(&case, &made(&case, tolerant).unwrap());
+        let by_fractions = answers(&case, &made(&case, exact).expect("valid by construction"));
+        let by_doubles = answers(
+            &case,
+            &made(&case, tolerant).expect("valid by construction"),
+        );
         for (row, (name, answer, truth)) in by_fractions.into_iter().chain(by_doubles).enumerate() {
             let expected = if truth { Answer::Yes } else { Answer::No };
             assert_eq!(answer, expected, "{name}: {p:?} {q:?} {u:?} {v:?}");
@@ -240,8 +245,10 @@ fn points_of_lines_and_planes_are_fractions() {
     let mut met = 0;
     for _ in 0..CASES {
         let case = Case::new(&mut random);
-        let made = made(&case, exact).unwrap();
-        let found = intersection(&made.first, &made.plane).unwrap().value;
+        let made = made(&case, exact).expect("valid by construction");
+        let found = intersection(&made.first, &made.plane)
+            .expect("valid by construction")
+            .value;
         let rise = product(case.u, case.v);
         let height = product(difference(case.q, case.p), case.v);
         match found {
@@ -249,7 +256,8 @@ fn points_of_lines_and_planes_are_fractions() {
                 met += 1;
                 for (i, found) in x.iter().enumerate() {
                     let numerator = case.p[i] * rise + case.u[i] * height;
-                    let expected = Number::ratio(numerator as i64, rise as i64).unwrap();
+                    let expected = Number::ratio(numerator as i64, rise as i64)
+                        .expect("valid by construction");
                     assert_eq!(*found, expected);
                 }
             }

@@ -62,8 +62,16 @@ impl<S: Scalar> With<S> {
         ];
         for (row, (a, b, expected)) in rows.iter().enumerate() {
             let what = format!("row {row}");
-            self.is_found(&intersection(a, b).unwrap(), expected.clone(), &what);
-            self.is_found(&intersection(b, a).unwrap(), expected.clone(), &what);
+            self.is_found(
+                &intersection(a, b).expect("valid by construction"),
+                expected.clone(),
+                &what,
+            );
+            self.is_found(
+                &intersection(b, a).expect("valid by construction"),
+                expected.clone(),
+                &what,
+            );
         }
         assert!(intersection(&bar(), &bar()).is_err());
         assert!(intersection(&self.point([0, 0, 0]), &x()).is_err());
@@ -136,7 +144,7 @@ impl<S: Scalar> With<S> {
             (self.segment([3, 4, 5], [3, 4, 8]), floor(), flat(), None),
         ];
         for (row, (a, b, light, expected)) in rows.iter().enumerate() {
-            let outcome = projection(a, b, light.as_ref()).unwrap();
+            let outcome = projection(a, b, light.as_ref()).expect("valid by construction");
             self.is_found(&outcome, expected.clone(), &format!("row {row}"));
         }
         assert!(projection(&floor(), &x(), None).is_err());
@@ -172,12 +180,12 @@ impl<S: Scalar> With<S> {
             ),
         ];
         for (a, b, first, second, one_of_many) in rows {
-            let feet = join_perpend(&a, &b).unwrap().value;
+            let feet = join_perpend(&a, &b).expect("valid by construction").value;
             self.are_points(&[feet.first, feet.second], &[first, second]);
             assert_eq!(feet.one_of_many, one_of_many);
         }
         let back = join_perpend(&floor(), &self.point([3, 4, 5]))
-            .unwrap()
+            .expect("valid by construction")
             .value;
         self.are_points(&[back.first, back.second], &[[3, 4, 0], [3, 4, 5]]);
         assert!(join_perpend(&floor(), &x()).is_err());
@@ -206,7 +214,11 @@ impl<S: Scalar> With<S> {
         ];
         for (row, (a, b, expected)) in rows.iter().enumerate() {
             let what = format!("row {row}");
-            self.is_found(&perpend(a, b).unwrap(), expected.clone(), &what);
+            self.is_found(
+                &perpend(a, b).expect("valid by construction"),
+                expected.clone(),
+                &what,
+            );
         }
         assert!(perpend(&floor(), &floor()).is_err());
     }

@@ -23,7 +23,7 @@ impl<S: Scalar> With<S> {
             (self.segment([0, 0, -1], [1, 0, 1]), Side::Crossing),
         ];
         for (a, expected) in rows {
-            let found = classify(&a, &floor).unwrap();
+            let found = classify(&a, &floor).expect("valid by construction");
             assert_eq!(
                 (found.value, found.certainty),
                 (expected, Certainty::Proven)
@@ -55,7 +55,11 @@ impl<S: Scalar> With<S> {
         for (at, expected) in rows {
             for normal in [[0, 0, 1], [0, 0, -3]] {
                 let found = classify_in_polygon(&self.at(at), &corners, &self.towards(normal));
-                assert_eq!(found.unwrap().value, expected, "{at:?}");
+                assert_eq!(
+                    found.expect("valid by construction").value,
+                    expected,
+                    "{at:?}"
+                );
             }
         }
         let up = self.towards([0, 0, 1]);
@@ -110,11 +114,17 @@ impl<S: Scalar> With<S> {
         let hull = planar_hull(&square, &up);
         assert_eq!(hull.value.len(), 4);
         assert_eq!(hull.certainty, Certainty::Proven);
-        let normal = calculate_normal(&hull.value).unwrap().value.unwrap();
+        let normal = calculate_normal(&hull.value)
+            .expect("valid by construction")
+            .value
+            .expect("valid by construction");
         let same = coincide(&normal.into(), &self.direction([0, 0, 1]));
         assert_eq!(same, Ok(Answer::Yes));
         let hull = planar_hull(&square, &down).value;
-        let normal = calculate_normal(&hull).unwrap().value.unwrap();
+        let normal = calculate_normal(&hull)
+            .expect("valid by construction")
+            .value
+            .expect("valid by construction");
         let same = coincide(&normal.into(), &self.direction([0, 0, -1]));
         assert_eq!(same, Ok(Answer::Yes));
 
@@ -123,8 +133,18 @@ impl<S: Scalar> With<S> {
         assert_eq!(ends.len(), 2);
         assert_eq!(planar_hull(&on_a_line[..1], &up).value.len(), 1);
         assert!(planar_hull(&[], &up).value.is_empty());
-        assert!(calculate_normal(&on_a_line).unwrap().value.is_none());
-        assert!(calculate_normal::<S>(&[]).unwrap().value.is_none());
+        assert!(
+            calculate_normal(&on_a_line)
+                .expect("valid by construction")
+                .value
+                .is_none()
+        );
+        assert!(
+            calculate_normal::<S>(&[])
+                .expect("valid by construction")
+                .value
+                .is_none()
+        );
     }
 }
 

@@ -9,14 +9,14 @@ use kutzbach_math::number::Number;
 
 #[test]
 fn roots_are_decided() {
-    let root = |n| Number::integer(n).sqrt().unwrap();
+    let root = |n| Number::integer(n).sqrt().expect("valid by construction");
     let zero = Number::zero;
-    let along = Direction::new([root(2), Number::one(), zero()]).unwrap();
+    let along = Direction::new([root(2), Number::one(), zero()]).expect("valid by construction");
     let line: Entity<Number> = Line::new(Point([zero(), zero(), zero()]), along).into();
     let on = Point([Number::integer(2), root(2), zero()]).into();
     let beside = Point([
         Number::integer(2),
-        Number::ratio(141_421, 100_000).unwrap(),
+        Number::ratio(141_421, 100_000).expect("valid by construction"),
         zero(),
     ])
     .into();
@@ -40,7 +40,7 @@ fn what_is_not_proven_is_said() {
     let origin = Point([Number::zero(), Number::zero(), Number::zero()]).into();
     assert_eq!(coincide(&point, &origin), Ok(Answer::Indistinguishable));
     let wall = EXACT.plane([0, 0, 0], [1, 0, 0]);
-    let side = classify(&point, &wall).unwrap();
+    let side = classify(&point, &wall).expect("valid by construction");
     assert_eq!(
         (side.value, side.certainty),
         (Side::In, Certainty::Indistinguishable)
@@ -50,7 +50,7 @@ fn what_is_not_proven_is_said() {
 
 #[test]
 fn digits_are_respected() {
-    let m = |x: f64, u: f64| Measured::new(x, u).unwrap();
+    let m = |x: f64, u: f64| Measured::new(x, u).expect("valid by construction");
     let at = |z: Measured| Entity::from(Point([m(1.0, 1e-3), m(2.0, 1e-3), z]));
     let floor = TOLERANT.plane([0, 0, 0], [0, 0, 1]);
     assert_eq!(
@@ -62,9 +62,11 @@ fn digits_are_respected() {
     assert!(Direction::new([m(1e-4, 1e-3), m(0.0, 0.0), m(0.0, 0.0)]).is_err());
     assert!(Measured::new(f64::NAN, 0.0).is_err() && Measured::new(1.0, -1.0).is_err());
     // Two measured lines meet within their digits.
-    let up = Direction::new([m(0.0, 1e-6), m(0.0, 1e-6), m(1.0, 1e-6)]).unwrap();
+    let up =
+        Direction::new([m(0.0, 1e-6), m(0.0, 1e-6), m(1.0, 1e-6)]).expect("valid by construction");
     let upright = Line::new(Point([m(2.0, 1e-3), m(1e-5, 1e-3), m(3.0, 1e-3)]), up).into();
-    let met = intersection(&TOLERANT.line([0, 0, 0], [1, 0, 0]), &upright).unwrap();
+    let met = intersection(&TOLERANT.line([0, 0, 0], [1, 0, 0]), &upright)
+        .expect("valid by construction");
     assert_eq!(met.certainty, Certainty::WithinDigits);
     let Found::Point(Point([x, ..])) = met.value else {
         panic!("{met:?}");
@@ -74,11 +76,14 @@ fn digits_are_respected() {
         "{x:?}"
     );
     // A literal states half a unit of its last decimal, an integer is exact.
-    let length = Measured::stated(&Number::decimal("0.25").unwrap()).unwrap();
+    let length = Measured::stated(&Number::decimal("0.25").expect("valid by construction"))
+        .expect("valid by construction");
     assert!(length.low() <= 0.245 && length.high() >= 0.255 && length.uncertainty() < 0.0051);
-    let twelve = Measured::stated(&Number::decimal("12").unwrap()).unwrap();
+    let twelve = Measured::stated(&Number::decimal("12").expect("valid by construction"))
+        .expect("valid by construction");
     assert_eq!((twelve.low(), twelve.high()), (12.0, 12.0));
-    let third = Measured::stated(&Number::ratio(1, 3).unwrap()).unwrap();
+    let third = Measured::stated(&Number::ratio(1, 3).expect("valid by construction"))
+        .expect("valid by construction");
     assert!(third.low() < third.high());
 }
 
@@ -86,20 +91,27 @@ fn digits_are_respected() {
 fn the_world_lets_no_reference_dangle() {
     let mut world = World::<Number>::new();
     assert!(world.is_empty());
-    let a = world.store("a", EXACT.at([0, 0, 0])).unwrap();
-    let b = world.store("b", EXACT.at([1, 0, 0])).unwrap();
+    let a = world
+        .store("a", EXACT.at([0, 0, 0]))
+        .expect("valid by construction");
+    let b = world
+        .store("b", EXACT.at([1, 0, 0]))
+        .expect("valid by construction");
     let taken = world.store("a", EXACT.at([2, 0, 0])).unwrap_err();
     assert_eq!(taken, WorldError::NameTaken("a".to_owned()));
     assert_eq!(
         world.store(" ", EXACT.at([2, 0, 0])),
         Err(WorldError::NoName)
     );
-    let line = Line::through(EXACT.at([0, 0, 0]), &EXACT.at([1, 0, 0])).unwrap();
-    let l = world.store_made_from("l", line, &[a, b]).unwrap();
+    let line =
+        Line::through(EXACT.at([0, 0, 0]), &EXACT.at([1, 0, 0])).expect("valid by construction");
+    let l = world
+        .store_made_from("l", line, &[a, b])
+        .expect("valid by construction");
     assert_eq!(world.made_from(a), [l]);
     let in_use = world.delete(a).unwrap_err();
     assert!(in_use.to_string().contains("`l` is"), "{in_use}");
-    world.rename(l, "axis").unwrap();
+    world.rename(l, "axis").expect("valid by construction");
     assert_eq!(
         (world.find("l"), world.find("axis"), world.name(l)),
         (None, Some(l), Some("axis"))
@@ -111,7 +123,9 @@ fn the_world_lets_no_reference_dangle() {
     );
     assert!(matches!(world.delete(l), Ok(Entity::Line(_))));
     // Its place is used again, its id is not.
-    let c = world.store("c", EXACT.at([3, 0, 0])).unwrap();
+    let c = world
+        .store("c", EXACT.at([3, 0, 0]))
+        .expect("valid by construction");
     assert!(world.get(l).is_none() && world.get(c).is_some() && l != c);
     assert_eq!(world.delete(l).unwrap_err(), WorldError::Deleted(l));
     assert!(
@@ -122,10 +136,10 @@ fn the_world_lets_no_reference_dangle() {
     assert_eq!(world.find("d"), None);
     let d = world
         .store_made_from("d", EXACT.at([4, 0, 0]), &[a])
-        .unwrap();
+        .expect("valid by construction");
     world
         .store_made_from("e", EXACT.at([5, 0, 0]), &[d])
-        .unwrap();
+        .expect("valid by construction");
     assert_eq!(world.delete_with_all_made_from_it(a), Ok(3));
     assert_eq!(
         world.iter().map(|(name, ..)| name).collect::<Vec<_>>(),

@@ -31,7 +31,10 @@ impl<S: Scalar> With<S> {
             (floor(), self.plane([1, 1, -2], [0, 1, 1]), 0.0),
         ];
         for (row, (a, b, expected)) in rows.iter().enumerate() {
-            for outcome in [distance(a, b).unwrap(), distance(b, a).unwrap()] {
+            for outcome in [
+                distance(a, b).expect("valid by construction"),
+                distance(b, a).expect("valid by construction"),
+            ] {
                 self.is_near(&outcome.value, *expected, &format!("row {row}"));
                 assert_eq!(outcome.certainty, Certainty::Proven, "row {row}");
             }
@@ -77,7 +80,10 @@ impl<S: Scalar> With<S> {
             (floor(), self.plane([1, 1, 1], [0, 0, -1]), 0.0),
         ];
         for (row, (a, b, expected)) in rows.iter().enumerate() {
-            for angles in [angle_between(a, b).unwrap(), angle_between(b, a).unwrap()] {
+            for angles in [
+                angle_between(a, b).expect("valid by construction"),
+                angle_between(b, a).expect("valid by construction"),
+            ] {
                 self.is_near(&angles.angle, *expected, &format!("row {row}"));
                 self.is_near(&angles.supplement, PI - expected, &format!("row {row}"));
             }
@@ -102,7 +108,9 @@ impl<S: Scalar> With<S> {
                 (self.plane([1, 2, 3], u), self.plane([3, 2, 1], v)),
             ];
             for (a, b) in pairs {
-                let angles = signed_angle_between(&a, &b, &up).unwrap().value;
+                let angles = signed_angle_between(&a, &b, &up)
+                    .expect("valid by construction")
+                    .value;
                 self.is_near(&angles.angle, expected, "angle");
                 self.is_near(&angles.supplement, supplement, "supplement");
             }

@@ -52,7 +52,7 @@ impl<S: Scalar> With<S> {
     }
 
     fn towards(&self, along: Three) -> Direction<S> {
-        Direction::new(self.three(along)).unwrap()
+        Direction::new(self.three(along)).expect("valid by construction")
     }
 
     fn vector(&self, at: Three) -> Entity<S> {
@@ -76,7 +76,9 @@ impl<S: Scalar> With<S> {
     }
 
     fn segment(&self, from: Three, to: Three) -> Entity<S> {
-        Segment::new(self.at(from), self.at(to)).unwrap().into()
+        Segment::new(self.at(from), self.at(to))
+            .expect("valid by construction")
+            .into()
     }
 
     /// Rows of a function of which the arguments have no order.
