@@ -97,7 +97,7 @@ fn the_world_lets_no_reference_dangle() {
     let b = world
         .store("b", EXACT.at([1, 0, 0]))
         .expect("valid by construction");
-    let taken = world.store("a", EXACT.at([2, 0, 0])).unwrap_err();
+    let taken = world.store("a", EXACT.at([2, 0, 0])).expect_err("refused");
     assert_eq!(taken, WorldError::NameTaken("a".to_owned()));
     assert_eq!(
         world.store(" ", EXACT.at([2, 0, 0])),
@@ -109,7 +109,7 @@ fn the_world_lets_no_reference_dangle() {
         .store_made_from("l", line, &[a, b])
         .expect("valid by construction");
     assert_eq!(world.made_from(a), [l]);
-    let in_use = world.delete(a).unwrap_err();
+    let in_use = world.delete(a).expect_err("refused");
     assert!(in_use.to_string().contains("`l` is"), "{in_use}");
     world.rename(l, "axis").expect("valid by construction");
     assert_eq!(
@@ -127,7 +127,10 @@ fn the_world_lets_no_reference_dangle() {
         .store("c", EXACT.at([3, 0, 0]))
         .expect("valid by construction");
     assert!(world.get(l).is_none() && world.get(c).is_some() && l != c);
-    assert_eq!(world.delete(l).unwrap_err(), WorldError::Deleted(l));
+    assert_eq!(
+        world.delete(l).expect_err("refused"),
+        WorldError::Deleted(l)
+    );
     assert!(
         world
             .store_made_from("d", EXACT.at([4, 0, 0]), &[l])

@@ -202,7 +202,9 @@ impl<S: Scalar> With<S> {
         assert!(Line::through(at(1), &at(2)).is_ok());
         assert!(Segment::new(at(1), at(1)).is_err());
         assert!(Plane::through(at(1), &at(2), &at(3)).is_err());
-        let said = Line::through(at(1), &at(1)).unwrap_err().to_string();
+        let said = Line::through(at(1), &at(1))
+            .expect_err("refused")
+            .to_string();
         assert!(said.contains("two different points"), "{said}");
     }
 }
