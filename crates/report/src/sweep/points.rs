@@ -71,7 +71,7 @@ impl Sobol {
         self.directions.iter().map(coordinate).collect()
     }
 
-    /// A point of the sequence in parts of [`PARTS`], rounded down.
+    /// A point of the sequence in parts of `PARTS`, rounded down.
     #[must_use]
     pub fn parts(&self, index: u64) -> Vec<u64> {
         let point = self.point(index);
@@ -103,7 +103,7 @@ fn directions(degree: usize, coefficients: u32, start: &[u32]) -> [u32; BITS] {
     all
 }
 
-/// A pseudo-random point, counted from 0, in parts of [`PARTS`]: one long sequence of numbers, cut into points.
+/// A pseudo-random point, counted from 0, in parts of `PARTS`: one long sequence of numbers, cut into points.
 #[must_use]
 pub fn random_parts(index: u64, dimensions: usize) -> Vec<u64> {
     let before = index.wrapping_mul(dimensions as u64);
