@@ -24,6 +24,7 @@ mod cli_docs;
 mod clock;
 mod components;
 mod convert_cli;
+mod dead_centres;
 mod depths;
 mod derivatives;
 mod digits;

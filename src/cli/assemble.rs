@@ -126,7 +126,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
 }
 
 /// Steps that do not ask whether to go on may take so many seconds after Ctrl-C.
-const GRACE: f64 = 2.0;
+const GRACE: f64 = 10.0;
 
 /// Works while Ctrl-C and a sign of life are seen to. Work that does not end soon after Ctrl-C is left alone, and ends with the program.
 /// Nothing else depends on the clock.

@@ -33,8 +33,9 @@ pub use components::{
 };
 pub use engine::{
     Budget, Certificate, GroebnerBasis, HilbertSeries, Limits, LocalRing, MEMORY, MonomialOrder,
-    Progress, ResidueTerms, Stop, eliminate, entries_in, groebner_basis, local_dimension,
-    local_dimension_is_at_most, local_dimension_modulo, quotient, radical_contains, saturate,
+    Progress, ResidueTerms, Stop, count_solutions, eliminate, entries_in, groebner_basis,
+    local_dimension, local_dimension_is_at_most, local_dimension_modulo, quotient,
+    radical_contains, saturate,
 };
 pub use factor::{Factorization, UnivariateFactors, factor};
 pub use over_field::{FieldPolynomial, OverRationals, RealSet};

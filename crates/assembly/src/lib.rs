@@ -18,6 +18,7 @@
 
 pub mod collection;
 pub mod modes;
+mod paths;
 pub mod placed;
 pub mod real;
 pub mod reduced;

@@ -6,7 +6,7 @@
 use super::depth::Depth;
 use super::exact::ask_exact;
 use super::judge::PartFinding;
-use super::loops_at_rest::with_loops_at_rest;
+use super::loops_at_rest::{with_a_loop_that_does_not_start, with_loops_at_rest};
 use super::more_digits::MoreDigits;
 use super::options::AnalysisError;
 use super::part_mobility::{by_chart, by_closed_form, by_independence, by_rank, by_subgroups};
@@ -30,7 +30,7 @@ struct Engine {
 }
 
 /// All of them.
-static ENGINES: [Engine; 15] = [
+static ENGINES: [Engine; 16] = [
     Engine {
         name: EngineName::Rank,
         because: "done already; no motion has more freedoms than velocities, and what it leaves open no other tells",
@@ -54,6 +54,12 @@ static ENGINES: [Engine; 15] = [
         because: "independent equations leave a manifold, where subgroups were not looked for",
         may_tell: |question, found| Ok(is_open(found) && question.is_independent()),
         ask: by_independence,
+    },
+    Engine {
+        name: EngineName::LoopsAtRest,
+        because: "a loop that does not start at all, and gives way by itself: what it stops looks regular in any number of digits",
+        may_tell: |question, found| Ok(is_open(found) && question.freedom.get().is_some()),
+        ask: loops_that_do_not_start,
     },
     Engine {
         name: EngineName::Chart,
@@ -189,6 +195,24 @@ pub(super) fn ask_after_chart(
         means,
         found,
     )
+}
+
+fn loops_that_do_not_start(
+    question: &Question<'_>,
+    means: &mut Means<'_>,
+    found: &mut PartFinding,
+) -> Result<(), AnalysisError> {
+    match &means.whole {
+        Some(OfWhole { options, again, .. }) => with_a_loop_that_does_not_start(
+            question.pose,
+            means.more,
+            question.structure,
+            (question.part, question.rank),
+            (*options, *again),
+            found,
+        ),
+        None => Ok(()),
+    }
 }
 
 fn loops_at_rest(

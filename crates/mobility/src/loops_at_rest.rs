@@ -47,9 +47,97 @@ pub(super) fn with_loops_at_rest(
     if !exact || !open || part.cycles.len() < 2 {
         return Ok(());
     }
-    let still = joints_at_rest(pose, more, structure, part, again)?;
-    if still.is_empty() {
+    let still = joints_at_rest(pose, more, structure, (part, &part.cycles), again)?;
+    if let Some(claim) = with_fixed(pose, (part, rank), &still, (options, again))? {
+        found.take(claim);
+    }
+    Ok(())
+}
+
+/// Loops that are asked: those of the least freedom.
+const MOST_ASKED: usize = 16;
+
+/// Parts of more loops are not asked so: with each loop that stands still all engines are asked again of the rest, one within the other.
+const MOST_LOOPS: usize = 64;
+
+/// The joints that a loop passes, and whether each forward.
+type Cycle = Vec<(usize, bool)>;
+
+/// The same before a pose may be taken for regular. In a chain of linkages each of which drives the next from a dead centre, what the first
+/// one moves by is squared from loop to loop, and after a few it is nothing in any number of digits: what stands still at the end
+/// of the chain then looks as if it could be left out. So a part is asked anew with what a loop keeps as drawn that does not move to first
+/// order, although by itself it gives way; where less is left than the velocities at the pose, the pose is singular, and what is left is
+/// the answer.
+///
+/// # Errors
+/// [`AnalysisError`] where numbers overflow.
+pub(super) fn with_a_loop_that_does_not_start(
+    pose: &Pose<'_>,
+    more: &mut MoreDigits,
+    structure: &Structure,
+    (part, rank): (&Part, &PartRank),
+    (options, again): (&AnalysisOptions, &Again),
+    found: &mut PartFinding,
+) -> Result<(), AnalysisError> {
+    let exact =
+        rank.open_by_digits() <= rank.accuracy && pose.as_drawn && pose.configuration.is_none();
+    if !exact || part.cycles.len() < 2 || part.cycles.len() > MOST_LOOPS {
         return Ok(());
+    }
+    let Some(kernel) = Kernel::of(pose, rank, KERNEL_LIMIT)? else {
+        return Ok(());
+    };
+    let moving = moving_joints(pose, part, &kernel);
+    let mut cycles: Vec<_> = part.cycles.clone();
+    cycles.retain(|cycle| cycle.iter().all(|(joint, _)| !moving.contains(joint)));
+    // What was fixed before is passed in many loops, and is all of some.
+    let freedom = |cycle: &Cycle| -> usize {
+        let of = |(joint, _): &(usize, bool)| pose.mechanism.joints()[*joint].freedom();
+        cycle.iter().map(of).sum()
+    };
+    cycles.retain(|cycle| freedom(cycle) > 0);
+    cycles.sort_by_key(freedom);
+    let mut still = BTreeSet::new();
+    for cycle in cycles.into_iter().take(MOST_ASKED) {
+        still = joints_at_rest(pose, more, structure, (part, &[cycle]), again)?;
+        if !still.is_empty() {
+            break;
+        }
+    }
+    if let Some(mut claim) = with_fixed(pose, (part, rank), &still, (options, again))?
+        && claim.answer().is_some()
+        && claim.finite.upper < Some(kernel.basis.nullity)
+    {
+        claim.pose = Some(PoseKind::Singular);
+        found.take(claim);
+    }
+    Ok(())
+}
+
+/// Joints that some velocity of a part moves.
+fn moving_joints(pose: &Pose<'_>, part: &Part, kernel: &Kernel) -> BTreeSet<usize> {
+    let mut moving = BTreeSet::new();
+    let mut column = 0;
+    for &joint in &part.joints {
+        let columns = column..column + pose.mechanism.joints()[joint].freedom();
+        column = columns.end;
+        let mut vectors = kernel.basis.vectors.iter();
+        if vectors.any(|v| v[columns.clone()].iter().any(|x| x.abs() > AT_REST)) {
+            moving.insert(joint);
+        }
+    }
+    moving
+}
+
+/// What all engines say of a part with these joints fixed; `None` where there are none.
+fn with_fixed(
+    pose: &Pose<'_>,
+    (part, rank): (&Part, &PartRank),
+    still: &BTreeSet<usize>,
+    (options, again): (&AnalysisOptions, &Again),
+) -> Result<Option<Claim>, AnalysisError> {
+    if still.is_empty() {
+        return Ok(None);
     }
     let whole: Vec<JointId> = part.joints.iter().map(|&joint| JointId(joint)).collect();
     let fixed: Vec<JointId> = still.iter().map(|&joint| JointId(joint)).collect();
@@ -85,8 +173,7 @@ pub(super) fn with_loops_at_rest(
         ),
     );
     let Some(finite) = finite.filter(|_| answer.assembly.steps == 0) else {
-        found.take(claim);
-        return Ok(());
+        return Ok(Some(claim));
     };
     let branches = match &answer.branches {
         Some(_) if finite == 0 => Some(Vec::new()),
@@ -98,33 +185,39 @@ pub(super) fn with_loops_at_rest(
         Some([only]) if shaky(only) => Some(SingularKind::PermanentlyShaky),
         _ => answer.mobility.kind,
     };
-    let certificate = format!(
-        "single loops stand still and keep {} of the joints as drawn; with these fixed: {}",
-        still.len(),
-        answer.mobility.certificate
-    );
+    let told = answer.findings.iter().flat_map(PartFinding::claims);
+    let within = told
+        .filter(|claim| claim.engine == EngineName::LoopsAtRest)
+        .any(|claim| claim.answer().is_some());
+    let rest = &answer.mobility.certificate;
+    // One loop after the other: the last one tells what is left.
+    let certificate = match within {
+        true => rest.clone(),
+        false => format!(
+            "single loops stand still and keep some of the joints as drawn; with these fixed: {rest}"
+        ),
+    };
     let claim = Claim {
         finite: Bounds::exactly(finite),
         ..claim
     };
-    found.take(claim.decides(Answer {
+    Ok(Some(claim.decides(Answer {
         kind,
         branches,
         ..Answer::numeric(certificate)
-    }));
-    Ok(())
+    })))
 }
 
-/// The joints of a part that some loop of it keeps as drawn whatever the others do.
+/// The joints of a part that some loop of these keeps as drawn whatever the others do.
 fn joints_at_rest(
     pose: &Pose<'_>,
     more: &mut MoreDigits,
     structure: &Structure,
-    part: &Part,
+    (part, cycles): (&Part, &[Cycle]),
     again: &Again,
 ) -> Result<BTreeSet<usize>, AnalysisError> {
     let mut still = BTreeSet::new();
-    for cycle in &part.cycles {
+    for cycle in cycles {
         let passed: BTreeSet<usize> = cycle.iter().map(|(joint, _)| *joint).collect();
         let own = Part {
             joints: part

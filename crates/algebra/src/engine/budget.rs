@@ -231,6 +231,15 @@ impl Budget {
         part
     }
 
+    /// With at most so much of the effort that is left.
+    #[must_use]
+    pub fn at_most(mut self, effort: u64) -> Self {
+        let most = self.effort.load(Ordering::Relaxed).saturating_add(effort);
+        let limit = self.limits.effort.map_or(most, |limit| limit.min(most));
+        self.limits.effort = Some(limit);
+        self
+    }
+
     /// Takes over the work done on a copy of this budget.
     pub(crate) fn take_over(&self, copy: &Self) {
         self.work.set(copy.work.get());

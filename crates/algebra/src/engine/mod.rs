@@ -31,4 +31,5 @@ pub use ideal::{eliminate, quotient, radical_contains, saturate};
 pub use local::{
     LocalRing, ResidueTerms, local_dimension, local_dimension_is_at_most, local_dimension_modulo,
 };
+pub use modular::count_solutions;
 pub use order::MonomialOrder;

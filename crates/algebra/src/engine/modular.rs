@@ -10,6 +10,7 @@ use super::budget::{Budget, Stop};
 use super::certificate::Certificate;
 use super::dimension::Supports;
 use super::f4::{is_basis, normal_forms, reduced_basis};
+use super::hilbert::{HilbertSeries, small};
 use super::order::MonomialOrder;
 use super::terms::Terms;
 use super::trace::Trace;
@@ -36,11 +37,15 @@ struct Image {
 impl Image {
     /// The dimension of the solutions modulo the prime; `None` where there are none.
     fn dimension(&self, variables: usize) -> Option<usize> {
-        let leads = self.basis.iter().filter_map(Terms::lead);
-        let leads: Vec<Vec<u32>> = leads
-            .map(|m| m.iter().map(|&e| u32::from(e)).collect())
-            .collect();
+        let leads = self.leads();
         Supports::new(leads.iter().map(Vec::as_slice), variables).dimension()
+    }
+
+    fn leads(&self) -> Vec<Vec<u32>> {
+        let leads = self.basis.iter().filter_map(Terms::lead);
+        leads
+            .map(|m| m.iter().map(|&e| u32::from(e)).collect())
+            .collect()
     }
 }
 
@@ -53,25 +58,10 @@ pub(super) fn rational_basis(
     budget: &Budget,
     modulo: &mut Option<(u64, Option<usize>)>,
 ) -> Result<(Vec<Terms<Rational>>, Certificate), Stop> {
-    let equations: Vec<Terms<Rational>> = equations
-        .iter()
-        .filter(|p| !p.is_zero())
-        .map(|p| Terms::of(&p.primitive(), order))
-        .collect::<Result<_, Stop>>()?;
-    if equations.is_empty() {
-        return Ok((Vec::new(), Certificate::over_the_rationals()));
+    match Search::new(equations, variables, order, budget)? {
+        Some(search) => search.run(modulo),
+        None => Ok((Vec::new(), Certificate::over_the_rationals())),
     }
-    Search {
-        equations,
-        variables,
-        order,
-        budget,
-        primes: Primes::new(),
-        groups: Vec::new(),
-        trace: None,
-        can_learn: true,
-    }
-    .run(modulo)
 }
 
 /// Effort of a fraction from its remainder, for every word of the modulus, beside that which grows with their square.
@@ -79,6 +69,46 @@ const EFFORT_OF_FRACTION: u64 = 50;
 
 /// Effort of a remainder modulo one prime more, beside that which grows with its words.
 const EFFORT_OF_REMAINDER: u64 = 100;
+
+/// Primes modulo which solutions are counted.
+const COUNTED: usize = 2;
+
+/// The number of complex solutions, multiplicities counted; `None` where they are infinitely many, or too many to be counted, or where
+/// primes disagree.
+///
+/// They are counted modulo two primes of 62 bits, by a basis modulo each. The number over the rationals is another one only where both
+/// primes divide a certain integer that the equations determine, unknown here: that is what the completeness of every
+/// [`GroebnerBasis`](super::GroebnerBasis) rests on, too. A basis over the rationals, which takes much longer, is not needed for it.
+///
+/// # Errors
+/// [`Stop`] where the budget does not suffice.
+pub fn count_solutions(
+    equations: &[Polynomial],
+    variables: usize,
+    budget: &Budget,
+) -> Result<Option<usize>, Stop> {
+    let order = MonomialOrder::Degrevlex;
+    let Some(mut search) = Search::new(equations, variables, &order, budget)? else {
+        return Ok(None);
+    };
+    let mut counts = Vec::new();
+    for _ in 0..COUNTED {
+        let leads = search.full_image(false)?.leads();
+        let supports = Supports::new(leads.iter().map(Vec::as_slice), variables);
+        match supports.dimension() {
+            None => counts.push(0),
+            Some(0) => {
+                let series = HilbertSeries::of(leads, variables, budget)?;
+                let Some(count) = series.and_then(|series| small(&series.degree())) else {
+                    return Ok(None);
+                };
+                counts.push(count);
+            }
+            Some(_) => return Ok(None),
+        }
+    }
+    Ok((counts[0] == counts[1]).then_some(counts[0]))
+}
 
 struct Search<'a> {
     equations: Vec<Terms<Rational>>,
@@ -93,7 +123,31 @@ struct Search<'a> {
     can_learn: bool,
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    /// `None` where there are no equations.
+    fn new(
+        equations: &[Polynomial],
+        variables: usize,
+        order: &'a MonomialOrder,
+        budget: &'a Budget,
+    ) -> Result<Option<Self>, Stop> {
+        let equations: Vec<Terms<Rational>> = equations
+            .iter()
+            .filter(|p| !p.is_zero())
+            .map(|p| Terms::of(&p.primitive(), order))
+            .collect::<Result<_, Stop>>()?;
+        Ok((!equations.is_empty()).then(|| Self {
+            equations,
+            variables,
+            order,
+            budget,
+            primes: Primes::new(),
+            groups: Vec::new(),
+            trace: None,
+            can_learn: true,
+        }))
+    }
+
     fn run(
         mut self,
         modulo: &mut Option<(u64, Option<usize>)>,

@@ -2,9 +2,10 @@
 
 use super::place::Pose;
 use super::{Complete, Configuration, Modes, Way};
+use crate::paths;
 use kutzbach_algebra::{
-    Budget, ExactOptions, HomePose, Meaning, PolynomialSystem, RealPoints, RealSolution,
-    exact_answer,
+    Budget, Equation, ExactOptions, HomePose, Meaning, Origin, PolynomialSystem, RealPoints,
+    SystemOptions, count_solutions, exact_answer, polynomial_system,
 };
 use kutzbach_closure::{Arithmetic, Geometry};
 use kutzbach_math::space::Rigid;
@@ -55,6 +56,9 @@ pub(super) fn answer(mechanism: &Mechanism, why_no_tree: &str, budget: &Budget) 
             ..modes
         };
     }
+    if let Some(modes) = by_paths(mechanism, budget) {
+        return modes;
+    }
     let answer = match exact_answer(mechanism, &ExactOptions::default(), budget) {
         Ok(answer) => answer,
         Err(error) => return unknown(modes, error.to_string()),
@@ -70,6 +74,7 @@ pub(super) fn answer(mechanism: &Mechanism, why_no_tree: &str, budget: &Budget) 
             .max()
             .unwrap_or(0),
         complex: answer.solutions.as_ref().map(|s| s.complex),
+        paths: false,
     };
     if !system.is_exact() {
         return unknown(modes, system.relaxations[0].to_string());
@@ -119,19 +124,80 @@ pub(super) fn answer(mechanism: &Mechanism, why_no_tree: &str, budget: &Budget) 
             "the finitely many solutions were not reached".to_owned(),
         );
     };
+    let real = solutions.real.iter();
+    let real = real.map(|solution| (solution.values(), solution.multiplicity as usize));
+    match configurations(mechanism, system, real, SAME) {
+        Ok(configurations) => Modes {
+            configurations,
+            complete: Complete::Proven,
+            moves: Some(0),
+            ..modes
+        },
+        Err(why) => unknown(modes, why.to_owned()),
+    }
+}
+
+/// More complex solutions than this are not followed along paths, and systems of more unknowns not counted for it.
+const MOST_FOLLOWED: usize = 400;
+const MOST_VARIABLES: usize = 12;
+
+/// Share of the effort that counting solutions and following them may take.
+const SHARE_OF_PATHS: f64 = 0.4;
+
+/// All configurations, where the equations are as many as the unknowns and have simple solutions only: counted by exact algebra modulo primes,
+/// followed along paths, and each proven. `None` where it does not come to that.
+fn by_paths(mechanism: &Mechanism, budget: &Budget) -> Option<Modes> {
+    let system = polynomial_system(mechanism, &SystemOptions::default()).ok()?;
+    let (variables, equations) = (system.variables.len(), system.polynomials());
+    if !system.is_exact()
+        || !system.nonzero.is_empty()
+        || equations.len() != variables
+        || variables > MOST_VARIABLES
+    {
+        return None;
+    }
+    let part = budget.part(SHARE_OF_PATHS, None);
+    let count = count_solutions(&equations, variables, &part).ok()??;
+    if count == 0 || count > MOST_FOLLOWED {
+        return None;
+    }
+    let (mirrors, kept) = (quaternions(&system), units(mechanism, &system));
+    let roots = paths::real_solutions(&equations, count, &mirrors, &kept, &part).ok()??;
+    let off = roots.iter().fold(0.0, |m: f64, root| m.max(root.off));
+    let real = roots.into_iter().map(|root| (root.values, 1));
+    let configurations = configurations(mechanism, &system, real, SAME.max(4.0 * off)).ok()?;
+    let degrees = equations.iter().map(|p| p.degree() as usize);
+    Some(Modes {
+        configurations,
+        ..Modes::new(Way::Polynomials {
+            variables,
+            equations: equations.len(),
+            degree: degrees.max().unwrap_or(0),
+            complex: Some(count),
+            paths: true,
+        })
+    })
+}
+
+/// The configurations at real solutions with their multiplicities, coordinates being known up to a share of their size.
+fn configurations(
+    mechanism: &Mechanism,
+    system: &PolynomialSystem,
+    real: impl Iterator<Item = (Vec<f64>, usize)>,
+    off: f64,
+) -> Result<Vec<Configuration>, &'static str> {
+    let mut found = Vec::new();
     let mut seen: Vec<Vec<f64>> = Vec::new();
     let mut home_met = false;
     let home = match &system.home {
         HomePose::Exact(values) => Some(values.iter().map(|v| v.value()).collect::<Vec<f64>>()),
         _ => None,
     };
-    for solution in &solutions.real {
-        let values = canonical(system, solution);
+    for (values, multiplicity) in real {
+        let values = with_signs(system, &values);
         let same = |other: &Vec<f64>| {
-            other
-                .iter()
-                .zip(&values)
-                .all(|(a, b)| (a - b).abs() < SAME * b.abs().max(1.0))
+            let mut pairs = other.iter().zip(&values);
+            pairs.all(|(a, b)| (a - b).abs() < off * b.abs().max(1.0))
         };
         if seen.iter().any(same) {
             continue;
@@ -139,45 +205,53 @@ pub(super) fn answer(mechanism: &Mechanism, why_no_tree: &str, budget: &Budget) 
         if let Some(home) = &home {
             home_met |= same(&with_signs(system, home));
         }
-        let Some(poses) = poses(mechanism, system, &values) else {
-            return unknown(
-                modes,
-                "poses follow from more than turns, slides and balls".to_owned(),
-            );
-        };
-        modes.configurations.push(Configuration {
+        let poses = poses(mechanism, system, &values)
+            .ok_or("poses follow from more than turns, slides and balls")?;
+        found.push(Configuration {
             joints: Vec::new(),
             poses: poses.into_iter().map(Some).collect(),
-            multiplicity: Some(solution.multiplicity as usize),
+            multiplicity: Some(multiplicity),
             proven: true,
             finite: Some(0),
             drawn: false,
         });
         seen.push(values);
     }
-    if home.is_some() && !home_met {
-        return unknown(modes, "the drawn pose is none of the solutions".to_owned());
-    }
-    Modes {
-        complete: Complete::Proven,
-        moves: Some(0),
-        ..modes
+    match home {
+        Some(_) if !home_met => Err("the drawn pose is none of the solutions"),
+        _ => Ok(found),
     }
 }
 
-fn canonical(system: &PolynomialSystem, solution: &RealSolution) -> Vec<f64> {
-    with_signs(system, &solution.values())
+/// The equations of circles and unit quaternions, and of algebraic numbers; not those of rods, which have the square of a length.
+fn units(mechanism: &Mechanism, system: &PolynomialSystem) -> Vec<usize> {
+    let quaternions = quaternions(system);
+    let is_unit = |equation: &Equation| match equation.origin {
+        Origin::Freedom { joint } if mechanism.joint(joint).kind == JointKind::Distance => {
+            let of_ball = |set: &Vec<usize>| set.iter().all(|&v| equation.polynomial.mentions(v));
+            quaternions.iter().any(of_ball)
+        }
+        Origin::Freedom { .. } | Origin::MinimalPolynomial { .. } => true,
+        _ => false,
+    };
+    let all = 0..system.equations.len();
+    all.filter(|&r| is_unit(&system.equations[r])).collect()
+}
+
+/// The variables of the quaternion of each ball.
+fn quaternions(system: &PolynomialSystem) -> Vec<Vec<usize>> {
+    let is_component =
+        |&v: &usize| matches!(system.variables[v].meaning, Meaning::Quaternion { .. });
+    let of_joint =
+        |variables: &Vec<usize>| variables.iter().copied().filter(is_component).collect();
+    let all = system.joint_variables.iter().map(of_joint);
+    all.filter(|set: &Vec<usize>| !set.is_empty()).collect()
 }
 
 /// Of the two quaternions of each ball the one whose first component that is not zero is positive.
 fn with_signs(system: &PolynomialSystem, values: &[f64]) -> Vec<f64> {
     let mut values = values.to_vec();
-    for variables in &system.joint_variables {
-        let quaternion: Vec<usize> = variables
-            .iter()
-            .copied()
-            .filter(|&v| matches!(system.variables[v].meaning, Meaning::Quaternion { .. }))
-            .collect();
+    for quaternion in quaternions(system) {
         let sign = quaternion
             .iter()
             .map(|&v| values[v])
@@ -188,30 +262,35 @@ fn with_signs(system: &PolynomialSystem, values: &[f64]) -> Vec<f64> {
     values
 }
 
-/// `world_from_link` along the file's tree; `None` where a joint of it has other variables than these can give.
+/// `world_from_link` from joint to joint; `None` where a link hangs only by joints with other variables than these can give.
 fn poses(mechanism: &Mechanism, system: &PolynomialSystem, values: &[f64]) -> Option<Vec<Pose>> {
     let geometry = Geometry::new(mechanism, None, &Arithmetic::double());
-    let mut poses = geometry.home.clone();
-    for &link in mechanism.placement_order() {
-        match &mechanism.link(link).placement {
-            Placement::World => {}
-            // A floating link has no variables of its own here.
-            Placement::Floating { .. } => return None,
-            Placement::Joint(id) => {
-                let joint = mechanism.joint(*id);
-                let [near, far] = &geometry.sides[id.0];
-                let at = displacement(mechanism, &geometry, *id, system, values)?;
-                poses[link.0] = poses[joint.predecessor.link.0]
-                    .compose(near)
-                    .compose(&at)
-                    .compose(&far.inverse());
+    let mut poses: Vec<Option<Pose>> = vec![None; mechanism.links().len()];
+    let ground = mechanism.ground();
+    poses[ground.0] = Some(geometry.home[ground.0].clone());
+    // A link that floats is placed by any joint whose variables say all of it.
+    let known = (0..mechanism.joints().len()).map(JointId).filter_map(|id| {
+        let at = displacement(mechanism, &geometry, id, system, values)?;
+        let [near, far] = &geometry.sides[id.0];
+        let joint = mechanism.joint(id);
+        let ends = [joint.predecessor.link.0, joint.successor.link.0];
+        Some((ends, near.compose(&at).compose(&far.inverse())))
+    });
+    let known: Vec<([usize; 2], Pose)> = known.collect();
+    // Each pass places one link at least, or is the last one.
+    for _ in 0..poses.len() {
+        for ([from, to], across) in &known {
+            match (&poses[*from], &poses[*to]) {
+                (Some(pose), None) => poses[*to] = Some(pose.compose(across)),
+                (None, Some(pose)) => poses[*from] = Some(pose.compose(&across.inverse())),
+                _ => {}
             }
         }
+        if poses.iter().all(Option::is_some) {
+            break;
+        }
     }
-    // The ground, not the root, stays.
-    let ground = mechanism.ground().0;
-    let back = geometry.home[ground].compose(&poses[ground].inverse());
-    Some(poses.iter().map(|pose| back.compose(pose)).collect())
+    poses.into_iter().collect()
 }
 
 fn displacement(
@@ -228,6 +307,7 @@ fn displacement(
     let mut freedoms: Vec<Option<f64>> = vec![None; joint.freedom()];
     let mut turn: Vec<[Option<f64>; 2]> = vec![[None; 2]; joint.freedom()];
     let mut quaternion = [0.0; 4];
+    let mut between = [0.0; 3];
     let mut is_ball = false;
     for &variable in &system.joint_variables[id.0] {
         let value = values[variable];
@@ -250,11 +330,16 @@ fn displacement(
                 quaternion[*component] = value;
                 is_ball = true;
             }
+            Meaning::Between { component, .. } => between[*component] = value,
             _ => return None,
         }
     }
     if is_ball {
-        return (joint.kind == JointKind::Spherical).then(|| of_quaternion(quaternion));
+        let told = matches!(joint.kind, JointKind::Spherical | JointKind::Distance);
+        return told.then(|| Rigid {
+            translation: between,
+            ..drawn_turn(mechanism, geometry, id).compose(&of_quaternion(quaternion))
+        });
     }
     for (freedom, parts) in turn.iter().enumerate() {
         if let [Some(c), Some(s)] = parts {
@@ -264,6 +349,18 @@ fn displacement(
     let all: Vec<f64> = freedoms.into_iter().collect::<Option<_>>()?;
     let displacement = &geometry.displacements[id.0];
     Some(displacement.displacement(&displacement.at(&all)))
+}
+
+/// How the frame of a joint on the successor is turned against that on the predecessor as drawn: balls are measured from there.
+fn drawn_turn(mechanism: &Mechanism, geometry: &Geometry<f64>, id: JointId) -> Rigid<f64> {
+    let joint = mechanism.joint(id);
+    let [near, far] = &geometry.sides[id.0];
+    let from = geometry.home[joint.predecessor.link.0].compose(near);
+    let to = geometry.home[joint.successor.link.0].compose(far);
+    Rigid {
+        translation: [0.0; 3],
+        ..from.inverse().compose(&to)
+    }
 }
 
 fn of_quaternion([w, x, y, z]: [f64; 4]) -> Rigid<f64> {

@@ -20,6 +20,9 @@ pub(super) enum Outcome {
 /// Boxes that a search may look at: a minute's work, so that there is an end without a limit as well.
 const MOST_BOXES: u64 = 4_000_000;
 
+/// Effort of a first search, half a second's: what is small is done by then, and what is singular stays open however long it takes.
+const FIRST_EFFORT: u64 = 500_000_000;
+
 /// Share of the effort for subdivision, so that some is left for exact algebra.
 const SHARE: f64 = 0.5;
 
@@ -119,7 +122,7 @@ pub(super) fn answer(mechanism: &Mechanism, slack: &Slack, budget: &Budget) -> O
         }
         within = Some((modes.configurations.clone(), found.open.len()));
     }
-    let found = real_solutions(&system, &part());
+    let mut found = real_solutions(&system, &part().at_most(FIRST_EFFORT));
     set_boxes(&mut modes, found.boxes);
     modes.open = found.open.len();
     modes.configurations = all(&found);
@@ -150,12 +153,22 @@ pub(super) fn answer(mechanism: &Mechanism, slack: &Slack, budget: &Budget) -> O
         false => extreme::equations(&system, &part()),
     };
     let (decided, real_only) = match extremes.is_empty() {
-        true => (decide(&system, budget), false),
+        true => (decide(&system, &budget.part(SHARE, None)), false),
         false => match decide(&system, &part()) {
             Ok(RealSet::Unclear) | Err(_) => (decide_with(&system, &extremes, budget), true),
             decided => (decided, false),
         },
     };
+    // Where algebra is no help, subdivision goes on as long as it may.
+    if found.stopped.is_some() && matches!(decided, Err(_) | Ok(RealSet::Unclear)) {
+        found = real_solutions(&system, &budget.part(1.0, Some(MOST_BOXES)));
+        set_boxes(&mut modes, found.boxes);
+        modes.open = found.open.len();
+        modes.configurations = all(&found);
+        if found.is_complete() {
+            return Outcome::Modes(Box::new(modes), false);
+        }
+    }
     match decided {
         Ok(RealSet::Finite { real: all, .. }) => {
             modes.configurations = all

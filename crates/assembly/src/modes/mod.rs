@@ -4,7 +4,8 @@
 //! ([`kutzbach_constructive`]). Where bodies share points, the incidence tree leaves few unknowns, which are
 //! searched with proof ([`crate::real`]); where that leaves something open (double solutions, curves), exact algebra decides on
 //! the same equations, as long as it takes no longer than it may. Where joints slide or the geometry is of another kind, the
-//! exact closure equations of the loops are solved as they are.
+//! exact closure equations of the loops are solved as they are: along paths where they are as many as the unknowns (`paths`),
+//! otherwise by exact algebra alone.
 //!
 //! An answer is *proven* only if nothing else is left and, for exact numbers, every configuration is proven to be one; if, besides, the
 //! drawn pose closes and is not among them, the answer contradicts a known fact and is withdrawn.
@@ -86,6 +87,8 @@ pub enum Way {
         degree: usize,
         /// Number of complex solutions, where they are finitely many and were counted.
         complex: Option<usize>,
+        /// Whether they were followed along paths and each proven, after exact algebra had counted them.
+        paths: bool,
     },
     /// By circles and lines of a planar mechanism.
     Construction {
@@ -308,3 +311,6 @@ mod tests;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests_of_parts;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests_of_platforms;

@@ -144,12 +144,14 @@ pub fn data(mechanism: &Mechanism, modes: &Modes) -> Value {
             equations,
             degree,
             complex,
+            paths,
         } => json!({
             "variables": variables,
             "equations": equations,
             "degree": degree,
             "tree": Value::Null,
             "complex": complex,
+            "paths": paths,
             "exact": true,
         }),
         Way::Construction { steps } => json!({
@@ -531,13 +533,18 @@ fn way(text: &mut String, way: &Way) {
             equations,
             degree,
             complex,
+            paths,
         } => {
+            let by = match paths {
+                true => "paths that lead to all solutions, which exact algebra has counted, for",
+                false => "exact algebra on",
+            };
             let complex = complex.map_or(String::new(), |n| {
                 format!("; {} over the complex numbers", count(n, "solution"))
             });
             let _ = writeln!(
                 text,
-                "\nHow: exact algebra on the closure equations of the loops: {} in {} of degree {degree} at most{complex}",
+                "\nHow: {by} the closure equations of the loops: {} in {} of degree {degree} at most{complex}",
                 count(*equations, "equation"),
                 count(*variables, "unknown"),
             );
