@@ -5,7 +5,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
 /// Files that may look at the clock, and why that decides no answer.
-const SHOWN_ONLY: [&str; 14] = [
+const SHOWN_ONLY: [&str; 16] = [
     // How long steps took, where that is asked for.
     "crates/algebra/src/strategy/divide.rs",
     "crates/report/src/assemble.rs",
@@ -14,6 +14,9 @@ const SHOWN_ONLY: [&str; 14] = [
     "src/cli/files.rs",
     "src/cli/graph.rs",
     "src/cli/simulate/log.rs",
+    // How often a sweep keeps what is done, and looks for Ctrl-C.
+    "src/cli/pool.rs",
+    "src/cli/sweep/sink.rs",
     // How long after Ctrl-C work is waited for.
     "src/cli/assemble.rs",
     "src/cli/exact.rs",
