@@ -120,6 +120,10 @@ fn source_of(file: &str) -> Option<String> {
         return None;
     }
     let bytes = std::fs::read(file).ok()?;
+    if bytes.contains(&0) {
+        // A zip file has no lines to show.
+        return Some(String::new());
+    }
     Some(String::from_utf8_lossy(&bytes).into_owned())
 }
 
