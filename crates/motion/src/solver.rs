@@ -336,9 +336,11 @@ impl Solver {
         self.correct_with(pose, along, false)
     }
 
-    /// As [`Self::correct`], for poses asked for one after another: with the factors of the one before where these serve.
+    /// As [`Self::correct`], for poses asked for one after another: with the factors of the one before where these serve. In small parts
+    /// they do not: factoring is cheap there, and close to singular poses equations that are met to rounding leave the pose open to 1e-7.
     pub fn correct_next(&mut self, pose: &mut SystemPose, along: Along<'_>) -> Option<Corrected> {
-        let kept = self.factored && self.deflation.is_none();
+        let large = matches!(self.rows, Rows::Sparse(_));
+        let kept = large && self.factored && self.deflation.is_none();
         self.correct_with(pose, along, kept)
     }
 
