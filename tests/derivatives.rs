@@ -70,7 +70,17 @@ fn closed_loop(kinds: &[JointKind], seed: u64) -> (Mechanism, Geometry<f64>, Par
         let offset = Number::from_f64(random.symmetric()).unwrap();
         let multiplier = Number::from_f64(-2.5).unwrap();
         let (first, second) = (format!("joint_{first}"), format!("joint_{second}"));
-        builder.mimic(&first, &second, multiplier, offset);
+        if seed.is_multiple_of(3) {
+            let cubic = Number::from_f64(0.75).unwrap();
+            let terms = vec![
+                (first, 1, Number::one()),
+                (second.clone(), 1, multiplier),
+                (second, 3, cubic),
+            ];
+            builder.polynomial_coupling("cam", terms, offset);
+        } else {
+            builder.mimic(&first, &second, multiplier, offset);
+        }
     }
     let mechanism = builder.build().unwrap();
     let structure = Structure::new(&mechanism);
@@ -84,9 +94,9 @@ fn closed_loop(kinds: &[JointKind], seed: u64) -> (Mechanism, Geometry<f64>, Par
             .collect();
         geometry.states[index] = joint.at(&values);
     }
-    for (terms, offset) in &mut geometry.couplings {
-        let value = |(joint, factor): &(usize, f64)| factor * geometry.states[*joint].values[0];
-        *offset = terms.iter().map(value).sum();
+    for coupling in &mut geometry.couplings {
+        let (open, _) = coupling.at(&geometry.states);
+        coupling.offset += open;
     }
     // Going round leaves T; the last joint's far side takes it up: (…)·F with F closing.
     let cycle = &part.cycles[0];
@@ -126,9 +136,8 @@ fn differences(
         let ratio = there.walks[0].length / here.walks[0].length;
         residual[3..6].iter_mut().for_each(|r| *r *= ratio);
         // So does the weight of a coupling's row.
-        let weight = |jacobian| coupling_weight(mechanism, geometry, jacobian);
         if let [_, _, _, _, _, _, coupling] = residual.as_mut_slice() {
-            *coupling *= weight(&there) / weight(here);
+            *coupling *= coupling_weight(geometry, &there) / coupling_weight(geometry, here);
         }
         residual
     };
@@ -149,24 +158,8 @@ fn differences(
 }
 
 /// What the row of the coupling was divided by.
-fn coupling_weight(
-    mechanism: &Mechanism,
-    geometry: &Geometry<f64>,
-    jacobian: &CycleJacobian<f64>,
-) -> f64 {
-    let (terms, _) = &geometry.couplings[0];
-    let weights: Vec<f64> = terms
-        .iter()
-        .map(|(joint, factor)| {
-            let column = jacobian
-                .variables
-                .iter()
-                .position(|(j, _)| j == joint)
-                .unwrap();
-            factor * jacobian.unit(mechanism, column)
-        })
-        .collect();
-    norm(&weights)
+fn coupling_weight(geometry: &Geometry<f64>, jacobian: &CycleJacobian<f64>) -> f64 {
+    geometry.couplings[0].norm(|joint| geometry.coupled_unit(joint, jacobian.length))
 }
 
 fn assert_derivative(kinds: &[JointKind], seed: u64) {

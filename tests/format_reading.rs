@@ -119,7 +119,7 @@ fn loops_couplings_and_mimics() {
             CouplingOrigin::Ratio { ratio, carrier, .. } => {
                 assert_eq!((ratio.value(), carrier.map(|link| link.0)), (6.0, Some(1)));
             }
-            CouplingOrigin::Linear => panic!("no sum"),
+            CouplingOrigin::Sum => panic!("no sum"),
         }
     }
     assert_eq!(
@@ -724,7 +724,7 @@ fn couplings_are_sums_over_any_number_of_joints() {
     let sum = "<coupling name='s' offset='0.5'><term joint='ja' coefficient='1'/><term joint='jb' coefficient='${1/3}'/><term joint='jd' coefficient='-2'/></coupling>";
     let read = reading(&text(sum));
     let coupling = &read.mechanism.couplings()[0];
-    assert_eq!(coupling.origin, CouplingOrigin::Linear);
+    assert_eq!(coupling.origin, CouplingOrigin::Sum);
     let terms: Vec<(usize, f64)> = coupling
         .terms
         .iter()

@@ -77,6 +77,7 @@ mod models;
 mod near_singular;
 mod other_programs;
 mod play;
+mod polynomial_couplings;
 mod polynomial_systems;
 mod pose_warnings;
 mod poses;

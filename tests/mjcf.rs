@@ -1,7 +1,7 @@
 //! MJCF: what its elements become, against what they mean.
 
 use kutzbach::closure::{Arithmetic, Geometry};
-use kutzbach::format::{FormatError, Reading, read, read_file};
+use kutzbach::format::{FormatError, Reading, WarningKind, read, read_file};
 use kutzbach::matrix::SplitMix64;
 use kutzbach::mechanism::{JointKind, Mechanism, Placement};
 use kutzbach::mobility::{AnalysisOptions, analyse};
@@ -386,16 +386,41 @@ fn what_cannot_be_read_is_told_with_its_place() {
 }
 
 #[test]
+fn polynomials_are_read_whole() {
+    let factors = |equality: &str, more: &str| -> (Vec<(usize, Vec<f64>)>, f64) {
+        let mechanism = mechanism(&(four_bar(equality) + more));
+        let coupling = &mechanism.couplings()[0];
+        let terms = coupling.terms.iter().map(|term| {
+            let all = term.factors().map(|x| x.value()).collect();
+            (term.joint.0, all)
+        });
+        (terms.collect(), coupling.offset.value())
+    };
+    let joints = r#"<joint joint1="a" joint2="c" polycoef="0.1 1 0.5 0 -2"/>"#;
+    let expected = vec![(0, vec![1.0]), (2, vec![-1.0, -0.5, 0.0, 2.0])];
+    assert_eq!(factors(joints, ""), (expected, 0.1));
+    // A tendon of one joint is a multiple of it, whose powers are those of the multiple.
+    let tendons = r#"<tendon tendon1="t" tendon2="u" polycoef="0 1 0.5"/>"#;
+    let over = r#"<tendon><fixed name="t"><joint joint="a" coef="2"/></fixed><fixed name="u"><joint joint="c" coef="3"/></fixed></tendon>"#;
+    let expected = vec![(0, vec![2.0]), (2, vec![-3.0, -4.5])];
+    assert_eq!(factors(tendons, over), (expected, 0.0));
+    // Held at another value than the one it is drawn at.
+    let held = r#"<joint joint1="a" polycoef="0.25 0 0 0 0"/>"#;
+    assert_eq!(factors(held, ""), (vec![(0, vec![1.0])], 0.25));
+}
+
+#[test]
 fn what_is_dropped_or_taken_for_something_else_is_told() {
-    let reading = model(&four_bar(
-        r#"<joint joint1="a" joint2="c" polycoef="0 1 0.5"/><weld body1="coupler" body2="hand"/>"#,
-    ).replace("</worldbody>", r#"<body name="hand" mocap="true"/></worldbody>"#))
+    let reading = model(&(four_bar(
+        r#"<tendon tendon1="t" tendon2="u" polycoef="0 1 0.5"/><weld body1="coupler" body2="hand"/>"#,
+    ).replace("</worldbody>", r#"<body name="hand" mocap="true"/></worldbody>"#)
+        + r#"<tendon><fixed name="t"><joint joint="a" coef="1"/></fixed><fixed name="u"><joint joint="b" coef="1"/><joint joint="c" coef="1"/></fixed></tendon>"#))
     .unwrap();
-    assert!(reading.warnings[0].kind.is_told_first());
+    assert_eq!(reading.warnings[0].kind, WarningKind::MayJoin);
     assert!(
         reading.warnings[0]
             .message
-            .contains("its tangent at the pose drawn")
+            .contains("a power of a tendon over several joints")
     );
     let skipped: Vec<&str> = reading
         .skipped

@@ -59,7 +59,7 @@ pub struct DraftRatio {
 #[derive(Clone)]
 pub struct DraftSum {
     pub name: String,
-    pub terms: Vec<(String, Number)>,
+    pub terms: Vec<(String, u32, Number)>,
     pub offset: Number,
 }
 
@@ -132,14 +132,13 @@ impl Draft {
         }
         for coupling in mechanism.couplings() {
             match &coupling.origin {
-                CouplingOrigin::Linear => draft.sums.push(DraftSum {
+                CouplingOrigin::Sum => draft.sums.push(DraftSum {
                     name: coupling.name.clone(),
                     terms: (coupling.terms.iter())
-                        .map(|term| {
-                            (
-                                mechanism.joint(term.joint).name.clone(),
-                                term.factor.clone(),
-                            )
+                        .flat_map(|term| {
+                            let name = &mechanism.joint(term.joint).name;
+                            let factors = (1..).zip(term.factors());
+                            factors.map(|(power, factor)| (name.clone(), power, factor.clone()))
                         })
                         .collect(),
                     offset: coupling.offset.clone(),
@@ -225,7 +224,7 @@ impl Draft {
             offset,
         } in &self.sums
         {
-            builder.linear_coupling(name, terms.clone(), offset.clone());
+            builder.polynomial_coupling(name, terms.clone(), offset.clone());
         }
         for (name, values) in &self.poses {
             builder.configuration(name, values.clone());
@@ -470,7 +469,7 @@ impl Draft {
             ratio.ends = ratio.ends.clone().map(|end| links[&end].clone());
             ratio.carrier = ratio.carrier.as_ref().map(|link| links[link].clone());
         }
-        for (joint, _) in self.sums.iter_mut().flat_map(|sum| &mut sum.terms) {
+        for (joint, ..) in self.sums.iter_mut().flat_map(|sum| &mut sum.terms) {
             *joint = joints[joint].clone();
         }
         for (joint, _) in self.poses.iter_mut().flat_map(|(_, values)| values) {

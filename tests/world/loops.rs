@@ -117,7 +117,7 @@ fn couplings_of_two_and_of_three_joints_are_kept() {
         r#"<coupling name="belt"><predecessor link="b"/><successor link="d"/><ratio value="3"/></coupling>"#.to_owned(),
     ].concat());
     let belt = &placed.geometry.couplings;
-    assert!(belt.iter().any(|(terms, _)| terms.len() == 3));
+    assert!(belt.iter().any(|coupling| coupling.shares.len() == 3));
     for solver in SOLVERS {
         let mut world = placed.world(&options(solver, Effects::default(), 1e-3, 8));
         assert!(

@@ -1,6 +1,6 @@
 //! Mechanisms without loops, whose solutions are known without polynomials.
 //!
-//! Where no loop closes, joints are tied by couplings alone, and those are linear: the solutions are an affine space, at
+//! Where no loop closes, joints are tied by couplings alone. Where those are linear, the solutions are an affine space, at
 //! every pose, and its dimension is the number of joint variables less the rank of the couplings. Fractions decide it. A
 //! tree of forty joints would otherwise need forty pairs of sines and cosines, and origins with algebraic angles, to say
 //! the same.
@@ -23,7 +23,7 @@ pub struct WithoutLoops {
     pub dimension: Option<usize>,
 }
 
-/// The solutions, if the mechanism has no loop and its couplings are of rational numbers. Linear in the joints, and cubic in
+/// The solutions, if the mechanism has no loop and its couplings are linear, of rational numbers. Linear in the joints, and cubic in
 /// the couplings at most.
 #[must_use]
 pub fn without_loops(mechanism: &Mechanism) -> Option<WithoutLoops> {
@@ -43,12 +43,15 @@ pub fn without_loops(mechanism: &Mechanism) -> Option<WithoutLoops> {
     })
 }
 
-/// The couplings as rows, the right side behind all joints; `None` where a number is not rational.
+/// The couplings as rows, the right side behind all joints; `None` where a number is not rational or a coupling not linear.
 pub(super) fn rows<'a>(
     couplings: impl IntoIterator<Item = &'a Coupling>,
 ) -> Option<Vec<BTreeMap<usize, RBig>>> {
     let mut rows = Vec::new();
     for coupling in couplings {
+        if !coupling.is_linear() {
+            return None;
+        }
         let mut row = BTreeMap::new();
         for term in &coupling.terms {
             row.insert(term.joint.0, term.factor.rational()?.clone());

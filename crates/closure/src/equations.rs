@@ -3,9 +3,19 @@
 use super::cycle::{Walk, WalkedCycle};
 use super::displacement::JointState;
 use super::geometry::Geometry;
-use super::jacobian::{Part, variable_unit};
+use super::jacobian::Part;
 use kutzbach_math::matrix::{MatrixError, Real};
 use kutzbach_model::mechanism::Mechanism;
+
+/// A coupling's row, divided by the length of all its factors.
+#[derive(Clone, Debug)]
+pub struct CouplingRow<R> {
+    /// Joints and their weights.
+    pub weights: Vec<(usize, R)>,
+    /// Joints and the further Taylor coefficients of their shares, from that of the square on (per radian or metre); none where the
+    /// coupling is linear.
+    pub higher: Vec<(usize, Vec<R>)>,
+}
 
 /// What a part's equations come to at a pose. Their derivative costs as much again, and whoever only wants to know whether
 /// the part closes does not ask for it: see [`super::jacobian()`] for the order of rows.
@@ -17,8 +27,8 @@ pub struct Equations<R> {
     pub length: f64,
     /// The value of every equation: six per cycle (rad, cycle lengths), then one per coupling.
     pub residual: Vec<R>,
-    /// Rows of the couplings, brought to unit length: joints and their weights.
-    pub coupling_rows: Vec<Vec<(usize, R)>>,
+    /// Rows of the couplings.
+    pub coupling_rows: Vec<CouplingRow<R>>,
 }
 
 impl<R: Real> Equations<R> {
@@ -96,41 +106,30 @@ impl<R: Real> Equations<R> {
     }
 }
 
-/// A coupling's joints with their weights, and its value. The row is brought to unit length, so that a gear of ratio 1000
-/// weighs as much as one of ratio 1.
+/// A coupling's row, and its value.
 fn coupling_row<R: Real>(
     geometry: &Geometry<R>,
     states: &[JointState<R>],
     coupling: usize,
     length: f64,
-) -> (Vec<(usize, R)>, R) {
+) -> (CouplingRow<R>, R) {
     let one = &geometry.one;
-    let (terms, offset) = &geometry.couplings[coupling];
-    let weights: Vec<R> = terms
-        .iter()
-        .map(|(joint, factor)| {
-            let unit = geometry.displacements[*joint]
-                .kind()
-                .freedoms()
-                .first()
-                .map_or(1.0, |part| variable_unit(*part, length));
-            factor.clone() * one.constant(unit)
-        })
-        .collect();
-    let mut norm = one.norm(&weights);
-    if norm.is_zero() {
-        norm = one.clone();
-    }
-    let mut value = -offset.clone();
-    for (joint, factor) in terms {
-        if let Some(variable) = states[*joint].values.first() {
-            value = value + factor.clone() * variable.clone();
-        }
-    }
-    let row = terms
-        .iter()
-        .zip(weights)
-        .map(|((joint, _), weight)| (*joint, weight / norm.clone()))
-        .collect();
+    let equation = &geometry.couplings[coupling];
+    let (value, taylor) = equation.at(states);
+    let unit = |joint: usize| geometry.coupled_unit(joint, length);
+    let norm = equation.norm(unit);
+    let slopes = equation.joints().zip(taylor.iter().map(|own| &own[0]));
+    let weights = slopes.map(|(joint, slope)| {
+        let weight = slope.clone() * one.constant(unit(joint));
+        (joint, weight / norm.clone())
+    });
+    let higher = equation.joints().zip(&taylor).filter_map(|(joint, own)| {
+        let further = own[1..].iter().map(|x| x.clone() / norm.clone());
+        (own.len() > 1).then(|| (joint, further.collect()))
+    });
+    let row = CouplingRow {
+        higher: higher.collect(),
+        weights: weights.collect(),
+    };
     (row, value / norm)
 }

@@ -1,7 +1,9 @@
 //! From the exact numbers of a mechanism to frames in an arithmetic of choice.
 
+use super::coupling_equation::CouplingEquation;
 use super::cycle::Walk;
 use super::displacement::{JointDisplacement, JointState};
+use super::jacobian::variable_unit;
 use kutzbach_math::matrix::{Extended, Real};
 use kutzbach_math::number::Number;
 use kutzbach_math::space::{Rigid, Vector, length, three};
@@ -90,8 +92,8 @@ pub struct Geometry<R> {
     pub home: Vec<Rigid<R>>,
     /// Every joint's state at the file pose: exact for tree joints, fitted for loops.
     pub states: Vec<JointState<R>>,
-    /// Couplings as rows `Σ factor · variable = offset`; variables by joint, each of one freedom.
-    pub couplings: Vec<(Vec<(usize, R)>, R)>,
+    /// Couplings as equations between variables of joints of one freedom.
+    pub couplings: Vec<CouplingEquation<R>>,
     /// What the digits of every coupling's factors leave open, relative to all of them together.
     pub coupling_digits: Vec<f64>,
     /// What the stated precision leaves open of every joint's numbers.
@@ -126,12 +128,12 @@ fn digits_of(coupling: &Coupling) -> f64 {
     let open: Vec<f64> = coupling
         .terms
         .iter()
-        .map(|term| half(&term.factor))
+        .flat_map(|term| term.factors().map(half))
         .collect();
     let size: Vec<f64> = coupling
         .terms
         .iter()
-        .map(|term| term.factor.value())
+        .flat_map(|term| term.factors().map(Number::value))
         .collect();
     let size = 0.0.norm(&size);
     if size > 0.0 {
@@ -216,25 +218,15 @@ impl<R: Real> Geometry<R> {
             });
             displacements[index] = Some(displacement);
         }
-        let couplings = mechanism
-            .couplings()
-            .iter()
-            .map(|coupling| {
-                let terms = coupling
-                    .terms
-                    .iter()
-                    .map(|term| (term.joint.0, arithmetic.number(&term.factor)))
-                    .collect();
-                (terms, arithmetic.number(&coupling.offset))
-            })
-            .collect();
+        let couplings = mechanism.couplings().iter();
+        let couplings = couplings.map(|coupling| CouplingEquation::of(coupling, arithmetic));
         let mut geometry = Self {
             arms: Vec::new(),
             sides,
             displacements: displacements.into_iter().flatten().collect(),
             home,
             states: states.into_iter().flatten().collect(),
-            couplings,
+            couplings: couplings.collect(),
             coupling_digits: mechanism.couplings().iter().map(digits_of).collect(),
             uncertainties: mechanism
                 .joints()
@@ -291,6 +283,13 @@ impl<R: Real> Geometry<R> {
         } else {
             0.0
         }
+    }
+
+    /// Radians or metres per unit of the variable of a joint of one freedom, where translations count in units of a length (m).
+    pub fn coupled_unit(&self, joint: usize, length: f64) -> f64 {
+        let freedoms = self.displacements[joint].kind().freedoms();
+        let first = freedoms.first();
+        first.map_or(1.0, |part| variable_unit(*part, length))
     }
 
     /// The longest arm of every joint's independent sub-mechanism: on each link from one of its joints to the others.

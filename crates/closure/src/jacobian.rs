@@ -38,6 +38,8 @@ pub struct CycleJacobian<R> {
     pub walks: Vec<WalkedCycle<R>>,
     /// What the digits of couplings leave open of their rows, all together.
     pub coupling_digits: f64,
+    /// What couplings have beyond first order (`CouplingRow::higher`), row by row.
+    pub coupling_higher: Vec<Vec<(usize, Vec<R>)>>,
 }
 
 impl<R: Real> CycleJacobian<R> {
@@ -125,8 +127,10 @@ impl<R: Real> Equations<R> {
         let of_cycles = 6 * self.walks.len();
         let digits = part.couplings.iter().map(|&c| geometry.coupling_digits[c]);
         let digits: Vec<f64> = digits.collect();
+        let mut coupling_higher = Vec::with_capacity(self.coupling_rows.len());
         for (index, row) in (of_cycles..).zip(self.coupling_rows) {
-            for (joint, weight) in row {
+            coupling_higher.push(row.higher);
+            for (joint, weight) in row.weights {
                 if let Some(&first) = first_column.get(&joint) {
                     triplets.push((index, first, weight));
                 }
@@ -147,6 +151,7 @@ impl<R: Real> Equations<R> {
             length: self.length,
             walks: self.walks,
             coupling_digits: 0.0.norm(&digits),
+            coupling_higher,
         })
     }
 }

@@ -14,6 +14,7 @@
 
 mod assembly;
 mod coordinates;
+mod coupling_equation;
 mod cycle;
 mod displacement;
 mod equations;
@@ -34,6 +35,7 @@ pub use assembly::{
     Reversal, Solved, Solver, assemble, assemble_with, coupled_joints, follow, nearest_turn,
     refine, spanning_poses,
 };
+pub use coupling_equation::{CouplingEquation, CouplingShare};
 pub use cycle::{Walk, WalkedCycle, WalkedJoint, characteristic_length};
 pub use displacement::Factor;
 pub use displacement::{JointDisplacement, JointState};

@@ -109,9 +109,8 @@ pub fn positional_jacobian<R: Real>(
         .collect();
     for &coupling in &part.couplings {
         blocks.push(rows);
-        let (terms, _) = &geometry.couplings[coupling];
-        for (joint, factor) in terms {
-            let Some((_, frame, screws)) = place_of.get(joint).map(|&place| &placed[place]) else {
+        for (joint, factor) in geometry.couplings[coupling].slopes(states) {
+            let Some((_, frame, screws)) = place_of.get(&joint).map(|&place| &placed[place]) else {
                 continue;
             };
             let Some(screw) = screws.first() else {
@@ -121,7 +120,7 @@ pub fn positional_jacobian<R: Real>(
             let twist = twist_about(screw, &frame.translation, &equations.inverse_length);
             let square = one.dot(&twist, &twist);
             let functional = twist.map(|x| x * factor.clone() / square.clone());
-            equations.add(rows, &functional, &frame.translation, *joint);
+            equations.add(rows, &functional, &frame.translation, joint);
         }
         rows += 1;
     }

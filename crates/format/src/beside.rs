@@ -8,7 +8,7 @@ use super::reader::{Dialect, Reader};
 use super::words::{alternatives, did_you_mean, quoted};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{
-    Assumption, CouplingOrigin, Expectation, LinkId, Mechanism, Scene,
+    Assumption, CouplingOrigin, Expectation, HIGHEST_POWER, LinkId, Mechanism, Scene,
 };
 use std::str::FromStr;
 
@@ -76,7 +76,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// `<coupling name offset><term joint coefficient/>…</coupling>`: a sum over joints.
+    /// `<coupling name offset><term joint coefficient power/>…</coupling>`: a sum over powers of joints.
     fn read_sum(&mut self, coupling: Element<'a>) -> Outcome<()> {
         self.uses(Dialect::Own);
         let name = self.directory.add(Named::Coupling, coupling)?;
@@ -92,13 +92,17 @@ impl<'a> Reader<'a> {
                     .fault(message)
                     .help("joints with coefficients, or two links with a ratio"));
             }
-            self.leaf(part, &["joint", "coefficient"])?;
+            self.leaf(part, &["joint", "coefficient", "power"])?;
             let joint = self.directory.refer(Named::Joint, part, "joint")?;
             let coefficient = self.number(part.required("coefficient")?)?;
-            terms.push((joint.to_owned(), coefficient));
+            let power = match part.attribute("power") {
+                Some(power) => power_of(power)?,
+                None => 1,
+            };
+            terms.push((joint.to_owned(), power, coefficient));
         }
         self.builder
-            .linear_coupling(name, terms, offset.unwrap_or_else(Number::zero));
+            .polynomial_coupling(name, terms, offset.unwrap_or_else(Number::zero));
         Ok(())
     }
 
@@ -279,4 +283,17 @@ fn one_of(element: Element<'_>, name: &str, words: &[&str]) -> Outcome<Option<St
             words.iter().copied(),
             ("`", "`"),
         )))
+}
+
+/// The power of a joint's variable in a term.
+fn power_of(attribute: Attribute<'_>) -> Outcome<u32> {
+    let power = attribute.value.trim().parse().ok();
+    let power = power.filter(|power| (1..=HIGHEST_POWER).contains(power));
+    power.ok_or_else(|| {
+        let message = format!(
+            "needed a power of 1 to {HIGHEST_POWER}, found {}",
+            quoted(attribute.value)
+        );
+        attribute.fault(message)
+    })
 }

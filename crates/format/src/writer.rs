@@ -101,7 +101,7 @@ fn written(mechanism: &Mechanism, kept: Option<&Kept>, numbers: Numbers) -> Stri
         .iter()
         .filter_map(|coupling| match coupling.origin {
             CouplingOrigin::Mimic { follower, .. } => Some((follower.0, coupling)),
-            CouplingOrigin::Ratio { .. } | CouplingOrigin::Linear => None,
+            CouplingOrigin::Ratio { .. } | CouplingOrigin::Sum => None,
         })
         .collect();
     for (index, joint) in mechanism.joints().iter().enumerate() {
@@ -349,7 +349,7 @@ impl Writer<'_> {
                     &format!("<ratio{}/>", pair("value", &style.number(ratio))),
                 );
                 self.line(1, "</coupling>");
-            } else if coupling.origin == CouplingOrigin::Linear {
+            } else if coupling.origin == CouplingOrigin::Sum {
                 let offset = match coupling.offset.is_zero() {
                     true => String::new(),
                     false => pair("offset", &style.number(&coupling.offset)),
@@ -358,8 +358,17 @@ impl Writer<'_> {
                 self.line(1, &format!("<coupling{name}{offset}>"));
                 for term in &coupling.terms {
                     let joint = pair("joint", &mechanism.joint(term.joint).name);
-                    let coefficient = pair("coefficient", &style.number(&term.factor));
-                    self.line(2, &format!("<term{joint}{coefficient}/>"));
+                    for (power, factor) in (1..).zip(term.factors()) {
+                        if factor.is_zero() {
+                            continue;
+                        }
+                        let coefficient = pair("coefficient", &style.number(factor));
+                        let power = match power {
+                            1 => String::new(),
+                            power => pair("power", &power.to_string()),
+                        };
+                        self.line(2, &format!("<term{joint}{coefficient}{power}/>"));
+                    }
                 }
                 self.line(1, "</coupling>");
             }

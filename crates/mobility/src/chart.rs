@@ -230,7 +230,15 @@ pub(super) fn literal_leftover(
 
 /// A chart reaches as far as the equations bend by less than the smallest singular value kept.
 fn first_radius(rank: &PartRank) -> f64 {
-    (0.5 * rank.decision.kept.min(1.0)).clamp(1e-12, LARGEST_RADIUS)
+    (0.5 * smallest_kept(rank).min(1.0)).clamp(1e-12, LARGEST_RADIUS)
+}
+
+/// The smallest singular value kept. Equations without linear terms keep none, and nothing limits the radius.
+fn smallest_kept(rank: &PartRank) -> f64 {
+    match rank.decision.rank {
+        Some(0) => f64::INFINITY,
+        _ => rank.decision.kept,
+    }
 }
 
 /// The test in as many digits as it takes, with what the stated precision leaves open.
@@ -257,7 +265,7 @@ fn climb(
         test.bits = bits;
         // Steps are computed in double precision, where a singular value this small is damped away: closing then fails at
         // regular poses too.
-        if matches!(test.outcome, ChartOutcome::Singular { .. }) && rank.decision.kept < LEAST_KEPT
+        if matches!(test.outcome, ChartOutcome::Singular { .. }) && smallest_kept(rank) < LEAST_KEPT
         {
             test.outcome = ChartOutcome::Thin;
         }

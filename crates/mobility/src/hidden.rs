@@ -8,6 +8,7 @@
 use super::pose_rank::PartRank;
 use kutzbach_closure::{Geometry, Part};
 use kutzbach_math::matrix::{MatrixError, NullVectors, RankDecision, SparseMatrix, null_vectors};
+use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{JointKind, Mechanism};
 use std::collections::BTreeSet;
 
@@ -35,7 +36,11 @@ pub(super) fn bits_for_ratios(
 ) -> Option<usize> {
     let couplings = part.couplings.iter().map(|&coupling| {
         let terms = &mechanism.couplings()[coupling].terms;
-        bits_between(terms.iter().map(|term| term.factor.value()))
+        bits_between(
+            terms
+                .iter()
+                .flat_map(|term| term.factors().map(Number::value)),
+        )
     });
     let loops = part
         .cycles

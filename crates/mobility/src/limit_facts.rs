@@ -129,13 +129,16 @@ fn own_digits(number: &Number) -> f64 {
     rounded.map_or(0.0, |decimals| 0.5 * 10f64.powi(-decimals.min(300)))
 }
 
-/// Intervals of Σ factor · variable: each term has to be what the others leave.
+/// Intervals of Σ factor · variable: each term has to be what the others leave. Couplings with powers are not asked.
 fn of_coupling(
     mechanism: &Mechanism,
     ranges: &[Option<Range>],
     coupling: usize,
 ) -> Option<LimitFact> {
     let equation = &mechanism.couplings()[coupling];
+    if !equation.is_linear() {
+        return None;
+    }
     let terms: Option<Vec<(usize, f64, Range)>> = equation
         .terms
         .iter()

@@ -12,7 +12,7 @@ pub(super) fn followers_of_mimics(mechanism: &Mechanism) -> BTreeSet<usize> {
         .map(|coupling| &coupling.origin);
     let follower = |origin: &CouplingOrigin| match origin {
         CouplingOrigin::Mimic { follower, .. } => Some(follower.0),
-        CouplingOrigin::Ratio { .. } | CouplingOrigin::Linear => None,
+        CouplingOrigin::Ratio { .. } | CouplingOrigin::Sum => None,
     };
     origins.filter_map(follower).collect()
 }

@@ -28,7 +28,7 @@ mod readings;
 use kutzbach_closure::{CycleJacobian, Geometry, JointState, Part, entry_accuracy, jacobian};
 use kutzbach_math::matrix::{MatrixError, RankDecision, SparseMatrix};
 use kutzbach_math::number::Number;
-use kutzbach_model::mechanism::{Configuration, Mechanism};
+use kutzbach_model::mechanism::{Configuration, CouplingTerm, Mechanism};
 pub use note::RankNote;
 use readings::Readings;
 use std::cell::Cell;
@@ -71,7 +71,7 @@ pub(super) fn numbers<'a>(
     });
     let couplings = part.couplings.iter().flat_map(|&coupling| {
         let coupling = &mechanism.couplings()[coupling];
-        let factors = coupling.terms.iter().map(|term| &term.factor);
+        let factors = coupling.terms.iter().flat_map(CouplingTerm::factors);
         factors.chain([&coupling.offset])
     });
     joints.chain(couplings)

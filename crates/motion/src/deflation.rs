@@ -166,11 +166,7 @@ impl Deflation {
                 }
             }
         };
-        system.visit_changes(&evaluation, |first, column, unknown, change| {
-            for (row, value) in change.into_iter().enumerate() {
-                add(first + row, column, unknown, value);
-            }
-        });
+        system.visit_changes(&evaluation, &mut add);
         // The values of balls are no linear functions of a step; held ones change their rows.
         let mut z = vec![0.0; n];
         for (index, (held, _)) in self.holds.iter().enumerate() {

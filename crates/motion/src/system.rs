@@ -17,7 +17,7 @@ mod rotations;
 pub use evaluation::Evaluation;
 
 use kutzbach_closure::{
-    Factor, Geometry, JointDisplacement, JointState, Part, Rigid, Vector, jacobian,
+    CouplingShare, Factor, Geometry, JointDisplacement, JointState, Part, Rigid, Vector, jacobian,
 };
 use kutzbach_math::matrix::MatrixError;
 use kutzbach_model::mechanism::{FreedomPart, JointKind, Mechanism};
@@ -61,10 +61,11 @@ struct CompiledCycle {
     inverse_length: f64,
 }
 
-/// A coupling `Σ factor · variable = offset`, brought to unit length in the metric.
+/// A coupling, divided by the length of all its factors in the metric.
 #[derive(Clone, Debug)]
 struct CompiledCoupling {
-    terms: Vec<(usize, f64)>,
+    /// Unknowns, and what each gives.
+    terms: Vec<(usize, CouplingShare<f64>)>,
     offset: f64,
 }
 
@@ -187,22 +188,22 @@ impl LoopSystem {
             system.compile_cycle(geometry, states, &own, cycle, walk.centre, walk.length);
         }
         for &coupling in &part.couplings {
-            let (terms, offset) = &geometry.couplings[coupling];
-            let terms: Vec<(usize, f64)> = terms
-                .iter()
-                .filter_map(|(joint, factor)| {
-                    own[*joint].map(|index| (system.joints[index].first, *factor))
-                })
-                .collect();
-            let norm = terms
-                .iter()
-                .map(|(unknown, factor)| (factor / system.weights[*unknown]).powi(2))
-                .sum::<f64>()
-                .sqrt();
-            let unit = if norm > 0.0 { 1.0 / norm } else { 1.0 };
+            let equation = &geometry.couplings[coupling];
+            let unit = |joint: usize| match own[joint] {
+                Some(index) => 1.0 / system.weights[system.joints[index].first],
+                None => 1.0,
+            };
+            let norm = equation.norm(unit);
+            let terms = equation.shares.iter().filter_map(|share| {
+                let unknown = system.joints[own[share.joint]?].first;
+                let mut share = share.clone();
+                share.coefficients.iter_mut().for_each(|x| *x /= norm);
+                Some((unknown, share))
+            });
+            let terms = terms.collect();
             system.couplings.push(CompiledCoupling {
-                terms: terms.into_iter().map(|(u, f)| (u, f * unit)).collect(),
-                offset: offset * unit,
+                terms,
+                offset: equation.offset / norm,
             });
         }
         Ok(system)

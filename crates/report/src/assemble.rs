@@ -356,28 +356,33 @@ fn coupling_rows(mechanism: &Mechanism) -> Vec<CouplingRow> {
 /// A coupling as an equation, `2 a − b = 0.5`; numbers as the file wrote them.
 fn equation(mechanism: &Mechanism, coupling: &Coupling) -> String {
     let mut text = String::new();
-    for (index, term) in coupling.terms.iter().enumerate() {
-        let negative = term.factor.value() < 0.0;
-        let factor = plain(&if negative {
-            -&term.factor
-        } else {
-            term.factor.clone()
-        });
-        text.push_str(match (index, negative) {
-            (0, false) => "",
-            (0, true) => "−",
-            (_, false) => " + ",
-            (_, true) => " − ",
-        });
-        if factor != "1" {
-            text.push_str(&factor);
-            text.push(' ');
+    for term in &coupling.terms {
+        let name = &mechanism.joint(term.joint).name;
+        for (factor, power) in term.factors().zip(["", "²", "³", "⁴"]) {
+            if !factor.is_zero() {
+                add_term(&mut text, factor, &format!("{name}{power}"));
+            }
         }
-        text.push_str(&mechanism.joint(term.joint).name);
     }
     text.push_str(" = ");
     text.push_str(&plain(&coupling.offset));
     text
+}
+
+fn add_term(text: &mut String, factor: &Number, variable: &str) {
+    let negative = factor.value() < 0.0;
+    let size = plain(&if negative { -factor } else { factor.clone() });
+    text.push_str(match (text.is_empty(), negative) {
+        (true, false) => "",
+        (true, true) => "−",
+        (false, false) => " + ",
+        (false, true) => " − ",
+    });
+    if size != "1" {
+        text.push_str(&size);
+        text.push(' ');
+    }
+    text.push_str(variable);
 }
 
 /// A number as the file wrote it, without the braces of an expression.

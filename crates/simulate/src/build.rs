@@ -143,7 +143,7 @@ pub(super) fn build(
             geometry
                 .couplings
                 .iter()
-                .any(|(terms, _)| terms.iter().any(|(of, _)| *of == joint))
+                .any(|coupling| coupling.joints().any(|of| of == joint))
         },
     )?;
     weld_chord_screws(&mut apart, &mut forest, &poses);

@@ -37,13 +37,19 @@ pub(super) fn add(
     built: &mut Built,
     physics: &mut PhysicsWorld,
 ) {
-    for (coupling, (terms, offset)) in mechanism.couplings().iter().zip(&geometry.couplings) {
-        let terms: Vec<(usize, f64)> = terms.iter().copied().filter(|(_, f)| *f != 0.0).collect();
-        let left: f64 = offset
-            - terms
-                .iter()
-                .map(|(joint, factor)| factor * states[*joint].values.first().unwrap_or(&0.0))
-                .sum::<f64>();
+    for (coupling, equation) in mechanism.couplings().iter().zip(&geometry.couplings) {
+        let (value, _) = equation.at(states);
+        let left = -value;
+        let mut terms = equation.slopes(states);
+        terms.retain(|(_, factor)| *factor != 0.0);
+        if !equation.is_linear() {
+            built.note(
+                &coupling.name,
+                "the engine does not support couplings with powers of a joint's variable: it is left out",
+            );
+            built.not_simulated.push(coupling.name.clone());
+            continue;
+        }
         let coordinates: Option<Vec<Coordinate>> = terms
             .iter()
             .map(|(joint, factor)| coordinate(*joint, *factor, apart, units, built, physics))

@@ -14,7 +14,7 @@ use super::space::{Polynomials, Scalars};
 use dashu_base::Gcd;
 use dashu_int::UBig;
 use kutzbach_math::number::Number;
-use kutzbach_model::mechanism::{Coupling, FreedomPart, Mechanism};
+use kutzbach_model::mechanism::{Coupling, CouplingTerm, FreedomPart, Mechanism};
 
 /// Largest sum of the sizes of the multiples.
 const MAX_MULTIPLE: i64 = 24;
@@ -26,6 +26,7 @@ pub(super) fn equations(
     coupling: &Coupling,
     displacements: &[Displacement],
 ) -> Result<Vec<Poly>, String> {
+    let squared = |term: &CouplingTerm| !term.higher.is_empty();
     let part = |joint: usize| mechanism.joints()[joint].kind.freedoms().first().copied();
     let slides = coupling
         .terms
@@ -34,6 +35,12 @@ pub(super) fn equations(
         .count();
     if slides == coupling.terms.len() {
         ways(field, coupling, displacements).map(|equation| vec![equation])
+    } else if coupling
+        .terms
+        .iter()
+        .any(|t| squared(t) && part(t.joint.0) != Some(FreedomPart::Translation))
+    {
+        Err("it has a power of an angle, which is no algebraic relation".to_owned())
     } else if slides == 0 {
         angles(field, coupling, displacements)
     } else {
@@ -55,15 +62,21 @@ fn ways(
     let offset = read(field, &coupling.offset)?;
     let mut sum = Poly::constant(offset.negated());
     for term in &coupling.terms {
-        let factor = read(field, &term.factor)?;
         let Some((way, square)) = &displacements[term.joint.0].slide else {
             return Err("a joint of it has no variable of its own".to_owned());
         };
         let unit = field
             .root(square)
             .map_err(|_| "its numbers lie in a field of too high a degree".to_owned())?;
-        let factor = field.multiply(&factor, &unit);
-        sum = sum.plus(&Poly::variable(*way).scaled(&factor, field));
+        let travel = Poly::variable(*way).scaled(&unit, field);
+        let mut power = travel.clone();
+        for (index, factor) in term.factors().enumerate() {
+            if index > 0 {
+                power = power.times(&travel, field);
+            }
+            let factor = read(field, factor)?;
+            sum = sum.plus(&power.scaled(&factor, field));
+        }
     }
     Ok(sum)
 }

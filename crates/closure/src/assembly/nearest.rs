@@ -339,8 +339,7 @@ pub(super) fn unwind(
         .part
         .couplings
         .iter()
-        .flat_map(|&coupling| &task.geometry.couplings[coupling].0)
-        .map(|(joint, _)| *joint)
+        .flat_map(|&coupling| task.geometry.couplings[coupling].joints())
         .collect();
     for &joint in &task.part.joints {
         let described = &task.mechanism.joints()[joint];

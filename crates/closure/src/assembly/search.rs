@@ -221,8 +221,9 @@ fn groups(task: &Task<'_>) -> Vec<Part> {
         .iter()
         .map(|cycle| cycle.iter().map(|(joint, _)| *joint).collect::<Vec<_>>());
     let tied = part.couplings.iter().map(|&coupling| {
-        let (terms, _) = &task.geometry.couplings[coupling];
-        terms.iter().map(|(joint, _)| *joint).collect::<Vec<_>>()
+        task.geometry.couplings[coupling]
+            .joints()
+            .collect::<Vec<_>>()
     });
     let sets: Vec<BTreeSet<usize>> = sets
         .chain(tied)
@@ -251,11 +252,8 @@ fn groups(task: &Task<'_>) -> Vec<Part> {
             let walked = in_cycles.iter().flat_map(|&i| &part.cycles[i]);
             let related = in_couplings
                 .iter()
-                .flat_map(|&i| &task.geometry.couplings[part.couplings[i - cycles]].0);
-            let inside: BTreeSet<usize> = walked
-                .map(|(joint, _)| *joint)
-                .chain(related.map(|(joint, _)| *joint))
-                .collect();
+                .flat_map(|&i| task.geometry.couplings[part.couplings[i - cycles]].joints());
+            let inside: BTreeSet<usize> = walked.map(|(joint, _)| *joint).chain(related).collect();
             let joints = part.joints.iter().copied();
             Part {
                 joints: joints.filter(|joint| inside.contains(joint)).collect(),
@@ -294,8 +292,8 @@ fn grow(
                 .iter()
                 .copied()
                 .filter(|&coupling| {
-                    let (terms, _) = &task.geometry.couplings[coupling];
-                    terms.iter().all(|(joint, _)| inside.contains(joint))
+                    let mut joints = task.geometry.couplings[coupling].joints();
+                    joints.all(|joint| inside.contains(&joint))
                 })
                 .collect(),
         };

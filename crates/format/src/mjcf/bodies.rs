@@ -4,7 +4,6 @@ use super::keys::Coordinate;
 use super::mass::Load;
 use super::pose::{exactly, least_turn};
 use super::{BRINGS_BODIES, Known, Mjcf, Place, WORLD};
-use crate::WarningKind;
 use crate::element::Element;
 use crate::error::Outcome;
 use crate::frames::one_after_another;
@@ -354,12 +353,6 @@ impl<'a> Mjcf<'a> {
             );
         }
         Ok(())
-    }
-
-    /// A warning that the answer hangs on.
-    pub(super) fn guessed(&mut self, element: Element<'a>, message: String) {
-        self.warnings
-            .push((element.start(), WarningKind::Guessed, message));
     }
 }
 

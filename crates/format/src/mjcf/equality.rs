@@ -41,12 +41,9 @@ impl<'a> Mjcf<'a> {
             if !self.is_active(part)? {
                 continue;
             }
+            // Held elsewhere it is coupled to nothing else: see `joint_equality`.
             if held_at.is_some_and(|at| !at.is_zero()) {
-                let message =
-                    "a joint that is held at another value than it is drawn at is not read";
-                return Err(part
-                    .fault(message)
-                    .help("draw the model at that value: turn its body, or change `ref`"));
+                continue;
             }
             self.held.insert(joint.value);
         }
@@ -263,34 +260,39 @@ impl<'a> Mjcf<'a> {
 
     fn joint_equality(&mut self, part: Element<'a>) -> Outcome<()> {
         let follower = self.coupled(part.required("joint1")?)?;
-        let Some(leader) = part.attribute("joint2") else {
-            return Ok(());
-        };
-        let leader = self.coupled(leader)?;
         let terms = match part.attribute("polycoef") {
             Some(terms) => numbers(terms)?,
             None => vec![Number::zero(), Number::one()],
         };
-        let (offset, multiplier) = self.linear(part, &terms)?;
-        let sum = vec![(follower, Number::one()), (leader, -&multiplier)];
-        self.couple(part, sum, offset)
+        let mut sum = vec![(follower, 1, Number::one())];
+        let Some(leader) = part.attribute("joint2") else {
+            let held = self.held.contains(follower);
+            return match held {
+                true => Ok(()),
+                false => self.couple(part, sum, first_of(&terms)),
+            };
+        };
+        let leader = self.coupled(leader)?;
+        let powers = (1..).zip(terms.iter().skip(1));
+        sum.extend(powers.map(|(power, factor)| (leader, power, -factor)));
+        self.couple(part, sum, first_of(&terms))
     }
 
     /// Couples joints by a sum: two of them by a mimic, as long as no joint follows two others or, by way of others, itself.
     fn couple(
         &mut self,
         part: Element<'a>,
-        mut sum: Vec<(&'a str, Number)>,
+        mut sum: Vec<(&'a str, u32, Number)>,
         offset: Number,
     ) -> Outcome<()> {
         // What is held has no value but 0.
-        sum.retain(|(name, factor)| !factor.is_zero() && !self.held.contains(name));
+        sum.retain(|(name, _, factor)| !factor.is_zero() && !self.held.contains(name));
         if sum.is_empty() {
             let message = format!("<{}> between joints that stand still anyway", part.name());
             self.unread.text(part.start(), message);
             return Ok(());
         }
-        if let [(follower, a), (leader, b)] = &sum[..]
+        if let [(follower, 1, a), (leader, 1, b)] = &sum[..]
             && self.may_follow(follower, leader)
         {
             let over = |x: &Number| x.checked_div(a).map_err(|why| part.fault(why.to_string()));
@@ -302,8 +304,9 @@ impl<'a> Mjcf<'a> {
         let name = self.name_of_closure(part, "coupling");
         let terms = sum
             .into_iter()
-            .map(|(joint, factor)| (joint.to_owned(), factor));
-        self.builder.linear_coupling(&name, terms.collect(), offset);
+            .map(|(joint, power, factor)| (joint.to_owned(), power, factor));
+        self.builder
+            .polynomial_coupling(&name, terms.collect(), offset);
         Ok(())
     }
 
@@ -318,62 +321,82 @@ impl<'a> Mjcf<'a> {
         !self.followers.contains_key(follower)
     }
 
-    /// The first two coefficients of a polynomial; where there are others it is linear at the pose drawn only, which is told.
-    fn linear(&mut self, part: Element<'a>, terms: &[Number]) -> Outcome<(Number, Number)> {
-        let term = |i: usize| terms.get(i).cloned().unwrap_or_else(Number::zero);
-        if terms.iter().skip(2).any(|term| !term.is_zero()) {
-            if term(1).is_zero() {
-                return Err(part.fault("a coupling without a linear term is not read"));
-            }
-            self.guessed(
-                part,
-                "a coupling by a polynomial is read as its tangent at the pose drawn: elsewhere the motion is another".to_owned(),
-            );
-        }
-        Ok((term(0), term(1)))
-    }
-
     /// An equality of fixed tendons, each a sum of joints with coefficients.
     fn tendon_equality(&mut self, part: Element<'a>, root: Element<'a>) -> Outcome<()> {
-        let mut sum: Vec<(&'a str, Number)> = Vec::new();
         let terms = match part.attribute("polycoef") {
             Some(terms) => numbers(terms)?,
             None => vec![Number::zero(), Number::one()],
         };
-        let (offset, ratio) = match part.attribute("tendon2") {
-            Some(_) => self.linear(part, &terms)?,
-            None => (
-                terms.first().cloned().unwrap_or_else(Number::zero),
-                Number::zero(),
-            ),
+        let Some(first) = self.shares_of(part, root, "tendon1")? else {
+            return Ok(());
         };
-        for (side, factor) in [("tendon1", Number::one()), ("tendon2", -&ratio)] {
-            let Some(name) = part.attribute(side) else {
-                continue;
+        let own = first.into_iter().map(|(joint, share)| (joint, 1, share));
+        let mut sum: Vec<(&'a str, u32, Number)> = own.collect();
+        if part.attribute("tendon2").is_some() {
+            let Some(second) = self.shares_of(part, root, "tendon2")? else {
+                return Ok(());
             };
-            let Some(tendon) = tendon_named(root, name.value) else {
-                return Err(name.fault(format!("there is no tendon {}", quoted(name.value))));
-            };
-            if tendon.name() != "fixed" {
+            let bent = terms.iter().skip(2).any(|term| !term.is_zero());
+            if bent && second.len() > 1 {
                 let message =
-                    "an equality of a tendon through space is not read, and it constrains"
-                        .to_owned();
-                self.warnings
-                    .push((part.start(), WarningKind::MayJoin, message));
+                    "a power of a tendon over several joints is not read, and it constrains";
+                self.may_join(part, message);
                 return Ok(());
             }
-            for joint in tendon.elements().filter(|joint| joint.name() == "joint") {
-                let name = self.coupled(joint.required("joint")?)?;
-                let [coefficient] = exactly(joint.required("coef")?)?;
-                let share = &coefficient * &factor;
-                match sum.iter_mut().find(|(own, _)| *own == name) {
-                    Some((_, all)) => *all = &*all + &share,
-                    None => sum.push((name, share)),
+            for (joint, share) in &second {
+                let mut power_of_share = Number::one();
+                for (power, factor) in (1..).zip(terms.iter().skip(1)) {
+                    power_of_share = &power_of_share * share;
+                    let own = -&(factor * &power_of_share);
+                    let same =
+                        |(name, of, _): &&mut (&'a str, u32, Number)| name == joint && *of == power;
+                    match sum.iter_mut().find(same) {
+                        Some((_, _, all)) => *all = &*all + &own,
+                        None => sum.push((*joint, power, own)),
+                    }
                 }
             }
         }
-        self.couple(part, sum, offset)
+        self.couple(part, sum, first_of(&terms))
     }
+
+    /// The joints of a fixed tendon with their coefficients; `None`, and told, where the tendon is another.
+    fn shares_of(
+        &mut self,
+        part: Element<'a>,
+        root: Element<'a>,
+        side: &'static str,
+    ) -> Outcome<Option<Vec<(&'a str, Number)>>> {
+        let name = part.required(side)?;
+        let Some(tendon) = tendon_named(root, name.value) else {
+            return Err(name.fault(format!("there is no tendon {}", quoted(name.value))));
+        };
+        if tendon.name() != "fixed" {
+            let message = "an equality of a tendon through space is not read, and it constrains";
+            self.may_join(part, message);
+            return Ok(None);
+        }
+        let mut shares: Vec<(&'a str, Number)> = Vec::new();
+        for joint in tendon.elements().filter(|joint| joint.name() == "joint") {
+            let name = self.coupled(joint.required("joint")?)?;
+            let [coefficient] = exactly(joint.required("coef")?)?;
+            match shares.iter_mut().find(|(own, _)| *own == name) {
+                Some((_, all)) => *all = &*all + &coefficient,
+                None => shares.push((name, coefficient)),
+            }
+        }
+        Ok(Some(shares))
+    }
+
+    fn may_join(&mut self, part: Element<'a>, message: &str) {
+        let warning = (part.start(), WarningKind::MayJoin, message.to_owned());
+        self.warnings.push(warning);
+    }
+}
+
+/// The constant of a polynomial.
+fn first_of(terms: &[Number]) -> Number {
+    terms.first().cloned().unwrap_or_else(Number::zero)
 }
 
 fn tendon_named<'a>(root: Element<'a>, name: &str) -> Option<Element<'a>> {

@@ -51,7 +51,7 @@ use agreement::claim;
 use kutzbach_algebra::{Budget, Formulation, Stop, SystemOptions, polynomial_system};
 use kutzbach_closure::Part;
 use kutzbach_math::number::Number;
-use kutzbach_model::mechanism::{Configuration, JointId, Mechanism, Precision};
+use kutzbach_model::mechanism::{Configuration, CouplingTerm, JointId, Mechanism, Precision};
 use question::{Most, Question};
 
 /// Mechanisms with more joints are not asked about: their equations take longer to write than others to solve.
@@ -147,7 +147,12 @@ fn numbers_are_exact(
     };
     let couplings = part.couplings.iter().all(|&coupling| {
         let coupling = &mechanism.couplings()[coupling];
-        chosen(&coupling.offset) && coupling.terms.iter().all(|term| chosen(&term.factor))
+        chosen(&coupling.offset)
+            && coupling
+                .terms
+                .iter()
+                .flat_map(CouplingTerm::factors)
+                .all(chosen)
     });
     let positions = configuration.iter().flat_map(|c| &c.positions);
     geometry && couplings && positions.flat_map(|(_, values)| values).all(chosen)

@@ -8,7 +8,7 @@
 //!
 //! A cycle's six equations are the antisymmetric part of the rotation and the displacement of the cycle's centre in units
 //! of its length. Near the identity they vanish with the twist of the closure only, so that the germ is the same. Couplings
-//! are linear and follow below. Variables are those of the matrix with unit columns.
+//! follow below: their rows, and what they have beyond first order. Variables are those of the matrix with unit columns.
 
 use crate::PartRank;
 use kutzbach_math::group::{DisplacementSeries, Monomials, Series, Twist};
@@ -29,6 +29,8 @@ pub(super) struct LoopEquations {
     cycles: Vec<Vec<Factor>>,
     /// Rows of the couplings: (column, entry).
     couplings: Vec<Vec<(usize, f64)>>,
+    /// What each has beyond first order: column, and the factors of the square of its variable, its cube, and so on.
+    higher: Vec<Vec<(usize, Vec<f64>)>>,
     /// Radians or metres per unit of each variable.
     units: Vec<f64>,
 }
@@ -94,9 +96,19 @@ impl LoopEquations {
         let couplings = (6 * cycles.len()..rank.matrix.rows())
             .map(|row| rank.matrix.row(row).to_vec())
             .collect();
+        let higher = jacobian.coupling_higher.iter().map(|row| {
+            let shares = row.iter().filter_map(|(joint, factors)| {
+                let &column = first_column.get(joint)?;
+                let powers = (2..).zip(factors);
+                let own = powers.map(|(power, factor)| factor * units[column].powi(power));
+                Some((column, own.collect()))
+            });
+            shares.collect()
+        });
         Self {
             cycles,
             couplings,
+            higher: higher.collect(),
             units,
         }
     }
@@ -149,6 +161,7 @@ impl LoopEquations {
         let mut changed = Self {
             cycles: Vec::with_capacity(self.cycles.len()),
             couplings: self.couplings.clone(),
+            higher: self.higher.clone(),
             units: self.units.clone(),
         };
         for factors in &self.cycles {
@@ -164,6 +177,9 @@ impl LoopEquations {
         }
         for (_, entry) in changed.couplings.iter_mut().flatten() {
             *entry = change(*entry);
+        }
+        for (_, factors) in changed.higher.iter_mut().flatten() {
+            factors.iter_mut().for_each(|x| *x = change(*x));
         }
         changed
     }
@@ -203,10 +219,17 @@ impl LoopEquations {
             let closure = product.unwrap_or_else(|| DisplacementSeries::identity(monomials));
             rows.extend(closure.closure_residual());
         }
-        for coupling in &self.couplings {
+        for (coupling, higher) in self.couplings.iter().zip(&self.higher) {
             let mut row = Series::zero(monomials);
             for (column, entry) in coupling {
                 row.add_scaled(*entry, &series[*column]);
+            }
+            for (column, factors) in higher {
+                let mut power = series[*column].clone();
+                for factor in factors {
+                    power = &power * &series[*column];
+                    row.add_scaled(*factor, &power);
+                }
             }
             rows.push(row);
         }

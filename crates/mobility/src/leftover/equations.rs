@@ -1,6 +1,6 @@
 //! Closure equations near a pose, about the centre and in the length that the cycles have there.
 
-use kutzbach_closure::{Geometry, JointState, Section, WalkedCycle};
+use kutzbach_closure::{JointState, Section, WalkedCycle};
 use kutzbach_math::matrix::Real;
 
 /// The equations of a part near its pose.
@@ -18,7 +18,9 @@ impl<'a, R: Real> Equations<'a, R> {
     pub fn about(section: Section<'a, R>, home: &'a [JointState<R>], length: f64) -> Self {
         let (geometry, part) = (section.geometry, section.part);
         let walk = |cycle: &Vec<(usize, bool)>| WalkedCycle::walk(geometry, home, cycle);
-        let norm = |&coupling: &usize| coupling_norm(geometry, coupling, length);
+        let norm = |&coupling: &usize| {
+            geometry.couplings[coupling].norm(|joint| geometry.coupled_unit(joint, length))
+        };
         Self {
             walks: part.cycles.iter().map(walk).collect(),
             norms: part.couplings.iter().map(norm).collect(),
@@ -49,35 +51,9 @@ impl<'a, R: Real> Equations<'a, R> {
             );
         }
         for (&coupling, norm) in self.section.part.couplings.iter().zip(&self.norms) {
-            let (terms, offset) = &geometry.couplings[coupling];
-            let mut value = -offset.clone();
-            for (joint, factor) in terms {
-                if let Some(variable) = states[*joint].values.first() {
-                    value = value + factor.clone() * variable.clone();
-                }
-            }
+            let (value, _) = geometry.couplings[coupling].at(&states);
             rows.push(value / norm.clone());
         }
         rows
     }
-}
-
-/// The length of a coupling's row at a length of the part.
-fn coupling_norm<R: Real>(geometry: &Geometry<R>, coupling: usize, length: f64) -> R {
-    let one = &geometry.one;
-    let weights: Vec<R> = geometry.couplings[coupling]
-        .0
-        .iter()
-        .map(|(joint, factor)| {
-            let part = geometry.displacements[*joint]
-                .kind()
-                .freedoms()
-                .first()
-                .copied();
-            let unit = part.map_or(1.0, |part| kutzbach_closure::variable_unit(part, length));
-            factor.clone() * one.constant(unit)
-        })
-        .collect();
-    let norm = one.norm(&weights);
-    if norm.is_zero() { one.clone() } else { norm }
 }

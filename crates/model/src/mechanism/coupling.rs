@@ -1,4 +1,4 @@
-//! Linear relations between joint variables: gears, belts, mimic joints.
+//! Relations between joint variables: gears, belts, mimic joints, cams.
 
 use super::model::{JointId, LinkId};
 use kutzbach_math::number::Number;
@@ -10,6 +10,28 @@ pub struct CouplingTerm {
     pub joint: JointId,
     /// The factor of its variable.
     pub factor: Number,
+    /// The factors of its variable's square, cube and so on, the last of them not zero; empty where the coupling is linear in it.
+    pub higher: Vec<Number>,
+}
+
+/// The highest power of a joint variable that a coupling may have.
+pub const HIGHEST_POWER: u32 = 4;
+
+impl CouplingTerm {
+    /// A joint's share that is linear in its variable.
+    #[must_use]
+    pub fn linear(joint: JointId, factor: Number) -> Self {
+        Self {
+            joint,
+            factor,
+            higher: Vec::new(),
+        }
+    }
+
+    /// All factors, that of the variable itself first.
+    pub fn factors(&self) -> impl Iterator<Item = &Number> {
+        std::iter::once(&self.factor).chain(&self.higher)
+    }
 }
 
 /// What is taken for granted of a ratio whose file names no carrier.
@@ -55,11 +77,12 @@ pub enum CouplingOrigin {
         /// Offset (rad or m).
         offset: Number,
     },
-    /// `<coupling>` with `<term>`s: the sum of joint variables with these coefficients is the offset.
-    Linear,
+    /// `<coupling>` with `<term>`s: the sum of joint variables, or their powers, with these coefficients is the offset.
+    Sum,
 }
 
-/// One linear equation `Σ factor · variable = offset` between joint variables; it counts as one constraint.
+/// One equation `Σ factor · variable = offset` between joint variables; it counts as one constraint. A term may hold higher powers of
+/// its variable beside.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coupling {
     /// Unique among joints and couplings.
@@ -70,4 +93,12 @@ pub struct Coupling {
     pub offset: Number,
     /// What the file wrote.
     pub origin: CouplingOrigin,
+}
+
+impl Coupling {
+    /// Whether no joint's variable has a power above the first.
+    #[must_use]
+    pub fn is_linear(&self) -> bool {
+        self.terms.iter().all(|term| term.higher.is_empty())
+    }
 }

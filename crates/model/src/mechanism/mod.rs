@@ -39,7 +39,7 @@ mod set_aside;
 pub use builder::{JointBuilder, MechanismBuilder};
 pub use configuration::Configuration;
 pub use constants::{Recognised, Residue};
-pub use coupling::{Assumption, Coupling, CouplingOrigin, CouplingTerm};
+pub use coupling::{Assumption, Coupling, CouplingOrigin, CouplingTerm, HIGHEST_POWER};
 pub use error::{Entity, MechanismError};
 pub use exact_pose::ExactPose;
 pub use frame::{Direction, Frame};

@@ -2,7 +2,7 @@
 
 use super::rotations::inverse_right_jacobian;
 use super::{CompiledCycle, CompiledFactor, LoopSystem, SystemPose};
-use kutzbach_closure::{Rigid, cross_product};
+use kutzbach_closure::{CouplingShare, Rigid, cross_product};
 
 /// The equations of a part at a pose.
 #[derive(Clone, Debug, Default)]
@@ -11,6 +11,8 @@ pub struct Evaluation {
     pub residual: Vec<f64>,
     /// Six entries per factor variable passed, in the order of [`LoopSystem::pattern`].
     entries: Vec<[f64; 6]>,
+    /// First and second derivatives of the couplings, term by term.
+    slopes: Vec<[f64; 2]>,
 }
 
 impl Evaluation {
@@ -27,6 +29,15 @@ impl Evaluation {
     }
 }
 
+/// A share of a coupling at a value of its variable, its slope there and its second derivative.
+fn developed(share: &CouplingShare<f64>, at: f64) -> [f64; 3] {
+    if let [factor] = share.coefficients[..] {
+        return [factor * at, factor, 0.0];
+    }
+    let taylor = share.taylor(&at);
+    [taylor[0], taylor[1], 2.0 * taylor[2]]
+}
+
 impl LoopSystem {
     /// Residual and Jacobian at a pose. Allocates only the first time.
     pub fn evaluate(&self, pose: &SystemPose, out: &mut Evaluation) {
@@ -41,6 +52,7 @@ impl LoopSystem {
     fn walk(&self, pose: &SystemPose, out: &mut Evaluation, jacobian: bool) {
         out.residual.clear();
         out.entries.clear();
+        out.slopes.clear();
         for cycle in &self.cycles {
             let mut here = Rigid::identity(&1.0);
             let mut start = true;
@@ -72,13 +84,34 @@ impl LoopSystem {
                 .extend((0..3).map(|i| (moved[i] - cycle.centre[i]) * cycle.inverse_length));
         }
         for coupling in &self.couplings {
-            let sum: f64 = coupling
-                .terms
-                .iter()
-                .map(|(unknown, factor)| factor * pose.values[*unknown])
-                .sum();
-            out.residual.push(sum - coupling.offset);
+            let mut sum = -coupling.offset;
+            for (unknown, share) in &coupling.terms {
+                let [value, slope, curvature] = developed(share, pose.values[*unknown]);
+                sum += value;
+                if jacobian {
+                    let weight = self.weights[*unknown];
+                    let metric = [slope / weight, curvature / (weight * weight)];
+                    out.slopes.push(metric);
+                }
+            }
+            out.residual.push(sum);
         }
+    }
+
+    /// (row, unknown, first and second derivative) of every term of a coupling.
+    fn coupling_terms<'a>(
+        &'a self,
+        evaluation: &'a Evaluation,
+    ) -> impl Iterator<Item = (usize, usize, [f64; 2])> + 'a {
+        let first = 6 * self.cycles.len();
+        let terms = self.couplings.iter().enumerate().flat_map(move |(i, c)| {
+            c.terms
+                .iter()
+                .map(move |(unknown, _)| (first + i, *unknown))
+        });
+        terms
+            .zip(&evaluation.slopes)
+            .map(|((row, unknown), slopes)| (row, unknown, *slopes))
     }
 
     /// The derivatives of a cycle's closure by a factor's variables, passed at a displacement.
@@ -116,11 +149,8 @@ impl LoopSystem {
                 rows[(6 * cycle + row) * columns + unknown] = *value;
             }
         }
-        for (index, coupling) in self.couplings.iter().enumerate() {
-            let row = 6 * self.cycles.len() + index;
-            for (unknown, factor) in &coupling.terms {
-                rows[row * columns + unknown] = factor / self.weights[*unknown];
-            }
+        for (row, unknown, [slope, _]) in self.coupling_terms(evaluation) {
+            rows[row * columns + unknown] = slope;
         }
     }
 
@@ -139,25 +169,25 @@ impl LoopSystem {
                         .enumerate()
                         .map(move |(row, value)| (6 * cycle + row, unknown, *value))
                 });
-        let first = 6 * self.cycles.len();
-        let couplings = self.couplings.iter().enumerate().flat_map(move |(i, c)| {
-            c.terms.iter().map(move |(unknown, factor)| {
-                (first + i, *unknown, factor / self.weights[*unknown])
-            })
-        });
+        let couplings = self.coupling_terms(evaluation);
+        let couplings = couplings.map(|(row, unknown, [slope, _])| (row, unknown, slope));
         cycles.chain(couplings)
     }
 
-    /// How the Jacobian changes: calls `visit(first row, column, unknown, change)` for every column of a cycle and every
-    /// unknown that moves it, `change` being the derivative of the six entries from that row on.
+    /// How the Jacobian changes: calls `visit(row, column, unknown, change)` for every entry and every unknown that changes it.
     ///
     /// A joint on the way around a cycle carries along the screws of all joints behind it, so that the derivative of a
-    /// screw is the Lie bracket of both (Herve 1978; Selig 2005, section 4.3); couplings are linear.
+    /// screw is the Lie bracket of both (Herve 1978; Selig 2005, section 4.3). A coupling's slope changes with its own variable only.
     pub(crate) fn visit_changes(
         &self,
         evaluation: &Evaluation,
-        mut visit: impl FnMut(usize, usize, usize, [f64; 6]),
+        mut visit: impl FnMut(usize, usize, usize, f64),
     ) {
+        for (row, unknown, [_, curvature]) in self.coupling_terms(evaluation) {
+            if curvature != 0.0 {
+                visit(row, unknown, unknown, curvature);
+            }
+        }
         let mut first = 0;
         for (cycle, compiled) in self.cycles.iter().enumerate() {
             // Place of every factor's screws among the entries; a ball passed forward carries along its own.
@@ -172,12 +202,10 @@ impl LoopSystem {
                 for column in own.clone() {
                     for &by in &passed {
                         let change = bracket(&evaluation.entries[by], &evaluation.entries[column]);
-                        visit(
-                            6 * cycle,
-                            self.pattern[column].1,
-                            self.pattern[by].1,
-                            change,
-                        );
+                        let (column, by) = (self.pattern[column].1, self.pattern[by].1);
+                        for (row, value) in change.into_iter().enumerate() {
+                            visit(6 * cycle + row, column, by, value);
+                        }
                     }
                 }
                 if !passage.forward {

@@ -254,7 +254,7 @@ impl Mjcf<'_> {
         if let (Some(slide), Some(turn), Some(pitch)) = (slide, turn, pitch(joint)) {
             let name = self.unused(&format!("{}.lead", joint.name));
             let turn = turn.as_str();
-            self.polynomial(&name, slide, Some(turn), &Number::zero(), Some(&pitch));
+            self.polynomial(&name, slide, Some(turn), &[Number::zero(), pitch]);
         }
     }
 

@@ -234,6 +234,9 @@ impl Urdf<'_> {
         let [first, second] = &coupling.terms[..] else {
             return None;
         };
+        if !coupling.is_linear() {
+            return None;
+        }
         let follower = self.variables.get(&first.joint.0)?.clone();
         let leader = self.variables.get(&second.joint.0)?.clone();
         // No joint follows two others or, by way of others, itself.

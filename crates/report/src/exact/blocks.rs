@@ -121,7 +121,7 @@ fn said(found: &BlockFinding, rounded: bool) -> (&'static str, Option<usize>, St
             return ("proved", None, text.to_owned());
         }
         BlockFinding::Irrational => {
-            let text = "not answered: a coupling's number is no fraction";
+            let text = "not answered: a coupling is not linear, or a number of it is no fraction";
             return ("refused", None, text.to_owned());
         }
         BlockFinding::Refused(error) => {

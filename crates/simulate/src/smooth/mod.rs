@@ -24,7 +24,7 @@ use constraint::{Held, Side, Turning, rows_of};
 use kutzbach_closure::{Geometry, JointState, Rigid};
 use kutzbach_model::mechanism::{JointKind, Mechanism};
 use nalgebra::{Matrix3, Vector3};
-use relation::{Coordinate, Measure, Relation};
+use relation::{Coordinate, Measure, Relation, Share};
 use runge_kutta::{EVALUATIONS, Stepper};
 use serde::{Deserialize, Serialize};
 use system::{Body, Lost, NUMBERS, System};
@@ -383,21 +383,21 @@ impl Builder<'_> {
     }
 
     fn relations(&self, options: &SceneOptions) -> Vec<Relation> {
-        let couplings = self
-            .geometry
-            .couplings
-            .iter()
-            .map(|(terms, offset)| Relation {
-                terms: terms
-                    .iter()
-                    .filter(|(_, factor)| *factor != 0.0)
-                    .map(|(joint, factor)| (self.coordinate(*joint), *factor))
-                    .collect(),
-                offset: *offset,
-                rate: 0.0,
-            });
+        let couplings = self.geometry.couplings.iter().map(|coupling| Relation {
+            terms: coupling
+                .shares
+                .iter()
+                .filter(|share| share.coefficients.iter().any(|x| *x != 0.0))
+                .map(|share| (self.coordinate(share.joint), Share(share.clone())))
+                .collect(),
+            offset: coupling.offset,
+            rate: 0.0,
+        });
         let drives = options.drives.iter().map(|drive| Relation {
-            terms: vec![(self.coordinate(drive.joint), 1.0)],
+            terms: vec![(
+                self.coordinate(drive.joint),
+                Share::linear(drive.joint, 1.0),
+            )],
             offset: self.value(drive.joint),
             rate: drive.velocity,
         });

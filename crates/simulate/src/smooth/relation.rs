@@ -1,6 +1,7 @@
 //! Coordinates of joints with one freedom: in couplings, in drives, and for damping.
 
 use super::constraint::{Gradient, Moving, Placed, Turning, along, along_bias};
+use kutzbach_closure::CouplingShare;
 use nalgebra::Vector3;
 
 /// The variable of a joint with one freedom.
@@ -18,12 +19,36 @@ pub(super) enum Measure {
     Travel(Vector3<f64>),
 }
 
-/// Σ factor · coordinate = offset + rate · time.
+/// Σ share of a coordinate = offset + rate · time.
 #[derive(Clone, Debug)]
 pub(super) struct Relation {
-    pub terms: Vec<(Coordinate, f64)>,
+    pub terms: Vec<(Coordinate, Share)>,
     pub offset: f64,
     pub rate: f64,
+}
+
+/// What a coordinate gives to a relation: a polynomial in it without a constant term.
+#[derive(Clone, Debug)]
+pub(super) struct Share(pub CouplingShare<f64>);
+
+impl Share {
+    /// A factor of the coordinate.
+    pub fn linear(joint: usize, factor: f64) -> Self {
+        let coefficients = vec![factor];
+        Self(CouplingShare {
+            joint,
+            coefficients,
+        })
+    }
+
+    /// Its value, slope and second derivative.
+    pub fn at(&self, coordinate: f64) -> [f64; 3] {
+        if let [factor] = self.0.coefficients[..] {
+            return [factor * coordinate, factor, 0.0];
+        }
+        let taylor = self.0.taylor(&coordinate);
+        [taylor[0], taylor[1], 2.0 * taylor[2]]
+    }
 }
 
 impl Coordinate {
@@ -59,11 +84,17 @@ impl Coordinate {
 }
 
 impl Relation {
-    /// One over the sum of the factors' sizes, so that relations are numbers near one.
+    /// One over the sum of the factors' sizes, for a radian or the mechanism's length, so that relations are numbers near one.
     pub fn scale(&self, length: f64) -> f64 {
-        let size = |(coordinate, factor): &(Coordinate, f64)| match coordinate.measure {
-            Measure::Turn(_) => factor.abs(),
-            Measure::Travel(_) => factor.abs() * length,
+        let size = |(coordinate, share): &(Coordinate, Share)| {
+            let unit = match coordinate.measure {
+                Measure::Turn(_) => 1.0,
+                Measure::Travel(_) => length,
+            };
+            let factors = (1..).zip(&share.0.coefficients);
+            factors
+                .map(|(power, factor)| factor.abs() * f64::powi(unit, power))
+                .sum::<f64>()
         };
         1.0 / self.terms.iter().map(size).sum::<f64>()
     }

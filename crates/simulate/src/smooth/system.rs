@@ -11,7 +11,7 @@
 
 use super::constraint::{Gradient, Held, Moving, Placed, Row, Turning};
 use super::factor::{Elimination, End, Factor};
-use super::relation::{Coordinate, Measure, Relation};
+use super::relation::{Coordinate, Measure, Relation, Share};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use std::ops::Range;
 
@@ -194,7 +194,7 @@ impl System {
         for relation in &self.relations {
             let terms = relation.terms.iter();
             let sum: f64 = terms
-                .map(|(coordinate, factor)| factor * coordinate.value(&placed[coordinate.joint]))
+                .map(|(coordinate, share)| share.at(coordinate.value(&placed[coordinate.joint]))[0])
                 .sum();
             let wanted = relation.offset + relation.rate * time;
             values.push((sum - wanted) * relation.scale(self.length));
@@ -244,16 +244,17 @@ impl System {
         }
         for (relation, places) in self.relations.iter().zip(&self.layout.terms) {
             let scale = relation.scale(self.length);
-            for ((coordinate, factor), places) in relation.terms.iter().zip(places) {
+            for ((coordinate, share), places) in relation.terms.iter().zip(places) {
                 let joint = &self.joints[coordinate.joint];
                 let gradient = coordinate.gradient(&placed[coordinate.joint]);
+                let [_, slope, _] = share.at(coordinate.value(&placed[coordinate.joint]));
                 for side in [0, 1] {
                     add(
                         places[side],
                         side,
                         joint.sides[side].body,
                         &gradient,
-                        scale * factor,
+                        scale * slope,
                     );
                 }
             }
@@ -505,9 +506,14 @@ impl System {
             self.joints[joint].motion(placed, &scratch.velocities, &scratch.spins)
         };
         for relation in &self.relations {
-            let bias = relation.terms.iter().map(|(coordinate, factor)| {
+            let bias = relation.terms.iter().map(|(coordinate, share)| {
                 let placed = &scratch.placed[coordinate.joint];
-                factor * coordinate.bias(placed, &moving(coordinate.joint, placed))
+                let [_, slope, curvature] = share.at(coordinate.value(placed));
+                let own = coordinate.bias(placed, &moving(coordinate.joint, placed));
+                match curvature == 0.0 {
+                    true => slope * own,
+                    false => slope * own + curvature * self.rate(coordinate, scratch).powi(2),
+                }
             });
             let bias: f64 = bias.sum();
             scratch.values.push(-bias * relation.scale(self.length));
@@ -516,17 +522,23 @@ impl System {
         self.satisfy(here, scratch);
     }
 
+    /// How fast a coordinate changes (rad/s, m/s).
+    fn rate(&self, coordinate: &Coordinate, scratch: &Scratch) -> f64 {
+        let gradient = coordinate.gradient(&scratch.placed[coordinate.joint]);
+        let sides = &self.joints[coordinate.joint].sides;
+        let of_side = |side: usize| {
+            let body = sides[side].body;
+            gradient.linear[side].dot(&scratch.velocities[body])
+                + gradient.angular[side].dot(&scratch.spins[body])
+        };
+        of_side(0) + of_side(1)
+    }
+
     fn damp(&self, scratch: &mut Scratch) {
         for (coordinate, damping) in &self.dampings {
             let gradient = coordinate.gradient(&scratch.placed[coordinate.joint]);
             let bodies = [0, 1].map(|side| self.joints[coordinate.joint].sides[side].body);
-            let rate: f64 = [0, 1]
-                .map(|side| {
-                    gradient.linear[side].dot(&scratch.velocities[bodies[side]])
-                        + gradient.angular[side].dot(&scratch.spins[bodies[side]])
-                })
-                .iter()
-                .sum();
+            let rate = self.rate(coordinate, scratch);
             for (side, &index) in bodies.iter().enumerate() {
                 let Some(body) = self.bodies.get(index) else {
                     continue;
@@ -607,7 +619,7 @@ impl Layout {
             let group = groups.len();
             groups.push(rows..rows + 1);
             rows += 1;
-            let of = |(coordinate, _): &(Coordinate, f64)| {
+            let of = |(coordinate, _): &(Coordinate, Share)| {
                 let held = &joints[coordinate.joint];
                 [0, 1].map(|side| end(held.sides[side].body, group, 1, &mut ends))
             };

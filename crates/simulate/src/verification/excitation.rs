@@ -270,7 +270,11 @@ impl JointTwists {
     fn at(mechanism: &Mechanism, geometry: &Geometry<f64>, states: &[JointState<f64>]) -> Self {
         let (poses, _) = spanning_poses(mechanism, geometry, states);
         Self {
-            couplings: geometry.couplings.iter().map(|c| c.0.clone()).collect(),
+            couplings: geometry
+                .couplings
+                .iter()
+                .map(|c| c.slopes(states))
+                .collect(),
             joints: mechanism
                 .joints()
                 .iter()

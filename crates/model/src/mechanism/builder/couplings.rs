@@ -1,10 +1,11 @@
-//! Couplings: from names to linear equations between joint variables.
+//! Couplings: from names to equations between joint variables.
 
 use super::checks::{check_finite, check_one_freedom};
 use super::names::Names;
 use super::ratio::LinkTree;
 use crate::mechanism::{
-    Coupling, CouplingOrigin, CouplingTerm, Entity, Joint, JointId, Link, LinkId, MechanismError,
+    Coupling, CouplingOrigin, CouplingTerm, Entity, HIGHEST_POWER, Joint, JointId, Link, LinkId,
+    MechanismError,
 };
 use kutzbach_math::number::Number;
 use std::collections::{BTreeMap, BTreeSet};
@@ -33,9 +34,9 @@ pub(super) enum Relation {
         multiplier: Number,
         offset: Number,
     },
-    /// A sum over variables of joints.
-    Linear {
-        terms: Vec<(String, Number)>,
+    /// A sum over powers of the variables of joints.
+    Sum {
+        terms: Vec<(String, u32, Number)>,
         offset: Number,
     },
 }
@@ -52,7 +53,7 @@ pub(super) fn resolve_couplings(
     let mut couplings = Vec::with_capacity(specs.len());
     for CouplingSpec { name, relation } in specs {
         let entity = match &relation {
-            Relation::Ratio { .. } | Relation::Linear { .. } => Entity::Coupling(name.clone()),
+            Relation::Ratio { .. } | Relation::Sum { .. } => Entity::Coupling(name.clone()),
             Relation::Mimic { follower, .. } => Entity::Joint(follower.clone()),
         };
         names.add_coupling(&name, &entity)?;
@@ -109,13 +110,13 @@ pub(super) fn resolve_couplings(
                     },
                 }
             }
-            Relation::Linear { terms, offset } => {
+            Relation::Sum { terms, offset } => {
                 check_finite(&entity, "offset", &offset)?;
                 Coupling {
                     name,
-                    terms: linear_terms(&entity, terms, joints, names)?,
+                    terms: terms_of_sum(&entity, terms, joints, names)?,
                     offset,
-                    origin: CouplingOrigin::Linear,
+                    origin: CouplingOrigin::Sum,
                 }
             }
         });
@@ -124,32 +125,57 @@ pub(super) fn resolve_couplings(
     Ok(couplings)
 }
 
-/// The terms of a sum, each joint once; what has a coefficient of zero has no part in it.
-fn linear_terms(
+/// The terms of a sum, each joint once, in the order in which they are first named; what has no coefficient but zero has no part in it.
+fn terms_of_sum(
     entity: &Entity,
-    terms: Vec<(String, Number)>,
+    terms: Vec<(String, u32, Number)>,
     joints: &[Joint],
     names: &Names,
 ) -> Result<Vec<CouplingTerm>, MechanismError> {
-    let mut all: Vec<CouplingTerm> = Vec::with_capacity(terms.len());
-    for (name, factor) in terms {
+    let fault = |message: String| MechanismError::new(entity.clone(), message);
+    let mut all: Vec<(JointId, BTreeMap<u32, Number>)> = Vec::with_capacity(terms.len());
+    for (name, power, factor) in terms {
         check_finite(entity, "coefficient", &factor)?;
         let joint = names.joint(entity, &name, || {
             format!("a term names joint `{name}`, which does not exist")
         })?;
         check_one_freedom(entity, &joints[joint.0])?;
-        if all.iter().any(|term| term.joint == joint) {
-            let twice = format!("joint `{name}` has two terms");
-            return Err(MechanismError::new(entity.clone(), twice));
+        if !(1..=HIGHEST_POWER).contains(&power) {
+            let message =
+                format!("the power of a term is {power}, and 1 to {HIGHEST_POWER} are read");
+            return Err(fault(message));
         }
-        all.push(CouplingTerm { joint, factor });
+        let place = all.iter().position(|(own, _)| *own == joint);
+        let place = place.unwrap_or_else(|| {
+            all.push((joint, BTreeMap::new()));
+            all.len() - 1
+        });
+        if all[place].1.insert(power, factor).is_some() {
+            let of_power = match power {
+                1 => String::new(),
+                power => format!(" of power {power}"),
+            };
+            return Err(fault(format!("joint `{name}` has two terms{of_power}")));
+        }
     }
-    all.retain(|term| !term.factor.is_zero());
-    if all.is_empty() {
+    let terms = all.into_iter().map(|(joint, mut powers)| {
+        powers.retain(|_, factor| !factor.is_zero());
+        let highest = powers.keys().next_back().copied().unwrap_or(0);
+        let mut factor = |power: u32| powers.remove(&power).unwrap_or_else(Number::zero);
+        CouplingTerm {
+            joint,
+            factor: factor(1),
+            higher: (2..=highest).map(factor).collect(),
+        }
+    });
+    let terms: Vec<CouplingTerm> = terms
+        .filter(|term| !term.factor.is_zero() || !term.higher.is_empty())
+        .collect();
+    if terms.is_empty() {
         let none = "a coupling needs a joint with a coefficient that is not zero";
-        return Err(MechanismError::new(entity.clone(), none));
+        return Err(fault(none.to_owned()));
     }
-    Ok(all)
+    Ok(terms)
 }
 
 fn mimic_joint(
@@ -172,7 +198,7 @@ fn check_mimic_circles(couplings: &[Coupling], joints: &[Joint]) -> Result<(), M
             CouplingOrigin::Mimic {
                 follower, leader, ..
             } => Some((follower, leader)),
-            CouplingOrigin::Ratio { .. } | CouplingOrigin::Linear => None,
+            CouplingOrigin::Ratio { .. } | CouplingOrigin::Sum => None,
         })
         .collect();
     let mut settled: BTreeSet<JointId> = BTreeSet::new();
@@ -203,15 +229,9 @@ fn check_mimic_circles(couplings: &[Coupling], joints: &[Joint]) -> Result<(), M
 
 /// `follower − multiplier × leader`.
 fn mimic_terms(follower: JointId, leader: JointId, multiplier: &Number) -> Vec<CouplingTerm> {
-    let mut terms = vec![CouplingTerm {
-        joint: follower,
-        factor: Number::one(),
-    }];
+    let mut terms = vec![CouplingTerm::linear(follower, Number::one())];
     if !multiplier.is_zero() {
-        terms.push(CouplingTerm {
-            joint: leader,
-            factor: -multiplier,
-        });
+        terms.push(CouplingTerm::linear(leader, -multiplier));
     }
     terms
 }

@@ -207,9 +207,21 @@ impl MechanismBuilder {
         terms: Vec<(String, Number)>,
         offset: Number,
     ) -> &mut Self {
+        let terms = terms.into_iter().map(|(joint, x)| (joint, 1, x)).collect();
+        self.polynomial_coupling(name, terms, offset)
+    }
+
+    /// Couples any number of joints of one freedom by powers of their variables: `Σ coefficient × variable^power = offset` (rad, m),
+    /// each term a joint, a power of 1 to [`HIGHEST_POWER`](crate::mechanism::HIGHEST_POWER), and its coefficient.
+    pub fn polynomial_coupling(
+        &mut self,
+        name: &str,
+        terms: Vec<(String, u32, Number)>,
+        offset: Number,
+    ) -> &mut Self {
         self.couplings.push(CouplingSpec {
             name: name.to_owned(),
-            relation: Relation::Linear { terms, offset },
+            relation: Relation::Sum { terms, offset },
         });
         self
     }

@@ -106,10 +106,7 @@ impl<'a> LinkTree<'a> {
             let share = if *sign { factor } else { -factor };
             match terms.iter_mut().find(|term| term.joint == *joint) {
                 Some(term) => term.factor = &term.factor + &share,
-                None => terms.push(CouplingTerm {
-                    joint: *joint,
-                    factor: share,
-                }),
+                None => terms.push(CouplingTerm::linear(*joint, share)),
             }
         }
         terms.retain(|term| !term.factor.is_zero());
