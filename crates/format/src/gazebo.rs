@@ -19,6 +19,7 @@
 //! `<anchorOffset>` in it, and an `<axis>` in the model's frame. The PR2's gripper is published like that.
 
 use super::WarningKind;
+use super::axis_limits::{CROSSED, of_axis};
 use super::element::{Attribute, Element};
 use super::error::Outcome;
 use super::names::Named;
@@ -562,33 +563,16 @@ impl<'a> Reader<'a> {
         Ok(direction)
     }
 
-    /// The range and the friction of an `<axis>`. Gazebo writes 1e16 where there is no limit.
+    /// The range and the friction of an `<axis>`. What is no number bounds nothing.
     fn sdf_limits(&mut self, axis: Option<Element<'a>>) -> Outcome<(Limit, Dynamics)> {
-        let (mut limit, mut dynamics) = (Limit::default(), Dynamics::default());
-        for part in axis.into_iter().flat_map(|axis| axis.elements()) {
-            for value in part.elements() {
-                let read = match (part.name(), value.name()) {
-                    ("limit", "lower") => &mut limit.lower,
-                    ("limit", "upper") => &mut limit.upper,
-                    ("limit", "effort") => &mut limit.effort,
-                    ("limit", "velocity") => &mut limit.velocity,
-                    ("dynamics", "damping") => &mut dynamics.damping,
-                    ("dynamics", "friction") => &mut dynamics.friction,
-                    _ => continue,
-                };
-                let is_rate = matches!(value.name(), "effort" | "velocity");
-                *read = value
-                    .value()
-                    .and_then(|value| self.number(value).ok())
-                    .filter(|number| is_limit(number, is_rate));
-            }
+        let read = of_axis(axis, |part| {
+            Ok(part.value().and_then(|value| self.number(value).ok()))
+        })?;
+        if read.is_crossed {
+            let at = axis.map_or(0, |axis| axis.start());
+            self.warn_of(at, WarningKind::NoLimit, CROSSED);
         }
-        let crossed =
-            matches!((&limit.lower, &limit.upper), (Some(l), Some(u)) if l.value() > u.value());
-        if crossed {
-            (limit.lower, limit.upper) = (None, None);
-        }
-        Ok((limit, dynamics))
+        Ok((read.limit, read.dynamics))
     }
 
     /// Metres per turn, right-handed, from radians per metre, left-handed.
@@ -624,11 +608,6 @@ pub(super) fn kind_of(word: &str) -> Option<JointKind> {
         "fixed" => JointKind::Fixed,
         _ => return None,
     })
-}
-
-/// Whether a number limits: 1e16 is written where nothing does, and an effort or a rate of -1.
-pub(super) fn is_limit(number: &Number, is_rate: bool) -> bool {
-    number.value().abs() < 1e15 && !(is_rate && number.value() < 0.0)
 }
 
 /// Metres per turn, right-handed, from radians per metre, left-handed; `None` of zero.

@@ -40,6 +40,7 @@
 
 mod actuation;
 mod assumed;
+mod axis_limits;
 mod beside;
 mod cad;
 mod closures;

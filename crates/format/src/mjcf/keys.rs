@@ -8,6 +8,7 @@ use super::Mjcf;
 use super::pose::numbers;
 use crate::element::Element;
 use crate::error::Outcome;
+use crate::names::unused;
 use crate::words::counted;
 use kutzbach_math::number::Number;
 
@@ -111,14 +112,11 @@ impl<'a> Mjcf<'a> {
     /// The name of a key, or one that none has.
     fn name_of_key(&mut self, key: Element<'a>) -> String {
         let own = key.attribute("name").map(|own| own.value);
-        let wanted = own.unwrap_or("key");
-        let mut name = wanted.to_owned();
-        let mut number = 2;
         // Two keys of one name are an error, which the builder tells.
-        while own.is_none() && self.key_names.contains(&name) {
-            name = format!("{wanted}_{number}");
-            number += 1;
-        }
+        let name = match own {
+            Some(own) => own.to_owned(),
+            None => unused("key", |name| self.key_names.contains(name)),
+        };
         self.key_names.insert(name.clone());
         name
     }

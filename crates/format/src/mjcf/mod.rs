@@ -37,6 +37,7 @@ use super::element::Element;
 use super::error::{Fault, Outcome};
 use super::frames::{is_turned, sum};
 use super::kept::Kept;
+use super::names::unused;
 use super::reader::{counted_skips, counted_warnings};
 use super::unread::Tally;
 use super::words::{did_you_mean, quoted};
@@ -233,14 +234,10 @@ impl<'a> Mjcf<'a> {
     }
 
     /// A name that nothing of its sort has, nor will have.
-    fn unused(&self, taken: &BTreeMap<String, Range<usize>>, wanted: &str) -> String {
-        let mut name = wanted.to_owned();
-        let mut number = 2;
-        while taken.contains_key(&name) || self.given.contains(name.as_str()) {
-            name = format!("{wanted}_{number}");
-            number += 1;
-        }
-        name
+    fn name_for(&self, taken: &BTreeMap<String, Range<usize>>, wanted: &str) -> String {
+        unused(wanted, |name| {
+            taken.contains_key(name) || self.given.contains(name)
+        })
     }
 
     /// A body that an equality names.
@@ -277,8 +274,8 @@ impl<'a> Mjcf<'a> {
         let own = chain.pop().unwrap_or_else(Frame::identity);
         let mut link = place.link.clone();
         for frame in chain {
-            let between = self.unused(&self.links, &format!("{name}_frame"));
-            let joint = self.unused(&self.names, &format!("{name}_frame"));
+            let between = self.name_for(&self.links, &format!("{name}_frame"));
+            let joint = self.name_for(&self.names, &format!("{name}_frame"));
             let range = self.links.get(&link).cloned().unwrap_or(0..0);
             self.links.insert(between.clone(), range.clone());
             self.names.insert(joint.clone(), range);
