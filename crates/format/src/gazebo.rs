@@ -17,9 +17,12 @@
 //!
 //! Gazebo before SDFormat wrote `<joint:hinge>` and its kin with `<body1>`, `<body2>`, an `<anchor>` body, an
 //! `<anchorOffset>` in it, and an `<axis>` in the model's frame. The PR2's gripper is published like that.
+//!
+//! The plugin `DetachableJoint` holds two links as they are drawn (`detachable`).
 
 use super::WarningKind;
 use super::axis_limits::{CROSSED, of_axis};
+use super::detachable::is_detachable;
 use super::element::{Attribute, Element};
 use super::error::Outcome;
 use super::names::Named;
@@ -31,7 +34,7 @@ use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Direction, Dynamics, Frame, JointBuilder, JointKind, Limit};
 
 /// SDFormat's word for the frame of the model, which is that of the root link.
-const MODEL: &str = "__model__";
+pub(super) const MODEL: &str = "__model__";
 
 /// Added to a name that a joint of the tree has already.
 pub(super) const IN_GAZEBO: &str = "_in_gazebo";
@@ -110,7 +113,7 @@ impl<'a> Reader<'a> {
         for part in gazebo.elements() {
             let old_joint = part.written_name().starts_with("joint:");
             let sdf_joint = part.written_name() == "joint" && part.elements().next().is_some();
-            if old_joint || sdf_joint {
+            if old_joint || sdf_joint || is_detachable(part) {
                 self.late.push(part);
                 continue;
             }
@@ -161,6 +164,7 @@ impl<'a> Reader<'a> {
         for joint in std::mem::take(&mut self.late) {
             let read = match joint.written_name() {
                 "joint" => self.read_sdf_joint(joint),
+                "plugin" => self.read_detachable(joint),
                 _ => self.read_old_joint(joint),
             };
             faults.extend(read.err());

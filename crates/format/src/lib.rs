@@ -46,6 +46,7 @@ mod cad;
 mod closures;
 mod content;
 mod definitions;
+mod detachable;
 mod drake;
 mod element;
 mod error;

@@ -1,0 +1,133 @@
+//! Loops in the words of other programs: Gazebo's plugins, constraints by element, Gepetto's YAML, frames whose names say that they close.
+//!
+//! ```text
+//!   b ------- c          a stands; b, c and d are joined by revolute joints
+//!   |         |          about z; the loop is closed between c and d
+//!   a ------- d
+//! ```
+
+use kutzbach::format::{FormatError, Reading, WarningKind, read};
+use kutzbach::mechanism::{Joint, JointKind};
+use kutzbach::mobility::{AnalysisOptions, analyse};
+
+/// Three bars of the square of two and one metres, with something more.
+fn bars(more: &str) -> String {
+    let joint = |name: &str, parent: &str, child: &str, xyz: &str| {
+        format!(
+            "<joint name='{name}' type='continuous'><parent link='{parent}'/><child link='{child}'/>\
+             <origin xyz='{xyz}'/><axis xyz='0 0 1'/></joint>"
+        )
+    };
+    format!(
+        "<robot name='bars'><link name='a'/><link name='b'/><link name='c'/><link name='d'/>{}{}{}{more}</robot>",
+        joint("ab", "a", "b", "0 0 0"),
+        joint("bc", "b", "c", "0 1 0"),
+        joint("ad", "a", "d", "2 0 0"),
+    )
+}
+
+fn try_bars(more: &str) -> Result<Reading, FormatError> {
+    read(&bars(more), "bars.urdf", &[])
+}
+
+fn with(more: &str) -> Reading {
+    try_bars(more).unwrap_or_else(|error| panic!("{error} {:?}\n{more}", error.help))
+}
+
+fn joint<'a>(reading: &'a Reading, name: &str) -> &'a Joint {
+    let id = reading.mechanism.joint_named(name);
+    reading
+        .mechanism
+        .joint(id.unwrap_or_else(|| panic!("no joint {name}")))
+}
+
+fn finite(reading: &Reading) -> Option<usize> {
+    analyse(&reading.mechanism, &AnalysisOptions::default())
+        .unwrap()
+        .mobility
+        .finite()
+}
+
+/// The messages of what may be another mechanism than the one meant.
+fn may_join(reading: &Reading) -> Vec<&str> {
+    let warnings = reading.warnings.iter();
+    warnings
+        .filter(|warning| warning.kind == WarningKind::MayJoin)
+        .map(|warning| &warning.message[..])
+        .collect()
+}
+
+fn near(found: &[f64; 3], expected: [f64; 3]) -> bool {
+    found
+        .iter()
+        .zip(expected)
+        .all(|(a, b)| (a - b).abs() < 1e-12)
+}
+
+/// Where a joint's frame is in both of its links.
+fn places(joint: &Joint) -> [[f64; 3]; 2] {
+    [&joint.predecessor, &joint.successor]
+        .map(|side| side.frame.position.each_ref().map(|x| x.value()))
+}
+
+const DETACHABLE: &str = "<gazebo><plugin filename='gz-sim-detachable-joint-system' name='gz::sim::systems::DetachableJoint'>\
+    <parent_link>d</parent_link><child_model>bars</child_model><child_link>c</child_link></plugin></gazebo>";
+
+#[test]
+fn a_detachable_joint_holds_two_links_of_the_robot_as_drawn() {
+    let open = with("");
+    assert_eq!(finite(&open), Some(3));
+    for model in ["bars", "__model__", " bars "] {
+        let reading = with(&DETACHABLE.replace(">bars<", &format!(">{model}<")));
+        let held = joint(&reading, "d_c_detachable");
+        assert_eq!(held.kind, JointKind::Fixed);
+        assert!(held.closes_loop);
+        let [in_d, in_c] = places(held);
+        assert!(near(&in_d, [-2.0, 1.0, 0.0]) && near(&in_c, [0.0; 3]));
+        // Of the three hinges in a row between a and a none can turn: they do not lie on one line.
+        assert_eq!(finite(&reading), Some(0));
+        let read_as = |kind: &WarningKind| matches!(kind, WarningKind::ReadAs { joint, .. } if joint == "d_c_detachable");
+        assert!(reading.warnings.iter().any(|w| read_as(&w.kind)));
+        assert!(may_join(&reading).is_empty(), "{:?}", reading.warnings);
+    }
+}
+
+#[test]
+fn a_detachable_joint_to_what_the_robot_has_not_is_told() {
+    for (said, instead) in [
+        (">bars<", ">crate<"),
+        (">c<", ">lid<"),
+        (">d<", ">table<"),
+        ("<child_model>bars</child_model>", ""),
+        (">c<", ">d<"),
+    ] {
+        let reading = with(&DETACHABLE.replace(said, instead));
+        assert_eq!(reading.mechanism.joints().len(), 3, "{instead}");
+        let told = reading.skipped.iter();
+        assert!(
+            told.map(|skipped| &skipped.what[..])
+                .any(|what| what.starts_with("<plugin> DetachableJoint")),
+            "{instead}: {:?}",
+            reading.skipped
+        );
+    }
+    // Where the name is taken, another one is made.
+    let two = DETACHABLE.replace("</gazebo>", "") + DETACHABLE.trim_start_matches("<gazebo>");
+    let reading = with(&two);
+    assert_eq!(joint(&reading, "d_c_detachable_2").kind, JointKind::Fixed);
+}
+
+#[test]
+fn crossed_limits_inside_gazebo_are_told() {
+    let reading = with(
+        "<gazebo><joint name='cd' type='revolute'><parent>d</parent><child>c</child>\
+         <axis><xyz>0 0 1</xyz><limit><lower>1</lower><upper>-1</upper></limit></axis></joint></gazebo>",
+    );
+    assert!(joint(&reading, "cd").limit.is_none());
+    let told = reading.warnings.iter();
+    assert_eq!(
+        told.filter(|warning| warning.kind == WarningKind::NoLimit)
+            .count(),
+        1
+    );
+}
