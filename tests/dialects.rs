@@ -131,3 +131,38 @@ fn crossed_limits_inside_gazebo_are_told() {
         1
     );
 }
+
+#[test]
+fn constraints_name_their_kinds_with_joint_behind() {
+    let constraint = |kind: &str, axes: [&str; 2]| {
+        format!(
+            "<constraint name='tip' type='{kind}'><parent link='d'/><parent_origin xyz='0 1 0' rpy='0 0 0'/>{}\
+             <child link='c'/><child_origin xyz='2 0 0'/>{}</constraint>",
+            axes[0], axes[1]
+        )
+    };
+    let z = ["<parent_axis xyz='0 0 1'/>", "<child_axis xyz='0 0 1'/>"];
+    let across = ["<parent_axis xyz='0 0 1'/>", "<child_axis xyz='1 0 0'/>"];
+    for (word, axes, kind) in [
+        ("spherical", ["", ""], JointKind::Spherical),
+        ("revolute", z, JointKind::Revolute),
+        ("universal", across, JointKind::Universal),
+        ("fixed", ["", ""], JointKind::Fixed),
+    ] {
+        let plain = with(&constraint(word, axes));
+        let long = with(&constraint(&format!("{word}_joint"), axes));
+        let (long_tip, plain_tip) = (joint(&long, "tip"), joint(&plain, "tip"));
+        assert_eq!(long_tip.kind, kind);
+        assert_eq!(places(long_tip), places(plain_tip));
+        assert_eq!(
+            (&long_tip.axis, &long_tip.axis2),
+            (&plain_tip.axis, &plain_tip.axis2)
+        );
+        assert_eq!(long.warnings, plain.warnings, "{word}");
+    }
+    // Four hinges in a plane, of which one is a ball here.
+    let ball = with(&constraint("spherical_joint", ["", ""]));
+    assert_eq!(finite(&ball), Some(1));
+    let error = try_bars(&constraint("screw_joint", ["", ""])).unwrap_err();
+    assert!(error.message.contains("`screw_joint`"), "{error}");
+}

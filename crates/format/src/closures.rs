@@ -1,7 +1,8 @@
 //! `<constraint>`, a loop in the words of a proposal, and what loops of all dialects have in common.
 //!
 //! `<constraint name type><parent link/><parent_origin/><parent_axis/><child link/><child_origin/><child_axis/></constraint>` is proposed
-//! for urdfdom (pull request 264); each side has its frame and axis.
+//! for urdfdom (pull request 264); each side has its frame and axis. Its types are also written `spherical_joint`, `revolute_joint`,
+//! `universal_joint` and `fixed_joint`.
 
 use super::WarningKind;
 use super::element::Element;
@@ -97,7 +98,9 @@ impl<'a> Reader<'a> {
     /// The kind of a joint that closes a loop, by the words of all dialects.
     pub(super) fn closing_kind(&mut self, element: Element<'a>) -> Outcome<JointKind> {
         let word = element.required("type")?;
-        let kind = JointKind::from_word(word.value).or_else(|| Self::drake_kind(word.value));
+        // `spherical_joint`, as the files write it that were made with the proposal's own parser.
+        let plain = word.value.strip_suffix("_joint").unwrap_or(word.value);
+        let kind = JointKind::from_word(plain).or_else(|| Self::drake_kind(plain));
         match kind {
             Some(JointKind::Screw | JointKind::TranslatingScrew | JointKind::Distance) | None => {
                 Err(word
