@@ -166,3 +166,25 @@ fn constraints_name_their_kinds_with_joint_behind() {
     let error = try_bars(&constraint("screw_joint", ["", ""])).unwrap_err();
     assert!(error.message.contains("`screw_joint`"), "{error}");
 }
+
+const CLOSING: &str = "<link name='closing_pin_1'/><link name='closing_pin_2'/>\
+    <joint name='f1' type='fixed'><parent link='c'/><child link='closing_pin_1'/><origin xyz='2 0 0'/></joint>\
+    <joint name='f2' type='fixed'><parent link='d'/><child link='closing_pin_2'/><origin xyz='0 1 0'/></joint>";
+
+#[test]
+fn the_loop_between_frames_that_are_named_so_is_printed_to_be_written() {
+    let open = with(CLOSING);
+    assert_eq!(finite(&open), Some(3));
+    let told = may_join(&open);
+    assert_eq!(told.len(), 1, "{:?}", open.warnings);
+    let start = told[0].find("<loop ").unwrap();
+    let end = told[0].find("</loop>").unwrap() + "</loop>".len();
+    let printed = &told[0][start..end];
+    let closed = with(&format!("{CLOSING}{printed}"));
+    assert!(may_join(&closed).is_empty());
+    assert_eq!(joint(&closed, "pin").kind, JointKind::Revolute);
+    assert_eq!(finite(&closed), Some(1));
+    // A name that is taken is not proposed.
+    let taken = with(&CLOSING.replace("'f1'", "'pin'"));
+    assert!(may_join(&taken)[0].contains("name=\"pin_2\""));
+}
