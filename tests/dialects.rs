@@ -6,9 +6,9 @@
 //!   a ------- d
 //! ```
 
-use kutzbach::format::{FormatError, Reading, WarningKind, read};
+use kutzbach::format::{FormatError, Reading, WarningKind, read, write};
 use kutzbach::mechanism::{Joint, JointKind};
-use kutzbach::mobility::{AnalysisOptions, analyse};
+use kutzbach::mobility::{Analysis, AnalysisOptions, analyse};
 
 /// Three bars of the square of two and one metres, with something more.
 fn bars(more: &str) -> String {
@@ -187,4 +187,92 @@ fn the_loop_between_frames_that_are_named_so_is_printed_to_be_written() {
     // A name that is taken is not proposed.
     let taken = with(&CLOSING.replace("'f1'", "'pin'"));
     assert!(may_join(&taken)[0].contains("name=\"pin_2\""));
+}
+
+/// A crank of 2 m at the origin, a coupler from (0, 2) to (4, 4), a rocker from (5, 0): the bars of a four-bar as they are drawn.
+const CRANK_ROCKER: &str = r#"<mujoco><default><joint axis="0 0 1"/></default><worldbody>
+    <body name="crank"><joint name="a"/><body name="coupler" pos="0 2 0"><joint name="b"/></body></body>
+    <body name="rocker" pos="5 0 0"><joint name="c"/></body></worldbody>
+    <equality><connect name="pin" body1="coupler" body2="rocker" anchor="4 2 0"/></equality>
+    <actuator><motor joint="a"/></actuator>
+    <keyframe><key name="near" qpos="0.004 -0.003 0.002"/><key name="other" qpos="0 -1.688 1.891"/></keyframe></mujoco>"#;
+
+fn at(reading: &Reading, configuration: &str) -> Analysis {
+    let options = AnalysisOptions {
+        configuration: Some(configuration.to_owned()),
+        ..AnalysisOptions::default()
+    };
+    analyse(&reading.mechanism, &options).unwrap()
+}
+
+/// Where assembly took the hinges of the crank-rocker (rad).
+fn hinges(reading: &Reading, analysis: &Analysis) -> [f64; 3] {
+    ["a", "b", "c"].map(|name| {
+        let id = reading.mechanism.joint_named(name).unwrap();
+        let mut places = analysis.assembly.joints.iter();
+        let place = places.find(|place| place.joint == id.0);
+        place.unwrap().values[0]
+    })
+}
+
+#[test]
+fn a_key_of_three_digits_assembles_at_the_nearest_pose() {
+    let reading = read(CRANK_ROCKER, "crank_rocker.xml", &[]).unwrap();
+    for (name, expected) in [
+        ("near", [0.004, -0.003, 0.002]),
+        // The coupler's end mirrored in the line from the crank's end to the rocker's pivot.
+        ("other", [0.0, -1.688_307_972, 1.890_622_573]),
+    ] {
+        let analysis = at(&reading, name);
+        assert!(analysis.assembly.closed, "{name}");
+        // Nothing is held, the driven joint neither.
+        assert!(analysis.assembly.held.is_empty(), "{name}");
+        let found = hinges(&reading, &analysis);
+        for (found, expected) in found.iter().zip(expected) {
+            assert!(
+                (found - expected).abs() < 0.01,
+                "{name}: {found} {expected}"
+            );
+        }
+        assert_eq!(analysis.mobility.finite(), Some(1), "{name}");
+    }
+}
+
+#[test]
+fn a_joint_begins_at_its_start_and_is_held_at_its_value() {
+    let square = |position: &str| {
+        format!(
+            "<loop name='cd' type='revolute'><predecessor link='d'><origin xyz='0 1 0'/></predecessor><successor link='c'><origin xyz='2 0 0'/></successor>\
+             <axis xyz='0 0 1'/></loop><configuration name='k'><position joint='ad' {position}/><position joint='ab' value='0.3'/></configuration>"
+        )
+    };
+    // A parallelogram turned by 0.3: the rocker, d, follows the crank, b.
+    let begun = with(&square("start='0.298'"));
+    let analysis = at(&begun, "k");
+    let held: Vec<usize> = analysis.assembly.held.iter().copied().collect();
+    let id = |name: &str| begun.mechanism.joint_named(name).unwrap();
+    assert!(analysis.assembly.closed);
+    assert_eq!(held, [id("ab").0]);
+    let mut places = analysis.assembly.joints.iter();
+    let rocker = places.find(|place| place.joint == id("ad").0);
+    assert!((rocker.unwrap().values[0] - 0.3).abs() < 1e-9);
+    // Written and read again it says the same.
+    let written = write(&begun.mechanism);
+    assert!(written.contains("start=\"0.298\""), "{written}");
+    let again = read(&written, "written", &[]).unwrap();
+    assert_eq!(
+        again.mechanism.configurations(),
+        begun.mechanism.configurations()
+    );
+    // Held there it does not close.
+    let held = with(&square("value='0.25'"));
+    assert!(!at(&held, "k").assembly.closed);
+    for (position, told) in [
+        ("value='1' start='1'", "not both"),
+        ("", "needs the attribute `value`"),
+        ("begin='1'", "no attribute `begin`"),
+    ] {
+        let error = try_bars(&square(position)).unwrap_err();
+        assert!(error.message.contains(told), "{error}");
+    }
 }

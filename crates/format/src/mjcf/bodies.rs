@@ -217,6 +217,7 @@ impl<'a> Mjcf<'a> {
             joint: joint.clone(),
             width: 7,
             zero: Number::zero(),
+            frame: Frame::identity(),
             is_held: false,
         });
         self.builder.floating(&joint, &parent, &name, frame);
@@ -329,6 +330,7 @@ impl<'a> Mjcf<'a> {
             joint: name.clone(),
             width: if kind == JointKind::Spherical { 4 } else { 1 },
             zero: self.reference(joint, of, kind)?,
+            frame: at.clone(),
             is_held: held,
         });
         let made = match held {

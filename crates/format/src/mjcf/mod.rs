@@ -15,7 +15,7 @@
 //! | actuators of joints | motors |
 //! | `<replicate>` | its copies, written out before anything is read |
 //! | `<inertial>`, `<geom>` | masses and shapes |
-//! | `<key>` | configuration |
+//! | `<key>` | configuration; where there are equalities, of starting values |
 //!
 //! Names are those of the file; what has none is named after its body. What would lose bodies or constraints is an error.
 //!
@@ -108,8 +108,6 @@ struct Mjcf<'a> {
     followers: BTreeMap<&'a str, &'a str>,
     /// Joints that an equality holds where they are drawn.
     held: BTreeSet<&'a str>,
-    /// Joints that a motor drives.
-    driven: BTreeSet<&'a str>,
     /// What `qpos` of a key is made of, in its order.
     coordinates: Vec<Coordinate>,
     key_names: BTreeSet<String>,
@@ -141,7 +139,6 @@ pub(super) fn read(whole: &Whole, options: &ReadOptions) -> Result<Reading, Vec<
         given: BTreeSet::new(),
         followers: BTreeMap::new(),
         held: BTreeSet::new(),
-        driven: BTreeSet::new(),
         coordinates: Vec::new(),
         key_names: BTreeSet::new(),
         warnings: Vec::new(),
@@ -299,7 +296,6 @@ impl<'a> Mjcf<'a> {
             });
             match moved {
                 Some(joint) => {
-                    self.driven.insert(joint.value);
                     self.builder.actuate(joint.value);
                 }
                 None => self.unread.element(actuator),
