@@ -6,7 +6,9 @@
 //!   a ------- d
 //! ```
 
-use kutzbach::format::{FormatError, Reading, WarningKind, read, write};
+use crate::support::empty_folder;
+
+use kutzbach::format::{FormatError, Reading, WarningKind, read, read_file, write};
 use kutzbach::mechanism::{Joint, JointKind};
 use kutzbach::mobility::{Analysis, AnalysisOptions, analyse};
 
@@ -275,4 +277,147 @@ fn a_joint_begins_at_its_start_and_is_held_at_its_value() {
         let error = try_bars(&square(position)).unwrap_err();
         assert!(error.message.contains(told), "{error}");
     }
+}
+
+/// The robot of Gepetto's two files: a tip at the end of c, and a pin on d that turns about z.
+const TIP_AND_PIN: &str = "<link name='tip'/><link name='pin'/>\
+    <joint name='closedloop1_A' type='fixed'><parent link='c'/><child link='tip'/><origin xyz='2 0 0'/></joint>\
+    <joint name='closedloop1_B' type='continuous'><parent link='d'/><child link='pin'/><origin xyz='0 1 0'/><axis xyz='0 0 1'/></joint>";
+
+const LOOP: &str = "closed_loop: [['closedloop1_A', 'closedloop1_B']]\n";
+
+/// Reads YAML that stands beside the robot.
+fn beside(test: &str, yaml: &str) -> Result<Reading, FormatError> {
+    let folder = empty_folder(&format!("dialects_{test}"));
+    std::fs::write(folder.join("robot.urdf"), bars(TIP_AND_PIN)).unwrap();
+    std::fs::write(folder.join("robot.yaml"), yaml).unwrap();
+    read_file(folder.join("robot.yaml"), &[])
+}
+
+#[test]
+fn yaml_beside_a_urdf_closes_its_loops() {
+    let yaml = format!("# made by hand\n{LOOP}type: ['6d']\nname_mot: ['ab', 'xy']\n");
+    let reading = beside("weld", &yaml).unwrap();
+    let mechanism = &reading.mechanism;
+    let closing = joint(&reading, "closedloop1_A_closedloop1_B");
+    assert_eq!(closing.kind, JointKind::Fixed);
+    let sides = [&closing.predecessor, &closing.successor];
+    let links = sides.map(|side| mechanism.link(side.link).name.as_str());
+    assert_eq!(links, ["tip", "pin"]);
+    assert_eq!(reading.format, "gepetto");
+    assert_eq!(finite(&reading), Some(1));
+    let motors = mechanism.actuated().iter();
+    let motors: Vec<&str> = motors.map(|id| &mechanism.joint(*id).name[..]).collect();
+    assert_eq!(motors, ["ab"]);
+    let told: Vec<&str> = reading.warnings.iter().map(|w| &w.message[..]).collect();
+    assert!(
+        told.len() == 2 && told[0].contains("`robot.urdf`") && told[1].contains("`xy`"),
+        "{told:?}"
+    );
+    // A program that reads the URDF alone finds the open tree.
+    assert_eq!(finite(&with(TIP_AND_PIN)), Some(4));
+    // A word stands for all joints that it is part of, names of links for their own frames, and a point lets the pin spin.
+    let yaml = "type: [3D]\nclosed_loop:\n- [tip, pin]\nname_mot: closedloop\nLidmot: [0]\n";
+    let reading = beside("point", yaml).unwrap();
+    assert_eq!(joint(&reading, "tip_pin").kind, JointKind::Spherical);
+    assert_eq!(finite(&reading), Some(2));
+    assert_eq!(reading.mechanism.actuated().len(), 1);
+    assert_eq!(reading.skipped[0].what, "the entry `Lidmot` of the YAML");
+    assert_eq!((reading.skipped[0].line, reading.skipped[0].column), (5, 1));
+    // Without types both frames are held together.
+    let reading = beside("untyped", LOOP).unwrap();
+    assert_eq!(finite(&reading), Some(1));
+}
+
+#[test]
+fn yaml_says_of_what_kind_joints_are() {
+    let yaml = format!(
+        "{LOOP}type: [6d]\njoint_name: [bc, ad, ab]\njoint_type: [SPHERICAL, FIXED, UJOINT_ZX]\n"
+    );
+    let reading = beside("kinds", &yaml).unwrap();
+    assert_eq!(joint(&reading, "bc").kind, JointKind::Spherical);
+    assert_eq!(joint(&reading, "ad").kind, JointKind::Fixed);
+    let universal = joint(&reading, "ab");
+    assert_eq!(universal.kind, JointKind::Universal);
+    let axes = [&universal.axis, &universal.axis2].map(|axis| axis.0.each_ref().map(|x| x.value()));
+    assert_eq!(axes, [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]);
+    let old = beside("old", &format!("{LOOP}rotule_name: free\n")).unwrap();
+    assert!(may_join(&old)[0].contains("`rotule_name`"));
+}
+
+#[test]
+fn what_yaml_says_wrongly_is_told_where_it_stands() {
+    for (yaml, message, place) in [
+        (
+            "closed_loop: [[tip, pn]]\n".to_owned(),
+            "the URDF has no link or joint named `pn`",
+            (1, 21),
+        ),
+        (
+            format!("{LOOP}type: [6d, 6d]\n"),
+            "there are 1 loops and 2 types",
+            (2, 1),
+        ),
+        (
+            format!("{LOOP}type: [5d]\n"),
+            "needed 6d or 3d, found `5d`",
+            (2, 8),
+        ),
+        (
+            "closed_loop: [[tip, tip]]\n".to_owned(),
+            "in one link",
+            (1, 21),
+        ),
+        (
+            "closed_loop: [[tip]]\n".to_owned(),
+            "needed the names of two frames",
+            (1, 15),
+        ),
+        (
+            format!("{LOOP}joint_name: [ab]\n"),
+            "there are 1 names of joints and 0 types",
+            (2, 14),
+        ),
+        (
+            format!("{LOOP}joint_name: [closedloop1_A]\njoint_type: [SPHERICAL]\n"),
+            "is fixed in the URDF",
+            (2, 14),
+        ),
+    ] {
+        let error = beside("wrong", &yaml).unwrap_err();
+        assert!(error.message.contains(message), "{error}");
+        assert!(error.file.ends_with("robot.yaml"), "{}", error.file);
+        assert_eq!((error.line, error.column), place, "{yaml}");
+    }
+    let error = read(LOOP, "standard input", &[]).unwrap_err();
+    assert!(error.message.contains("in a file beside it"), "{error}");
+}
+
+#[test]
+fn the_urdf_beside_yaml_is_that_of_its_name_or_the_only_one() {
+    let folder = empty_folder("dialects_beside");
+    let yaml = folder.join("legs.yaml");
+    std::fs::write(&yaml, LOOP).unwrap();
+    let error = read_file(&yaml, &[]).unwrap_err();
+    assert!(error.message.contains("no URDF stands beside"), "{error}");
+    let robot = |file: &str| {
+        let text = bars(TIP_AND_PIN).replacen("'bars'", &format!("'{file}'"), 1);
+        std::fs::write(folder.join(file), text).unwrap();
+    };
+    let name = || read_file(&yaml, &[]).map(|reading| reading.mechanism.name().to_owned());
+    robot("a.urdf");
+    assert_eq!(name().unwrap(), "a.urdf");
+    robot("b.urdf");
+    assert!(name().unwrap_err().message.contains("several URDF files"));
+    robot("robot.urdf");
+    assert_eq!(name().unwrap(), "robot.urdf");
+    robot("legs.urdf");
+    assert_eq!(name().unwrap(), "legs.urdf");
+    // What is wrong with the URDF is told of that file.
+    std::fs::write(folder.join("legs.urdf"), "<robot name='r'>\n<lnk/></robot>").unwrap();
+    let error = read_file(&yaml, &[]).unwrap_err();
+    assert!(
+        error.file.ends_with("legs.urdf") && error.line == 2,
+        "{error}"
+    );
 }
