@@ -138,7 +138,7 @@ fn rounded(configuration: &Configuration) -> BTreeMap<usize, f64> {
     };
     let held = || {
         let positions = configuration.positions.iter();
-        positions.filter(|(joint, _)| !configuration.free.contains(joint))
+        positions.filter(move |(joint, _)| !configuration.free.contains(joint))
     };
     let finest = held()
         .filter_map(|(_, values)| decimals(values))
