@@ -314,8 +314,14 @@ fn yaml_beside_a_urdf_closes_its_loops() {
         told.len() == 2 && told[0].contains("`robot.urdf`") && told[1].contains("`xy`"),
         "{told:?}"
     );
-    // A program that reads the URDF alone finds the open tree.
-    assert_eq!(finite(&with(TIP_AND_PIN)), Some(4));
+    // Who reads the URDF alone finds the open tree, and is told where to look.
+    let open = with(TIP_AND_PIN);
+    assert_eq!(finite(&open), Some(4));
+    assert!(
+        open.warnings[0].message.contains("`closed_loop`"),
+        "{:?}",
+        open.warnings
+    );
     // A word stands for all joints that it is part of, names of links for their own frames, and a point lets the pin spin.
     let yaml = "type: [3D]\nclosed_loop:\n- [tip, pin]\nname_mot: closedloop\nLidmot: [0]\n";
     let reading = beside("point", yaml).unwrap();
