@@ -474,7 +474,7 @@ fn what_cannot_be_read_is_named_with_what_to_do_instead() {
         (b"#usda 1.0\n", "USD"),
         (b"PXR-USDC\0\x01\xff", "USD"),
         (b"glTF\x02\0\0\0\xff", "a file of shapes"),
-        (b"closed_loop: [[a, b]]\n", "YAML or a list of settings"),
+        (b"joints: [a, b]\n", "YAML or a list of settings"),
     ] {
         let error = read_bytes(bytes, "file", &[]).unwrap_err();
         assert_eq!(error.message, format!("this is {name}, which is not read"));

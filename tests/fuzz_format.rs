@@ -58,7 +58,7 @@ const SEEDS: [&str; 8] = [
   <joint name="j" type="revolute"><parent link="a"/><child link="b"/></joint>
   <joint name="k" type="continuous"><parent link="a"/><child link="c"/><joint_properties damping="1"/></joint>
   <coupling name="belt"><predecessor link="b"/><successor link="c"/><ratio value="-2"/></coupling>
-  <configuration name="open"><position joint="j" value="0.3"/><position joint="k" value="-1e-2"/></configuration>
+  <configuration name="open"><position joint="j" value="0.3"/><position joint="k" start="-1e-2"/></configuration>
   <scene><gravity xyz="0 0 -9.81"/><contact/><limits/><friction/><damping/><drive joint="j" velocity="1.0" torque="10"/></scene>
   <expect finite="1" instantaneous="1" redundant="3" kutzbach="-2" pose="singular" kind="cusp" locked="j k.rot" idle="b" branches="2" branch_dimensions="1 2"/>
 </robot>

@@ -27,6 +27,7 @@ mod convert_cli;
 mod dead_centres;
 mod depths;
 mod derivatives;
+mod dialects;
 mod digits;
 mod digits_mixed;
 mod exact_cli;

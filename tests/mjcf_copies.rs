@@ -65,7 +65,7 @@ fn keys_are_configurations_from_the_pose_drawn() {
 }
 
 #[test]
-fn with_equalities_a_key_says_where_the_motors_are() {
+fn with_equalities_a_key_says_where_assembly_begins() {
     let tied = |rest: &str| {
         model(&format!(
             r#"<worldbody><body name="x"><joint name="a"/><body name="y" pos="1 0 0"><joint name="b"/></body></body></worldbody>
@@ -73,15 +73,45 @@ fn with_equalities_a_key_says_where_the_motors_are() {
             <keyframe><key name="k" qpos="0.4 0.2"/></keyframe>{rest}"#
         ))
     };
-    let driven = tied(r#"<actuator><motor joint="a"/></actuator>"#);
-    let expected = ("k".to_owned(), vec![("a".to_owned(), 0.4)]);
-    assert_eq!(poses(&driven), [expected]);
-    let free = tied("");
-    assert!(poses(&free).is_empty());
-    assert_eq!(
-        skipped(&free),
-        ["<key> of a mechanism with equalities and without motors"]
+    for motors in ["", r#"<actuator><motor joint="a"/></actuator>"#] {
+        let reading = tied(motors);
+        let values = vec![("a".to_owned(), 0.4), ("b".to_owned(), 0.2)];
+        assert_eq!(poses(&reading), [("k".to_owned(), values)]);
+        let configuration = reading.mechanism.configuration("k").unwrap();
+        assert_eq!(configuration.held().count(), 0);
+        assert_eq!(configuration.free.len(), 2);
+        assert!(skipped(&reading).is_empty());
+    }
+}
+
+#[test]
+fn the_turn_of_a_ball_begins_where_its_quaternion_says() {
+    let reading = model(
+        r#"<worldbody><body name="x"><joint name="a"/></body>
+        <body name="y"><joint name="b" type="ball"/></body>
+        <body name="z"><frame euler="0 0 90"><joint name="c" type="ball"/></frame></body></worldbody>
+        <equality><joint joint1="a" polycoef="0 1 0 0 0"/></equality>
+        <keyframe><key name="k" qpos="0 -1 0 0 -1 1 0.1 0 0"/></keyframe>"#,
     );
+    let configuration = reading.mechanism.configuration("k").unwrap();
+    let named = |name: &str| {
+        let id = reading.mechanism.joint_named(name).unwrap();
+        let found = configuration.positions.iter().find(|(own, _)| *own == id);
+        let values = found.unwrap().1.iter();
+        values.map(|value| value.value()).collect::<Vec<f64>>()
+    };
+    // −(1, 0, 0, 1) is the quarter turn about z; (1, 0.1, 0, 0) one by 2 atan 0.1 about x of the body, which is −y of the turned frame.
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let turned = 2.0 * 0.1f64.atan();
+    for (found, expected) in [
+        (named("b"), [0.0, 0.0, quarter]),
+        (named("c"), [0.0, -turned, 0.0]),
+    ] {
+        for (a, b) in found.iter().zip(expected) {
+            assert!((a - b).abs() < 1e-12, "{found:?} {expected:?}");
+        }
+    }
+    assert_eq!(configuration.held().count(), 0);
 }
 
 #[test]

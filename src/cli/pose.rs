@@ -116,16 +116,16 @@ impl Pose {
                 free.insert(joint);
             }
         }
-        let base = match &self.at {
-            Some(name) => mechanism
-                .configuration(name)
-                .ok_or_else(|| Failure::Plain {
+        let (base, begun) = match &self.at {
+            Some(name) => {
+                let named = mechanism.configuration(name);
+                let named = named.ok_or_else(|| Failure::Plain {
                     message: format!("there is no configuration `{name}`"),
                     help: None,
-                })?
-                .positions
-                .clone(),
-            None => Vec::new(),
+                })?;
+                (named.positions.clone(), named.free.clone())
+            }
+            None => (Vec::new(), BTreeSet::new()),
         };
         let given = self.given(mechanism)?;
         let wanted = Configuration {
@@ -133,7 +133,14 @@ impl Pose {
             positions: given.clone(),
             free: BTreeSet::new(),
         };
-        for (joint, values) in base.into_iter().chain(given) {
+        for (joint, values) in base {
+            match begun.contains(&joint) {
+                true => free.insert(joint),
+                false => free.remove(&joint),
+            };
+            positions.insert(joint, values);
+        }
+        for (joint, values) in given {
             free.remove(&joint);
             positions.insert(joint, values);
         }

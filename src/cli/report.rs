@@ -118,6 +118,14 @@ enum Format {
 }
 
 impl Arguments {
+    /// A mechanism without the configuration that the command line asks for, which is none of the file's.
+    fn of_file(&self, mechanism: &Mechanism, configuration: Option<&str>) -> Mechanism {
+        match configuration.filter(|_| !self.pose.items().is_empty()) {
+            Some(asked) => mechanism.without_configuration(asked),
+            None => mechanism.clone(),
+        }
+    }
+
     /// How files are written back.
     fn written<'a>(&self, reading: &'a Reading) -> WriteOptions<'a> {
         WriteOptions {
@@ -229,8 +237,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     };
     arguments.destination.put(&text)?;
     let written = arguments.written(&reading);
+    let own =
+        |mechanism: &Mechanism| arguments.of_file(mechanism, options.configuration.as_deref());
     if let Some(out) = &arguments.write_assembled {
-        let file = assembled_file(&reading.mechanism, &analysis.assembly, &written);
+        let file = assembled_file(&own(&reading.mechanism), &analysis.assembly, &written);
         let file = file.ok_or_else(|| Failure::Plain {
             message: format!(
                 "{}: no closed pose is known, so there is none to write",
@@ -251,7 +261,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
                     .to_owned(),
             ),
         })?;
-        output::put(&write_with(&nearest.mechanism, &written), Some(out))?;
+        output::put(&write_with(&own(&nearest.mechanism), &written), Some(out))?;
     }
     Ok(if arguments.strict && !report.is_decided() {
         UNDECIDED

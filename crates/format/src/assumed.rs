@@ -139,8 +139,14 @@ impl<'a> Reader<'a> {
                 .filter(|(name, _)| announces_a_loop(name))
                 .map(|(name, place)| (place.start, name))
                 .collect();
+            // Gepetto's robots state their loops in YAML beside the URDF.
+            let of_two_files = |(_, name): &(usize, &str)| in_two_files(name);
+            let beside = match announced.iter().any(of_two_files) {
+                true => "; YAML beside it that has `closed_loop` is read together with it",
+                false => "",
+            };
             self.tell_of(&announced, |names, has| {
-                format!("{names} {has} the name of what closes a loop, and the file states none: it is read as a tree")
+                format!("{names} {has} the name of what closes a loop, and the file states none: it is read as a tree{beside}")
             });
         }
     }
@@ -182,11 +188,18 @@ fn looks_like_degrees(token: &str) -> bool {
 }
 
 fn announces_a_loop(name: &str) -> bool {
-    let name = name.to_lowercase();
-    ["closing_", "loop_", "closed_loop", "closedloop"]
+    let small = name.to_lowercase();
+    ["closing_", "loop_", "closed_loop"]
         .iter()
-        .any(|start| name.starts_with(start))
-        || name.ends_with("_closure")
+        .any(|start| small.starts_with(start))
+        || small.ends_with("_closure")
+        || in_two_files(name)
+}
+
+/// Whether a joint is called as Gepetto's loader expects of those that close loops, which the URDF has no word for.
+fn in_two_files(name: &str) -> bool {
+    let name = name.to_lowercase();
+    name.starts_with("closedloop") || name.starts_with("fermeture")
 }
 
 /// Whether two directions are parallel or opposed, exactly.

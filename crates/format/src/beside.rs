@@ -152,19 +152,28 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// `<configuration name>` with `<position joint value/>`.
+    /// `<configuration name>` with `<position joint value/>`, or `start` where the joint only begins there.
     pub(super) fn read_configuration(&mut self, configuration: Element<'a>) -> Outcome<()> {
         self.uses(Dialect::Own);
         self.note_foreign_attributes(configuration, &["name"])?;
         let name = self.directory.add(Named::Configuration, configuration)?;
-        let mut positions = Vec::new();
+        let (mut positions, mut starts) = (Vec::new(), Vec::new());
         for part in self.parts(configuration, &[], &["position"], &[])? {
-            self.leaf(part, &["joint", "value"])?;
+            self.leaf(part, &["joint", "value", "start"])?;
             let joint = self.directory.refer(Named::Joint, part, "joint")?;
-            let values = self.number_list(part.required("value")?)?;
-            positions.push((joint.to_owned(), values));
+            let (into, given) = match (part.attribute("value"), part.attribute("start")) {
+                (_, None) => (&mut positions, part.required("value")?),
+                (None, Some(start)) => (&mut starts, start),
+                (Some(_), Some(start)) => {
+                    return Err(start
+                        .fault("a joint is held at `value` or begins at `start`, not both")
+                        .help("remove one of the two"));
+                }
+            };
+            into.push((joint.to_owned(), self.number_list(given)?));
         }
-        self.builder.configuration(name, positions);
+        self.builder
+            .configuration_with_starts(name, positions, starts);
         Ok(())
     }
 

@@ -1,15 +1,18 @@
 //! `<constraint>`, a loop in the words of a proposal, and what loops of all dialects have in common.
 //!
 //! `<constraint name type><parent link/><parent_origin/><parent_axis/><child link/><child_origin/><child_axis/></constraint>` is proposed
-//! for urdfdom (pull request 264); each side has its frame and axis.
+//! for urdfdom (pull request 264); each side has its frame and axis. Its types are also written `spherical_joint`, `revolute_joint`,
+//! `universal_joint` and `fixed_joint`.
 
 use super::WarningKind;
 use super::element::Element;
 use super::error::Outcome;
-use super::names::Named;
+use super::gazebo::ordered;
+use super::names::{Named, unused};
 use super::reader::{Dialect, Reader};
 use super::unread::Parts;
-use super::words::quoted;
+use super::words::{cut, quoted};
+use super::writer::escaped;
 use kutzbach_model::mechanism::{Direction, Frame, JointBuilder, JointKind};
 
 /// What may stand inside `<constraint>`.
@@ -97,7 +100,9 @@ impl<'a> Reader<'a> {
     /// The kind of a joint that closes a loop, by the words of all dialects.
     pub(super) fn closing_kind(&mut self, element: Element<'a>) -> Outcome<JointKind> {
         let word = element.required("type")?;
-        let kind = JointKind::from_word(word.value).or_else(|| Self::drake_kind(word.value));
+        // `spherical_joint`, as the files write it that were made with the proposal's own parser.
+        let plain = word.value.strip_suffix("_joint").unwrap_or(word.value);
+        let kind = JointKind::from_word(plain).or_else(|| Self::drake_kind(plain));
         match kind {
             Some(JointKind::Screw | JointKind::TranslatingScrew | JointKind::Distance) | None => {
                 Err(word
@@ -128,36 +133,41 @@ impl<'a> Reader<'a> {
     }
 
     /// Pairs of links that are named as the two sides of a loop by a convention (onshape-to-robot, placo), where the file
-    /// states no such loop.
+    /// states no such loop. What kind of joint is meant it does not say, so none is made: the loop to write is told.
     pub(super) fn note_closing_frames(&mut self) {
         let mut open: Vec<(usize, String)> = Vec::new();
         for (link, place) in self.directory.link_names() {
-            let Some(base) = link
-                .strip_prefix("closing_")
-                .and_then(|l| l.strip_suffix("_1"))
-            else {
+            let base = link.strip_prefix("closing_");
+            let Some(base) = base.and_then(|rest| rest.strip_suffix("_1")) else {
                 continue;
             };
             let other = format!("closing_{base}_2");
-            let joined = self
-                .joined
-                .contains_key(&super::gazebo::ordered([link, &other]));
+            let sides = [link, other.as_str()];
+            let joined = self.joined.contains_key(&ordered(sides));
             if self.directory.has(Named::Link, &other) && !joined {
-                open.push((
-                    place.start,
-                    format!(
-                        "the frames {} and {} look like the two sides of a loop, which the file does not state: it is read without that loop",
-                        quoted(link),
-                        quoted(&other)
-                    ),
-                ));
+                let wanted = if base.is_empty() { "loop" } else { base };
+                let name = unused(wanted, |name| self.directory.has_joint_or_coupling(name));
+                open.push((place.start, loop_to_write(&name, sides)));
             }
         }
         self.closing_frames_told = !open.is_empty();
         for (at, message) in open {
-            self.warn_of(at, WarningKind::Guessed, message);
+            self.warn_of(at, WarningKind::MayJoin, message);
         }
     }
+}
+
+/// What is told of two frames that look like the sides of a loop.
+fn loop_to_write(name: &str, [one, other]: [&str; 2]) -> String {
+    let [name, first, second] = [name, one, other].map(|name| escaped(&cut(name)).into_owned());
+    format!(
+        "the frames {} and {} look like the two sides of a loop, which the file does not state: it is read without that loop. \
+         If they meet in a hinge about their z axes, write <loop name=\"{name}\" type=\"revolute\"><predecessor link=\"{first}\"/>\
+         <successor link=\"{second}\"/><axis xyz=\"0 0 1\"/></loop>; in a ball, with the type `spherical` and without <axis>; \
+         if they are held together, `fixed`",
+        quoted(one),
+        quoted(other)
+    )
 }
 
 /// The axis on the first side, which of a joint of one axis may stand on the second.

@@ -4,7 +4,7 @@
 
 use super::error::Fault;
 use super::xml::root_name;
-use super::{cad, words::cut};
+use super::{cad, gepetto, words::cut};
 
 /// A format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,6 +19,8 @@ pub(super) enum Content {
     Asmt,
     /// A document of FreeCAD.
     FreeCad,
+    /// YAML of Gepetto's, which says how the loops of a robot close.
+    Gepetto,
     /// One that is known and not read.
     Other(Other),
 }
@@ -59,7 +61,7 @@ const COLLADA: Other = Other {
 };
 const YAML: Other = Other {
     name: "YAML or a list of settings",
-    instead: "read the robot's URDF; loops that a YAML file beside it names are written there as <loop>",
+    instead: "read the robot's URDF; YAML with `closed_loop: [[frame, frame], ...]` beside it is read too",
 };
 const JSON: Other = Other {
     name: "JSON",
@@ -116,6 +118,7 @@ pub(super) fn of(text: &str) -> Content {
     let first = start.lines().next().unwrap_or_default().trim_end();
     let word = cut(first);
     let other = match first {
+        _ if gepetto::is_description(text) => return Content::Gepetto,
         _ if first.starts_with("#usda") => USD,
         _ if first.starts_with("ISO-10303-21") => STEP,
         _ if first.starts_with("solid ") || first.starts_with("#VRML") => SHAPES,
@@ -152,7 +155,9 @@ mod tests {
             ("OndselSolver\nAssembly\n\tName\n\t\ta\n", Content::Asmt),
             ("#usda 1.0\n(\n)", Content::Other(USD)),
             ("ISO-10303-21;\nHEADER;", Content::Other(STEP)),
-            ("closed_loop: [[a, b]]\n", Content::Other(YAML)),
+            ("closed_loop: [[a, b]]\n", Content::Gepetto),
+            ("# robot\nclosed_loop:\n- [a, b]\n", Content::Gepetto),
+            ("joints: [a, b]\n", Content::Other(YAML)),
             ("{\"links\": []}", Content::Other(JSON)),
             ("model FourBar\nend FourBar;", Content::Other(MODELICA)),
             ("solid part\nfacet normal 0 0 1", Content::Other(SHAPES)),

@@ -17,8 +17,12 @@
 //!
 //! Gazebo before SDFormat wrote `<joint:hinge>` and its kin with `<body1>`, `<body2>`, an `<anchor>` body, an
 //! `<anchorOffset>` in it, and an `<axis>` in the model's frame. The PR2's gripper is published like that.
+//!
+//! The plugin `DetachableJoint` holds two links as they are drawn (`detachable`).
 
 use super::WarningKind;
+use super::axis_limits::{CROSSED, of_axis};
+use super::detachable::is_detachable;
 use super::element::{Attribute, Element};
 use super::error::Outcome;
 use super::names::Named;
@@ -30,7 +34,7 @@ use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Direction, Dynamics, Frame, JointBuilder, JointKind, Limit};
 
 /// SDFormat's word for the frame of the model, which is that of the root link.
-const MODEL: &str = "__model__";
+pub(super) const MODEL: &str = "__model__";
 
 /// Added to a name that a joint of the tree has already.
 pub(super) const IN_GAZEBO: &str = "_in_gazebo";
@@ -109,7 +113,7 @@ impl<'a> Reader<'a> {
         for part in gazebo.elements() {
             let old_joint = part.written_name().starts_with("joint:");
             let sdf_joint = part.written_name() == "joint" && part.elements().next().is_some();
-            if old_joint || sdf_joint {
+            if old_joint || sdf_joint || is_detachable(part) {
                 self.late.push(part);
                 continue;
             }
@@ -160,6 +164,7 @@ impl<'a> Reader<'a> {
         for joint in std::mem::take(&mut self.late) {
             let read = match joint.written_name() {
                 "joint" => self.read_sdf_joint(joint),
+                "plugin" => self.read_detachable(joint),
                 _ => self.read_old_joint(joint),
             };
             faults.extend(read.err());
@@ -562,33 +567,16 @@ impl<'a> Reader<'a> {
         Ok(direction)
     }
 
-    /// The range and the friction of an `<axis>`. Gazebo writes 1e16 where there is no limit.
+    /// The range and the friction of an `<axis>`. What is no number bounds nothing.
     fn sdf_limits(&mut self, axis: Option<Element<'a>>) -> Outcome<(Limit, Dynamics)> {
-        let (mut limit, mut dynamics) = (Limit::default(), Dynamics::default());
-        for part in axis.into_iter().flat_map(|axis| axis.elements()) {
-            for value in part.elements() {
-                let read = match (part.name(), value.name()) {
-                    ("limit", "lower") => &mut limit.lower,
-                    ("limit", "upper") => &mut limit.upper,
-                    ("limit", "effort") => &mut limit.effort,
-                    ("limit", "velocity") => &mut limit.velocity,
-                    ("dynamics", "damping") => &mut dynamics.damping,
-                    ("dynamics", "friction") => &mut dynamics.friction,
-                    _ => continue,
-                };
-                let is_rate = matches!(value.name(), "effort" | "velocity");
-                *read = value
-                    .value()
-                    .and_then(|value| self.number(value).ok())
-                    .filter(|number| is_limit(number, is_rate));
-            }
+        let read = of_axis(axis, |part| {
+            Ok(part.value().and_then(|value| self.number(value).ok()))
+        })?;
+        if read.is_crossed {
+            let at = axis.map_or(0, |axis| axis.start());
+            self.warn_of(at, WarningKind::NoLimit, CROSSED);
         }
-        let crossed =
-            matches!((&limit.lower, &limit.upper), (Some(l), Some(u)) if l.value() > u.value());
-        if crossed {
-            (limit.lower, limit.upper) = (None, None);
-        }
-        Ok((limit, dynamics))
+        Ok((read.limit, read.dynamics))
     }
 
     /// Metres per turn, right-handed, from radians per metre, left-handed.
@@ -624,11 +612,6 @@ pub(super) fn kind_of(word: &str) -> Option<JointKind> {
         "fixed" => JointKind::Fixed,
         _ => return None,
     })
-}
-
-/// Whether a number limits: 1e16 is written where nothing does, and an effort or a rate of -1.
-pub(super) fn is_limit(number: &Number, is_rate: bool) -> bool {
-    number.value().abs() < 1e15 && !(is_rate && number.value() < 0.0)
 }
 
 /// Metres per turn, right-handed, from radians per metre, left-handed; `None` of zero.

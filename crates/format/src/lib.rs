@@ -40,11 +40,13 @@
 
 mod actuation;
 mod assumed;
+mod axis_limits;
 mod beside;
 mod cad;
 mod closures;
 mod content;
 mod definitions;
+mod detachable;
 mod drake;
 mod element;
 mod error;
@@ -52,6 +54,7 @@ mod frames;
 #[cfg(feature = "urdf-rs")]
 mod from_urdf_rs;
 mod gazebo;
+mod gepetto;
 mod guard;
 mod hints;
 mod joint;
@@ -91,6 +94,7 @@ pub use writer::{Numbers, WriteOptions, escaped, write, write_with};
 use content::Content;
 use error::{Fault, located};
 use kutzbach_model::mechanism::Mechanism;
+use reader::Added;
 use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
@@ -106,7 +110,7 @@ pub struct Reading {
     /// What is not read because it says nothing about motion, in file order.
     pub skipped: Vec<Skipped>,
     /// The smallest dialect that the file belongs to: `urdf`, `urdf+` or `kutzbach-urdf`; `xacro` for one that was expanded;
-    /// `mjcf`, `sdf`, `asmt`, `freecad`.
+    /// `mjcf`, `sdf`, `asmt`, `freecad`; `gepetto` for a URDF with loops in YAML beside it.
     pub format: &'static str,
     /// What is kept of the rest for writing it back.
     pub kept: Kept,
@@ -296,33 +300,10 @@ fn read_text(
     base: Option<&Path>,
     options: &ReadOptions,
 ) -> Result<Reading, FormatError> {
-    let content = content::of(text);
-    let source = match content {
-        Content::Robot => Some(xacro::expand(text, file, base, options)?),
-        _ => None,
-    };
-    let mut reading = match source {
-        None => read_foreign(content, text, file, base, options)?,
-        Some(Source::Plain(warnings)) => {
-            let mut reading =
-                reader::read(text, options, None).map_err(|faults| located(file, text, faults))?;
-            reading.warnings.extend(warnings);
-            reading
-                .warnings
-                .sort_by_key(|warning| (warning.line, warning.column));
-            reading
-        }
-        Some(Source::Expanded(expanded)) => {
-            // The expansion has used the settings up.
-            let left = ReadOptions {
-                settings: Vec::new(),
-                symbolic: Vec::new(),
-                ..options.clone()
-            };
-            reader::read(&expanded.text, &left, Some(&expanded.numbers))
-                .map(|reading| expanded.placed(reading))
-                .map_err(|faults| expanded.map.located(faults))?
-        }
+    let mut reading = match content::of(text) {
+        Content::Robot => read_robot(text, file, base, options, &Added::default())?,
+        Content::Gepetto => gepetto::read(text, file, base, options)?,
+        content => read_foreign(content, text, file, base, options)?,
     };
     if !options.literal {
         reading.mechanism = reading.mechanism.with_constants_known_to(options.precision);
@@ -331,6 +312,38 @@ fn read_text(
         reading.mechanism = reading.mechanism.with_precision(uncertainty);
     }
     Ok(reading)
+}
+
+/// Reads the text of a robot, after expanding what it says in xacro, with what another file adds to it.
+fn read_robot(
+    text: &str,
+    file: &str,
+    base: Option<&Path>,
+    options: &ReadOptions,
+    added: &Added,
+) -> Result<Reading, FormatError> {
+    match xacro::expand(text, file, base, options)? {
+        Source::Plain(warnings) => {
+            let mut reading = reader::read(text, options, None, added)
+                .map_err(|faults| located(file, text, faults))?;
+            reading.warnings.extend(warnings);
+            reading
+                .warnings
+                .sort_by_key(|warning| (warning.line, warning.column));
+            Ok(reading)
+        }
+        Source::Expanded(expanded) => {
+            // The expansion has used the settings up.
+            let left = ReadOptions {
+                settings: Vec::new(),
+                symbolic: Vec::new(),
+                ..options.clone()
+            };
+            reader::read(&expanded.text, &left, Some(&expanded.numbers), added)
+                .map(|reading| expanded.placed(reading))
+                .map_err(|faults| expanded.map.located(faults))
+        }
+    }
 }
 
 /// Reads a text of another program's format.
@@ -349,7 +362,7 @@ fn read_foreign(
             let whole = mjcf::whole(text, file, base)?;
             return mjcf::read(&whole, options).map_err(|faults| whole.located(faults));
         }
-        Content::Robot => reader::read(text, options, None),
+        Content::Robot | Content::Gepetto => reader::read(text, options, None, &Added::default()),
         Content::Other(what) => Err(vec![what.fault()]),
     };
     read.map_err(|faults| located(file, text, faults))

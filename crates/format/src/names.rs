@@ -161,6 +161,17 @@ impl<'a> Directory<'a> {
     }
 }
 
+/// The name wanted; where something has it, with the first number from 2 on after it that nothing has.
+pub(super) fn unused(wanted: &str, is_taken: impl Fn(&str) -> bool) -> String {
+    let mut name = wanted.to_owned();
+    let mut number = 2;
+    while is_taken(&name) {
+        name = format!("{wanted}_{number}");
+        number += 1;
+    }
+    name
+}
+
 fn check_name(name: Attribute<'_>) -> Outcome<()> {
     if name.value.is_empty() {
         return Err(name.fault("needed a name, found nothing"));

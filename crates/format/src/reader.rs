@@ -15,7 +15,7 @@ use super::unread::{Parts, Tally, Unread};
 use super::words::{alternatives, cut, did_you_mean};
 use super::{ReadOptions, Reading, Skipped, Warning, WarningKind, relax, xml};
 use kutzbach_math::number::Number;
-use kutzbach_model::mechanism::{Entity, Frame, JointKind, MechanismBuilder};
+use kutzbach_model::mechanism::{Entity, Frame, JointBuilder, JointKind, MechanismBuilder};
 use std::cell::OnceCell;
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
@@ -26,6 +26,13 @@ pub(super) enum Dialect {
     Urdf,
     UrdfPlus,
     Own,
+}
+
+/// What another file adds to a robot: joints that close loops, and the names of joints with motors.
+#[derive(Default)]
+pub(super) struct Added {
+    pub(super) joints: Vec<JointBuilder>,
+    pub(super) motors: Vec<String>,
 }
 
 /// What is known while a file is being read.
@@ -104,11 +111,13 @@ pub(super) struct Reader<'a> {
     expectation: Option<Range<usize>>,
 }
 
-/// Reads a text; faults are unsorted. A text that was expanded from xacro comes with the numbers that it names.
+/// Reads a text, with what another file adds to it; faults are unsorted. A text that was expanded from xacro comes with the numbers that
+/// it names.
 pub(super) fn read(
     text: &str,
     options: &ReadOptions,
     expanded: Option<&[Number]>,
+    added: &Added,
 ) -> Result<Reading, Vec<Fault>> {
     let one = |fault| vec![fault];
     let (relaxed, mut notes) = (OnceCell::new(), Vec::new());
@@ -145,6 +154,7 @@ pub(super) fn read(
             }
         }
     }
+    reader.add(added);
     if faults.is_empty() {
         reader.find_world();
         faults = reader.read_late_joints();
@@ -372,6 +382,21 @@ impl<'a> Reader<'a> {
             Some(_) => Err(element
                 .fault(format!("a file has at most one <{}>", element.name()))
                 .help("merge the two")),
+        }
+    }
+
+    /// Adds what stands in another file.
+    fn add(&mut self, added: &Added) {
+        if added.joints.is_empty() && added.motors.is_empty() {
+            return;
+        }
+        self.uses(Dialect::UrdfPlus);
+        self.other_closures |= !added.joints.is_empty();
+        for joint in &added.joints {
+            self.builder.joint(joint.clone());
+        }
+        for motor in &added.motors {
+            self.builder.actuate(motor);
         }
     }
 

@@ -7,8 +7,8 @@
 use super::kept::{Kept, Owner};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{
-    Configuration, Coupling, CouplingOrigin, Direction, Frame, Geometry, Joint, JointId, JointKind,
-    Link, Mechanism, Placement, Precision, Scene, Shape,
+    Coupling, CouplingOrigin, Direction, Frame, Geometry, Joint, JointId, JointKind, Link,
+    Mechanism, Placement, Precision, Scene, Shape,
 };
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -399,9 +399,7 @@ impl Writer<'_> {
 
     fn configurations(&mut self, mechanism: &Mechanism) {
         let style = self.style;
-        // One with joints that assembly may move is a wish of the moment, not of the file.
-        let stated = |c: &&Configuration| c.free.is_empty();
-        for configuration in mechanism.configurations().iter().filter(stated) {
+        for configuration in mechanism.configurations() {
             self.line(
                 1,
                 &format!("<configuration{}>", pair("name", &configuration.name)),
@@ -409,14 +407,13 @@ impl Writer<'_> {
             for (joint, values) in &configuration.positions {
                 // A joint without freedoms has no position to write.
                 if !values.is_empty() {
+                    let word = match configuration.free.contains(joint) {
+                        true => "start",
+                        false => "value",
+                    };
                     let joint = pair("joint", &mechanism.joint(*joint).name);
-                    self.line(
-                        2,
-                        &format!(
-                            "<position{joint}{}/>",
-                            pair("value", &style.numbers(values))
-                        ),
-                    );
+                    let values = pair(word, &style.numbers(values));
+                    self.line(2, &format!("<position{joint}{values}/>"));
                 }
             }
             self.line(1, "</configuration>");

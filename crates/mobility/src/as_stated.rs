@@ -127,7 +127,7 @@ pub(super) fn finding_of(
     ask_all(&question, &mut Means { more, whole })
 }
 
-/// How far the values of a configuration may be from those meant (rad, m), by joint index: half a unit of its finest decimal, if
+/// How far the values that a configuration holds may be from those meant (rad, m), by joint index: half a unit of its finest decimal, if
 /// its literals have more decimals than somebody would choose.
 fn rounded(configuration: &Configuration) -> BTreeMap<usize, f64> {
     let decimals = |values: &[kutzbach_math::number::Number]| {
@@ -136,18 +136,18 @@ fn rounded(configuration: &Configuration) -> BTreeMap<usize, f64> {
             .filter_map(|value| value.stated().map(|stated| stated.decimals))
             .max()
     };
-    let finest = configuration
-        .positions
-        .iter()
+    let held = || {
+        let positions = configuration.positions.iter();
+        positions.filter(move |(joint, _)| !configuration.free.contains(joint))
+    };
+    let finest = held()
         .filter_map(|(_, values)| decimals(values))
         .max()
         .filter(|finest| *finest > Precision::EXACT_DECIMALS);
     let Some(finest) = finest else {
         return BTreeMap::new();
     };
-    configuration
-        .positions
-        .iter()
+    held()
         .filter(|(_, values)| decimals(values).is_some())
         .map(|(joint, _)| (joint.0, 0.5 * 10f64.powi(-finest.min(300))))
         .collect()

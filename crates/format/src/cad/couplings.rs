@@ -91,7 +91,7 @@ impl Maker<'_> {
             self.not_read(joint, "both parts are one body");
             return Ok(());
         }
-        let name = self.unused(&joint.name);
+        let name = self.take_name(&joint.name);
         self.places.insert(name.clone(), joint.range.clone());
         let offset = match offset.abs() < 1e-13 {
             true => Number::zero(),

@@ -69,7 +69,7 @@ impl Maker<'_> {
         kind: JointKind,
         [from, to]: &[Side; 2],
     ) -> String {
-        let name = self.unused(name);
+        let name = self.take_name(name);
         self.places.insert(name.clone(), joint.range.clone());
         let (one, other) = (&self.links[from.part], &self.links[to.part]);
         let mut made = JointBuilder::closing(&name, kind, one, other)

@@ -27,6 +27,7 @@ pub(super) use freecad::{document, is_document, read as read_freecad};
 use super::error::{Fault, Outcome};
 use super::frames::pose_of;
 use super::kept::Kept;
+use super::names::unused;
 use super::reader::{counted_skips, counted_warnings};
 use super::unread::Tally;
 use super::{Reading, WarningKind};
@@ -181,20 +182,16 @@ impl Maker<'_> {
         Ok(())
     }
 
-    /// A name that nothing has yet.
-    fn unused(&mut self, wanted: &str) -> String {
-        let mut name = wanted.to_owned();
-        let mut number = 2;
-        while !self.taken.insert(name.clone()) {
-            name = format!("{wanted}_{number}");
-            number += 1;
-        }
+    /// A name that nothing has yet, and this has from now on.
+    fn take_name(&mut self, wanted: &str) -> String {
+        let name = unused(wanted, |name| self.taken.contains(name));
+        self.taken.insert(name.clone());
         name
     }
 
     /// Adds a link where it is drawn; its index.
     fn add_link(&mut self, wanted: &str, frame: Frame, range: Range<usize>) -> usize {
-        let name = self.unused(wanted);
+        let name = self.take_name(wanted);
         let index = self.links.len();
         self.builder.link(&name);
         self.poses.push(pose_of(&frame));

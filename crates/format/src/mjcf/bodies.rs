@@ -136,7 +136,7 @@ impl<'a> Mjcf<'a> {
                 return Err(name.fault(format!("two bodies are called {}", quoted(name.value))));
             }
             Some(name) => name.value.to_owned(),
-            None => self.unused(&self.links, "body"),
+            None => self.name_for(&self.links, "body"),
         };
         if body
             .attribute("mocap")
@@ -168,7 +168,7 @@ impl<'a> Mjcf<'a> {
         for (index, joint) in joints.into_iter().enumerate() {
             let to = match index == last {
                 true => name.clone(),
-                false => self.unused(&self.links, &format!("{name}_{}", index + 1)),
+                false => self.name_for(&self.links, &format!("{name}_{}", index + 1)),
             };
             self.links.insert(to.clone(), body.range());
             match load.take_if(|_| index == last) {
@@ -216,6 +216,7 @@ impl<'a> Mjcf<'a> {
             joint: joint.clone(),
             width: 7,
             zero: Number::zero(),
+            frame: Frame::identity(),
             is_held: false,
         });
         self.builder.floating(&joint, &parent, &name, frame);
@@ -238,7 +239,7 @@ impl<'a> Mjcf<'a> {
                 return Err(element.fault(format!("two joints are called {}", quoted(own))));
             }
             Some(own) => own.to_owned(),
-            None => self.unused(&self.names, made),
+            None => self.name_for(&self.names, made),
         };
         self.names.insert(name.clone(), element.range());
         Ok(name)
@@ -328,6 +329,7 @@ impl<'a> Mjcf<'a> {
             joint: name.clone(),
             width: if kind == JointKind::Spherical { 4 } else { 1 },
             zero: self.reference(joint, of, kind)?,
+            frame: at.clone(),
             is_held: held,
         });
         let made = match held {

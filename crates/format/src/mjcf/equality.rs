@@ -109,7 +109,7 @@ impl<'a> Mjcf<'a> {
 
     fn name_of_closure(&mut self, part: Element<'a>, made: &str) -> String {
         let own = part.attribute("name").map_or(made, |own| own.value);
-        let name = self.unused(&self.names, own);
+        let name = self.name_for(&self.names, own);
         self.names.insert(name.clone(), part.range());
         name
     }

@@ -1,15 +1,18 @@
 //! `<keyframe>`: named poses.
 //!
-//! `qpos` of a key has the coordinates of all joints in the order of the file; hinges in radians whatever the compiler says. A configuration holds
-//! its joints and lets the others follow. So without equalities it takes every hinge and every slide, and with them the joints that a
-//! motor drives: the others follow from these, and their rounded values would contradict the loops.
+//! `qpos` of a key has the coordinates of all joints in the order of the file; hinges in radians whatever the compiler says. Without equalities
+//! a configuration holds every hinge and every slide. With them the values, which are rounded, would contradict the loops: they are where
+//! assembly begins, balls included.
 
 use super::Mjcf;
 use super::pose::numbers;
 use crate::element::Element;
 use crate::error::Outcome;
+use crate::frames::{in_full, pose_of};
+use crate::names::unused;
 use crate::words::counted;
 use kutzbach_math::number::Number;
+use kutzbach_model::mechanism::Frame;
 
 /// What of a key is no pose.
 const BESIDE_POSES: [&str; 5] = ["qvel", "act", "ctrl", "mpos", "mquat"];
@@ -21,8 +24,33 @@ pub(super) struct Coordinate {
     pub(super) width: usize,
     /// The value as drawn.
     pub(super) zero: Number,
+    /// The joint's frame in its body.
+    pub(super) frame: Frame,
     /// Whether an equality holds the joint as drawn.
     pub(super) is_held: bool,
+}
+
+impl Coordinate {
+    /// A value from the pose drawn on.
+    fn since_drawn(&self, value: &Number) -> Number {
+        match self.zero.is_zero() {
+            true => value.clone(),
+            false => value - &self.zero,
+        }
+    }
+
+    /// The turn of a ball as a rotation vector (rad) in the joint's frame. The quaternion, the real part first, is in the body's frame and of
+    /// any length; that of length 0 is no turn, as in MuJoCo.
+    fn rotation_vector(&self, quaternion: [&Number; 4]) -> Vec<Number> {
+        let [w, x, y, z] = quaternion.map(Number::value);
+        // q and −q are one turn; the shorter way round has a real part that is not negative.
+        let sign = if w < 0.0 { -1.0 } else { 1.0 };
+        let sine = x.hypot(y).hypot(z);
+        let angle = 2.0 * sine.atan2(w.abs());
+        let scale = if sine > 0.0 { sign * angle / sine } else { 0.0 };
+        let vector = pose_of(&self.frame).rotate_back(&[x * scale, y * scale, z * scale]);
+        vector.map(in_full).to_vec()
+    }
 }
 
 impl<'a> Mjcf<'a> {
@@ -75,18 +103,17 @@ impl<'a> Mjcf<'a> {
         let mut rest = values.into_iter();
         for coordinate in &self.coordinates {
             let own: Vec<Number> = rest.by_ref().take(coordinate.width).collect();
-            let [value] = &own[..] else {
-                leaves_out = true;
-                continue;
+            let values = match (&own[..], is_tied) {
+                ([value], _) => vec![coordinate.since_drawn(value)],
+                ([w, x, y, z], true) => coordinate.rotation_vector([w, x, y, z]),
+                _ => {
+                    leaves_out = true;
+                    continue;
+                }
             };
-            let value = match coordinate.zero.is_zero() {
-                true => value.clone(),
-                false => value - &coordinate.zero,
-            };
-            if coordinate.is_held {
-                is_against |= !value.is_zero();
-            } else if !is_tied || self.driven.contains(coordinate.joint.as_str()) {
-                positions.push((coordinate.joint.clone(), vec![value]));
+            match coordinate.is_held {
+                true => is_against |= !values.iter().all(Number::is_zero),
+                false => positions.push((coordinate.joint.clone(), values)),
             }
         }
         let mut told = |what: &str| self.unread.standard_text(key.start(), what.to_owned());
@@ -95,30 +122,31 @@ impl<'a> Mjcf<'a> {
             return;
         }
         if positions.is_empty() {
-            told(match is_tied {
-                true => "<key> of a mechanism with equalities and without motors",
-                false => "<key> without a value of a hinge or a slide",
-            });
+            told("<key> without a value of a hinge or a slide");
             return;
         }
         if leaves_out {
-            told("values of balls and floating bodies in <key>");
+            told(match is_tied {
+                true => "values of floating bodies in <key>",
+                false => "values of balls and floating bodies in <key>",
+            });
         }
         let name = self.name_of_key(key);
-        self.builder.configuration(&name, positions);
+        let (held, starts) = match is_tied {
+            true => (Vec::new(), positions),
+            false => (positions, Vec::new()),
+        };
+        self.builder.configuration_with_starts(&name, held, starts);
     }
 
     /// The name of a key, or one that none has.
     fn name_of_key(&mut self, key: Element<'a>) -> String {
         let own = key.attribute("name").map(|own| own.value);
-        let wanted = own.unwrap_or("key");
-        let mut name = wanted.to_owned();
-        let mut number = 2;
         // Two keys of one name are an error, which the builder tells.
-        while own.is_none() && self.key_names.contains(&name) {
-            name = format!("{wanted}_{number}");
-            number += 1;
-        }
+        let name = match own {
+            Some(own) => own.to_owned(),
+            None => unused("key", |name| self.key_names.contains(name)),
+        };
         self.key_names.insert(name.clone());
         name
     }

@@ -15,7 +15,7 @@
 //! | actuators of joints | motors |
 //! | `<replicate>` | its copies, written out before anything is read |
 //! | `<inertial>`, `<geom>` | masses and shapes |
-//! | `<key>` | configuration |
+//! | `<key>` | configuration; where there are equalities, of starting values |
 //!
 //! Names are those of the file; what has none is named after its body. What would lose bodies or constraints is an error.
 //!
@@ -37,6 +37,7 @@ use super::element::Element;
 use super::error::{Fault, Outcome};
 use super::frames::{is_turned, sum};
 use super::kept::Kept;
+use super::names::unused;
 use super::reader::{counted_skips, counted_warnings};
 use super::unread::Tally;
 use super::words::{did_you_mean, quoted};
@@ -107,8 +108,6 @@ struct Mjcf<'a> {
     followers: BTreeMap<&'a str, &'a str>,
     /// Joints that an equality holds where they are drawn.
     held: BTreeSet<&'a str>,
-    /// Joints that a motor drives.
-    driven: BTreeSet<&'a str>,
     /// What `qpos` of a key is made of, in its order.
     coordinates: Vec<Coordinate>,
     key_names: BTreeSet<String>,
@@ -140,7 +139,6 @@ pub(super) fn read(whole: &Whole, options: &ReadOptions) -> Result<Reading, Vec<
         given: BTreeSet::new(),
         followers: BTreeMap::new(),
         held: BTreeSet::new(),
-        driven: BTreeSet::new(),
         coordinates: Vec::new(),
         key_names: BTreeSet::new(),
         warnings: Vec::new(),
@@ -233,14 +231,10 @@ impl<'a> Mjcf<'a> {
     }
 
     /// A name that nothing of its sort has, nor will have.
-    fn unused(&self, taken: &BTreeMap<String, Range<usize>>, wanted: &str) -> String {
-        let mut name = wanted.to_owned();
-        let mut number = 2;
-        while taken.contains_key(&name) || self.given.contains(name.as_str()) {
-            name = format!("{wanted}_{number}");
-            number += 1;
-        }
-        name
+    fn name_for(&self, taken: &BTreeMap<String, Range<usize>>, wanted: &str) -> String {
+        unused(wanted, |name| {
+            taken.contains_key(name) || self.given.contains(name)
+        })
     }
 
     /// A body that an equality names.
@@ -277,8 +271,8 @@ impl<'a> Mjcf<'a> {
         let own = chain.pop().unwrap_or_else(Frame::identity);
         let mut link = place.link.clone();
         for frame in chain {
-            let between = self.unused(&self.links, &format!("{name}_frame"));
-            let joint = self.unused(&self.names, &format!("{name}_frame"));
+            let between = self.name_for(&self.links, &format!("{name}_frame"));
+            let joint = self.name_for(&self.names, &format!("{name}_frame"));
             let range = self.links.get(&link).cloned().unwrap_or(0..0);
             self.links.insert(between.clone(), range.clone());
             self.names.insert(joint.clone(), range);
@@ -302,7 +296,6 @@ impl<'a> Mjcf<'a> {
             });
             match moved {
                 Some(joint) => {
-                    self.driven.insert(joint.value);
                     self.builder.actuate(joint.value);
                 }
                 None => self.unread.element(actuator),

@@ -5,6 +5,7 @@ use super::models::Extra;
 use super::names::Thing;
 use super::{Body, Sdf, only};
 use crate::WarningKind;
+use crate::detachable::{HELD_ALREADY, NO_SUCH_LINK, is_detachable, told};
 use crate::element::{Attribute, Element};
 use crate::error::Outcome;
 use crate::gazebo::needed;
@@ -27,8 +28,7 @@ pub(super) struct Gear<'a> {
 /// Axes are parallel up to this sine of their angle.
 const PARALLEL: f64 = 0.01;
 
-/// Parts of the names of plugins: of a joint that can be let go, of joints that follow, and of motors.
-const DETACHABLE: [&str; 2] = ["DetachableJoint", "detachable-joint"];
+/// Parts of the names of plugins: of joints that follow, and of motors.
 const FOLLOWING: [&str; 3] = ["mimic_joint", "mimic-joint", "MimicJoint"];
 const DRIVING: [&str; 6] = [
     "JointPositionController",
@@ -192,7 +192,7 @@ impl<'a> Sdf<'a> {
             words.iter().any(|word| has(word))
         };
         let [leader, follower] = ["joint", "mimicJoint"].map(|name| inner(plugin, name));
-        if is(&DETACHABLE) {
+        if is_detachable(plugin) {
             return self.detachable(extra);
         }
         if let (true, Some(leader), Some(follower)) = (is(&FOLLOWING), leader, follower) {
@@ -260,8 +260,7 @@ impl<'a> Sdf<'a> {
             _ => None,
         };
         let (Some((one, one_name)), Some((other, other_name))) = (first, second) else {
-            let what = "<plugin> DetachableJoint of a link that the file does not have".to_owned();
-            self.unread.text(plugin.start(), what);
+            self.unread.text(plugin.start(), NO_SUCH_LINK.to_owned());
             return Ok(());
         };
         let sides = [
@@ -269,22 +268,16 @@ impl<'a> Sdf<'a> {
             self.body_of(other, other_name)?,
         ];
         if sides[0] == sides[1] || self.stands_still(sides) {
-            let what = "<plugin> DetachableJoint between links that are held".to_owned();
-            self.unread.text(plugin.start(), what);
+            self.unread.text(plugin.start(), HELD_ALREADY.to_owned());
             return Ok(());
         }
         let [parent, child] = [one_name, other_name].map(|name| name.value.trim());
         let name = self.name_made(&format!("{parent}_{child}_detachable"), plugin.range());
-        let message = format!(
-            "the plugin DetachableJoint holds {} to {} until it lets go: it is read as a fixed joint",
-            quoted(child),
-            quoted(parent)
-        );
         let kind = WarningKind::ReadAs {
             joint: name.clone(),
             element: "joint".to_owned(),
         };
-        self.warn(plugin.start(), kind, message);
+        self.warn(plugin.start(), kind, told([parent, child]));
         let node = self.node_of(other);
         self.made
             .push(Made::new(name, JointKind::Fixed, sides, node));

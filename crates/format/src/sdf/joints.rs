@@ -3,9 +3,10 @@
 use super::names::Thing;
 use super::{AXES_IN_MODEL, Body, Sdf, only};
 use crate::WarningKind;
+use crate::axis_limits::{CROSSED, of_axis};
 use crate::element::{Attribute, Element};
 use crate::error::Outcome;
-use crate::gazebo::{is_limit, kind_of, lead_of, needed};
+use crate::gazebo::{kind_of, lead_of, needed};
 use crate::unread::truth;
 use crate::values::exactly;
 use crate::words::{cut, quoted};
@@ -336,32 +337,12 @@ impl<'a> Sdf<'a> {
 
     /// The range and the friction of an axis.
     fn limits(&mut self, axis: Option<Element<'a>>) -> Outcome<(Limit, Dynamics)> {
-        let (mut limit, mut dynamics) = (Limit::default(), Dynamics::default());
-        for part in axis.into_iter().flat_map(|axis| axis.elements()) {
-            for value in part.elements() {
-                let into = match (part.name(), value.name()) {
-                    ("limit", "lower") => &mut limit.lower,
-                    ("limit", "upper") => &mut limit.upper,
-                    ("limit", "effort") => &mut limit.effort,
-                    ("limit", "velocity") => &mut limit.velocity,
-                    ("dynamics", "damping") => &mut dynamics.damping,
-                    ("dynamics", "friction") => &mut dynamics.friction,
-                    _ => continue,
-                };
-                *into = bound(value)?;
-            }
-        }
-        let crossed = matches!(
-            (&limit.lower, &limit.upper),
-            (Some(lower), Some(upper)) if lower.value() > upper.value()
-        );
-        if crossed {
+        let read = of_axis(axis, bound)?;
+        if read.is_crossed {
             let at = axis.map_or(0, |axis| axis.start());
-            let message = "the lower limit is above the upper one, which means none";
-            self.warn(at, WarningKind::NoLimit, message.to_owned());
-            (limit.lower, limit.upper) = (None, None);
+            self.warn(at, WarningKind::NoLimit, CROSSED.to_owned());
         }
-        Ok((limit, dynamics))
+        Ok((read.limit, read.dynamics))
     }
 
     /// Notes limits of joints that turn about two axes, which are not read.
@@ -437,7 +418,7 @@ fn unit(axis: usize) -> Direction {
     Direction([0, 1, 2].map(component))
 }
 
-/// A bound, or a force; `None` where it bounds nothing: `inf`, 1e16, an effort or a rate of -1.
+/// A bound, or a force; `None` where that is `inf`.
 fn bound(element: Element<'_>) -> Outcome<Option<Number>> {
     let Some(value) = element.value() else {
         return Ok(None);
@@ -447,6 +428,5 @@ fn bound(element: Element<'_>) -> Outcome<Option<Number>> {
         return Ok(None);
     }
     let [number] = exactly(value)?;
-    let is_rate = matches!(element.name(), "effort" | "velocity");
-    Ok(Some(number).filter(|number| is_limit(number, is_rate)))
+    Ok(Some(number))
 }

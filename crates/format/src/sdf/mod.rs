@@ -38,6 +38,7 @@ mod tree;
 use super::element::Element;
 use super::error::{Fault, MOST_FAULTS, Outcome};
 use super::kept::Kept;
+use super::names::unused;
 use super::reader::{counted_skips, counted_warnings};
 use super::unread::{Tally, slip_of};
 use super::words::{alternatives, cut};
@@ -159,20 +160,9 @@ impl<'a> Sdf<'a> {
         self.couple().map_err(one)
     }
 
-    /// A name that nothing of its sort has.
-    fn unused(taken: &BTreeMap<String, Range<usize>>, wanted: &str) -> String {
-        let mut name = wanted.to_owned();
-        let mut number = 2;
-        while taken.contains_key(&name) {
-            name = format!("{wanted}_{number}");
-            number += 1;
-        }
-        name
-    }
-
     /// Gives a joint or coupling that the file does not name its name.
     fn name_made(&mut self, wanted: &str, range: Range<usize>) -> String {
-        let name = Self::unused(&self.names, wanted);
+        let name = unused(wanted, |name| self.names.contains_key(name));
         self.names.insert(name.clone(), range);
         name
     }

@@ -5,6 +5,7 @@ use super::joints::Made;
 use super::{Body, Sdf, pose};
 use crate::WarningKind;
 use crate::error::Outcome;
+use crate::names::unused;
 use crate::words::listed;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Direction, Dynamics, Frame, JointBuilder, JointKind, Limit};
@@ -61,7 +62,7 @@ impl<'a> Sdf<'a> {
             _ => world,
         };
         if root == world {
-            self.world = Self::unused(&self.link_names, &self.world);
+            self.world = unused(&self.world, |name| self.link_names.contains_key(name));
             self.builder.link(&self.world);
             self.builder.ground(&self.world);
         }

@@ -11,7 +11,7 @@ pub struct Configuration {
     pub name: String,
     /// Joint and one value per freedom (rad, m).
     pub positions: Vec<(JointId, Vec<Number>)>,
-    /// Of these, the joints whose values are only where assembly begins: it may move them. None of a file's own.
+    /// Of these, the joints whose values are only where assembly begins: it may move them.
     pub free: BTreeSet<JointId>,
 }
 

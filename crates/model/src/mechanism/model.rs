@@ -114,6 +114,14 @@ impl Mechanism {
         other
     }
 
+    /// The mechanism without the configuration of that name.
+    #[must_use]
+    pub fn without_configuration(&self, name: &str) -> Self {
+        let mut other = self.clone();
+        other.configurations.retain(|c| c.name != name);
+        other
+    }
+
     /// For every joint with limits, a value well within them (rad, m): the middle, or where there is but one limit, the
     /// value nearest to zero.
     #[must_use]

@@ -10,7 +10,10 @@ use std::collections::BTreeSet;
 #[derive(Clone, Debug)]
 pub(super) struct ConfigurationSpec {
     pub(super) name: String,
+    /// Values that joints keep.
     pub(super) positions: Vec<(String, Vec<Number>)>,
+    /// Values that joints only begin at.
+    pub(super) starts: Vec<(String, Vec<Number>)>,
 }
 
 /// Resolves all configurations, in their order.
@@ -43,8 +46,11 @@ fn resolve(
 ) -> Result<Configuration, MechanismError> {
     let fault = |problem: String| Err(MechanismError::new(entity.clone(), problem));
     let mut placed = BTreeSet::new();
-    let mut positions = Vec::with_capacity(spec.positions.len());
-    for (joint, values) in spec.positions {
+    let mut positions = Vec::with_capacity(spec.positions.len() + spec.starts.len());
+    let mut free = BTreeSet::new();
+    let held = spec.positions.into_iter().map(|position| (position, false));
+    let begun = spec.starts.into_iter().map(|position| (position, true));
+    for ((joint, values), begins) in held.chain(begun) {
         let id = names.joint(entity, &joint, || {
             format!("there is no joint named `{joint}`")
         })?;
@@ -60,11 +66,14 @@ fn resolve(
         }
         check_all_finite(entity, "position", &values)?;
         positions.push((id, values));
+        if begins {
+            free.insert(id);
+        }
     }
     Ok(Configuration {
         name: spec.name,
         positions,
-        free: BTreeSet::new(),
+        free,
     })
 }
 
@@ -105,6 +114,30 @@ mod tests {
         assert_eq!(
             fault(posed(mixed(), &[("bc", &["1"])])),
             "configuration `open`: joint `bc` needs one value for each degree of freedom, 0 in all, found 1"
+        );
+    }
+
+    #[test]
+    fn what_a_joint_begins_at_it_need_not_keep() {
+        let of = |joint: &str| vec![(joint.to_owned(), vec![number("0.5")])];
+        let mut builder = hinges();
+        builder.configuration_with_starts("open", of("bc"), of("ab"));
+        let mechanism = builder.build().unwrap();
+        let open = mechanism.configuration("open").unwrap();
+        let joints: Vec<JointId> = open.positions.iter().map(|(joint, _)| *joint).collect();
+        assert_eq!(joints, [JointId(1), JointId(0)]);
+        assert_eq!(open.held().collect::<Vec<_>>(), [JointId(1)]);
+        assert!(
+            mechanism
+                .without_configuration("open")
+                .configurations()
+                .is_empty()
+        );
+        let mut twice = hinges();
+        twice.configuration_with_starts("open", of("ab"), of("ab"));
+        assert_eq!(
+            fault(twice),
+            "configuration `open`: joint `ab` has two positions"
         );
     }
 

@@ -232,15 +232,27 @@ impl MechanismBuilder {
         self
     }
 
-    /// Adds a named pose.
+    /// Adds a named pose: joints that keep their values (rad, m; one for each freedom), and the others follow.
     pub fn configuration(
         &mut self,
         name: &str,
         positions: Vec<(String, Vec<Number>)>,
     ) -> &mut Self {
+        self.configuration_with_starts(name, positions, Vec::new())
+    }
+
+    /// Adds a named pose of which some joints keep their values and others, those of `starts`, only begin at theirs: assembly starts there
+    /// and may move them.
+    pub fn configuration_with_starts(
+        &mut self,
+        name: &str,
+        positions: Vec<(String, Vec<Number>)>,
+        starts: Vec<(String, Vec<Number>)>,
+    ) -> &mut Self {
         self.configurations.push(ConfigurationSpec {
             name: name.to_owned(),
             positions,
+            starts,
         });
         self
     }
