@@ -4,25 +4,34 @@ use crate::asked::{self, Analyse};
 use crate::failure::Failure;
 use crate::reading::Subject;
 use kutzbach::format::property_names;
-use kutzbach::mobility::{AnalysisOptions, analyse};
+use kutzbach::mechanism::Mechanism;
+use kutzbach::mobility::{Analysis, AnalysisOptions, Depth, analyse};
 use kutzbach::report::definitions;
 use kutzbach::report::html::{Assets, Facts, Prepared};
 use kutzbach::report::text::{Layout, render};
 use kutzbach::report::{Misfit, Options, Report, ReportError, analysed_report, misfits};
 use kutzbach::sweep;
 use pyo3::prelude::*;
-use serde_json::json;
+use serde_json::{Value, json};
 
-/// A report.
+/// A report, and what a row of a sweep would say.
 #[pyclass(frozen, module = "kutzbach._kutzbach")]
-pub struct Analysed(Report);
+pub struct Analysed {
+    report: Report,
+    facts: String,
+}
 
 #[pymethods]
 impl Analysed {
     /// Everything.
     fn json(&self) -> PyResult<String> {
-        serde_json::to_string(&self.0)
+        serde_json::to_string(&self.report)
             .map_err(|error| pyo3::exceptions::PyRuntimeError::new_err(error.to_string()))
+    }
+
+    /// What a row of a sweep would say.
+    fn facts(&self) -> &str {
+        &self.facts
     }
 
     /// A page for a person.
@@ -33,7 +42,7 @@ impl Analysed {
             verbose,
             ..Layout::default()
         };
-        render(&self.0, layout)
+        render(&self.report, layout)
     }
 }
 
@@ -65,12 +74,16 @@ fn options(asked: &Analyse, ranges: bool) -> Options {
 pub fn analysed(subject: &Subject, asked: &str) -> Result<Analysed, Failure> {
     let asked: Analyse = asked::parsed(asked)?;
     let options = options(&asked, true);
-    let (mut report, _) = analysed_report(&subject.reading, &subject.source.file, &options)
+    let (mut report, analysis) = analysed_report(&subject.reading, &subject.source.file, &options)
         .map_err(|error| refused(subject, &error))?;
     if report.assembly.proven_open {
         report.assembly.misfits = ruled_out(subject);
     }
-    Ok(Analysed(report))
+    let facts = row(subject.mechanism(), &analysis, Depth::Everything);
+    Ok(Analysed {
+        report,
+        facts: facts.to_string(),
+    })
 }
 
 /// The report as a page.
@@ -129,9 +142,14 @@ pub fn facts(subject: &Subject, asked: &str) -> Result<String, Failure> {
     };
     let analysis =
         analyse(mechanism, &options).map_err(|error| subject.failed(&error.to_string(), None))?;
-    let found = sweep::outcome(mechanism, &analysis, depth);
+    Ok(row(mechanism, &analysis, depth).to_string())
+}
+
+/// The row of a sweep, as JSON with the words of a report.
+fn row(mechanism: &Mechanism, analysis: &Analysis, depth: Depth) -> Value {
+    let found = sweep::outcome(mechanism, analysis, depth);
     let facts = &found.facts;
-    Ok(json!({
+    json!({
         "mechanism": mechanism.name(),
         "status": found.status.word(),
         "kutzbach": facts.kutzbach,
@@ -148,5 +166,4 @@ pub fn facts(subject: &Subject, asked: &str) -> Result<String, Failure> {
         "locked": facts.locked,
         "reason": found.reason,
     })
-    .to_string())
 }
