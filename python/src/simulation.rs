@@ -3,12 +3,13 @@
 use crate::asked::{self, Simulate};
 use crate::failure::Failure;
 use crate::reading::Subject;
-use kutzbach::mobility::{AnalysisOptions, Followed, Verdict, analyse_to_follow};
+use kutzbach::mechanism::Mechanism;
+use kutzbach::mobility::{Analysis, AnalysisOptions, Followed, Verdict, analyse_to_follow};
 use kutzbach::report::simulated::data;
 use kutzbach::simulate::verification::{Moment, Observer, Passage, VerificationOptions, verify};
 use kutzbach::simulate::{
-    Effects, RUNGE_KUTTA_STEP, Refinement, SceneOptions, WorldOptions, effect_names,
-    run_scene_estimated, scene_drives,
+    Effects, RUNGE_KUTTA_STEP, Refinement, SceneOptions, SceneRun, Solver, Trajectory, WorldError,
+    WorldOptions, effect_names, run_scene_estimated, scene_drives,
 };
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -86,42 +87,55 @@ pub fn simulated(
         kutzbach::motion::variable_named(&mechanism, name)
             .map_err(|error| subject.failed(&error.to_string(), Some(error.help())))?;
     }
-    let geometry = Arc::clone(&analysis.geometry);
     let mut watch = Watch(cancelled);
-    let verification = verify(&mechanism, &geometry, &analysis, &options, &mut watch)
-        .map_err(|error| subject.failed(&error.to_string(), None))?;
-    let effects = Effects::of_scene(&mechanism);
-    let drives = scene_drives(&mechanism);
-    let called_for = !effect_names(&effects).is_empty() || !drives.is_empty();
-    let posed = analysis.mobility.verdict != Verdict::Unassembled;
+    let verification = verify(
+        &mechanism,
+        &analysis.geometry,
+        &analysis,
+        &options,
+        &mut watch,
+    )
+    .map_err(|error| subject.failed(&error.to_string(), None))?;
     let mut scene = None;
-    if called_for && posed && !verification.stopped {
-        let wanted = SceneOptions {
-            world: WorldOptions {
-                solver: options.solvers.first().copied().unwrap_or_default(),
-                effects,
-                ..WorldOptions::default()
-            },
-            drives,
-            duration,
-            integrator: None,
-            runge_kutta_step: RUNGE_KUTTA_STEP,
-        };
-        let refinement = Refinement {
-            wanted: None,
-            work: SCENE_WORK,
-        };
-        let interrupted = || cancelled.load(Ordering::Relaxed);
-        let run = run_scene_estimated(
-            &mechanism,
-            &geometry,
-            &analysis.assembly.states,
-            &wanted,
-            (refinement, &interrupted as &dyn Fn() -> bool),
-            &mut watch,
-        )
-        .map_err(|error| subject.failed(&error.to_string(), None))?;
-        scene = Some(run);
+    if !verification.stopped {
+        let solver = options.solvers.first().copied().unwrap_or_default();
+        scene = scene_run(&mechanism, &analysis, (solver, duration), &mut watch)
+            .map_err(|error| subject.failed(&error.to_string(), None))?;
     }
     Ok(data(&mechanism, changed, None, &verification, scene.as_ref()).to_string())
+}
+
+/// The scene that the file calls for, from the pose analysed; none where it calls for none, or there is no pose.
+fn scene_run(
+    mechanism: &Mechanism,
+    analysis: &Analysis,
+    (solver, duration): (Solver, f64),
+    watch: &mut Watch<'_>,
+) -> Result<Option<(SceneRun, Trajectory)>, WorldError> {
+    let effects = Effects::of_scene(mechanism);
+    let drives = scene_drives(mechanism);
+    let called_for = !effect_names(&effects).is_empty() || !drives.is_empty();
+    if !called_for || analysis.mobility.verdict == Verdict::Unassembled {
+        return Ok(None);
+    }
+    let scene = SceneOptions {
+        world: WorldOptions {
+            solver,
+            effects,
+            ..WorldOptions::default()
+        },
+        drives,
+        duration,
+        integrator: None,
+        runge_kutta_step: RUNGE_KUTTA_STEP,
+    };
+    let refinement = Refinement {
+        wanted: None,
+        work: SCENE_WORK,
+    };
+    let flag = watch.0;
+    let interrupted = || flag.load(Ordering::Relaxed);
+    let how = (refinement, &interrupted as &dyn Fn() -> bool);
+    let states = &analysis.assembly.states;
+    run_scene_estimated(mechanism, &analysis.geometry, states, &scene, how, watch).map(Some)
 }

@@ -14,18 +14,17 @@ from ._answers import (
     Idle,
     Proof,
     Simulation,
-    Trace,
     analyse,
     assemble,
     exact,
     explain,
     simulate,
-    trace,
 )
 from ._ask import Exact, Value
 from ._errors import Interrupted, MechanismError
 from ._kutzbach import __version__
 from ._mechanism import Joint, Mechanism, Side, load
+from ._motion import Trace, trace
 from .build import Builder
 from .mujoco import from_mujoco
 from .pinocchio import from_pinocchio

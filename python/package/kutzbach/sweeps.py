@@ -71,6 +71,18 @@ class Sweep:
 
         return numpy.array([_double(value) for value in self.column(name)], dtype=numpy.float64)
 
+    def grid(self, x: str, y: str, value: str) -> tuple[list[float], list[float], NDArray[numpy.float64]]:
+        """Values over two measures, for a map: those of `x` and of `y`, rising, and an array of `value` with a row for each of `y`.
+        NaN where there is no row or nothing is known; of rows with the same `x` and `y` the last one counts."""
+        import numpy
+
+        across, up, values = self.numbers(x), self.numbers(y), self.numbers(value)
+        xs, columns = numpy.unique(across, return_inverse=True)
+        ys, rows = numpy.unique(up, return_inverse=True)
+        table = numpy.full((len(ys), len(xs)), numpy.nan)
+        table[rows, columns] = values
+        return xs.tolist(), ys.tolist(), table
+
     def to_arrow(self) -> pyarrow.Table:
         """The rows as a table of Arrow, with what they depend on as its metadata; measures that are no plain numbers stay texts."""
         import pyarrow
