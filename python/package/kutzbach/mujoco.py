@@ -148,14 +148,23 @@ class _Model:
         else:
             bodies = [self.body(body) for body in objects]
             frames = [Frame(data[3:6], quaternion=_xyzw(data[6:10])), Frame(data[0:3])]
+        if self._driven_by_a_user(equality, objects):
+            warnings.warn(f"equality `{name}` is left out: a user moves one of its bodies", stacklevel=4)
+            return
         self.made.closing(name, word, bodies[0], bodies[1], frames[0], frames[1])
+
+    def _driven_by_a_user(self, equality: int, objects: tuple[int, int]) -> bool:
+        model = self.model
+        of_sites = int(model.eq_objtype[equality]) == int(self.of.mjtObj.mjOBJ_SITE)
+        bodies = [model.site_bodyid[site] for site in objects] if of_sites else objects
+        return any(int(model.body_mocapid[body]) >= 0 for body in bodies)
 
     def _coupled(self, name: str, first: int, second: int, data: list[float]) -> None:
         constant, linear = data[0], data[1]
         if any(data[2:5]):
             warnings.warn(f"equality `{name}`: its tangent at the pose drawn is taken", stacklevel=4)
         terms: dict[str, Value] = {self.joint(first): 1}
-        if second >= 0:
+        if second >= 0 and linear != 0:
             terms[self.joint(second)] = -linear
         self.made.coupling(name, terms, constant)
 
