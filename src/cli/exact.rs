@@ -7,16 +7,14 @@ use super::progress::Sign;
 use super::{BAD_INPUT, DONE, UNDECIDED, load, output, terminal};
 use clap::{Args, ValueEnum};
 use kutzbach::algebra::{
-    BlockAnswer, BlockFinding, Budget, ExactOptions, Formulation, Limits, Method, MonomialOrder,
-    Progress, Reader, Stop, SystemError, SystemOptions, accepted_at_home, assembly_conditions,
-    entries_in, exact_answer, exact_by_blocks, motion_conditions, polynomial_system,
-    relation_by_relation, relations_of, without_loops, written_for,
+    Budget, ExactOptions, Formulation, Limits, Method, MonomialOrder, Progress, Reader, Stop,
+    SystemError, SystemOptions, accepted_at_home, assembly_conditions, entries_in,
+    motion_conditions, polynomial_system, relation_by_relation, relations_of, written_for,
 };
-use kutzbach::graph::ConstraintGraph;
 use kutzbach::mechanism::Mechanism;
 use kutzbach::report::exact::{
-    EXACT_SCHEMA, Request, blocks_report, conditions_report, exact_report, loopless_report,
-    relations_report, render, render_blocks, render_conditions, render_loopless, render_relations,
+    EXACT_SCHEMA, Proved, Request, conditions_report, proved, relations_report, render,
+    render_blocks, render_conditions, render_loopless, render_relations,
 };
 use kutzbach::report::text::visible;
 use serde_json::json;
@@ -210,10 +208,6 @@ enum Left {
     Relations,
 }
 
-/// Mechanisms of more blocks with loops than these are asked block by block from the start: the equations of all at once
-/// soon take longer than those of each.
-const BLOCKS_AT_ONCE: usize = 3;
-
 /// Why there is no text.
 enum Ended {
     Refused(SystemError),
@@ -286,61 +280,18 @@ impl Arguments {
         request: &Request,
         budget: &Budget,
     ) -> Result<(String, Option<Left>), Ended> {
-        if let Some(found) = without_loops(mechanism).filter(|_| self.asks_nothing_special()) {
-            let report = loopless_report(mechanism, &found, request);
-            let text = match self.for_a_person() {
-                true => render_loopless(&report, self.layout()),
-                false => output::json(&report).map_err(Ended::Failed)?,
-            };
-            return Ok((text, None));
-        }
         let plain = self.asks_nothing_special();
-        if plain && blocks_with_loops(mechanism) > BLOCKS_AT_ONCE {
-            return self.by_blocks(mechanism, request, budget);
-        }
-        let answer = match exact_answer(mechanism, &request.options, budget) {
-            Ok(answer) => answer,
-            Err(_) if plain => return self.by_blocks(mechanism, request, budget),
-            Err(error) => return Err(Ended::Refused(error)),
+        let (report, stopped) =
+            proved(mechanism, request, plain, budget).map_err(Ended::Refused)?;
+        let text = match (&report, self.for_a_person()) {
+            (_, false) => output::json(&report).map_err(Ended::Failed)?,
+            (Proved::Loopless(report), true) => render_loopless(report, self.layout()),
+            (Proved::Whole(report), true) => render(report, self.layout()),
+            (Proved::Blocks(report), true) => render_blocks(report, self.layout()),
         };
-        let report = exact_report(mechanism, &answer, request);
-        let text = match self.for_a_person() {
-            true => render(&report, self.layout()),
-            false => output::json(&report).map_err(Ended::Failed)?,
-        };
-        Ok((text, answer.stopped.map(|(_, stop)| Left::Stopped(stop))))
-    }
-
-    /// The blocks that have exact equations, where the whole has none; an error where that leaves nothing.
-    fn by_blocks(
-        &self,
-        mechanism: &Mechanism,
-        request: &Request,
-        budget: &Budget,
-    ) -> Result<(String, Option<Left>), Ended> {
-        let found = exact_by_blocks(mechanism, &request.options, budget);
-        let refused = |block: &BlockAnswer| matches!(block.found, BlockFinding::Refused(_));
-        if let Some(BlockAnswer {
-            found: BlockFinding::Refused(error),
-            ..
-        }) = found.blocks.first()
-            && found.blocks.iter().all(refused)
-        {
-            return Err(Ended::Refused(error.clone()));
-        }
-        let report = blocks_report(mechanism, &found, request);
-        let text = match self.for_a_person() {
-            true => render_blocks(&report, self.layout()),
-            false => output::json(&report).map_err(Ended::Failed)?,
-        };
-        let stopped = found.blocks.iter().find_map(|block| match &block.found {
-            BlockFinding::Answered { stopped, .. } => stopped.map(|(_, stop)| stop),
-            _ => None,
-        });
-        let in_part = report.outcome.word != "done";
+        let in_part = matches!(&report, Proved::Blocks(report) if report.outcome.word != "done");
         let stopped = stopped.map(Left::Stopped);
-        let stopped = stopped.or(in_part.then_some(Left::Blocks));
-        Ok((text, stopped))
+        Ok((text, stopped.or(in_part.then_some(Left::Blocks))))
     }
 
     /// Whether the answer alone is asked for, and not a form of the equations.
@@ -475,11 +426,6 @@ impl Arguments {
     fn layout(&self) -> kutzbach::report::text::Layout {
         terminal::layout(self.destination.file().is_some(), self.verbose)
     }
-}
-
-fn blocks_with_loops(mechanism: &Mechanism) -> usize {
-    let blocks = ConstraintGraph::of(mechanism).blocks();
-    blocks.iter().filter(|block| !block.bridge).count()
 }
 
 /// Steps that do not ask whether to go on may take so long after Ctrl-C.

@@ -12,6 +12,7 @@ use clap::{Args, ValueEnum};
 use kutzbach::mechanism::{FreedomPart, Mechanism};
 use kutzbach::mobility::{AnalysisOptions, Depth, Followed, analyse_to_follow};
 use kutzbach::motion::{TraceOptions, trace};
+use kutzbach::report::traced;
 
 /// Follow a branch: poses, ranges and extreme positions of the joints, singular poses
 #[derive(Debug, Args)]
@@ -188,7 +189,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             table::text(mechanism, changed, &traced, &drawn.points, units)
         }
         Format::Csv => csv::csv(mechanism, &traced, &drawn.points),
-        Format::Json => output::json(&table::json(mechanism, changed, &traced, &drawn.points))?,
+        Format::Json => output::json(&traced::data(mechanism, changed, &traced, &drawn.points))?,
         Format::Svg => drawn.svg(mechanism, &traced)?,
     };
     arguments.destination.put(&text)?;

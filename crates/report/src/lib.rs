@@ -36,6 +36,7 @@
 //! | `convert` | the mechanism in the words of other programs |
 //! | `picture` | plots, the mechanism drawn, a sign for each answer: still, as SVG |
 //! | `sweep` | the same question of many members of a family, a row for each |
+//! | `traced`, `simulated` | a traced motion, and what a simulation said, as data |
 //! | `definitions` | what a word means |
 
 #[cfg(feature = "simulate")]
@@ -66,8 +67,12 @@ mod ranges;
 #[allow(clippy::wildcard_imports)]
 pub(crate) mod samples;
 mod schema;
+#[cfg(feature = "simulate")]
+pub mod simulated;
 pub mod sweep;
 pub mod text;
+#[cfg(feature = "simulate")]
+pub mod traced;
 
 pub use asked::{Options, PlayAsked, ReportError};
 pub use assemble::{Input, analysed_report, analysed_report_on, report, report_on};

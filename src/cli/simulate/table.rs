@@ -4,6 +4,7 @@ use kutzbach::accuracy::Choice;
 use kutzbach::mechanism::Mechanism;
 use kutzbach::record::Summary;
 use kutzbach::report::accuracy::choice_text;
+use kutzbach::report::simulated::data;
 use kutzbach::report::text::words::{counted, degrees, metres, names, runs};
 use kutzbach::report::text::{Cell, Column, Layout, Page, Table, Tint};
 use kutzbach::simulate::verification::{
@@ -17,9 +18,6 @@ const HELD: usize = 6;
 
 /// Tests left out that are named there.
 const UNTESTED: usize = 8;
-
-/// The version of the JSON.
-const SCHEMA: &str = "kutzbach-simulation-1";
 
 /// Everything that was simulated.
 pub struct Simulated<'a> {
@@ -499,19 +497,13 @@ fn cost_page(rows: &[CostRow], page: &mut Page) {
 /// Everything, for a program. Times on the clock differ from run to run and are given on request only; `cost` is nothing
 /// but such times and was requested.
 pub fn json(simulated: &Simulated<'_>, timing: bool) -> Value {
-    let mut value = json!({
-        "schema": SCHEMA,
-        "mechanism": simulated.mechanism.name(),
-        "dimensions_changed": simulated.changed,
-        "verification": simulated.verification,
-    });
-    if let Some(choice) = &simulated.choice {
-        value["accuracy"] = json!(choice);
-    }
-    if let Some((run, trajectory)) = &simulated.scene {
-        value["scene"] = json!(run);
-        value["scene"]["trajectory"] = json!(trajectory);
-    }
+    let mut value = data(
+        simulated.mechanism,
+        simulated.changed,
+        simulated.choice.as_ref(),
+        &simulated.verification,
+        simulated.scene.as_ref(),
+    );
     if let Some(rows) = &simulated.cost {
         value["cost"] = json!(rows);
     }

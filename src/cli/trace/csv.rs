@@ -1,9 +1,9 @@
 //! A trace as comma-separated rows.
 
-use super::table::quaternion;
 use kutzbach::mechanism::Mechanism;
 use kutzbach::motion::{Trace, Variable};
 use kutzbach::report::picture::traced::LinkPoint;
+use kutzbach::report::traced::quaternion;
 
 /// A field of a row: quoted where a name has a comma, a quotation mark or a line break in it (RFC 4180).
 fn field(text: &str) -> String {

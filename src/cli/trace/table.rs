@@ -1,17 +1,12 @@
-//! A trace as text, as comma-separated rows and as JSON.
+//! A trace as text.
 
 use crate::cli::units::ValueUnits;
-use kutzbach::closure::Rigid;
 use kutzbach::mechanism::{FreedomPart, Mechanism};
-use kutzbach::motion::{EndReason, EventKind, Motion, Spacing, Trace, Variable, value_text};
+use kutzbach::motion::{Motion, Spacing, Trace, Variable, value_text};
 use kutzbach::report::picture::traced::LinkPoint;
 use kutzbach::report::text::visible;
 use kutzbach::report::text::words::{degrees, metres};
-use serde_json::{Value, json};
 use std::fmt::Write;
-
-/// The version of the JSON.
-const SCHEMA: &str = "kutzbach-trace-1";
 
 /// A mechanism and the units in which its values are told.
 struct Told<'a> {
@@ -256,118 +251,4 @@ fn aligned(rows: &[Vec<String>], right: &[bool]) -> Vec<String> {
             format!("  {}", cells.join("  ").trim_end())
         })
         .collect()
-}
-
-/// The rotation of a pose as a unit quaternion (w, x, y, z).
-pub(super) fn quaternion(pose: &Rigid<f64>) -> [f64; 4] {
-    let [x, y, z, w] = pose.quaternion();
-    [w, x, y, z]
-}
-
-fn event_json(kind: &EventKind) -> Value {
-    match kind {
-        EventKind::DeadCentre {
-            variable,
-            value,
-            greatest,
-        } => {
-            json!({"kind": "dead_centre", "joint": variable.name, "value": value, "greatest": greatest})
-        }
-        EventKind::JointLimit { variable, value } => {
-            json!({"kind": "joint_limit", "joint": variable.name, "value": value})
-        }
-        EventKind::Singular { freedom, home, .. } => {
-            json!({"kind": kind.word(), "freedom": freedom, "home": home})
-        }
-        EventKind::Cusp { home } => json!({"kind": "cusp", "home": home}),
-    }
-}
-
-fn reason_json(reason: &EndReason) -> Value {
-    match reason {
-        EndReason::JointLimit { variable, value } => {
-            json!({"kind": "joint_limit", "joint": variable.name, "value": value})
-        }
-        EndReason::GoesOn => json!({"kind": "goes_on"}),
-        EndReason::CannotGoOn => json!({"kind": "cannot_go_on"}),
-    }
-}
-
-/// Everything, with the names of columns once.
-pub fn json(
-    mechanism: &Mechanism,
-    changed: Option<f64>,
-    trace: &Trace,
-    points: &[LinkPoint],
-) -> Value {
-    let motion = match trace {
-        Trace::Still(still) => {
-            return json!({
-                "schema": SCHEMA,
-                "mechanism": mechanism.name(),
-                "moves": false,
-                "reason": still.reason,
-                "branch": still.branch,
-            });
-        }
-        Trace::Moving(motion) => motion,
-    };
-    let variables = Variable::all(mechanism);
-    let samples: Vec<Value> = motion
-        .samples
-        .iter()
-        .map(|sample| {
-            let links: Vec<Value> = sample
-                .links
-                .iter()
-                .map(|pose| json!({"position": pose.translation, "quaternion": quaternion(pose)}))
-                .collect();
-            json!({
-                "drive": sample.drive,
-                "arclength": sample.arclength,
-                "closure": sample.closure,
-                "values": sample.values,
-                "links": links,
-            })
-        })
-        .collect();
-    json!({
-        "schema": SCHEMA,
-        "mechanism": mechanism.name(),
-        "dimensions_changed": changed,
-        "moves": true,
-        "branch": motion.branch,
-        "branches": motion.branches,
-        "dimension": motion.dimension,
-        "driven": {"joint": motion.driven.name, "unit": motion.driven.unit(mechanism)},
-        "held": motion.held.iter().map(|h| json!({
-            "joint": h.variable.name, "value": h.value, "unit": h.variable.unit(mechanism),
-        })).collect::<Vec<_>>(),
-        "starts_at_home": motion.starts_at_home,
-        "closed": motion.closed,
-        "ends": motion.ends.iter().map(|e| json!({
-            "arclength": e.arclength, "drive": e.drive, "reason": reason_json(&e.reason),
-        })).collect::<Vec<_>>(),
-        "events": motion.events.iter().map(|e| json!({
-            "arclength": e.arclength, "drive": e.drive, "event": event_json(&e.kind), "values": e.values,
-        })).collect::<Vec<_>>(),
-        "ranges": motion.ranges.iter().map(|r| json!({
-            "joint": r.variable.name, "unit": r.variable.unit(mechanism), "min": r.min, "max": r.max,
-            "travel": r.travel, "turns": r.turns, "moves": r.moves, "dead_centres": r.dead_centres,
-        })).collect::<Vec<_>>(),
-        "spacing": match motion.spacing { Spacing::Drive => "drive", Spacing::Arclength => "arclength" },
-        "unreached": motion.unreached.iter().map(|u| json!({
-            "wanted": u.wanted, "reached": u.reached, "reason": u.reason,
-        })).collect::<Vec<_>>(),
-        "length_unit": motion.length_unit,
-        "largest_closure": motion.largest_closure,
-        "allowed_closure": motion.allowed_closure,
-        "notes": motion.notes,
-        "columns": variables.iter().map(|v| json!({"joint": v.name, "unit": v.unit(mechanism)})).collect::<Vec<_>>(),
-        "links": mechanism.links().iter().map(|l| l.name.as_str()).collect::<Vec<_>>(),
-        "samples": samples,
-        "curves": points.iter().map(|point| json!({
-            "link": mechanism.links()[point.link].name, "at": point.at, "path": point.path(motion),
-        })).collect::<Vec<_>>(),
-    })
 }

@@ -4,6 +4,7 @@ mod blocks;
 mod conditions;
 mod loopless;
 mod motions;
+mod proved;
 mod relations;
 mod schema;
 mod text;
@@ -16,6 +17,7 @@ pub use conditions::{
 };
 pub use loopless::{LooplessReport, loopless_report, render_loopless};
 pub use motions::Motion;
+pub use proved::{Proved, proved};
 pub use relations::{RelationRow, Relations, relations_report, render_relations};
 pub use schema::{
     Cycle, EXACT_SCHEMA, ExactReport, Fixed, Modulo, Outcome, Piece, Request, Solutions, StepRow,

@@ -257,8 +257,9 @@ impl Family {
     }
 }
 
-/// What is found, and why not more.
-fn outcome(given: &Mechanism, analysis: &Analysis, depth: Depth) -> Outcome {
+/// What an analysis of this depth has found of the mechanism that it was given, and why not more: what a row says.
+#[must_use]
+pub fn outcome(given: &Mechanism, analysis: &Analysis, depth: Depth) -> Outcome {
     let mobility = &analysis.mobility;
     let mut facts = Facts {
         kutzbach: Some(analysis.kutzbach),

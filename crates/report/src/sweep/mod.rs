@@ -44,7 +44,7 @@ mod plan;
 mod points;
 mod values;
 
-pub use family::{Facts, Family, MeasuredFile, Outcome, Row, Status};
+pub use family::{Facts, Family, MeasuredFile, Outcome, Row, Status, outcome};
 pub use fraction::Fraction;
 pub use lines::{Form, SWEEP_SCHEMA, Table};
 pub use plan::{Asked, Plan, Sample, Shard};

@@ -1,0 +1,223 @@
+"""The same question of many variants of a mechanism."""
+
+from __future__ import annotations
+
+import json
+import os
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from fractions import Fraction
+from typing import IO, TYPE_CHECKING, Any
+
+from . import _kutzbach
+from ._answers import Depth
+from ._ask import Value, asked, value_text
+from ._errors import Interrupted
+from ._mechanism import Mechanism
+
+if TYPE_CHECKING:
+    import numpy
+    import pyarrow
+    from numpy.typing import NDArray
+
+Values = str | Iterable[Value]
+"""``"0..2:401"`` for 401 values from 0 to 2, ``"0.1,pi/4"``, or any values."""
+
+Progress = Callable[[int, int], None]
+"""Is told how many rows are done, and how many there are."""
+
+_FIRST = 64
+_SECONDS = 0.5
+_MOST = 1 << 16
+
+
+def over_text(name: str, values: Values) -> str:
+    """A measure and its values as the command line has them.
+
+    >>> over_text("a", "0..2:401"), over_text("b", [0.5, Fraction(1, 3), "pi/4"])
+    ('a=0..2:401', 'b=0.5,1/3,pi/4')
+    """
+    if isinstance(values, str):
+        return f"{name}={values}"
+    return f"{name}={','.join(value_text(value) for value in values)}"
+
+
+class Sweep:
+    """Rows, one for each variant: what was found, or the reason why nothing was.
+
+    A row is a mapping of plain data: the measures by their names, then ``status``, ``kutzbach``, ``instantaneous``, ``redundant``,
+    ``margin``, and what the depth adds (``verdict``, ``finite``, …). What is not decided is ``None``. A measure that is called like
+    one of these has `` (measure)`` behind its name.
+    """
+
+    def __init__(self, head: str, lines: Iterable[str]) -> None:
+        self.head: dict[str, Any] = json.loads(head)
+        """What rows depend on: file, ranges, depth, share."""
+        self._head = head
+        self.rows: list[dict[str, Any]] = [_row(json.loads(line)) for line in lines]
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of the columns."""
+        return tuple(self.rows[0]) if self.rows else ()
+
+    def column(self, name: str) -> list[Any]:
+        """One column as a list; ``KeyError`` where there is none."""
+        return [row[name] for row in self.rows]
+
+    def numbers(self, name: str) -> NDArray[numpy.float64]:
+        """One column as an array of doubles: NaN where nothing is known, expressions evaluated where they are fractions."""
+        import numpy
+
+        return numpy.array([_double(value) for value in self.column(name)], dtype=numpy.float64)
+
+    def grid(self, x: str, y: str, value: str) -> tuple[list[float], list[float], NDArray[numpy.float64]]:
+        """Values over two measures, for a map: those of `x` and of `y`, rising, and an array of `value` with a row for each of `y`.
+        NaN where there is no row or nothing is known; of rows with the same `x` and `y` the last one counts."""
+        import numpy
+
+        across, up, values = self.numbers(x), self.numbers(y), self.numbers(value)
+        xs, columns = numpy.unique(across, return_inverse=True)
+        ys, rows = numpy.unique(up, return_inverse=True)
+        table = numpy.full((len(ys), len(xs)), numpy.nan)
+        table[rows, columns] = values
+        return xs.tolist(), ys.tolist(), table
+
+    def to_arrow(self) -> pyarrow.Table:
+        """The rows as a table of Arrow, with what they depend on as its metadata; measures that are no plain numbers stay texts."""
+        import pyarrow
+
+        columns = {name: _uniform(self.column(name)) for name in self.columns}
+        return pyarrow.table(columns).replace_schema_metadata({"kutzbach": self._head.strip()})
+
+    def to_parquet(self, path: str | os.PathLike[str]) -> None:
+        """Writes the rows as Parquet: beside the file first, so that nobody reads half of it."""
+        import pyarrow.parquet
+
+        whole = os.fspath(path)
+        draft = f"{whole}.{os.getpid()}.part"
+        try:
+            pyarrow.parquet.write_table(self.to_arrow(), draft)
+            os.replace(draft, whole)
+        finally:
+            if os.path.exists(draft):
+                os.unlink(draft)
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __iter__(self) -> Iterator[dict[str, Any]]:
+        return iter(self.rows)
+
+    def __repr__(self) -> str:
+        return f"<Sweep over {', '.join(self.head['over'])}: {len(self)} rows>"
+
+
+def _row(told: Mapping[str, Any]) -> dict[str, Any]:
+    """A line of JSON as a flat row."""
+    found = {key: value for key, value in told.items() if key != "measures"}
+    row: dict[str, Any] = {"variant": found.pop("variant")}
+    for name, value in told["measures"].items():
+        own = name in found or name == "variant"
+        row[f"{name} (measure)" if own else name] = value
+    return {**row, **found}
+
+
+def _double(value: Any) -> float:
+    if value is None:
+        return float("nan")
+    try:
+        return float(Fraction(value)) if isinstance(value, str) else float(value)
+    except (TypeError, ValueError, ZeroDivisionError):
+        return float("nan")
+
+
+def _uniform(values: list[Any]) -> list[Any]:
+    """A column of one type: whole numbers beside decimals are doubles, numbers beside expressions are texts."""
+    kinds = {type(value) for value in values if value is not None}
+    if kinds == {int, float}:
+        return [None if value is None else float(value) for value in values]
+    if str in kinds and len(kinds) > 1:
+        return [None if value is None else str(value) for value in values]
+    return values
+
+
+def _planned(
+    mechanism: Mechanism,
+    over: Mapping[str, Values],
+    sample: str | None,
+    shard: tuple[int, int] | None,
+    depth: Depth,
+    configuration: str | None,
+    closure_tolerance: float | None,
+) -> _kutzbach.Sweep:
+    question = asked(
+        over=[over_text(name, values) for name, values in over.items()],
+        sample=sample,
+        shard=None if shard is None else f"{shard[0]}/{shard[1]}",
+        depth=depth,
+        configuration=configuration,
+        closure_tolerance=closure_tolerance,
+    )
+    return mechanism._reading.sweep(question)
+
+
+def sweep(
+    mechanism: Mechanism,
+    over: Mapping[str, Values],
+    *,
+    sample: str | None = None,
+    depth: Depth = "verdict",
+    shard: tuple[int, int] | None = None,
+    output: str | os.PathLike[str] | None = None,
+    progress: Progress | None = None,
+    configuration: str | None = None,
+    closure_tolerance: float | None = None,
+) -> Sweep:
+    """Asks the same of many variants of a mechanism, on all processors: ``kutzbach sweep``.
+
+    `over` has the measures and their values: ``{"a": "0..2:401", "b": [0.1, 0.2]}`` for all combinations, the last one changing
+    first. `sample` takes points instead, ``"sobol:1000"`` or ``"random:1000"``. `shard` is one share of the work, ``(2, 5)`` the
+    second of five. `output` is a file that gets the rows too, as CSV, or as JSON lines where its name ends in ``.jsonl``; it is
+    written anew. A sweep that is to be continued where it was cut off is the command line's.
+
+    Ctrl-C raises :class:`Interrupted`, whose ``done`` is the :class:`Sweep` of the rows so far.
+
+    >>> import kutzbach
+    >>> door = kutzbach.Builder("door").measure("w", 1).joint("turn", "revolute", "ground", "door", at=("w", 0, 0), axis=(0, 0, 1))
+    >>> kutzbach.sweep(door.build(), {"w": "0..1:3"}).column("finite")
+    [1, 1, 1]
+    """
+    planned = _planned(mechanism, over, sample, shard, depth, configuration, closure_tolerance)
+    count, head = planned.count(), planned.head(False)
+    csv = output is not None and not os.fspath(output).endswith(".jsonl")
+    lines: list[str] = []
+    file: IO[str] | None = None
+    try:
+        if output is not None:
+            file = open(output, "w", encoding="utf-8", newline="")
+            file.write(planned.head(csv))
+        for jsonl, rows in _chunks(planned, count):
+            # Names may hold line breaks of Unicode, which end no row.
+            lines.extend(jsonl.split("\n")[:-1])
+            if file is not None:
+                file.write(rows if csv else jsonl)
+            if progress is not None:
+                progress(len(lines), count)
+    except KeyboardInterrupt:
+        raise Interrupted(Sweep(head, lines)) from None
+    finally:
+        if file is not None:
+            file.close()
+    return Sweep(head, lines)
+
+
+def _chunks(planned: _kutzbach.Sweep, count: int) -> Iterator[tuple[str, str]]:
+    """All rows, in pieces that take about half a second each, so that little is lost at Ctrl-C."""
+    start, size = 0, _FIRST
+    while start < count:
+        began = time.monotonic()
+        yield planned.rows(start, size)
+        start += size
+        seconds = max(time.monotonic() - began, 1e-6)
+        size = int(min(max(size * _SECONDS / seconds, 1), 4 * size, _MOST))
