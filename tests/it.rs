@@ -68,6 +68,7 @@ mod known_mechanisms;
 mod log_readers;
 #[path = "long_runs/main.rs"]
 mod long_runs;
+mod map_cli;
 mod margins;
 mod mechanism_table;
 mod mjcf;

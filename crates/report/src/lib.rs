@@ -36,6 +36,7 @@
 //! | `convert` | the mechanism in the words of other programs |
 //! | `picture` | plots, the mechanism drawn, a sign for each answer: still, as SVG |
 //! | `sweep` | the same question of many members of a family, a row for each |
+//! | `map` | a sweep as a picture over two of its measures |
 //! | `definitions` | what a word means |
 
 #[cfg(feature = "simulate")]
@@ -54,6 +55,8 @@ mod findings;
 #[cfg(feature = "html")]
 pub mod html;
 mod inputs;
+#[cfg(feature = "simulate")]
+pub mod map;
 mod misfits;
 mod motions;
 mod natural;
