@@ -101,6 +101,7 @@ mod subgroups;
 mod superfluous;
 mod support;
 mod sweep_cli;
+mod sweep_members;
 mod thesis_rows;
 mod thesis_systems;
 mod trace;

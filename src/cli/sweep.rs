@@ -88,8 +88,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let mut tally = Tally::default();
     let mut failed = None;
     let left = count.saturating_sub(before);
+    let members = family.members();
     let one = |place: u64| {
-        let row = family.row(shard.index(before + place))?;
+        let row = members.row(shard.index(before + place))?;
         Some((table.line(&row), row.outcome.status))
     };
     in_order(left, WINDOW, one, |done, event| {

@@ -72,6 +72,7 @@ mod relax;
 mod restated;
 mod sdf;
 mod sketch;
+mod template;
 mod unread;
 mod values;
 mod words;
@@ -86,11 +87,13 @@ pub use from_urdf_rs::urdf_text;
 pub use kept::Kept;
 pub use property_names::property_names;
 pub use sketch::{is_sketch, read_sketch, read_sketch_file};
+pub use template::Template;
 pub use writer::{Numbers, WriteOptions, escaped, write, write_with};
 
 use content::Content;
 use error::{Fault, located};
 use kutzbach_model::mechanism::Mechanism;
+use roxmltree::Document;
 use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
@@ -301,16 +304,10 @@ fn read_text(
         Content::Robot => Some(xacro::expand(text, file, base, options)?),
         _ => None,
     };
-    let mut reading = match source {
+    let reading = match source {
         None => read_foreign(content, text, file, base, options)?,
-        Some(Source::Plain(warnings)) => {
-            let mut reading =
-                reader::read(text, options, None).map_err(|faults| located(file, text, faults))?;
-            reading.warnings.extend(warnings);
-            reading
-                .warnings
-                .sort_by_key(|warning| (warning.line, warning.column));
-            reading
+        Some(Source::Plain(warnings, document)) => {
+            read_plain(text, file, options, warnings, document.as_deref())?
         }
         Some(Source::Expanded(expanded)) => {
             // The expansion has used the settings up.
@@ -324,13 +321,39 @@ fn read_text(
                 .map_err(|faults| expanded.map.located(faults))?
         }
     };
+    Ok(understood(reading, options))
+}
+
+/// Reads a text that needs no expansion, of which `document` was parsed if it is there, with warnings of what it calls and nobody
+/// defines.
+fn read_plain(
+    text: &str,
+    file: &str,
+    options: &ReadOptions,
+    warnings: Vec<Warning>,
+    document: Option<&Document<'_>>,
+) -> Result<Reading, FormatError> {
+    let read = match document {
+        Some(document) => reader::read_parsed(document, text, Vec::new(), options, None),
+        None => reader::read(text, options, None),
+    };
+    let mut reading = read.map_err(|faults| located(file, text, faults))?;
+    reading.warnings.extend(warnings);
+    reading
+        .warnings
+        .sort_by_key(|warning| (warning.line, warning.column));
+    Ok(reading)
+}
+
+/// A reading with its decimals understood as the options say.
+fn understood(mut reading: Reading, options: &ReadOptions) -> Reading {
     if !options.literal {
         reading.mechanism = reading.mechanism.with_constants_known_to(options.precision);
     }
     if let Some(uncertainty) = options.precision {
         reading.mechanism = reading.mechanism.with_precision(uncertainty);
     }
-    Ok(reading)
+    reading
 }
 
 /// Reads a text of another program's format.
@@ -366,7 +389,7 @@ pub fn expanded_file(path: impl AsRef<Path>, options: &ReadOptions) -> Result<St
     let bytes = bytes_of(path).map_err(|fault| located(&file, "", vec![fault]))?;
     bytes_with(&bytes, &file, |text, file| {
         Ok(match xacro::expand(text, file, Some(path), options)? {
-            Source::Plain(_) => text.to_owned(),
+            Source::Plain(..) => text.to_owned(),
             Source::Expanded(expanded) => expanded.plain,
         })
     })
