@@ -113,9 +113,10 @@ impl Map {
         let rulers = rulers(&plot);
         match &self.grid {
             Some(grid) => self.write_grid(grid, &rulers, in_page, &mut svg),
-            None => self.write_points(&rulers, in_page, &mut svg),
+            None => self.write_points(0..self.count, &rulers, in_page, &mut svg),
         }
         write_border(&border, self.grid.as_ref(), &rulers, &mut svg);
+        self.write_points(self.count..self.cells.len(), &rulers, in_page, &mut svg);
         write_frame(&rulers, &mut svg);
         self.write_legend(!border.is_empty(), &mut svg);
         for (row, line) in notes.iter().enumerate() {
@@ -176,7 +177,7 @@ impl Map {
     }
 
     fn write_grid(&self, grid: &Grid, rulers: &Rulers, in_page: bool, svg: &mut String) {
-        let is_single = self.cells.len() <= MOST_SINGLE;
+        let is_single = self.count <= MOST_SINGLE;
         for row in 0..grid.height() {
             let mut column = 0;
             while column < grid.width() {
@@ -211,14 +212,23 @@ impl Map {
         }
     }
 
-    fn write_points(&self, rulers: &Rulers, in_page: bool, svg: &mut String) {
-        let radius = match self.cells.len() {
+    fn write_points(
+        &self,
+        places: std::ops::Range<usize>,
+        rulers: &Rulers,
+        in_page: bool,
+        svg: &mut String,
+    ) {
+        let radius = match places.len() {
+            _ if self.is_grid() => 2.4,
             0..300 => 5.0,
             300..3000 => 3.2,
             _ => 2.0,
         };
-        for (index, cell) in self.cells.iter().enumerate() {
-            let [x, y] = cell.at;
+        for index in places {
+            let Some([x, y]) = self.cells.get(index).map(|cell| cell.at) else {
+                continue;
+            };
             let shape = format!(
                 "<circle class=\"cell dot {}\" cx=\"{}\" cy=\"{}\" r=\"{}\">",
                 self.class(index),

@@ -72,8 +72,10 @@ impl MapError {
 #[derive(Clone, Debug)]
 pub struct Map {
     sweep: Sweep,
-    /// In the order of their values of both measures, the horizontal one first.
+    /// In the order of their values of both measures, the horizontal one first; after them places between cells whose answers differ.
     cells: Vec<Cell>,
+    /// How many are cells.
+    count: usize,
     /// The colour of each.
     tones: Vec<Tone>,
     /// None where the cells are points.
@@ -113,7 +115,7 @@ impl Map {
     /// How many cells, or points, it has.
     #[must_use]
     pub fn count(&self) -> usize {
-        self.cells.len()
+        self.count
     }
 
     /// Whether the values of both measures form a grid.

@@ -2,9 +2,10 @@
 
 use super::answer::{Answer, Said};
 use super::grid::{At, Grid};
-use super::rows::{Columns, Head, Line, Lines, cells, opening, unreadable};
+use super::rows::{Columns, Head, Line, Lines, opening, unreadable};
 use super::tones::{Colouring, Tone, legend};
 use super::{Map, MapError};
+use crate::sweep::csv_cells;
 use crate::text::words::counted;
 use kutzbach_math::number::Number;
 use std::collections::BTreeMap;
@@ -216,7 +217,9 @@ pub struct MapReader {
     asked: MapAsked,
     sweep: Option<Sweep>,
     cells: BTreeMap<[At; 2], Cell>,
-    /// Of each column the first value, and whether there are others.
+    /// Where the sweep looked between its values.
+    between: BTreeMap<[At; 2], Cell>,
+    /// Of each measure the first value, and whether there are others.
     first: Vec<(String, bool)>,
     rows: u64,
     incomplete: usize,
@@ -230,6 +233,7 @@ impl MapReader {
             asked,
             sweep: None,
             cells: BTreeMap::new(),
+            between: BTreeMap::new(),
             first: Vec::new(),
             rows: 0,
             incomplete: 0,
@@ -273,7 +277,7 @@ impl MapReader {
                 "the same `kutzbach sweep` makes the file anew",
             )
         };
-        let row = match cells(&line.content) {
+        let row = match csv_cells(&line.content) {
             Some(row) if row.len() == sweep.columns.count() => row,
             // Only the end of a sweep that was broken off has no line break.
             _ if !line.is_complete => {
@@ -305,12 +309,17 @@ impl MapReader {
         let answer = sweep
             .answer(&row)
             .ok_or_else(|| wrong("its status or verdict is none that a sweep writes".to_owned()))?;
-        self.rows += 1;
-        notice(&mut self.first, &row, sweep.columns.measures());
-        let own = self
-            .cells
-            .entry(at.map(At))
-            .or_insert_with(|| Cell::new(at));
+        // Rows after all variants are those of a refined border.
+        let variants = sweep.head.as_ref().map_or(u64::MAX, |head| head.variants);
+        let places = match variant < variants {
+            true => {
+                self.rows += 1;
+                notice(&mut self.first, &row, sweep.columns.measures());
+                &mut self.cells
+            }
+            false => &mut self.between,
+        };
+        let own = places.entry(at.map(At)).or_insert_with(|| Cell::new(at));
         own.add(answer, sweep.colour.map(cell));
         if variant < own.variant {
             own.variant = variant;
@@ -321,7 +330,7 @@ impl MapReader {
                 .collect();
             own.reason = sweep.reason.map_or("", cell).to_owned();
         }
-        if self.cells.len() > MOST_CELLS {
+        if places.len() > MOST_CELLS {
             return Err(MapError::new(
                 format!("there are more than {MOST_CELLS} pairs of values on the axes"),
                 "sweep fewer of them, or choose other measures with `-x` and `-y`",
@@ -341,21 +350,37 @@ impl MapReader {
                 "let the sweep do some of its work first",
             ));
         };
-        let cells: Vec<Cell> = self.cells.values().cloned().collect();
+        let mut cells: Vec<Cell> = self.cells.values().cloned().collect();
+        let count = cells.len();
+        // Those that differ from a cell in measures without an axis lie in its middle, where nothing would be seen.
+        let between = self
+            .between
+            .iter()
+            .filter(|(at, _)| !self.cells.contains_key(*at));
+        cells.extend(between.map(|(_, cell)| cell.clone()));
         let colouring = Colouring::new(sweep.colour_name(), &cells)?;
-        let points: Vec<[f64; 2]> = cells.iter().map(|cell| cell.at).collect();
+        let points: Vec<[f64; 2]> = cells.iter().take(count).map(|cell| cell.at).collect();
         // Combinations are a grid however few of them are there yet.
         let is_whole = sweep
             .head
             .as_ref()
             .is_some_and(|head| head.sample.is_none());
         let grid = Grid::new(&points, is_whole);
-        let notes = self.notes(&sweep, &cells, &colouring, grid.as_ref());
+        let (own, between) = cells.split_at(count);
+        let mut notes = self.notes(&sweep, own, &colouring, grid.as_ref());
+        if !between.is_empty() {
+            notes.push(format!(
+                "The border was looked for between cells: {}, as dots.",
+                counted(between.len(), "place")
+            ));
+        }
         let tones: Vec<Tone> = cells.iter().map(|cell| colouring.tone(cell)).collect();
-        let legend = legend(&colouring, &tones);
+        let (own, between) = tones.split_at(count);
+        let legend = legend(&colouring, own, between);
         Ok(Map {
             sweep,
             cells,
+            count,
             tones,
             grid,
             legend,

@@ -1,7 +1,7 @@
 //! The text of a sweep: a line that states what was asked, the names of its columns, and rows.
 
 use super::MapError;
-use crate::sweep::SWEEP_SCHEMA;
+use crate::sweep::{SWEEP_SCHEMA, csv_cells};
 use serde::Deserialize;
 use std::io::{BufRead, Error, ErrorKind, Read};
 
@@ -42,7 +42,7 @@ pub(super) struct Columns {
 
 impl Columns {
     fn read(line: &str) -> Option<Self> {
-        let names = cells(line)?;
+        let names = csv_cells(line)?;
         // A measure of this name would be marked.
         let status = names.iter().position(|name| name == "status")?;
         let measures = status.checked_sub(1)?;
@@ -204,25 +204,4 @@ fn no_sweep(file: &str, needed: &str) -> MapError {
         format!("`{file}` does not begin as the rows of a sweep do: needed {needed}"),
         HELP,
     )
-}
-
-/// The cells of a line of CSV (RFC 4180; no cell of a sweep has a line break); `None` where a quotation does not end.
-pub(super) fn cells(line: &str) -> Option<Vec<String>> {
-    let mut cells = Vec::new();
-    let mut cell = String::new();
-    let mut is_quoted = false;
-    let mut characters = line.chars().peekable();
-    while let Some(character) = characters.next() {
-        match character {
-            '"' if is_quoted && characters.peek() == Some(&'"') => {
-                characters.next();
-                cell.push('"');
-            }
-            '"' => is_quoted = !is_quoted,
-            ',' if !is_quoted => cells.push(std::mem::take(&mut cell)),
-            other => cell.push(other),
-        }
-    }
-    cells.push(cell);
-    (!is_quoted).then_some(cells)
 }

@@ -355,6 +355,30 @@ fn a_row_that_was_cut_off_is_left_out() {
 }
 
 #[test]
+fn places_between_cells_are_dots() {
+    let more = [
+        "9,1.5,1,analysed,-2,1,3,5.70e2,1,0,mobile,regular,,trivial,1,,",
+        "10,1.75,1,analysed,-2,2,2,5.70e2,2,0,mobile,regular,,trivial,1,,",
+    ];
+    let map = map(None, &[&csv(HEAD, &[&ROWS[..], &more].concat())]);
+    assert!(map.is_grid());
+    assert_eq!(map.count(), 9);
+    assert_eq!(
+        map.notes(),
+        ["The border was looked for between cells: 2 places, as dots."]
+    );
+    let legend = legend(&map);
+    assert_eq!(legend[0], ("mobile, 1 DOF", 2));
+    assert!(legend.contains(&("mobile, 2 DOF", 0)));
+    let svg = map.document();
+    let document = Document::parse(&svg).unwrap();
+    let dots = with_class(&document, "dot");
+    assert_eq!(dots.len(), 2);
+    assert_eq!(dots[1].attribute("class"), Some("cell dot moves2"));
+    assert_eq!(map.listed().len(), 11);
+}
+
+#[test]
 fn what_is_no_sweep_is_refused() {
     let whole = csv(HEAD, &ROWS);
     let broken = csv(HEAD, &["0,1,0,analysed", ROWS[1]]);

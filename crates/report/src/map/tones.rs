@@ -186,13 +186,16 @@ fn is_shown(column: &str, number: f64) -> bool {
     column != MARGIN || number > 0.0
 }
 
-/// All colours that are there, and all steps of a scale.
-pub(super) fn legend(colouring: &Colouring, tones: &[Tone]) -> Vec<Entry> {
+/// All colours that are there, and all steps of a scale. Places between cells are not counted.
+pub(super) fn legend(colouring: &Colouring, tones: &[Tone], between: &[Tone]) -> Vec<Entry> {
     let steps = match &colouring.by {
         By::Steps(bounds) => bounds.len().saturating_sub(1),
         By::Answers | By::Words(_) => 0,
     };
     let mut counts: BTreeMap<Tone, usize> = (0..steps).map(|step| (Tone::Step(step), 0)).collect();
+    for tone in between {
+        counts.entry(*tone).or_default();
+    }
     for tone in tones {
         *counts.entry(*tone).or_default() += 1;
     }

@@ -78,6 +78,13 @@ impl Status {
             Self::Invalid => "invalid",
         }
     }
+
+    /// What a word in a table says.
+    #[must_use]
+    pub fn from_word(word: &str) -> Option<Self> {
+        let all = [Self::Analysed, Self::Unassembled, Self::Invalid];
+        all.into_iter().find(|own| own.word() == word)
+    }
 }
 
 /// What is found of a variant; what was not asked, or is not decided, is `None`.
@@ -252,6 +259,12 @@ pub struct Members<'f> {
 }
 
 impl Members<'_> {
+    /// Whose members they are.
+    #[must_use]
+    pub fn family(&self) -> &Family {
+        self.family
+    }
+
     /// One row; `None` beyond the last variant.
     #[must_use]
     pub fn row(&self, index: u64) -> Option<Row> {

@@ -38,6 +38,7 @@
 //! # Ok::<(), kutzbach::sweep::SweepError>(())
 //! ```
 
+mod border;
 mod family;
 mod fraction;
 mod lines;
@@ -45,8 +46,11 @@ mod plan;
 mod points;
 mod values;
 
+pub use border::{Border, Side};
 pub use family::{Facts, Family, MeasuredFile, Members, Outcome, Row, Status};
 pub use fraction::Fraction;
+#[cfg(feature = "simulate")]
+pub(crate) use lines::csv_cells;
 pub use lines::{Form, SWEEP_SCHEMA, Table};
 pub use plan::{Asked, Plan, Sample, Shard};
 pub use points::{SOBOL_DIMENSIONS, Sobol, random_parts};
