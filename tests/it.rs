@@ -69,6 +69,7 @@ mod known_mechanisms;
 mod log_readers;
 #[path = "long_runs/main.rs"]
 mod long_runs;
+mod map_cli;
 mod margins;
 mod mechanism_table;
 mod mjcf;
@@ -102,6 +103,7 @@ mod subgroups;
 mod superfluous;
 mod support;
 mod sweep_cli;
+mod sweep_members;
 mod thesis_rows;
 mod thesis_systems;
 mod trace;

@@ -231,6 +231,65 @@ fn rows_say_what_reports_of_single_files_say() {
     }
 }
 
+/// The bar of the four-bar reaches where it is no longer than 4: the border is found to a 64th of a step, and again from a file that
+/// was cut off in it.
+#[test]
+fn the_border_is_refined_to_the_same_bytes() {
+    let folder = empty_folder("sweep_refined");
+    let mechanism = written(&folder);
+    for name in ["out.csv", "out.jsonl"] {
+        let file = folder.join(name);
+        let path = file.to_str().unwrap();
+        let asked = [mechanism.as_str(), "--over", "bar=2..5:3", "-o", path];
+        done(&asked);
+        let plain = fs::read(&file).unwrap();
+        let refined = [&asked[..], &["--refine", "6"]].concat();
+        done(&refined);
+        let whole = fs::read(&file).unwrap();
+        assert!(whole.starts_with(&plain));
+        let lines: Vec<String> = text(&whole[plain.len()..])
+            .lines()
+            .map(str::to_owned)
+            .collect();
+        // 2, 3.5, 5: between 3.5 and 5.
+        assert_eq!(lines.len(), 6, "{lines:?}");
+        for cut in [plain.len(), plain.len() + 20, whole.len() - 3, whole.len()] {
+            fs::write(&file, &whole[..cut]).unwrap();
+            done(&refined);
+            assert_eq!(text(&fs::read(&file).unwrap()), text(&whole), "{cut}");
+        }
+        // Without the option, rows after those of the sweep go.
+        done(&asked);
+        assert_eq!(fs::read(&file).unwrap(), plain);
+    }
+    let file = folder.join("out.csv");
+    let asked = ["--over", "bar=2..5:3", "--refine", "6"];
+    let csv_file = file.to_str().unwrap();
+    done(&[&[mechanism.as_str()][..], &asked, &["-o", csv_file]].concat());
+    let csv = fs::read_to_string(&file).unwrap();
+    let (mut reaches, mut misses) = (2.0_f64, 5.0_f64);
+    for row in rows(&csv) {
+        let value = |name: &str| row.iter().find(|(own, _)| *own == name).unwrap().1;
+        let bar: f64 = value("bar").parse().unwrap();
+        match value("status") {
+            "analysed" => reaches = reaches.max(bar),
+            "unassembled" => misses = misses.min(bar),
+            other => panic!("{other}"),
+        }
+    }
+    assert!(reaches <= 4.0 && 4.0 < misses, "{reaches} {misses}");
+    assert!(misses - reaches <= 1.5 / 64.0, "{reaches} {misses}");
+    for wrong in [
+        &["--refine", "6"][..],
+        &["--refine", "0", "-o", csv_file],
+        &["--refine", "6", "--shard", "1/2", "-o", csv_file],
+    ] {
+        let start = [mechanism.as_str(), "--over", "bar=2..5:3"];
+        let output = sweep(&[&start[..], wrong].concat());
+        assert_eq!(output.status.code(), Some(2), "{wrong:?}");
+    }
+}
+
 #[test]
 fn samples_are_always_the_same() {
     for sample in ["sobol:8", "random:8"] {

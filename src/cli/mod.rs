@@ -15,6 +15,7 @@ mod gallery;
 mod graph;
 mod interrupt;
 mod load;
+mod map;
 mod output;
 mod pool;
 mod pose;
@@ -63,6 +64,7 @@ enum Command {
     Assemble(assemble::Arguments),
     Trace(trace::Arguments),
     Sweep(sweep::Arguments),
+    Map(map::Arguments),
     Accuracy(accuracy::Arguments),
     Gallery(gallery::Arguments),
     Explain(explain::Arguments),
@@ -82,6 +84,7 @@ pub fn run() -> ExitCode {
         Command::Assemble(arguments) => assemble::run(&arguments),
         Command::Trace(arguments) => trace::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
+        Command::Map(arguments) => map::run(&arguments),
         Command::Accuracy(arguments) => accuracy::run(&arguments),
         Command::Gallery(arguments) => gallery::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),

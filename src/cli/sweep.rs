@@ -1,5 +1,6 @@
 //! `kutzbach sweep FILE --over a=0..2:401`: the same question of many variants of a file, a row for each.
 
+mod refine;
 mod sink;
 
 use super::DONE;
@@ -46,6 +47,10 @@ pub struct Arguments {
     /// Write to this file instead of standard output; if it has rows of the same sweep, go on after the last complete one
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Then look between neighbours whose answers differ: halve the way from one to the other, so many times, a row for each after those
+    /// of the sweep; a sweep that is there already is refined
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=40), requires = "output", conflicts_with_all = ["sample", "shard"])]
+    refine: Option<u32>,
     #[command(flatten)]
     closing: load::Closing,
 }
@@ -88,8 +93,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let mut tally = Tally::default();
     let mut failed = None;
     let left = count.saturating_sub(before);
+    let members = family.members();
     let one = |place: u64| {
-        let row = family.row(shard.index(before + place))?;
+        let row = members.row(shard.index(before + place))?;
         Some((table.line(&row), row.outcome.status))
     };
     in_order(left, WINDOW, one, |done, event| {
@@ -127,7 +133,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         );
         return Ok(INTERRUPTED);
     }
-    Ok(DONE)
+    match (arguments.refine, &arguments.output) {
+        (Some(steps), Some(path)) => refine::refine(&members, &table, path, steps, &mut sink),
+        _ => Ok(DONE),
+    }
 }
 
 /// Rows on a terminal show by themselves how far the work has come.

@@ -75,6 +75,7 @@ mod relax;
 mod restated;
 mod sdf;
 mod sketch;
+mod template;
 mod unread;
 mod values;
 mod words;
@@ -89,12 +90,14 @@ pub use from_urdf_rs::urdf_text;
 pub use kept::Kept;
 pub use property_names::property_names;
 pub use sketch::{is_sketch, read_sketch, read_sketch_file};
+pub use template::Template;
 pub use writer::{Numbers, WriteOptions, escaped, write, write_with};
 
 use content::Content;
 use error::{Fault, located};
 use kutzbach_model::mechanism::Mechanism;
 use reader::Added;
+use roxmltree::Document;
 use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
@@ -300,18 +303,45 @@ fn read_text(
     base: Option<&Path>,
     options: &ReadOptions,
 ) -> Result<Reading, FormatError> {
-    let mut reading = match content::of(text) {
+    let reading = match content::of(text) {
         Content::Robot => read_robot(text, file, base, options, &Added::default())?,
         Content::Gepetto => gepetto::read(text, file, base, options)?,
         content => read_foreign(content, text, file, base, options)?,
     };
+    Ok(understood(reading, options))
+}
+
+/// Reads a text that needs no expansion, of which `document` was parsed if it is there, with warnings of what it calls and nobody
+/// defines.
+fn read_plain(
+    text: &str,
+    file: &str,
+    options: &ReadOptions,
+    warnings: Vec<Warning>,
+    document: Option<&Document<'_>>,
+    added: &Added,
+) -> Result<Reading, FormatError> {
+    let read = match document {
+        Some(document) => reader::read_parsed(document, text, Vec::new(), options, None, added),
+        None => reader::read(text, options, None, added),
+    };
+    let mut reading = read.map_err(|faults| located(file, text, faults))?;
+    reading.warnings.extend(warnings);
+    reading
+        .warnings
+        .sort_by_key(|warning| (warning.line, warning.column));
+    Ok(reading)
+}
+
+/// A reading with its decimals understood as the options say.
+fn understood(mut reading: Reading, options: &ReadOptions) -> Reading {
     if !options.literal {
         reading.mechanism = reading.mechanism.with_constants_known_to(options.precision);
     }
     if let Some(uncertainty) = options.precision {
         reading.mechanism = reading.mechanism.with_precision(uncertainty);
     }
-    Ok(reading)
+    reading
 }
 
 /// Reads the text of a robot, after expanding what it says in xacro, with what another file adds to it.
@@ -323,14 +353,8 @@ fn read_robot(
     added: &Added,
 ) -> Result<Reading, FormatError> {
     match xacro::expand(text, file, base, options)? {
-        Source::Plain(warnings) => {
-            let mut reading = reader::read(text, options, None, added)
-                .map_err(|faults| located(file, text, faults))?;
-            reading.warnings.extend(warnings);
-            reading
-                .warnings
-                .sort_by_key(|warning| (warning.line, warning.column));
-            Ok(reading)
+        Source::Plain(warnings, document) => {
+            read_plain(text, file, options, warnings, document.as_deref(), added)
         }
         Source::Expanded(expanded) => {
             // The expansion has used the settings up.
@@ -379,7 +403,7 @@ pub fn expanded_file(path: impl AsRef<Path>, options: &ReadOptions) -> Result<St
     let bytes = bytes_of(path).map_err(|fault| located(&file, "", vec![fault]))?;
     bytes_with(&bytes, &file, |text, file| {
         Ok(match xacro::expand(text, file, Some(path), options)? {
-            Source::Plain(_) => text.to_owned(),
+            Source::Plain(..) => text.to_owned(),
             Source::Expanded(expanded) => expanded.plain,
         })
     })

@@ -16,6 +16,7 @@ use super::words::{alternatives, cut, did_you_mean};
 use super::{ReadOptions, Reading, Skipped, Warning, WarningKind, relax, xml};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Entity, Frame, JointBuilder, JointKind, MechanismBuilder};
+use roxmltree::Document;
 use std::cell::OnceCell;
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
@@ -129,7 +130,20 @@ pub(super) fn read(
             xml::parse(relaxed.get_or_init(|| lenient)).map_err(one)?
         }
     };
-    let root = Element::root(&document, text);
+    read_parsed(&document, text, notes, options, expanded, added)
+}
+
+/// Reads a text that is parsed, with what was changed in it for that, and where.
+pub(super) fn read_parsed<'a>(
+    document: &'a Document<'a>,
+    text: &'a str,
+    notes: Vec<(usize, String)>,
+    options: &'a ReadOptions,
+    expanded: Option<&'a [Number]>,
+    added: &Added,
+) -> Result<Reading, Vec<Fault>> {
+    let one = |fault| vec![fault];
+    let root = Element::root(document, text);
     check_root(root).map_err(one)?;
     let mut reader = Reader::new(root);
     for (at, message) in notes {

@@ -37,6 +37,7 @@
 //! | `picture` | plots, the mechanism drawn, a sign for each answer: still, as SVG |
 //! | `sweep` | the same question of many members of a family, a row for each |
 //! | `traced`, `simulated` | a traced motion, and what a simulation said, as data |
+//! | `map` | a sweep as a picture over two of its measures |
 //! | `definitions` | what a word means |
 
 #[cfg(feature = "simulate")]
@@ -55,6 +56,8 @@ mod findings;
 #[cfg(feature = "html")]
 pub mod html;
 mod inputs;
+#[cfg(feature = "simulate")]
+pub mod map;
 mod misfits;
 mod motions;
 mod natural;

@@ -55,6 +55,7 @@ use super::{ReadOptions, Warning, WarningKind, xml};
 
 use budget::Budget;
 use files::Files;
+use roxmltree::Document;
 use scope::Table;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -182,9 +183,9 @@ struct Run<'o> {
 }
 
 /// What is to be read for a text.
-pub(super) enum Source {
-    /// The text itself, with these warnings.
-    Plain(Vec<Warning>),
+pub(super) enum Source<'t> {
+    /// The text itself, with these warnings, and what was parsed of it where it had to be looked into.
+    Plain(Vec<Warning>, Option<Box<Document<'t>>>),
     Expanded(Box<Expanded>),
 }
 
@@ -192,25 +193,40 @@ pub(super) enum Source {
 ///
 /// # Errors
 /// What is wrong with this file or with one that it includes.
-pub(super) fn expand(
-    text: &str,
+pub(super) fn expand<'t>(
+    text: &'t str,
     file: &str,
     base: Option<&Path>,
     options: &ReadOptions,
-) -> Result<Source, FormatError> {
+) -> Result<Source<'t>, FormatError> {
     if !text.contains("xacro") {
-        return Ok(Source::Plain(Vec::new()));
+        return Ok(Source::Plain(Vec::new(), None));
     }
     // What cannot be parsed is told by the reader.
     let Ok(document) = xml::parse(text) else {
-        return Ok(Source::Plain(Vec::new()));
+        return Ok(Source::Plain(Vec::new(), None));
     };
     if !detect::needs_expansion(&document) {
-        return leftover::calls(&document, text, file).map(Source::Plain);
+        let warnings = leftover::calls(&document, text, file)?;
+        return Ok(Source::Plain(warnings, Some(Box::new(document))));
     }
     drop(document);
     let expanded = on_large_stack(|| Run::new(options).expand(text, file, base))?;
     Ok(Source::Expanded(Box::new(expanded)))
+}
+
+/// A text that uses no more of xacro than named numbers, parsed, with what is told of macros that nobody defines; `None` where it uses
+/// nothing of xacro or more, or is at fault.
+pub(super) fn parsed<'t>(text: &'t str, file: &str) -> Option<(Box<Document<'t>>, Vec<Warning>)> {
+    if !text.contains("xacro") {
+        return None;
+    }
+    let document = xml::parse(text).ok()?;
+    if detect::needs_expansion(&document) {
+        return None;
+    }
+    let warnings = leftover::calls(&document, text, file).ok()?;
+    Some((Box::new(document), warnings))
 }
 
 /// Nested macros and long sums are walked recursively, deeper than the stack of an ordinary thread allows.

@@ -358,8 +358,13 @@ impl Mechanism {
             found.axis(&mut joint.axis2);
         }
         found.residues = self.read_residues(precision.unwrap_or(f64::INFINITY));
+        let is_changed = found.count > 0 || !found.residues.is_empty();
         self.recognised = found;
-        self.read_digits()
+        match is_changed {
+            true => self.read_digits(),
+            // The digits of the same numbers say the same.
+            false => self,
+        }
     }
 
     /// Reads as 0 what rounding left of zeros, by independent sub-mechanism.

@@ -294,11 +294,10 @@ impl<'a> Literals<'a> {
         }
     }
 
-    /// Whether another program, or hand, than that of some finer ones printed these: of these, those that have more digits or decimals
-    /// than somebody's choice would all have lost the zeros of the finer ones by chance, and their own zeros they have lost by chance
-    /// only.
-    pub fn by_another_hand_than(&self, finer: &Group, padded: bool) -> bool {
-        let own = self.group(padded);
+    /// Whether another program, or hand, than that of some finer ones printed these, which are the group `own`: of these, those that
+    /// have more digits or decimals than somebody's choice would all have lost the zeros of the finer ones by chance, and their own zeros
+    /// they have lost by chance only.
+    pub fn by_another_hand_than(&self, own: &Group, finer: &Group) -> bool {
         let (Some(most), Some(of_finer)) = (own.decimals, finer.decimals) else {
             return false;
         };
@@ -309,10 +308,10 @@ impl<'a> Literals<'a> {
             let fine = bare.decimals >= NOBODYS_DECIMALS && bare.significant >= FEWEST_SIGNIFICANT;
             fine || bare.significant > NATURAL
         });
-        let chance = power_of_ten(-zeros.max(0)).powf(computed.count() as f64);
+        let chance = || power_of_ten(-zeros.max(0)).powf(computed.count() as f64);
         let chosen = own.is_exact() || own.is_of_a_small_unit() || most <= EXACT_DECIMALS;
         let rounded = !chosen && !finer.is_exact();
-        rounded && own.alike && zeros > 0 && fewer_digits && chance <= BY_CHANCE
+        rounded && own.alike && zeros > 0 && fewer_digits && chance() <= BY_CHANCE
     }
 
     /// Those that are not zero and have a decimal point.
@@ -529,7 +528,11 @@ fn bare(number: &Number, stated: Stated) -> Stated {
     let text = number
         .literal_text()
         .filter(|_| number.written() == Some(stated));
-    let mantissa = text.and_then(|text| text.split(['e', 'E']).next());
+    // Every number of every variant of a sweep comes by here.
+    let mantissa = text.and_then(|text| {
+        let exponent = text.bytes().position(|byte| matches!(byte, b'e' | b'E'));
+        text.get(..exponent.unwrap_or(text.len()))
+    });
     let Some((_, fraction)) = mantissa.and_then(|mantissa| mantissa.split_once('.')) else {
         return stated;
     };

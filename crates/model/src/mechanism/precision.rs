@@ -146,8 +146,8 @@ impl Precision {
         for kind in 0..3 {
             let [of_tree, of_closing] = [&tree[kind], &closing[kind]];
             let groups = [of_tree.group(padded), of_closing.group(padded)];
-            if of_closing.by_another_hand_than(&groups[0], padded)
-                || of_tree.by_another_hand_than(&groups[1], padded)
+            if of_closing.by_another_hand_than(&groups[1], &groups[0])
+                || of_tree.by_another_hand_than(&groups[0], &groups[1])
             {
                 for (side, group) in sides.iter_mut().zip(groups) {
                     side.groups[kind] = group;

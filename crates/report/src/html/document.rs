@@ -76,9 +76,14 @@ pub(super) fn document(
 
 /// A document around its content, with policy, style and script.
 pub(super) fn shell(title: &str, content: &str, assets: Assets) -> String {
+    shell_with("", title, content, assets)
+}
+
+/// The same with more style than all pages have, where a page has its own.
+pub(super) fn shell_with(more: &str, title: &str, content: &str, assets: Assets) -> String {
     let (policy, style, script) = match assets {
         Assets::Inside => {
-            let style = style();
+            let style = format!("{}{more}", style());
             (
                 policy(&hash(script()), &hash(&style)),
                 format!("<style>{style}</style>"),

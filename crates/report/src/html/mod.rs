@@ -23,6 +23,7 @@
 //! | `blocks`, `escape`, `names` | pages as HTML; text as text; names as indices |
 //! | `motions` | what is played |
 //! | `accuracy` | what accuracy costs, in the page and as one of its own |
+//! | `map` | a sweep as a map, with the commands that make the reports of its cells |
 //! | `configurations` | all configurations side by side, each with the motion through it |
 //! | `drawing`, `data` | the mechanism and its motions for the script |
 //! | `stage` | the mechanism and its motions, ready to be shown |
@@ -38,6 +39,7 @@ mod document;
 mod drawing;
 mod escape;
 mod gallery;
+mod map;
 mod motions;
 mod names;
 mod plots;
@@ -49,6 +51,7 @@ pub use accuracy::accuracy_page;
 pub use configurations::{Shown, configurations_page};
 pub use document::{SCRIPT, STYLE, script, style};
 pub use gallery::{Entry, index, stills_index};
+pub use map::map_page;
 use stage::Stage;
 pub use stage::{Assets, Facts};
 

@@ -12,6 +12,7 @@ mod ticks;
 
 pub use axis::{Axis, Scale};
 pub use sheet::sheet;
+pub(crate) use ticks::{decades, power_of_ten};
 
 use super::markup::{escaped, put, px};
 use frame::Frame;
@@ -196,6 +197,13 @@ impl Plot {
     /// left corner.
     pub fn write_content(&self, svg: &mut String) {
         self.write_inside(&Frame::new(self), svg);
+    }
+
+    /// Where the ends of both axes lie (px): left and right, then bottom and top.
+    #[must_use]
+    pub fn window(&self) -> [[f64; 2]; 2] {
+        let frame = Frame::new(self);
+        [[frame.left, frame.right], [frame.bottom, frame.top]]
     }
 
     /// The attributes by which a script gets from pixels back to values.

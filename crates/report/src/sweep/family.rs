@@ -5,7 +5,7 @@ use super::values::Value;
 use crate::asked::HOME;
 use crate::findings::{joint_role, margin};
 use crate::natural::natural_order;
-use kutzbach_format::{FormatError, ReadOptions, Reading, property_names, read_bytes_of};
+use kutzbach_format::{FormatError, ReadOptions, Reading, Template, property_names, read_bytes_of};
 use kutzbach_mobility::{
     Analysis, AnalysisOptions, Depth, MobilityClass, PoseKind, SingularKind, Verdict, analyse,
     generic_count,
@@ -77,6 +77,13 @@ impl Status {
             Self::Unassembled => "unassembled",
             Self::Invalid => "invalid",
         }
+    }
+
+    /// What a word in a table says.
+    #[must_use]
+    pub fn from_word(word: &str) -> Option<Self> {
+        let all = [Self::Analysed, Self::Unassembled, Self::Invalid];
+        all.into_iter().find(|own| own.word() == word)
     }
 }
 
@@ -205,16 +212,63 @@ impl Family {
         self.asked.closure_tolerance
     }
 
+    /// Its members, with the file parsed once for all of them.
+    #[must_use]
+    pub fn members(&self) -> Members<'_> {
+        let source = &self.source;
+        let base = source.base.as_deref();
+        Members {
+            family: self,
+            template: Template::new(&source.bytes, &source.file, base, &source.options),
+        }
+    }
+
     /// The rows of a share, each computed when it is asked for.
     pub fn variants(&self, shard: Shard) -> impl Iterator<Item = Row> {
         let count = shard.count(self.plan.count());
-        (0..count).map_while(move |place| self.row(shard.index(place)))
+        let members = self.members();
+        (0..count).map_while(move |place| members.row(shard.index(place)))
+    }
+
+    /// One row; `None` beyond the last variant. Of many, [`Family::members`] are faster.
+    #[must_use]
+    pub fn row(&self, index: u64) -> Option<Row> {
+        self.members().row(index)
+    }
+
+    /// What is found with these values of the measures, in the order of [`Plan::names`]. Of many, [`Family::members`] are faster.
+    #[must_use]
+    pub fn verdict(&self, values: &[Value]) -> Outcome {
+        self.members().verdict(values)
+    }
+
+    fn settings(&self, values: &[Value]) -> Vec<(String, String)> {
+        let own = self.source.options.settings.iter().cloned();
+        let varied = self.plan.names().zip(values);
+        // Of two settings with one name the later holds.
+        own.chain(varied.map(|(name, value)| (name.to_owned(), value.setting.clone())))
+            .collect()
+    }
+}
+
+/// The members of a family, for whom the file is parsed once; several threads may ask for rows at the same time.
+#[derive(Debug)]
+pub struct Members<'f> {
+    family: &'f Family,
+    template: Template<'f>,
+}
+
+impl Members<'_> {
+    /// Whose members they are.
+    #[must_use]
+    pub fn family(&self) -> &Family {
+        self.family
     }
 
     /// One row; `None` beyond the last variant.
     #[must_use]
     pub fn row(&self, index: u64) -> Option<Row> {
-        let values = self.plan.values(index)?;
+        let values = self.family.plan.values(index)?;
         let outcome = self.verdict(&values);
         Some(Row {
             index,
@@ -232,21 +286,17 @@ impl Family {
             .unwrap_or_else(|fault| Outcome::invalid(told(&*fault)))
     }
 
-    fn settings(&self, values: &[Value]) -> Vec<(String, String)> {
-        let own = self.source.options.settings.iter().cloned();
-        let varied = self.plan.names().zip(values);
-        // Of two settings with one name the later holds.
-        own.chain(varied.map(|(name, value)| (name.to_owned(), value.setting.clone())))
-            .collect()
-    }
-
     fn analysed(&self, values: &[Value]) -> Outcome {
-        let reading = match self.source.read(self.settings(values)) {
+        let varied = self.family.plan.names().zip(values);
+        let settings: Vec<(String, String)> = varied
+            .map(|(name, value)| (name.to_owned(), value.setting.clone()))
+            .collect();
+        let reading = match self.template.read(&settings) {
             Ok(reading) => reading,
             Err(error) => return Outcome::invalid(error.to_string()),
         };
         let mechanism = &reading.mechanism;
-        let mut options = self.asked.clone();
+        let mut options = self.family.asked.clone();
         if options.configuration.is_none() && mechanism.configuration(HOME).is_some() {
             options.configuration = Some(HOME.to_owned());
         }

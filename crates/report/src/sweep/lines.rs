@@ -2,6 +2,7 @@
 //!
 //! No line holds a line break of its own, so that a file that was cut off is complete up to its last line break.
 
+use super::border::Side;
 use super::family::{Facts, Family, Row};
 use super::plan::{Asked, Shard};
 use super::values::Value;
@@ -158,6 +159,29 @@ impl Table {
         line
     }
 
+    /// What a line that this table has written says of its variant; `None` where it is no such line.
+    #[must_use]
+    pub fn side(&self, line: &str) -> Option<Side> {
+        let line = line.trim_end();
+        if self.form == Form::JsonLines {
+            let object: serde_json::Value = serde_json::from_str(line).ok()?;
+            return Side::read(|column| match object.get(column)? {
+                serde_json::Value::String(word) => Some(word.clone()),
+                serde_json::Value::Number(number) => Some(number.to_string()),
+                _ => None,
+            });
+        }
+        let cells = csv_cells(line)?;
+        let before = 1 + self.names.len();
+        Side::read(|column| {
+            let place = self.columns().position(|own| own == column)?;
+            cells
+                .get(before + place)
+                .filter(|cell| !cell.is_empty())
+                .cloned()
+        })
+    }
+
     /// Names of the columns after the measures.
     fn columns(&self) -> impl Iterator<Item = &'static str> + use<> {
         let [status, kutzbach, instantaneous, redundant, margin, reason] = OF_RANK;
@@ -275,6 +299,27 @@ fn quoted(cell: &str) -> Cow<'_, str> {
     }
 }
 
+/// The cells of a line of CSV (RFC 4180; no cell of a sweep has a line break); `None` where a quotation does not end.
+pub(crate) fn csv_cells(line: &str) -> Option<Vec<String>> {
+    let mut cells = Vec::new();
+    let mut cell = String::new();
+    let mut is_quoted = false;
+    let mut characters = line.chars().peekable();
+    while let Some(character) = characters.next() {
+        match character {
+            '"' if is_quoted && characters.peek() == Some(&'"') => {
+                characters.next();
+                cell.push('"');
+            }
+            '"' => is_quoted = !is_quoted,
+            ',' if !is_quoted => cells.push(std::mem::take(&mut cell)),
+            other => cell.push(other),
+        }
+    }
+    cells.push(cell);
+    (!is_quoted).then_some(cells)
+}
+
 fn json_text(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }
@@ -361,6 +406,29 @@ mod tests {
             table(Depth::Rank, Form::Csv).line(&row()),
             "7,0.5,1/3,analysed,-2,1,,1.23e5,one\\ntwo\n"
         );
+    }
+
+    #[test]
+    fn lines_say_again_what_they_were_made_of() {
+        for form in [Form::Csv, Form::JsonLines] {
+            for depth in [Depth::Rank, Depth::Verdict, Depth::Motions] {
+                let table = table(depth, form);
+                let mut row = row();
+                if depth == Depth::Rank {
+                    row.outcome.facts.verdict = None;
+                }
+                let side = table.side(&table.line(&row));
+                assert_eq!(side, Some(Side::of(&row.outcome)), "{form:?} {depth:?}");
+                row.outcome.status = Status::Invalid;
+                row.outcome.facts = Facts::default();
+                let side = table.side(&table.line(&row));
+                assert_eq!(side, Some(Side::of(&row.outcome)), "{form:?} {depth:?}");
+            }
+            assert_eq!(table(Depth::Rank, form).side("variant,a"), None);
+        }
+        assert_eq!(csv_cells("a,\"b,\"\"c\"").unwrap(), ["a", "b,\"c"]);
+        assert_eq!(csv_cells("").unwrap(), [""]);
+        assert_eq!(csv_cells("a,\"b"), None);
     }
 
     #[test]

@@ -13,7 +13,8 @@
 //! * Numbers of variants are found without those before them, so that shares of a sweep need not know one another.
 //!
 //! # What it costs
-//! The file is read from memory for each member, and each member is analysed by itself. Nothing is kept from one to the next.
+//! A file that uses named numbers and no more of xacro is parsed once ([`Family::members`]); its numbers are evaluated, and the mechanism
+//! is built, for each member. Any other file is read from memory for each. Each member is analysed by itself.
 //!
 //! ```
 //! # mod kutzbach { pub use kutzbach_report::sweep; pub use kutzbach_mobility as mobility; }
@@ -37,6 +38,7 @@
 //! # Ok::<(), kutzbach::sweep::SweepError>(())
 //! ```
 
+mod border;
 mod family;
 mod fraction;
 mod lines;
@@ -44,8 +46,11 @@ mod plan;
 mod points;
 mod values;
 
-pub use family::{Facts, Family, MeasuredFile, Outcome, Row, Status, outcome};
+pub use border::{Border, Side};
+pub use family::{Facts, Family, MeasuredFile, Members, Outcome, Row, Status, outcome};
 pub use fraction::Fraction;
+#[cfg(feature = "simulate")]
+pub(crate) use lines::csv_cells;
 pub use lines::{Form, SWEEP_SCHEMA, Table};
 pub use plan::{Asked, Plan, Sample, Shard};
 pub use points::{SOBOL_DIMENSIONS, Sobol, random_parts};

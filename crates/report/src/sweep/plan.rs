@@ -1,5 +1,6 @@
 //! Which variants a sweep has: all combinations of values or a sample of them, and shares of the work.
 
+use super::fraction::Fraction;
 use super::points::{SOBOL_DIMENSIONS, Sobol, random_parts};
 use super::values::{Over, SweepError, Value, WAYS};
 use serde::Serialize;
@@ -212,6 +213,35 @@ impl Plan {
         Some(values)
     }
 
+    /// The next variant along a measure, counted from 0, all others being as they are; `None` beyond its last value, and of samples.
+    #[must_use]
+    pub fn next_along(&self, index: u64, measure: usize) -> Option<u64> {
+        let (place, stride) = self.place(index, measure)?;
+        let next = self.over.get(measure)?.values.count()? > place + 1;
+        let index = index.checked_add(stride).filter(|_| next)?;
+        (index < self.count).then_some(index)
+    }
+
+    /// The value of a measure in a variant as a fraction; `None` where it is none of few digits, and of samples.
+    pub(super) fn number(&self, index: u64, measure: usize) -> Option<Fraction> {
+        let (place, _) = self.place(index, measure)?;
+        self.over.get(measure)?.values.number(place)
+    }
+
+    /// Which of its values a measure has in a combination, and how far apart variants are with neighbouring ones.
+    fn place(&self, index: u64, measure: usize) -> Option<(u64, u64)> {
+        if self.sample.is_some() {
+            return None;
+        }
+        let count = self.over.get(measure)?.values.count()?.max(1);
+        let later = self.over.iter().skip(measure + 1);
+        let mut stride = 1_u64;
+        for over in later {
+            stride = stride.checked_mul(over.values.count()?.max(1))?;
+        }
+        Some(((index / stride) % count, stride))
+    }
+
     /// What was asked.
     #[must_use]
     pub fn asked(&self) -> Asked {
@@ -285,6 +315,32 @@ mod tests {
         assert_eq!(plan.values(2).unwrap()[0].setting, "1/200");
         assert_eq!(plan.values(6), None);
         assert_eq!(plan.names().collect::<Vec<_>>(), ["a", "b"]);
+    }
+
+    #[test]
+    fn neighbours_differ_in_one_measure() {
+        let plan = plan(&["a=0..1:2", "b=1,pi,3", "c=0..9:4"], None).unwrap();
+        assert_eq!(plan.next_along(0, 2), Some(1));
+        assert_eq!(plan.next_along(3, 2), None);
+        assert_eq!(plan.next_along(3, 1), Some(7));
+        assert_eq!(plan.next_along(8, 1), None);
+        assert_eq!(plan.next_along(11, 0), Some(23));
+        assert_eq!(plan.next_along(12, 0), None);
+        assert_eq!(plan.next_along(0, 3), None);
+        for index in 0..plan.count() {
+            for measure in 0..3 {
+                let Some(next) = plan.next_along(index, measure) else {
+                    continue;
+                };
+                let [one, other] = [index, next].map(|at| plan.values(at).unwrap());
+                let differ: Vec<usize> = (0..3).filter(|m| one[*m] != other[*m]).collect();
+                assert_eq!(differ, [measure]);
+            }
+        }
+        assert_eq!(plan.number(5, 2), Fraction::read("3"));
+        assert_eq!(plan.number(4, 1), None);
+        let sampled = super::Plan::new(vec![Over::read("a=0..1").unwrap()], Some(Sample::Sobol(4)));
+        assert_eq!(sampled.unwrap().next_along(0, 0), None);
     }
 
     #[test]

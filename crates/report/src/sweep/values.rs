@@ -35,7 +35,7 @@ pub struct Value {
 }
 
 impl Value {
-    fn exact(number: Fraction) -> Self {
+    pub(super) fn exact(number: Fraction) -> Self {
         Self {
             shown: number.to_string(),
             setting: number.expression(),
@@ -92,6 +92,17 @@ impl Values {
         match self {
             Self::List(values) => values.get(usize::try_from(index).ok()?).cloned(),
             Self::Range(range) => range.at(index).map(Value::exact),
+        }
+    }
+
+    /// One of them as a fraction; `None` where it is none of few digits.
+    pub(super) fn number(&self, index: u64) -> Option<Fraction> {
+        match self {
+            Self::List(values) => {
+                let value = values.get(usize::try_from(index).ok()?)?;
+                Fraction::read(&value.setting)
+            }
+            Self::Range(range) => range.at(index),
         }
     }
 
