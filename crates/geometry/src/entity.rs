@@ -1,5 +1,6 @@
 //! What geometry is about. An entity that exists is valid.
 
+use crate::boundary::{Boundary, Face};
 use crate::decide::{Answer, zero_vector};
 use crate::error::GeometryError;
 use crate::scalar::Scalar;
@@ -213,6 +214,10 @@ pub enum Kind {
     Plane,
     /// A [`Segment`].
     Segment,
+    /// A [`Face`].
+    Face,
+    /// A [`Boundary`].
+    Boundary,
 }
 
 impl fmt::Display for Kind {
@@ -224,6 +229,8 @@ impl fmt::Display for Kind {
             Self::Line => "line",
             Self::Plane => "plane",
             Self::Segment => "segment",
+            Self::Face => "face",
+            Self::Boundary => "boundary",
         })
     }
 }
@@ -243,6 +250,10 @@ pub enum Entity<S> {
     Plane(Plane<S>),
     /// A segment.
     Segment(Segment<S>),
+    /// A flat face.
+    Face(Face<S>),
+    /// The boundary of a solid, or an open one.
+    Boundary(Boundary<S>),
 }
 
 impl<S> Entity<S> {
@@ -256,6 +267,8 @@ impl<S> Entity<S> {
             Self::Line(_) => Kind::Line,
             Self::Plane(_) => Kind::Plane,
             Self::Segment(_) => Kind::Segment,
+            Self::Face(_) => Kind::Face,
+            Self::Boundary(_) => Kind::Boundary,
         }
     }
 }
@@ -284,19 +297,58 @@ pub enum Found<S> {
     Plane(Plane<S>),
     /// A segment.
     Segment(Segment<S>),
+    /// A face.
+    Face(Face<S>),
+    /// A boundary.
+    Boundary(Boundary<S>),
+    /// Two or more of these, none of which has others inside.
+    Several(Vec<Found<S>>),
 }
 
 impl<S> Found<S> {
-    /// The entity, for another question.
+    /// What parts there are: none of them nothing, one by itself.
+    pub(crate) fn of(mut parts: Vec<Self>) -> Self {
+        match (parts.pop(), parts.is_empty()) {
+            (None, _) => Self::Nothing,
+            (Some(one), true) => one,
+            (Some(last), false) => {
+                parts.push(last);
+                Self::Several(parts)
+            }
+        }
+    }
+
+    /// The parts: none of nothing, all of several, otherwise what it is.
+    #[must_use]
+    pub fn parts(&self) -> &[Self] {
+        match self {
+            Self::Nothing => &[],
+            Self::Several(parts) => parts,
+            one => std::slice::from_ref(one),
+        }
+    }
+
+    /// All entities, for other questions.
+    #[must_use]
+    pub fn entities(self) -> Vec<Entity<S>> {
+        match self {
+            Self::Several(parts) => parts.into_iter().filter_map(Self::entity).collect(),
+            one => one.entity().into_iter().collect(),
+        }
+    }
+
+    /// The entity, for another question; none of several, which [`Found::entities`] gives.
     #[must_use]
     pub fn entity(self) -> Option<Entity<S>> {
         match self {
-            Self::Nothing => None,
+            Self::Nothing | Self::Several(_) => None,
             Self::Point(x) => Some(Entity::Point(x)),
             Self::Direction(x) => Some(Entity::Direction(x)),
             Self::Line(x) => Some(Entity::Line(x)),
             Self::Plane(x) => Some(Entity::Plane(x)),
             Self::Segment(x) => Some(Entity::Segment(x)),
+            Self::Face(x) => Some(Entity::Face(x)),
+            Self::Boundary(x) => Some(Entity::Boundary(x)),
         }
     }
 }
@@ -311,4 +363,6 @@ macro_rules! entity_from {
     };
 }
 
-entity_from!(Vector, Direction, Point, Line, Plane, Segment);
+entity_from!(
+    Vector, Direction, Point, Line, Plane, Segment, Face, Boundary
+);

@@ -1,4 +1,4 @@
-//! Static geometric reasoning: what points, straight lines, planes and segments are to each other.
+//! Static geometric reasoning: what points, straight lines, planes, segments, faces and solids are to each other.
 //!
 //! # Two forms
 //! Every function is written once over [`Scalar`] and has two forms by the numbers that it is given:
@@ -18,11 +18,13 @@
 //! A direction is never zero, a line never goes through one point only: what is degenerate, or may be within its digits, is
 //! an error when it is made. Numbers that are left open (`Number::parameter`) are taken at their values.
 //!
-//! # What is not here yet
-//! Solids, shells, faces, loops and edges with their connectivity, `convex` and `concave`, hulls in space, curved surfaces,
-//! transformations, and STEP files. A segment stands for an edge that is by itself; a polygon is a list of its corners.
+//! # Topology
+//! A [`Face`] is flat, between loops of straight edges. A [`Boundary`], made by a [`BoundaryBuilder`], says which vertices, edges,
+//! loops, faces and shells are connected, of an open surface or of a solid; it need be no manifold. Results that are sets
+//! ([`Found::Several`]) have points and segments as members.
 
 mod angle;
+mod boundary;
 mod decide;
 mod distance;
 mod entity;
@@ -34,6 +36,8 @@ mod measured;
 mod planar;
 mod projection;
 #[cfg(test)]
+mod random_faces;
+#[cfg(test)]
 mod random_tests;
 mod scalar;
 #[cfg(test)]
@@ -42,10 +46,14 @@ mod triple;
 mod world;
 
 pub use angle::{Angles, angle_between, signed_angle_between};
+pub use boundary::{
+    Boundary, BoundaryBuilder, Edge, EdgeUse, Face, FacePlace, Shell, classify_by_face,
+    classify_in_face, classify_in_solid, concave, convex,
+};
 pub use decide::{Answer, Certainty, Outcome, Sign};
 pub use distance::distance;
 pub use entity::{Direction, Entity, Found, Kind, Line, Plane, Point, Segment, Vector};
-pub use error::GeometryError;
+pub use error::{GeometryError, Spot};
 pub use intersection::intersection;
 pub use join::{Feet, join_perpend, perpend};
 pub use logical::{coincide, colinear, contained, coplanar, parallel, perpendicular};
