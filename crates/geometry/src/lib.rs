@@ -38,10 +38,13 @@ mod projection;
 #[cfg(test)]
 mod random_faces;
 #[cfg(test)]
+mod random_motions;
+#[cfg(test)]
 mod random_tests;
 mod scalar;
 #[cfg(test)]
 mod tests;
+mod transform;
 mod triple;
 mod world;
 
@@ -63,4 +66,5 @@ pub use planar::{
 };
 pub use projection::projection;
 pub use scalar::Scalar;
+pub use transform::Transformation;
 pub use world::{Id, World, WorldError};

@@ -25,6 +25,7 @@ mod flat;
 mod forms;
 mod logical;
 mod measures;
+mod moved;
 
 type Three = [i32; 3];
 
