@@ -29,6 +29,7 @@ mod decide;
 mod distance;
 mod entity;
 mod error;
+mod hull;
 mod intersection;
 mod join;
 mod logical;
@@ -37,6 +38,8 @@ mod planar;
 mod projection;
 #[cfg(test)]
 mod random_faces;
+#[cfg(test)]
+mod random_hulls;
 #[cfg(test)]
 mod random_motions;
 #[cfg(test)]
@@ -57,6 +60,7 @@ pub use decide::{Answer, Certainty, Outcome, Sign};
 pub use distance::distance;
 pub use entity::{Direction, Entity, Found, Kind, Line, Plane, Point, Segment, Vector};
 pub use error::{GeometryError, Spot};
+pub use hull::space_hull;
 pub use intersection::intersection;
 pub use join::{Feet, join_perpend, perpend};
 pub use logical::{coincide, colinear, contained, coplanar, parallel, perpendicular};

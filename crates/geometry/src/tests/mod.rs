@@ -23,6 +23,7 @@ mod constructs;
 mod faces;
 mod flat;
 mod forms;
+mod hulls;
 mod logical;
 mod measures;
 mod moved;
