@@ -7,13 +7,16 @@ use crate::boundary::{
 use crate::decide::{Decider, Outcome};
 use crate::entity::{Entity, Plane, Segment, no_pair};
 use crate::error::GeometryError;
+use crate::round::distance_round;
 use crate::scalar::Scalar;
 use crate::triple::{cross, dot, length, minus, quotient, root, square};
 use std::cmp::Ordering;
 
 /// The least distance of points of the two, never below zero.
 ///
-/// Of point, line, segment and plane each with each, and of each of them and a face with a face. What meets has distance 0; whether lines or planes do
+/// Of point, line, segment and plane each with each, and of each of them and a face with a face; of point and plane with
+/// circle, cylinder, cone and sphere, of a line with cylinder and sphere, all of which are empty: a point inside is away from
+/// them. What meets has distance 0; whether lines or planes do
 /// is a choice, of which [`Outcome::certainty`] tells the ground.
 ///
 /// # Errors
@@ -59,7 +62,10 @@ pub fn distance<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Outcome<S>, G
                 None => return Err(no_pair("distance", a, b)),
             }
         }
-        _ => return Err(no_pair("distance", a, b)),
+        _ => match distance_round(a, b, &mut decider)? {
+            Some(distance) => distance,
+            None => return Err(no_pair("distance", a, b)),
+        },
     };
     Ok(decider.outcome(found))
 }

@@ -1,6 +1,7 @@
 //! What geometry is about. An entity that exists is valid.
 
 use crate::boundary::{Boundary, Face};
+use crate::curved::{Circle, Cone, Cylinder, Sphere};
 use crate::decide::{Answer, zero_vector};
 use crate::error::GeometryError;
 use crate::scalar::Scalar;
@@ -218,6 +219,14 @@ pub enum Kind {
     Face,
     /// A [`Boundary`].
     Boundary,
+    /// A [`Circle`].
+    Circle,
+    /// A [`Cylinder`].
+    Cylinder,
+    /// A [`Cone`].
+    Cone,
+    /// A [`Sphere`].
+    Sphere,
 }
 
 impl fmt::Display for Kind {
@@ -231,6 +240,10 @@ impl fmt::Display for Kind {
             Self::Segment => "segment",
             Self::Face => "face",
             Self::Boundary => "boundary",
+            Self::Circle => "circle",
+            Self::Cylinder => "cylinder",
+            Self::Cone => "cone",
+            Self::Sphere => "sphere",
         })
     }
 }
@@ -254,6 +267,14 @@ pub enum Entity<S> {
     Face(Face<S>),
     /// The boundary of a solid, or an open one.
     Boundary(Boundary<S>),
+    /// A circle.
+    Circle(Circle<S>),
+    /// A cylinder.
+    Cylinder(Cylinder<S>),
+    /// One half of a cone.
+    Cone(Cone<S>),
+    /// A sphere.
+    Sphere(Sphere<S>),
 }
 
 impl<S> Entity<S> {
@@ -269,6 +290,10 @@ impl<S> Entity<S> {
             Self::Segment(_) => Kind::Segment,
             Self::Face(_) => Kind::Face,
             Self::Boundary(_) => Kind::Boundary,
+            Self::Circle(_) => Kind::Circle,
+            Self::Cylinder(_) => Kind::Cylinder,
+            Self::Cone(_) => Kind::Cone,
+            Self::Sphere(_) => Kind::Sphere,
         }
     }
 }
@@ -364,5 +389,5 @@ macro_rules! entity_from {
 }
 
 entity_from!(
-    Vector, Direction, Point, Line, Plane, Segment, Face, Boundary
+    Vector, Direction, Point, Line, Plane, Segment, Face, Boundary, Circle, Cylinder, Cone, Sphere
 );

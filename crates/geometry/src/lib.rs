@@ -25,6 +25,7 @@
 
 mod angle;
 mod boundary;
+mod curved;
 mod decide;
 mod distance;
 mod entity;
@@ -43,7 +44,10 @@ mod random_hulls;
 #[cfg(test)]
 mod random_motions;
 #[cfg(test)]
+mod random_round;
+#[cfg(test)]
 mod random_tests;
+mod round;
 mod scalar;
 #[cfg(test)]
 mod tests;
@@ -56,6 +60,7 @@ pub use boundary::{
     Boundary, BoundaryBuilder, Edge, EdgeUse, Face, FacePlace, Shell, classify_by_face,
     classify_in_face, classify_in_solid, concave, convex,
 };
+pub use curved::{Circle, Cone, Cylinder, Sphere};
 pub use decide::{Answer, Certainty, Outcome, Sign};
 pub use distance::distance;
 pub use entity::{Direction, Entity, Found, Kind, Line, Plane, Point, Segment, Vector};
@@ -69,6 +74,7 @@ pub use planar::{
     Place, Side, calculate_normal, classify, classify_in_polygon, planar_hull, sort_angular,
 };
 pub use projection::projection;
+pub use round::{classify_by_round, coaxial, compare_radii, concentric, radius_difference};
 pub use scalar::Scalar;
 pub use transform::Transformation;
 pub use world::{Id, World, WorldError};

@@ -5,6 +5,7 @@ use crate::decide::{Answer, Decider, Sign, zero_vector};
 use crate::entity::{Entity, Found, Line, Plane, Segment, no_pair};
 use crate::error::GeometryError;
 use crate::planar::Place;
+use crate::round::{coincide_round, on_round};
 use crate::scalar::Scalar;
 use crate::triple::{cross, dot, minus};
 
@@ -16,7 +17,7 @@ pub(crate) enum Bearing<'a, S> {
     Across(&'a [S; 3]),
 }
 
-/// The direction of a direction, line or segment, the normal of a plane or a face.
+/// The direction of a direction, line or segment or of an axis, the normal of a plane, a face or a circle.
 pub(crate) fn bearing<S: Scalar>(entity: &Entity<S>) -> Option<Bearing<'_, S>> {
     match entity {
         Entity::Direction(d) => Some(Bearing::Along(d.components())),
@@ -24,7 +25,10 @@ pub(crate) fn bearing<S: Scalar>(entity: &Entity<S>) -> Option<Bearing<'_, S>> {
         Entity::Segment(s) => Some(Bearing::Along(s.direction().components())),
         Entity::Plane(p) => Some(Bearing::Across(p.normal().components())),
         Entity::Face(f) => Some(Bearing::Across(f.plane().normal().components())),
-        Entity::Vector(_) | Entity::Point(_) | Entity::Boundary(_) => None,
+        Entity::Circle(c) => Some(Bearing::Across(c.plane().normal().components())),
+        Entity::Cylinder(c) => Some(Bearing::Along(c.axis().direction().components())),
+        Entity::Cone(c) => Some(Bearing::Along(c.axis().direction().components())),
+        Entity::Vector(_) | Entity::Point(_) | Entity::Boundary(_) | Entity::Sphere(_) => None,
     }
 }
 
@@ -102,7 +106,7 @@ pub fn coincide<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Answer, Geome
                 false => plane.and(same_points(x, y)),
             })
         }
-        _ => Err(no_pair("coincide", a, b)),
+        _ => coincide_round(a, b).ok_or_else(|| no_pair("coincide", a, b)),
     }
 }
 
@@ -151,7 +155,8 @@ fn in_one_plane<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Answer, Geome
 }
 
 /// Whether the first is a part of the second: points, lines and segments in lines, segments and planes; points and segments
-/// in faces, faces in planes, points in solids. Borders belong to what they bound.
+/// in faces, faces in planes, points in solids; points on circles, cylinders, cones and spheres. Borders belong to what
+/// they bound.
 ///
 /// # Errors
 /// For other pairs, for a line in a segment or a face, which it never is, and for a boundary that is not one of a solid.
@@ -179,6 +184,7 @@ pub fn contained<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Answer, Geom
         (Entity::Point(_) | Entity::Line(_) | Entity::Segment(_), Entity::Line(_)) => {
             colinear(a, b).map_err(|_| no_pair("contained", a, b))
         }
+        (Entity::Point(p), _) => on_round(p, b).ok_or_else(|| no_pair("contained", a, b)),
         _ => Err(no_pair("contained", a, b)),
     }
 }
@@ -209,10 +215,10 @@ fn segment_in_face<S: Scalar>(
     })
 }
 
-/// Whether two of direction, line, segment, plane and face are parallel; what coincides is.
+/// Whether two of direction, line, segment, axis (of a cylinder or a cone), plane, face and circle are parallel; what coincides is.
 ///
 /// # Errors
-/// For vectors, which may be zero, for points and for boundaries.
+/// For vectors, which may be zero, for points, spheres and boundaries.
 pub fn parallel<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Answer, GeometryError> {
     match (bearing(a), bearing(b)) {
         (Some(Bearing::Along(u)), Some(Bearing::Along(v)))
@@ -223,10 +229,10 @@ pub fn parallel<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Answer, Geome
     }
 }
 
-/// Whether two of direction, line, segment, plane and face are at a right angle; lines need not meet for it.
+/// Whether two of direction, line, segment, axis (of a cylinder or a cone), plane, face and circle are at a right angle; lines need not meet for it.
 ///
 /// # Errors
-/// For vectors, which may be zero, for points and for boundaries.
+/// For vectors, which may be zero, for points, spheres and boundaries.
 pub fn perpendicular<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Answer, GeometryError> {
     match (bearing(a), bearing(b)) {
         (Some(Bearing::Along(u)), Some(Bearing::Along(v)))

@@ -246,6 +246,10 @@ impl<S: Scalar> Transformation<S> {
             Entity::Segment(x) => self.segment(x)?.into(),
             Entity::Face(x) => self.face(x)?.into(),
             Entity::Boundary(x) => self.boundary(x)?.into(),
+            Entity::Circle(x) => x.in_plane(self.plane(x.plane())?).into(),
+            Entity::Cylinder(x) => x.about(self.line(x.axis())?).into(),
+            Entity::Cone(x) => x.about(self.line(x.axis())?).into(),
+            Entity::Sphere(x) => x.about(self.point(x.centre())).into(),
         })
     }
 }

@@ -20,6 +20,7 @@ macro_rules! in_both_forms {
 
 mod boundary;
 mod constructs;
+mod curved;
 mod faces;
 mod flat;
 mod forms;
