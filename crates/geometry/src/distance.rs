@@ -16,8 +16,8 @@ use std::cmp::Ordering;
 ///
 /// Of point, line, segment and plane each with each, and of each of them and a face with a face; of point and plane with
 /// circle, cylinder, cone and sphere, of a line with cylinder and sphere, all of which are empty: a point inside is away from
-/// them. What meets has distance 0; whether lines or planes do
-/// is a choice, of which [`Outcome::certainty`] tells the ground.
+/// them. What meets has distance 0; whether lines or planes do is a choice, of which [`Outcome::certainty`] tells the
+/// ground.
 ///
 /// # Errors
 /// For other pairs, and beyond the range of numbers.

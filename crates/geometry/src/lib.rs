@@ -9,8 +9,8 @@
 //!   *no* where it is the same for all values within the digits, and [`Answer::WithinDigits`] elsewhere.
 //!
 //! # Logical and constructive
-//! Logical functions ([`coincide`], [`colinear`], [`coplanar`], [`contained`], [`parallel`], [`perpendicular`]) give an
-//! [`Answer`]. Constructive ones ([`distance`], [`intersection`], ...) have to choose a case to have a result: what cannot be
+//! Logical functions ([`coincide`], [`colinear`], [`coplanar`], [`contained`], [`parallel`], [`perpendicular`], [`convex`],
+//! [`concave`], [`coaxial`], [`concentric`]) give an [`Answer`]. Constructive ones ([`distance`], [`intersection`], ...) have to choose a case to have a result: what cannot be
 //! told from zero counts as zero there, and [`Outcome::certainty`] says so. Functions take [`Entity`] values, since what
 //! something is may be known only at run time; a pair of arguments for which a function has no meaning is an error.
 //!
@@ -21,7 +21,10 @@
 //! # Topology
 //! A [`Face`] is flat, between loops of straight edges. A [`Boundary`], made by a [`BoundaryBuilder`], says which vertices, edges,
 //! loops, faces and shells are connected, of an open surface or of a solid; it need be no manifold. Results that are sets
-//! ([`Found::Several`]) have points and segments as members.
+//! ([`Found::Several`]) have points and segments as members. [`space_hull`] makes the boundary of a convex solid from points.
+//!
+//! # Motions
+//! A [`Transformation`] is a rotation and a translation; it moves every entity, and exactly so where its numbers are exact.
 
 mod angle;
 mod boundary;
