@@ -72,7 +72,7 @@ impl Skyline {
             true => [near(x - 1), near(x)],
             false => [near(x), near(x)],
         };
-        let closed = |height: Option<i128>| height.is_some_and(|h| 0 <= y && y <= h);
+        let closed = |height: Option<i128>| height.is_some_and(|h| (0..=h).contains(&y));
         let open = |height: Option<i128>| height.is_some_and(|h| 0 < y && y < h);
         match (sides.into_iter().any(closed), sides.into_iter().all(open)) {
             (_, true) => Place::Inside,

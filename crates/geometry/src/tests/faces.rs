@@ -1,10 +1,11 @@
 //! Functions of faces with each partner: a square of 6 with a square hole of 2, and a jagged one.
 
-use super::{EXACT, TOLERANT, Three, With};
+use super::{BOX, EXACT, TOLERANT, Three, With, box_corners};
 use crate::{
-    Answer, Certainty, Entity, FacePlace, Place, Scalar, Side, angle_between, classify,
-    classify_by_face, classify_in_face, coincide, contained, coplanar, distance, intersection,
-    parallel, perpendicular, projection, signed_angle_between,
+    Answer, BoundaryBuilder, Certainty, Entity, Face, FacePlace, Line, Measured, Place, Point,
+    Scalar, Side, angle_between, classify, classify_by_face, classify_in_face, classify_in_solid,
+    coincide, contained, coplanar, distance, intersection, parallel, perpendicular, projection,
+    signed_angle_between,
 };
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -229,7 +230,7 @@ impl<S: Scalar> With<S> {
         // The teeth at y = 3: from 3/4 to 2, from 4 to 21/4.
         let mut ends = Vec::new();
         for part in at(3).value.entities() {
-            let Entity::Segment(s) = part else {
+            let Entity::Segment(s) = &part else {
                 panic!("{part:?}");
             };
             ends.extend([s.from().0[0].double(), s.to().0[0].double()]);
@@ -387,6 +388,58 @@ impl<S: Scalar> With<S> {
             let found = classify(&self.holed(), &plane).expect("valid by construction");
             assert_eq!(found.value, expected, "{plane:?}");
         }
+    }
+}
+
+#[test]
+fn measured_faces_and_solids_are_told_within_their_digits() {
+    let m = |x: f64| Measured::new(x, 1e-3).expect("valid by construction");
+    let at = |x: f64, y: f64, z: f64| Point([m(x), m(y), m(z)]);
+    let ring = vec![
+        at(0.0, 0.0, 0.0),
+        at(6.0, 0.0, 0.0),
+        at(6.0, 6.0, 0.0),
+        at(0.0, 6.0, 0.0),
+    ];
+    let face = Face::new(vec![ring]).expect("valid by construction");
+    // Four measured corners may be in one plane, and never certainly are.
+    assert_eq!(face.certainty(), Certainty::WithinDigits);
+    let face: Entity<Measured> = face.into();
+    let ask = |point: Point<Measured>| contained(&point.into(), &face);
+    assert_eq!(ask(at(3.0, 3.0, 0.0)), Ok(Answer::WithinDigits));
+    assert_eq!(ask(at(3.0, 3.0, 0.1)), Ok(Answer::No));
+    assert_eq!(ask(at(7.0, 3.0, 0.0)), Ok(Answer::No));
+    assert_eq!(ask(at(6.0005, 3.0, 0.0)), Ok(Answer::WithinDigits));
+    // A line through the inside certainly pierces it; one past it certainly does not; at the border either may be.
+    let upright = |x: f64| -> Entity<Measured> {
+        Line::new(at(x, 3.0, 5.0), TOLERANT.towards([0, 0, 1])).into()
+    };
+    for (x, place, certainty) in [
+        (3.0, FacePlace::Piercing, Certainty::Proven),
+        (7.0, FacePlace::Apart, Certainty::Proven),
+        (6.0, FacePlace::Touching, Certainty::WithinDigits),
+    ] {
+        let found = classify_by_face(&upright(x), &face).expect("valid by construction");
+        assert_eq!((found.value, found.certainty), (place, certainty), "{x}");
+    }
+    let mut builder = BoundaryBuilder::new();
+    for [x, y, z] in box_corners([0, 0, 0], [6, 6, 6]) {
+        builder.vertex(at(f64::from(x), f64::from(y), f64::from(z)));
+    }
+    for corners in BOX {
+        builder.face(vec![corners.to_vec()]);
+    }
+    let solid = builder.build_solid().expect("valid by construction");
+    for (point, place, certainty) in [
+        (at(3.0, 3.0, 3.0), Place::Inside, Certainty::Proven),
+        (at(3.0, 3.0, 7.0), Place::Outside, Certainty::Proven),
+        // In the planes of faces within its digits, away from the faces.
+        (at(9.0, 6.0, 6.0), Place::Outside, Certainty::Proven),
+        (at(3.0, 3.0, 6.0), Place::OnBorder, Certainty::WithinDigits),
+    ] {
+        let found = classify_in_solid(&point, &solid).expect("valid by construction");
+        assert_eq!(found.value, place, "{point:?}");
+        assert_eq!(found.certainty, certainty, "{point:?}");
     }
 }
 

@@ -88,7 +88,7 @@ fn hulls_of_roots_are_exact() {
     for corner in 0..8 {
         let mut at = [zero(), zero(), zero()];
         for (bit, column) in columns.iter().enumerate() {
-            if corner >> bit & 1 == 1 {
+            if (corner >> bit) & 1 == 1 {
                 let scaled = |i: usize| column[i].over(&six).expect("valid by construction");
                 at = [0, 1, 2].map(|i: usize| &at[i] + &scaled(i));
             }
