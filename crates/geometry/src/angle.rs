@@ -23,9 +23,9 @@ fn arctangent<S: Scalar>(sine: &S, cosine: &S) -> Result<S, GeometryError> {
     })
 }
 
-/// The angle between two of direction, line, segment and plane, and its supplement to half a turn.
+/// The angle between two of direction, line, segment, plane and face, and its supplement to half a turn.
 ///
-/// Between two directions in [0, π]. Lines, segments and planes have no sense here: between two of them, and from a line to
+/// Between two directions in [0, π]. Lines, segments, planes and faces have no sense here: between two of them, and from a line to
 /// the plane that it pierces, the lesser of both angles, in [0, π/2].
 ///
 /// # Errors
@@ -50,8 +50,8 @@ pub fn angle_between<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Angles<S
 }
 
 /// The angle in (−π, π] that turns the first direction about an axis into the half plane (bounded by the axis) of the
-/// second; of planes, their normals. Counterclockwise seen against the axis is positive. Beside it the angle to the second
-/// reversed.
+/// second; of planes and faces, their normals. Counterclockwise seen against the axis is positive. Beside it the angle to
+/// the second reversed.
 ///
 /// # Errors
 /// For other pairs, and where a direction is along the axis, or may be within its digits.
@@ -60,9 +60,10 @@ pub fn signed_angle_between<S: Scalar>(
     b: &Entity<S>,
     about: &Direction<S>,
 ) -> Result<Outcome<Angles<S>>, GeometryError> {
-    let (u, v) = match (a, b) {
-        (Entity::Direction(x), Entity::Direction(y)) => (x.components(), y.components()),
-        (Entity::Plane(x), Entity::Plane(y)) => (x.normal().components(), y.normal().components()),
+    let directed = matches!((a, b), (Entity::Direction(_), Entity::Direction(_)));
+    let (u, v) = match (bearing(a), bearing(b)) {
+        (Some(Bearing::Along(u)), Some(Bearing::Along(v))) if directed => (u, v),
+        (Some(Bearing::Across(u)), Some(Bearing::Across(v))) => (u, v),
         _ => return Err(no_pair("signed_angle_between", a, b)),
     };
     let axis = about.components();

@@ -54,6 +54,17 @@ impl Answer {
         }
     }
 
+    /// Whether a number of this sign is above zero.
+    #[must_use]
+    pub const fn positive(sign: Sign) -> Self {
+        match sign {
+            Sign::Positive => Self::Yes,
+            Sign::Zero | Sign::Negative => Self::No,
+            Sign::WithinDigits => Self::WithinDigits,
+            Sign::Indistinguishable => Self::Indistinguishable,
+        }
+    }
+
     /// Whether both hold: a *no* decides; of two doubts the one about digits is told.
     #[must_use]
     pub const fn and(self, other: Self) -> Self {
@@ -108,6 +119,19 @@ pub enum Certainty {
     WithinDigits,
 }
 
+impl Certainty {
+    /// The answer of a case that was chosen with this certainty: a doubt about the case is one about the answer.
+    #[must_use]
+    pub const fn answer(self, holds: bool) -> Answer {
+        match (self, holds) {
+            (Self::Proven, true) => Answer::Yes,
+            (Self::Proven, false) => Answer::No,
+            (Self::Indistinguishable, _) => Answer::Indistinguishable,
+            (Self::WithinDigits, _) => Answer::WithinDigits,
+        }
+    }
+}
+
 /// A result, and how certain the case is that it belongs to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome<T> {
@@ -125,8 +149,31 @@ pub(crate) struct Decider {
 }
 
 impl Decider {
-    fn weaken(&mut self, to: Certainty) {
+    /// Takes over the ground of a choice that was made elsewhere.
+    pub(crate) fn weaken(&mut self, to: Certainty) {
         self.certainty = self.certainty.max(to);
+    }
+
+    /// The value of an outcome, whose certainty is taken over.
+    pub(crate) fn take<T>(&mut self, outcome: Outcome<T>) -> T {
+        self.weaken(outcome.certainty);
+        outcome.value
+    }
+
+    /// Whether an answer counts as yes: what is in doubt does.
+    pub(crate) fn counts(&mut self, answer: Answer) -> bool {
+        match answer {
+            Answer::No => return false,
+            Answer::Yes => {}
+            Answer::WithinDigits => self.weaken(Certainty::WithinDigits),
+            Answer::Indistinguishable => self.weaken(Certainty::Indistinguishable),
+        }
+        true
+    }
+
+    /// The weakest ground so far.
+    pub(crate) fn certainty(&self) -> Certainty {
+        self.certainty
     }
 
     /// The number beside zero.
@@ -153,13 +200,7 @@ impl Decider {
 
     /// Whether the vector counts as zero: one component that is certainly not zero is enough for a proof that it is not.
     pub(crate) fn vanishes<S: Scalar>(&mut self, v: &[S; 3]) -> bool {
-        match zero_vector(v) {
-            Answer::No => return false,
-            Answer::Yes => {}
-            Answer::WithinDigits => self.weaken(Certainty::WithinDigits),
-            Answer::Indistinguishable => self.weaken(Certainty::Indistinguishable),
-        }
-        true
+        self.counts(zero_vector(v))
     }
 
     /// The result with the certainty of all choices so far.

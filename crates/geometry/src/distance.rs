@@ -1,16 +1,23 @@
 //! How far two entities are from each other.
 
+use crate::boundary::{
+    between_faces, between_segments, line_to_face, line_to_segment, plane_to_face, plane_to_points,
+    point_to_face, segment_to_face,
+};
 use crate::decide::{Decider, Outcome};
 use crate::entity::{Entity, Plane, Segment, no_pair};
 use crate::error::GeometryError;
+use crate::round::distance_round;
 use crate::scalar::Scalar;
 use crate::triple::{cross, dot, length, minus, quotient, root, square};
 use std::cmp::Ordering;
 
 /// The least distance of points of the two, never below zero.
 ///
-/// Of point, line and plane each with each, and of point and segment. What meets has distance 0; whether lines or planes do
-/// is a choice, of which [`Outcome::certainty`] tells the ground.
+/// Of point, line, segment and plane each with each, and of each of them and a face with a face; of point and plane with
+/// circle, cylinder, cone and sphere, of a line with cylinder and sphere, all of which are empty: a point inside is away from
+/// them. What meets has distance 0; whether lines or planes do is a choice, of which [`Outcome::certainty`] tells the
+/// ground.
 ///
 /// # Errors
 /// For other pairs, and beyond the range of numbers.
@@ -49,9 +56,54 @@ pub fn distance<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Outcome<S>, G
                 false => S::whole(0),
             }
         }
-        _ => return Err(no_pair("distance", a, b)),
+        (Entity::Face(_) | Entity::Segment(_), _) | (_, Entity::Face(_) | Entity::Segment(_)) => {
+            match bounded(a, b, &mut decider)? {
+                Some(square) => root(&square)?,
+                None => return Err(no_pair("distance", a, b)),
+            }
+        }
+        _ => match distance_round(a, b, &mut decider)? {
+            Some(distance) => distance,
+            None => return Err(no_pair("distance", a, b)),
+        },
     };
     Ok(decider.outcome(found))
+}
+
+/// The square of the distance of pairs with a segment or a face, but for a point beside a segment; none where a pair has no
+/// distance.
+fn bounded<S: Scalar>(
+    a: &Entity<S>,
+    b: &Entity<S>,
+    decider: &mut Decider,
+) -> Result<Option<S>, GeometryError> {
+    let ends = |s: &Segment<S>| [s.from().clone(), s.to().clone()];
+    let found = match (a, b) {
+        (Entity::Segment(s), Entity::Segment(t)) => {
+            between_segments((&s.from().0, &s.to().0), (&t.from().0, &t.to().0), decider)?
+        }
+        (Entity::Segment(s), Entity::Line(l)) | (Entity::Line(l), Entity::Segment(s)) => {
+            line_to_segment(l, &s.from().0, &s.to().0, decider)?
+        }
+        (Entity::Segment(s), Entity::Plane(p)) | (Entity::Plane(p), Entity::Segment(s)) => {
+            plane_to_points(p, ends(s).iter(), decider)?
+        }
+        (Entity::Face(f), Entity::Point(p)) | (Entity::Point(p), Entity::Face(f)) => {
+            point_to_face(&p.0, f, decider)?
+        }
+        (Entity::Face(f), Entity::Line(l)) | (Entity::Line(l), Entity::Face(f)) => {
+            line_to_face(l, f, decider)?
+        }
+        (Entity::Face(f), Entity::Segment(s)) | (Entity::Segment(s), Entity::Face(f)) => {
+            segment_to_face(s, f, decider)?
+        }
+        (Entity::Face(f), Entity::Plane(p)) | (Entity::Plane(p), Entity::Face(f)) => {
+            plane_to_face(p, f, decider)?
+        }
+        (Entity::Face(f), Entity::Face(g)) => between_faces(f, g, decider)?,
+        _ => return Ok(None),
+    };
+    Ok(Some(found))
 }
 
 fn to_line<S: Scalar>(

@@ -1,5 +1,7 @@
 //! What geometry is about. An entity that exists is valid.
 
+use crate::boundary::{Boundary, Face};
+use crate::curved::{Circle, Cone, Cylinder, Sphere};
 use crate::decide::{Answer, zero_vector};
 use crate::error::GeometryError;
 use crate::scalar::Scalar;
@@ -213,6 +215,18 @@ pub enum Kind {
     Plane,
     /// A [`Segment`].
     Segment,
+    /// A [`Face`].
+    Face,
+    /// A [`Boundary`].
+    Boundary,
+    /// A [`Circle`].
+    Circle,
+    /// A [`Cylinder`].
+    Cylinder,
+    /// A [`Cone`].
+    Cone,
+    /// A [`Sphere`].
+    Sphere,
 }
 
 impl fmt::Display for Kind {
@@ -224,6 +238,12 @@ impl fmt::Display for Kind {
             Self::Line => "line",
             Self::Plane => "plane",
             Self::Segment => "segment",
+            Self::Face => "face",
+            Self::Boundary => "boundary",
+            Self::Circle => "circle",
+            Self::Cylinder => "cylinder",
+            Self::Cone => "cone",
+            Self::Sphere => "sphere",
         })
     }
 }
@@ -243,6 +263,18 @@ pub enum Entity<S> {
     Plane(Plane<S>),
     /// A segment.
     Segment(Segment<S>),
+    /// A flat face.
+    Face(Face<S>),
+    /// The boundary of a solid, or an open one.
+    Boundary(Boundary<S>),
+    /// A circle.
+    Circle(Circle<S>),
+    /// A cylinder.
+    Cylinder(Cylinder<S>),
+    /// One half of a cone.
+    Cone(Cone<S>),
+    /// A sphere.
+    Sphere(Sphere<S>),
 }
 
 impl<S> Entity<S> {
@@ -256,6 +288,12 @@ impl<S> Entity<S> {
             Self::Line(_) => Kind::Line,
             Self::Plane(_) => Kind::Plane,
             Self::Segment(_) => Kind::Segment,
+            Self::Face(_) => Kind::Face,
+            Self::Boundary(_) => Kind::Boundary,
+            Self::Circle(_) => Kind::Circle,
+            Self::Cylinder(_) => Kind::Cylinder,
+            Self::Cone(_) => Kind::Cone,
+            Self::Sphere(_) => Kind::Sphere,
         }
     }
 }
@@ -284,19 +322,58 @@ pub enum Found<S> {
     Plane(Plane<S>),
     /// A segment.
     Segment(Segment<S>),
+    /// A face.
+    Face(Face<S>),
+    /// A boundary.
+    Boundary(Boundary<S>),
+    /// Two or more of these, none of which has others inside.
+    Several(Vec<Found<S>>),
 }
 
 impl<S> Found<S> {
-    /// The entity, for another question.
+    /// What parts there are: none of them nothing, one by itself.
+    pub(crate) fn of(mut parts: Vec<Self>) -> Self {
+        match (parts.pop(), parts.is_empty()) {
+            (None, _) => Self::Nothing,
+            (Some(one), true) => one,
+            (Some(last), false) => {
+                parts.push(last);
+                Self::Several(parts)
+            }
+        }
+    }
+
+    /// The parts: none of nothing, all of several, otherwise what it is.
+    #[must_use]
+    pub fn parts(&self) -> &[Self] {
+        match self {
+            Self::Nothing => &[],
+            Self::Several(parts) => parts,
+            one => std::slice::from_ref(one),
+        }
+    }
+
+    /// All entities, for other questions.
+    #[must_use]
+    pub fn entities(self) -> Vec<Entity<S>> {
+        match self {
+            Self::Several(parts) => parts.into_iter().filter_map(Self::entity).collect(),
+            one => one.entity().into_iter().collect(),
+        }
+    }
+
+    /// The entity, for another question; none of several, which [`Found::entities`] gives.
     #[must_use]
     pub fn entity(self) -> Option<Entity<S>> {
         match self {
-            Self::Nothing => None,
+            Self::Nothing | Self::Several(_) => None,
             Self::Point(x) => Some(Entity::Point(x)),
             Self::Direction(x) => Some(Entity::Direction(x)),
             Self::Line(x) => Some(Entity::Line(x)),
             Self::Plane(x) => Some(Entity::Plane(x)),
             Self::Segment(x) => Some(Entity::Segment(x)),
+            Self::Face(x) => Some(Entity::Face(x)),
+            Self::Boundary(x) => Some(Entity::Boundary(x)),
         }
     }
 }
@@ -311,4 +388,6 @@ macro_rules! entity_from {
     };
 }
 
-entity_from!(Vector, Direction, Point, Line, Plane, Segment);
+entity_from!(
+    Vector, Direction, Point, Line, Plane, Segment, Face, Boundary, Circle, Cylinder, Cone, Sphere
+);

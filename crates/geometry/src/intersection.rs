@@ -1,5 +1,6 @@
 //! What two entities have in common.
 
+use crate::boundary;
 use crate::decide::{Decider, Outcome};
 use crate::entity::{Direction, Entity, Found, Line, Plane, Point, Segment, no_pair};
 use crate::error::GeometryError;
@@ -7,9 +8,10 @@ use crate::scalar::Scalar;
 use crate::triple::{along, cross, dot, minus, square};
 use std::cmp::Ordering;
 
-/// The points that belong to both: nothing, a point, a line, a segment or a plane.
+/// The points that belong to both: nothing, a point, a line, a segment or a plane; with a face a set of segments and points,
+/// or the face itself in its own plane.
 ///
-/// Of line, segment and plane each with each, but not of two segments. Two measured lines never certainly meet: where they
+/// Of line, segment and plane each with each and with a face, but not of two segments. Two measured lines never certainly meet: where they
 /// may within their digits, the point is on the first one, and the certainty says so.
 ///
 /// # Errors
@@ -30,6 +32,15 @@ pub fn intersection<S: Scalar>(
         }
         (Entity::Segment(s), Entity::Line(l)) | (Entity::Line(l), Entity::Segment(s)) => {
             segment_with_line(s, l, &mut decider)?
+        }
+        (Entity::Line(l), Entity::Face(f)) | (Entity::Face(f), Entity::Line(l)) => {
+            boundary::of_line(l, f, &mut decider)?
+        }
+        (Entity::Segment(s), Entity::Face(f)) | (Entity::Face(f), Entity::Segment(s)) => {
+            boundary::of_segment(s, f, &mut decider)?
+        }
+        (Entity::Plane(p), Entity::Face(f)) | (Entity::Face(f), Entity::Plane(p)) => {
+            boundary::of_plane(p, f, &mut decider)?
         }
         _ => return Err(no_pair("intersection", a, b)),
     };

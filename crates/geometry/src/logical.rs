@@ -1,8 +1,11 @@
 //! What two entities are to each other: yes, no, or within the digits.
 
-use crate::decide::{Answer, Sign, zero_vector};
-use crate::entity::{Entity, Line, Plane, Segment, no_pair};
+use crate::boundary::{Face, classify_in_solid, clip_segment, in_face, same_points};
+use crate::decide::{Answer, Decider, Sign, zero_vector};
+use crate::entity::{Entity, Found, Line, Plane, Segment, no_pair};
 use crate::error::GeometryError;
+use crate::planar::Place;
+use crate::round::{coincide_round, on_round};
 use crate::scalar::Scalar;
 use crate::triple::{cross, dot, minus};
 
@@ -14,14 +17,18 @@ pub(crate) enum Bearing<'a, S> {
     Across(&'a [S; 3]),
 }
 
-/// The direction of a direction, line or segment, the normal of a plane.
+/// The direction of a direction, line or segment or of an axis, the normal of a plane, a face or a circle.
 pub(crate) fn bearing<S: Scalar>(entity: &Entity<S>) -> Option<Bearing<'_, S>> {
     match entity {
         Entity::Direction(d) => Some(Bearing::Along(d.components())),
         Entity::Line(l) => Some(Bearing::Along(l.direction().components())),
         Entity::Segment(s) => Some(Bearing::Along(s.direction().components())),
         Entity::Plane(p) => Some(Bearing::Across(p.normal().components())),
-        Entity::Vector(_) | Entity::Point(_) => None,
+        Entity::Face(f) => Some(Bearing::Across(f.plane().normal().components())),
+        Entity::Circle(c) => Some(Bearing::Across(c.plane().normal().components())),
+        Entity::Cylinder(c) => Some(Bearing::Along(c.axis().direction().components())),
+        Entity::Cone(c) => Some(Bearing::Along(c.axis().direction().components())),
+        Entity::Vector(_) | Entity::Point(_) | Entity::Boundary(_) | Entity::Sphere(_) => None,
     }
 }
 
@@ -92,7 +99,14 @@ pub fn coincide<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Answer, Geome
             let back = same(&x.from().0, &y.to().0).and(same(&x.to().0, &y.from().0));
             Ok(forth.or(back))
         }
-        _ => Err(no_pair("coincide", a, b)),
+        (Entity::Face(x), Entity::Face(y)) => {
+            let plane = one_plane(x.plane(), y.plane());
+            Ok(match plane.is_no() {
+                true => Answer::No,
+                false => plane.and(same_points(x, y)),
+            })
+        }
+        _ => coincide_round(a, b).ok_or_else(|| no_pair("coincide", a, b)),
     }
 }
 
@@ -110,11 +124,25 @@ pub fn colinear<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Answer, Geome
     }
 }
 
-/// Whether one plane contains both: lines and segments among themselves, and anything with a plane.
+/// Whether one plane contains both: lines and segments among themselves, and anything with a plane or a face, which
+/// stands for its plane.
 ///
 /// # Errors
 /// For vectors and directions, and for a point with what is no plane, which are always in one.
 pub fn coplanar<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Answer, GeometryError> {
+    let (of_a, of_b) = (plane_of_face(a), plane_of_face(b));
+    let (own_a, own_b) = (of_a.as_ref().unwrap_or(a), of_b.as_ref().unwrap_or(b));
+    in_one_plane(own_a, own_b).map_err(|_| no_pair("coplanar", a, b))
+}
+
+fn plane_of_face<S: Scalar>(entity: &Entity<S>) -> Option<Entity<S>> {
+    match entity {
+        Entity::Face(face) => Some(face.plane().clone().into()),
+        _ => None,
+    }
+}
+
+fn in_one_plane<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Answer, GeometryError> {
     if let (Some((p, d)), Some((q, e))) = (straight(a), straight(b)) {
         return Ok(Answer::zero(dot(&minus(q, p), &cross(d, e)).sign()));
     }
@@ -124,13 +152,14 @@ pub fn coplanar<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Answer, Geome
         (_, Entity::Plane(_)) => contained(a, b),
         _ => Err(no_pair("coplanar", a, b)),
     }
-    .map_err(|_| no_pair("coplanar", a, b))
 }
 
-/// Whether the first is a part of the second: points, lines and segments in lines, segments and planes.
+/// Whether the first is a part of the second: points, lines and segments in lines, segments and planes; points and segments
+/// in faces, faces in planes, points in solids; points on circles, cylinders, cones and spheres. Borders belong to what
+/// they bound.
 ///
 /// # Errors
-/// For other pairs, and for a line in a segment, which it never is.
+/// For other pairs, for a line in a segment or a face, which it never is, and for a boundary that is not one of a solid.
 pub fn contained<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Answer, GeometryError> {
     match (a, b) {
         (Entity::Point(p), Entity::Plane(plane)) => Ok(in_plane(&p.0, plane)),
@@ -142,9 +171,20 @@ pub fn contained<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Answer, Geom
             Ok(in_plane(&s.from().0, plane).and(in_plane(&s.to().0, plane)))
         }
         (Entity::Line(line), Entity::Plane(plane)) => Ok(line_in_plane(line, plane)),
+        (Entity::Point(p), Entity::Face(face)) => Ok(in_face(p, face)),
+        (Entity::Segment(s), Entity::Face(face)) => segment_in_face(s, face),
+        (Entity::Face(face), Entity::Plane(plane)) => Ok(face
+            .corners()
+            .map(|corner| in_plane(&corner.0, plane))
+            .fold(Answer::Yes, Answer::and)),
+        (Entity::Point(p), Entity::Boundary(solid)) => {
+            let found = classify_in_solid(p, solid)?;
+            Ok(found.certainty.answer(found.value != Place::Outside))
+        }
         (Entity::Point(_) | Entity::Line(_) | Entity::Segment(_), Entity::Line(_)) => {
             colinear(a, b).map_err(|_| no_pair("contained", a, b))
         }
+        (Entity::Point(p), _) => on_round(p, b).ok_or_else(|| no_pair("contained", a, b)),
         _ => Err(no_pair("contained", a, b)),
     }
 }
@@ -153,10 +193,32 @@ fn line_in_plane<S: Scalar>(line: &Line<S>, plane: &Plane<S>) -> Answer {
     along_plane(line.direction().components(), plane).and(in_plane(&line.point().0, plane))
 }
 
-/// Whether two of direction, line, segment and plane are parallel; what coincides is.
+/// Whether a segment is one part of what the face cuts out of it, from end to end.
+fn segment_in_face<S: Scalar>(
+    segment: &Segment<S>,
+    face: &Face<S>,
+) -> Result<Answer, GeometryError> {
+    let (from, to) = (&segment.from().0, &segment.to().0);
+    let level = in_plane(from, face.plane()).and(in_plane(to, face.plane()));
+    if level.is_no() {
+        return Ok(Answer::No);
+    }
+    let mut decider = Decider::default();
+    let found = clip_segment(segment, face, &mut decider)?;
+    let certainty = decider.certainty();
+    Ok(match found {
+        Found::Segment(part) => {
+            let ends = same(&part.from().0, from).and(same(&part.to().0, to));
+            level.and(certainty.answer(true)).and(ends)
+        }
+        _ => level.and(certainty.answer(false)),
+    })
+}
+
+/// Whether two of direction, line, segment, axis (of a cylinder or a cone), plane, face and circle are parallel; what coincides is.
 ///
 /// # Errors
-/// For vectors, which may be zero, and for points.
+/// For vectors, which may be zero, for points, spheres and boundaries.
 pub fn parallel<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Answer, GeometryError> {
     match (bearing(a), bearing(b)) {
         (Some(Bearing::Along(u)), Some(Bearing::Along(v)))
@@ -167,10 +229,10 @@ pub fn parallel<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Answer, Geome
     }
 }
 
-/// Whether two of direction, line, segment and plane are at a right angle; lines need not meet for it.
+/// Whether two of direction, line, segment, axis (of a cylinder or a cone), plane, face and circle are at a right angle; lines need not meet for it.
 ///
 /// # Errors
-/// For vectors, which may be zero, and for points.
+/// For vectors, which may be zero, for points, spheres and boundaries.
 pub fn perpendicular<S: Scalar>(a: &Entity<S>, b: &Entity<S>) -> Result<Answer, GeometryError> {
     match (bearing(a), bearing(b)) {
         (Some(Bearing::Along(u)), Some(Bearing::Along(v)))

@@ -256,6 +256,13 @@ impl Scalar for Measured {
         Some(Self::of_ends(sine, cosine, turned))
     }
 
+    fn least(&self, other: &Self) -> Self {
+        Self {
+            low: self.low.min(other.low),
+            high: self.high.min(other.high),
+        }
+    }
+
     fn sign(&self) -> Sign {
         if self.low > 0.0 {
             Sign::Positive

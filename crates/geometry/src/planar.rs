@@ -1,5 +1,6 @@
 //! Points in a plane: which side, in what order, their hull and what it encloses.
 
+use crate::boundary::{Ratio, place_in_loops};
 use crate::decide::{Decider, Outcome};
 use crate::entity::{Direction, Entity, Point, no_pair};
 use crate::error::GeometryError;
@@ -18,7 +19,7 @@ pub enum Side {
     Below,
     /// On both sides.
     Crossing,
-    /// A segment with one end in the plane.
+    /// A segment with one end in the plane, a face with a part of its border there and the rest on one side.
     Touching,
 }
 
@@ -49,7 +50,7 @@ fn between<S: Scalar>(a: &Flat<S>, b: &Flat<S>) -> Flat<S> {
     [b[0].minus(&a[0]), b[1].minus(&a[1])]
 }
 
-/// On which side of a plane a point, a line or a segment is.
+/// On which side of a plane a point, a line, a segment or a face is.
 ///
 /// # Errors
 /// For other pairs.
@@ -84,9 +85,32 @@ pub fn classify<S: Scalar>(
                 _ => Side::Crossing,
             }
         }
+        Entity::Face(face) => of_heights(
+            face.corners().map(|corner| p.height(&corner.0)),
+            &mut decider,
+        ),
         _ => return Err(no_pair("classify", a, plane)),
     };
     Ok(decider.outcome(found))
+}
+
+/// The side of something flat with straight edges, from the heights of its corners.
+fn of_heights<S: Scalar>(heights: impl Iterator<Item = S>, decider: &mut Decider) -> Side {
+    let (mut above, mut below, mut level) = (false, false, false);
+    for height in heights {
+        match decider.order(&height) {
+            Ordering::Greater => above = true,
+            Ordering::Less => below = true,
+            Ordering::Equal => level = true,
+        }
+    }
+    match (above, below, level) {
+        (true, true, _) => Side::Crossing,
+        (true, false, true) | (false, true, true) => Side::Touching,
+        (true, false, false) => Side::Above,
+        (false, true, false) => Side::Below,
+        (false, false, _) => Side::In,
+    }
 }
 
 /// Where a point is beside a polygon, given by its corners in order and the normal of its plane. It need not be convex;
@@ -110,29 +134,9 @@ pub fn classify_in_polygon<S: Scalar>(
     if !decider.is_zero(&height) {
         return Ok(decider.outcome(Place::Outside));
     }
-    let axes = normal.across();
-    let seen: Vec<Flat<S>> = corners
-        .iter()
-        .map(|corner| flat(&minus(&corner.0, &point.0), &axes))
-        .collect();
-    let mut inside = false;
-    for (a, b) in seen.iter().zip(seen.iter().cycle().skip(1)) {
-        let side = decider.order(&turn(a, b));
-        let product = a[0].times(&b[0]).plus(&a[1].times(&b[1]));
-        if side == Ordering::Equal && decider.order(&product) != Ordering::Greater {
-            return Ok(decider.outcome(Place::OnBorder));
-        }
-        let below = decider.order(&a[1]) != Ordering::Greater;
-        let above = decider.order(&b[1]) == Ordering::Greater;
-        // The edge crosses the height of the point; on its right where it passes counterclockwise on its way up.
-        if below == above && (side == Ordering::Greater) == above {
-            inside = !inside;
-        }
-    }
-    Ok(decider.outcome(match inside {
-        true => Place::Inside,
-        false => Place::Outside,
-    }))
+    let at = Ratio::of(&point.0);
+    let place = place_in_loops(&at, &[corners], normal.components(), &mut decider);
+    Ok(decider.outcome(place))
 }
 
 /// A point on its way into an order: which one, where it is seen, and the square of its distance.
@@ -195,7 +199,7 @@ fn by_angle<S: Scalar>(a: &Seen<S>, b: &Seen<S>, decider: &mut Decider) -> Order
 }
 
 /// Stable, by binary insertion. The standard sort may refuse an order that is none, which an order within digits can be.
-fn sorted<T>(items: Vec<T>, mut order: impl FnMut(&T, &T) -> Ordering) -> Vec<T> {
+pub(crate) fn sorted<T>(items: Vec<T>, mut order: impl FnMut(&T, &T) -> Ordering) -> Vec<T> {
     let mut done: Vec<T> = Vec::with_capacity(items.len());
     for item in items {
         let (mut low, mut high) = (0, done.len());

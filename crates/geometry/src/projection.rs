@@ -1,17 +1,20 @@
 //! Shadows: of points, lines and segments on lines and planes.
 
+use crate::boundary::{Face, Ratio, clip_line, clip_segment};
 use crate::decide::{Decider, Outcome};
 use crate::entity::{Direction, Entity, Found, Line, Plane, Point, Segment, no_pair};
 use crate::error::GeometryError;
 use crate::intersection::{of_lines, with_plane};
 use crate::join::{on_line, on_plane};
+use crate::planar::Place;
 use crate::scalar::Scalar;
 use crate::triple::{cross, minus};
 
 /// The shadow of the first on the second, along a direction; perpendicular where none is given.
 ///
-/// Of a point on a line or a plane, of a line or a segment on a plane: a line whose direction is that of the light has a
-/// point for a shadow. Nothing where the direction runs along the plane, and where a point's ray misses the line.
+/// Of a point on a line, a plane or a face, of a line or a segment on a plane or a face: a line whose direction is that of the
+/// light has a point for a shadow. On a face it is what of the shadow on its plane belongs to the face: a set of
+/// segments and points. Nothing where the direction runs along the plane, and where a point's ray misses the line.
 ///
 /// # Errors
 /// For other pairs, and beyond the range of numbers.
@@ -36,9 +39,40 @@ pub fn projection<S: Scalar>(
         (Entity::Segment(segment), Entity::Plane(plane)) => {
             of_segment(segment, plane, light, &mut decider)?
         }
+        (Entity::Point(p), Entity::Face(face)) => {
+            match shadow(&p.0, face.plane(), light, &mut decider)? {
+                Some(point) => on_face(Found::Point(Point(point)), face, &mut decider)?,
+                None => Found::Nothing,
+            }
+        }
+        (Entity::Line(line), Entity::Face(face)) => {
+            let whole = of_line(line, face.plane(), light, &mut decider)?;
+            on_face(whole, face, &mut decider)?
+        }
+        (Entity::Segment(segment), Entity::Face(face)) => {
+            let whole = of_segment(segment, face.plane(), light, &mut decider)?;
+            on_face(whole, face, &mut decider)?
+        }
         _ => return Err(no_pair("projection", a, on)),
     };
     Ok(decider.outcome(found))
+}
+
+/// What of a shadow on the plane of a face belongs to the face.
+fn on_face<S: Scalar>(
+    shadow: Found<S>,
+    face: &Face<S>,
+    decider: &mut Decider,
+) -> Result<Found<S>, GeometryError> {
+    Ok(match shadow {
+        Found::Point(point) => match face.place(&Ratio::of(&point.0), decider) {
+            Place::Outside => Found::Nothing,
+            Place::Inside | Place::OnBorder => Found::Point(point),
+        },
+        Found::Line(line) => clip_line(&line, face, decider)?,
+        Found::Segment(segment) => clip_segment(&segment, face, decider)?,
+        other => other,
+    })
 }
 
 fn point_along<S: Scalar>(

@@ -9,32 +9,32 @@ use kutzbach_math::number::Number;
 
 const CASES: usize = 10_000;
 
-type Whole = [i128; 3];
+pub(crate) type Whole = [i128; 3];
 
-fn exact(v: Whole) -> [Number; 3] {
+pub(crate) fn exact(v: Whole) -> [Number; 3] {
     v.map(|x| Number::integer(x as i64))
 }
 
-fn tolerant(v: Whole) -> [Measured; 3] {
+pub(crate) fn tolerant(v: Whole) -> [Measured; 3] {
     v.map(|x| Measured::new(x as f64, 0.0).expect("valid by construction"))
 }
 
 /// Numbers within a hundredth of the integers, and as uncertain: the integers are among what they may be.
-fn shaken(v: Whole, random: &mut SplitMix64) -> [Measured; 3] {
+pub(crate) fn shaken(v: Whole, random: &mut SplitMix64) -> [Measured; 3] {
     v.map(|x| {
         Measured::new(x as f64 + 0.01 * random.symmetric(), 0.0101).expect("valid by construction")
     })
 }
 
-fn component(random: &mut SplitMix64) -> i128 {
+pub(crate) fn component(random: &mut SplitMix64) -> i128 {
     i128::from(random.next_u64() % 5) - 2
 }
 
-fn triple(random: &mut SplitMix64) -> Whole {
+pub(crate) fn triple(random: &mut SplitMix64) -> Whole {
     [component(random), component(random), component(random)]
 }
 
-fn not_zero(random: &mut SplitMix64) -> Whole {
+pub(crate) fn not_zero(random: &mut SplitMix64) -> Whole {
     loop {
         let v = triple(random);
         if v != [0, 0, 0] {
@@ -44,7 +44,7 @@ fn not_zero(random: &mut SplitMix64) -> Whole {
 }
 
 /// The determinant of three rows, by the rule of Sarrus: no product of vectors is shared with the library.
-fn determinant([a, b, c]: [Whole; 3]) -> i128 {
+pub(crate) fn determinant([a, b, c]: [Whole; 3]) -> i128 {
     a[0] * b[1] * c[2] + a[1] * b[2] * c[0] + a[2] * b[0] * c[1]
         - a[2] * b[1] * c[0]
         - a[0] * b[2] * c[1]
@@ -52,17 +52,17 @@ fn determinant([a, b, c]: [Whole; 3]) -> i128 {
 }
 
 /// Whether two rows are of rank one at most: all minors of two columns are zero.
-fn dependent(a: Whole, b: Whole) -> bool {
+pub(crate) fn dependent(a: Whole, b: Whole) -> bool {
     [(0, 1), (0, 2), (1, 2)]
         .into_iter()
         .all(|(i, j)| a[i] * b[j] == a[j] * b[i])
 }
 
-fn product(a: Whole, b: Whole) -> i128 {
+pub(crate) fn product(a: Whole, b: Whole) -> i128 {
     (0..3).map(|i| a[i] * b[i]).sum()
 }
 
-fn difference(a: Whole, b: Whole) -> Whole {
+pub(crate) fn difference(a: Whole, b: Whole) -> Whole {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 

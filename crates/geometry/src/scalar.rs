@@ -30,6 +30,13 @@ pub trait Scalar: Clone + Debug {
     fn root(&self) -> Option<Self>;
     /// The angle of the point (cosine, sine) in (−π, π], which need not lie on the unit circle; `None` for the origin.
     fn arctangent(sine: &Self, cosine: &Self) -> Option<Self>;
+    /// The lesser of two numbers: where the digits do not tell which one, what the lesser one may be.
+    fn least(&self, other: &Self) -> Self {
+        match other.minus(self).sign() {
+            Sign::Negative => other.clone(),
+            _ => self.clone(),
+        }
+    }
     /// What is known of its sign.
     fn sign(&self) -> Sign;
     /// The nearest double, or the middle of what the digits allow.

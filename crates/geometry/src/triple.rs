@@ -1,5 +1,6 @@
 //! Arithmetic of three components.
 
+use crate::decide::Answer;
 use crate::error::GeometryError;
 use crate::scalar::Scalar;
 
@@ -63,4 +64,18 @@ pub(crate) fn along<S: Scalar>(
     b: &S,
 ) -> Result<[S; 3], GeometryError> {
     Ok(plus(point, &scaled(direction, &quotient(a, b)?)))
+}
+
+/// The component along which a vector that is not zero is seen best: of those that certainly are not zero the greatest.
+pub(crate) fn pivot<S: Scalar>(v: &[S; 3]) -> usize {
+    let mut best = 0;
+    let mut size = -1.0;
+    for (axis, x) in v.iter().enumerate() {
+        let own = x.double().abs();
+        if Answer::zero(x.sign()).is_no() && own > size {
+            best = axis;
+            size = own;
+        }
+    }
+    best
 }

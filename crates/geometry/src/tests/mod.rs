@@ -1,8 +1,8 @@
 //! Each function with each pair of arguments, exact and within digits; what is equal, parallel and touching among them.
 
 use crate::{
-    Answer, Certainty, Direction, Entity, Found, GeometryError, Line, Measured, Outcome, Plane,
-    Point, Scalar, Segment, Vector, coincide,
+    Answer, Boundary, BoundaryBuilder, Certainty, Direction, Entity, Face, Found, GeometryError,
+    Line, Measured, Outcome, Plane, Point, Scalar, Segment, Vector, coincide,
 };
 use kutzbach_math::number::Number;
 use std::marker::PhantomData;
@@ -18,13 +18,41 @@ macro_rules! in_both_forms {
     };
 }
 
+mod boundary;
 mod constructs;
+mod curved;
+mod faces;
 mod flat;
 mod forms;
+mod hulls;
 mod logical;
 mod measures;
+mod moved;
 
 type Three = [i32; 3];
+
+/// The corners of a box, and its faces seen from outside.
+const BOX: [[usize; 4]; 6] = [
+    [0, 3, 2, 1],
+    [4, 5, 6, 7],
+    [0, 1, 5, 4],
+    [1, 2, 6, 5],
+    [2, 3, 7, 6],
+    [3, 0, 4, 7],
+];
+
+fn box_corners([a, b, c]: Three, [x, y, z]: Three) -> [Three; 8] {
+    [
+        [a, b, c],
+        [x, b, c],
+        [x, y, c],
+        [a, y, c],
+        [a, b, z],
+        [x, b, z],
+        [x, y, z],
+        [a, y, z],
+    ]
+}
 type Logical<S> = fn(&Entity<S>, &Entity<S>) -> Result<Answer, GeometryError>;
 
 /// Makes entities of integers in one of the two forms.
@@ -79,6 +107,53 @@ impl<S: Scalar> With<S> {
         Segment::new(self.at(from), self.at(to))
             .expect("valid by construction")
             .into()
+    }
+
+    fn flat(&self, loops: &[&[Three]]) -> Face<S> {
+        let mut points: Vec<Vec<Point<S>>> = Vec::new();
+        for ring in loops {
+            points.push(ring.iter().map(|c| self.at(*c)).collect());
+        }
+        Face::new(points).expect("valid by construction")
+    }
+
+    fn face(&self, loops: &[&[Three]]) -> Entity<S> {
+        self.flat(loops).into()
+    }
+
+    fn builder(&self, vertices: &[Three], faces: &[&[&[usize]]]) -> BoundaryBuilder<S> {
+        let mut builder = BoundaryBuilder::new();
+        for vertex in vertices {
+            builder.vertex(self.at(*vertex));
+        }
+        for loops in faces {
+            builder.face(loops.iter().map(|ring| ring.to_vec()).collect());
+        }
+        builder
+    }
+
+    fn solid(&self, vertices: &[Three], faces: &[&[&[usize]]]) -> Boundary<S> {
+        let builder = self.builder(vertices, faces);
+        builder.build_solid().expect("valid by construction")
+    }
+
+    /// A set, in any order.
+    fn are_found(&self, outcome: &Outcome<Found<S>>, expected: &[Entity<S>], what: &str) {
+        let found = outcome.value.clone().entities();
+        assert_eq!(found.len(), expected.len(), "{what}: found {found:?}");
+        for needed in expected {
+            let any = found.iter().any(|one| {
+                one.kind() == needed.kind()
+                    && coincide(one, needed).is_ok_and(|answer| match self.exact {
+                        true => answer.is_yes(),
+                        false => !answer.is_no(),
+                    })
+            });
+            assert!(any, "{what}: needed {needed:?}, found {found:?}");
+        }
+        if self.exact {
+            assert_eq!(outcome.certainty, Certainty::Proven, "{what}");
+        }
     }
 
     /// Rows of a function of which the arguments have no order.
