@@ -90,10 +90,7 @@ impl Skyline {
         Face::new(vec![ring]).ok()
     }
 
-    fn builder<S: Scalar>(
-        &self,
-        mut numbers: impl FnMut(Whole) -> [S; 3],
-    ) -> BoundaryBuilder<S> {
+    fn builder<S: Scalar>(&self, mut numbers: impl FnMut(Whole) -> [S; 3]) -> BoundaryBuilder<S> {
         let corners = self.corners();
         let count = corners.len();
         let mut builder = BoundaryBuilder::new();
@@ -138,10 +135,18 @@ fn no_place_beside_a_face_is_wrong() {
             let at = sky.at([x, y, z]);
             let found = classify_in_face(&Point(exact(at)), &by_fractions);
             let heights = &sky.heights;
-            assert_eq!(found.certainty, Certainty::Proven, "{heights:?} {x} {y} {z}");
+            assert_eq!(
+                found.certainty,
+                Certainty::Proven,
+                "{heights:?} {x} {y} {z}"
+            );
             assert_eq!(found.value, expected, "{heights:?} {x} {y} {z}");
             let found = classify_in_face(&Point(tolerant(at)), &by_doubles);
-            assert_eq!(found.certainty, Certainty::Proven, "{heights:?} {x} {y} {z}");
+            assert_eq!(
+                found.certainty,
+                Certainty::Proven,
+                "{heights:?} {x} {y} {z}"
+            );
             assert_eq!(found.value, expected, "{heights:?} {x} {y} {z}");
             if let Some(face) = &by_digits {
                 let found = classify_in_face(&Point(shaken(at, &mut random)), face);
@@ -180,7 +185,12 @@ fn lines_cut_faces_where_columns_are_high_enough() {
             }
         }
         several += usize::from(expected.len() > 1);
-        assert_eq!(found.value.parts().len(), expected.len(), "{:?} {y}", sky.heights);
+        assert_eq!(
+            found.value.parts().len(),
+            expected.len(),
+            "{:?} {y}",
+            sky.heights
+        );
         for (part, [left, right]) in found.value.parts().iter().zip(expected) {
             let Found::Segment(part) = part else {
                 panic!("{part:?}");
@@ -206,15 +216,19 @@ fn no_place_beside_a_solid_is_wrong() {
             let [x, y] = sky.somewhere(&mut random);
             let z = i128::from(random.next_u64() % 7) - 1;
             let expected = match (sky.place(x, y), z) {
-                (_, ..0 | 5..) | (Place::Outside, _) => Place::Outside,
-                (Place::Inside, 1..4) => Place::Inside,
+                (_, ..=-1 | 5..) | (Place::Outside, _) => Place::Outside,
+                (Place::Inside, 1..=3) => Place::Inside,
                 _ => Place::OnBorder,
             };
             let at = sky.at([x, y, z]);
             let heights = &sky.heights;
             let found = classify_in_solid(&Point(exact(at)), &solid);
             let found = found.expect("valid by construction");
-            assert_eq!(found.certainty, Certainty::Proven, "{heights:?} {x} {y} {z}");
+            assert_eq!(
+                found.certainty,
+                Certainty::Proven,
+                "{heights:?} {x} {y} {z}"
+            );
             assert_eq!(found.value, expected, "{heights:?} {x} {y} {z}");
             let found = classify_in_solid(&Point(tolerant(at)), &by_doubles);
             let found = found.expect("valid by construction");

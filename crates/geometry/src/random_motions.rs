@@ -2,8 +2,8 @@
 
 use crate::random_tests::{Whole, component, exact, not_zero, product, triple};
 use crate::{
-    Answer, Certainty, Direction, Entity, GeometryError, Line, Plane, Point, Transformation, Vector,
-    coplanar, parallel, perpendicular,
+    Answer, Certainty, Direction, Entity, GeometryError, Line, Plane, Point, Transformation,
+    Vector, coplanar, parallel, perpendicular,
 };
 use kutzbach_math::matrix::SplitMix64;
 use kutzbach_math::number::Number;

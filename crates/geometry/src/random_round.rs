@@ -77,7 +77,9 @@ fn made<S: Scalar>(case: &Case, mut numbers: impl FnMut(Whole) -> [S; 3]) -> Opt
             .ok()?
             .into(),
         cylinder: Cylinder::new(axis, radius.clone()).ok()?.into(),
-        cone: Cone::new(centre.clone(), along, radius.clone()).ok()?.into(),
+        cone: Cone::new(centre.clone(), along, radius.clone())
+            .ok()?
+            .into(),
         sphere: Sphere::new(centre, radius).ok()?.into(),
         point,
     })
@@ -123,7 +125,11 @@ fn answers<S: Scalar>(case: &Case, made: &Made<S>) -> Vec<(&'static str, Answer,
         ("on cone", contained(&point, &made.cone), cone),
         ("on circle", contained(&point, &made.circle), on_circle),
         ("coaxial", coaxial(&made.line, &made.cylinder), one_axis),
-        ("coaxial circle", coaxial(&made.circle, &made.line), one_axis),
+        (
+            "coaxial circle",
+            coaxial(&made.circle, &made.line),
+            one_axis,
+        ),
         ("coaxial sphere", coaxial(&made.line, &made.sphere), centred),
         ("concentric", concentric(&point, &made.sphere), square == 0),
     ];
@@ -142,15 +148,35 @@ fn no_answer_about_round_integers_is_wrong() {
         let by_doubles = made(&case, tolerant).expect("valid by construction");
         let rows = answers(&case, &by_fractions).into_iter().enumerate();
         for (row, (name, answer, truth)) in rows {
-            assert_eq!(answer.is_yes(), truth, "{name}: {:?} {:?}", case.point, case.centre);
-            assert_eq!(answer.is_no(), !truth, "{name}: {:?} {:?}", case.point, case.centre);
+            assert_eq!(
+                answer.is_yes(),
+                truth,
+                "{name}: {:?} {:?}",
+                case.point,
+                case.centre
+            );
+            assert_eq!(
+                answer.is_no(),
+                !truth,
+                "{name}: {:?} {:?}",
+                case.point,
+                case.centre
+            );
             held[row] += usize::from(truth);
         }
         for (name, answer, truth) in answers(&case, &by_doubles) {
             let expected = if truth { Answer::Yes } else { Answer::No };
-            assert_eq!(answer, expected, "{name}: {:?} {:?}", case.point, case.centre);
+            assert_eq!(
+                answer, expected,
+                "{name}: {:?} {:?}",
+                case.point, case.centre
+            );
         }
-        let round = [&by_fractions.sphere, &by_fractions.cylinder, &by_fractions.cone];
+        let round = [
+            &by_fractions.sphere,
+            &by_fractions.cylinder,
+            &by_fractions.cone,
+        ];
         for (entity, expected) in round.into_iter().zip(places(&case)) {
             let found = classify_by_round(&by_fractions.point, entity);
             let found = found.expect("valid by construction");
@@ -163,7 +189,12 @@ fn no_answer_about_round_integers_is_wrong() {
             let far = far.expect("valid by construction");
             assert_eq!(far.certainty, Certainty::Proven);
             let touches = Answer::zero(far.value.sign()).is_yes();
-            assert_eq!(touches, expected == Place::OnBorder, "{entity:?} {:?}", case.point);
+            assert_eq!(
+                touches,
+                expected == Place::OnBorder,
+                "{entity:?} {:?}",
+                case.point
+            );
         }
     }
     assert!(held.iter().all(|count| *count > 5), "{held:?}");

@@ -44,10 +44,7 @@ impl<S: Scalar> With<S> {
         let cube = self.a_box([0, 0, 0], [2, 2, 2]);
         assert!(cube.is_solid());
         assert_eq!(cube.certainty(), Certainty::Proven);
-        assert_eq!(
-            (cube.vertices().len(), cube.edges().len()),
-            (8, 12)
-        );
+        assert_eq!((cube.vertices().len(), cube.edges().len()), (8, 12));
         assert_eq!((cube.faces().len(), cube.shells().len()), (6, 1));
         assert!(cube.shells()[0].closed);
         assert_eq!(cube.loops_of_face(1), [vec![4, 5, 6, 7]]);

@@ -102,7 +102,13 @@ impl<S: Scalar> With<S> {
             (self.sphere([1, 2, 3], 2), self.sphere([1, 2, 3], 1), false),
         ];
         self.both_ways(coincide, &rows);
-        assert!(coincide(&self.sphere([0, 0, 0], 1), &self.circle([0, 0, 0], [1, 0, 0], 1)).is_err());
+        assert!(
+            coincide(
+                &self.sphere([0, 0, 0], 1),
+                &self.circle([0, 0, 0], [1, 0, 0], 1)
+            )
+            .is_err()
+        );
         let pin = || self.cylinder([1, 2, 3], [0, 0, 2], 4);
         let rows = [
             (pin(), self.line([0, 0, 0], [0, 0, 1]), true),
@@ -153,11 +159,19 @@ impl<S: Scalar> With<S> {
             let found = classify_by_round(&self.at(*at), entity).expect("valid by construction");
             assert_eq!(found.value, *expected, "row {row}");
             assert_eq!(found.certainty, Certainty::Proven, "row {row}");
-            let on = if *expected == Place::OnBorder { Answer::Yes } else { Answer::No };
+            let on = if *expected == Place::OnBorder {
+                Answer::Yes
+            } else {
+                Answer::No
+            };
             assert_eq!(contained(&self.point(*at), entity), Ok(on), "row {row}");
         }
         let circle = self.circle([1, 0, 0], [0, 0, 1], 5);
-        for (at, on) in [([4, 4, 0], Answer::Yes), ([4, 4, 1], Answer::No), ([1, 0, 0], Answer::No)] {
+        for (at, on) in [
+            ([4, 4, 0], Answer::Yes),
+            ([4, 4, 1], Answer::No),
+            ([1, 0, 0], Answer::No),
+        ] {
             assert_eq!(contained(&self.point(at), &circle), Ok(on), "{at:?}");
         }
         assert!(classify_by_round(&self.at([0, 0, 0]), &circle).is_err());

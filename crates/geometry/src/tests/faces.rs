@@ -139,10 +139,7 @@ impl<S: Scalar> With<S> {
             // In its plane: across the hole, along its border, at a corner, beside.
             (
                 line([9, 3, 0], [-1, 0, 0]),
-                vec![
-                    segment([0, 3, 0], [2, 3, 0]),
-                    segment([4, 3, 0], [6, 3, 0]),
-                ],
+                vec![segment([0, 3, 0], [2, 3, 0]), segment([4, 3, 0], [6, 3, 0])],
             ),
             (
                 line([9, 2, 0], [-1, 0, 0]),
@@ -156,10 +153,7 @@ impl<S: Scalar> With<S> {
             (line([6, 0, 0], [1, 1, 0]), vec![point([6, 0, 0])]),
             (
                 line([0, 0, 0], [1, 1, 0]),
-                vec![
-                    segment([0, 0, 0], [2, 2, 0]),
-                    segment([4, 4, 0], [6, 6, 0]),
-                ],
+                vec![segment([0, 0, 0], [2, 2, 0]), segment([4, 4, 0], [6, 6, 0])],
             ),
             (
                 line([0, 4, 0], [1, 0, 0]),
@@ -182,10 +176,7 @@ impl<S: Scalar> With<S> {
             (segment([3, 3, 1], [3, 3, -3]), vec![]),
             (
                 segment([1, 3, 0], [5, 3, 0]),
-                vec![
-                    segment([1, 3, 0], [2, 3, 0]),
-                    segment([4, 3, 0], [5, 3, 0]),
-                ],
+                vec![segment([1, 3, 0], [2, 3, 0]), segment([4, 3, 0], [5, 3, 0])],
             ),
             (
                 segment([5, 3, 0], [3, 3, 0]),
@@ -199,10 +190,7 @@ impl<S: Scalar> With<S> {
             // Planes: across the hole, along its border, at the border, parallel, the same.
             (
                 self.plane([0, 3, 0], [0, 1, 0]),
-                vec![
-                    segment([0, 3, 0], [2, 3, 0]),
-                    segment([4, 3, 0], [6, 3, 0]),
-                ],
+                vec![segment([0, 3, 0], [2, 3, 0]), segment([4, 3, 0], [6, 3, 0])],
             ),
             (
                 self.plane([0, 6, 0], [0, 1, 1]),
@@ -249,10 +237,7 @@ impl<S: Scalar> With<S> {
             (
                 self.line([0, 3, 5], [1, 0, 1]),
                 None,
-                vec![
-                    segment([0, 3, 0], [2, 3, 0]),
-                    segment([4, 3, 0], [6, 3, 0]),
-                ],
+                vec![segment([0, 3, 0], [2, 3, 0]), segment([4, 3, 0], [6, 3, 0])],
             ),
             (
                 self.line([1, 1, 5], [0, 0, 1]),
@@ -264,10 +249,7 @@ impl<S: Scalar> With<S> {
             (
                 segment([1, 3, 4], [5, 3, 8]),
                 None,
-                vec![
-                    segment([1, 3, 0], [2, 3, 0]),
-                    segment([4, 3, 0], [5, 3, 0]),
-                ],
+                vec![segment([1, 3, 0], [2, 3, 0]), segment([4, 3, 0], [5, 3, 0])],
             ),
             (segment([7, 3, 4], [9, 3, 8]), None, vec![]),
             (

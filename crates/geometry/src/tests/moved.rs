@@ -55,7 +55,10 @@ impl<S: Scalar> With<S> {
         );
         let shift = Transformation::translation(&Vector(self.three([1, 2, 3])));
         let moved = shift.boundary(&tetrahedron).expect("valid by construction");
-        self.are_points(moved.vertices(), &[[1, 2, 3], [3, 2, 3], [1, 4, 3], [1, 2, 5]]);
+        self.are_points(
+            moved.vertices(),
+            &[[1, 2, 3], [3, 2, 3], [1, 4, 3], [1, 2, 5]],
+        );
         assert_eq!(moved.edges(), tetrahedron.edges());
         assert!(moved.is_solid());
         // First one, then the other: the order tells.
@@ -77,7 +80,10 @@ impl<S: Scalar> With<S> {
             [[2, 0, 0], [0, 1, 0], [0, 0, 1]],
             [[1, 0, 0], [1, 0, 0], [0, 0, 1]],
         ] {
-            assert!(Transformation::new(rows(bad), nowhere()).is_err(), "{bad:?}");
+            assert!(
+                Transformation::new(rows(bad), nowhere()).is_err(),
+                "{bad:?}"
+            );
         }
         let axis = Line::new(self.at([0, 0, 0]), self.towards([1, 0, 0]));
         assert!(Transformation::about(&axis, &S::whole(1), &S::whole(1)).is_err());
@@ -98,7 +104,10 @@ fn rotations_by_roots_and_fractions_are_exact() {
     let upright = Line::new(EXACT.at([0, 0, 0]), EXACT.towards([0, 0, 7]));
     let turn = Transformation::about(&upright, &ratio(3, 5), &ratio(4, 5));
     let turn = turn.expect("valid by construction");
-    let moved = |at| turn.entity(&EXACT.point(at)).expect("valid by construction");
+    let moved = |at| {
+        turn.entity(&EXACT.point(at))
+            .expect("valid by construction")
+    };
     let (a, b) = (moved([5, 0, 0]), moved([0, 5, 1]));
     assert_eq!(coincide(&a, &EXACT.point([3, 4, 0])), Ok(Answer::Yes));
     let far = distance(&a, &b).expect("valid by construction");
