@@ -3,7 +3,7 @@
 use crate::error::{Problem, StepError};
 use crate::faces::{Found, of_representation};
 use crate::merge::merged;
-use crate::part21::{Exchange, Instance};
+use crate::part21::{Exchange, Instance, Record};
 use crate::products::{Owners, Products, loose_representations};
 use crate::representations::expect_representation;
 use crate::shape::{Assembly, Face, Note, NoteKind, Part};
@@ -200,7 +200,7 @@ impl<'e> Builder<'_, 'e> {
     fn shape(
         &self,
         owner: Instance<'_>,
-        spread: &[(crate::part21::Record<'_>, Pose)],
+        spread: &[(Record<'_>, Pose)],
         alone: bool,
     ) -> Result<Shape, StepError> {
         let mut found = Found::default();

@@ -106,12 +106,7 @@ impl<'e> Products<'e> {
     /// The frame of a parent from that of its child, by a relationship between representations of both, whatever their order.
     fn placed(&self, relation: Instance<'e>, parent: u64, child: u64) -> Result<Pose, StepError> {
         let placed = relationship(relation)?;
-        let shows = |product: u64, instance: Instance<'_>| {
-            self.all.get(&product).is_some_and(|product| {
-                let mut shown = product.representations.iter();
-                shown.any(|r| r.number() == instance.number())
-            })
-        };
+        let shows = |product: u64, r: Instance<'_>| self.shows(product, r.number());
         // The first is the component's, by the standard. Where a component is one of its own kind of product nothing else is
         // said.
         let other_way = shows(child, placed.second) && shows(parent, placed.first);
@@ -127,39 +122,48 @@ impl<'e> Products<'e> {
     }
 
     /// Components without a relationship of their own are placed by the mapped items of their parents, in the order of both.
+    /// Mapped items that repeat a component that has its place are no geometry of the parent either.
     fn place_by_mapped_items(&mut self) -> Result<(), StepError> {
-        let mut found = Vec::new();
+        let mut poses = Vec::new();
+        let mut mapped_items = BTreeSet::new();
         for (number, product) in &self.all {
-            let unplaced = |o: &Occurrence<'_>| o.pose.is_none();
-            if !product.occurrences.iter().any(unplaced) {
+            if product.occurrences.is_empty() {
                 continue;
             }
             let mut items = placed_items(product)?;
             for (place, occurrence) in product.occurrences.iter().enumerate() {
-                let Some(child) = self.all.get(&occurrence.child) else {
-                    continue;
-                };
-                let shows = |item: &(u64, u64, Pose)| {
-                    let mut shown = child.representations.iter();
-                    shown.any(|r| r.number() == item.1)
-                };
-                if occurrence.pose.is_some() {
-                    continue;
+                let shows = |item: &PlacedItem| self.shows(occurrence.child, item.source);
+                if occurrence.pose.is_none()
+                    && let Some(at) = items.iter().position(shows)
+                {
+                    let item = items.remove(at);
+                    mapped_items.insert(item.number);
+                    poses.push((*number, place, item.pose));
                 }
-                if let Some(at) = items.iter().position(shows) {
-                    let (item, _, pose) = items.remove(at);
-                    found.push((*number, place, item, pose));
+            }
+            for item in items {
+                let mut children = product.occurrences.iter().map(|o| o.child);
+                if children.any(|child| self.shows(child, item.source)) {
+                    mapped_items.insert(item.number);
                 }
             }
         }
-        for (number, place, item, pose) in found {
-            self.mapped_items.insert(item);
+        self.mapped_items = mapped_items;
+        for (number, place, pose) in poses {
             let product = self.all.get_mut(&number);
             if let Some(occurrence) = product.and_then(|p| p.occurrences.get_mut(place)) {
                 occurrence.pose = Some(pose);
             }
         }
         Ok(())
+    }
+
+    /// True where a representation (by its number) is one of those of a product.
+    fn shows(&self, product: u64, representation: u64) -> bool {
+        self.all.get(&product).is_some_and(|product| {
+            let mut shown = product.representations.iter();
+            shown.any(|r| r.number() == representation)
+        })
     }
 
     /// Which representations and mapped items belong to which products and components.
@@ -288,8 +292,15 @@ fn placements<'e>(file: &'e Exchange<'e>) -> Result<BTreeMap<u64, Instance<'e>>,
     Ok(placements)
 }
 
-/// The mapped items among what shows a product: their numbers, what they repeat, and where.
-fn placed_items(product: &Product<'_>) -> Result<Vec<(u64, u64, Pose)>, StepError> {
+/// A mapped item: its number, the number of what it repeats, and where.
+struct PlacedItem {
+    number: u64,
+    source: u64,
+    pose: Pose,
+}
+
+/// The mapped items among what shows a product.
+fn placed_items(product: &Product<'_>) -> Result<Vec<PlacedItem>, StepError> {
     let mut items = Vec::new();
     for instance in &product.representations {
         let record = expect_representation(*instance)?;
@@ -297,7 +308,11 @@ fn placed_items(product: &Product<'_>) -> Result<Vec<(u64, u64, Pose)>, StepErro
             if let Some(mapped_item) = item.leaf("MAPPED_ITEM") {
                 let units = Units::of_representation(record)?;
                 let (source, pose) = mapped(mapped_item, &units)?;
-                items.push((item.number(), source.number(), pose));
+                items.push(PlacedItem {
+                    number: item.number(),
+                    source: source.number(),
+                    pose,
+                });
             }
         }
     }
