@@ -12,14 +12,14 @@ use kutzbach_math::group::Pose;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// The most parts and faces that an assembly may have, each counted as often as it occurs.
-const MOST_PARTS: usize = 200_000;
+/// The most parts that an assembly may have, each counted as often as it occurs.
+const MOST_PARTS: usize = 50_000;
 
 /// The most assemblies within each other.
 const DEEPEST: usize = 256;
 
 /// The most occurrences that are visited, those of assemblies among them.
-const MOST_OCCURRENCES: usize = 1_000_000;
+const MOST_OCCURRENCES: usize = 200_000;
 
 /// What a product looks like, read once.
 #[derive(Clone)]

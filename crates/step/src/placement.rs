@@ -10,16 +10,24 @@ use nalgebra::{Matrix3, Vector3};
 /// a metre.
 const SCALE_DIGITS: f64 = 1e-6;
 
+/// Points beyond this distance (m) are numbers that went wrong, and their squares may leave the range of numbers.
+const FARTHEST: f64 = 1e12;
+
 /// Below this sine a reference direction is taken as parallel to the axis: it would give a frame without a digit.
 const PARALLEL: f64 = 1e-9;
 
 /// A CARTESIAN_POINT (m).
 ///
 /// # Errors
-/// Where it is something else, or has other than three coordinates.
+/// Where it is something else, has other than three coordinates, or lies too far away.
 pub(crate) fn point(instance: Instance<'_>, units: &Units) -> Result<Vector3<f64>, StepError> {
     let record = instance.expect("CARTESIAN_POINT", "CARTESIAN_POINT")?;
-    Ok(triple(record)?.map(|x| units.metres(x)))
+    let point = triple(record)?.map(|x| units.metres(x));
+    if point.norm() < FARTHEST {
+        return Ok(point);
+    }
+    let found = format!("{} m", point.norm());
+    Err(instance.geometry("a point within 10^12 m", found))
 }
 
 /// A DIRECTION, as a unit vector.

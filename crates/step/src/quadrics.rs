@@ -17,6 +17,9 @@ const ACROSS: f64 = 1e-5;
 /// A radius of so many sizes is no longer told from a plane.
 const FLAT: f64 = 1e4;
 
+/// The largest size (m) of a surface that is looked at: beyond it squares of squares may leave the range of numbers.
+const FARTHEST: f64 = 1e9;
+
 /// A surface by its parameters u and v.
 pub(crate) type Chart<'c> = &'c dyn Fn(f64, f64) -> Vector3<f64>;
 
@@ -49,7 +52,7 @@ pub(crate) fn recognised(
         .iter()
         .map(|s| (s.point - centre).norm())
         .fold(0.0, f64::max);
-    if !(size > 0.0 && size.is_finite()) {
+    if !(size > 0.0 && size < FARTHEST) {
         return None;
     }
     let close = (CLOSE * size).max(accuracy.min(1e-3 * size));

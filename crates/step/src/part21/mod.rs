@@ -20,7 +20,7 @@ enum Value {
     Reference(u64),
     Text(Span),
     Enumeration(Span),
-    Binary(Span),
+    Binary,
     Unset,
     Derived,
     /// What follows up to the value numbered `end`.
@@ -74,7 +74,7 @@ impl<'t> Exchange<'t> {
 
     /// All entities in ascending order of their numbers.
     pub fn instances(&self) -> impl Iterator<Item = Instance<'_>> {
-        self.entities.iter().map(|entity| Instance {
+        self.entities.iter().map(move |entity| Instance {
             file: self,
             entity: *entity,
         })
@@ -163,11 +163,6 @@ impl<'e> Instance<'e> {
     /// Where it has none: `needed` says what it should have been.
     pub fn expect(self, keyword: &str, needed: &'static str) -> Result<Record<'e>, StepError> {
         self.leaf(keyword).ok_or_else(|| self.wrong_kind(needed))
-    }
-
-    /// Its only leaf, or the first.
-    pub fn first(self) -> Option<Record<'e>> {
-        self.leaves().next()
     }
 
     /// Its keywords, for messages.
@@ -421,7 +416,7 @@ impl<'e> Item<'e> {
                 let word = String::from_utf8_lossy(span.of(text));
                 format!("`.{}.`", shortened(&word))
             }
-            Value::Binary(_) => "a binary value".to_owned(),
+            Value::Binary => "a binary value".to_owned(),
             Value::Unset => "`$`, a value that is not given".to_owned(),
             Value::Derived => "`*`".to_owned(),
             Value::List { .. } => "a list".to_owned(),

@@ -330,7 +330,7 @@ impl<'t> Parser<'t> {
             Token::Reference(number) => Value::Reference(number),
             Token::Text(span) => Value::Text(span),
             Token::Enumeration(span) => Value::Enumeration(span),
-            Token::Binary(span) => Value::Binary(span),
+            Token::Binary(_) => Value::Binary,
             Token::Dollar => Value::Unset,
             Token::Star => Value::Derived,
             other => return Err(self.unexpected("a value", other)),
