@@ -63,7 +63,27 @@ pub(crate) fn assembly<'e>(file: &'e Exchange<'e>) -> Result<Assembly, StepError
         };
         return Err(StepError::at(1, None, problem));
     }
+    builder.assembly.notes.extend(pairs(file));
     Ok(builder.assembly)
+}
+
+/// A note for every kind of kinematic pair that a file has: they say joints, and are not read.
+fn pairs(file: &Exchange<'_>) -> Vec<Note> {
+    let kinds = file
+        .keywords()
+        .iter()
+        .filter(|word| word.ends_with("_PAIR"));
+    let note = |kind: &String| {
+        let all = file.of_type(kind);
+        let instance = all.first()?.instance();
+        Some(Note {
+            line: instance.line(),
+            entity: instance.number(),
+            kind: NoteKind::MayJoin,
+            text: format!("{} × {kind}: kinematic pairs are not read", all.len()),
+        })
+    };
+    kinds.filter_map(note).collect()
 }
 
 struct Builder<'p, 'e> {
@@ -246,12 +266,16 @@ impl<'e> Builder<'_, 'e> {
 
     /// Adds every representation as a part, for files that have no products.
     fn without_products(&mut self, file: &'e Exchange<'e>) -> Result<(), StepError> {
+        let mut seen = BTreeSet::new();
         for instance in loose_representations(file)? {
-            let mut owners = Owners::default();
-            std::mem::swap(&mut owners, &mut self.owners);
-            let spread = self.products.relations.spread(&[instance], None, &owners);
-            std::mem::swap(&mut owners, &mut self.owners);
-            let shape = self.shape(instance, &spread?, true)?;
+            // What one representation shows of another is not shown again.
+            if !seen.insert(instance.number()) {
+                continue;
+            }
+            let relations = &self.products.relations;
+            let spread = relations.spread(&[instance], None, &self.owners)?;
+            seen.extend(spread.iter().map(|(record, _)| record.number()));
+            let shape = self.shape(instance, &spread, true)?;
             self.assembly.notes.extend(shape.notes.iter().cloned());
             if shape.faces.is_empty() {
                 continue;

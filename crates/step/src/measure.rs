@@ -162,7 +162,7 @@ mod tests {
             direction: Vector3::z(),
             radius: 1.0,
         };
-        let mut rings = vec![arc(0.0, TAU, 0.0), arc(0.0, TAU, 3.0)];
+        let mut rings = [arc(0.0, TAU, 0.0), arc(0.0, TAU, 3.0)];
         for ring in &mut rings {
             ring.pop();
         }

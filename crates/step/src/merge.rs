@@ -5,11 +5,12 @@ use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-/// Directions of pieces of one surface agree within this (rad): they are copies of each other's numbers or nearly so.
-const TURN: f64 = 1e-7;
+/// Directions of pieces of one surface agree within this (rad): they are copies of each other's numbers, or fitted to splines
+/// with that accuracy.
+const TURN: f64 = 1e-6;
 
 /// Points and radii of pieces of one surface agree within this many of their sizes, besides the accuracy of the file.
-const DIGITS: f64 = 1e-7;
+const DIGITS: f64 = 1e-6;
 
 /// Makes one face of all cylinders, cones and spheres of a part that are pieces of one, one beside the other.
 ///

@@ -107,8 +107,7 @@ impl<'e> Products<'e> {
     fn placed(&self, relation: Instance<'e>, parent: u64, child: u64) -> Result<Pose, StepError> {
         let placed = relationship(relation)?;
         let shows = |product: u64, r: Instance<'_>| self.shows(product, r.number());
-        // The first is the component's, by the standard. Where a component is one of its own kind of product nothing else is
-        // said.
+        // By the standard the first is the component's; where the representations say nothing else, that counts.
         let other_way = shows(child, placed.second) && shows(parent, placed.first);
         let in_order = shows(child, placed.first) && shows(parent, placed.second);
         let reversed = if in_order || other_way {

@@ -121,6 +121,8 @@ pub struct Note {
 pub enum NoteKind {
     /// Something that was not read and may touch another part: a contact may be missing.
     MayTouch,
+    /// Something that says how parts are joined, and was not read.
+    MayJoin,
     /// Something that was taken in one of several ways.
     Taken,
 }

@@ -105,7 +105,10 @@ fn followed(curve: Curve) -> Option<(Box<dyn Fn(f64) -> Vector3<f64>>, Range)> {
         Curve::Line(point, along) => {
             let unit = along.norm();
             (unit > 0.0).then(|| -> (Box<dyn Fn(f64) -> Vector3<f64>>, Range) {
-                (Box::new(move |t| point + along * t), (0.0, REACH / unit))
+                (
+                    Box::new(move |t: f64| point + along * t),
+                    (0.0, REACH / unit),
+                )
             })
         }
         Curve::Ellipse(centre, x, y) => Some((
@@ -114,7 +117,7 @@ fn followed(curve: Curve) -> Option<(Box<dyn Fn(f64) -> Vector3<f64>>, Range)> {
         )),
         Curve::Spline(spline) => {
             let domain = spline.domain();
-            Some((Box::new(move |t| spline.at(t)), domain))
+            Some((Box::new(move |t: f64| spline.at(t)), domain))
         }
         Curve::Corners(_) | Curve::Other(_) => None,
     }

@@ -72,8 +72,8 @@ pub struct Contact {
     pub kind: ContactKind,
     /// Unit direction of the axis; of planes the normal, out of the first part. For balls without meaning: (0, 0, 1).
     pub axis: Vector3<f64>,
-    /// A point of the contact (m): the middle of the axis where both faces are, the centre of a ball, the apex of a cone, the
-    /// centroid of the common area of planes.
+    /// A point of the contact (m): the middle of the axis where both faces are, the centre of a ball, the apex of a cone, about
+    /// the centroid of the common area of planes.
     pub point: Vector3<f64>,
     /// How much room there is between the faces (m): the difference of radii, the distance of planes. Negative where the parts
     /// lie in each other, as in a press fit. Of a cone it is measured across its lines.

@@ -61,7 +61,7 @@ impl Chart {
 pub(super) struct Common {
     /// Its area (m²).
     pub area: f64,
-    /// Its centroid.
+    /// Its centroid, as exact as the levels are close.
     pub centroid: Vector2<f64>,
     /// The diagonal of the box around it (m): the area by this is how wide a strip is.
     pub length: f64,
@@ -193,7 +193,7 @@ mod tests {
 
     #[test]
     fn areas_are_those_of_the_common_part() {
-        let plate = vec![square(0.0, 0.0, 4.0), square(1.0, 1.0, 2.0)];
+        let plate = [square(0.0, 0.0, 4.0), square(1.0, 1.0, 2.0)];
         for (other, expected) in [
             (square(0.0, 0.0, 4.0), 12.0),
             (square(1.0, 1.0, 2.0), 0.0),

@@ -66,10 +66,15 @@ pub(crate) struct Exchange<'t> {
     schemas: Vec<String>,
 }
 
-impl<'t> Exchange<'t> {
+impl Exchange<'_> {
     /// The schemas that the header names, such as `AUTOMOTIVE_DESIGN`.
     pub fn schemas(&self) -> &[String] {
         &self.schemas
+    }
+
+    /// Every keyword once, in capitals, in the order in which they first occur.
+    pub fn keywords(&self) -> &[String] {
+        &self.keywords
     }
 
     /// All entities in ascending order of their numbers.

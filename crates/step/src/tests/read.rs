@@ -316,3 +316,25 @@ fn voids_point_into_themselves() {
         .collect();
     assert_eq!(sides, [Side::Inside, Side::Outside]);
 }
+
+#[test]
+fn what_is_not_read_is_said() {
+    let mut text = Text::new();
+    let pin = text.pin(1.0, (0.0, 1.0));
+    let pin = text.product("pin", &pin);
+    let empty = text.product("elsewhere", &[]);
+    let whole = text.product("whole", &[]);
+    text.place("", whole, pin, ([0.0; 3], Z, X), Order::default());
+    text.place("", whole, empty, ([0.0; 3], Z, X), Order::default());
+    let frame = text.placement([0.0; 3], Z, X);
+    let pair = format!("REVOLUTE_PAIR('','','',#{frame},#{frame},$,*,*,*,*,*,*)");
+    let pair = text.add(&pair);
+    let assembly = assembly(&text);
+    assert_eq!(assembly.parts.len(), 1);
+    let found: Vec<(NoteKind, u64)> = assembly.notes.iter().map(|n| (n.kind, n.entity)).collect();
+    let expected = [
+        (NoteKind::MayTouch, empty.definition),
+        (NoteKind::MayJoin, pair),
+    ];
+    assert_eq!(found, expected);
+}
