@@ -3,8 +3,11 @@
 use crate::shape::Surface;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
-/// Samples along each parameter. A cubic that is no quadric leaves every quadric between them.
-const STEPS: usize = 12;
+/// Samples along each parameter to which a surface is fitted, with their normals.
+const STEPS: usize = 5;
+
+/// Samples along each parameter on which the fitted surface has to be as well.
+const FINE: usize = 12;
 
 /// The largest distance of a sample from a fitted surface, by the size of the samples. Rational B-splines hold quadrics exactly:
 /// what is left are the digits of control points and weights, six or more of which every writer gives.
@@ -56,9 +59,37 @@ pub(crate) fn recognised(
         return None;
     }
     let close = (CLOSE * size).max(accuracy.min(1e-3 * size));
-    plane(&samples, centre, close)
+    let found = plane(&samples, centre, close)
         .or_else(|| cylinder(&samples, centre, size, close))
-        .or_else(|| sphere(&samples, centre, size, close))
+        .or_else(|| sphere(&samples, centre, size, close))?;
+    for i in 0..FINE {
+        for j in 0..FINE {
+            let point = chart(part(u, i, FINE), part(v, j, FINE));
+            if !(off(&found.0, point) <= close) {
+                return None;
+            }
+        }
+    }
+    Some(found)
+}
+
+/// The value in the middle of a step of a range.
+fn part(range: Range, step: usize, steps: usize) -> f64 {
+    range.0 + (range.1 - range.0) * (step as f64 + 0.5) / steps as f64
+}
+
+/// How far a point is from a surface (m).
+fn off(surface: &Surface, p: Vector3<f64>) -> f64 {
+    match surface {
+        Surface::Plane { point, normal } => (p - point).dot(normal).abs(),
+        Surface::Cylinder {
+            point,
+            direction,
+            radius,
+        } => ((p - point).cross(direction).norm() - radius).abs(),
+        Surface::Sphere { centre, radius } => ((p - centre).norm() - radius).abs(),
+        Surface::Cone { .. } | Surface::Other(_) => f64::INFINITY,
+    }
 }
 
 /// Points and normals in the middle of a grid of cells, where no seam and no pole is.
@@ -68,8 +99,7 @@ fn samples(chart: Chart<'_>, u: Range, v: Range) -> Option<Vec<Sample>> {
     let mut samples = Vec::new();
     for i in 0..STEPS {
         for j in 0..STEPS {
-            let at = |k: usize| (k as f64 + 0.5) / STEPS as f64;
-            let (a, b) = (u.0 + wide * at(i), v.0 + high * at(j));
+            let (a, b) = (part(u, i, STEPS), part(v, j, STEPS));
             let along = chart(a + du, b) - chart(a - du, b);
             let across = chart(a, b + dv) - chart(a, b - dv);
             let normal = along.cross(&across);
@@ -87,6 +117,12 @@ fn samples(chart: Chart<'_>, u: Range, v: Range) -> Option<Vec<Sample>> {
     Some(samples)
 }
 
+/// The surface, where all samples are on it.
+fn on_all(surface: Surface, samples: &[Sample], close: f64) -> Option<Surface> {
+    let on = |s: &Sample| off(&surface, s.point) <= close;
+    samples.iter().all(on).then_some(surface)
+}
+
 /// The direction in which a symmetric matrix is smallest.
 fn smallest(matrix: Matrix3<f64>) -> Option<Vector3<f64>> {
     let eigen = matrix.symmetric_eigen();
@@ -101,16 +137,12 @@ fn plane(samples: &[Sample], centre: Vector3<f64>, close: f64) -> Option<Recogni
         .iter()
         .map(|s| (s.point - centre) * (s.point - centre).transpose());
     let normal = smallest(spread.sum::<Matrix3<f64>>())?;
-    let far = |s: &Sample| (s.point - centre).dot(&normal).abs() > close;
-    if samples.iter().any(far) {
-        return None;
-    }
     let agrees = samples.iter().map(|s| s.normal.dot(&normal)).sum::<f64>() > 0.0;
     let surface = Surface::Plane {
         point: centre,
         normal,
     };
-    Some((surface, agrees))
+    on_all(surface, samples, close).map(|surface| (surface, agrees))
 }
 
 fn cylinder(samples: &[Sample], centre: Vector3<f64>, size: f64, close: f64) -> Option<Recognised> {
@@ -123,10 +155,6 @@ fn cylinder(samples: &[Sample], centre: Vector3<f64>, size: f64, close: f64) -> 
     let flat = |p: Vector3<f64>| p - centre - direction * direction.dot(&(p - centre));
     let (middle, radius) = ball(samples.iter().map(|s| flat(s.point)), size)?;
     let middle = middle - direction * direction.dot(&middle);
-    let far = |s: &Sample| ((flat(s.point) - middle).norm() - radius).abs() > close;
-    if samples.iter().any(far) {
-        return None;
-    }
     let outward = |s: &Sample| s.normal.dot(&(flat(s.point) - middle));
     let agrees = samples.iter().map(outward).sum::<f64>() > 0.0;
     let surface = Surface::Cylinder {
@@ -134,23 +162,19 @@ fn cylinder(samples: &[Sample], centre: Vector3<f64>, size: f64, close: f64) -> 
         direction,
         radius,
     };
-    Some((surface, agrees))
+    on_all(surface, samples, close).map(|surface| (surface, agrees))
 }
 
 fn sphere(samples: &[Sample], centre: Vector3<f64>, size: f64, close: f64) -> Option<Recognised> {
     let (middle, radius) = ball(samples.iter().map(|s| s.point - centre), size)?;
     let middle = centre + middle;
-    let far = |s: &Sample| ((s.point - middle).norm() - radius).abs() > close;
-    if samples.iter().any(far) {
-        return None;
-    }
     let outward = |s: &Sample| s.normal.dot(&(s.point - middle));
     let agrees = samples.iter().map(outward).sum::<f64>() > 0.0;
     let surface = Surface::Sphere {
         centre: middle,
         radius,
     };
-    Some((surface, agrees))
+    on_all(surface, samples, close).map(|surface| (surface, agrees))
 }
 
 /// The centre and radius for which |p|² − 2 c·p − k is least; of all such centres the one nearest the origin, so that points in
