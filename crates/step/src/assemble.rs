@@ -1,0 +1,293 @@
+//! From products to parts at their places.
+
+use crate::error::{Problem, StepError};
+use crate::faces::{Found, of_representation};
+use crate::merge::merged;
+use crate::part21::{Exchange, Instance, Record};
+use crate::products::{Products, loose_representations};
+use crate::representations::{Owners, expect_representation};
+use crate::shape::{Assembly, Face, Note, NoteKind, Part};
+use crate::units::Units;
+use kutzbach_math::group::Pose;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// The most parts that an assembly may have, each counted as often as it occurs.
+const MOST_PARTS: usize = 50_000;
+
+/// The most assemblies within each other.
+const DEEPEST: usize = 256;
+
+/// The most occurrences that are visited, those of assemblies among them.
+const MOST_OCCURRENCES: usize = 200_000;
+
+/// What a product looks like, read once.
+#[derive(Clone)]
+struct Shape {
+    faces: Arc<Vec<Face>>,
+    notes: Vec<Note>,
+    /// Unit of length (m) and accuracy (m); `None` where nothing shows the product.
+    units: Option<(f64, f64)>,
+}
+
+/// The assembly that a file says.
+///
+/// # Errors
+/// As for [`Products::new`] and [`of_representation`]; occurrences that are nowhere; more parts than can be read.
+pub(crate) fn assembly<'e>(file: &'e Exchange<'e>) -> Result<Assembly, StepError> {
+    let products = Products::new(file)?;
+    let mut builder = Builder {
+        assembly: Assembly {
+            length_unit: 0.0,
+            accuracy: 0.0,
+            schemas: file.schemas().to_vec(),
+            parts: Vec::new(),
+            notes: Vec::new(),
+        },
+        owners: products.owners(),
+        products: &products,
+        shapes: BTreeMap::new(),
+        names: BTreeSet::new(),
+        counts: BTreeMap::new(),
+    };
+    for root in products.roots() {
+        builder.walk(root)?;
+    }
+    if builder.assembly.parts.is_empty() {
+        builder.without_products(file)?;
+    }
+    if builder.assembly.parts.is_empty() {
+        let problem = Problem::Geometry {
+            needed: "solids or shells with faces",
+            found: "none: export the assembly with its shape (boundary representation)".to_owned(),
+        };
+        return Err(StepError::at(1, None, problem));
+    }
+    builder.assembly.notes.extend(pairs(file));
+    Ok(builder.assembly)
+}
+
+/// A note for every kind of kinematic pair that a file has: they say joints, and are not read.
+fn pairs(file: &Exchange<'_>) -> Vec<Note> {
+    let kinds = file
+        .keywords()
+        .iter()
+        .filter(|word| word.ends_with("_PAIR"));
+    let note = |kind: &String| {
+        let all = file.of_type(kind);
+        let instance = all.first()?.instance();
+        Some(Note {
+            line: instance.line(),
+            entity: instance.number(),
+            kind: NoteKind::MayJoin,
+            text: format!("{} × {kind}: kinematic pairs are not read", all.len()),
+        })
+    };
+    kinds.filter_map(note).collect()
+}
+
+struct Builder<'p, 'e> {
+    products: &'p Products<'e>,
+    owners: Owners,
+    assembly: Assembly,
+    shapes: BTreeMap<u64, Shape>,
+    names: BTreeSet<String>,
+    /// How many parts of each name there are.
+    counts: BTreeMap<String, usize>,
+}
+
+/// An occurrence on the way.
+struct Visit<'e> {
+    product: u64,
+    pose: Pose,
+    path: Vec<String>,
+    /// The occurrence above whose place is not known.
+    unplaced: Option<Instance<'e>>,
+}
+
+impl<'e> Builder<'_, 'e> {
+    /// Adds the parts of a product that is nobody's component.
+    fn walk(&mut self, root: u64) -> Result<(), StepError> {
+        let products = self.products;
+        let mut open: Vec<Visit<'e>> = vec![Visit {
+            product: root,
+            pose: Pose::identity(),
+            path: Vec::new(),
+            unplaced: None,
+        }];
+        let mut visited = 0;
+        while let Some(visit) = open.pop() {
+            let Some(product) = products.all.get(&visit.product) else {
+                continue;
+            };
+            visited += 1;
+            let too_much = [
+                (visited > MOST_OCCURRENCES, "occurrences", MOST_OCCURRENCES),
+                (
+                    visit.path.len() > DEEPEST,
+                    "assemblies within each other",
+                    DEEPEST,
+                ),
+                (self.assembly.parts.len() >= MOST_PARTS, "parts", MOST_PARTS),
+            ];
+            if let Some((_, what, limit)) = too_much.into_iter().find(|(over, ..)| *over) {
+                let limit = limit as u64;
+                return Err(product.definition.error(Problem::TooMuch { what, limit }));
+            }
+            self.add(&visit)?;
+            for occurrence in product.occurrences.iter().rev() {
+                let mut path = visit.path.clone();
+                path.push(occurrence.name.clone());
+                let nowhere = occurrence.pose.is_none().then_some(occurrence.usage);
+                open.push(Visit {
+                    product: occurrence.child,
+                    pose: visit.pose * occurrence.pose.unwrap_or_default(),
+                    path,
+                    unplaced: visit.unplaced.or(nowhere),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds a product at one place, where it has faces of its own.
+    fn add(&mut self, visit: &Visit<'e>) -> Result<(), StepError> {
+        let products = self.products;
+        let Some(product) = products.all.get(&visit.product) else {
+            return Ok(());
+        };
+        let shape = match self.shapes.get(&visit.product) {
+            Some(shape) => shape.clone(),
+            None => {
+                let spread = products.relations.spread(
+                    &product.representations,
+                    Some(visit.product),
+                    &self.owners,
+                )?;
+                let shape =
+                    self.shape(product.definition, &spread, product.occurrences.is_empty())?;
+                self.assembly.notes.extend(shape.notes.iter().cloned());
+                self.shapes.insert(visit.product, shape.clone());
+                shape
+            }
+        };
+        if shape.faces.is_empty() {
+            return Ok(());
+        }
+        if let Some(usage) = visit.unplaced {
+            return Err(usage.geometry(
+                "the place of an occurrence (CONTEXT_DEPENDENT_SHAPE_REPRESENTATION, or a MAPPED_ITEM of the assembly)",
+                "none: export the assembly with its placements",
+            ));
+        }
+        self.push(product.name.clone(), visit.path.clone(), visit.pose, &shape);
+        Ok(())
+    }
+
+    fn push(&mut self, product: String, path: Vec<String>, pose: Pose, shape: &Shape) {
+        if let Some((unit, accuracy)) = shape.units {
+            if self.assembly.length_unit == 0.0 {
+                self.assembly.length_unit = unit;
+            }
+            self.assembly.accuracy = self.assembly.accuracy.max(accuracy);
+        }
+        let name = self.unique(&product);
+        self.assembly.parts.push(Part {
+            name,
+            product,
+            path,
+            pose,
+            faces: Arc::clone(&shape.faces),
+        });
+    }
+
+    /// A name that no part has yet: the given one, or with a number behind it.
+    fn unique(&mut self, name: &str) -> String {
+        let count = self.counts.entry(name.to_owned()).or_insert(0);
+        loop {
+            *count += 1;
+            let candidate = match *count {
+                1 => name.to_owned(),
+                n => format!("{name} ({n})"),
+            };
+            if self.names.insert(candidate.clone()) {
+                return candidate;
+            }
+        }
+    }
+
+    /// The faces of some representations. `alone` says that nothing else shows the product.
+    fn shape(
+        &self,
+        owner: Instance<'_>,
+        spread: &[(Record<'_>, Pose)],
+        alone: bool,
+    ) -> Result<Shape, StepError> {
+        let mut found = Found::default();
+        let mut units: Option<(f64, f64)> = None;
+        for (record, pose) in spread {
+            let before = found.faces.len();
+            of_representation(*record, pose, &mut found)?;
+            if found.faces.len() > before {
+                let own = Units::of_representation(*record)?;
+                let (unit, accuracy) = units.unwrap_or((own.length, 0.0));
+                units = Some((unit, accuracy.max(own.accuracy)));
+            }
+        }
+        let mut notes = found.notes();
+        let mut note = |kind: NoteKind, text: String| {
+            notes.push(Note {
+                line: owner.line(),
+                entity: owner.number(),
+                kind,
+                text,
+            });
+        };
+        if found.solids > 1 {
+            let text = format!(
+                "{} solids of one product, taken as one rigid part",
+                found.solids
+            );
+            note(NoteKind::Taken, text);
+        }
+        if alone && found.faces.is_empty() {
+            note(
+                NoteKind::MayTouch,
+                "a product without faces: it is not among the parts".to_owned(),
+            );
+        }
+        let accuracy = units.map_or(0.0, |(_, accuracy)| accuracy);
+        Ok(Shape {
+            faces: Arc::new(merged(found.faces, accuracy)),
+            notes,
+            units,
+        })
+    }
+
+    /// Adds every representation as a part, for files that have no products.
+    fn without_products(&mut self, file: &'e Exchange<'e>) -> Result<(), StepError> {
+        let mut seen = BTreeSet::new();
+        for instance in loose_representations(file)? {
+            // What one representation shows of another is not shown again.
+            if !seen.insert(instance.number()) {
+                continue;
+            }
+            let relations = &self.products.relations;
+            let spread = relations.spread(&[instance], None, &self.owners)?;
+            seen.extend(spread.iter().map(|(record, _)| record.number()));
+            let shape = self.shape(instance, &spread, true)?;
+            self.assembly.notes.extend(shape.notes.iter().cloned());
+            if shape.faces.is_empty() {
+                continue;
+            }
+            let name = expect_representation(instance)?.text_at(0);
+            let name = if name.trim().is_empty() {
+                format!("#{}", instance.number())
+            } else {
+                name
+            };
+            self.push(name, Vec::new(), Pose::identity(), &shape);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,269 @@
+//! The contacts of a pair of parts as one joint.
+
+use super::{Contact, ContactKind};
+use kutzbach_math::group::{
+    Axis, DisplacementSubgroup, Gauge, GroupError, Margin, Subalgebra, normalised_direction,
+};
+use nalgebra::Vector3;
+use std::error::Error;
+use std::fmt;
+
+/// Directions are written with six digits or more; a joint is not told more finely than that.
+const DIGITS: f64 = 1e-6;
+
+/// A gauge has to be finer than a tenth; contacts that fit worse are not one joint.
+const COARSEST: f64 = 0.05;
+
+/// The displacements that contacts leave.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Joint {
+    /// Their class with its geometry, in the frame of the assembly. `Identity` where the parts hold each other.
+    pub subgroup: DisplacementSubgroup,
+    /// How clearly that was decided; see [`Margin::is_clear`].
+    pub margin: Margin,
+}
+
+/// Why contacts are not one joint.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum JointError {
+    /// No contacts: what they leave is everything.
+    NoContacts,
+    /// Numbers that are none.
+    NotFinite,
+    /// Faces that fit each other too badly to be on each other all at once.
+    Misfit {
+        /// The largest distance between what they should share (m).
+        misfit: f64,
+        /// The size of the contacts (m).
+        size: f64,
+    },
+    /// The contacts decide nothing within their accuracy.
+    Unclear,
+    /// A failure of the group engine.
+    Group(GroupError),
+}
+
+impl fmt::Display for JointError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoContacts => f.write_str("needed one contact or more, found none"),
+            Self::NotFinite => {
+                f.write_str("needed contacts with finite points and directions, found others")
+            }
+            Self::Misfit { misfit, size } => write!(
+                f,
+                "needed faces that fit, found a misfit of {misfit} m on contacts of {size} m: state a smaller clearance"
+            ),
+            Self::Unclear => f.write_str(
+                "needed contacts whose axes and normals are equal or clearly not, found some in between: state their accuracy",
+            ),
+            Self::Group(error) => write!(f, "{error}"),
+        }
+    }
+}
+
+impl Error for JointError {}
+
+impl From<GroupError> for JointError {
+    fn from(error: GroupError) -> Self {
+        Self::Group(error)
+    }
+}
+
+/// The joint that the contacts of one pair of parts make: the intersection of the displacement subgroups that each of them
+/// leaves, on the supposition that all faces stay on each other.
+///
+/// `accuracy` is how far points may be from where they should be (m); what the contacts themselves do not fit
+/// ([`Contact::misfit`]) counts besides.
+///
+/// # Errors
+/// [`JointError`]: no contacts, contacts that fit too badly, decisions that are not clear enough to name a class.
+pub fn joint_of(contacts: &[Contact], accuracy: f64) -> Result<Joint, JointError> {
+    let gauge = gauge(contacts, accuracy)?;
+    let mut common: Option<Subalgebra> = None;
+    for contact in distinct(contacts, &gauge) {
+        let left = left_by(contact).ok_or(JointError::NotFinite)?;
+        let algebra = Subalgebra::generated_by(&left.algebra(), &gauge)?;
+        common = Some(match common {
+            Some(before) => before.intersection(&algebra)?,
+            None => algebra,
+        });
+    }
+    let common = common.ok_or(JointError::NoContacts)?;
+    Ok(Joint {
+        subgroup: common.subgroup()?.ok_or(JointError::Unclear)?,
+        margin: common.margin(),
+    })
+}
+
+/// The displacements that one contact leaves.
+fn left_by(contact: &Contact) -> Option<DisplacementSubgroup> {
+    Some(match contact.kind {
+        ContactKind::Cylindrical => DisplacementSubgroup::Cylindrical {
+            axis: Axis::through(contact.point, contact.axis)?,
+        },
+        ContactKind::Conical => DisplacementSubgroup::Rotation {
+            axis: Axis::through(contact.point, contact.axis)?,
+        },
+        ContactKind::Planar => DisplacementSubgroup::Planar {
+            normal: normalised_direction(contact.axis)?,
+        },
+        ContactKind::Spherical => DisplacementSubgroup::Spherical {
+            centre: contact.point,
+        },
+    })
+}
+
+/// The gauge in which contacts are compared: about their points, as long as they are spread or large.
+fn gauge(contacts: &[Contact], accuracy: f64) -> Result<Gauge, JointError> {
+    let points: Vec<Vector3<f64>> = contacts.iter().map(|contact| contact.point).collect();
+    let size = contacts.iter().map(|c| c.size).fold(0.0, f64::max);
+    let misfit = contacts.iter().map(|c| c.misfit).fold(0.0, f64::max);
+    if points.is_empty() {
+        return Err(JointError::NoContacts);
+    }
+    if !(size > 0.0 && size.is_finite()) {
+        return Err(JointError::NotFinite);
+    }
+    // A misfit turns an axis by its share of the smallest contact, on which the axis rests.
+    let smallest = contacts.iter().map(|c| c.size).fold(size, f64::min);
+    let tolerance = DIGITS.max((misfit + accuracy.max(0.0)) / smallest);
+    if !(tolerance < COARSEST) {
+        return Err(JointError::Misfit {
+            misfit,
+            size: smallest,
+        });
+    }
+    Ok(Gauge::from_points(&points, size, tolerance)?)
+}
+
+/// The contacts without those that leave the same displacements as an earlier one: many faces of one plane say nothing more, and
+/// every intersection costs digits.
+fn distinct<'c>(contacts: &'c [Contact], gauge: &Gauge) -> Vec<&'c Contact> {
+    let mut kept: Vec<&Contact> = Vec::new();
+    for contact in contacts {
+        if !kept.iter().any(|other| same(other, contact, gauge)) {
+            kept.push(contact);
+        }
+    }
+    kept
+}
+
+fn same(a: &Contact, b: &Contact, gauge: &Gauge) -> bool {
+    let width = gauge.tolerance() * gauge.length();
+    let parallel = a.axis.cross(&b.axis).norm() <= gauge.tolerance();
+    a.kind == b.kind
+        && match a.kind {
+            ContactKind::Planar => parallel,
+            ContactKind::Cylindrical | ContactKind::Conical => {
+                parallel && (a.point - b.point).cross(&a.axis).norm() <= width
+            }
+            ContactKind::Spherical => (a.point - b.point).norm() <= width,
+        }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn contact(kind: ContactKind, axis: [f64; 3], point: [f64; 3]) -> Contact {
+        Contact {
+            first: 0,
+            second: 1,
+            kind,
+            axis: Vector3::from(axis).normalize(),
+            point: point.into(),
+            clearance: 0.0,
+            misfit: 0.0,
+            size: 0.01,
+            faces: (1, 2),
+        }
+    }
+
+    #[test]
+    fn contacts_of_one_pair_are_intersected() {
+        use ContactKind::{Conical, Cylindrical, Planar, Spherical};
+        let (x, z, o) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]);
+        let (beside, above) = ([0.02, 0.0, 0.0], [0.0, 0.0, 0.03]);
+        let pin = contact(Cylindrical, z, o);
+        let ball = |point| contact(Spherical, z, point);
+        for (name, contacts, class) in [
+            ("pin", vec![pin.clone()], "C"),
+            (
+                "pin with a shoulder",
+                vec![pin.clone(), contact(Planar, z, beside)],
+                "R",
+            ),
+            (
+                "pin with two seats",
+                vec![pin.clone(), contact(Cylindrical, z, above)],
+                "C",
+            ),
+            (
+                "pin with a flat along it",
+                vec![pin.clone(), contact(Planar, x, beside)],
+                "T",
+            ),
+            (
+                "two pins side by side",
+                vec![pin.clone(), contact(Cylindrical, z, beside)],
+                "T",
+            ),
+            (
+                "two pins side by side and a shoulder",
+                vec![
+                    pin.clone(),
+                    contact(Cylindrical, z, beside),
+                    contact(Planar, z, o),
+                ],
+                "E",
+            ),
+            (
+                "two pins across",
+                vec![pin.clone(), contact(Cylindrical, x, above)],
+                "E",
+            ),
+            ("plane", vec![contact(Planar, z, o)], "G"),
+            (
+                "two planes that cross",
+                vec![contact(Planar, z, o), contact(Planar, x, beside)],
+                "T",
+            ),
+            (
+                "three planes",
+                vec![
+                    contact(Planar, z, o),
+                    contact(Planar, x, o),
+                    contact(Planar, [0.0, 1.0, 0.0], o),
+                ],
+                "E",
+            ),
+            ("ball", vec![ball(o)], "S"),
+            ("two balls", vec![ball(o), ball(above)], "R"),
+            ("ball in a pin's way", vec![pin.clone(), ball(above)], "R"),
+            (
+                "two cones of one axis",
+                vec![contact(Conical, z, o), contact(Conical, z, above)],
+                "R",
+            ),
+        ] {
+            let joint = joint_of(&contacts, 1e-9).unwrap();
+            assert_eq!(joint.subgroup.short_name(), class, "{name}");
+            assert!(joint.margin.is_clear(), "{name}: {:?}", joint.margin);
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_said_is_an_error() {
+        assert_eq!(joint_of(&[], 0.0), Err(JointError::NoContacts));
+        let mut bad = contact(ContactKind::Planar, [0.0, 0.0, 1.0], [0.0; 3]);
+        bad.misfit = 0.002;
+        let error = joint_of(&[bad.clone()], 0.0).unwrap_err();
+        assert!(matches!(error, JointError::Misfit { .. }), "{error}");
+        bad.misfit = 0.0;
+        bad.axis = Vector3::zeros();
+        assert_eq!(joint_of(&[bad], 0.0), Err(JointError::NotFinite));
+    }
+}

@@ -1,0 +1,128 @@
+//! What is read from a STEP file: parts with their places and faces, all in metres and radians.
+
+use kutzbach_math::group::Pose;
+use nalgebra::Vector3;
+use std::sync::Arc;
+
+/// An assembly: its parts, each once for every place where it stands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assembly {
+    /// Metres in one unit of length of the file: 0.001 for millimetres. Of the first part, where parts differ.
+    pub length_unit: f64,
+    /// How far points of the file may be from where they should be (m), as its contexts state; the largest of all. Zero where
+    /// none is stated.
+    pub accuracy: f64,
+    /// The schemas that the header names.
+    pub schemas: Vec<String>,
+    /// The parts, in the order in which the assembly names them.
+    pub parts: Vec<Part>,
+    /// What was not read, and what was taken in one of several ways.
+    pub notes: Vec<Note>,
+}
+
+/// A part at one place. What belongs to one product is taken as one rigid body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// The name of its product, made unique by a number behind it.
+    pub name: String,
+    /// The name of its product as it is written.
+    pub product: String,
+    /// The names of the occurrences that lead to it, from the whole assembly down; empty for a part that is no one's component.
+    pub path: Vec<String>,
+    /// Where it stands: `world_from_part`, with the translation in metres.
+    pub pose: Pose,
+    /// Its faces, in its own frame. Occurrences of one product share them.
+    pub faces: Arc<Vec<Face>>,
+}
+
+/// A face of a part, in the frame of the part, in metres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Face {
+    /// Its entity's number.
+    pub entity: u64,
+    /// Numbers of other entities that are parts of the same face, as the second half of a cylinder.
+    pub halves: Vec<u64>,
+    /// The surface on which it lies.
+    pub surface: Surface,
+    /// Where the material is.
+    pub material: Side,
+    /// Its bounds as closed polygons (without a repeated corner), curved edges in steps of 15 degrees at most. Which of them is
+    /// the outer one is not said: what is inside an odd number of them belongs to the face.
+    pub outline: Vec<Vec<Vector3<f64>>>,
+    /// For cylinders and cones, from where to where it goes along `direction`, from `point` or `apex` (m). (0, 0) otherwise.
+    pub extent: (f64, f64),
+    /// For cylinders and cones, the angle about the axis that it covers (rad), 2π where it goes around. Zero otherwise.
+    pub turned: f64,
+}
+
+/// The side of a face on which the material is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Inside the curvature: a pin, a ball. Planes are of this kind always: their normals point out of the material.
+    Inside,
+    /// Outside the curvature: a hole, a socket.
+    Outside,
+}
+
+/// A surface, in metres.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Surface {
+    /// A plane.
+    Plane {
+        /// A point of it.
+        point: Vector3<f64>,
+        /// Unit normal, out of the material.
+        normal: Vector3<f64>,
+    },
+    /// A circular cylinder.
+    Cylinder {
+        /// A point of its axis.
+        point: Vector3<f64>,
+        /// Unit direction of its axis.
+        direction: Vector3<f64>,
+        /// Its radius.
+        radius: f64,
+    },
+    /// A circular cone.
+    Cone {
+        /// Its apex.
+        apex: Vector3<f64>,
+        /// Unit direction of its axis, from the apex to where it is wide.
+        direction: Vector3<f64>,
+        /// The angle between its axis and its lines (rad).
+        half_angle: f64,
+    },
+    /// A sphere.
+    Sphere {
+        /// Its centre.
+        centre: Vector3<f64>,
+        /// Its radius.
+        radius: f64,
+    },
+    /// Another surface, by its keyword.
+    Other(String),
+}
+
+/// Something that the reader of a file should know.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Note {
+    /// Line of the file.
+    pub line: usize,
+    /// Number of the entity.
+    pub entity: u64,
+    /// What it can mean.
+    pub kind: NoteKind,
+    /// What was found.
+    pub text: String,
+}
+
+/// What a [`Note`] can mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoteKind {
+    /// Something that was not read and may touch another part: a contact may be missing.
+    MayTouch,
+    /// Something that says how parts are joined, and was not read.
+    MayJoin,
+    /// Something that was taken in one of several ways.
+    Taken,
+}

@@ -1,0 +1,7 @@
+//! Tests on STEP texts that are written here.
+
+mod builder;
+mod hostile;
+mod read;
+mod solids;
+mod touching;
