@@ -223,7 +223,10 @@ impl Curve {
                 across.iter_mut().for_each(|x| *x /= size);
                 let mut pose = self.guess(segment, (cubic, u), Some(&across));
                 let guess = pose.clone();
-                if let Some(done) = self.solver.correct_next(&mut pose, Along::Across(&across)) {
+                if let Some(done) = self
+                    .solver
+                    .correct_next(&mut pose, Along::Across(&across), arc)
+                {
                     self.beside = self.off_prediction(segment, cubic, u, &pose);
                     return Some(CurvePose {
                         arclength: arc,
@@ -486,28 +489,29 @@ impl Curve {
             // Newton's steps on one cubic, kept inside by halving.
             for _ in 0..12 {
                 let off = cubic.component(self.drive, u) - wanted;
+                let step = off / cubic.speed(self.drive, u);
+                if step.abs() < 1e-14 {
+                    break;
+                }
                 if (off < 0.0) == rising {
                     low = u;
                 } else {
                     high = u;
                 }
-                let next = u - off / cubic.speed(self.drive, u);
-                let next = if next > low && next < high {
+                let next = u - step;
+                u = if next > low && next < high {
                     next
                 } else {
                     0.5 * (low + high)
                 };
-                if (next - u).abs() < 1e-9 {
-                    u = next;
-                    break;
-                }
-                u = next;
             }
             let mut pose = self.guess(segment, (cubic, u), None);
             if cubic.speed(self.drive, u).abs() > 1e-3 * gap
-                && let Some(done) = self
-                    .solver
-                    .correct_next(&mut pose, Along::Value(self.drive, value))
+                && let Some(done) = self.solver.correct_next(
+                    &mut pose,
+                    Along::Value(self.drive, value),
+                    base + u * gap,
+                )
                 && done.way < 0.1 * gap
             {
                 self.beside = self.off_prediction(segment, cubic, u, &pose);
@@ -583,5 +587,65 @@ impl Curve {
         joints
             .map(|joint| rest.by_ref().take(joint.freedom()).collect())
             .collect()
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::{TraceOptions, trace};
+    use kutzbach_closure::samples::{Place, Written, planar, ring};
+    use kutzbach_mobility::{AnalysisOptions, analyse};
+    use kutzbach_model::mechanism::JointKind;
+
+    /// The curve of a ring, and the same curve with its equations factored as those of a large part are.
+    fn both(places: &[Place]) -> (Curve, Curve) {
+        let mechanism = ring(places, [0.0; 3], Written::Exactly);
+        let analysis = analyse(&mechanism, &AnalysisOptions::default()).unwrap();
+        let options = TraceOptions {
+            samples: 2,
+            ..TraceOptions::default()
+        };
+        let traced = trace(&mechanism, &analysis, &options).unwrap();
+        let dense = traced.into_motion().unwrap().curve;
+        let mut sparse = dense.clone();
+        let (system, holds) = (Arc::clone(&dense.solver.system), dense.solver.holds());
+        let generic = dense
+            .nodes
+            .iter()
+            .max_by(|a, b| a.margin.total_cmp(&b.margin));
+        let start = &generic.unwrap().pose;
+        let allowed = dense.solver.allowed;
+        sparse.solver =
+            Solver::with_dense_up_to(0, system, start, holds.to_vec(), 0, allowed).unwrap();
+        (dense, sparse)
+    }
+
+    /// A hinge, two balls and a cylindrical joint, one ball held, comes so near to singular poses that a pose may be 2e-7 off where its
+    /// loops close to rounding; a four-bar that is nearly a parallelogram comes near to its flat pose.
+    #[test]
+    fn poses_are_those_of_factors_made_anew_however_near_a_singular_pose() {
+        let spatial = [
+            (JointKind::Revolute, [0.0, 0.0, 0.0], [0.0, 0.0, 1.0]),
+            (JointKind::Spherical, [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]),
+            (JointKind::Spherical, [2.0, 3.0, 2.0], [0.0, 0.0, 1.0]),
+            (JointKind::Cylindrical, [2.0, 3.0, 0.0], [1.0, 2.0, 2.0]),
+        ];
+        let flat = planar(&[[0.0, 0.0], [0.0, 1.0], [3.0, 1.0], [3.0, -1e-3]]);
+        for (places, name) in [(spatial.to_vec(), "rssc"), (flat, "four-bar")] {
+            let (mut dense, mut sparse) = both(&places);
+            let (first, last) = dense.arclengths();
+            for poses in [100, 1000, 5000] {
+                for index in 0..poses {
+                    let arc = first + (last - first) * f64::from(index) / f64::from(poses);
+                    let kept = sparse.pose_at_arclength(arc).unwrap();
+                    dense.solver.fix(None);
+                    let anew = dense.pose_at_arclength(arc).unwrap();
+                    let off = dense.solver.system.separation(&kept.pose, &anew.pose);
+                    assert!(off < 1e-10, "{name}, {index} of {poses}: {off:e}");
+                }
+            }
+        }
     }
 }

@@ -15,7 +15,7 @@
 //! | file | says |
 //! |---|---|
 //! | `system`, `system/…` | the equations of a part, compiled ([`LoopSystem`]); its poses, values and derivatives |
-//! | `rows`, `sparse_rows`, `deflation`, `solver` | which equations are solved at a pose, and Newton's method on them |
+//! | `rows`, `sparse_rows`, `deflation`, `kept`, `solver` | which equations are solved at a pose, and Newton's method on them |
 //! | `node`, `cubic`, `follow` | a pose with its tangent, what lies between two, from pose to pose |
 //! | `cusp`, `singular`, `bridge`, `pieces`, `walk` | cusps and singular poses, how they are passed, the whole curve |
 //! | `curve` | poses by arclength and by drive value ([`Curve`]) |
@@ -40,6 +40,7 @@ mod deflation;
 mod follow;
 mod four_bar;
 mod inputs;
+mod kept;
 mod links;
 mod node;
 mod pieces;

@@ -19,7 +19,6 @@ use super::node::{Node, finish};
 use super::solver::{Along, Solver};
 use super::system::SystemPose;
 use super::vectors::{dot, length};
-use nalgebra::DMatrix;
 
 /// Places of the poses in a window, on either side, in units of its half width.
 const PLACES: [f64; 6] = [0.25, 0.38, 0.53, 0.7, 0.86, 1.0];
@@ -351,12 +350,19 @@ pub(super) fn kernels(solver: &mut Solver, pose: &SystemPose) -> (usize, usize) 
     let rows = solver.dense_jacobian(pose);
     let columns = solver.system.unknowns();
     let kernel = |rows: &[f64]| {
-        let matrix = DMatrix::from_row_slice(rows.len() / columns.max(1), columns, rows);
-        let values = matrix.singular_values();
+        let count = rows.len() / columns.max(1);
+        let matrix = faer::Mat::from_fn(count, columns, |i, j| rows[i * columns + j]);
+        // Of what is not finite no value is known not to vanish.
+        let values = matrix.singular_values().unwrap_or_default();
         let largest = values.iter().fold(0.0f64, |m, s| m.max(*s));
         columns - values.iter().filter(|s| **s > KERNEL * largest).count()
     };
-    (kernel(&rows), kernel(&rows[..rows.len() - held * columns]))
+    let with_holds = kernel(&rows);
+    let freedom = match held {
+        0 => with_holds,
+        _ => kernel(&rows[..rows.len() - held * columns]),
+    };
+    (with_holds, freedom)
 }
 
 /// Where g vanishes between readings, or comes closest to zero.

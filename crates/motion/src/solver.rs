@@ -2,13 +2,15 @@
 //!
 //! A step is the shortest one that the chosen equations ask for, plus what is needed along the tangent so that one further
 //! condition holds: that the pose does not move along a given direction, or that a joint variable has a given value. The
-//! factors of one pose serve for the steps after it as long as every step is a hundredth of the one before; so a pose
-//! that is predicted to six digits costs one factorization and two or three residuals.
+//! factors of one pose serve for the steps after it as long as every step is a hundredth of the one before, and for the poses
+//! around it as long as a step bounds the distance from the curve ([`Kept`]); so a pose that is predicted to six digits costs
+//! one factorization at most and two or three residuals.
 //!
 //! Convergence is measured by the step, not by the residual, which a redundant equation may keep above rounding; all
 //! equations, chosen or not, are held against what is allowed at the end.
 
 use super::deflation::Deflation;
+use super::kept::{Kept, dense_rate, sparse_rate};
 use super::result::TraceOptions;
 use super::rows::DenseRows;
 use super::sparse_rows::SparseRows;
@@ -26,12 +28,34 @@ const STEP_LIMIT: usize = 16;
 /// A step longer than this (metric) is no correction.
 const LONGEST_STEP: f64 = 1.0;
 
-/// Factors of another pose serve as long as every step leaves no more than this share of the equations' errors, the first of a hundredth:
-/// from a prediction good to six digits, five such steps are rounding, each of which costs a tenth of a factorization.
-const CONTRACTION: f64 = 0.03;
+/// Factors of another pose serve where a step with them leaves no more than this share of an error ([`Kept`]): the way to the curve is then
+/// at most five times as long as a step.
+const MOST_LEFT: f64 = 0.8;
 
-/// Errors below this are made of rounding after another step.
-const NEARLY_ROUNDED: f64 = 1e-13;
+/// In small parts, where a factorization costs as much as a few steps, factors serve as long as a step is two digits.
+const MOST_LEFT_DENSE: f64 = 0.02;
+
+/// They are given up where a step leaves more than this all the same, or about as much so often that factoring is cheaper: what is
+/// neglected is of second order.
+const MOST_SEEN: f64 = 0.5;
+
+/// A pose no farther from the curve than this (metric) is on it: rounding of a hundred joints.
+const CLOSE: f64 = 3e-14;
+
+/// An equation is rounded by this, m of them by √m as much, which leaves a pose open by that over their margin.
+const ROUNDED: f64 = 2.0 * f64::EPSILON;
+
+/// What rounding leaves open by more than this is not taken from factors of another pose.
+const MOST_OPEN: f64 = 1e-11;
+
+/// Steps with the factors of another pose before these are made anew.
+const KEPT_STEPS: usize = 6;
+
+/// Of poses too far from one another for factors to serve, every so many asks whether that has changed.
+const ASK_AGAIN: usize = 16;
+
+/// Factors are worth asking how far they serve where that is so many poses.
+const WORTH: f64 = 1.5;
 
 /// Singular values below this share of the largest ask for no step in [`Solver::polish`].
 const NEARLY_VANISHING: f64 = 1e-3;
@@ -60,6 +84,17 @@ pub(super) struct Corrected {
     pub closure: f64,
 }
 
+/// Poses asked for one after another.
+#[derive(Clone, Copy, Debug, Default)]
+struct Asked {
+    /// Arclength of the last one.
+    arc: f64,
+    /// The last [`Kept::rate`] found.
+    rate: f64,
+    /// Poses since.
+    since: usize,
+}
+
 /// Solves the equations of a part about poses of one branch.
 #[derive(Clone, Debug)]
 pub(super) struct Solver {
@@ -69,13 +104,16 @@ pub(super) struct Solver {
     rows: Rows,
     /// Whether the last factorization was of independent equations.
     factored: bool,
+    /// Where these factors serve, if they were made for that.
+    kept: Option<Kept>,
+    asked: Asked,
+    /// What the equations of a large part change most for, along the curve.
+    changed: Vec<f64>,
     deflation: Option<Deflation>,
     evaluation: Evaluation,
     right: Vec<f64>,
     step: Vec<f64>,
     row: Vec<f64>,
-    /// Equations met to this are met to rounding: a displacement of each joint of the longest loop rounds them by ε.
-    rounding: f64,
     /// Largest closure that counts as closed: rounding, or what the file's digits leave.
     pub allowed: f64,
     /// A pose whose equations and condition are met to this is taken as it is; zero asks for rounding.
@@ -100,7 +138,7 @@ impl Solver {
     }
 
     /// As [`Self::new`]; parts of more unknowns than `dense` are factored sparsely.
-    fn with_dense_up_to(
+    pub fn with_dense_up_to(
         dense: usize,
         system: Arc<LoopSystem>,
         start: &SystemPose,
@@ -128,18 +166,19 @@ impl Solver {
             }
             Rows::Sparse(Box::new(sparse))
         };
-        let longest = system.longest_cycle();
         let mut solver = Self {
             system,
             holds,
             rows,
             factored: false,
+            kept: None,
+            asked: Asked::default(),
+            changed: Vec::new(),
             deflation,
             evaluation,
             right: vec![0.0; equations],
             step: vec![0.0; unknowns],
             row: vec![0.0; unknowns],
-            rounding: f64::EPSILON * longest as f64,
             allowed,
             tolerance: 0.0,
             reach: TraceOptions::default().reach,
@@ -179,6 +218,7 @@ impl Solver {
     }
 
     fn factor(&mut self, pose: &SystemPose) -> bool {
+        self.kept = None;
         self.factored = self.factor_rows(pose);
         self.factored
     }
@@ -289,17 +329,20 @@ impl Solver {
         if n > 2 * DENSE_UNKNOWNS {
             return self.closure_of(pose);
         }
-        let count = rows.len() / n.max(1);
-        let size = count.max(n);
-        let matrix = nalgebra::DMatrix::from_row_slice(count, n, &rows).resize(size, n, 0.0);
-        let right =
-            nalgebra::DVector::from_fn(size, |i, _| if i < count { self.right[i] } else { 0.0 });
-        let svd = matrix.svd(true, true);
-        let least = NEARLY_VANISHING * svd.singular_values.max();
-        if let Ok(step) = svd.solve(&right, least) {
-            let mut there = pose.clone();
-            self.system.advance(&mut there, step.as_slice());
-            *pose = there;
+        let matrix = faer::Mat::from_fn(rows.len() / n.max(1), n, |i, j| rows[i * n + j]);
+        if let Ok(parts) = matrix.thin_svd() {
+            let values = parts.S().column_vector();
+            let least = NEARLY_VANISHING * values.iter().fold(0.0, |m: f64, s| m.max(*s));
+            let mut step = vec![0.0; n];
+            for (k, value) in values.iter().enumerate().filter(|(_, s)| **s > least) {
+                let left = parts.U().col(k);
+                let along: f64 = left.iter().zip(&self.right).map(|(u, r)| u * r).sum();
+                let right = parts.V().col(k);
+                step.iter_mut()
+                    .zip(right.iter())
+                    .for_each(|(s, v)| *s += along / value * v);
+            }
+            self.system.advance(pose, &step);
         }
         self.closure_of(pose)
     }
@@ -333,29 +376,93 @@ impl Solver {
     /// Moves a pose onto the curve. `None` where that does not converge or some equation stays open; the pose is then of no
     /// use.
     pub fn correct(&mut self, pose: &mut SystemPose, along: Along<'_>) -> Option<Corrected> {
-        self.correct_with(pose, along, false)
+        self.correct_anew(pose, along, None)
     }
 
-    /// As [`Self::correct`], for poses asked for one after another: with the factors of the one before where these serve. In small parts
-    /// they do not: factoring is cheap there, and close to singular poses equations that are met to rounding leave the pose open to 1e-7.
-    pub fn correct_next(&mut self, pose: &mut SystemPose, along: Along<'_>) -> Option<Corrected> {
-        let large = matches!(self.rows, Rows::Sparse(_));
-        let kept = large && self.factored && self.deflation.is_none();
-        self.correct_with(pose, along, kept)
-    }
-
-    fn correct_with(
+    /// As [`Self::correct`], for poses asked for one after another, about where their arclengths are known: with the factors of one before
+    /// where these serve.
+    pub fn correct_next(
         &mut self,
         pose: &mut SystemPose,
         along: Along<'_>,
-        mut kept: bool,
+        arc: f64,
+    ) -> Option<Corrected> {
+        let spacing = (arc - std::mem::replace(&mut self.asked.arc, arc)).abs();
+        self.asked.since += 1;
+        if let Some(kept) = self.kept.filter(|_| self.factored)
+            && let Some(done) = self.correct_kept(pose, along, (kept.share(arc), kept.close))
+        {
+            return Some(done);
+        }
+        let worth = self.is_worth(spacing);
+        self.correct_anew(pose, along, worth.then_some(arc))
+    }
+
+    /// Whether factors made for one of poses so far apart are likely to serve for the next ones.
+    fn is_worth(&self, spacing: f64) -> bool {
+        let near = WORTH * self.asked.rate * spacing <= self.most_left();
+        // Rows of a held ball change too, which is in no rate.
+        let mut holds = self.holds.iter();
+        (near || self.asked.since > ASK_AGAIN)
+            && self.deflation.is_none()
+            && holds.all(|(unknown, _)| self.system.is_scalar(*unknown))
+    }
+
+    /// The largest share of an error that a step may leave.
+    fn most_left(&self) -> f64 {
+        match self.rows {
+            Rows::Dense(_) => MOST_LEFT_DENSE,
+            Rows::Sparse(_) => MOST_LEFT,
+        }
+    }
+
+    /// With the factors of another pose, of which a step leaves a share of the error, as close to the curve as is said.
+    fn correct_kept(
+        &mut self,
+        pose: &mut SystemPose,
+        along: Along<'_>,
+        (share, close): (f64, f64),
+    ) -> Option<Corrected> {
+        let (mut way, mut before) = (0.0, f64::INFINITY);
+        for _ in 0..KEPT_STEPS {
+            self.system.residual(pose, &mut self.evaluation);
+            self.read_right(pose);
+            let rest = self.fill_condition(pose, along);
+            let closure = self.closure();
+            if self.is_good_enough(rest) {
+                return Some(Corrected { way, closure });
+            }
+            // What a step leaves is carried along the tangent until the condition is met.
+            let across = dot(&self.row, self.tangent()).abs();
+            if !(share <= self.most_left() * across.min(1.0)) {
+                return None;
+            }
+            let length = self.find_step(rest)?;
+            if length <= (1.0 - share) * close {
+                return (closure <= self.allowed).then_some(Corrected { way, closure });
+            }
+            if length > MOST_SEEN * before {
+                return None;
+            }
+            self.system.advance(pose, &self.step);
+            way += length;
+            before = length;
+        }
+        None
+    }
+
+    /// With factors of its own; those of a pose at an arclength that is given are held against the poses around it.
+    fn correct_anew(
+        &mut self,
+        pose: &mut SystemPose,
+        along: Along<'_>,
+        arc: Option<f64>,
     ) -> Option<Corrected> {
         let mut way = 0.0;
         let mut before = f64::INFINITY;
-        let mut off_before = f64::INFINITY;
-        let mut factored = kept;
+        let mut factored = false;
         for _ in 0..STEP_LIMIT {
-            if kept {
+            if factored {
                 self.system.residual(pose, &mut self.evaluation);
                 self.read_right(pose);
             } else {
@@ -366,29 +473,15 @@ impl Solver {
             if self.is_good_enough(rest) {
                 return Some(Corrected { way, closure });
             }
-            if kept {
-                let off = self.off(rest);
-                // Where rounding is larger than it is meant to be, a step more brings what can be had.
-                let nearly = off <= 10.0 * self.rounding;
-                let rounded = off <= self.rounding || (nearly && off_before <= NEARLY_ROUNDED);
-                if rounded && closure <= self.allowed {
-                    return Some(Corrected { way, closure });
+            if !factored {
+                if !self.factor(pose) {
+                    return None;
                 }
-                let falls = nearly || off <= CONTRACTION * off_before.min(CONTRACTION);
-                off_before = off;
-                if !falls {
-                    (kept, factored) = (false, false);
-                    continue;
-                }
+                self.kept = arc.map(|arc| self.kept_at(arc));
             }
-            if !factored && !self.factor(pose) {
-                return None;
-            }
-            let length = self.step(pose, rest, kept)?;
+            let length = self.find_step(rest)?;
+            self.system.advance(pose, &self.step);
             way += length;
-            if kept {
-                continue;
-            }
             // Rounding: residuals are off by some 1e-16 per joint passed, so that steps do not fall below about as much.
             let stalled = length >= 0.5 * before && before < 1e-11;
             if length < 1e-15 || stalled {
@@ -406,13 +499,26 @@ impl Solver {
         (closure <= self.allowed && before < 1e-6).then_some(Corrected { way, closure })
     }
 
-    /// Takes the step that the last factorization asks for, and returns its length; `None` for one that is no correction. A rough one is to
-    /// be judged by what it leaves.
-    fn step(&mut self, pose: &mut SystemPose, rest: f64, rough: bool) -> Option<f64> {
+    /// What the factors just made, at an arclength, are worth beside.
+    fn kept_at(&mut self, arc: f64) -> Kept {
+        let (system, evaluation) = (&self.system, &self.evaluation);
+        let rate = match &self.rows {
+            Rows::Dense(dense) => dense_rate(dense, system, evaluation, self.right.len()),
+            Rows::Sparse(sparse) => sparse_rate(sparse, system, evaluation, &mut self.changed),
+        };
+        (self.asked.rate, self.asked.since) = (rate, 0);
+        let equations = (self.system.unknowns() as f64).sqrt();
+        let close = (equations * ROUNDED / self.margin()).clamp(CLOSE, MOST_OPEN);
+        Kept { arc, rate, close }
+    }
+
+    /// The step that the last factorization asks for, in `self.step`, and its length; `None` for one that is no correction. That of a large
+    /// part is rough: what it leaves is for the next one.
+    fn find_step(&mut self, rest: f64) -> Option<f64> {
         let mut step = std::mem::take(&mut self.step);
         match &self.rows {
             Rows::Dense(dense) => dense.solve(&self.right, &mut step),
-            Rows::Sparse(sparse) => sparse.solve(&self.right, &mut step, !rough),
+            Rows::Sparse(sparse) => sparse.solve(&self.right, &mut step, false),
         }
         let tangent = self.tangent();
         let amount = (rest - dot(&self.row, &step)) / dot(&self.row, tangent);
@@ -420,22 +526,8 @@ impl Solver {
             .zip(tangent)
             .for_each(|(s, t)| *s += amount * t);
         let length = dot(&step, &step).sqrt();
-        let usable = length <= LONGEST_STEP;
-        if usable {
-            self.system.advance(pose, &step);
-        }
         self.step = step;
-        usable.then_some(length)
-    }
-
-    /// How far the chosen equations and the condition, off by `rest`, are from being met.
-    fn off(&self, rest: f64) -> f64 {
-        let chosen = match &self.rows {
-            Rows::Dense(dense) => dense.chosen(),
-            Rows::Sparse(sparse) => sparse.chosen(),
-        };
-        let all = chosen.iter().map(|&equation| self.right[equation].abs());
-        all.fold(rest.abs(), f64::max)
+        (length <= LONGEST_STEP).then_some(length)
     }
 
     /// Whether every equation, and the condition that is off by `rest`, is met to the tolerance.

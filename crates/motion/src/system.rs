@@ -287,12 +287,6 @@ impl LoopSystem {
         6 * self.cycles.len() + self.couplings.len()
     }
 
-    /// Joints' factors on the way around the longest cycle, at least one.
-    pub(crate) fn longest_cycle(&self) -> usize {
-        let cycles = self.cycles.iter().map(|cycle| cycle.passages.len());
-        cycles.max().unwrap_or(0).max(1)
-    }
-
     /// Metric length of a unit of every unknown: 1 per rad, 1 / [`length`](Self::length) per m.
     #[must_use]
     pub fn weights(&self) -> &[f64] {
