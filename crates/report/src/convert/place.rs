@@ -24,6 +24,11 @@ pub(super) fn rounded(x: f64) -> Number {
     Number::from_f64(x).unwrap_or_else(Number::zero)
 }
 
+/// The value of a joint at a pose (rad, m), zero within rounding errors.
+pub(super) fn settled(x: f64) -> f64 {
+    if x.abs() < SAME { 0.0 } else { x }
+}
+
 /// Computed doubles.
 pub(super) fn triple(v: [f64; 3]) -> Triple {
     v.map(rounded)
@@ -112,6 +117,36 @@ impl Place {
                 }
                 words
             }
+        }
+    }
+
+    /// As a displacement.
+    pub(super) fn rigid(&self) -> Rigid<f64> {
+        match self {
+            Self::Stated(frame) => rigid(frame),
+            Self::Computed(pose) => pose.clone(),
+        }
+    }
+
+    /// Where a place in this one is; what is nowhere else keeps its digits.
+    pub(super) fn then(self, next: Self) -> Self {
+        let stays = |place: &Self| matches!(place, Self::Stated(frame) if frame.is_identity());
+        if stays(&next) {
+            return self;
+        }
+        if stays(&self) {
+            return next;
+        }
+        Self::Computed(self.rigid().compose(&next.rigid()))
+    }
+
+    /// The other way round; a frame that is not turned keeps its digits.
+    pub(super) fn inverse(&self) -> Self {
+        match self {
+            Self::Stated(frame) if frame.roll_pitch_yaw.iter().all(Number::is_zero) => {
+                Self::Stated(Frame::at(frame.position.each_ref().map(|x| -x)))
+            }
+            _ => Self::Computed(self.rigid().inverse()),
         }
     }
 
