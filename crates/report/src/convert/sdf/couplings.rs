@@ -34,7 +34,7 @@ impl Sdf<'_> {
             };
             if !said {
                 self.not_said.push(format!(
-                    "coupling `{}`: SDF couples a joint to one other",
+                    "coupling `{}`: SDF lets a joint follow one other, and no more",
                     coupling.name
                 ));
             }
