@@ -3,7 +3,7 @@
 use crate::convert_cli::{FOUR_BAR, MECHANISMS, finite, one_joint};
 use kutzbach::closure::{Arithmetic, Geometry};
 use kutzbach::format::{Reading, read, read_file};
-use kutzbach::mechanism::{CouplingOrigin, JointKind, Mechanism};
+use kutzbach::mechanism::{CouplingOrigin, Geometry as Solid, Inertial, JointKind, Mechanism};
 use kutzbach::mobility::{AnalysisOptions, analyse};
 use kutzbach::report::convert::{Converted, to_sdf};
 
@@ -212,6 +212,22 @@ fn masses_shapes_limits_and_motors_are_kept() {
     assert_eq!(there.mechanism.actuated(), [lift]);
     let limit = there.mechanism.joint(lift).limit.as_ref().unwrap();
     assert_eq!(limit.effort.as_ref().unwrap().value(), 40.0);
+    let link = |reading: &Reading| {
+        let id = reading.mechanism.link_named("arm").unwrap();
+        reading.mechanism.link(id).clone()
+    };
+    let (here, back) = (link(&reading), link(&there));
+    let (one, other) = (here.inertial.unwrap(), back.inertial.unwrap());
+    assert_eq!(one.mass.value(), other.mass.value());
+    let values = |numbers: &[kutzbach::number::Number]| -> Vec<f64> {
+        numbers.iter().map(|number| number.value()).collect()
+    };
+    assert_eq!(values(&one.inertia), values(&other.inertia));
+    let place = |inertial: &Inertial| values(&inertial.origin.position);
+    assert_eq!(place(&one), place(&other));
+    assert_eq!(back.collisions.len(), 1);
+    assert!(matches!(back.collisions[0].geometry, Solid::Box(_)));
+    assert_eq!(back.visuals[0].geometry, here.visuals[0].geometry);
 }
 
 /// The factor of one joint in a coupling, over that of another.

@@ -101,3 +101,16 @@ pub(super) fn closed(mechanism: &Mechanism, geometry: &Geometry<f64>) -> Option<
         moved: true,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_points_of_a_hinge_are_a_power_of_ten_apart() {
+        for (size, expected) in [(5.0, 1.0), (250.0, 100.0), (0.03, 0.01), (0.0, 1e-6)] {
+            let found = lever(size).value();
+            assert!((found / expected - 1.0).abs() < 1e-12, "{size}: {found}");
+        }
+    }
+}

@@ -189,6 +189,28 @@ mod tests {
     }
 
     #[test]
+    fn places_one_after_another_keep_their_digits() {
+        let number = |text: &str| Number::decimal(text).unwrap();
+        let stated = || Place::Stated(Frame::at([number("0.10"), number("2"), number("-3")]));
+        let here = || Place::Stated(Frame::identity());
+        for place in [stated().then(here()), here().then(stated())] {
+            assert_eq!(texts(&place.frame().position), "0.10 2 -3");
+        }
+        let back = stated().inverse().frame();
+        assert_eq!(values(&back.position), [-0.1, -2.0, 3.0]);
+        let both = stated().then(stated().inverse());
+        assert!(is_identity(&both.rigid()));
+        let turned = Place::Stated(Frame {
+            position: stated().frame().position,
+            roll_pitch_yaw: [number("0.3"), number("-0.7"), number("1.9")],
+        });
+        let both = turned.inverse().then(turned);
+        assert!(is_identity(&both.rigid()));
+        assert_eq!(settled(-1e-13), 0.0);
+        assert_eq!(settled(-1e-11), -1e-11);
+    }
+
+    #[test]
     fn angles_of_a_pose_give_it_back() {
         for angles in [[0.3, -0.7, 1.9], [0.0, std::f64::consts::FRAC_PI_2, 0.4]] {
             let mut pose = Rigid::identity(&1.0);
