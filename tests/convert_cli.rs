@@ -72,6 +72,21 @@ fn mechanisms_keep_their_mobility_in_mjcf() {
     }
 }
 
+/// `12.001` and `0.125` would be numbers known to three decimals, within which rigid linkages move.
+#[test]
+fn exact_numbers_stay_exact_in_mjcf() {
+    for (name, expected) in [
+        ("spherical_four_bar_stretched", 0),
+        ("four_creases_in_a_corner", 0),
+        ("crossed_creases_flat", 1),
+        ("bennett_spoiled", 0),
+    ] {
+        let reading = read_file(format!("mechanisms/{name}.urdf"), &[]).unwrap();
+        let again = through_mjcf(&reading, Hinges::TwoPoints);
+        assert_eq!(finite(&again), Some(expected), "{name}");
+    }
+}
+
 /// Two links, joined by one kind of joint in the tree, and by hinges and a slide that make a loop of it.
 pub fn one_joint(kind: JointKind) -> String {
     let tree = match kind {

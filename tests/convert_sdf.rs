@@ -44,6 +44,15 @@ fn mechanisms_keep_their_mobility_and_verdict() {
     }
 }
 
+/// `12.001` would be a number known to three decimals, within which Bennett's linkage moves.
+#[test]
+fn exact_numbers_stay_exact() {
+    for name in ["bennett_spoiled", "waldron_six_bar_spoiled"] {
+        let reading = read_file(format!("mechanisms/{name}.urdf"), &[]).unwrap();
+        assert_eq!(finite(&again(&written(&reading))), Some(0), "{name}");
+    }
+}
+
 #[test]
 fn every_kind_of_joint_is_written() {
     for kind in JointKind::ALL {

@@ -2,13 +2,20 @@
 
 use kutzbach_closure::Rigid;
 use kutzbach_math::number::Number;
-use kutzbach_model::mechanism::Frame;
+use kutzbach_model::mechanism::{Frame, Precision};
 
 /// A direction or a point.
 pub(super) type Triple = [Number; 3];
 
 /// Decimals that end within so many places are written whole: as many as a double has digits.
 const PLACES: u32 = 17;
+
+/// So many significant digits say that a number is known as well as a double: from twelve on, zeros at the end of all numbers of a file
+/// are taken for padding that says nothing.
+const DIGITS: usize = 11;
+
+/// Up to so many decimals are chosen by people, and taken for exact.
+const CHOSEN: usize = Precision::EXACT_DECIMALS as usize;
 
 /// What is computed from entries of about 1 and lies below this is a zero with its rounding errors.
 const NOISE: f64 = 1e-15;
@@ -43,13 +50,41 @@ pub(super) fn zeros() -> Triple {
     [Number::zero(), Number::zero(), Number::zero()]
 }
 
-/// A number: a literal as it was read, what ends as a decimal whole, anything else as a double that reads back the same.
+/// A number: a literal as it was read, what ends as a decimal whole, anything else as a double that reads back the same. A decimal says
+/// how well it is known, so that an exact one does not stop where its digits do: `12.001` would be a number known to three decimals.
 pub(super) fn text(number: &Number) -> String {
     if let Some(literal) = number.literal_text() {
         return literal.to_owned();
     }
+    let value = number.value() + 0.0;
     let short = number.decimal_text(PLACES);
-    short.unwrap_or_else(|| format!("{:?}", number.value() + 0.0))
+    let short = short.unwrap_or_else(|| format!("{value:?}"));
+    // What was computed from decimals is known as well as the worst of them.
+    let known = number
+        .coarsest_input()
+        .map_or(DIGITS, |decimals| usize::try_from(decimals).unwrap_or(0));
+    let digits = |text: &str| {
+        let digits = text.chars().filter(char::is_ascii_digit);
+        digits.skip_while(|digit| *digit == '0').count()
+    };
+    if let Some((mantissa, _)) = short.split_once('e') {
+        return match digits(mantissa) < DIGITS && known == DIGITS {
+            true => format!("{value:.0$e}", DIGITS - 1),
+            false => short,
+        };
+    }
+    let decimals = short
+        .split_once('.')
+        .map_or(0, |(_, decimals)| decimals.len());
+    if decimals <= CHOSEN {
+        return short;
+    }
+    let places = DIGITS.saturating_sub(digits(&short));
+    let places = match number.coarsest_input() {
+        Some(_) => places.min(known.saturating_sub(decimals)),
+        None => places,
+    };
+    short + &"0".repeat(places)
 }
 
 /// Numbers with spaces between them.
@@ -183,7 +218,18 @@ mod tests {
     fn numbers_are_written_as_they_were_read() {
         let literal = Number::decimal("0.100").unwrap();
         assert_eq!(text(&literal), "0.100");
-        assert_eq!(text(&Number::ratio(1, 8).unwrap()), "0.125");
+        let ratio = |over: i64, under: i64| Number::ratio(over, under).unwrap();
+        assert_eq!(text(&ratio(1, 4)), "0.25");
+        // Exact numbers, and doubles, are no rounded ones.
+        assert_eq!(text(&ratio(1, 8)), "0.12500000000");
+        assert_eq!(text(&ratio(-12_001, 1000)), "-12.001000000");
+        assert_eq!(text(&rounded(0.001)), "0.0010000000000");
+        assert_eq!(text(&rounded(1e-7)), "1.0000000000e-7");
+        // What was computed from decimals of one and three places is known to one.
+        let sum = &Number::decimal("0.5").unwrap() + &Number::decimal("0.125").unwrap();
+        assert_eq!(text(&sum), "0.625");
+        let sum = &Number::decimal("0.0625").unwrap() + &Number::decimal("0.3000").unwrap();
+        assert_eq!(text(&sum), "0.3625");
         assert_eq!(text(&Number::ratio(1, 3).unwrap()), "0.3333333333333333");
         assert_eq!(text(&rounded(-3e-17)), "0");
     }
