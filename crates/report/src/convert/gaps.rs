@@ -51,8 +51,14 @@ pub(super) fn is_spoken_of(mechanism: &Mechanism, id: JointId) -> bool {
         || joint.dynamics.is_some() && joint.freedom() == 1
 }
 
-/// The distance of the two points that stand for a hinge (m): the power of ten below the size of the mechanism.
+/// Below this a mechanism has no size (m), as one whose axes all meet in a point where all joints are.
+const NO_SIZE: f64 = 1e-9;
+
+/// The distance of the two points that stand for a hinge (m): the power of ten below the size of the mechanism, and 1 where that has none.
 pub(super) fn lever(size: f64) -> Number {
+    if !(size > NO_SIZE) {
+        return Number::one();
+    }
     let size = size.max(1e-6).log10().floor();
     let places = size.abs().min(6.0) as u32;
     let power = 10i64.pow(places);
@@ -108,7 +114,13 @@ mod tests {
 
     #[test]
     fn the_points_of_a_hinge_are_a_power_of_ten_apart() {
-        for (size, expected) in [(5.0, 1.0), (250.0, 100.0), (0.03, 0.01), (0.0, 1e-6)] {
+        for (size, expected) in [
+            (5.0, 1.0),
+            (250.0, 100.0),
+            (0.03, 0.01),
+            (1e-8, 1e-6),
+            (0.0, 1.0),
+        ] {
             let found = lever(size).value();
             assert!((found / expected - 1.0).abs() < 1e-12, "{size}: {found}");
         }
