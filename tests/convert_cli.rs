@@ -80,6 +80,7 @@ fn exact_numbers_stay_exact_in_mjcf() {
         ("four_creases_in_a_corner", 0),
         ("crossed_creases_flat", 1),
         ("bennett_spoiled", 0),
+        ("griffis_duffy_spoiled", 0),
     ] {
         let reading = read_file(format!("mechanisms/{name}.urdf"), &[]).unwrap();
         let again = through_mjcf(&reading, Hinges::TwoPoints);

@@ -14,6 +14,9 @@ const PLACES: u32 = 17;
 /// are taken for padding that says nothing.
 const DIGITS: usize = 11;
 
+/// Decimals of a number that a computation missed by roundings.
+const FEW: usize = 9;
+
 /// Up to so many decimals are chosen by people, and taken for exact.
 const CHOSEN: usize = Precision::EXACT_DECIMALS as usize;
 
@@ -50,14 +53,16 @@ pub(super) fn zeros() -> Triple {
     [Number::zero(), Number::zero(), Number::zero()]
 }
 
-/// A number: a literal as it was read, what ends as a decimal whole, anything else as a double that reads back the same. A decimal says
-/// how well it is known, so that an exact one does not stop where its digits do: `12.001` would be a number known to three decimals.
+/// A number: a literal as it was read, what ends as a decimal whole, anything else as a double that reads back the same, but for a few
+/// roundings of what else is a short decimal. A decimal says how well it is known, so that an exact one does not stop where its digits
+/// do: `12.001` would be a number known to three decimals.
 pub(super) fn text(number: &Number) -> String {
     if let Some(literal) = number.literal_text() {
         return literal.to_owned();
     }
     let value = number.value() + 0.0;
     let short = number.decimal_text(PLACES);
+    let short = short.or_else(|| without_roundings(value));
     let short = short.unwrap_or_else(|| format!("{value:?}"));
     // What was computed from decimals is known as well as the worst of them.
     let known = number
@@ -85,6 +90,19 @@ pub(super) fn text(number: &Number) -> String {
         None => places,
     };
     short + &"0".repeat(places)
+}
+
+/// The decimal of few places that a double is but for the roundings of a computation, as `3.500000000000001` is 3.5: readers that know the
+/// decimal would take its own digits for all that is known of it.
+fn without_roundings(value: f64) -> Option<String> {
+    let text = format!("{value:.FEW$}");
+    let near = text.trim_end_matches('0').trim_end_matches('.');
+    let roundings = 4.0 * f64::EPSILON * value.abs().max(1.0);
+    let apart = (near.parse::<f64>().ok()? - value).abs();
+    (apart <= roundings).then(|| match near {
+        "-0" => "0".to_owned(),
+        _ => near.to_owned(),
+    })
 }
 
 /// Numbers with spaces between them.
@@ -224,7 +242,13 @@ mod tests {
         assert_eq!(text(&ratio(1, 8)), "0.12500000000");
         assert_eq!(text(&ratio(-12_001, 1000)), "-12.001000000");
         assert_eq!(text(&rounded(0.001)), "0.0010000000000");
-        assert_eq!(text(&rounded(1e-7)), "1.0000000000e-7");
+        assert_eq!(text(&rounded(1e-7)), "0.00000010000000000");
+        assert_eq!(text(&rounded(1e-12)), "1.0000000000e-12");
+        // What a computation missed by roundings.
+        assert_eq!(text(&rounded(3.500000000000001)), "3.5");
+        assert_eq!(text(&rounded(-1.9999999999999998)), "-2");
+        assert_eq!(text(&rounded(0.9990000000000001)), "0.99900000000");
+        assert_eq!(text(&rounded(0.7071067811865475)), "0.7071067811865475");
         // What was computed from decimals of one and three places is known to one.
         let sum = &Number::decimal("0.5").unwrap() + &Number::decimal("0.125").unwrap();
         assert_eq!(text(&sum), "0.625");
