@@ -81,6 +81,8 @@ fn exact_numbers_stay_exact_in_mjcf() {
         ("crossed_creases_flat", 1),
         ("bennett_spoiled", 0),
         ("griffis_duffy_spoiled", 0),
+        ("bennett_equilateral", 1),
+        ("spherical_strap", 1),
     ] {
         let reading = read_file(format!("mechanisms/{name}.urdf"), &[]).unwrap();
         let again = through_mjcf(&reading, Hinges::TwoPoints);

@@ -8,10 +8,9 @@ use super::Hinges;
 use super::gaps::{gap, is_spoken_of, lever, tolerance};
 use super::mjcf::Mjcf;
 use super::parts::{Part, parts};
-use super::place::{Place, Triple, is_identity, rounded, settled, text, texts, triple, values};
+use super::place::{Place, Triple, is_identity, rounded, settled, texts, triple, values};
 use kutzbach_closure::Rigid;
 use kutzbach_format::escaped;
-use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Frame, Joint, JointId, JointKind, LinkId, Side};
 
 /// A body that carries the freedoms of a joint.
@@ -80,10 +79,7 @@ impl Mjcf<'_> {
     fn hinge(&mut self, id: JointId, joint: &Joint, open: bool) {
         let axis = values(&joint.axis.0);
         let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let factor = match length == 1.0 {
-            true => lever(self.size),
-            false => rounded(lever(self.size).value() / length),
-        };
+        let factor = lever(self.size, length);
         let end: Triple = joint.axis.0.each_ref().map(|x| x * &factor);
         self.connect(id, joint, &[[0.0; 3], values(&end)], open);
     }
@@ -123,13 +119,9 @@ impl Mjcf<'_> {
             return Frame::at(origin.clone());
         }
         let turned = triple(self.geometry.sides[id.0][side].rotate(&offset));
-        // Sums of decimals stay decimals: computed numbers are taken by their shortest text.
-        let sum = |i: usize| {
-            if turned[i].is_zero() {
-                return origin[i].clone();
-            }
-            let short = Number::decimal(&text(&turned[i]));
-            &origin[i] + &short.unwrap_or_else(|_| turned[i].clone())
+        let sum = |i: usize| match turned[i].is_zero() {
+            true => origin[i].clone(),
+            false => rounded(origin[i].value() + turned[i].value()),
         };
         Frame::at([sum(0), sum(1), sum(2)])
     }

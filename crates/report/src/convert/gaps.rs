@@ -54,17 +54,18 @@ pub(super) fn is_spoken_of(mechanism: &Mechanism, id: JointId) -> bool {
 /// Below this a mechanism has no size (m), as one whose axes all meet in a point where all joints are.
 const NO_SIZE: f64 = 1e-9;
 
-/// The distance of the two points that stand for a hinge (m): the power of ten below the size of the mechanism, and 1 where that has none.
-pub(super) fn lever(size: f64) -> Number {
-    if !(size > NO_SIZE) {
-        return Number::one();
-    }
-    let size = size.max(1e-6).log10().floor();
-    let places = size.abs().min(6.0) as u32;
-    let power = 10i64.pow(places);
-    match size < 0.0 {
-        true => Number::ratio(1, power).unwrap_or_else(Number::one),
-        false => Number::integer(power),
+/// What an axis of this length is stretched by to reach the second of two points that stand for a hinge: about as far from the first one as
+/// the mechanism is large (m), a metre where that has no size. A power of ten, which leaves the digits of the axis as they are.
+pub(super) fn lever(size: f64, axis: f64) -> Number {
+    let wanted = match size > NO_SIZE {
+        true => size.max(1e-6).log10().floor(),
+        false => 0.0,
+    };
+    let power = (wanted - axis.log10()).round().clamp(-18.0, 18.0) as i32;
+    let whole = 10i64.pow(power.unsigned_abs());
+    match power < 0 {
+        true => Number::ratio(1, whole).unwrap_or_else(Number::one),
+        false => Number::integer(whole),
     }
 }
 
@@ -113,15 +114,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_points_of_a_hinge_are_a_power_of_ten_apart() {
-        for (size, expected) in [
-            (5.0, 1.0),
-            (250.0, 100.0),
-            (0.03, 0.01),
-            (1e-8, 1e-6),
-            (0.0, 1.0),
+    fn the_points_of_a_hinge_are_about_as_far_apart_as_all_is_large() {
+        for (size, axis, expected) in [
+            (5.0, 1.0, 1.0),
+            (250.0, 1.0, 100.0),
+            (250.0, 13.0, 10.0),
+            (0.03, 1.0, 0.01),
+            (0.03, 0.001, 10.0),
+            (1e-8, 1.0, 1e-6),
+            (0.0, 7.0, 0.1),
         ] {
-            let found = lever(size).value();
+            let found = lever(size, axis).value();
             assert!((found / expected - 1.0).abs() < 1e-12, "{size}: {found}");
         }
     }

@@ -121,7 +121,7 @@ impl Pinocchio<'_> {
             JointKind::Revolute if !carried => {
                 let axis = values(&joint.axis.0);
                 let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
-                let lever = lever(self.size).value() / length;
+                let lever = lever(self.size, length).value();
                 let along = Rigid::translation(axis.map(|x| x * lever));
                 let ends = [predecessor.compose(&along), successor.compose(&along)];
                 let second = format!("{}.2", joint.name);
