@@ -4,6 +4,7 @@ use kutzbach::mechanism::JointKind;
 use kutzbach::report::{ExpectedFile, Options, compare, report};
 
 const FORMAT: &str = include_str!("../docs/src/format.md");
+const FORMATS: &str = include_str!("../docs/src/formats.md");
 const NOTATION: &str = include_str!("../docs/src/notation.md");
 const DEPENDENCIES: &str = include_str!("../docs/dependencies.md");
 const MANIFEST: &str = include_str!("../Cargo.toml");
@@ -26,6 +27,30 @@ fn the_example_is_a_mechanism_that_meets_its_expectations() {
         let comparison = compare(&report, &expectation);
         assert!(comparison.wrong.is_empty(), "{:?}", comparison.wrong);
         assert!(!comparison.right.is_empty());
+    }
+}
+
+#[test]
+fn the_smallest_files_of_all_formats_have_one_freedom() {
+    let examples = FORMATS
+        .split_once("## The smallest file of each")
+        .unwrap()
+        .1;
+    let mut formats = Vec::new();
+    // Every second piece is what stands in a fence, behind the name of its language.
+    for fenced in examples.split("```").skip(1).step_by(2) {
+        let (_, text) = fenced.split_once('\n').unwrap();
+        let reading = read(text, "example", &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let told = report(&reading, "example", &Options::default()).unwrap();
+        assert_eq!(told.mobility.finite, Some(1), "{text}");
+        formats.push(reading.format);
+    }
+    assert_eq!(formats[1..], ["sdf", "mjcf", "asmt", "freecad"]);
+    for kind in JointKind::ALL {
+        assert!(
+            FORMATS.contains(&format!("\n| `{}` |", kind.word())),
+            "{kind}"
+        );
     }
 }
 

@@ -25,7 +25,7 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
-fn finite(reading: &Reading) -> Option<usize> {
+pub fn finite(reading: &Reading) -> Option<usize> {
     analyse(&reading.mechanism, &AnalysisOptions::default())
         .unwrap()
         .mobility
@@ -39,27 +39,30 @@ fn through_mjcf(reading: &Reading, hinges: Hinges) -> Reading {
     again.unwrap_or_else(|error| panic!("{error}\n{written}"))
 }
 
+/// Mechanisms and their mobility.
+pub const MECHANISMS: [(&str, usize); 17] = [
+    ("planar_four_bar", 1),
+    ("slider_crank", 1),
+    ("screw_jack", 1),
+    ("differential_screw", 1),
+    ("cardan_shaft", 1),
+    ("stewart", 6),
+    ("oldham", 1),
+    ("oldham_cylindrical_shafts", 2),
+    ("kelvin_clamp", 0),
+    ("block_and_corner", 0),
+    ("crossed_schoenflies", 3),
+    ("rssr", 2),
+    ("three_upu", 3),
+    ("four_bar_lifting_box", 7),
+    ("gripper", 1),
+    ("double_pendulum", 2),
+    ("tripteron", 3),
+];
+
 #[test]
 fn mechanisms_keep_their_mobility_in_mjcf() {
-    for (name, expected) in [
-        ("planar_four_bar", 1),
-        ("slider_crank", 1),
-        ("screw_jack", 1),
-        ("differential_screw", 1),
-        ("cardan_shaft", 1),
-        ("stewart", 6),
-        ("oldham", 1),
-        ("oldham_cylindrical_shafts", 2),
-        ("kelvin_clamp", 0),
-        ("block_and_corner", 0),
-        ("crossed_schoenflies", 3),
-        ("rssr", 2),
-        ("three_upu", 3),
-        ("four_bar_lifting_box", 7),
-        ("gripper", 1),
-        ("double_pendulum", 2),
-        ("tripteron", 3),
-    ] {
+    for (name, expected) in MECHANISMS {
         let reading = read_file(format!("mechanisms/{name}.urdf"), &[]).unwrap();
         assert_eq!(finite(&reading), Some(expected), "{name}");
         for hinges in [Hinges::TwoPoints, Hinges::Body] {
@@ -69,8 +72,26 @@ fn mechanisms_keep_their_mobility_in_mjcf() {
     }
 }
 
+/// `12.001` and `0.125` would be numbers known to three decimals, within which rigid linkages move.
+#[test]
+fn exact_numbers_stay_exact_in_mjcf() {
+    for (name, expected) in [
+        ("spherical_four_bar_stretched", 0),
+        ("four_creases_in_a_corner", 0),
+        ("crossed_creases_flat", 1),
+        ("bennett_spoiled", 0),
+        ("griffis_duffy_spoiled", 0),
+        ("bennett_equilateral", 1),
+        ("spherical_strap", 1),
+    ] {
+        let reading = read_file(format!("mechanisms/{name}.urdf"), &[]).unwrap();
+        let again = through_mjcf(&reading, Hinges::TwoPoints);
+        assert_eq!(finite(&again), Some(expected), "{name}");
+    }
+}
+
 /// Two links, joined by one kind of joint in the tree, and by hinges and a slide that make a loop of it.
-fn one_joint(kind: JointKind) -> String {
+pub fn one_joint(kind: JointKind) -> String {
     let tree = match kind {
         JointKind::Distance => "<distance value=\"1\"/>",
         _ if kind.uses_lead() => "<axis xyz=\"0 0.6 0.8\"/><screw lead=\"0.01\"/>",
@@ -107,14 +128,15 @@ fn every_kind_of_joint_is_written() {
         let again = through_mjcf(&held, Hinges::TwoPoints);
         assert_eq!(finite(&again), expected, "{kind} backwards");
         let urdf = to_urdf(&reading.mechanism).unwrap();
-        assert_eq!(urdf.not_said, Vec::<String>::new());
+        let refused = |told: &String| told.contains("urdfdom refuses");
+        assert!(urdf.not_said.iter().all(refused), "{:?}", urdf.not_said);
         let again = read(&urdf.text, "tree.urdf", &[]).unwrap();
         assert_eq!(again.format, "urdf", "{}", urdf.text);
         assert_eq!(finite(&again), expected, "{kind}");
     }
 }
 
-const FOUR_BAR: &str = r#"<robot name="four_bar">
+pub const FOUR_BAR: &str = r#"<robot name="four_bar">
   <link name="ground"/><link name="crank"/><link name="coupler"/><link name="rocker"/>
   <joint name="a" type="revolute"><parent link="ground"/><child link="crank"/><axis xyz="0 0 1"/>
     <limit lower="-1.5" upper="2"/></joint>
@@ -252,7 +274,78 @@ fn the_command_writes_and_tells() {
     assert_eq!(finite(&back), Some(1));
 
     let output = convert(&[source, "--to", "sdf"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let back = read(&text(&output.stdout), "back.sdf", &[]).unwrap();
+    assert_eq!((back.format, finite(&back)), ("sdf", Some(1)));
+    let output = convert(&[source, "--to", "pinocchio"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("def build():"));
+
+    let output = convert(&[source, "--to", "usd"]);
     assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
+fn what_mjcf_cannot_say_of_the_ground_and_of_efforts_is_told() {
+    // The ground is the second link, a quarter turn about x beside the root: what pulls along −z of the world pulls along −y of the ground.
+    let text = r#"<robot name="turned"><link name="root"/>
+      <link name="held"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial></link><link name="arm"/>
+      <joint name="a" type="continuous"><parent link="root"/><child link="held"/><origin rpy="${pi/2} 0 0"/><axis xyz="1 0 0"/></joint>
+      <joint name="b" type="revolute"><parent link="held"/><child link="arm"/><axis xyz="0 0 1"/>
+        <limit lower="-1" upper="1" effort="3"/></joint>
+      <ground link="held"/><scene><gravity xyz="0 0 -10"/></scene></robot>"#;
+    let reading = read(text, "turned.urdf", &[]).unwrap();
+    let converted = to_mjcf(&reading.mechanism, Hinges::TwoPoints);
+    let line = converted.text.lines().find(|line| line.contains("gravity"));
+    let words = line.unwrap().split('"').nth(1).unwrap().split(' ');
+    let gravity: Vec<f64> = words.map(|word| word.parse().unwrap()).collect();
+    for (found, expected) in gravity.iter().zip([0.0, -10.0, 0.0]) {
+        assert!((found - expected).abs() < 1e-12, "{gravity:?}");
+    }
+    for what in [
+        "the mass of the ground",
+        "the largest effort of `b`, which no motor drives",
+    ] {
+        let told = converted.not_said.iter().any(|told| told.contains(what));
+        assert!(told, "{what}: {:?}", converted.not_said);
+    }
+}
+
+#[test]
+fn urdf_says_what_it_can_and_what_urdfdom_refuses() {
+    // `b` follows `a`; `b` is coupled to `c` as well, which then follows `b`.
+    let text = r#"<robot name="three"><link name="base"/><link name="x"/><link name="y"/><link name="z"/><link name="box"/>
+      <joint name="a" type="revolute"><parent link="base"/><child link="x"/><axis xyz="0 0 1"/><limit lower="-1" upper="1"/></joint>
+      <joint name="b" type="continuous"><parent link="base"/><child link="y"/><axis xyz="0 0 1"/><mimic joint="a"/></joint>
+      <joint name="c" type="prismatic"><parent link="base"/><child link="z"/><axis xyz="0 0 1"/></joint>
+      <joint name="d" type="cylindrical"><parent link="z"/><child link="tip"/><axis xyz="0 0 1"/><dynamics damping="1"/></joint>
+      <link name="tip"/>
+      <joint name="d.rot" type="floating"><parent link="base"/><child link="box"/></joint>
+      <coupling name="two---dashes" offset="0"><term joint="b" coefficient="1"/><term joint="c" coefficient="-4"/></coupling>
+      <coupling name="none--at all" offset="1"><term joint="a" coefficient="1"/></coupling></robot>"#;
+    let reading = read(text, "three.urdf", &[]).unwrap();
+    let converted = to_urdf(&reading.mechanism).unwrap();
+    for what in [
+        "an effort and a rate of `a`, `c`, `d.trans`",
+        "damping and friction of `d`",
+        "coupling `none--at all`",
+    ] {
+        let told = converted.not_said.iter().any(|told| told.contains(what));
+        assert!(told, "{what}: {:?}", converted.not_said);
+    }
+    // What is told stands in a comment, which is one.
+    let again = read(&converted.text, "tree.urdf", &[]);
+    let again = again.unwrap_or_else(|error| panic!("{error}\n{}", converted.text));
+    assert_eq!(again.mechanism.couplings().len(), 2, "{}", converted.text);
+    let c = again.mechanism.joint_named("c").unwrap();
+    assert!(again.mechanism.couplings().iter().any(|coupling| {
+        let of_c = coupling.terms.iter().find(|term| term.joint == c);
+        of_c.is_some()
+    }));
+    assert_eq!(
+        again.mechanism.links().len(),
+        reading.mechanism.links().len() + 1
+    );
 }
 
 #[test]

@@ -24,6 +24,8 @@ mod cli_docs;
 mod clock;
 mod components;
 mod convert_cli;
+mod convert_pinocchio;
+mod convert_sdf;
 mod dead_centres;
 mod depths;
 mod derivatives;

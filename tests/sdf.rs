@@ -540,3 +540,45 @@ fn joints_are_where_the_specification_has_them_and_that_is_told() {
         assert_eq!(finite(&reading), Some(2), "{file}");
     }
 }
+
+#[test]
+fn masses_and_shapes_are_read_and_what_is_not_is_counted() {
+    let reading = model(
+        "<link name='a'><pose>1 0 0 0 0 0</pose><inertial><pose>0 0 0.5 0 0 0</pose><mass>2.5</mass><inertia><ixx>0.2</ixx><iyy>0.3</iyy><izz>0.4</izz></inertia></inertial>
+          <collision name='c'><geometry><capsule><radius>0.1</radius><length>0.7</length></capsule></geometry></collision>
+          <visual name='v'><pose relative_to='b'>0 0 1 0 0 0</pose><geometry><mesh><uri>model://arm.stl</uri><scale>2 2 2</scale></mesh></geometry><material/></visual>
+          <visual name='w'><geometry><plane><normal>0 0 1</normal></plane></geometry></visual>
+          <collision name='d'><geometry><sphere><radius>-1</radius></sphere></geometry></collision></link>
+        <link name='b'><pose>1 2 0 0 0 0</pose><inertial><mass>1</mass></inertial></link>
+        <link name='c'><pose>0 0 0 0 0 0</pose></link>
+        <joint name='i' type='fixed'><parent>a</parent><child>c</child></joint>
+        <joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz></axis></joint>",
+    );
+    let link = |name: &str| {
+        let id = reading.mechanism.link_named(name).unwrap();
+        reading.mechanism.link(id)
+    };
+    let a = link("a");
+    let mass = a.inertial.as_ref().unwrap();
+    let values = mass.inertia.each_ref().map(|moment| moment.value());
+    assert_eq!(mass.mass.value(), 2.5);
+    assert_eq!(values, [0.2, 0.0, 0.0, 0.3, 0.0, 0.4]);
+    assert_eq!(mass.origin.position[2].value(), 0.5);
+    assert_eq!((a.collisions.len(), a.visuals.len()), (1, 1));
+    // Where it is in `b`, which is 2 m beside.
+    let at = a.visuals[0].origin.position.each_ref().map(|x| x.value());
+    assert_eq!(at, [0.0, 2.0, 1.0]);
+    assert_eq!(a.visuals[0].name.as_deref(), Some("v"));
+    // SDFormat's moments of inertia where none are stated; a link without <inertial> has none that are known.
+    let b = link("b").inertial.as_ref().unwrap();
+    assert_eq!(b.inertia[0].value(), 1.0);
+    assert!(link("c").inertial.is_none());
+    let skipped: Vec<&str> = reading.skipped.iter().map(|skip| &skip.what[..]).collect();
+    for what in [
+        "<material>",
+        "<geometry>: plane",
+        "<collision>: a length of a solid is negative",
+    ] {
+        assert!(skipped.contains(&what), "{what}: {skipped:?}");
+    }
+}

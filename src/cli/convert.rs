@@ -5,7 +5,9 @@ use super::{DONE, load, output};
 use clap::{Args, ValueEnum};
 use kutzbach::format::{Numbers, Reading, WriteOptions, write_with};
 use kutzbach::mechanism::Mechanism;
-use kutzbach::report::convert::{Converted, Hinges, relaxed, to_mjcf, to_urdf};
+use kutzbach::report::convert::{
+    Converted, Hinges, relaxed, to_mjcf, to_pinocchio, to_sdf, to_urdf,
+};
 use kutzbach::report::text::visible;
 
 /// Write a mechanism in another format; what that cannot say is told on standard error
@@ -32,6 +34,10 @@ enum Target {
     Urdf,
     /// MuJoCo's format: loops are equalities
     Mjcf,
+    /// Gazebo's format: loops are joints like others
+    Sdf,
+    /// A Python program that makes Pinocchio's models of the open tree and of its loops
+    Pinocchio,
 }
 
 /// Runs the command.
@@ -82,6 +88,16 @@ fn written(reading: &Reading, to: Target, hinges: Hinges) -> Result<Converted, F
             help: error.help,
         }),
         Target::Mjcf => Ok(to_mjcf(mechanism, hinges)),
+        Target::Sdf => to_sdf(mechanism).map_err(|error| Failure::Plain {
+            message: format!("cannot be written as SDF: {error}"),
+            help: Some(
+                "`kutzbach report FILE` says whether and why its loops do not close".to_owned(),
+            ),
+        }),
+        Target::Pinocchio => to_pinocchio(mechanism).map_err(|error| Failure::Plain {
+            message: format!("cannot be written for Pinocchio: {error}"),
+            help: error.help,
+        }),
     }
 }
 

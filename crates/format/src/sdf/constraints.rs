@@ -30,10 +30,12 @@ const PARALLEL: f64 = 0.01;
 
 /// Parts of the names of plugins: of joints that follow, and of motors.
 const FOLLOWING: [&str; 3] = ["mimic_joint", "mimic-joint", "MimicJoint"];
-const DRIVING: [&str; 6] = [
+const DRIVING: [&str; 8] = [
+    "ApplyJointForce",
     "JointPositionController",
     "JointController",
     "JointTrajectoryController",
+    "apply-joint-force",
     "joint-position-controller",
     "joint-controller",
     "joint-trajectory-controller",

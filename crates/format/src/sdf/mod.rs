@@ -13,6 +13,7 @@
 //! | `world`, `<static>` | the ground, and links that are fixed to it |
 //! | the plugin `DetachableJoint` | a fixed joint, as drawn |
 //! | `drake:joint` and Drake's constraints | joints |
+//! | `<inertial>`, `<visual>`, `<collision>` | masses and shapes |
 //!
 //! Up to version 1.4 an axis is given in the model's frame, from 1.5 on in the joint's. Where a model has no joint to the world, its
 //! canonical link is held, as the root link of URDF is.
@@ -24,6 +25,7 @@
 //! | `pose` | the graph of poses |
 //! | `joints` | joints |
 //! | `constraints` | gearboxes, plugins and Drake's constraints |
+//! | `solids` | masses and shapes |
 //! | `tree` | what places the links, and what is held |
 //!
 //! Source: the specification at sdformat.org and its tutorials on frames and composition.
@@ -33,6 +35,7 @@ mod joints;
 mod models;
 mod names;
 mod pose;
+mod solids;
 mod tree;
 
 use super::element::Element;

@@ -54,7 +54,7 @@ const OF_MODEL: [&str; 7] = [
 ];
 
 /// Parts that say nothing about motion.
-const STANDARD: [&str; 25] = [
+const STANDARD: [&str; 22] = [
     "light",
     "actor",
     "physics",
@@ -70,9 +70,6 @@ const STANDARD: [&str; 25] = [
     "allow_auto_disable",
     "enable_wind",
     "gripper",
-    "inertial",
-    "visual",
-    "collision",
     "sensor",
     "projector",
     "audio_sink",
@@ -255,7 +252,7 @@ impl<'a> Sdf<'a> {
         }
         for part in link.elements() {
             match part.name() {
-                "pose" => {}
+                "pose" | "inertial" | "visual" | "collision" => {}
                 name if STANDARD.contains(&name) => self.unread.standard(part),
                 _ => self.unknown(part, "link", &["pose"])?,
             }

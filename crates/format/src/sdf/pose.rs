@@ -174,13 +174,13 @@ fn between(mut up: Vec<&Frame>, mut down: Vec<&Frame>) -> Option<Frame> {
 }
 
 /// What a `<pose>` says.
-struct Pose<'a> {
-    frame: Frame,
-    relative_to: Option<Attribute<'a>>,
+pub(super) struct Pose<'a> {
+    pub(super) frame: Frame,
+    pub(super) relative_to: Option<Attribute<'a>>,
 }
 
 /// The pose of an element; without one it is where it would be anyway.
-fn pose_of<'a>(element: Element<'a>) -> Outcome<Pose<'a>> {
+pub(super) fn pose_of<'a>(element: Element<'a>) -> Outcome<Pose<'a>> {
     let mut pose = Pose {
         frame: Frame::identity(),
         relative_to: None,
@@ -253,7 +253,11 @@ impl<'a> Sdf<'a> {
 
     /// What a pose is given in. The attribute was called `frame` in versions 1.5 and 1.6, where programs did not heed it: there a name that
     /// nothing has says nothing.
-    fn reference(&mut self, scope: usize, name: Attribute<'a>) -> Outcome<Option<Thing>> {
+    pub(super) fn reference(
+        &mut self,
+        scope: usize,
+        name: Attribute<'a>,
+    ) -> Outcome<Option<Thing>> {
         let found = self.look_up(scope, name);
         if found.is_err() && self.version < (1, 7) {
             let what = "`frame` of <pose> that names nothing".to_owned();

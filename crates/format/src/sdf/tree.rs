@@ -66,8 +66,11 @@ impl<'a> Sdf<'a> {
             self.builder.link(&self.world);
             self.builder.ground(&self.world);
         }
-        for link in &self.links {
-            self.builder.link(&link.name);
+        for link in 0..world {
+            let solids = self.solids(link);
+            let name = self.name_of(Some(link)).to_owned();
+            self.builder
+                .detailed_link(&name, solids.inertial, solids.collisions, solids.visuals);
         }
         let mut tree = self.tree(root);
         for link in statics.into_iter().chain(held.clone()) {

@@ -8,6 +8,9 @@ use kutzbach_model::mechanism::{Geometry as Solid, Inertial, Shape};
 /// Below this MuJoCo takes a mass or an inertia for none.
 const LEAST: f64 = 1e-15;
 
+/// A shape has to be larger than this (m).
+pub(super) const EXTENT: f64 = LEAST;
+
 /// What a moving link weighs that the file gives no mass: MuJoCo refuses bodies without.
 pub(super) const DEFAULT: &str =
     "<inertial pos=\"0 0 0\" mass=\"0.1\" diaginertia=\"0.001 0.001 0.001\"/>";
@@ -18,13 +21,19 @@ pub(super) const OF_CLOSURE: &str =
 
 type Matrix = [[f64; 3]; 3];
 
+/// Whether some body has these masses: there is a mass, and the moments of inertia are positive, none of them above the sum of the others.
+pub(super) fn is_body(inertial: &Inertial) -> bool {
+    let [a, b, c, d, e, f] = inertial.inertia.each_ref().map(Number::value);
+    inertial.mass.value() > LEAST && is_possible(&[[a, b, c], [b, d, e], [c, e, f]])
+}
+
 /// `<inertial>`; `None` for what no body can have: no mass, or moments of inertia that are not positive or of which one exceeds the sum
 /// of the others.
 pub(super) fn inertial(inertial: &Inertial, pose: &Rigid<f64>) -> Option<String> {
     let [ixx, ixy, ixz, iyy, iyz, izz] = &inertial.inertia;
     let [a, b, c, d, e, f] = inertial.inertia.each_ref().map(Number::value);
     let matrix = [[a, b, c], [b, d, e], [c, e, f]];
-    if !(inertial.mass.value() > LEAST && is_possible(&matrix)) {
+    if !is_body(inertial) {
         return None;
     }
     let mass = text(&inertial.mass);
@@ -103,7 +112,7 @@ pub(super) fn shape(shape: &Shape, group: usize) -> Option<String> {
         Solid::Sphere(radius) => ("sphere", vec![radius.clone()]),
         Solid::Mesh { .. } => return None,
     };
-    if size.iter().any(|x| !(x.value() > LEAST)) {
+    if size.iter().any(|x| !(x.value() > EXTENT)) {
         return None;
     }
     let (place, size) = (

@@ -5,13 +5,13 @@
 //! drawn; where a loop is not closed as drawn, sites say where the two sides have to meet.
 
 use super::Hinges;
+use super::gaps::{gap, is_spoken_of, lever, tolerance};
 use super::mjcf::Mjcf;
 use super::parts::{Part, parts};
-use super::place::{Place, Triple, is_identity, rounded, text, texts, triple, values};
+use super::place::{Place, Triple, is_identity, rounded, settled, texts, triple, values};
 use kutzbach_closure::Rigid;
 use kutzbach_format::escaped;
-use kutzbach_math::number::Number;
-use kutzbach_model::mechanism::{Coupling, Frame, Joint, JointId, JointKind, LinkId, Side};
+use kutzbach_model::mechanism::{Frame, Joint, JointId, JointKind, LinkId, Side};
 
 /// A body that carries the freedoms of a joint.
 #[derive(Clone, Debug)]
@@ -24,12 +24,6 @@ pub(super) struct Carrier {
     /// A site at its origin.
     pub(super) site: Option<String>,
 }
-
-/// Rounding errors of a loop, relative to its size: some million roundings.
-const ROUNDINGS: f64 = 1e-10;
-
-/// What rounded digits may do to a gap, in units of what they leave open of all joints.
-const OF_DIGITS: f64 = 4.0;
 
 impl Mjcf<'_> {
     /// Prepares what closes all loops.
@@ -44,15 +38,15 @@ impl Mjcf<'_> {
     fn close(&mut self, id: JointId, joint: &Joint) {
         let geometry = self.geometry;
         let fitted = geometry.displacements[id.0].displacement(&geometry.states[id.0]);
-        let gap = self.gap(id, &fitted);
-        let open = gap > self.tolerance();
+        let gap = gap(self.mechanism, geometry, id, &fitted);
+        let open = gap > tolerance(geometry, self.size);
         if open {
             self.not_said.push(format!(
                 "loop `{}` is open as drawn, by {gap:.3e} m or rad: MuJoCo pulls it together when it starts",
                 joint.name
             ));
         }
-        let carried = self.is_spoken_of(id, joint);
+        let carried = is_spoken_of(self.mechanism, id);
         match joint.kind {
             JointKind::Fixed => self.weld_links(joint, open),
             JointKind::Spherical if !carried => {
@@ -63,38 +57,6 @@ impl Mjcf<'_> {
             }
             _ => self.carry(id, joint, fitted, open),
         }
-    }
-
-    /// Whether the file says something of a joint's variables, which then have to be in the file written.
-    fn is_spoken_of(&self, id: JointId, joint: &Joint) -> bool {
-        let coupled = |coupling: &Coupling| coupling.terms.iter().any(|term| term.joint == id);
-        self.mechanism.actuated().contains(&id)
-            || self.mechanism.couplings().iter().any(coupled)
-            || joint.bounds().is_some()
-            || joint.dynamics.is_some() && joint.freedom() == 1
-    }
-
-    /// How far the two sides of a closing joint are from what it allows, as drawn (m and rad together).
-    fn gap(&self, id: JointId, fitted: &Rigid<f64>) -> f64 {
-        let joint = self.mechanism.joint(id);
-        let [predecessor, successor] = &self.geometry.sides[id.0];
-        let home = &self.geometry.home;
-        let first = home[joint.predecessor.link.0].compose(predecessor);
-        let second = home[joint.successor.link.0].compose(successor);
-        let between = first.compose(fitted).inverse().compose(&second);
-        let size = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-        // What lies in the two sides' own directions is what the joint leaves free.
-        size(&between.translation) + size(&between.rotation_vector())
-    }
-
-    /// Up to which gap a loop is closed: what the digits of all joints leave open, and rounding errors.
-    fn tolerance(&self) -> f64 {
-        let size = 1.0 + self.size;
-        let open = self.geometry.uncertainties.iter();
-        let digits = open.fold(0.0, |sum: f64, own| {
-            sum.hypot(own.lengths).hypot(own.angles * size)
-        });
-        OF_DIGITS * digits + ROUNDINGS * size
     }
 
     fn weld_links(&mut self, joint: &Joint, open: bool) {
@@ -117,23 +79,9 @@ impl Mjcf<'_> {
     fn hinge(&mut self, id: JointId, joint: &Joint, open: bool) {
         let axis = values(&joint.axis.0);
         let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let factor = match length == 1.0 {
-            true => self.lever(),
-            false => rounded(self.lever().value() / length),
-        };
+        let factor = lever(self.size, length);
         let end: Triple = joint.axis.0.each_ref().map(|x| x * &factor);
         self.connect(id, joint, &[[0.0; 3], values(&end)], open);
-    }
-
-    /// The distance of the two points of a hinge: the power of ten below the size of the mechanism.
-    fn lever(&self) -> Number {
-        let size = self.size.max(1e-6).log10().floor();
-        let places = size.abs().min(6.0) as u32;
-        let power = 10i64.pow(places);
-        match size < 0.0 {
-            true => Number::ratio(1, power).unwrap_or_else(Number::one),
-            false => Number::integer(power),
-        }
     }
 
     /// One `<connect>` for each point, told in the joint's frame, which both sides share at these points.
@@ -171,13 +119,9 @@ impl Mjcf<'_> {
             return Frame::at(origin.clone());
         }
         let turned = triple(self.geometry.sides[id.0][side].rotate(&offset));
-        // Sums of decimals stay decimals: computed numbers are taken by their shortest text.
-        let sum = |i: usize| {
-            if turned[i].is_zero() {
-                return origin[i].clone();
-            }
-            let short = Number::decimal(&text(&turned[i]));
-            &origin[i] + &short.unwrap_or_else(|_| turned[i].clone())
+        let sum = |i: usize| match turned[i].is_zero() {
+            true => origin[i].clone(),
+            false => rounded(origin[i].value() + turned[i].value()),
         };
         Frame::at([sum(0), sum(1), sum(2)])
     }
@@ -208,7 +152,7 @@ impl Mjcf<'_> {
         };
         if !open && joint.freedom() == 1 {
             let value = geometry.states[id.0].values.first();
-            self.drawn[id.0] = value.map_or(0.0, |value| rounded(*value).value());
+            self.drawn[id.0] = value.map_or(0.0, |value| settled(*value));
         }
         let parts = parts(joint, standing.as_ref());
         let names = self.named(id, joint, &parts);

@@ -6,7 +6,7 @@
 use super::body::{self, DEFAULT, OF_CLOSURE};
 use super::closures::Carrier;
 use super::parts::{Motion, Part, names, pitch};
-use super::place::{rigid, rounded, text, texts};
+use super::place::{is_straight, rigid, rounded, text, texts, triple, values};
 use super::tree::{Joined, Step, parts_of, steps};
 use super::{Converted, Hinges};
 use kutzbach_closure::{Arithmetic, Geometry};
@@ -146,9 +146,16 @@ impl Mjcf<'_> {
             1,
             "<compiler angle=\"radian\" eulerseq=\"XYZ\" autolimits=\"false\" inertiafromgeom=\"false\"/>",
         );
-        let scene = self.mechanism.scene();
+        let mechanism = self.mechanism;
+        let scene = mechanism.scene();
         if let Some(gravity) = scene.and_then(|scene| scene.gravity.as_ref()) {
-            self.line(1, &format!("<option gravity=\"{}\"/>", texts(gravity)));
+            // The world there is the ground, which may be turned here.
+            let ground = &self.geometry.home[mechanism.ground().0];
+            let gravity = match is_straight(ground) {
+                true => gravity.clone(),
+                false => triple(ground.rotate_back(&values(gravity))),
+            };
+            self.line(1, &format!("<option gravity=\"{}\"/>", texts(&gravity)));
         }
     }
 
@@ -264,6 +271,13 @@ impl Mjcf<'_> {
         if limit.is_some_and(|limit| limit.velocity.is_some()) {
             self.not_said
                 .push(format!("the largest rate of `{}`", joint.name));
+        }
+        let driven = self.mechanism.actuated().contains(&id);
+        if limit.is_some_and(|limit| limit.effort.is_some()) && !driven {
+            self.not_said.push(format!(
+                "the largest effort of `{}`, which no motor drives",
+                joint.name
+            ));
         }
         let (Some((lower, upper)), Some(limit)) = (joint.bounds(), limit) else {
             return " limited=\"false\"".to_owned();
@@ -403,6 +417,10 @@ impl Mjcf<'_> {
         if mechanism.expectation().is_some() {
             self.not_said
                 .push("what is expected of the mechanism".to_owned());
+        }
+        if mechanism.link(mechanism.ground()).inertial.is_some() {
+            self.not_said
+                .push("the mass of the ground, which does not move".to_owned());
         }
         if self.shapes > 0 {
             self.not_said

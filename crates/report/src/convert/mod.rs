@@ -5,8 +5,12 @@
 //! | `place` | numbers, directions and frames as text |
 //! | `parts` | a joint as turns, slides and balls one after another |
 //! | `tree` | the bodies from the ground outward |
+//! | `gaps` | what closes loops: whether it is closed as drawn, and where it is |
+//! | `follow` | couplings of two joints as one that follows the other |
 //! | `mjcf`, `closures`, `body`, `couplings` | MuJoCo's format: bodies; what closes loops; masses and shapes; what couples joints |
+//! | `sdf` | Gazebo's format: links as drawn, and joints between any two of them |
 //! | `urdf` | URDF without any word of ours |
+//! | `pinocchio` | a Python program that makes Pinocchio's models of the tree and of the loops |
 //! | `relax` | the mechanism without redundant constraints |
 //!
 //! What a format cannot say is told, never left out in silence.
@@ -14,15 +18,21 @@
 mod body;
 mod closures;
 mod couplings;
+mod follow;
+mod gaps;
 mod mjcf;
 mod parts;
+mod pinocchio;
 mod place;
 mod relax;
+mod sdf;
 mod tree;
 mod urdf;
 
 pub use mjcf::to_mjcf;
+pub use pinocchio::to_pinocchio;
 pub use relax::{Relaxed, relaxed};
+pub use sdf::{NotClosed, to_sdf};
 pub use urdf::to_urdf;
 
 /// A mechanism in another format.

@@ -2,13 +2,23 @@
 
 use kutzbach_closure::Rigid;
 use kutzbach_math::number::Number;
-use kutzbach_model::mechanism::Frame;
+use kutzbach_model::mechanism::{Frame, Precision};
 
 /// A direction or a point.
 pub(super) type Triple = [Number; 3];
 
 /// Decimals that end within so many places are written whole: as many as a double has digits.
 const PLACES: u32 = 17;
+
+/// So many significant digits say that a number is known as well as a double: from twelve on, zeros at the end of all numbers of a file
+/// are taken for padding that says nothing.
+const DIGITS: usize = 11;
+
+/// Decimals of a number that a computation missed by roundings.
+const FEW: usize = 9;
+
+/// Up to so many decimals are chosen by people, and taken for exact.
+const CHOSEN: usize = Precision::EXACT_DECIMALS as usize;
 
 /// What is computed from entries of about 1 and lies below this is a zero with its rounding errors.
 const NOISE: f64 = 1e-15;
@@ -22,6 +32,11 @@ pub(super) fn rounded(x: f64) -> Number {
         return Number::zero();
     }
     Number::from_f64(x).unwrap_or_else(Number::zero)
+}
+
+/// The value of a joint at a pose (rad, m), zero within rounding errors.
+pub(super) fn settled(x: f64) -> f64 {
+    if x.abs() < SAME { 0.0 } else { x }
 }
 
 /// Computed doubles.
@@ -38,13 +53,56 @@ pub(super) fn zeros() -> Triple {
     [Number::zero(), Number::zero(), Number::zero()]
 }
 
-/// A number: a literal as it was read, what ends as a decimal whole, anything else as a double that reads back the same.
+/// A number: a literal as it was read, what ends as a decimal whole, anything else as a double that reads back the same, but for a few
+/// roundings of what else is a short decimal. A decimal says how well it is known, so that an exact one does not stop where its digits
+/// do: `12.001` would be a number known to three decimals.
 pub(super) fn text(number: &Number) -> String {
     if let Some(literal) = number.literal_text() {
         return literal.to_owned();
     }
+    let value = number.value() + 0.0;
     let short = number.decimal_text(PLACES);
-    short.unwrap_or_else(|| format!("{:?}", number.value() + 0.0))
+    let short = short.or_else(|| without_roundings(value));
+    let short = short.unwrap_or_else(|| format!("{value:?}"));
+    // What was computed from decimals is known as well as the worst of them.
+    let known = number
+        .coarsest_input()
+        .map_or(DIGITS, |decimals| usize::try_from(decimals).unwrap_or(0));
+    let digits = |text: &str| {
+        let digits = text.chars().filter(char::is_ascii_digit);
+        digits.skip_while(|digit| *digit == '0').count()
+    };
+    if let Some((mantissa, _)) = short.split_once('e') {
+        return match digits(mantissa) < DIGITS && known == DIGITS {
+            true => format!("{value:.0$e}", DIGITS - 1),
+            false => short,
+        };
+    }
+    let decimals = short
+        .split_once('.')
+        .map_or(0, |(_, decimals)| decimals.len());
+    if decimals <= CHOSEN {
+        return short;
+    }
+    let places = DIGITS.saturating_sub(digits(&short));
+    let places = match number.coarsest_input() {
+        Some(_) => places.min(known.saturating_sub(decimals)),
+        None => places,
+    };
+    short + &"0".repeat(places)
+}
+
+/// The decimal of few places that a double is but for the roundings of a computation, as `3.500000000000001` is 3.5: readers that know the
+/// decimal would take its own digits for all that is known of it.
+fn without_roundings(value: f64) -> Option<String> {
+    let text = format!("{value:.FEW$}");
+    let near = text.trim_end_matches('0').trim_end_matches('.');
+    let roundings = 4.0 * f64::EPSILON * value.abs().max(1.0);
+    let apart = (near.parse::<f64>().ok()? - value).abs();
+    (apart <= roundings).then(|| match near {
+        "-0" => "0".to_owned(),
+        _ => near.to_owned(),
+    })
 }
 
 /// Numbers with spaces between them.
@@ -115,6 +173,36 @@ impl Place {
         }
     }
 
+    /// As a displacement.
+    pub(super) fn rigid(&self) -> Rigid<f64> {
+        match self {
+            Self::Stated(frame) => rigid(frame),
+            Self::Computed(pose) => pose.clone(),
+        }
+    }
+
+    /// Where a place in this one is; what is nowhere else keeps its digits.
+    pub(super) fn then(self, next: Self) -> Self {
+        let stays = |place: &Self| matches!(place, Self::Stated(frame) if frame.is_identity());
+        if stays(&next) {
+            return self;
+        }
+        if stays(&self) {
+            return next;
+        }
+        Self::Computed(self.rigid().compose(&next.rigid()))
+    }
+
+    /// The other way round; a frame that is not turned keeps its digits.
+    pub(super) fn inverse(&self) -> Self {
+        match self {
+            Self::Stated(frame) if frame.roll_pitch_yaw.iter().all(Number::is_zero) => {
+                Self::Stated(Frame::at(frame.position.each_ref().map(|x| -x)))
+            }
+            _ => Self::Computed(self.rigid().inverse()),
+        }
+    }
+
     /// As position, roll, pitch and yaw.
     pub(super) fn frame(&self) -> Frame {
         match self {
@@ -148,9 +236,48 @@ mod tests {
     fn numbers_are_written_as_they_were_read() {
         let literal = Number::decimal("0.100").unwrap();
         assert_eq!(text(&literal), "0.100");
-        assert_eq!(text(&Number::ratio(1, 8).unwrap()), "0.125");
+        let ratio = |over: i64, under: i64| Number::ratio(over, under).unwrap();
+        assert_eq!(text(&ratio(1, 4)), "0.25");
+        // Exact numbers, and doubles, are no rounded ones.
+        assert_eq!(text(&ratio(1, 8)), "0.12500000000");
+        assert_eq!(text(&ratio(-12_001, 1000)), "-12.001000000");
+        assert_eq!(text(&rounded(0.001)), "0.0010000000000");
+        assert_eq!(text(&rounded(1e-7)), "0.00000010000000000");
+        assert_eq!(text(&rounded(1e-12)), "1.0000000000e-12");
+        // What a computation missed by roundings.
+        assert_eq!(text(&rounded(3.500000000000001)), "3.5");
+        assert_eq!(text(&rounded(-1.9999999999999998)), "-2");
+        assert_eq!(text(&rounded(0.9990000000000001)), "0.99900000000");
+        assert_eq!(text(&rounded(0.6324555320336759)), "0.6324555320336759");
+        // What was computed from decimals of one and three places is known to one.
+        let sum = &Number::decimal("0.5").unwrap() + &Number::decimal("0.125").unwrap();
+        assert_eq!(text(&sum), "0.625");
+        let sum = &Number::decimal("0.0625").unwrap() + &Number::decimal("0.3000").unwrap();
+        assert_eq!(text(&sum), "0.3625");
         assert_eq!(text(&Number::ratio(1, 3).unwrap()), "0.3333333333333333");
         assert_eq!(text(&rounded(-3e-17)), "0");
+    }
+
+    #[test]
+    fn places_one_after_another_keep_their_digits() {
+        let number = |text: &str| Number::decimal(text).unwrap();
+        let stated = || Place::Stated(Frame::at([number("0.10"), number("2"), number("-3")]));
+        let here = || Place::Stated(Frame::identity());
+        for place in [stated().then(here()), here().then(stated())] {
+            assert_eq!(texts(&place.frame().position), "0.10 2 -3");
+        }
+        let back = stated().inverse().frame();
+        assert_eq!(values(&back.position), [-0.1, -2.0, 3.0]);
+        let both = stated().then(stated().inverse());
+        assert!(is_identity(&both.rigid()));
+        let turned = Place::Stated(Frame {
+            position: stated().frame().position,
+            roll_pitch_yaw: [number("0.3"), number("-0.7"), number("1.9")],
+        });
+        let both = turned.inverse().then(turned);
+        assert!(is_identity(&both.rigid()));
+        assert_eq!(settled(-1e-13), 0.0);
+        assert_eq!(settled(-1e-11), -1e-11);
     }
 
     #[test]
