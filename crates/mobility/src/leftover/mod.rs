@@ -307,11 +307,10 @@ impl<'a> Leftover<'a> {
 
     /// What has to be taken off across the kernel for the equations that are reached to hold.
     fn step(&self, residual: &[Extended], turned: &TurnedTo) -> Vec<Extended> {
-        // A step gains some seventy bits: no more are needed of the shares.
-        let short = self.one.rounded_to(OF_SHARES);
-        let residual: Vec<Extended> = residual.iter().map(|x| x.rounded_to(OF_SHARES)).collect();
+        // What is left over is part of the residual and far larger: only the shares may be rounded. A step gains some seventy bits.
         let shares = self.reached.iter();
-        let shares = shares.map(|(u, _, s)| short.dot(u, &residual) / s.clone());
+        let shares =
+            shares.map(|(u, _, s)| self.one.dot(u, residual).rounded_to(OF_SHARES) / s.clone());
         let shares = turned.corrected(shares.collect());
         // Steps are exactly in the span of the right vectors: what is across the kernel has to be one space for all poses.
         let unknowns = self.across.iter();
