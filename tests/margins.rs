@@ -107,3 +107,44 @@ fn a_door_has_no_more_freedoms_than_one_hinge() {
     assert_eq!(found.verdict, Verdict::Rigid);
     assert!(found.nominal.is_some_and(|n| !n.within_digits));
 }
+
+/// A planar ring of hinges along a line; positive links lead out, negative ones back.
+fn folded_ring(links: &[&str]) -> Report {
+    let last = links.len() - 1;
+    let mut text = String::from(r#"<robot name="folded"><link name="l0"/>"#);
+    for (link, length) in links[..last].iter().enumerate() {
+        text += &format!(
+            r#"<link name="l{next}"/><joint name="j{next}" type="continuous"><parent link="l{link}"/><child link="l{next}"/>
+            <origin xyz="${{{length}}} 0 0"/><axis xyz="0 0 1"/></joint>"#,
+            next = link + 1,
+        );
+    }
+    text += &format!(
+        r#"<loop name="last" type="continuous"><predecessor link="l{last}"><origin xyz="${{{}}} 0 0"/></predecessor>
+        <successor link="l0"/><axis xyz="0 0 1"/></loop></robot>"#,
+        links[last]
+    );
+    let reading = read(&text, "folded.urdf", &[]).unwrap_or_else(|error| panic!("{error}"));
+    report(&reading, "folded.urdf", &Options::default()).unwrap()
+}
+
+/// What the lengths allow along the line is a quadratic form of as many squares as there are links that turn, less one: two of each
+/// sign, however short two of the links are. Its cone is irreducible, one branch on which every joint moves. In doubles the two small
+/// squares vanish, and what is left is a product of two.
+#[test]
+fn links_too_short_for_doubles_do_not_make_two_branches() {
+    for exponent in [6, 9, 11, 13, 14, 17, 25] {
+        let (short, back) = (format!("7/10**{exponent}"), format!("-7/10**{exponent}"));
+        for (a, b, minus_a, minus_b) in [("1/2", "1/2", "-1/2", "-1/2"), ("2", "1", "-2", "-1")] {
+            let found = folded_ring(&[a, &short, b, minus_b, &back, minus_a]);
+            let place = format!("links {a}, {b}, two of {short}");
+            let mobility = (found.mobility.verdict, found.mobility.finite);
+            assert_eq!(mobility, (Verdict::Mobile, Some(3)), "{place}");
+            assert_eq!(found.home.instantaneous, Some(4), "{place}");
+            let branches = found.branches.unwrap_or_default();
+            assert!(branches.len() <= 1, "{place}: {branches:?}");
+            let none = |b: &kutzbach::report::Branch| b.locked.is_empty() && b.idle.is_empty();
+            assert!(branches.iter().all(none), "{place}: {branches:?}");
+        }
+    }
+}

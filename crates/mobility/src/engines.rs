@@ -14,7 +14,7 @@ use super::pose_rank::{PartRank, Pose};
 use super::question::{Means, OfWhole, Question};
 use super::singular::{
     arrangement, complex_bound, form, is_multiple, one_variable, polygon, search, splitting,
-    variables,
+    splitting_beyond_doubles, variables,
 };
 use super::vocabulary::{EngineName, PoseKind};
 use kutzbach_closure::{Part, Structure};
@@ -30,7 +30,7 @@ struct Engine {
 }
 
 /// All of them.
-static ENGINES: [Engine; 16] = [
+static ENGINES: [Engine; 17] = [
     Engine {
         name: EngineName::Rank,
         because: "done already; no motion has more freedoms than velocities, and what it leaves open no other tells",
@@ -72,6 +72,12 @@ static ENGINES: [Engine; 16] = [
         because: "one equation in one variable needs no power series",
         may_tell: |question, found| Ok(is_singular(found) && variables(question)? == Some(1)),
         ask: one_variable,
+    },
+    Engine {
+        name: EngineName::SplittingLemma,
+        because: "numbers of many digits may make quadratic terms that doubles do not see, and a search in doubles is confident without them",
+        may_tell: |question, found| Ok(in_space(question, found)? && question.is_tall()),
+        ask: splitting_beyond_doubles,
     },
     Engine {
         name: EngineName::Germ,

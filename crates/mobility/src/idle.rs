@@ -19,11 +19,12 @@ use super::branch::{Branch, BranchPose, IdleLink};
 use super::link_twists::LinkTwists;
 use super::one_sided::{OneSided, dot};
 use super::point_chains::{Bodies, Connection, Connections, heaviest_first};
+use super::pose_rank::{TALL, height};
 use super::relative_motion::link_twists;
+use super::subgroup::drawn_hidden_offset;
 use super::tangent_space::{Blocks, Limits, TangentSpace};
 use super::without_body::standing_without;
-use kutzbach_closure::Geometry;
-use kutzbach_closure::Structure;
+use kutzbach_closure::{Geometry, Structure, jacobian};
 use kutzbach_model::mechanism::Mechanism;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -136,7 +137,11 @@ fn moving_alone(
         all.push(moving);
     }
     for (freedom, cluster) in freedoms.iter_mut().zip(clusters) {
-        if *freedom > 0 && around.is_between_two(cluster) {
+        let idle = || {
+            let apart = !nearly && around.is_hardly_apart(cluster);
+            !apart && !around.is_between_two(cluster)
+        };
+        if *freedom > 0 && !idle() {
             *freedom = 0;
         }
     }
@@ -187,6 +192,26 @@ impl<'a> Around<'a> {
                 &cluster.own,
             );
             still.is_some_and(|still| self.connections.bodies.joined(&beyond.bodies, &still))
+        })
+    }
+}
+
+impl Around<'_> {
+    /// Whether axes of a body's joints are apart by what doubles take for nothing and the file's numbers do not: it moves the others
+    /// after all. What spins between two balls is idle whatever the numbers.
+    fn is_hardly_apart(&self, cluster: &Cluster) -> bool {
+        let own = |joint: &usize| cluster.own.contains(joint);
+        let mut parts = self.structure.parts.iter();
+        let part = parts.find(|part| part.joints.iter().any(own));
+        part.is_some_and(|part| {
+            let joints: Vec<usize> = part.joints.iter().copied().filter(own).collect();
+            !cluster.spins
+                && height(self.mechanism, part) > TALL
+                && jacobian(self.mechanism, self.geometry, &self.geometry.states, part).is_ok_and(
+                    |rows| {
+                        drawn_hidden_offset(self.mechanism, part, &joints, rows.length).is_some()
+                    },
+                )
         })
     }
 }

@@ -135,6 +135,11 @@ impl<'a> Question<'a> {
         Ok(self.doubtful()?.open_by_digits() > self.rank.accuracy)
     }
 
+    /// Whether numbers are written in more digits than doubles hold beside one another.
+    pub fn is_tall(&self) -> bool {
+        height_at(self.pose, self.part) > TALL
+    }
+
     fn near(&self) -> Result<Option<&Near>, MatrixError> {
         let (Some(kernel), Some(chart)) = (self.of_kernel()?, self.chart.get()) else {
             return Ok(None);
@@ -150,7 +155,7 @@ impl<'a> Question<'a> {
                 reading: self.rank.reading.in_share(share),
                 ..self.rank.clone()
             };
-            let by_kind = height_at(self.pose, self.part) > TALL;
+            let by_kind = self.is_tall();
             Near {
                 doubtful: with(doubt),
                 rank: with(stated),

@@ -24,7 +24,7 @@ use self::by_arrangement::by_arrangement;
 use self::by_form::by_form;
 use self::by_polygon::by_polygon;
 use self::by_search::by_search;
-use self::by_splitting::by_splitting;
+use self::by_splitting::{beyond_doubles, by_splitting};
 pub(super) use self::search::most_starts;
 use super::claim::{Answer, Bounds, Claim, Says};
 use super::judge::PartFinding;
@@ -110,6 +110,18 @@ pub(super) fn splitting(
 ) -> Asked {
     if let Some(start) = question.start()? {
         by_splitting(found, &start, question.doubtful()?)?;
+    }
+    Ok(())
+}
+
+/// The splitting lemma, where many digits show more than doubles.
+pub(super) fn splitting_beyond_doubles(
+    question: &Question<'_>,
+    _: &mut Means<'_>,
+    found: &mut PartFinding,
+) -> Asked {
+    if let Some(start) = question.start()? {
+        beyond_doubles(found, &start, question.doubtful()?)?;
     }
     Ok(())
 }

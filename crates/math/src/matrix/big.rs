@@ -9,6 +9,7 @@ use dashu_float::{Context, FBig, Repr};
 use dashu_int::IBig;
 
 use super::real::{Real, Ring};
+use super::sums::Sum;
 
 /// A binary floating-point number with a stated number of bits, rounded to nearest even.
 ///
@@ -102,6 +103,37 @@ impl Big {
         match result {
             Some(number) => Self::from_repr(number.value().into_repr(), bits),
             None => Self::nan(bits),
+        }
+    }
+
+    /// Σ aᵢ bᵢ, rounded once to the finest precision among the numbers and `bits`.
+    pub(super) fn sum_of_products<'a>(
+        pairs: impl Iterator<Item = (&'a Self, &'a Self)> + Clone,
+        bits: usize,
+    ) -> Self {
+        let finest = pairs.clone().map(|(a, b)| a.bits.max(b.bits));
+        let bits = finest.fold(bits, usize::max);
+        let mut sum = Sum::new(bits);
+        for (a, b) in pairs {
+            match (&a.value, &b.value) {
+                (Some(a), Some(b)) => sum.add_product(a, b),
+                _ => return Self::nan(bits),
+            }
+        }
+        Self::rounded(sum.into_repr(), bits)
+    }
+
+    /// `self + a b`, rounded once to the finest precision of the three.
+    pub(super) fn plus_product(&self, a: &Self, b: &Self) -> Self {
+        let bits = self.bits.max(a.bits).max(b.bits);
+        match (&self.value, &a.value, &b.value) {
+            (Some(own), Some(a), Some(b)) => {
+                let mut sum = Sum::new(bits);
+                sum.add(own);
+                sum.add_product(a, b);
+                Self::rounded(sum.into_repr(), bits)
+            }
+            _ => Self::nan(bits),
         }
     }
 
@@ -220,6 +252,16 @@ impl Ring for Big {
         self.value
             .as_ref()
             .is_some_and(|repr| repr.significand().is_zero())
+    }
+
+    fn dot(&self, a: &[Self], b: &[Self]) -> Self {
+        Self::sum_of_products(a.iter().zip(b), self.bits)
+    }
+
+    fn add_scaled(&self, x: &[Self], y: &mut [Self]) {
+        for (yi, xi) in y.iter_mut().zip(x) {
+            *yi = yi.plus_product(self, xi);
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::big::Big;
-use super::real::{Real, Ring};
+use super::real::{Real, Ring, dot_term_by_term};
 use super::twofold::{LARGEST_ANGLE, Twofold};
 
 /// Beyond 2^±400, products of two may leave the range in which [`Twofold`] keeps its digits.
@@ -38,6 +38,22 @@ impl Extended {
             return Self::Big(rounded);
         }
         twofold(&rounded).map_or(Self::Big(rounded), Self::Twofold)
+    }
+
+    /// The same number rounded to fewer bits, or itself where it has no more.
+    #[must_use]
+    pub fn rounded_to(&self, bits: u32) -> Self {
+        match self {
+            Self::Big(big) if big.bits() > bits => Self::Big(big.with_bits(bits)),
+            _ => self.clone(),
+        }
+    }
+
+    fn as_big(&self) -> Option<&Big> {
+        match self {
+            Self::Big(big) => Some(big),
+            Self::Twofold(_) => None,
+        }
     }
 
     fn big(&self) -> Big {
@@ -147,6 +163,29 @@ impl Ring for Extended {
         match self {
             Self::Twofold(pair) => pair.is_zero(),
             Self::Big(big) => big.is_zero(),
+        }
+    }
+
+    fn dot(&self, a: &[Self], b: &[Self]) -> Self {
+        let pairs = a.iter().zip(b);
+        let mut both = pairs.clone().map(|(a, b)| a.as_big().zip(b.as_big()));
+        match self {
+            Self::Big(own) if both.all(|pair| pair.is_some()) => {
+                let bigs = pairs.filter_map(|(a, b)| a.as_big().zip(b.as_big()));
+                Self::Big(Big::sum_of_products(bigs, own.bits() as usize))
+            }
+            _ => dot_term_by_term(self, a, b),
+        }
+    }
+
+    fn add_scaled(&self, x: &[Self], y: &mut [Self]) {
+        for (yi, xi) in y.iter_mut().zip(x) {
+            *yi = match (&*yi, self, xi) {
+                (Self::Big(y), Self::Big(share), Self::Big(x)) => {
+                    Self::Big(y.plus_product(share, x))
+                }
+                _ => yi.clone() + self.clone() * xi.clone(),
+            };
         }
     }
 }

@@ -48,6 +48,7 @@ pub mod random;
 pub mod rank;
 pub mod real;
 pub mod sparse;
+mod sums;
 mod svd;
 pub mod twofold;
 

@@ -31,11 +31,7 @@ pub trait Ring:
 
     /// Σ aᵢ bᵢ over the common length; `self` only tells the arithmetic.
     fn dot(&self, a: &[Self], b: &[Self]) -> Self {
-        let mut sum = self.zero_like();
-        for (x, y) in a.iter().zip(b) {
-            sum = sum + x.clone() * y.clone();
-        }
-        sum
+        dot_term_by_term(self, a, b)
     }
 
     /// `y ← y + self · x` over the common length.
@@ -44,6 +40,15 @@ pub trait Ring:
             *yi = yi.clone() + self.clone() * xi.clone();
         }
     }
+}
+
+/// [`Ring::dot`] with a rounding at every term.
+pub(super) fn dot_term_by_term<R: Ring>(like: &R, a: &[R], b: &[R]) -> R {
+    let mut sum = like.zero_like();
+    for (x, y) in a.iter().zip(b) {
+        sum = sum + x.clone() * y.clone();
+    }
+    sum
 }
 
 /// Real numbers with rounding: `f64`, [`super::twofold::Twofold`] or [`super::big::Big`] with any number of bits.

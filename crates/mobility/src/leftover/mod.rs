@@ -38,6 +38,9 @@ pub(crate) const ORDERS: i64 = 24;
 /// The kernel is refined to so many bits.
 const KERNEL: i64 = 500;
 
+/// Bits of the shares of a step in the vectors across the kernel.
+const OF_SHARES: u32 = 128;
+
 /// Steps that gain less than this factor do not converge.
 const CONVERGES: f64 = 0.01;
 
@@ -54,6 +57,8 @@ pub(crate) struct Leftover<'a> {
     kernel: Vec<Vec<Extended>>,
     /// What the Jacobian reaches: left vectors, vectors across the kernel, singular values.
     reached: Vec<(Vec<Extended>, Vec<Extended>, Extended)>,
+    /// The vectors across the kernel once more, by unknowns.
+    across: Vec<Vec<Extended>>,
     turning: Turning,
     one: Extended,
 }
@@ -94,10 +99,15 @@ impl<'a> Leftover<'a> {
         let exact = |doubles: &[f64]| -> Vec<Extended> {
             doubles.iter().map(|x| one.constant(*x)).collect()
         };
+        // Doubles hold no more.
+        let short = |doubles: &[f64]| -> Vec<Extended> {
+            let one = one.rounded_to(OF_SHARES);
+            doubles.iter().map(|x| one.constant(*x)).collect()
+        };
         let directions = splitting.kernel.iter().map(|b| exact(b)).collect();
         let reached = splitting.reached();
         let reached = reached
-            .map(|(u, v, s)| (exact(u), exact(v), one.constant(s)))
+            .map(|(u, v, s)| (short(u), exact(v), one.rounded_to(OF_SHARES).constant(s)))
             .collect();
         let mut leftover = Self {
             equations,
@@ -105,10 +115,16 @@ impl<'a> Leftover<'a> {
             splitting,
             kernel: directions,
             reached,
+            across: Vec::new(),
             one,
         };
         leftover.refine_kernel();
         leftover.make_orthogonal();
+        let unknown = |index: usize| -> Vec<Extended> {
+            let vectors = leftover.reached.iter();
+            vectors.map(|(_, v, _)| v[index].clone()).collect()
+        };
+        leftover.across = (0..leftover.equations.unknowns()).map(unknown).collect();
         Ok(leftover)
     }
 
@@ -291,14 +307,14 @@ impl<'a> Leftover<'a> {
 
     /// What has to be taken off across the kernel for the equations that are reached to hold.
     fn step(&self, residual: &[Extended], turned: &TurnedTo) -> Vec<Extended> {
+        // What is left over is part of the residual and far larger: only the shares may be rounded. A step gains some seventy bits.
         let shares = self.reached.iter();
-        let shares = shares.map(|(u, _, s)| self.one.dot(u, residual) / s.clone());
+        let shares =
+            shares.map(|(u, _, s)| self.one.dot(u, residual).rounded_to(OF_SHARES) / s.clone());
+        let shares = turned.corrected(shares.collect());
         // Steps are exactly in the span of the right vectors: what is across the kernel has to be one space for all poses.
-        let mut step = vec![self.one.zero_like(); self.equations.unknowns()];
-        for (share, (_, v, _)) in turned.corrected(shares.collect()).iter().zip(&self.reached) {
-            share.add_scaled(v, &mut step);
-        }
-        step
+        let unknowns = self.across.iter();
+        unknowns.map(|row| self.one.dot(&shares, row)).collect()
     }
 
     fn exact(&self, doubles: &[f64]) -> Vec<Extended> {

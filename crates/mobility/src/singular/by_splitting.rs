@@ -1,7 +1,7 @@
 //! Singular poses at which one equation is left over whose quadratic terms have rank two or more, by the splitting lemma in many digits.
 
 use super::super::claim::{Answer, Bounds, Claim};
-use super::super::germ::Germ;
+use super::super::germ::{Germ, inertia};
 use super::super::germ_zeros::GermBranch;
 use super::super::judge::PartFinding;
 use super::super::leftover::{ABSOLUTE, Doubt, Leftover, ORDERS, power_of_two};
@@ -53,9 +53,49 @@ pub(super) fn by_splitting(
     start: &Start<'_>,
     rank: &PartRank,
 ) -> Result<bool, MatrixError> {
-    let Ok(Some((germs, squares, text))) = told(start) else {
+    match told(start) {
+        Ok(Some(told)) => take(found, start, rank, told),
+        _ => Ok(false),
+    }
+}
+
+/// Fills a finding where many digits show squares that doubles do not: a search in doubles would take a narrow cone for what it is
+/// narrow about.
+///
+/// # Errors
+/// [`MatrixError`] where numbers overflow.
+pub(super) fn beyond_doubles(
+    found: &mut PartFinding,
+    start: &Start<'_>,
+    rank: &PartRank,
+) -> Result<bool, MatrixError> {
+    let Some(germ) = Germ::of_part_across(start.pose.mechanism, rank, 2, start.idle)? else {
         return Ok(false);
     };
+    let seen = match germ.equations() {
+        [] => 0,
+        [equation] => {
+            let (plus, minus) = inertia(equation, germ.noise(2));
+            plus + minus
+        }
+        _ => return Ok(false),
+    };
+    if seen == germ.freedom() {
+        return Ok(false);
+    }
+    match told(start) {
+        Ok(Some(told)) if told.1.across.len() > seen => take(found, start, rank, told),
+        _ => Ok(false),
+    }
+}
+
+/// Takes for an answer what the equation says.
+fn take(
+    found: &mut PartFinding,
+    start: &Start<'_>,
+    rank: &PartRank,
+    (germs, squares, text): (Germs, Squares, String),
+) -> Result<bool, MatrixError> {
     let idle = start.idle.len();
     let variables = squares.across.len() + squares.null.len();
     let (branches, dimension, certificate) = match germs {

@@ -64,7 +64,7 @@ use kutzbach_math::group::Margin;
 use kutzbach_math::matrix::MatrixError;
 use kutzbach_model::mechanism::Mechanism;
 use loop_spaces::{LoopSpaces, loop_spaces};
-pub(crate) use offsets::hidden_offset;
+pub(crate) use offsets::{drawn_hidden_offset, hidden_offset};
 
 /// A subgroup found in numbers coarser than this says nothing.
 const COARSEST: f64 = 0.05;

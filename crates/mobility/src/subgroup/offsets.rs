@@ -3,9 +3,10 @@
 use super::super::more_digits::MoreDigits;
 use super::super::pose_rank::{PartRank, Pose};
 use super::placing::link_poses;
-use kutzbach_closure::{Part, PlacedScrew};
+use kutzbach_closure::{Arithmetic, Geometry, JointState, Part, PlacedScrew};
 use kutzbach_math::matrix::{Extended, MatrixError, Real};
 use kutzbach_math::space::{cross, dot, length, subtract};
+use kutzbach_model::mechanism::Mechanism;
 
 /// Below this (rad, part lengths) doubles may take an offset for none.
 const SEEN_IN_DOUBLE: f64 = 1e-7;
@@ -29,29 +30,52 @@ pub fn hidden_offset(
         return Ok(None);
     }
     let (geometry, states) = more.polished(pose, part, !pose.as_drawn, rank.bits)?;
-    let (poses, _) = link_poses(pose.mechanism, geometry, states, part);
-    let screws: Vec<PlacedScrew<Extended>> = part
-        .joints
+    let placed = (pose.mechanism, geometry, states, part);
+    Ok(between(&part.joints, placed, rank.jacobian.length))
+}
+
+/// Bits in which joints of one link are compared.
+const BITS: u32 = 212;
+
+/// The same between some joints of a part as the file draws them, for joints of one link: what these are apart by, no motion changes.
+pub fn drawn_hidden_offset(
+    mechanism: &Mechanism,
+    part: &Part,
+    joints: &[usize],
+    size: f64,
+) -> Option<f64> {
+    let geometry = Geometry::new(mechanism, None, &Arithmetic::bits(BITS));
+    between(joints, (mechanism, &geometry, &geometry.states, part), size)
+}
+
+/// The first hidden offset between the screws of joints.
+fn between(
+    joints: &[usize],
+    (mechanism, geometry, states, part): (
+        &Mechanism,
+        &Geometry<Extended>,
+        &[JointState<Extended>],
+        &Part,
+    ),
+    size: f64,
+) -> Option<f64> {
+    let (poses, _) = link_poses(mechanism, geometry, states, part);
+    let screws: Vec<PlacedScrew<Extended>> = joints
         .iter()
         .flat_map(|&joint| {
-            let predecessor = pose.mechanism.joints()[joint].predecessor.link.0;
+            let predecessor = mechanism.joints()[joint].predecessor.link.0;
             let frame = poses[&predecessor].compose(&geometry.sides[joint][0]);
             let screws = geometry.displacements[joint].screws(&states[joint]);
             let moved: Vec<_> = screws.iter().map(|screw| screw.moved(&frame)).collect();
             moved
         })
         .collect();
-    let size = rank.jacobian.length;
     let least = CLEAR * geometry.one.unit_roundoff();
     let hidden = |x: &f64| *x > least && *x < SEEN_IN_DOUBLE;
-    for (index, a) in screws.iter().enumerate() {
-        for b in &screws[index + 1..] {
-            if let Some(offset) = offsets(a, b, size).into_iter().find(hidden) {
-                return Ok(Some(offset));
-            }
-        }
-    }
-    Ok(None)
+    screws.iter().enumerate().find_map(|(index, a)| {
+        let mut others = screws[index + 1..].iter();
+        others.find_map(|b| offsets(a, b, size).into_iter().find(hidden))
+    })
 }
 
 /// The angle between two screws, and for rotations the distance of their axes and that of their points (part lengths).
