@@ -99,6 +99,9 @@ pub(super) fn of_bytes(bytes: &[u8]) -> Option<Other> {
 
 /// The format of a text.
 pub(super) fn of(text: &str) -> Content {
+    if step::is_step(text.as_bytes()) {
+        return Content::Step;
+    }
     match root_name(text) {
         "mujoco" | "mujocoinclude" => return Content::Mjcf,
         "sdf" => return Content::Sdf,
@@ -117,7 +120,6 @@ pub(super) fn of(text: &str) -> Content {
     let other = match first {
         _ if gepetto::is_description(text) => return Content::Gepetto,
         _ if first.starts_with("#usda") => USD,
-        _ if step::is_step(text.as_bytes()) => return Content::Step,
         _ if first.starts_with("solid ") || first.starts_with("#VRML") => SHAPES,
         _ if first.starts_with("within ") || word.starts_with("model ") => MODELICA,
         _ if first.starts_with('{') || first.starts_with('[') => JSON,
