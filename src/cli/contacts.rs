@@ -209,7 +209,7 @@ fn reason_word(reason: &Reason) -> &'static str {
 fn page(found: &ContactTable, layout: kutzbach::report::text::Layout) -> String {
     let mut page = Page::new(layout);
     let summary = format!(
-        "{} touch within {}; `{}` is the ground.",
+        "{} of parts with faces within {}. The ground is `{}`.",
         counted(found.rows.len(), "pair"),
         metres(found.clearance),
         found.ground

@@ -118,7 +118,10 @@ impl Corrections {
         let find = |name: &str| {
             places.get(name).copied().ok_or_else(|| {
                 let known = places.keys().copied();
-                let message = format!("the corrections name a part {}, and there is none", quoted(name));
+                let message = format!(
+                    "the corrections name a part {}, and there is none",
+                    quoted(name)
+                );
                 let help = did_you_mean(name, known, ("`", "`"))
                     .unwrap_or_else(|| "`kutzbach contacts FILE` lists the parts".to_owned());
                 (message, Some(help))
