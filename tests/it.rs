@@ -101,6 +101,7 @@ mod sketch_relations;
 mod smooth_scenes;
 #[path = "stability/main.rs"]
 mod stability;
+mod step;
 mod subgroups;
 mod superfluous;
 mod support;

@@ -5,6 +5,7 @@
 mod accuracy;
 mod assemble;
 mod check;
+mod contacts;
 mod convert;
 mod exact;
 mod excerpt;
@@ -58,6 +59,7 @@ enum Command {
     Report(report::Arguments),
     Check(check::Arguments),
     Convert(convert::Arguments),
+    Contacts(contacts::Arguments),
     Simulate(Box<simulate::Arguments>),
     Graph(graph::Arguments),
     Exact(exact::Arguments),
@@ -78,6 +80,7 @@ pub fn run() -> ExitCode {
         Command::Report(arguments) => report::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Convert(arguments) => convert::run(&arguments),
+        Command::Contacts(arguments) => contacts::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Graph(arguments) => graph::run(&arguments),
         Command::Exact(arguments) => exact::run(&arguments),
