@@ -25,7 +25,7 @@
 //!
 //! # Text
 //! [`read_world`] reads entities with names into a [`World`]; [`ask`] answers questions about it in a small language, in which names
-//! may be free.
+//! may be free; [`features`] finds what a declaration says in the boundaries of parts.
 //!
 //! # Motions
 //! A [`Transformation`] is a rotation and a translation; it moves every entity, and exactly so where its numbers are exact.
@@ -38,6 +38,7 @@ mod decide;
 mod distance;
 mod entity;
 mod error;
+pub mod features;
 mod hull;
 mod intersection;
 mod join;
