@@ -68,10 +68,12 @@ fn found<S: Legible>(arguments: &Arguments) -> Result<String, Failure> {
     let mut all = Vec::new();
     for (part, boundary) in &parts {
         for declaration in &declarations {
-            let extraction = declaration.extract(boundary).map_err(|error| Failure::Plain {
-                message: format!("{} in {part}: {error}", declaration.name),
-                help: None,
-            })?;
+            let extraction = declaration
+                .extract(boundary)
+                .map_err(|error| Failure::Plain {
+                    message: format!("{} in {part}: {error}", declaration.name),
+                    help: None,
+                })?;
             let names = |feature: &Feature| named(declaration, feature, part, &reading);
             all.push(InPart {
                 part: (*part).to_owned(),
@@ -110,7 +112,9 @@ fn parts<'a, S: Legible>(
             help: Some("write one from `solid NAME` to `end`".to_owned()),
         });
     }
-    let asked = known.iter().filter(|name| wanted.is_empty() || wanted.contains(name));
+    let asked = known
+        .iter()
+        .filter(|name| wanted.is_empty() || wanted.contains(name));
     let found = asked.filter_map(|name| {
         let id = reading.world.find(name)?;
         match reading.world.get(id)? {
@@ -132,7 +136,10 @@ fn named<S>(
     let roles = declaration.roles.iter().zip(&feature.roles);
     let name = |(role, number): (&kutzbach_geometry::features::Role, &usize)| match role.sort {
         Sort::Edge => format!("{part}.edge{number}"),
-        Sort::Face => faces.get(*number).cloned().unwrap_or_else(|| format!("face {number}")),
+        Sort::Face => faces
+            .get(*number)
+            .cloned()
+            .unwrap_or_else(|| format!("face {number}")),
     };
     roles.map(name).collect()
 }
@@ -150,17 +157,25 @@ fn text(found: &InPart) -> String {
         many => many.to_string(),
     };
     let mut text = format!("{} in {part}: {count}\n", declaration.name);
-    let roles: Vec<String> = declaration.roles.iter().map(|role| role.name.clone()).collect();
+    let roles: Vec<String> = declaration
+        .roles
+        .iter()
+        .map(|role| role.name.clone())
+        .collect();
     let widths: Vec<usize> = (0..roles.len())
         .map(|column| {
             let cells = named.iter().chain(std::iter::once(&roles));
-            let lengths = cells.filter_map(|row| row.get(column)).map(|cell| cell.chars().count());
+            let lengths = cells
+                .filter_map(|row| row.get(column))
+                .map(|cell| cell.chars().count());
             lengths.max().unwrap_or(0)
         })
         .collect();
     let line = |row: &[String]| {
         let cells = row.iter().zip(&widths);
-        let cells: Vec<String> = cells.map(|(cell, &width)| format!("{cell:<width$}")).collect();
+        let cells: Vec<String> = cells
+            .map(|(cell, &width)| format!("{cell:<width$}"))
+            .collect();
         format!("  {}", cells.join("  "))
     };
     if !extraction.features.is_empty() {
@@ -184,7 +199,9 @@ fn text(found: &InPart) -> String {
     }
     if extraction.edges_without_bend > 0 {
         let edges = extraction.edges_without_bend;
-        text.push_str(&format!("  neither convex nor concave, since not between two faces: {edges} edge(s)\n"));
+        text.push_str(&format!(
+            "  neither convex nor concave, since not between two faces: {edges} edge(s)\n"
+        ));
     }
     text
 }
@@ -194,8 +211,9 @@ fn data(found: &InPart) -> Value {
     let features = found.extraction.features.iter().zip(&found.named);
     let features = features.map(|(feature, names)| {
         let roles = declaration.roles.iter().zip(names);
-        let roles: serde_json::Map<String, Value> =
-            roles.map(|(role, name)| (role.name.clone(), json!(name))).collect();
+        let roles: serde_json::Map<String, Value> = roles
+            .map(|(role, name)| (role.name.clone(), json!(name)))
+            .collect();
         json!({ "roles": roles, "holds": word(feature.holds), "ways": feature.ways })
     });
     let plan = found.extraction.steps.iter().map(|told| {

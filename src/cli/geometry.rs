@@ -43,11 +43,12 @@ pub struct Arguments {
 /// # Errors
 /// Where a text says no entities, a question has no answer, or the output cannot be written.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let both = arguments.script.as_deref() == Some(Path::new("-"))
-        && arguments.file == Path::new("-");
+    let both =
+        arguments.script.as_deref() == Some(Path::new("-")) && arguments.file == Path::new("-");
     if both {
         return Err(Failure::Plain {
-            message: "needed one text from standard input, found two: FILE and the script".to_owned(),
+            message: "needed one text from standard input, found two: FILE and the script"
+                .to_owned(),
             help: Some("write one of both to a file".to_owned()),
         });
     }
@@ -81,15 +82,22 @@ fn answered<S: Legible>(arguments: &Arguments) -> Result<String, Failure> {
     }
     let mut asked = Vec::new();
     for question in &arguments.ask {
-        let answers = session.ask(question).map_err(|error| in_question(question, error))?;
+        let answers = session
+            .ask(question)
+            .map_err(|error| in_question(question, error))?;
         asked.push((question, answers));
     }
     if asked.is_empty() {
-        let transcript = session.run("list").map_err(|error| in_question("list", error))?;
+        let transcript = session
+            .run("list")
+            .map_err(|error| in_question("list", error))?;
         return match arguments.json {
             true => data("lines", transcript_data(&transcript)),
             false => {
-                let replies = transcript.lines.iter().filter_map(|line| line.reply.as_ref());
+                let replies = transcript
+                    .lines
+                    .iter()
+                    .filter_map(|line| line.reply.as_ref());
                 let lines: Vec<String> = replies.flat_map(|reply| reply.told.lines()).collect();
                 Ok(told(&lines_text(&lines)))
             }
@@ -120,7 +128,10 @@ fn lines_text(lines: &[String]) -> String {
 /// What would steer a terminal is written out; tabs do not.
 fn told(text: &str) -> String {
     let line = |line: &str| {
-        let parts: Vec<String> = line.split('\t').map(|part| visible(part).into_owned()).collect();
+        let parts: Vec<String> = line
+            .split('\t')
+            .map(|part| visible(part).into_owned())
+            .collect();
         parts.join("\t")
     };
     text.lines().map(|own| line(own) + "\n").collect()
@@ -197,8 +208,9 @@ fn shown_data(shown: &Shown) -> Value {
 fn answers_data(answers: &Answers) -> Value {
     let rows = answers.rows.iter().map(|row| {
         let names = answers.names.iter().zip(&row.found);
-        let found: serde_json::Map<String, Value> =
-            names.map(|(name, shown)| (name.clone(), shown_data(shown))).collect();
+        let found: serde_json::Map<String, Value> = names
+            .map(|(name, shown)| (name.clone(), shown_data(shown)))
+            .collect();
         let values: Vec<Value> = row.values.iter().map(shown_data).collect();
         json!({ "found": found, "values": values, "holds": word(row.holds) })
     });

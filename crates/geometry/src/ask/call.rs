@@ -55,13 +55,23 @@ pub(super) const FUNCTIONS: &[Function] = &[
     function("distance", 2, 2, "distance(a, b)"),
     function("angle", 2, 2, "angle(a, b)"),
     function("angle_between", 2, 2, "angle_between(a, b)"),
-    function("signed_angle_between", 3, 3, "signed_angle_between(a, b, direction)"),
+    function(
+        "signed_angle_between",
+        3,
+        3,
+        "signed_angle_between(a, b, direction)",
+    ),
     function("intersection", 2, 2, "intersection(a, b)"),
     function("projection", 2, 3, "projection(a, on, direction)"),
     function("join_perpend", 2, 2, "join_perpend(a, b)"),
     function("perpend", 2, 2, "perpend(a, b)"),
     function("classify", 2, 2, "classify(a, beside)"),
-    function("sort_angular", 3, 3, "sort_angular([a, b], centre, direction)"),
+    function(
+        "sort_angular",
+        3,
+        3,
+        "sort_angular([a, b], centre, direction)",
+    ),
     function("planar_hull", 2, 2, "planar_hull([a, b], direction)"),
     function("space_hull", 1, 1, "space_hull([a, b])"),
     function("calculate_normal", 1, 1, "calculate_normal([a, b, c])"),
@@ -79,11 +89,26 @@ pub(super) const FUNCTIONS: &[Function] = &[
     function("vector", 3, 3, "vector(x, y, z)"),
     function("direction", 1, 3, "direction(x, y, z) or direction(line)"),
     function("line", 2, 2, "line(point, direction) or line(point, point)"),
-    function("plane", 2, 3, "plane(point, direction) or plane(point, point, point)"),
+    function(
+        "plane",
+        2,
+        3,
+        "plane(point, direction) or plane(point, point, point)",
+    ),
     function("segment", 2, 2, "segment(point, point)"),
-    function("face", 1, usize::MAX, "face([corner, corner, corner], [hole])"),
+    function(
+        "face",
+        1,
+        usize::MAX,
+        "face([corner, corner, corner], [hole])",
+    ),
     function("circle", 3, 3, "circle(centre, direction, radius)"),
-    function("cylinder", 2, 3, "cylinder(line, radius) or cylinder(point, direction, radius)"),
+    function(
+        "cylinder",
+        2,
+        3,
+        "cylinder(line, radius) or cylinder(point, direction, radius)",
+    ),
     function("cone", 3, 3, "cone(apex, direction, tangent)"),
     function("sphere", 2, 2, "sphere(centre, radius)"),
     function("moved", 2, 2, "moved(entity, vector)"),
@@ -128,12 +153,19 @@ pub(super) fn call<'w, S: Scalar>(name: &str, values: &[Value<'w, S>]) -> Valued
         return proven(Value::Truth(answer));
     }
     match name {
-        "distance" | "angle" | "angle_between" | "signed_angle_between" | "compare_radii"
+        "distance"
+        | "angle"
+        | "angle_between"
+        | "signed_angle_between"
+        | "compare_radii"
         | "radius_difference" => measure(name, &arguments),
         "intersection" | "projection" | "perpend" => found(name, &arguments),
         "join_perpend" => {
             let feet = join_perpend(arguments.entity(0)?, arguments.entity(1)?)?;
-            let ends = vec![Value::made(feet.value.first), Value::made(feet.value.second)];
+            let ends = vec![
+                Value::made(feet.value.first),
+                Value::made(feet.value.second),
+            ];
             Ok((Value::List(ends), feet.certainty))
         }
         "classify" => beside(&arguments),
@@ -159,7 +191,10 @@ fn measure<'w, S: Scalar>(name: &str, arguments: &Arguments<'_, 'w, S>) -> Value
         "angle" => proven(Value::Number(angle_between(a, b)?.angle)),
         "angle_between" => {
             let angles = angle_between(a, b)?;
-            let both = vec![Value::Number(angles.angle), Value::Number(angles.supplement)];
+            let both = vec![
+                Value::Number(angles.angle),
+                Value::Number(angles.supplement),
+            ];
             proven(Value::List(both))
         }
         "signed_angle_between" => {

@@ -25,7 +25,10 @@ impl<'w, S: Legible> Solver<'_, 'w, S> {
                 Some(equal) => Ok(certainty.answer((word == name) == equal)),
                 None => Err(Trouble::Wrong(self.wrong(
                     &second.span,
-                    format!("needed `=` or `!=` and one of {}, found `{name}`", WORDS.join(", ")),
+                    format!(
+                        "needed `=` or `!=` and one of {}, found `{name}`",
+                        WORDS.join(", ")
+                    ),
                 ))),
             };
         }
@@ -68,7 +71,8 @@ impl<'w, S: Legible> Solver<'_, 'w, S> {
         match &term.what {
             What::Name(name) => {
                 let value = self.named(name).ok_or_else(|| {
-                    let message = format!("needed the name of an entity or a number, found `{name}`");
+                    let message =
+                        format!("needed the name of an entity or a number, found `{name}`");
                     Trouble::Wrong(self.wrong(&term.span, message))
                 })?;
                 Ok((value, Certainty::Proven))
@@ -76,7 +80,8 @@ impl<'w, S: Legible> Solver<'_, 'w, S> {
             What::Free(number) => match bound.get(*number) {
                 Some(Some(value)) => Ok((value.clone(), Certainty::Proven)),
                 _ => {
-                    let message = "needed a free name that a goal before has given a value".to_owned();
+                    let message =
+                        "needed a free name that a goal before has given a value".to_owned();
                     Err(Trouble::Wrong(self.wrong(&term.span, message)))
                 }
             },
@@ -174,7 +179,10 @@ impl<'w, S: Legible> Solver<'_, 'w, S> {
         match (id(&part), id(&of)) {
             (Some(part), Some(of)) => {
                 let holds = self.known.world.is_made_from(part, of);
-                Ok((Value::Truth(Certainty::Proven.answer(holds)), Certainty::Proven))
+                Ok((
+                    Value::Truth(Certainty::Proven.answer(holds)),
+                    Certainty::Proven,
+                ))
             }
             _ => Err(Trouble::NoValue(self.wrong(
                 &first.span,

@@ -54,7 +54,10 @@ fn moved<'w, S: Scalar>(name: &str, arguments: &Arguments<'_, 'w, S>) -> Valued<
     let motion = match (name, arguments.entity(1)?) {
         ("moved", Entity::Vector(by)) => Transformation::translation(by),
         ("moved", other) => {
-            return Err(NoValue(format!("needed a vector, found a {}", other.kind())));
+            return Err(NoValue(format!(
+                "needed a vector, found a {}",
+                other.kind()
+            )));
         }
         _ => Transformation::about(
             &arguments.line(1)?,
@@ -111,7 +114,9 @@ fn round<'w, S: Scalar>(name: &str, arguments: &Arguments<'_, 'w, S>) -> Valued<
             Value::made(Cylinder::new(arguments.line(0)?, number(1)?)?)
         }
         "cylinder" if arguments.count() == 2 => {
-            return Err(NoValue("needed a radius after the line, found none".to_owned()));
+            return Err(NoValue(
+                "needed a radius after the line, found none".to_owned(),
+            ));
         }
         "cylinder" => {
             let axis = Line::new(point(0)?, arguments.direction(1)?);

@@ -61,7 +61,11 @@ pub(super) fn statement(
             return Err(parser.cursor.needed("`parts`"));
         }
         parser.end()?;
-        return Ok(Statement::Delete(name.text.to_owned(), name.span.clone(), whole));
+        return Ok(Statement::Delete(
+            name.text.to_owned(),
+            name.span.clone(),
+            whole,
+        ));
     }
     if two_words && parser.cursor.take_word("rename") {
         let name = parser.cursor.word("the name of an entity")?;
@@ -118,7 +122,11 @@ impl<'a> Parser<'a> {
             let message = format!("needed a definition without free names, found `?{free}`");
             return Err(TextError::at(self.cursor.source(), term.span, message));
         }
-        Ok(Statement::Define(name.text.to_owned(), name.span.clone(), term))
+        Ok(Statement::Define(
+            name.text.to_owned(),
+            name.span.clone(),
+            term,
+        ))
     }
 
     fn goals(&mut self, depth: usize) -> Result<Vec<Goal>, TextError> {
@@ -149,7 +157,9 @@ impl<'a> Parser<'a> {
             What::Call(..) => Ok(Goal::Holds(first)),
             // An entity or a number by itself is shown.
             What::Name(_) => Ok(Goal::Holds(first)),
-            _ => Err(self.cursor.needed("a comparison: `=`, `!=`, `<`, `<=`, `>` or `>=`")),
+            _ => Err(self
+                .cursor
+                .needed("a comparison: `=`, `!=`, `<`, `<=`, `>` or `>=`")),
         }
     }
 
@@ -253,14 +263,16 @@ impl<'a> Parser<'a> {
             let span = name.span.start..self.cursor.behind();
             let needed = needed_arguments(function);
             return Err(TextError::needed(self.cursor.source(), span, needed, count)
-                .help(function.form.to_owned()));
+                .help(function.form));
         }
         Ok(What::Call(name.text.to_owned(), arguments))
     }
 }
 
 fn needed_arguments(function: &Function) -> String {
-    let Function { name, least, most, .. } = function;
+    let Function {
+        name, least, most, ..
+    } = function;
     match (least == most, *most == usize::MAX) {
         (true, _) => format!("{least} argument(s) for `{name}`"),
         (false, true) => format!("{least} arguments or more for `{name}`"),

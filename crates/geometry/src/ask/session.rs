@@ -99,12 +99,18 @@ impl Told {
                 let doubt = doubt(certainty.answer(true));
                 match made.is_empty() {
                     true => vec![format!("nothing{doubt}")],
-                    false => made.iter().map(|(name, is)| format!("{name}: {}{doubt}", is.text)).collect(),
+                    false => made
+                        .iter()
+                        .map(|(name, is)| format!("{name}: {}{doubt}", is.text))
+                        .collect(),
                 }
             }
             Self::Deleted(count) => vec![format!("deleted {count}")],
             Self::Renamed => vec!["renamed".to_owned()],
-            Self::Listed(all) => all.iter().map(|(name, is)| format!("{name}: {}", is.text)).collect(),
+            Self::Listed(all) => all
+                .iter()
+                .map(|(name, is)| format!("{name}: {}", is.text))
+                .collect(),
         }
     }
 }
@@ -148,7 +154,9 @@ impl Answers {
 
     fn row(&self, row: &Row) -> String {
         let found = self.names.iter().zip(&row.found);
-        let mut parts: Vec<String> = found.map(|(name, is)| format!("?{name} = {}", is.text)).collect();
+        let mut parts: Vec<String> = found
+            .map(|(name, is)| format!("?{name} = {}", is.text))
+            .collect();
         parts.extend(row.values.iter().map(|value| format!("= {}", value.text)));
         if parts.is_empty() {
             return answer_text(row.holds).to_owned();
@@ -207,7 +215,10 @@ impl<S: Legible> Session<S> {
         let mut rest = tokens.as_slice();
         let mut transcript = Transcript::default();
         for (number, line) in script.lines().enumerate() {
-            let count = rest.iter().take_while(|t| t.kind != TokenKind::LineEnd).count();
+            let count = rest
+                .iter()
+                .take_while(|t| t.kind != TokenKind::LineEnd)
+                .count();
             let (own, after) = rest.split_at(count);
             rest = after.get(1..).unwrap_or_default();
             if line.starts_with(ANSWER) {
@@ -258,7 +269,10 @@ impl<S: Legible> Session<S> {
             }
             Statement::List => {
                 let entities = self.world.iter().map(|(name, _, entity)| {
-                    (name.to_owned(), Shown::of(&Value::<S>::made(entity.clone())))
+                    (
+                        name.to_owned(),
+                        Shown::of(&Value::<S>::made(entity.clone())),
+                    )
                 });
                 let mut all: Vec<(String, Shown)> = entities.collect();
                 for (name, value) in &self.values {
@@ -292,7 +306,8 @@ impl<S: Legible> Session<S> {
         match self.values.contains_key(name) || self.numbers.contains_key(name) {
             false => Ok(()),
             true => {
-                let message = format!("needed a name that nothing has, found that of the number `{name}`");
+                let message =
+                    format!("needed a name that nothing has, found that of the number `{name}`");
                 Err(TextError::at(source, place, message))
             }
         }
@@ -331,7 +346,9 @@ impl<S: Legible> Session<S> {
         let members: Vec<(String, Value<'_, S>)> = match value {
             Value::List(members) => {
                 let named = members.into_iter().zip(1..);
-                named.map(|(member, n)| (format!("{name}.{n}"), member)).collect()
+                named
+                    .map(|(member, n)| (format!("{name}.{n}"), member))
+                    .collect()
             }
             one => vec![(name.to_owned(), one)],
         };

@@ -62,7 +62,10 @@ impl Shown {
 fn number_text<S: Legible>(number: &S) -> String {
     let text = number.to_text();
     match text.starts_with("${") {
-        true => format!("{text}, about {}", crate::text::double_text(number.double())),
+        true => format!(
+            "{text}, about {}",
+            crate::text::double_text(number.double())
+        ),
         false => text,
     }
 }
@@ -103,12 +106,20 @@ pub(super) fn entity_text<S: Legible>(entity: &Entity<S>) -> String {
             format!("segment({from}, {to})")
         }
         Entity::Face(face) => {
-            let corners: Vec<String> = face.loops().iter().map(|ring| list(ring.iter(), &point)).collect();
+            let corners: Vec<String> = face
+                .loops()
+                .iter()
+                .map(|ring| list(ring.iter(), &point))
+                .collect();
             format!("face({})", corners.join(", "))
         }
         Entity::Boundary(boundary) => format!(
             "a {} of {} faces, {} edges and {} vertices",
-            if boundary.is_solid() { "solid" } else { "surface" },
+            if boundary.is_solid() {
+                "solid"
+            } else {
+                "surface"
+            },
             boundary.faces().len(),
             boundary.edges().len(),
             boundary.vertices().len()

@@ -189,7 +189,8 @@ impl<'w, S: Legible> Solver<'_, 'w, S> {
     }
 
     fn too_many(&self, what: &str, most: usize) -> TextError {
-        let message = format!("needed a question with at most {most} {what} on its way, found more");
+        let message =
+            format!("needed a question with at most {most} {what} on its way, found more");
         TextError::at(self.source, 0..self.source.len(), message)
             .help("narrow free names first, for example by `is(?f, face)` or `part(?f, plate)`")
     }
@@ -203,7 +204,9 @@ impl<'w, S: Legible> Solver<'_, 'w, S> {
     ) -> Result<(), TextError> {
         let local = goals.iter().any(|goal| {
             let names = goal.free_names();
-            names.iter().any(|n| matches!(row.bound.get(*n), Some(None)))
+            names
+                .iter()
+                .any(|n| matches!(row.bound.get(*n), Some(None)))
         });
         let without_value = self.without_value;
         let inner = Partial {

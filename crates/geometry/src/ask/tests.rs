@@ -86,17 +86,29 @@ fn free_names_find_all_that_holds() {
         ["box.bottom", "box.top"]
     );
     assert_eq!(
-        names(&session, "is(?f, face), parallel(?f, box.top), ?f != box.top"),
+        names(
+            &session,
+            "is(?f, face), parallel(?f, box.top), ?f != box.top"
+        ),
         ["box.bottom"]
     );
-    let without = names(&session, "is(?f, face), not(parallel(?f, box.top), distance(?f, box.top) > 0)");
+    let without = names(
+        &session,
+        "is(?f, face), not(parallel(?f, box.top), distance(?f, box.top) > 0)",
+    );
     assert_eq!(without.len(), 5);
     assert_eq!(
-        names(&session, "is(?f, face), not(is(?g, face), ?g != ?f, parallel(?g, ?f))"),
+        names(
+            &session,
+            "is(?f, face), not(is(?g, face), ?g != ?f, parallel(?g, ?f))"
+        ),
         Vec::<String>::new()
     );
     assert_eq!(names(&session, "?d = distance(A, B)"), ["5"]);
-    assert_eq!(names(&session, "part(?v, box), is(?v, point), ?v != box.a").len(), 7);
+    assert_eq!(
+        names(&session, "part(?v, box), is(?v, point), ?v != box.a").len(),
+        7
+    );
     assert_eq!(names(&session, "convex(box.top, ?f)").len(), 4);
     let answers = session.ask("parallel(?f, box.top)").unwrap();
     assert!(answers.without_value > 0 && answers.first_without_value.is_some());
@@ -106,7 +118,9 @@ fn free_names_find_all_that_holds() {
 fn digits_are_told() {
     let more = "point P 1.0 0.00 0\npoint Q 2 0 0\nline p P along 0 0 1\n";
     let session = session::<Measured>(more);
-    let answers = session.ask("is(?p, point), contained(?p, x), distance(?p, Q) < 1.5").unwrap();
+    let answers = session
+        .ask("is(?p, point), contained(?p, x), distance(?p, Q) < 1.5")
+        .unwrap();
     let rows: Vec<(&str, Answer)> = answers
         .rows
         .iter()
@@ -152,22 +166,36 @@ fn errors_have_columns() {
     let session = exact();
     for (question, column, said) in [
         ("paralel(x, y)", 1, "needed a function, found `paralel`"),
-        ("parallel(x)", 1, "needed 2 argument(s) for `parallel`, found 1"),
+        (
+            "parallel(x)",
+            1,
+            "needed 2 argument(s) for `parallel`, found 1",
+        ),
         ("parallel(x, q)", 13, "found `q`"),
-        ("parallel(x, y", 14, "needed `,` and another term, or `)`, found the end"),
+        (
+            "parallel(x, y",
+            14,
+            "needed `,` and another term, or `)`, found the end",
+        ),
         ("parallel(A, y)", 1, "found a point and a line"),
         ("distance(A, B) <", 17, "needed a name"),
         ("?", 1, "`?` without a name"),
         ("distance(A, ${1/0})", 17, "needed a divisor"),
         ("distance(A, B) @", 16, "found `@`"),
         ("is(x, lines)", 7, "needed one of vector"),
-        ("classify(A, roof) = belw", 21, "needed `=` or `!=` and one of"),
+        (
+            "classify(A, roof) = belw",
+            21,
+            "needed `=` or `!=` and one of",
+        ),
     ] {
         let error = session.ask(question).unwrap_err();
         assert_eq!(error.column, column, "{question}: {error}");
         assert!(error.message.contains(said), "{question}: {error}");
     }
-    let error = exact().run("a = point(0, 0, 0)\nb = line(a, a)\n").unwrap_err();
+    let error = exact()
+        .run("a = point(0, 0, 0)\nb = line(a, a)\n")
+        .unwrap_err();
     assert_eq!((error.line, error.column), (2, 5), "{error}");
     let error = exact().run("x = point(0, 0, 0)\n").unwrap_err();
     assert!(error.message.contains("`x`"), "{error}");
@@ -177,7 +205,13 @@ fn errors_have_columns() {
 fn nesting_and_numbers_of_combinations_are_bounded() {
     let session = exact();
     let deep = format!("{}A{}", "ends(".repeat(10_000), ")".repeat(10_000));
-    assert!(session.ask(&deep).unwrap_err().message.contains("at most 32"));
+    assert!(
+        session
+            .ask(&deep)
+            .unwrap_err()
+            .message
+            .contains("at most 32")
+    );
     let wide = "?a != ?b, ?c != ?d, ?e != ?f";
     let error = session.ask(wide).unwrap_err();
     assert!(error.message.contains("found more"), "{error}");
@@ -191,12 +225,21 @@ fn worlds_are_refused_with_their_places() {
         ("ponit A 0 0 0\n", 1, 1, "a line that begins with"),
         ("line l 0 0 0 through 0 0 0\n", 1, 8, "two different points"),
         ("direction d 0 0 0\n", 1, 13, "not the zero vector"),
-        ("solid s\nvertex a 0 0 0\nface f a b c\nend\n", 3, 10, "found `b`"),
+        (
+            "solid s\nvertex a 0 0 0\nface f a b c\nend\n",
+            3,
+            10,
+            "found `b`",
+        ),
         ("surface s\nvertex a 0 0 0\n", 3, 1, "found the end"),
         ("segment s A to A\n", 1, 11, "named before"),
     ] {
         let error = read_world::<Number>(text).unwrap_err();
-        assert_eq!((error.line, error.column), (line, column), "{text}: {error}");
+        assert_eq!(
+            (error.line, error.column),
+            (line, column),
+            "{text}: {error}"
+        );
         assert!(error.message.contains(said), "{text}: {error}");
     }
 }

@@ -87,7 +87,11 @@ impl<'a> Parser<'a> {
         self.keyword("DEFINITION")?;
         if self.found.roles.is_empty() {
             let message = "needed a role or more in ENTITIES, found none";
-            return Err(TextError::at(self.cursor.source(), name.span.clone(), message));
+            return Err(TextError::at(
+                self.cursor.source(),
+                name.span.clone(),
+                message,
+            ));
         }
         if self.cursor.take_word("BEGIN") {
             while !self.cursor.take_word("END") {
@@ -106,20 +110,20 @@ impl<'a> Parser<'a> {
     }
 
     fn section(&mut self) -> Result<(), TextError> {
-        let statement: fn(&mut Self) -> Result<(), TextError> =
-            if self.cursor.take_word("ENTITIES") {
-                Self::entities
-            } else if self.cursor.take_word("EDGE") || self.cursor.take_word("FACE") {
-                self.keyword("TYPE")?;
-                Self::types
-            } else if self.cursor.take_word("CONNECTIVITY") {
-                Self::connectivity
-            } else if self.cursor.take_word("ORIENTATION") {
-                Self::orientation
-            } else {
-                let needed = "`ENTITIES`, `EDGE TYPE`, `FACE TYPE`, `CONNECTIVITY`, `ORIENTATION` or `END DEFINITION`";
-                return Err(self.cursor.needed(needed));
-            };
+        let statement: fn(&mut Self) -> Result<(), TextError> = if self.cursor.take_word("ENTITIES")
+        {
+            Self::entities
+        } else if self.cursor.take_word("EDGE") || self.cursor.take_word("FACE") {
+            self.keyword("TYPE")?;
+            Self::types
+        } else if self.cursor.take_word("CONNECTIVITY") {
+            Self::connectivity
+        } else if self.cursor.take_word("ORIENTATION") {
+            Self::orientation
+        } else {
+            let needed = "`ENTITIES`, `EDGE TYPE`, `FACE TYPE`, `CONNECTIVITY`, `ORIENTATION` or `END DEFINITION`";
+            return Err(self.cursor.needed(needed));
+        };
         self.cursor.sign(":", "`:`")?;
         while !self.at_section() {
             statement(self)?;
@@ -131,7 +135,9 @@ impl<'a> Parser<'a> {
     fn at_section(&self) -> bool {
         self.cursor.peek().is_some_and(|token| {
             token.kind == TokenKind::Word
-                && SECTIONS.iter().any(|word| token.text.eq_ignore_ascii_case(word))
+                && SECTIONS
+                    .iter()
+                    .any(|word| token.text.eq_ignore_ascii_case(word))
         })
     }
 
@@ -157,7 +163,11 @@ impl<'a> Parser<'a> {
         for name in names {
             if self.found.roles.iter().any(|role| role.name == name.text) {
                 let message = format!("needed another name, found the role `{}` again", name.text);
-                return Err(TextError::at(self.cursor.source(), name.span.clone(), message));
+                return Err(TextError::at(
+                    self.cursor.source(),
+                    name.span.clone(),
+                    message,
+                ));
             }
             self.found.roles.push(Role {
                 name: name.text.to_owned(),
@@ -169,7 +179,11 @@ impl<'a> Parser<'a> {
 
     /// A role by its name, of this sort where one is given.
     fn role(&self, token: &Token<'_>, sort: Option<Sort>) -> Result<usize, TextError> {
-        let number = self.found.roles.iter().position(|role| role.name == token.text);
+        let number = self
+            .found
+            .roles
+            .iter()
+            .position(|role| role.name == token.text);
         let role = number.and_then(|number| self.found.roles.get(number));
         let needed = match (role, sort) {
             (None, _) => "a role of ENTITIES".to_owned(),
@@ -180,7 +194,12 @@ impl<'a> Parser<'a> {
             _ => return Ok(number.unwrap_or_default()),
         };
         let source = self.cursor.source();
-        Err(TextError::needed(source, token.span.clone(), needed, token.shown()))
+        Err(TextError::needed(
+            source,
+            token.span.clone(),
+            needed,
+            token.shown(),
+        ))
     }
 
     fn types(&mut self) -> Result<(), TextError> {
@@ -198,8 +217,13 @@ impl<'a> Parser<'a> {
                 (None, None) => {
                     let needed = "STRAIGHT, CONVEX or CONCAVE for an edge; PLANAR, SIMPLE (without holes) or PIERCED for a face";
                     let span = word.span.clone();
-                    return Err(TextError::needed(self.cursor.source(), span, needed, word.shown())
-                        .help("boundaries have straight edges and flat faces"));
+                    return Err(TextError::needed(
+                        self.cursor.source(),
+                        span,
+                        needed,
+                        word.shown(),
+                    )
+                    .help("boundaries have straight edges and flat faces"));
                 }
             };
             self.found.conditions.push(condition);
@@ -212,10 +236,14 @@ impl<'a> Parser<'a> {
         let first = self.role(first, Some(Sort::Face))?;
         self.cursor.sign(":", "`:`")?;
         loop {
-            self.cursor.sign("(", "`(`, the other face, the edge between both and how it bends")?;
+            self.cursor.sign(
+                "(",
+                "`(`, the other face, the edge between both and how it bends",
+            )?;
             let second = self.cursor.word("the other face")?;
             let second = self.role(second, Some(Sort::Face))?;
-            self.cursor.sign(",", "`,` and the edge between both faces")?;
+            self.cursor
+                .sign(",", "`,` and the edge between both faces")?;
             let edge = self.cursor.word("the edge between both faces")?;
             let edge = self.role(edge, Some(Sort::Edge))?;
             self.found.conditions.push(Condition::Connected {
@@ -225,14 +253,19 @@ impl<'a> Parser<'a> {
             });
             if self.cursor.take_sign(",") {
                 if self.cursor.take_word("CONVEX") {
-                    self.found.conditions.push(Condition::Bend(edge, Bend::Convex));
+                    self.found
+                        .conditions
+                        .push(Condition::Bend(edge, Bend::Convex));
                 } else if self.cursor.take_word("CONCAVE") {
-                    self.found.conditions.push(Condition::Bend(edge, Bend::Concave));
+                    self.found
+                        .conditions
+                        .push(Condition::Bend(edge, Bend::Concave));
                 } else {
                     return Err(self.cursor.needed("`CONVEX` or `CONCAVE`"));
                 }
             }
-            self.cursor.sign(")", "`,` and `CONVEX` or `CONCAVE`, or `)`")?;
+            self.cursor
+                .sign(")", "`,` and `CONVEX` or `CONCAVE`, or `)`")?;
             if !self.cursor.take_sign(",") {
                 return Ok(());
             }
@@ -253,9 +286,17 @@ impl<'a> Parser<'a> {
         let Some(orientation) = all.into_iter().find(|one| is_word(word, *one)) else {
             let needed = "PARALLEL, PERPENDICULAR, COPLANAR, FACING or AWAY";
             let span = word.span.clone();
-            return Err(TextError::needed(self.cursor.source(), span, needed, word.shown()));
+            return Err(TextError::needed(
+                self.cursor.source(),
+                span,
+                needed,
+                word.shown(),
+            ));
         };
-        let of_faces = !matches!(orientation, Orientation::Parallel | Orientation::Perpendicular);
+        let of_faces = !matches!(
+            orientation,
+            Orientation::Parallel | Orientation::Perpendicular
+        );
         let mut roles = Vec::with_capacity(names.len());
         for name in &names {
             roles.push(self.role(name, of_faces.then_some(Sort::Face))?);
@@ -280,7 +321,10 @@ impl<'a> Parser<'a> {
         self.cursor.sign("[", "`[` and roles")?;
         let names = self.names("a role")?;
         self.cursor.sign("]", "`,` and another role, or `]`")?;
-        names.into_iter().map(|name| self.role(name, None)).collect()
+        names
+            .into_iter()
+            .map(|name| self.role(name, None))
+            .collect()
     }
 
     fn recognition(&mut self) -> Result<Recognition, TextError> {

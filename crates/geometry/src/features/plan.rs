@@ -74,10 +74,19 @@ impl Declaration {
                     second,
                     edge,
                 },
-            ) => format!("(then) {} beside {} at {}", name(first), name(second), name(edge)),
+            ) => format!(
+                "(then) {} beside {} at {}",
+                name(first),
+                name(second),
+                name(edge)
+            ),
             (None, Action::Verify) => "(then) what is left".to_owned(),
         };
-        let asked: Vec<String> = step.conditions.iter().map(|c| self.condition_text(*c)).collect();
+        let asked: Vec<String> = step
+            .conditions
+            .iter()
+            .map(|c| self.condition_text(*c))
+            .collect();
         match asked.is_empty() {
             true => action,
             false => format!("{action}: {}", asked.join(", ")),
@@ -175,7 +184,8 @@ impl Compiler<'_> {
             }
         }
         for (number, condition) in self.declaration.conditions.iter().enumerate() {
-            if let (true, Some(mark)) = (conditions.contains(condition), self.asked.get_mut(number)) {
+            if let (true, Some(mark)) = (conditions.contains(condition), self.asked.get_mut(number))
+            {
                 *mark = true;
             }
         }
@@ -198,7 +208,10 @@ impl Compiler<'_> {
                 else {
                     return None;
                 };
-                let count = [first, second, edge].into_iter().filter(|r| self.is_filled(*r)).count();
+                let count = [first, second, edge]
+                    .into_iter()
+                    .filter(|r| self.is_filled(*r))
+                    .count();
                 (1..3).contains(&count).then_some(Action::Join {
                     first,
                     second,
@@ -217,7 +230,9 @@ impl Compiler<'_> {
     /// The role to begin with: of those that are empty a concave edge, then any edge, then a face.
     fn rarest(&self) -> usize {
         let roles = &self.declaration.roles;
-        let empty: Vec<usize> = (0..roles.len()).filter(|role| !self.is_filled(*role)).collect();
+        let empty: Vec<usize> = (0..roles.len())
+            .filter(|role| !self.is_filled(*role))
+            .collect();
         let is_concave = |role: &usize| {
             let bend = Condition::Bend(*role, Bend::Concave);
             self.declaration.conditions.contains(&bend)

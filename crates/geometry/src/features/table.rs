@@ -211,7 +211,8 @@ impl<S: Scalar> Finder<'_, S> {
 
     fn join(&self, row: &Tuple, [first, second, edge]: [usize; 3], next: &mut Vec<Tuple>) {
         let of_face = |face: usize| {
-            let edges: BTreeSet<usize> = self.boundary.edges_of_face(face).iter().copied().collect();
+            let edges: BTreeSet<usize> =
+                self.boundary.edges_of_face(face).iter().copied().collect();
             edges.into_iter().collect::<Vec<usize>>()
         };
         let edges = match (held(row, edge), held(row, first), held(row, second)) {
@@ -378,7 +379,10 @@ fn held(row: &Tuple, role: usize) -> Option<usize> {
 }
 
 fn faces_oriented<S: Scalar>(a: &Face<S>, b: &Face<S>, orientation: Orientation) -> Answer {
-    let (m, n) = (a.plane().normal().components(), b.plane().normal().components());
+    let (m, n) = (
+        a.plane().normal().components(),
+        b.plane().normal().components(),
+    );
     let cosine = dot(m, n);
     if orientation == Orientation::Perpendicular {
         return Answer::zero(cosine.sign());

@@ -79,7 +79,12 @@ fn the_step_of_the_thesis_is_found_as_often_as_it_is_there() {
         let count = usize::try_from(steps).unwrap();
         let exact = found::<Number>(STEP, &outline);
         assert_eq!(exact.features.len(), count, "{steps}");
-        assert!(exact.features.iter().all(|f| f.holds == Answer::Yes && f.ways == 2));
+        assert!(
+            exact
+                .features
+                .iter()
+                .all(|f| f.holds == Answer::Yes && f.ways == 2)
+        );
         assert_eq!(found::<Measured>(STEP, &outline).features, exact.features);
     }
     assert_eq!(found::<Number>(STEP, &GROOVED).features.len(), 2);
@@ -133,7 +138,9 @@ fn the_order_is_that_of_the_author() {
 fn a_declaration_without_steps_of_its_author_ends_too() {
     let (definition, _) = STEP.split_once("BEGIN").unwrap();
     let declaration = declared(definition);
-    let found = declaration.extract(&prism::<Number>(&stairs(4), 5)).unwrap();
+    let found = declaration
+        .extract(&prism::<Number>(&stairs(4), 5))
+        .unwrap();
     assert_eq!(found.features.len(), 4);
 }
 
@@ -143,11 +150,27 @@ fn what_is_no_declaration_is_refused_with_its_place() {
     for (rest, line, said) in [
         ("EDGE TYPE: F : STRAIGHT ;", 5, "a role that is an edge"),
         ("EDGE TYPE: E : ROUND ;", 5, "STRAIGHT, CONVEX or CONCAVE"),
-        ("CONNECTIVITY: F: (G, E, BENT) ;", 5, "`CONVEX` or `CONCAVE`"),
-        ("CONNECTIVITY: F: (H, E) ;", 5, "a role of ENTITIES, found `H`"),
+        (
+            "CONNECTIVITY: F: (G, E, BENT) ;",
+            5,
+            "`CONVEX` or `CONCAVE`",
+        ),
+        (
+            "CONNECTIVITY: F: (H, E) ;",
+            5,
+            "a role of ENTITIES, found `H`",
+        ),
         ("ORIENTATION: F, E : FACING ;", 5, "a role that is a face"),
-        ("END DEFINITION\nBEGIN\nfind [F] based on colour ;", 7, "found `colour`"),
-        ("END DEFINITION\nBEGIN\nverify [F] orientation ;\nEND", 7, "nothing declared"),
+        (
+            "END DEFINITION\nBEGIN\nfind [F] based on colour ;",
+            7,
+            "found `colour`",
+        ),
+        (
+            "END DEFINITION\nBEGIN\nverify [F] orientation ;\nEND",
+            7,
+            "nothing declared",
+        ),
         ("END DEFINITION\nBEGIN\n", 6, "found the end"),
         ("SHAPE: F ;", 5, "`FACE` or `EDGE`"),
     ] {

@@ -72,12 +72,7 @@ pub(crate) fn tokens(source: &str) -> Result<Vec<Token<'_>>, TextError> {
 }
 
 /// The kind and the length in bytes of the token at the beginning of a text that is not blank.
-fn next(
-    source: &str,
-    at: usize,
-    rest: &str,
-    first: char,
-) -> Result<(Kind, usize), TextError> {
+fn next(source: &str, at: usize, rest: &str, first: char) -> Result<(Kind, usize), TextError> {
     let wrong = |length: usize, found: &str| {
         let needed = "a name, a number or a sign of the language";
         TextError::needed(source, at..at + length, needed, found)
@@ -106,7 +101,10 @@ fn next(
     }
     match SIGNS.iter().find(|sign| rest.starts_with(**sign)) {
         Some(sign) => Ok((Kind::Sign, sign.len())),
-        None => Err(wrong(first.len_utf8(), &format!("`{}`", first.escape_debug()))),
+        None => Err(wrong(
+            first.len_utf8(),
+            &format!("`{}`", first.escape_debug()),
+        )),
     }
 }
 

@@ -118,12 +118,7 @@ impl<'a, S: Legible> Reader<'a, S> {
         }
     }
 
-    fn store(
-        &mut self,
-        place: &Token<'_>,
-        name: &str,
-        entity: Entity<S>,
-    ) -> Result<Id, TextError> {
+    fn store(&mut self, place: &Token<'_>, name: &str, entity: Entity<S>) -> Result<Id, TextError> {
         let source = self.cursor.source();
         self.reading
             .world
@@ -142,7 +137,9 @@ impl<'a, S: Legible> Reader<'a, S> {
         let numbers = &mut self.reading.numbers;
         match numbers.insert(name.text.to_owned(), number) {
             None => Ok(()),
-            Some(_) => Err(self.wrong(name, format!("the number `{}` is there already", name.text))),
+            Some(_) => {
+                Err(self.wrong(name, format!("the number `{}` is there already", name.text)))
+            }
         }
     }
 
@@ -159,7 +156,11 @@ impl<'a, S: Legible> Reader<'a, S> {
     fn expression(&mut self) -> Result<(S, Number), TextError> {
         let token = match self.cursor.peek() {
             Some(token) if token.kind == TokenKind::Expression => token,
-            _ => return Err(self.cursor.needed("a number, such as `0.5` or `${sqrt(3)/2}`")),
+            _ => {
+                return Err(self
+                    .cursor
+                    .needed("a number, such as `0.5` or `${sqrt(3)/2}`"));
+            }
         };
         self.cursor.take();
         let inside = token
@@ -199,7 +200,10 @@ impl<'a, S: Legible> Reader<'a, S> {
                 Ok((token, entity))
             }
             None => {
-                let message = format!("needed an entity that was named before, found `{}`", token.text);
+                let message = format!(
+                    "needed an entity that was named before, found `{}`",
+                    token.text
+                );
                 Err(self.wrong(token, message))
             }
         }
@@ -258,7 +262,9 @@ impl<'a, S: Legible> Reader<'a, S> {
         }
         match self.cursor.take_word("along") {
             true => Ok(Line::new(point, self.direction()?)),
-            false => Err(self.cursor.needed("`along` and a direction, or `through` and a point")),
+            false => Err(self
+                .cursor
+                .needed("`along` and a direction, or `through` and a point")),
         }
     }
 
@@ -400,7 +406,9 @@ impl<'a, S: Legible> Reader<'a, S> {
         block.vertex_names.push(format!("{owner}.{}", name.text));
         match block.vertices.insert(name.text.to_owned(), number) {
             None => Ok(()),
-            Some(_) => Err(self.wrong(name, format!("the vertex `{}` is there already", name.text))),
+            Some(_) => {
+                Err(self.wrong(name, format!("the vertex `{}` is there already", name.text)))
+            }
         }
     }
 
@@ -413,12 +421,17 @@ impl<'a, S: Legible> Reader<'a, S> {
                 loops.push(std::mem::take(&mut own));
                 continue;
             }
-            let token = self.cursor.word("the name of a vertex of this boundary, or `hole`")?;
+            let token = self
+                .cursor
+                .word("the name of a vertex of this boundary, or `hole`")?;
             match block.vertices.get(token.text) {
                 Some(number) => own.push(*number),
                 None => {
-                    let message = format!("needed a vertex of this boundary, found `{}`", token.text);
-                    return Err(self.wrong(token, message).help("vertices come before their faces"));
+                    let message =
+                        format!("needed a vertex of this boundary, found `{}`", token.text);
+                    return Err(self
+                        .wrong(token, message)
+                        .help("vertices come before their faces"));
                 }
             }
         }
