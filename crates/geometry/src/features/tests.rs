@@ -135,6 +135,15 @@ fn the_order_is_that_of_the_author() {
 }
 
 #[test]
+fn large_parts_take_as_many_tuples_as_they_have_candidates() {
+    let found = found::<Number>(STEP, &stairs(1_000));
+    assert_eq!(found.features.len(), 1_000);
+    let most = found.steps.iter().map(|step| step.filled).max();
+    // Every edge once, and no pair of faces that share none.
+    assert_eq!(most, Some(3 * 2_004));
+}
+
+#[test]
 fn a_declaration_without_steps_of_its_author_ends_too() {
     let (definition, _) = STEP.split_once("BEGIN").unwrap();
     let declaration = declared(definition);
