@@ -8,6 +8,8 @@ use kutzbach_math::number::Number;
 const STEP: &str = include_str!("../../../../mechanisms/features/step.features");
 const SLOT: &str = include_str!("../../../../mechanisms/features/slot.features");
 const RIB: &str = include_str!("../../../../mechanisms/features/rib.features");
+const POCKET: &str = include_str!("../../../../mechanisms/features/pocket.features");
+const HOLE: &str = include_str!("../../../../mechanisms/features/square_hole.features");
 const BLOCK: &str = include_str!("../../../../mechanisms/features/block.features");
 
 /// A prism over a polygon in the plane of x and z, counterclockwise seen against y, from y = 0 to y = depth.
@@ -103,6 +105,51 @@ fn slots_and_ribs_are_told_apart_by_their_walls() {
     ] {
         assert_eq!(found::<Number>(SLOT, outline).features.len(), slots);
         assert_eq!(found::<Number>(RIB, outline).features.len(), ribs);
+    }
+}
+
+/// A block of 6 by 6 by 2 with a hole of 2 by 2 in its middle, through it or down to half of its height.
+fn hollowed(through: bool) -> Boundary<Number> {
+    let mut builder = BoundaryBuilder::new();
+    let inner_bottom = if through { 0 } else { 1 };
+    for ([low, high], bottom) in [([0, 6], 0), ([2, 4], inner_bottom)] {
+        for z in [bottom, 2] {
+            for (x, y) in [(low, low), (high, low), (high, high), (low, high)] {
+                builder.vertex(Point([x, y, z].map(Scalar::whole)));
+            }
+        }
+    }
+    let below = vec![0, 3, 2, 1];
+    let middle = vec![8, 9, 10, 11];
+    match through {
+        true => {
+            builder.face(vec![below, middle]);
+        }
+        false => {
+            builder.face(vec![below]);
+            builder.face(vec![middle]);
+        }
+    }
+    builder.face(vec![vec![4, 5, 6, 7], vec![12, 15, 14, 13]]);
+    for at in 0..4 {
+        let next = (at + 1) % 4;
+        builder.face(vec![vec![at, next, next + 4, at + 4]]);
+        builder.face(vec![vec![at + 12, next + 12, next + 8, at + 8]]);
+    }
+    builder.build_solid().unwrap()
+}
+
+#[test]
+fn pockets_and_holes_are_told_apart_by_what_is_below() {
+    // Of a pocket each pair of walls that face each other is a slot over the floor, and over each wall between them.
+    for (through, pockets, holes, slots) in [(false, 1, 0, 6), (true, 0, 1, 4)] {
+        let part = hollowed(through);
+        let found = |text: &str| declared(text).extract(&part).unwrap().features;
+        assert_eq!(found(POCKET).len(), pockets);
+        assert_eq!(found(HOLE).len(), holes);
+        assert_eq!(found(SLOT).len(), slots);
+        assert!(found(POCKET).iter().all(|feature| feature.ways == 8));
+        assert!(found(HOLE).iter().all(|feature| feature.ways == 16));
     }
 }
 
