@@ -141,7 +141,7 @@ impl<'a> Parser<'a> {
         })
     }
 
-    /// The token before a comma or the end of a list.
+    /// Names with commas between them.
     fn names(&mut self, needed: &str) -> Result<Vec<&'a Token<'a>>, TextError> {
         let mut names = vec![self.cursor.word(needed)?];
         while self.cursor.take_sign(",") {
