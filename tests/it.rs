@@ -57,6 +57,7 @@ mod frames;
 mod fuzz_format;
 mod gallery;
 mod gear_trains;
+mod geometry_cli;
 #[path = "germs/main.rs"]
 mod germs;
 mod grippers;

@@ -11,8 +11,10 @@ mod exact;
 mod excerpt;
 mod explain;
 mod failure;
+mod features;
 mod files;
 mod gallery;
+mod geometry;
 mod graph;
 mod interrupt;
 mod load;
@@ -69,6 +71,8 @@ enum Command {
     Map(map::Arguments),
     Accuracy(accuracy::Arguments),
     Gallery(gallery::Arguments),
+    Geometry(geometry::Arguments),
+    Features(features::Arguments),
     Explain(explain::Arguments),
     Completions(shells::Completions),
     Man(shells::Manual),
@@ -90,6 +94,8 @@ pub fn run() -> ExitCode {
         Command::Map(arguments) => map::run(&arguments),
         Command::Accuracy(arguments) => accuracy::run(&arguments),
         Command::Gallery(arguments) => gallery::run(&arguments),
+        Command::Geometry(arguments) => geometry::run(&arguments),
+        Command::Features(arguments) => features::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Completions(arguments) => shells::completions(&arguments, Arguments::command()),
         Command::Man(arguments) => shells::manual(&arguments, Arguments::command()),
