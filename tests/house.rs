@@ -19,6 +19,20 @@ fn every_file_of_tests_is_part_of_the_program() {
     }
 }
 
+/// A package holds no file from outside its crate; `cp docs/src/definitions.md crates/report/` copies the page again.
+#[test]
+fn the_definitions_in_the_package_are_those_of_the_book() {
+    let read = |path: &str| std::fs::read_to_string(folder(path)).unwrap();
+    let (book, package) = (
+        read("docs/src/definitions.md"),
+        read("crates/report/definitions.md"),
+    );
+    assert!(
+        book == package,
+        "docs/src/definitions.md and crates/report/definitions.md differ"
+    );
+}
+
 /// The crates that a build compiles, with their features.
 fn crates(edges: &str, more: &[&str]) -> BTreeMap<String, BTreeSet<String>> {
     let run = Command::new(env!("CARGO"))

@@ -57,6 +57,7 @@ mod frames;
 mod fuzz_format;
 mod gallery;
 mod gear_trains;
+mod geometry_cli;
 #[path = "germs/main.rs"]
 mod germs;
 mod grippers;
@@ -101,6 +102,7 @@ mod sketch_relations;
 mod smooth_scenes;
 #[path = "stability/main.rs"]
 mod stability;
+mod step;
 mod subgroups;
 mod superfluous;
 mod support;

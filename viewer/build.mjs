@@ -1,4 +1,4 @@
-// Bundles the script and the style sheet of the page into dist/. The same sources give the same bytes.
+// Bundles the script and the style sheet of the page into crates/report/viewer/. The same sources give the same bytes.
 import { build } from "esbuild";
 import { readFile, writeFile } from "node:fs/promises";
 import { dirname, join } from "node:path";
@@ -16,20 +16,21 @@ if (/<\/|<!--/.test(notice)) throw new Error("the notice would end the script el
 await build({
   ...common,
   entryPoints: ["src/main.ts"],
-  outfile: "dist/viewer.js",
+  outfile: "../crates/report/viewer/viewer.js",
   format: "iife",
   target: "es2022",
   charset: "utf8",
   banner: { js: notice },
 });
-await build({ ...common, entryPoints: ["src/page.css"], outfile: "dist/page.css", charset: "utf8", target: ["chrome109", "firefox115", "safari16"] });
+await build({ ...common, entryPoints: ["src/page.css"], outfile: "../crates/report/viewer/page.css", charset: "utf8", target: ["chrome109", "firefox115", "safari16"] });
 
 // A page holds the script between tags: nothing in it may look like their end.
-const path = join(here, "dist/viewer.js");
+const out = join(here, "../crates/report/viewer");
+const path = join(out, "viewer.js");
 const script = await readFile(path, "utf8");
 const safe = script.replaceAll(/<\/(?=script)/gi, "<\\/").replaceAll("<!--", "<\\!--");
 await writeFile(path, safe);
 for (const file of ["viewer.js", "page.css"]) {
-  const { length } = await readFile(join(here, "dist", file));
-  console.log(`dist/${file} ${(length / 1024).toFixed(1)} KiB`);
+  const { length } = await readFile(join(out, file));
+  console.log(`${file} ${(length / 1024).toFixed(1)} KiB`);
 }

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// Extensions of mechanism files in a folder.
-const EXTENSIONS: [&str; 4] = ["urdf", "sdf", "asmt", "FCStd"];
+const EXTENSIONS: [&str; 6] = ["urdf", "sdf", "asmt", "FCStd", "step", "stp"];
 
 /// Folders in folders are followed this deep, which ends circles of links too.
 const DEEPEST: usize = 16;
@@ -36,7 +36,7 @@ pub fn mechanism_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
         return Err(Failure::Plain {
             message: "there is no mechanism file".to_owned(),
             help: Some(
-                "folders are searched for files that end in `.urdf`, `.sdf`, `.asmt` or `.FCStd`"
+                "folders are searched for files that end in `.urdf`, `.sdf`, `.asmt`, `.FCStd`, `.step` or `.stp`"
                     .to_owned(),
             ),
         });

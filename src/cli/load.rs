@@ -1,8 +1,11 @@
 //! From a path to a mechanism and its report.
 
+use super::contacts;
 use super::failure::Failure;
 use clap::Args;
-use kutzbach::format::{ReadOptions, Reading, property_names, read_file_with, read_with};
+use kutzbach::format::{
+    Corrections, ReadOptions, Reading, property_names, read_file_with, read_with,
+};
 use kutzbach::mobility::Analysis;
 use kutzbach::report::html::Prepared;
 use kutzbach::report::{Misfit, Options, Report, analysed_report, misfits};
@@ -26,6 +29,9 @@ pub struct Source {
     /// Say where a ROS package is that a xacro file includes from; may be repeated
     #[arg(long = "package", value_name = "NAME=PATH", value_parser = package, help_heading = "Reading the file")]
     pub packages: Vec<(String, PathBuf)>,
+    /// Correct which joints the contacts of a STEP file are, by JSON as `kutzbach contacts FILE --json` writes it
+    #[arg(long, value_name = "FILE", value_parser = contacts::corrections, help_heading = "Reading the file")]
+    pub contacts: Option<Corrections>,
 }
 
 impl Source {
@@ -75,6 +81,7 @@ impl Source {
             strict,
             packages: self.packages.clone(),
             without_environment: false,
+            contacts: self.contacts.clone().unwrap_or_default(),
         }
     }
 

@@ -5,13 +5,16 @@
 mod accuracy;
 mod assemble;
 mod check;
+mod contacts;
 mod convert;
 mod exact;
 mod excerpt;
 mod explain;
 mod failure;
+mod features;
 mod files;
 mod gallery;
+mod geometry;
 mod graph;
 mod interrupt;
 mod load;
@@ -58,6 +61,7 @@ enum Command {
     Report(report::Arguments),
     Check(check::Arguments),
     Convert(convert::Arguments),
+    Contacts(contacts::Arguments),
     Simulate(Box<simulate::Arguments>),
     Graph(graph::Arguments),
     Exact(exact::Arguments),
@@ -67,6 +71,8 @@ enum Command {
     Map(map::Arguments),
     Accuracy(accuracy::Arguments),
     Gallery(gallery::Arguments),
+    Geometry(geometry::Arguments),
+    Features(features::Arguments),
     Explain(explain::Arguments),
     Completions(shells::Completions),
     Man(shells::Manual),
@@ -78,6 +84,7 @@ pub fn run() -> ExitCode {
         Command::Report(arguments) => report::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Convert(arguments) => convert::run(&arguments),
+        Command::Contacts(arguments) => contacts::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Graph(arguments) => graph::run(&arguments),
         Command::Exact(arguments) => exact::run(&arguments),
@@ -87,6 +94,8 @@ pub fn run() -> ExitCode {
         Command::Map(arguments) => map::run(&arguments),
         Command::Accuracy(arguments) => accuracy::run(&arguments),
         Command::Gallery(arguments) => gallery::run(&arguments),
+        Command::Geometry(arguments) => geometry::run(&arguments),
+        Command::Features(arguments) => features::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Completions(arguments) => shells::completions(&arguments, Arguments::command()),
         Command::Man(arguments) => shells::manual(&arguments, Arguments::command()),

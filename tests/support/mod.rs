@@ -5,6 +5,7 @@ pub mod decimal;
 pub mod drawn;
 pub mod exported;
 pub mod rewrite;
+pub mod step_text;
 pub mod whole_numbers;
 
 use kutzbach::matrix::SplitMix64;

@@ -4,7 +4,7 @@
 
 use super::error::Fault;
 use super::xml::root_name;
-use super::{cad, gepetto, words::cut};
+use super::{cad, gepetto, step, words::cut};
 
 /// A format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,6 +19,8 @@ pub(super) enum Content {
     Asmt,
     /// A document of FreeCAD.
     FreeCad,
+    /// A STEP file (ISO 10303-21).
+    Step,
     /// YAML of Gepetto's, which says how the loops of a robot close.
     Gepetto,
     /// One that is known and not read.
@@ -39,10 +41,6 @@ impl Other {
     }
 }
 
-const STEP: Other = Other {
-    name: "STEP",
-    instead: "STEP says shapes and seldom joints: join the parts in FreeCAD's Assembly workbench and read that document",
-};
 const USD: Other = Other {
     name: "USD",
     instead: "export the articulation as MJCF or URDF; joints outside the articulation are its loops, and belong into <equality> or <loop>",
@@ -89,12 +87,11 @@ pub(super) fn is_zip(bytes: &[u8]) -> bool {
 
 /// The format of bytes that are no text; `None` where they may be text, or a document of FreeCAD.
 pub(super) fn of_bytes(bytes: &[u8]) -> Option<Other> {
-    let starts: [(&[u8], Other); 5] = [
+    let starts: [(&[u8], Other); 4] = [
         (b"PXR-USDC", USD),
         (b"glTF", SHAPES),
         (b"Kaydara FBX", SHAPES),
         (b"\x89MCAP0", LOG),
-        (b"ISO-10303-21", STEP),
     ];
     let found = starts.iter().find(|(start, _)| bytes.starts_with(start));
     found.map(|(_, other)| *other)
@@ -102,6 +99,9 @@ pub(super) fn of_bytes(bytes: &[u8]) -> Option<Other> {
 
 /// The format of a text.
 pub(super) fn of(text: &str) -> Content {
+    if step::is_step(text.as_bytes()) {
+        return Content::Step;
+    }
     match root_name(text) {
         "mujoco" | "mujocoinclude" => return Content::Mjcf,
         "sdf" => return Content::Sdf,
@@ -120,7 +120,6 @@ pub(super) fn of(text: &str) -> Content {
     let other = match first {
         _ if gepetto::is_description(text) => return Content::Gepetto,
         _ if first.starts_with("#usda") => USD,
-        _ if first.starts_with("ISO-10303-21") => STEP,
         _ if first.starts_with("solid ") || first.starts_with("#VRML") => SHAPES,
         _ if first.starts_with("within ") || word.starts_with("model ") => MODELICA,
         _ if first.starts_with('{') || first.starts_with('[') => JSON,
@@ -154,7 +153,8 @@ mod tests {
             ("<sdf version='1.9'/>", Content::Sdf),
             ("OndselSolver\nAssembly\n\tName\n\t\ta\n", Content::Asmt),
             ("#usda 1.0\n(\n)", Content::Other(USD)),
-            ("ISO-10303-21;\nHEADER;", Content::Other(STEP)),
+            ("ISO-10303-21;\nHEADER;", Content::Step),
+            ("\u{feff} \nISO-10303-21;", Content::Step),
             ("closed_loop: [[a, b]]\n", Content::Gepetto),
             ("# robot\nclosed_loop:\n- [a, b]\n", Content::Gepetto),
             ("joints: [a, b]\n", Content::Other(YAML)),

@@ -94,6 +94,33 @@ pub(super) fn located(file: &str, text: &str, mut faults: Vec<Fault>) -> FormatE
     FormatError { others, ..first }
 }
 
+/// An error about a whole line, counted from 1, of a file that need not be UTF-8. A line beyond the file is its first.
+pub(super) fn at_line(
+    file: &str,
+    bytes: &[u8],
+    line: usize,
+    message: &str,
+    help: Option<String>,
+) -> FormatError {
+    let is_end = |byte: &u8| *byte == b'\n';
+    let mut ends = bytes.iter().enumerate().filter(|(_, byte)| is_end(byte));
+    let start = match line.checked_sub(2) {
+        None => 0,
+        Some(before) => ends.nth(before).map_or(0, |(at, _)| at + 1),
+    };
+    let rest = bytes.get(start..).unwrap_or_default();
+    let length = rest.iter().position(is_end).unwrap_or(rest.len());
+    FormatError {
+        message: one_line(message),
+        help: help.map(|help| one_line(&help)),
+        line: line.max(1),
+        column: 1,
+        span: start..start + length,
+        file: file.to_owned(),
+        others: Box::default(),
+    }
+}
+
 /// Line and column (both from 1, columns in characters) of ascending byte offsets, in one walk over the text.
 ///
 /// A byte order mark at the start is not a column. Offsets beyond the text count as its end.

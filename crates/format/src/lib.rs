@@ -75,6 +75,7 @@ mod relax;
 mod restated;
 mod sdf;
 mod sketch;
+mod step;
 mod template;
 mod unread;
 mod values;
@@ -90,6 +91,10 @@ pub use from_urdf_rs::urdf_text;
 pub use kept::Kept;
 pub use property_names::property_names;
 pub use sketch::{is_sketch, read_sketch, read_sketch_file};
+pub use step::{
+    ContactRow, ContactSeen, ContactTable, Corrections, PairCorrection, PairRule, Reason,
+    contact_table,
+};
 pub use template::Template;
 pub use writer::{Numbers, WriteOptions, escaped, write, write_with};
 
@@ -113,7 +118,7 @@ pub struct Reading {
     /// What is not read because it says nothing about motion, in file order.
     pub skipped: Vec<Skipped>,
     /// The smallest dialect that the file belongs to: `urdf`, `urdf+` or `kutzbach-urdf`; `xacro` for one that was expanded;
-    /// `mjcf`, `sdf`, `asmt`, `freecad`; `gepetto` for a URDF with loops in YAML beside it.
+    /// `mjcf`, `sdf`, `asmt`, `freecad`, `step`; `gepetto` for a URDF with loops in YAML beside it.
     pub format: &'static str,
     /// What is kept of the rest for writing it back.
     pub kept: Kept,
@@ -275,6 +280,8 @@ pub struct ReadOptions {
     /// into for packages, nor is any variable set for `$(env NAME)` and `$(optenv NAME default)`, so that a text means the same
     /// everywhere.
     pub without_environment: bool,
+    /// What is known of the contacts of a STEP file beyond its shapes.
+    pub contacts: Corrections,
 }
 
 impl ReadOptions {
@@ -303,7 +310,13 @@ fn read_text(
     base: Option<&Path>,
     options: &ReadOptions,
 ) -> Result<Reading, FormatError> {
-    let reading = match content::of(text) {
+    let content = content::of(text);
+    if content != Content::Step && options.contacts != Corrections::default() {
+        let fault = Fault::new(0..0, "only STEP files have contacts to correct");
+        let fault = fault.help("leave `--contacts` out, or read the STEP file");
+        return Err(located(file, text, vec![fault]));
+    }
+    let reading = match content {
         Content::Robot => read_robot(text, file, base, options, &Added::default())?,
         Content::Gepetto => gepetto::read(text, file, base, options)?,
         content => read_foreign(content, text, file, base, options)?,
@@ -386,6 +399,7 @@ fn read_foreign(
             let whole = mjcf::whole(text, file, base)?;
             return mjcf::read(&whole, options).map_err(|faults| whole.located(faults));
         }
+        Content::Step => return step::read(text.as_bytes(), file, options),
         Content::Robot | Content::Gepetto => reader::read(text, options, None, &Added::default()),
         Content::Other(what) => Err(vec![what.fault()]),
     };
@@ -418,7 +432,11 @@ pub fn read_bytes(
     file: &str,
     settings: &[(String, String)],
 ) -> Result<Reading, FormatError> {
-    bytes_with(bytes, file, |text, file| read(text, file, settings))
+    let options = ReadOptions {
+        settings: settings.to_vec(),
+        ..ReadOptions::default()
+    };
+    read_bytes_of(bytes, file, None, &options)
 }
 
 fn bytes_with<T>(
@@ -497,6 +515,13 @@ pub fn read_bytes_of(
     base: Option<&Path>,
     options: &ReadOptions,
 ) -> Result<Reading, FormatError> {
+    // Names in STEP files may be in any encoding.
+    if step::is_step(bytes) {
+        if let Some(fault) = guard::size_fault(bytes.len() as u64) {
+            return Err(located(file, "", vec![fault]));
+        }
+        return step::read(bytes, file, options).map(|reading| understood(reading, options));
+    }
     bytes_with(bytes, file, |text, file| {
         read_text(text, file, base, options)
     })

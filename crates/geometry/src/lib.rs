@@ -23,16 +23,22 @@
 //! loops, faces and shells are connected, of an open surface or of a solid; it need be no manifold. Results that are sets
 //! ([`Found::Several`]) have points and segments as members. [`space_hull`] makes the boundary of a convex solid from points.
 //!
+//! # Text
+//! [`read_world`] reads entities with names into a [`World`]; [`ask`] answers questions about it in a small language, in which names
+//! may be free; [`features`] finds what a declaration says in the boundaries of parts.
+//!
 //! # Motions
 //! A [`Transformation`] is a rotation and a translation; it moves every entity, and exactly so where its numbers are exact.
 
 mod angle;
+pub mod ask;
 mod boundary;
 mod curved;
 mod decide;
 mod distance;
 mod entity;
 mod error;
+pub mod features;
 mod hull;
 mod intersection;
 mod join;
@@ -54,6 +60,7 @@ mod round;
 mod scalar;
 #[cfg(test)]
 mod tests;
+mod text;
 mod transform;
 mod triple;
 mod world;
@@ -79,5 +86,6 @@ pub use planar::{
 pub use projection::projection;
 pub use round::{classify_by_round, coaxial, compare_radii, concentric, radius_difference};
 pub use scalar::Scalar;
+pub use text::{Legible, Reading, TextError, read_world};
 pub use transform::Transformation;
 pub use world::{Id, World, WorldError};

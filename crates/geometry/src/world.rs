@@ -232,6 +232,13 @@ impl<S> World<S> {
         self.names.values().filter(uses).copied().collect()
     }
 
+    /// Whether an entity was made from another one, directly.
+    #[must_use]
+    pub fn is_made_from(&self, id: Id, other: Id) -> bool {
+        self.stored(id)
+            .is_ok_and(|stored| stored.made_from.contains(&other))
+    }
+
     /// Deletes an entity that no other is made from, and gives it back.
     ///
     /// # Errors

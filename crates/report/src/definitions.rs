@@ -1,12 +1,12 @@
 //! What the words of a report mean: the numbered definitions of the book (`docs/src/definitions.md`), looked up by word.
 //!
-//! The book's page is the only source; it is compiled in and read here. A definition opens with a heading
+//! The book's page is compiled in and read here; a copy of it lies in this crate, so that it can be packaged. A definition opens with a heading
 //! `## D3 Instantaneous freedom {#instantaneous}`, may list further words on a line `Also: …`, and runs to the next heading.
 
 use strsim::levenshtein;
 
 /// The book's page.
-const PAGE: &str = include_str!("../../../docs/src/definitions.md");
+const PAGE: &str = include_str!("../definitions.md");
 
 /// One numbered definition.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -33,13 +33,13 @@ pub const STYLE: &str = "page.css";
 /// The script of every page, built from `viewer/src`; see `viewer/README.md`.
 #[must_use]
 pub fn script() -> &'static str {
-    include_str!("../../../../viewer/dist/viewer.js")
+    include_str!("../../viewer/viewer.js")
 }
 
 /// The style of every page.
 #[must_use]
 pub fn style() -> String {
-    let page = include_str!("../../../../viewer/dist/page.css");
+    let page = include_str!("../../viewer/page.css");
     // The page has the last word on colours.
     [
         plot::STYLE,

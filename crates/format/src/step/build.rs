@@ -1,0 +1,198 @@
+//! From judged pairs to a mechanism: a spanning tree from the ground, breadth first; every other joint closes a loop.
+
+use super::geometry::Geometry;
+use super::pairs::{Judged, Taken};
+use super::standing::{Grid, Position, Standing, standing};
+use crate::names::unused;
+use kutzbach_math::number::Number;
+use kutzbach_model::mechanism::{
+    Direction, Frame, JointBuilder, Mechanism, MechanismBuilder, MechanismError,
+};
+use kutzbach_step::Assembly;
+use nalgebra::Vector3;
+use std::collections::{BTreeSet, VecDeque};
+
+/// A joint between two parts.
+struct Edge {
+    parts: (usize, usize),
+    taken: Taken,
+    standing: Standing,
+}
+
+/// A part on the way from the ground.
+#[derive(Clone)]
+struct Reached {
+    /// The origin of its link's frame.
+    origin: Position,
+    /// The joint that places it, by its index; `None` of the ground and of what floats.
+    by: Option<usize>,
+}
+
+/// What was made.
+pub(super) struct Built {
+    pub mechanism: Mechanism,
+    /// Parts that no joint connects with the ground, in groups that joints connect.
+    pub islands: Vec<Vec<usize>>,
+}
+
+/// Makes the mechanism of an assembly whose pairs are judged.
+///
+/// Each link's frame is parallel to the assembly's, with its origin where the joint is that places the link. Parts that no joint leads
+/// to float.
+///
+/// # Errors
+/// What the builder of mechanisms finds wrong.
+pub(super) fn build(
+    name: &str,
+    assembly: &Assembly,
+    ground: usize,
+    pairs: &[Judged],
+    accuracy: f64,
+    may_be_exact: bool,
+) -> Result<Built, MechanismError> {
+    let taken: Vec<(&Judged, Taken)> = pairs
+        .iter()
+        .filter_map(|pair| Some((pair, pair.taken?)))
+        .collect();
+    let geometry: Vec<(Geometry, Vector3<f64>)> = taken
+        .iter()
+        .map(|(pair, taken)| (taken.geometry, drawn_at(pair)))
+        .collect();
+    let (grid, standings) = standing(&geometry, accuracy, may_be_exact);
+    let edges: Vec<Edge> = taken
+        .iter()
+        .zip(standings)
+        .map(|((pair, taken), standing)| Edge {
+            parts: pair.parts,
+            taken: *taken,
+            standing,
+        })
+        .collect();
+    let (reached, islands) = spread(assembly.parts.len(), ground, &edges);
+    let mut builder = MechanismBuilder::new(name);
+    for part in &assembly.parts {
+        builder.link(&part.name);
+    }
+    let part_name = |place: usize| assembly.parts.get(place).map_or("", |p| p.name.as_str());
+    builder.ground(part_name(ground));
+    let mut names = BTreeSet::new();
+    for (index, edge) in edges.iter().enumerate() {
+        if let Some(joint) = joint(index, edge, &grid, &reached, &part_name, &mut names) {
+            builder.joint(joint);
+        }
+    }
+    for island in &islands {
+        if let Some(root) = island.first() {
+            let name = own_name(&format!("{} floats", part_name(*root)), &mut names);
+            let frame = Frame::identity();
+            builder.floating(&name, part_name(ground), part_name(*root), frame);
+        }
+    }
+    Ok(Built {
+        mechanism: builder.build()?,
+        islands,
+    })
+}
+
+/// A point of the pair's contacts, for joints whose place is no part of what they are.
+fn drawn_at(pair: &Judged) -> Vector3<f64> {
+    let first = pair.contacts.first();
+    first.map_or_else(Vector3::zeros, |contact| contact.point)
+}
+
+/// A name that nothing has yet, and this has from now on.
+fn own_name(wanted: &str, names: &mut BTreeSet<String>) -> String {
+    let name = unused(wanted, |name| names.contains(name));
+    names.insert(name.clone());
+    name
+}
+
+/// How every part is reached from the ground, breadth first; and the groups of those that are not, each from its first part.
+fn spread(parts: usize, ground: usize, edges: &[Edge]) -> (Vec<Option<Reached>>, Vec<Vec<usize>>) {
+    let mut beside: Vec<Vec<(usize, usize)>> = vec![Vec::new(); parts];
+    for (index, edge) in edges.iter().enumerate() {
+        let (a, b) = edge.parts;
+        for (from, to) in [(a, b), (b, a)] {
+            if let Some(own) = beside.get_mut(from) {
+                own.push((index, to));
+            }
+        }
+    }
+    let mut reached: Vec<Option<Reached>> = vec![None; parts];
+    let mut islands = Vec::new();
+    let others = (0..parts).filter(|part| *part != ground);
+    for root in std::iter::once(ground).chain(others) {
+        match reached.get_mut(root) {
+            Some(place) if place.is_none() => {
+                *place = Some(Reached {
+                    origin: [0; 3],
+                    by: None,
+                });
+            }
+            _ => continue,
+        }
+        let mut group = vec![root];
+        let mut open = VecDeque::from([root]);
+        while let Some(part) = open.pop_front() {
+            for (index, next) in beside.get(part).into_iter().flatten() {
+                let (Some(edge), Some(place)) = (edges.get(*index), reached.get_mut(*next)) else {
+                    continue;
+                };
+                if place.is_none() {
+                    *place = Some(Reached {
+                        origin: edge.standing.position,
+                        by: Some(*index),
+                    });
+                    group.push(*next);
+                    open.push_back(*next);
+                }
+            }
+        }
+        if root != ground {
+            islands.push(group);
+        }
+    }
+    (reached, islands)
+}
+
+/// The joint of an edge, from the part that is nearer to the ground.
+fn joint<'n>(
+    index: usize,
+    edge: &Edge,
+    grid: &Grid,
+    reached: &[Option<Reached>],
+    part_name: &impl Fn(usize) -> &'n str,
+    names: &mut BTreeSet<String>,
+) -> Option<JointBuilder> {
+    let (a, b) = edge.parts;
+    let of = |place: usize| reached.get(place).and_then(Option::as_ref);
+    let (one, two) = (of(a)?, of(b)?);
+    let places = |side: &Reached| side.by == Some(index);
+    // The joint that places a part leads to it.
+    let ((from, near), (to, far)) = match places(one) {
+        true => ((b, two), (a, one)),
+        false => ((a, one), (b, two)),
+    };
+    let kind = edge.taken.kind;
+    let name = own_name(&format!("{}-{}", part_name(a), part_name(b)), names);
+    let position = &edge.standing.position;
+    let origin = grid.frame(position, &near.origin);
+    let mut joint = match places(far) {
+        true => JointBuilder::tree(&name, kind, part_name(from), part_name(to)).origin(origin),
+        false => JointBuilder::closing(&name, kind, part_name(from), part_name(to))
+            .origin(origin)
+            .successor_origin(grid.frame(position, &far.origin)),
+    };
+    if kind.uses_axis() {
+        joint = joint.axis(edge.standing.axis.clone().unwrap_or_else(Direction::x));
+    }
+    if kind.uses_lead() {
+        joint = joint.lead(lead(edge.taken.lead?));
+    }
+    Some(joint)
+}
+
+/// A lead as the shortest decimal that is the double: what a person wrote.
+fn lead(metres: f64) -> Number {
+    Number::decimal(&format!("{metres}")).unwrap_or_else(|_| Number::zero())
+}

@@ -1,0 +1,181 @@
+//! What every pair of parts is taken as: by its contacts, by a name, or by what a person says.
+
+use super::corrections::{PairRule, Resolved, Wrong};
+use super::fasteners::{has_shaft_and_head, is_fastener};
+use super::geometry::{Geometry, for_kind, needed_by, of_subgroup};
+use crate::words::quoted;
+use kutzbach_model::mechanism::JointKind;
+use kutzbach_step::{Assembly, Contact, Joint, JointError, PairOfParts, joint_of};
+use std::collections::BTreeMap;
+
+/// Why a pair is taken as what it is taken as.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Reason {
+    /// Its contacts leave the displacements of this joint.
+    Contacts,
+    /// One of its parts is a fastener, which is tight.
+    Fastener,
+    /// A person says so.
+    Correction,
+    /// Its contacts are no joint, and why: nothing is taken of it.
+    Unclear(String),
+}
+
+/// A joint that a pair is taken as.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Taken {
+    pub kind: JointKind,
+    pub geometry: Geometry,
+    /// Metres per turn of screws.
+    pub lead: Option<f64>,
+}
+
+/// A pair of parts and what it is taken as.
+#[derive(Clone, Debug)]
+pub(super) struct Judged {
+    /// The places of the parts, the smaller one first.
+    pub parts: (usize, usize),
+    pub contacts: Vec<Contact>,
+    /// What the contacts say.
+    pub found: Result<Joint, JointError>,
+    /// The joint; `None` where the two do not hold each other.
+    pub taken: Option<Taken>,
+    pub reason: Reason,
+    /// Which of the parts is the fastener, where the reason is one.
+    pub fastener: Option<usize>,
+}
+
+/// Judges the pairs that touch and those that a person names, in ascending order of their parts.
+///
+/// # Errors
+/// A joint that a person names and for which the contacts have no axis or centre.
+pub(super) fn judged(
+    assembly: &Assembly,
+    touching: Vec<PairOfParts>,
+    corrections: &Resolved,
+    accuracy: f64,
+) -> Result<Vec<Judged>, Wrong> {
+    let mut contacts: BTreeMap<(usize, usize), Vec<Contact>> = touching
+        .into_iter()
+        .map(|pair| ((pair.first, pair.second), pair.contacts))
+        .collect();
+    for pair in corrections.pairs.keys() {
+        contacts.entry(*pair).or_default();
+    }
+    let threaded = threaded(corrections);
+    let mut pairs = Vec::with_capacity(contacts.len());
+    for (parts, contacts) in contacts {
+        let found = joint_of(&contacts, accuracy);
+        let fastener = [parts.0, parts.1].into_iter().find(|place| {
+            let part = assembly.parts.get(*place);
+            part.is_some_and(|part| is_fastener(&part.name)) && !threaded.contains(place)
+        });
+        let fastener = fastener.filter(|_| has_shaft_and_head(&contacts));
+        let mut pair = Judged {
+            parts,
+            contacts,
+            found,
+            taken: None,
+            reason: Reason::Correction,
+            fastener: None,
+        };
+        match corrections.pairs.get(&parts) {
+            Some((rule, lead)) => pair.taken = corrected(assembly, &pair, *rule, *lead)?,
+            None => pair.by_itself(fastener),
+        }
+        pairs.push(pair);
+    }
+    Ok(pairs)
+}
+
+/// The parts of which a person has named a thread: they are drives.
+fn threaded(corrections: &Resolved) -> Vec<usize> {
+    let screws = corrections
+        .pairs
+        .iter()
+        .filter(|(_, (rule, _))| matches!(rule, PairRule::Joint(kind) if kind.uses_lead()));
+    screws.flat_map(|((a, b), _)| [*a, *b]).collect()
+}
+
+impl Judged {
+    /// What the pair is where no one says anything of it.
+    fn by_itself(&mut self, fastener: Option<usize>) {
+        if fastener.is_some() {
+            self.fastener = fastener;
+            self.reason = Reason::Fastener;
+            self.taken = Some(Taken {
+                kind: JointKind::Fixed,
+                geometry: Geometry::Free,
+                lead: None,
+            });
+            return;
+        }
+        let taken = match &self.found {
+            Ok(joint) if !joint.margin.is_clear() => Err(format!(
+                "they leave a `{}` joint, but not clearly (margin {:.0}, needed 1000)",
+                kind_word(joint),
+                joint.margin.gap()
+            )),
+            Ok(joint) => match of_subgroup(&joint.subgroup) {
+                Some((kind, geometry, lead)) => Ok(Taken {
+                    kind,
+                    geometry,
+                    lead,
+                }),
+                None => Err("they leave every motion".to_owned()),
+            },
+            Err(error) => Err(error.to_string()),
+        };
+        match taken {
+            Ok(taken) => {
+                self.taken = Some(taken);
+                self.reason = Reason::Contacts;
+            }
+            Err(why) => self.reason = Reason::Unclear(why),
+        }
+    }
+}
+
+/// The word of the joint that contacts leave.
+fn kind_word(joint: &Joint) -> &'static str {
+    of_subgroup(&joint.subgroup).map_or("floating", |(kind, ..)| kind.word())
+}
+
+/// What a person says a pair is.
+fn corrected(
+    assembly: &Assembly,
+    pair: &Judged,
+    rule: PairRule,
+    lead: Option<f64>,
+) -> Result<Option<Taken>, Wrong> {
+    let PairRule::Joint(kind) = rule else {
+        return Ok(None);
+    };
+    let clear = pair.found.as_ref().ok().filter(|j| j.margin.is_clear());
+    let found = clear.map(|joint| &joint.subgroup);
+    let Some(geometry) = for_kind(kind, found, &pair.contacts) else {
+        let name = |place: usize| {
+            let part = assembly.parts.get(place);
+            quoted(part.map_or("", |part| part.name.as_str()))
+        };
+        let message = format!(
+            "`{}` between {} and {} needs {} in that pair, found {}",
+            kind.word(),
+            name(pair.parts.0),
+            name(pair.parts.1),
+            needed_by(kind),
+            match pair.contacts.len() {
+                0 => "no contact".to_owned(),
+                1 => "one other contact".to_owned(),
+                many => format!("{many} other contacts"),
+            }
+        );
+        let help = "a larger \"clearance\" finds more contacts; `fixed` and `ignore` need none";
+        return Err((message, Some(help.to_owned())));
+    };
+    Ok(Some(Taken {
+        kind,
+        geometry,
+        lead,
+    }))
+}

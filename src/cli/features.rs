@@ -1,0 +1,233 @@
+//! `kutzbach features FILE --declared F`: the features of parts that a text declares.
+
+use super::failure::Failure;
+use super::geometry::{in_file, read, word, world};
+use super::{DONE, output};
+use clap::Args;
+use kutzbach::number::Number;
+use kutzbach::report::text::visible;
+use kutzbach_geometry::features::{Declaration, Extraction, Feature, Sort, read_declarations};
+use kutzbach_geometry::{Boundary, Entity, Legible, Measured, Reading};
+use serde_json::{Value, json};
+use std::path::PathBuf;
+
+/// What the data are, for who reads them.
+const SCHEMA: &str = "kutzbach-features-1";
+
+/// Find features (steps, slots, your own) that a text declares in the boundaries of parts
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// Text with the solids and surfaces, as for `kutzbach geometry`; `-` for standard input
+    file: PathBuf,
+    /// Declaration of features, such as `mechanisms/features/step.features`; may be repeated
+    #[arg(long, value_name = "FILE", required = true)]
+    declared: Vec<PathBuf>,
+    /// Look in this solid or surface only; may be repeated
+    #[arg(long, value_name = "NAME")]
+    part: Vec<String>,
+    /// Take decimals as known to half a unit of their last place; if not given, they are exact
+    #[arg(long)]
+    tolerant: bool,
+    /// Write data for a program
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    destination: output::Destination,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Where a text says no entities or declares no feature, or the output cannot be written.
+pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let text = match arguments.tolerant {
+        false => found::<Number>(arguments)?,
+        true => found::<Measured>(arguments)?,
+    };
+    arguments.destination.put(&text)?;
+    Ok(DONE)
+}
+
+/// A part and what was found of a feature in it.
+struct InPart {
+    part: String,
+    declaration: Declaration,
+    extraction: Extraction,
+    /// The names of what fills the roles of each feature.
+    named: Vec<Vec<String>>,
+}
+
+fn found<S: Legible>(arguments: &Arguments) -> Result<String, Failure> {
+    let mut declarations = Vec::new();
+    for file in &arguments.declared {
+        let (name, text) = read(file)?;
+        declarations.extend(read_declarations(&text).map_err(|error| in_file(&name, error))?);
+    }
+    let reading: Reading<S> = world(&arguments.file)?;
+    let parts = parts(&reading, &arguments.part)?;
+    let mut all = Vec::new();
+    for (part, boundary) in &parts {
+        for declaration in &declarations {
+            let extraction = declaration
+                .extract(boundary)
+                .map_err(|error| Failure::Plain {
+                    message: format!("{} in {part}: {error}", declaration.name),
+                    help: None,
+                })?;
+            let names = |feature: &Feature| named(declaration, feature, part, &reading);
+            all.push(InPart {
+                part: (*part).to_owned(),
+                named: extraction.features.iter().map(names).collect(),
+                declaration: declaration.clone(),
+                extraction,
+            });
+        }
+    }
+    match arguments.json {
+        false => Ok(all.iter().map(text).collect()),
+        true => output::json(&json!({
+            "schema": SCHEMA,
+            "file": arguments.file.display().to_string(),
+            "form": if arguments.tolerant { "tolerant" } else { "exact" },
+            "found": all.iter().map(data).collect::<Vec<Value>>(),
+        })),
+    }
+}
+
+/// The boundaries that are asked about, in the order of the file.
+fn parts<'a, S: Legible>(
+    reading: &'a Reading<S>,
+    wanted: &[String],
+) -> Result<Vec<(&'a str, &'a Boundary<S>)>, Failure> {
+    let known = &reading.boundaries;
+    if let Some(missing) = wanted.iter().find(|name| !known.contains(name)) {
+        return Err(Failure::Plain {
+            message: format!("there is no solid or surface `{missing}`"),
+            help: Some(format!("the file has {}", known.join(", "))),
+        });
+    }
+    if known.is_empty() {
+        return Err(Failure::Plain {
+            message: "the file has no solid and no surface".to_owned(),
+            help: Some("write one from `solid NAME` to `end`".to_owned()),
+        });
+    }
+    let asked = known
+        .iter()
+        .filter(|name| wanted.is_empty() || wanted.contains(name));
+    let found = asked.filter_map(|name| {
+        let id = reading.world.find(name)?;
+        match reading.world.get(id)? {
+            Entity::Boundary(boundary) => Some((name.as_str(), boundary)),
+            _ => None,
+        }
+    });
+    Ok(found.collect())
+}
+
+/// The names of what fills the roles.
+fn named<S>(
+    declaration: &Declaration,
+    feature: &Feature,
+    part: &str,
+    reading: &Reading<S>,
+) -> Vec<String> {
+    let faces = reading.faces.get(part).map_or(&[][..], Vec::as_slice);
+    let roles = declaration.roles.iter().zip(&feature.roles);
+    let name = |(role, number): (&kutzbach_geometry::features::Role, &usize)| match role.sort {
+        Sort::Edge => format!("{part}.edge{number}"),
+        Sort::Face => faces
+            .get(*number)
+            .cloned()
+            .unwrap_or_else(|| format!("face {number}")),
+    };
+    roles.map(name).collect()
+}
+
+/// A heading, the features as a table, and the plan.
+fn text(found: &InPart) -> String {
+    let InPart {
+        part,
+        declaration,
+        extraction,
+        named,
+    } = found;
+    let count = match extraction.features.len() {
+        0 => "none".to_owned(),
+        many => many.to_string(),
+    };
+    let mut text = format!("{} in {part}: {count}\n", declaration.name);
+    let roles: Vec<String> = declaration
+        .roles
+        .iter()
+        .map(|role| role.name.clone())
+        .collect();
+    let widths: Vec<usize> = (0..roles.len())
+        .map(|column| {
+            let cells = named.iter().chain(std::iter::once(&roles));
+            let lengths = cells
+                .filter_map(|row| row.get(column))
+                .map(|cell| cell.chars().count());
+            lengths.max().unwrap_or(0)
+        })
+        .collect();
+    let line = |row: &[String]| {
+        let cells = row.iter().zip(&widths);
+        let cells: Vec<String> = cells
+            .map(|(cell, &width)| format!("{cell:<width$}"))
+            .collect();
+        format!("  {}", cells.join("  "))
+    };
+    if !extraction.features.is_empty() {
+        text.push_str(line(&roles).trim_end());
+        text.push('\n');
+    }
+    for (feature, names) in extraction.features.iter().zip(named) {
+        let doubt = match feature.holds.is_yes() {
+            true => String::new(),
+            false => format!("  ({})", word(feature.holds)),
+        };
+        text.push_str(format!("{}{doubt}", line(names)).trim_end());
+        text.push('\n');
+    }
+    text.push_str("  plan, and the tuples that each step leaves:\n");
+    for (number, told) in extraction.steps.iter().enumerate() {
+        let step = declaration.step_text(&told.step);
+        let own = format!("  {}. {step}: {} of {}", number + 1, told.left, told.filled);
+        text.push_str(&visible(&own));
+        text.push('\n');
+    }
+    if extraction.edges_without_bend > 0 {
+        let edges = extraction.edges_without_bend;
+        text.push_str(&format!(
+            "  neither convex nor concave, since not between two faces: {edges} edge(s)\n"
+        ));
+    }
+    text
+}
+
+fn data(found: &InPart) -> Value {
+    let declaration = &found.declaration;
+    let features = found.extraction.features.iter().zip(&found.named);
+    let features = features.map(|(feature, names)| {
+        let roles = declaration.roles.iter().zip(names);
+        let roles: serde_json::Map<String, Value> = roles
+            .map(|(role, name)| (role.name.clone(), json!(name)))
+            .collect();
+        json!({ "roles": roles, "holds": word(feature.holds), "ways": feature.ways })
+    });
+    let plan = found.extraction.steps.iter().map(|told| {
+        json!({
+            "step": declaration.step_text(&told.step),
+            "tuples_made": told.filled,
+            "tuples_left": told.left,
+        })
+    });
+    json!({
+        "part": found.part,
+        "feature": declaration.name,
+        "features": features.collect::<Vec<Value>>(),
+        "plan": plan.collect::<Vec<Value>>(),
+        "edges_without_bend": found.extraction.edges_without_bend,
+    })
+}
