@@ -262,8 +262,9 @@ impl<'a> Parser<'a> {
         if count < function.least || count > function.most {
             let span = name.span.start..self.cursor.behind();
             let needed = needed_arguments(function);
-            return Err(TextError::needed(self.cursor.source(), span, needed, count)
-                .help(function.form));
+            return Err(
+                TextError::needed(self.cursor.source(), span, needed, count).help(function.form)
+            );
         }
         Ok(What::Call(name.text.to_owned(), arguments))
     }
