@@ -470,8 +470,7 @@ fn joints_of_freecad_that_need_shapes_are_told() {
 fn what_cannot_be_read_is_named_with_what_to_do_instead() {
     use kutzbach::format::read_bytes;
     for (bytes, name) in [
-        (&b"ISO-10303-21;\nHEADER;"[..], "STEP"),
-        (b"#usda 1.0\n", "USD"),
+        (&b"#usda 1.0\n"[..], "USD"),
         (b"PXR-USDC\0\x01\xff", "USD"),
         (b"glTF\x02\0\0\0\xff", "a file of shapes"),
         (b"joints: [a, b]\n", "YAML or a list of settings"),

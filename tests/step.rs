@@ -264,7 +264,7 @@ fn corrections_of_what_is_not_there_are_errors() {
 #[test]
 fn errors_of_a_file_name_their_line_and_entity() {
     let text = step_text::four_bar(0.0, false);
-    let broken = text.replacen("CARTESIAN_POINT('',(", "CARTESIAN_POINT('',(#999999,", 1);
+    let broken = text.replacen("CYLINDRICAL_SURFACE('',#", "CYLINDRICAL_SURFACE('',#999", 1);
     let error = read(&broken, "broken.step", &[]).unwrap_err();
     assert!(error.line > 5 && error.message.starts_with('#'), "{error}");
     let told = broken.lines().nth(error.line - 1).unwrap();
