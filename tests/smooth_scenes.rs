@@ -14,9 +14,9 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Write;
 use std::ops::ControlFlow;
 
-/// The joint variables, and where the links are, at the last moment.
+/// The joint variables, and where the links are, at the last moment; the joint variables at all of them.
 #[derive(Default)]
-struct Last(Vec<f64>, Vec<[f64; 3]>);
+struct Last(Vec<f64>, Vec<[f64; 3]>, Vec<Vec<f64>>);
 
 impl Observer for Last {
     fn begin(&mut self, _: &Passage) -> ControlFlow<()> {
@@ -31,6 +31,7 @@ impl Observer for Last {
             .iter()
             .map(|pose| pose.translation)
             .collect();
+        self.2.push(self.0.clone());
         ControlFlow::Continue(())
     }
 }
@@ -178,6 +179,19 @@ fn a_double_pendulum_is_as_lagrange_s_equations_say() {
         assert!((found - wanted).abs() < 1e-8, "{found} {wanted}");
     }
     assert!(run.energy_error().unwrap() < 1e-9);
+}
+
+#[test]
+fn what_lies_within_a_long_step_is_as_close_as_its_ends_and_closed() {
+    let pendulum = chain(&[0.6, 0.3]);
+    let [coarse, half, fine] = [15, 30, 960].map(|steps| run(&pendulum, 2.0, steps).1.2);
+    let apart = |rough: &[Vec<f64>]| {
+        assert_eq!((rough.len(), fine.len()), (120, 120));
+        let pairs = rough.iter().flatten().zip(fine.iter().flatten());
+        pairs.fold(0.0f64, |most, (a, b)| most.max((a - b).abs()))
+    };
+    let (coarse, half) = (apart(&coarse), apart(&half));
+    assert!(coarse < 0.02 && half < coarse / 16.0, "{coarse:e} {half:e}");
 }
 
 /// A mechanism of one freedom: I(q) q'' = −I'(q) q'²/2 − V'(q).

@@ -349,10 +349,7 @@ impl Halving<'_> {
             ..given.clone()
         };
         let first = Paces::of(given, self.integrator);
-        let paces = Paces {
-            steps: first.steps << halvings,
-            every: first.every << halvings,
-        };
+        let paces = first.halved(given, self.integrator, halvings);
         let scene = Scene {
             options: &options,
             ..self.scene
