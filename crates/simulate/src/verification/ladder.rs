@@ -24,6 +24,9 @@ pub const LEAST_ORDER: f64 = 1.25;
 /// true leaves a sixty-fourth. Single steps do not tell: the solver's own noise makes an error rise here and fall there.
 pub const LEVEL_ORDER: f64 = 0.5;
 
+/// Over two refinements it has where they leave seven eighths of it or more; a true motion leaves a sixteenth.
+const FLAT_ORDER: f64 = 0.1;
+
 /// Errors below this are rounding and the solver's own residual: no order is asked of them (parts of the characteristic
 /// length; a turn of 10⁴ substeps adds up 10⁴ roundings of 1e-16, and the sums of the solver lose about as much again).
 pub const ROUNDING: f64 = 1e-9;
@@ -271,9 +274,9 @@ fn stays_off(rungs: &[Rung]) -> Option<f64> {
         .then_some(last.distance)
 }
 
-/// Whether an error has stopped falling: over the last three refinements, and at the last one it does not fall as that of a true motion.
+/// Whether an error has stopped falling: over the last two or three refinements, and at the last one it does not fall as that of a true motion.
 fn levels_off(rungs: &[Rung], error: fn(&Rung) -> f64) -> bool {
-    let [.., first, _, before, last] = rungs else {
+    let [.., early, before, last] = rungs else {
         return false;
     };
     let order = |coarse: &Rung, fine: &Rung| {
@@ -282,8 +285,12 @@ fn levels_off(rungs: &[Rung], error: fn(&Rung) -> f64) -> bool {
             (fine.substeps, error(fine)),
         )
     };
-    order(first, last).is_some_and(|order| order < LEVEL_ORDER)
-        && order(before, last).is_some_and(|order| order < LEAST_ORDER)
+    let below = |coarse: &Rung, most: f64| order(coarse, last).is_some_and(|order| order < most);
+    let level = match rungs {
+        [.., first, _, _, _] => below(first, LEVEL_ORDER),
+        _ => false,
+    };
+    below(before, LEAST_ORDER) && (level || below(early, FLAT_ORDER))
 }
 
 fn falls_off(rung: &Rung) -> bool {
@@ -408,6 +415,12 @@ mod tests {
         for errors in [small, large] {
             assert_eq!(outcome(&errors), Some(Outcome::Contradicted));
         }
+        let flat = [2e-2, 5e-3, 1.2e-3, 3e-4, 2.3e-4, 2.3e-4];
+        assert_eq!(outcome(&flat[..5]), None);
+        assert_eq!(
+            outcome(&[2e-2, 5e-3, 1e-3, 2.3e-4, 2.31e-4, 2.3e-4]),
+            Some(Outcome::Contradicted)
+        );
         // One refinement in which noise hides that it falls.
         assert_eq!(outcome(&[1e-2, 2.5e-3, 2.4e-3, 2e-4]), None);
     }
