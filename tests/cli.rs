@@ -155,6 +155,8 @@ fn settings_reach_the_file_and_bad_ones_are_refused() {
 }
 
 /// A mechanism of the repository through whose pose two branches pass.
+const MOVES_BY_ITS_SIZES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/mechanisms/bennett.urdf");
+const DOES_NOT_ASSEMBLE: &str = "long.urdf";
 const TWO_BRANCHES: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),
     "/mechanisms/parallelogram_flat.urdf"
@@ -197,6 +199,78 @@ fn evidence_is_told_where_it_is_asked_for() {
             .iter()
             .all(|e| e["block"] == report["home"]["blocks"][0]["name"])
     );
+}
+
+/// Less depth says the same as far as it goes, and what was not asked for is not said.
+#[test]
+fn a_report_of_less_depth_says_the_same_as_far_as_it_goes() {
+    let folder = folder("depth");
+    // A frame longer than the three other bars together.
+    let long = BAR.replacen("xyz=\"${length} 0 0\"", "xyz=\"7 0 0\"", 1);
+    fs::write(folder.join(DOES_NOT_ASSEMBLE), long).unwrap();
+    for file in [TWO_BRANCHES, MOVES_BY_ITS_SIZES, DOES_NOT_ASSEMBLE] {
+        let at = |depth: &str| {
+            let output = kutzbach(
+                &folder,
+                &["report", file, "--format", "json", "--depth", depth],
+            );
+            assert_eq!(output.status.code(), Some(0), "{file} {depth}");
+            json(&output)
+        };
+        let [counts, verdict, everything] = ["counts", "verdict", "everything"].map(at);
+        assert!(everything.get("depth").is_none());
+        for field in ["instantaneous", "rank", "redundant", "kept", "dropped"] {
+            assert_eq!(counts["home"][field], everything["home"][field], "{file}");
+        }
+        for field in ["verdict", "finite", "class", "nominal"] {
+            let (one, other) = (&verdict["mobility"], &everything["mobility"]);
+            assert_eq!(one[field], other[field], "{file}: {field}");
+        }
+        for field in ["pose", "kind", "instantaneous"] {
+            assert_eq!(verdict["home"][field], everything["home"][field], "{file}");
+        }
+        for (depth, report) in [("counts", &counts), ("verdict", &verdict)] {
+            assert_eq!(report["depth"], depth);
+            assert!(report["branches"].is_null() && report["inputs"].is_null());
+            assert_eq!(report["advice"], serde_json::json!([]), "{file} {depth}");
+            assert_eq!(report["assembly"], everything["assembly"], "{file}");
+        }
+    }
+    let page = |file: &str, depth: &str| {
+        text(&kutzbach(&folder, &["report", file, "--depth", depth]).stdout)
+    };
+    let counts = page(MOVES_BY_ITS_SIZES, "counts");
+    assert!(counts.starts_with("At this pose 1 degree of freedom to first order."));
+    assert!(!counts.contains("Undecided") && counts.contains("`--depth verdict`"));
+    let verdict = page(MOVES_BY_ITS_SIZES, "verdict");
+    assert!(verdict.starts_with("Mobile: 1 degree of freedom") && verdict.contains("paradoxical"));
+    assert!(!verdict.contains("Joints") && verdict.contains("Without `--depth`"));
+    let open = [
+        page(DOES_NOT_ASSEMBLE, "counts"),
+        page(DOES_NOT_ASSEMBLE, "everything"),
+    ];
+    let [counts, everything] = open.map(|page| page.lines().next().map(str::to_owned));
+    assert_eq!(counts, everything);
+}
+
+#[test]
+fn what_a_depth_leaves_out_cannot_be_asked_for() {
+    let folder = folder("depth_refused");
+    for (depth, more) in [
+        ("verdict", &["--format", "html"][..]),
+        ("verdict", &["--between", "a", "b"]),
+        ("verdict", &["--inputs", "a"]),
+        ("counts", &["--play"]),
+        ("counts", &["--strict"]),
+        ("counts", &["--exact", "1"]),
+        ("counts", &["--evidence"]),
+    ] {
+        let arguments = [&["report", TWO_BRANCHES, "--depth", depth][..], more].concat();
+        let output = kutzbach(&folder, &arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        let told = text(&output.stderr);
+        assert!(told.contains("`--depth` leaves out"), "{told}");
+    }
 }
 
 #[test]

@@ -2,14 +2,15 @@
 //!
 //! The world is made of a geometry of its own, the prediction of the file's. A loop that moves although counting forbids it (Kutzbach at
 //! most 0) moves for the sake of its dimensions alone; with its closing joints turned and shifted at random by little it does not, which is
-//! asked of the rank of its equations before anything is simulated.
+//! asked of the rank of its equations before anything is simulated. One that moves with any dimensions goes another way with other ones: a
+//! joint is set elsewhere on both of its links alike, so that the pose drawn stays closed and what follows does not.
 
 use crate::support;
 
 use kutzbach::closure::{Arithmetic, Geometry, Rigid};
-use kutzbach::mechanism::Mechanism;
+use kutzbach::mechanism::{JointKind, Mechanism};
 use kutzbach::mobility::{Analysis, CertificateLevel, Verdict};
-use kutzbach::motion::{Evaluation, LoopSystem};
+use kutzbach::motion::{Evaluation, LoopSystem, TraceOptions, trace};
 use kutzbach::simulate::verification::{Outcome, Unobserved, VerificationOptions, verify};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -20,6 +21,8 @@ use support::{analysis, folder, in_parallel, own_mechanisms, sample, zoo};
 enum Falsely {
     /// Closing joints are off by so much (rad, characteristic lengths).
     Spoiled(f64),
+    /// A joint is elsewhere on both links by so much (characteristic lengths): the pose drawn is right, the way on from it is not.
+    OtherWay(f64),
     /// One freedom more is claimed than there is.
     OneMore,
     /// One freedom less, of two or more.
@@ -32,6 +35,7 @@ impl Falsely {
     fn kind(self) -> String {
         match self {
             Self::Spoiled(by) => format!("loops off by {by:.0e} called mobile"),
+            Self::OtherWay(by) => format!("dimensions off by {by:.0e}: another way"),
             Self::OneMore => "one freedom too many".to_owned(),
             Self::OneLess => "one freedom too few".to_owned(),
             Self::Rigid => "mobile called rigid".to_owned(),
@@ -68,6 +72,49 @@ fn spoiled(name: &str, mechanism: &Mechanism, length: f64, by: f64) -> Geometry<
         }
     }
     geometry
+}
+
+/// Moves a joint's place on both of its links, along directions in which hinges of a plane stay in it; `None` without a hinge that is at
+/// its zero.
+fn set_elsewhere(mechanism: &Mechanism, geometry: &mut Geometry<f64>, shift: f64) -> Option<()> {
+    let hinge = |at: &usize| {
+        let joint = &mechanism.joints()[*at];
+        let home = geometry.states[*at]
+            .values
+            .iter()
+            .all(|value| *value == 0.0);
+        joint.kind == JointKind::Revolute && !joint.closes_loop && home
+    };
+    let at = (0..mechanism.joints().len()).rev().find(hinge)?;
+    let axis = *geometry.displacements[at].axis();
+    let least = (0..3).min_by(|a, b| axis[*a].abs().total_cmp(&axis[*b].abs()))?;
+    let mut across = [0.0; 3];
+    across[least] = 1.0;
+    let along: f64 = axis[least];
+    let across = [0, 1, 2].map(|i| shift * (across[i] - along * axis[i]));
+    let moved = Rigid::exponential(&[0.0; 3], &across);
+    for side in &mut geometry.sides[at] {
+        *side = side.compose(&moved);
+    }
+    Some(())
+}
+
+/// By how much the loops of a geometry are open at a pose of the motion that is claimed.
+fn open_on_the_way(mechanism: &Mechanism, claim: &Analysis, own: &Geometry<f64>) -> Option<f64> {
+    let options = TraceOptions {
+        samples: 2,
+        ..TraceOptions::default()
+    };
+    let traced = trace(mechanism, claim, &options).ok()?;
+    let mut curve = traced.into_motion()?.curve;
+    let (first, last) = curve.arclengths();
+    let pose = curve.pose_at_arclength(first + 0.13 * (last - first))?;
+    let states = curve.states(&pose.pose);
+    let part = &claim.structure.parts[0];
+    let system = LoopSystem::new(mechanism, own, &own.states, part).ok()?;
+    let mut evaluation = Evaluation::default();
+    system.evaluate(&system.pose(&states), &mut evaluation);
+    Some(evaluation.largest())
 }
 
 /// The smallest pivot of the loop equations' columns, relative to the largest.
@@ -130,6 +177,21 @@ fn said(name: &str, mechanism: &Mechanism, falsely: Falsely) -> Option<(Outcome,
             claim.mobility.verdict = Verdict::Rigid;
             claim.mobility.level = CertificateLevel::Numeric;
             options.ladder = vec![4, 8, 16, 32];
+        }
+        Falsely::OtherWay(by) => {
+            if dimension != 1 || !branch.idle.is_empty() {
+                return None;
+            }
+            let part = &claim.structure.parts[0];
+            let states = &claim.assembly.states;
+            let length = LoopSystem::new(mechanism, &true_one, states, part)
+                .ok()?
+                .length();
+            set_elsewhere(mechanism, &mut true_one, by * length)?;
+            // Where the joint may lie anywhere on its line, or it is a symmetry, nothing is false.
+            if open_on_the_way(mechanism, &claim, &true_one)? < 0.05 * by {
+                return None;
+            }
         }
         Falsely::Spoiled(by) => {
             if claim.kutzbach > 0 || dimension != 1 || !branch.idle.is_empty() {
@@ -209,7 +271,8 @@ fn check(all: &[(String, Mechanism)], kinds: &[Falsely], (least, share): (usize,
     );
 }
 
-const KINDS: [Falsely; 6] = [
+const KINDS: [Falsely; 7] = [
+    Falsely::OtherWay(3e-2),
     Falsely::Spoiled(3e-4),
     Falsely::Spoiled(1e-3),
     Falsely::Spoiled(1e-2),
@@ -230,10 +293,11 @@ fn false_predictions_of_a_few_mechanisms_are_contradicted() {
     let kinds = [
         Falsely::Spoiled(1e-3),
         Falsely::Spoiled(1e-2),
+        Falsely::OtherWay(3e-2),
         Falsely::OneMore,
         Falsely::Rigid,
     ];
-    check(&few, &kinds, (9, 95));
+    check(&few, &kinds, (10, 95));
 }
 
 #[test]
@@ -242,6 +306,6 @@ fn false_predictions_are_contradicted() {
     let all: Vec<_> = own_mechanisms().into_iter().chain(zoo()).collect();
     let small = |(_, mechanism): &(String, Mechanism)| mechanism.joints().len() <= 14;
     let all: Vec<_> = all.into_iter().filter(small).collect();
-    // Loops whose joints give way by as much as they miss, such as Bricard's, leave most of theirs open.
-    check(&sample(all, 40), &KINDS, (support::at_least(40), 50));
+    // A rod's spin that one freedom too many would be cannot be seen, and a spherical loop can lock both solvers.
+    check(&sample(all, 15), &KINDS, (support::at_least(100), 90));
 }

@@ -14,9 +14,9 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Write;
 use std::ops::ControlFlow;
 
-/// The joint variables, and where the links are, at the last moment.
+/// The joint variables, and where the links are, at the last moment; the joint variables at all of them.
 #[derive(Default)]
-struct Last(Vec<f64>, Vec<[f64; 3]>);
+struct Last(Vec<f64>, Vec<[f64; 3]>, Vec<Vec<f64>>);
 
 impl Observer for Last {
     fn begin(&mut self, _: &Passage) -> ControlFlow<()> {
@@ -31,6 +31,7 @@ impl Observer for Last {
             .iter()
             .map(|pose| pose.translation)
             .collect();
+        self.2.push(self.0.clone());
         ControlFlow::Continue(())
     }
 }
@@ -178,6 +179,53 @@ fn a_double_pendulum_is_as_lagrange_s_equations_say() {
         assert!((found - wanted).abs() < 1e-8, "{found} {wanted}");
     }
     assert!(run.energy_error().unwrap() < 1e-9);
+}
+
+/// A four-bar that swings fast past poses which steps of 2/15 s take for singular ones.
+#[test]
+fn a_step_that_is_too_long_does_not_call_for_the_engine() {
+    let text = format!(
+        "{}{}{}{}{}{}<loop name=\"d\" type=\"revolute\"><predecessor link=\"b\"><origin xyz=\"2 1 0\"/></predecessor>\
+         <successor link=\"c\"><origin xyz=\"0 1.5 0\"/></successor><axis xyz=\"0 0 1\"/></loop>{GRAVITY}",
+        link("a", 1.0, [0.5, 0.0, 0.0], 0.1),
+        link("b", 1.0, [0.5, 0.5, 0.0], 0.1),
+        link("c", 1.0, [0.0, 0.5, 0.0], 0.1),
+        joint("continuous", ["g", "a"], [0.0; 3], "0 0 1", ""),
+        joint("continuous", ["a", "b"], [1.0, 0.0, 0.0], "0 0 1", ""),
+        joint("continuous", ["g", "c"], [3.0, -0.5, 0.0], "0 0 1", ""),
+    );
+    let mechanism = robot(&text);
+    let (geometry, start) = at_start(&mechanism);
+    let options = options(&mechanism, 2.0, 15);
+    let refinement = Refinement {
+        wanted: Some(1e-3),
+        work: 20.0,
+    };
+    let how = (refinement, &(|| false) as &dyn Fn() -> bool);
+    let (run, trajectory) = run_scene_estimated(
+        &mechanism,
+        &geometry,
+        &start,
+        &options,
+        how,
+        &mut Last::default(),
+    )
+    .unwrap();
+    assert_eq!(run.integrator, Integrator::RungeKutta, "{run:?}");
+    assert_eq!(trajectory.reached, Some(true), "{trajectory:?}");
+}
+
+#[test]
+fn what_lies_within_a_long_step_is_as_close_as_its_ends_and_closed() {
+    let pendulum = chain(&[0.6, 0.3]);
+    let [coarse, half, fine] = [15, 30, 960].map(|steps| run(&pendulum, 2.0, steps).1.2);
+    let apart = |rough: &[Vec<f64>]| {
+        assert_eq!((rough.len(), fine.len()), (120, 120));
+        let pairs = rough.iter().flatten().zip(fine.iter().flatten());
+        pairs.fold(0.0f64, |most, (a, b)| most.max((a - b).abs()))
+    };
+    let (coarse, half) = (apart(&coarse), apart(&half));
+    assert!(coarse < 0.02 && half < coarse / 16.0, "{coarse:e} {half:e}");
 }
 
 /// A mechanism of one freedom: I(q) q'' = −I'(q) q'²/2 − V'(q).
@@ -660,7 +708,7 @@ fn slides_coupled_by_a_parabola_take_the_time_of_their_energy() {
         slide("x", "1 0 0"),
         slide("y", "0 1 0"),
     ));
-    let (_, Last(values, _)) = run(&mechanism, 0.5, 64);
+    let (_, Last(values, ..)) = run(&mechanism, 0.5, 64);
     let [x, y] = values[..] else {
         panic!("{values:?}")
     };

@@ -97,7 +97,7 @@ impl Planned {
                 .filter_map(|_| {
                     thread::Builder::new()
                         .stack_size(STACK)
-                        .spawn_scoped(scope, &work)
+                        .spawn_scoped(scope, work)
                         .ok()
                 })
                 .collect();

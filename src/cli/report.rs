@@ -14,7 +14,7 @@ use kutzbach::mechanism::{FreedomPart, Mechanism};
 use kutzbach::mobility::{Analysis, ExactBudget};
 use kutzbach::report::html::{Assets, Facts, Prepared};
 use kutzbach::report::text::{Layout, render};
-use kutzbach::report::{Options, PlayAsked, Report, assembled_file};
+use kutzbach::report::{Options, PlayAsked, Report, ReportDepth, assembled_file};
 use kutzbach::report::{Warning, WarningKind};
 use kutzbach::simulate::verification::{
     Moment, Observer, Passage, Verification, VerificationOptions, verify,
@@ -49,6 +49,9 @@ pub struct Arguments {
     /// link is undecided, or the mechanism does not assemble
     #[arg(long)]
     strict: bool,
+    /// How much to say; what is not said is not computed
+    #[arg(long, value_enum, default_value_t = Asked::Everything)]
+    depth: Asked,
     /// Show every row and every detail: proofs, loops, independent sub-mechanisms, margins, and what of the file was skipped
     #[arg(long)]
     verbose: bool,
@@ -117,12 +120,59 @@ enum Format {
     Html,
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Asked {
+    /// Counts, and the freedom at the pose with its margin
+    Counts,
+    /// The verdict and why, without branches, joints and advice
+    Verdict,
+    /// All of it
+    Everything,
+}
+
+impl From<Asked> for ReportDepth {
+    fn from(asked: Asked) -> Self {
+        match asked {
+            Asked::Counts => Self::Counts,
+            Asked::Verdict => Self::Verdict,
+            Asked::Everything => Self::Everything,
+        }
+    }
+}
+
 impl Arguments {
     /// A mechanism without the configuration that the command line asks for, which is none of the file's.
     fn of_file(&self, mechanism: &Mechanism, configuration: Option<&str>) -> Mechanism {
         match configuration.filter(|_| !self.pose.items().is_empty()) {
             Some(asked) => mechanism.without_configuration(asked),
             None => mechanism.clone(),
+        }
+    }
+
+    /// Refuses what a depth below everything does not look at.
+    fn shallow(&self) -> Result<(), Failure> {
+        if self.depth == Asked::Everything {
+            return Ok(());
+        }
+        let asked = [
+            (self.format == Format::Html, "--format html"),
+            (!self.between.is_empty(), "--between"),
+            (!self.inputs.is_empty(), "--inputs"),
+            (self.play_asked().is_some(), "play"),
+            (self.nearest.is_some(), "--nearest"),
+            (self.evidence && self.depth == Asked::Counts, "--evidence"),
+            (self.strict && self.depth == Asked::Counts, "--strict"),
+            (
+                self.exact.is_some() && self.depth == Asked::Counts,
+                "--exact",
+            ),
+        ];
+        match asked.into_iter().find(|(asked, _)| *asked) {
+            Some((_, what)) => Err(Failure::Plain {
+                message: format!("`--depth` leaves out what {what} needs"),
+                help: Some("ask for everything, which is the default".to_owned()),
+            }),
+            None => Ok(()),
         }
     }
 
@@ -170,7 +220,9 @@ pub fn seconds(text: &str) -> Result<f64, String> {
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let mut reading = arguments.source.read_strictly(arguments.strict)?;
     let (configuration, elsewhere) = arguments.pose.configured(&mut reading)?;
+    arguments.shallow()?;
     let options = Options {
+        depth: arguments.depth.into(),
         configuration,
         exact: arguments
             .exact

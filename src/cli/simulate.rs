@@ -14,8 +14,8 @@ use clap::Args;
 use kutzbach::mobility::{AnalysisOptions, Followed, Verdict, analyse_to_follow};
 use kutzbach::simulate::verification::{Outcome, VerificationOptions, verify};
 use kutzbach::simulate::{
-    RUNGE_KUTTA_STEP, Refinement, SceneOptions, WorldOptions, cost_table, run_scene_estimated,
-    scene_drives,
+    LONGEST_STEP, RUNGE_KUTTA_STEP, Refinement, SceneOptions, WorldOptions, cost_table,
+    run_scene_estimated, scene_drives,
 };
 use log::Log;
 use std::path::PathBuf;
@@ -281,7 +281,11 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             drives: drives.clone(),
             duration,
             integrator: arguments.integrator.integrator(),
-            runge_kutta_step: arguments.time_step.unwrap_or(RUNGE_KUTTA_STEP),
+            runge_kutta_step: match (arguments.time_step, arguments.accuracy) {
+                (Some(step), _) => step,
+                (None, Some(_)) => LONGEST_STEP,
+                (None, None) => RUNGE_KUTTA_STEP,
+            },
         };
         let states = &analysis.assembly.states;
         let refinement = Refinement {

@@ -19,7 +19,7 @@ pub fn three<T>(entry: impl Fn(usize) -> T) -> [T; 3] {
 /// Σ aᵢ bᵢ.
 #[inline]
 pub fn dot<R: Real>(a: &Vector<R>, b: &Vector<R>) -> R {
-    a[0].clone() * b[0].clone() + a[1].clone() * b[1].clone() + a[2].clone() * b[2].clone()
+    R::dot_of_three(a, b)
 }
 
 /// a × b.

@@ -1,14 +1,40 @@
 //! What is asked of a report, and why there may be none.
 
-use kutzbach_mobility::{AnalysisError, ExactBudget};
+use kutzbach_mobility::{AnalysisError, Depth, ExactBudget};
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// The name of the pose with all joint variables zero.
 pub(crate) const HOME: &str = "home";
 
+/// How much a report is to say; what it does not say is not computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ReportDepth {
+    /// Counts, closure, and the instantaneous freedom at the pose with its margin.
+    Counts,
+    /// The finite freedom and how the pose is singular too, and why.
+    Verdict,
+    /// Branches, motions, joints, advice and ranges too, and stronger certificates by exact algebra.
+    #[default]
+    Everything,
+}
+
+impl From<ReportDepth> for Depth {
+    fn from(depth: ReportDepth) -> Self {
+        match depth {
+            ReportDepth::Counts => Self::Rank,
+            ReportDepth::Verdict => Self::Verdict,
+            ReportDepth::Everything => Self::Everything,
+        }
+    }
+}
+
 /// What to report.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
+    /// How much.
+    pub depth: ReportDepth,
     /// The configuration to analyse; `None` is the home pose.
     pub configuration: Option<String>,
     /// How much work exact algebra may do for the verdict.

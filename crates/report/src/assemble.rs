@@ -3,7 +3,7 @@
 //! Counting and the tables of joints and couplings need the mechanism alone and are filled in here. What an analysis finds
 //! is laid over them; what it does not reach stays `null`.
 
-use super::asked::{HOME, Options, ReportError};
+use super::asked::{HOME, Options, ReportDepth, ReportError};
 use super::natural::natural_order;
 use super::schema::{
     Assembly, Constants, CouplingRow, Home, JointRow, LiteralAt, LiteralReading, Mobility, Report,
@@ -12,7 +12,7 @@ use super::schema::{
 use kutzbach_format::Reading;
 use kutzbach_math::number::Number;
 use kutzbach_mobility::Verdict;
-use kutzbach_mobility::{Analysis, AnalysisOptions, Depth, analyse, kutzbach_count};
+use kutzbach_mobility::{Analysis, AnalysisOptions, analyse, kutzbach_count};
 use kutzbach_model::mechanism::{Coupling, LiteralPlace, Mechanism, Placement, Precision, Written};
 use petgraph::unionfind::UnionFind;
 use std::time::Instant;
@@ -111,7 +111,7 @@ pub fn analysed_report_on(
         &AnalysisOptions {
             configuration: configuration_of(mechanism, configuration).map(str::to_owned),
             exact: options.exact,
-            depth: Depth::Everything,
+            depth: options.depth.into(),
             closure_tolerance: options.closure_tolerance,
         },
     )?;
@@ -121,21 +121,20 @@ pub fn analysed_report_on(
     let mechanism = analysis.of(mechanism);
     super::findings::lay_over(&mut report, mechanism, &analysis);
     report.assembly.tolerance_asked = options.closure_tolerance.is_some();
-    report.four_bars = kutzbach_motion::four_bars(mechanism, &analysis);
-    let followed =
-        super::inputs::lay_over(&mut report, mechanism, &analysis, configuration, inputs);
-    super::pose::warn(&mut report, mechanism, &analysis, configuration);
-    super::extras::ask_between(&mut report, mechanism, &analysis, &pairs);
-    if options.ranges {
-        super::ranges::lay_over(&mut report, mechanism, &analysis, configuration, followed);
+    if options.depth == ReportDepth::Everything {
+        report.four_bars = kutzbach_motion::four_bars(mechanism, &analysis);
+        let followed =
+            super::inputs::lay_over(&mut report, mechanism, &analysis, configuration, inputs);
+        super::pose::warn(&mut report, mechanism, &analysis, configuration);
+        super::extras::ask_between(&mut report, mechanism, &analysis, &pairs);
+        if options.ranges {
+            super::ranges::lay_over(&mut report, mechanism, &analysis, configuration, followed);
+        }
+        let there = configuration_of(given, configuration);
+        super::play::lay_over(&mut report, given, &analysis, there, options);
+    } else {
+        report.depth = Some(options.depth);
     }
-    super::play::lay_over(
-        &mut report,
-        given,
-        &analysis,
-        configuration_of(given, configuration),
-        options,
-    );
     if options.evidence {
         report.evidence = Some(super::extras::evidence(&report, &analysis));
     }
@@ -310,6 +309,7 @@ fn counted(input: &Input<'_>, configuration: &str) -> Report {
         skipped: input.skipped.to_vec(),
         evidence: None,
         timing: None,
+        depth: None,
         size,
     }
 }

@@ -77,7 +77,7 @@ pub mod text;
 #[cfg(feature = "simulate")]
 pub mod traced;
 
-pub use asked::{Options, PlayAsked, ReportError};
+pub use asked::{Options, PlayAsked, ReportDepth, ReportError};
 pub use assemble::{Input, analysed_report, analysed_report_on, report, report_on};
 pub use assembly::{ASSEMBLED, assembled_file};
 pub use change_sets::{ChangeSets, Component, JointReplacement, PartChanges, RedundantDirection};

@@ -196,6 +196,7 @@ pub(crate) fn mobile() -> Report {
         skipped: vec!["line 3, column 5: <gazebo>".to_owned()],
         evidence: None,
         timing: None,
+        depth: None,
     }
 }
 

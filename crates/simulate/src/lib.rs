@@ -67,8 +67,8 @@ pub use error::WorldError;
 pub use measure::joint_gaps;
 pub use options::{Drive, Effects, Energy, JointGap, Masses, Note, Pieces, Solver, WorldOptions};
 pub use scene_run::{
-    IdleEffect, RUNGE_KUTTA_STEP, SceneOptions, SceneRun, effect_names, idle_effects, run_scene,
-    scene_drives,
+    IdleEffect, LONGEST_STEP, RUNGE_KUTTA_STEP, SceneOptions, SceneRun, effect_names, idle_effects,
+    run_scene, scene_drives,
 };
 #[cfg(feature = "logs")]
 pub use simulation_log::SimulationLog;

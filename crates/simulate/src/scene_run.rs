@@ -31,6 +31,9 @@ pub struct SceneOptions {
 /// Length of a Runge-Kutta step where none is asked for (s): one for each moment shown.
 pub const RUNGE_KUTTA_STEP: f64 = 1.0 / MOMENTS_PER_SECOND;
 
+/// Length of a Runge-Kutta step to begin with where an error is wanted (s): a coarse one is had in steps that are looked into.
+pub const LONGEST_STEP: f64 = 8.0 * RUNGE_KUTTA_STEP;
+
 /// How a run went.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SceneRun {
@@ -259,7 +262,7 @@ pub(super) struct Scene<'a> {
     pub options: &'a SceneOptions,
 }
 
-/// How many steps a run has, and after how many of them a moment is shown.
+/// How many steps a run has, or looks into longer ones, and after how many of them a moment is shown.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Paces {
     pub steps: u64,
@@ -268,13 +271,40 @@ pub(super) struct Paces {
 
 impl Paces {
     pub fn of(options: &SceneOptions, integrator: Integrator) -> Self {
-        let time_step = step_of(options, integrator);
+        let step = step_of(options, integrator);
+        let pace = match integrator {
+            Integrator::RungeKutta => step / looks_in(step) as f64,
+            Integrator::Engine => step,
+        };
         Self {
-            steps: (options.duration / time_step).round() as u64,
-            every: ((1.0 / (MOMENTS_PER_SECOND * time_step)) as u64).max(1),
+            steps: (options.duration / pace).round() as u64,
+            every: ((1.0 / (MOMENTS_PER_SECOND * pace)) as u64).max(1),
+        }
+    }
+
+    /// Of steps halved so often, with the same moments.
+    pub fn halved(self, options: &SceneOptions, integrator: Integrator, halvings: u32) -> Self {
+        let looks = match integrator {
+            Integrator::RungeKutta => looks_in(options.runge_kutta_step),
+            Integrator::Engine => 1,
+        };
+        // Steps longer than what lies between two moments are looked into.
+        let more = halvings.saturating_sub(looks.trailing_zeros());
+        Self {
+            steps: self.steps << more,
+            every: self.every << more,
         }
     }
 }
+
+/// Looks at a Runge-Kutta step of a length (s): so many powers of two that all moments are seen.
+pub(super) fn looks_in(step: f64) -> u64 {
+    let moments = (step * MOMENTS_PER_SECOND - ALMOST).ceil().max(1.0);
+    (moments as u64).next_power_of_two()
+}
+
+/// A step that is longer than the time between two moments by less than this share is not.
+const ALMOST: f64 = 1e-9;
 
 fn step_of(options: &SceneOptions, integrator: Integrator) -> f64 {
     match integrator {

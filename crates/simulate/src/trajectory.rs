@@ -10,7 +10,7 @@
 //! the greatest. It is an estimate and no bound: where steps are so long that the first term does not lead, it may be off by a factor.
 
 use super::accuracy::work_of_setting;
-use super::scene_run::{Moves, Paces, Scene, Served, passage_of, run_in, served};
+use super::scene_run::{Moves, Paces, Scene, Served, looks_in, passage_of, run_in, served};
 use super::smooth::{Integrator, SmoothWorld};
 use super::trail::Trail;
 use super::verification::{Moment, Observer, Passage};
@@ -152,20 +152,15 @@ impl Halving<'_> {
             Ok(work) => self.scene.options.duration * work,
             Err(serving) => return Ok(Err(serving)),
         };
-        let mut trajectory = Trajectory {
-            rows: Vec::new(),
-            used: 0,
-            wanted: refinement.wanted,
-            reached: None,
-            needed: None,
-            not_estimated: None,
-        };
+        let mut trajectory = Trajectory::begun(refinement.wanted);
         // The two finest: no other can come to be told of.
         let mut finest: Vec<(SceneRun, Trail)> = Vec::new();
         let mut differences: Vec<TrajectoryError> = Vec::new();
         let mut left = refinement.work;
         // Without an error wanted the engine's first run is told of, so that it is shown while it goes on; else the trail that is chosen is.
         let at_once = refinement.wanted.is_none() && self.integrator == Integrator::Engine;
+        // Halvings that led nowhere, and why the last of them did.
+        let (mut skipped, mut nowhere) = (0, None);
         for halvings in 0..MOST_HALVINGS {
             let work = each * f64::from(1 << halvings);
             if halvings > 0 && work > left {
@@ -179,6 +174,15 @@ impl Halving<'_> {
             };
             let (run, trail) = match self.run(halvings, watching)? {
                 Ok(done) => done,
+                // A long step may lead where no short one does.
+                Err(serving) if self.is_long(halvings) => {
+                    nowhere = Some(serving);
+                    trajectory.rows.clear();
+                    finest.clear();
+                    differences.clear();
+                    skipped = halvings + 1;
+                    continue;
+                }
                 Err(serving) => return Ok(Err(serving)),
             };
             if interrupted() && halvings > 0 {
@@ -193,19 +197,15 @@ impl Halving<'_> {
             }
             finest.push((run, trail));
             estimate(&mut trajectory.rows, &differences, self.integrator);
-            let enough = match refinement.wanted {
-                None => halvings == 1,
-                Some(wanted) => trajectory
-                    .rows
-                    .last()
-                    .is_some_and(|row| row.is_within(wanted)),
-            };
-            if enough || interrupted() {
+            if trajectory.is_enough() || interrupted() {
                 break;
             }
         }
-        trajectory.conclude(each, self.integrator);
-        let from_last = trajectory.rows.len() - 1 - trajectory.used;
+        if let Some(serving) = nowhere.filter(|_| trajectory.rows.is_empty()) {
+            return Ok(Err(serving));
+        }
+        trajectory.conclude(each * f64::from(1 << skipped), self.integrator);
+        let from_last = trajectory.rows.len().saturating_sub(1 + trajectory.used);
         let told = finest.into_iter().rev().nth(from_last);
         let (run, trail) = told.ok_or_else(|| WorldError::Options("no run was made".to_owned()))?;
         if !at_once {
@@ -215,6 +215,12 @@ impl Halving<'_> {
             );
         }
         Ok(Ok((run, trajectory)))
+    }
+
+    /// Whether steps halved so often are still longer than the time between two moments.
+    fn is_long(&self, halvings: u32) -> bool {
+        let step = self.scene.options.runge_kutta_step;
+        self.integrator == Integrator::RungeKutta && looks_in(step).trailing_zeros() > halvings
     }
 
     /// About how many seconds of work a simulated second takes in the first steps.
@@ -288,6 +294,25 @@ impl StepRow {
 }
 
 impl Trajectory {
+    fn begun(wanted: Option<f64>) -> Self {
+        Self {
+            rows: Vec::new(),
+            used: 0,
+            wanted,
+            reached: None,
+            needed: None,
+            not_estimated: None,
+        }
+    }
+
+    /// Whether no further run is needed.
+    fn is_enough(&self) -> bool {
+        match (self.wanted, self.rows.last()) {
+            (None, _) => self.rows.len() == 2,
+            (Some(wanted), last) => last.is_some_and(|row| row.is_within(wanted)),
+        }
+    }
+
     /// Which run is told of, and what the error wanted would cost.
     fn conclude(&mut self, each: f64, integrator: Integrator) {
         if let Some(wanted) = self.wanted {
@@ -349,10 +374,7 @@ impl Halving<'_> {
             ..given.clone()
         };
         let first = Paces::of(given, self.integrator);
-        let paces = Paces {
-            steps: first.steps << halvings,
-            every: first.every << halvings,
-        };
+        let paces = first.halved(given, self.integrator, halvings);
         let scene = Scene {
             options: &options,
             ..self.scene

@@ -99,12 +99,15 @@ fn written(record: Record<'_>, frame: &Pose, units: &Units) -> Result<Surface, S
     })
 }
 
+/// The point of a curve at a parameter.
+type Along = Box<dyn Fn(f64) -> Vector3<f64>>;
+
 /// A curve by its parameter, and from where to where it is followed; `None` where it cannot be.
-fn followed(curve: Curve) -> Option<(Box<dyn Fn(f64) -> Vector3<f64>>, Range)> {
+fn followed(curve: Curve) -> Option<(Along, Range)> {
     match curve {
         Curve::Line(point, along) => {
             let unit = along.norm();
-            (unit > 0.0).then(|| -> (Box<dyn Fn(f64) -> Vector3<f64>>, Range) {
+            (unit > 0.0).then(|| -> (Along, Range) {
                 (
                     Box::new(move |t: f64| point + along * t),
                     (0.0, REACH / unit),

@@ -13,6 +13,7 @@ mod show;
 mod solve;
 mod term;
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests;
 mod value;
 

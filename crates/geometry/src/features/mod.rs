@@ -9,6 +9,7 @@ mod parse;
 mod plan;
 mod table;
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests;
 
 pub use declare::{Bend, Condition, Declaration, Orientation, Role, Sort, Type};

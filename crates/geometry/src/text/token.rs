@@ -123,7 +123,7 @@ fn number(text: &str) -> Option<usize> {
     let bytes = text.as_bytes();
     let digit = |at: usize| bytes.get(at).is_some_and(u8::is_ascii_digit);
     let mut at = usize::from(matches!(bytes.first(), Some(b'+' | b'-')));
-    if !digit(at) && !(bytes.get(at) == Some(&b'.') && digit(at + 1)) {
+    if !(digit(at) || bytes.get(at) == Some(&b'.') && digit(at + 1)) {
         return None;
     }
     while digit(at) || bytes.get(at) == Some(&b'.') {

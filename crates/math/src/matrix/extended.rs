@@ -178,6 +178,10 @@ impl Ring for Extended {
         }
     }
 
+    fn dot_of_three(a: &[Self; 3], b: &[Self; 3]) -> Self {
+        a[0].dot(a, b)
+    }
+
     fn add_scaled(&self, x: &[Self], y: &mut [Self]) {
         for (yi, xi) in y.iter_mut().zip(x) {
             *yi = match (&*yi, self, xi) {

@@ -34,6 +34,12 @@ pub trait Ring:
         dot_term_by_term(self, a, b)
     }
 
+    /// a₀ b₀ + a₁ b₁ + a₂ b₂.
+    #[inline]
+    fn dot_of_three(a: &[Self; 3], b: &[Self; 3]) -> Self {
+        a[0].clone() * b[0].clone() + a[1].clone() * b[1].clone() + a[2].clone() * b[2].clone()
+    }
+
     /// `y ← y + self · x` over the common length.
     fn add_scaled(&self, x: &[Self], y: &mut [Self]) {
         for (yi, xi) in y.iter_mut().zip(x) {

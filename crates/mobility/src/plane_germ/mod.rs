@@ -36,7 +36,11 @@ use puiseux::{Half, half_branches, power};
 use taylor::{Plane, series};
 
 /// Degrees to which series are computed, one after the other while branches are not told apart.
-const DEGREES: [usize; 4] = [10, 13, 18, 24];
+const DEGREES: [usize; 5] = [7, 10, 13, 18, 24];
+
+/// Where several equations are left, that all of them vanish along a half-branch is a matter of how many terms say so: the first degree
+/// is for one equation only.
+const OF_SEVERAL: usize = 10;
 
 /// The last degrees computed are known least, and not used.
 const GUARD: usize = 2;
@@ -86,12 +90,16 @@ pub(super) fn plane_curve(start: &Start<'_>, thorough: bool) -> Result<PlaneCurv
     }
     let mut doubt = Doubt::Multiple;
     let mut more = MoreDigits::new();
-    let degrees = if thorough {
-        &DEGREES[..]
-    } else {
-        &DEGREES[..1]
-    };
-    for &degree in degrees {
+    let rank = start.rank;
+    let reached = rank
+        .instantaneous
+        .and_then(|freedom| rank.unknowns().checked_sub(freedom));
+    let several = reached.is_none_or(|reached| rank.equations() > reached + 1);
+    let degrees = DEGREES
+        .into_iter()
+        .filter(|&degree| !several || degree >= OF_SEVERAL)
+        .filter(|&degree| thorough || degree <= OF_SEVERAL);
+    for degree in degrees {
         match to_degree(start, &mut more, degree, fineness) {
             Err(open @ (Doubt::Multiple | Doubt::Precision)) => doubt = open,
             other => return other,

@@ -37,6 +37,7 @@ pub use source::{
 pub use structure::{Cycle, Tree, TreeLink};
 pub use warnings::{Warning, WarningKind, WarningPlace};
 
+use super::asked::ReportDepth;
 use super::change_sets::ChangeSets;
 use kutzbach_mobility::Verdict;
 use kutzbach_motion::FourBar;
@@ -107,6 +108,9 @@ pub struct Report {
     /// How long the stages took; only where asked for, so that reports can be compared byte by byte.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub timing: Option<Timing>,
+    /// How much was asked for, where that is less than everything: what lies beyond is `null` or empty because nobody looked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth: Option<ReportDepth>,
 }
 
 impl Report {

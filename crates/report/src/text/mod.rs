@@ -24,6 +24,7 @@ mod play;
 mod ranges;
 mod relations;
 pub(super) mod sections;
+mod shallow;
 mod style;
 mod table;
 pub(super) mod verdict;
@@ -39,6 +40,9 @@ use super::schema::Report;
 /// The report as a page of text, ending in a line break.
 #[must_use]
 pub fn render(report: &Report, layout: Layout) -> String {
+    if let Some(depth) = report.depth {
+        return shallow::render(report, layout, depth);
+    }
     let mut page = match layout.verbose {
         true => Page::new(layout),
         false => Page::new(layout).compact(),

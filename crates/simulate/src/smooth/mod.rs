@@ -19,7 +19,7 @@ mod system;
 use super::WorldError;
 use super::inertia::{self, Mass};
 use super::options::{Energy, Pieces};
-use super::scene_run::{Moves, SceneOptions, Stopped};
+use super::scene_run::{Moves, SceneOptions, Stopped, looks_in};
 use constraint::{Held, Side, Turning, rows_of};
 use kutzbach_closure::{Geometry, JointState, Rigid};
 use kutzbach_model::mechanism::{JointKind, Mechanism};
@@ -104,8 +104,17 @@ pub(super) struct SmoothWorld {
     stepper: Stepper,
     /// By link: its body, and `link_from_body`; for the ground `world_from_link`.
     places: Vec<(usize, Rigid<f64>)>,
-    time_step: f64,
-    steps: u64,
+    /// From one look to the next (s).
+    interval: f64,
+    /// Looks in a step; in the last step, and those of it that are to come.
+    looks: u64,
+    span: u64,
+    ahead: u64,
+    /// Looks so far, and those that the scene lasts for.
+    seen: u64,
+    last: u64,
+    /// The state at the last look.
+    state: Vec<f64>,
     pieces: Pieces,
 }
 
@@ -207,12 +216,19 @@ impl SmoothWorld {
             Ok(stepper) => stepper,
             Err(Lost::Unreachable | Lost::Independent) => return Ok(Err(SINGULAR)),
         };
+        let looks = looks_in(options.runge_kutta_step);
+        let interval = options.runge_kutta_step / looks as f64;
         Ok(Ok(Self {
             system,
+            state: stepper.state.clone(),
             stepper,
             places: builder.places,
-            time_step: options.runge_kutta_step,
-            steps: 0,
+            interval,
+            looks,
+            span: 1,
+            ahead: 0,
+            seen: 0,
+            last: (options.duration / interval).round() as u64,
             pieces,
         }))
     }
@@ -220,27 +236,48 @@ impl SmoothWorld {
     /// About how many seconds of work a simulated second takes. Two multiplications a nanosecond were measured on chains, four-bars and
     /// scissors.
     pub fn seconds_per_second(&self) -> f64 {
-        0.5e-9 * self.system.work() * EVALUATIONS / self.time_step
+        0.5e-9 * self.system.work() * EVALUATIONS / (self.interval * self.looks as f64)
+    }
+
+    /// The next step, no longer than the scene lasts; only to the next look where it cannot be taken in one piece.
+    fn advance(&mut self) -> Result<(), Lost> {
+        let left = self.last.saturating_sub(self.seen).clamp(1, self.looks);
+        let length = self.interval * left as f64;
+        self.span = match left > 1 && self.stepper.leap(&mut self.system, length)? {
+            true => left,
+            false => {
+                self.stepper.step(&mut self.system, self.interval)?;
+                1
+            }
+        };
+        self.ahead = self.span;
+        Ok(())
     }
 
     fn motion_of(&self, body: usize) -> Option<(&Body, &[f64])> {
-        let state = self
-            .stepper
-            .state
-            .get(body * NUMBERS..(body + 1) * NUMBERS)?;
+        let state = self.state.get(body * NUMBERS..(body + 1) * NUMBERS)?;
         Some((self.system.bodies.get(body)?, state))
     }
 }
 
 impl Moves for SmoothWorld {
     fn step(&mut self) -> Result<(), Stopped> {
-        let stepped = self.stepper.step(&mut self.system, self.time_step);
-        self.steps += 1;
-        stepped.map_err(|_| Stopped::Unserved(SINGULAR))
+        if self.ahead == 0 {
+            let advanced = self.advance();
+            advanced.map_err(|_| Stopped::Unserved(SINGULAR))?;
+        }
+        (self.seen, self.ahead) = (self.seen + 1, self.ahead - 1);
+        if self.ahead == 0 {
+            self.state.clone_from(&self.stepper.state);
+        } else {
+            let share = 1.0 - self.ahead as f64 / self.span as f64;
+            self.stepper.between(&self.system, share, &mut self.state);
+        }
+        Ok(())
     }
 
     fn time(&self) -> f64 {
-        self.steps as f64 * self.time_step
+        self.seen as f64 * self.interval
     }
 
     fn link_poses(&self) -> Vec<Rigid<f64>> {

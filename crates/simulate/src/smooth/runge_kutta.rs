@@ -1,7 +1,8 @@
 //! Steps of order five.
 //!
 //! Dormand and Prince 1980, *A family of embedded Runge-Kutta formulae*: the formula of order five, whose last stage is the first of the next
-//! step. Steps are all of one length, so that halving them shows the order and the error (`trajectory`).
+//! step. Steps are all of one length, so that halving them shows the order and the error (`trajectory`). What lies between their ends
+//! is a polynomial through their derivatives.
 
 use super::system::{Linearised, Lost, Scratch, System};
 
@@ -40,6 +41,18 @@ const WEIGHTS: [[f64; 6]; STAGES] = [
     ],
 ];
 
+/// Weights of the derivatives in what a step is between its ends beyond a cubic (Hairer, Nørsett & Wanner 1993, section II.6): as far off as the
+/// step itself, to the same order.
+const BETWEEN: [f64; STAGES] = [
+    -12_715_105_075.0 / 11_282_082_432.0,
+    0.0,
+    87_487_479_700.0 / 32_700_410_799.0,
+    -10_690_763_975.0 / 1_880_347_072.0,
+    701_980_252_875.0 / 199_316_789_632.0,
+    -1_453_857_185.0 / 822_651_844.0,
+    69_997_945.0 / 29_380_423.0,
+];
+
 /// Derivatives in a step.
 pub(super) const EVALUATIONS: f64 = 6.0;
 
@@ -51,6 +64,8 @@ const MOST_HALVINGS: u32 = 8;
 pub(super) struct Stepper {
     pub state: Vec<f64>,
     time: f64,
+    /// Of the last step (s).
+    length: f64,
     /// At the beginning of a step, or of one before it, and at the latest stage.
     begin: Linearised,
     latest: Linearised,
@@ -73,6 +88,7 @@ impl Stepper {
             reached: none(),
             state,
             time: 0.0,
+            length: 0.0,
             begin: Linearised::default(),
             latest: Linearised::default(),
             scratch: Scratch::default(),
@@ -100,12 +116,54 @@ impl Stepper {
     /// Where the constraints cannot be reached however short it is.
     pub fn step(&mut self, system: &mut System, length: f64) -> Result<(), Lost> {
         self.steps(system, length, MOST_HALVINGS)?;
+        self.goes_on()
+    }
+
+    /// A step of a length (s) in one piece; false where it cannot be taken so, and nothing has moved.
+    ///
+    /// # Errors
+    /// As [`Self::step`].
+    pub fn leap(&mut self, system: &mut System, length: f64) -> Result<bool, Lost> {
+        if self.attempt(system, length).is_err() {
+            return Ok(false);
+        }
+        self.goes_on().map(|()| true)
+    }
+
+    fn goes_on(&self) -> Result<(), Lost> {
         // A motion that is let go where two branches meet, or where a shaky mechanism is drawn, has no equation: it begins with fewer
         // independent constraints than it goes on with. Where it comes through such a pose, it goes straight on.
         if self.begin.rank() > self.rank {
             return Err(Lost::Independent);
         }
         Ok(())
+    }
+
+    /// The state at a share of the last step, brought onto the constraints where that is possible.
+    pub fn between(&mut self, system: &System, share: f64, state: &mut Vec<f64>) {
+        let (rest, length) = (1.0 - share, self.length);
+        // A step swaps its two ends, and the derivatives there.
+        let (from, to) = (&self.reached, &self.state);
+        let [end, .., start] = &self.derivatives;
+        state.clear();
+        state.extend((0..from.len()).map(|i| {
+            let whole = to[i] - from[i];
+            let bend = length * start[i] - whole;
+            let other = whole - length * end[i] - bend;
+            let inner = self.derivatives[1..STAGES - 1].iter().zip(&BETWEEN[1..]);
+            let inner: f64 = inner
+                .map(|(derivative, weight)| derivative[i] * weight)
+                .sum();
+            let more = length * (inner + start[i] * BETWEEN[0] + end[i] * BETWEEN[STAGES - 1]);
+            from[i] + share * (whole + rest * (bend + share * (other + rest * more)))
+        }));
+        let time = self.time - rest * length;
+        system.settle(
+            (state, time),
+            &self.begin,
+            &mut self.latest,
+            &mut self.scratch,
+        );
     }
 
     fn steps(&mut self, system: &mut System, length: f64, halvings: u32) -> Result<(), Lost> {
@@ -139,6 +197,7 @@ impl Stepper {
         }
         let time = self.time + length;
         system.arrive(&self.reached, time, &mut self.scratch)?;
+        self.length = length;
         self.time = time;
         std::mem::swap(&mut self.state, &mut self.reached);
         // Within a hair of a singular pose a constraint counts for none. Directions that still have it bring the next step back better.

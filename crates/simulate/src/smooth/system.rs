@@ -394,6 +394,21 @@ impl System {
         Ok(())
     }
 
+    /// Brings a state next to the constraints onto them, as far as that is possible; its speeds stay as they are.
+    pub fn settle(
+        &self,
+        (state, time): (&mut Vec<f64>, f64),
+        along: &Linearised,
+        here: &mut Linearised,
+        scratch: &mut Scratch,
+    ) {
+        normalise(state);
+        let before = state.clone();
+        if self.close(state, time, along, (here, scratch)).is_err() {
+            *state = before;
+        }
+    }
+
     /// Whether turns have not come so far since the step began that they could be mistaken by a whole one.
     fn counts_turns(&self, placed: &[Placed]) -> bool {
         let near = |turning: &Turning, joint: usize| {

@@ -51,6 +51,8 @@ const ALL_OF_IT: f64 = 0.999;
 pub struct DrivenMotion<'a> {
     mechanism: &'a Mechanism,
     geometry: &'a Geometry<f64>,
+    /// That of the prediction, which may be another one where the prediction is false on purpose.
+    predicted: &'a Geometry<f64>,
     structure: &'a Structure,
     branch: String,
     way: DrivenWay,
@@ -145,6 +147,7 @@ impl<'a> DrivenMotion<'a> {
             .map(|way| Self {
                 mechanism,
                 geometry,
+                predicted: &analysis.geometry,
                 structure: &analysis.structure,
                 branch: branch.name.clone(),
                 way,
@@ -300,7 +303,7 @@ impl<'a> DrivenMotion<'a> {
         };
         let mut prediction = Prediction::new(
             self.mechanism,
-            self.geometry,
+            self.predicted,
             self.structure,
             &way.start,
             self.freedom,

@@ -234,7 +234,12 @@ fn notes(mechanism: &Mechanism, home: &World) -> Vec<String> {
     notes
 }
 
-/// Pushes with one solver after the other until one shows that nothing moves; `None` where there is none to push with.
+/// Rungs of a solver that is only asked whether something moves after all.
+const FEW_RUNGS: usize = 3;
+
+/// Pushes with one solver after the other; `None` where there is none to push with. Nothing moves where one of them shows so and none
+/// that something moves with its loops closed to rounding: redundant constraints can lock the solver that holds trees by reduced
+/// coordinates, and impulses give way.
 fn verify_rigid(
     mechanism: &Mechanism,
     geometry: &Geometry<f64>,
@@ -243,11 +248,15 @@ fn verify_rigid(
     home: &World,
     observer: &mut dyn Observer,
 ) -> Result<Option<Pushing>, VerificationError> {
-    let mut first = None;
+    let (mut stays, mut first) = (None, None);
     let (size, mut budget) = (Size::of(mechanism, 0), Budget::new(options.budget));
     let masses = masses_of(home);
     let length = home.scale().0;
     for &solver in &options.solvers {
+        let rungs = match stays {
+            Some(_) => options.ladder.len().min(FEW_RUNGS),
+            None => options.ladder.len(),
+        };
         let pushed = Pushed {
             mechanism,
             geometry,
@@ -256,17 +265,19 @@ fn verify_rigid(
             states: &analysis.assembly.states,
             solver,
             time_step: options.time_step,
-            ladder: &options.ladder,
+            ladder: &options.ladder[..rungs],
             length,
             masses,
         };
         let pushing = pushed.push_all((&size, &mut budget), observer)?;
-        if pushing.stopped || pushing.finding.outcome == Outcome::Confirmed {
-            return Ok(Some(pushing));
-        }
-        first.get_or_insert(pushing);
+        match pushing.finding.outcome {
+            _ if pushing.stopped => return Ok(Some(pushing)),
+            Outcome::Contradicted => return Ok(Some(pushing)),
+            Outcome::Confirmed => stays.get_or_insert(pushing),
+            Outcome::Inconclusive => first.get_or_insert(pushing),
+        };
     }
-    Ok(first)
+    Ok(stays.or(first))
 }
 
 impl Verification {

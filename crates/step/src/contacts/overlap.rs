@@ -202,7 +202,7 @@ mod tests {
             (square(4.0, 0.0, 2.0), 0.0),
             (square(3.0, -1.0, 2.0), 1.0),
         ] {
-            let found = area(&plate, &[other.clone()]);
+            let found = area(&plate, std::slice::from_ref(&other));
             assert!((found - expected).abs() < 1e-12, "{other:?}: {found}");
         }
         // A square that stands on its corner: no corner of either is in the other.

@@ -91,7 +91,7 @@ fn cylindrical(pin: &Face, hole: &Face, options: &ContactOptions) -> Option<Touc
     }
     let apart = |height: f64| (p + d * height - q).cross(&e).norm();
     let misfit = apart(low).max(apart(high));
-    (misfit <= play).then(|| Touch {
+    (misfit <= play).then_some(Touch {
         kind: ContactKind::Cylindrical,
         axis: d,
         point: p + d * ((low + high) / 2.0),
@@ -133,7 +133,7 @@ fn planar(first: &Face, second: &Face, options: &ContactOptions) -> Option<Touch
     let (point, size) = (chart.point(shared.centroid), shared.area.sqrt());
     let clearance = (q - point).dot(&m) / n.dot(&m);
     let misfit = lean * size;
-    (clearance.abs() <= play && misfit <= play).then(|| Touch {
+    (clearance.abs() <= play && misfit <= play).then_some(Touch {
         kind: ContactKind::Planar,
         axis: n,
         point,
@@ -160,7 +160,7 @@ fn spherical(ball: &Face, socket: &Face, options: &ContactOptions) -> Option<Tou
     };
     let play = play(r.min(s), options);
     let (clearance, misfit) = (s - r, (p - q).norm());
-    (clearance.abs() <= play && misfit <= play).then(|| Touch {
+    (clearance.abs() <= play && misfit <= play).then_some(Touch {
         kind: ContactKind::Spherical,
         axis: Vector3::z(),
         point: p,
@@ -203,7 +203,7 @@ fn conical(pin: &Face, hole: &Face, options: &ContactOptions) -> Option<Touch> {
     // A cone that is shifted along its axis leaves its seat by the sine of its angle; the hole's apex below the pin's is room.
     let clearance = -between.dot(&d) * a.sin();
     let misfit = between.cross(&d).norm().max(lean * size);
-    (clearance.abs() <= play && misfit <= play).then(|| Touch {
+    (clearance.abs() <= play && misfit <= play).then_some(Touch {
         kind: ContactKind::Conical,
         axis: d,
         point: p,

@@ -7,8 +7,8 @@ use crate::accuracy::result::{RunTiming, Scene, SceneStep, State};
 use crate::accuracy::work::work_of;
 use crate::verification::{Moment, Observer, Passage};
 use crate::{
-    Drive, Effects, Integrator, RUNGE_KUTTA_STEP, Refinement, SceneOptions, World, WorldError,
-    WorldOptions, effect_names, run_scene, run_scene_estimated,
+    Drive, Effects, Integrator, LONGEST_STEP, RUNGE_KUTTA_STEP, Refinement, SceneOptions, World,
+    WorldError, WorldOptions, effect_names, run_scene, run_scene_estimated,
 };
 use kutzbach_closure::{Geometry, JointState};
 use kutzbach_model::mechanism::Mechanism;
@@ -70,7 +70,7 @@ pub(in crate::accuracy) fn scene_rows(
         drives: drives.to_vec(),
         duration: grid.scene,
         integrator: None,
-        runge_kutta_step: RUNGE_KUTTA_STEP,
+        runge_kutta_step: LONGEST_STEP,
     };
     let (steps, broken) = match stopped {
         true => (Vec::new(), true),
