@@ -6,6 +6,9 @@ use crate::{
     classify_in_solid, concave, contained, convex,
 };
 
+/// Of every face its loops, as numbers of corners.
+type Faces<'a> = &'a [&'a [&'a [usize]]];
+
 /// An L of height 2: a square of 4 without its upper right quarter; the concave edge is that at (2, 2).
 const ELL: [Three; 12] = [
     [0, 0, 0],
@@ -73,7 +76,7 @@ impl<S: Scalar> With<S> {
             error.to_string()
         };
         let square = [[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]];
-        let rows: [(&[Three], &[&[&[usize]]], &str); 6] = [
+        let rows: [(&[Three], Faces<'_>, &str); 6] = [
             (&square, &[&[&[0, 1, 7]]], "face 0, loop 0, corner 2"),
             (&square, &[&[&[0, 1]]], "three corners"),
             (&square, &[&[&[0, 1, 1, 2]]], "corner 1 (counted from 0)"),
