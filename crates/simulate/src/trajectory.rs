@@ -3,7 +3,8 @@
 //! # The estimate
 //! Let x(h) be the motion with steps of h, and x(h) − x = C hᵖ + … (Richardson 1911). Then x(h) − x(h/2) = (2ᵖ − 1) C (h/2)ᵖ, so that
 //! the finer of two runs is off by their difference over 2ᵖ − 1, and the coarser by 2ᵖ times as much. Differences of three runs
-//! tell p. With two runs the coarser is told of by the integrator's own order, and the finer as if p were 1. Where p comes out below
+//! tell p. With two runs the coarser is told of by the integrator's own order, or as if p were 1 where an error is wanted, and the finer as if p
+//! were 1. Where p comes out below
 //! [`CONVERGES`], as after an impact that one run has and the other has not, the runs do not approach one another, and nothing is claimed.
 //!
 //! What is compared is all links at all moments that both runs show: poses (characteristic lengths, rad), and twists as a share of
@@ -196,7 +197,7 @@ impl Halving<'_> {
                 finest.remove(0);
             }
             finest.push((run, trail));
-            estimate(&mut trajectory.rows, &differences, self.integrator);
+            trajectory.estimate(&differences, self.integrator);
             if trajectory.is_enough() || interrupted() {
                 break;
             }
@@ -243,9 +244,8 @@ impl Halving<'_> {
 const MOST_HALVINGS: u32 = 20;
 
 /// Fills in what differences tell: of each run but the first from the difference before it, of the first from that after it. Until a third
-/// run shows the order, the finer of two runs is given no more credit than a method of first order has.
-fn estimate(rows: &mut [StepRow], differences: &[TrajectoryError], integrator: Integrator) {
-    let (assumed, highest) = orders(integrator);
+/// run shows the order, the finer of two runs is given no more credit than a method of first order has, and the coarser as much as is assumed.
+fn estimate(rows: &mut [StepRow], differences: &[TrajectoryError], (assumed, highest): (f64, f64)) {
     let mut orders = (1.0, assumed);
     for (index, apart) in differences.iter().enumerate() {
         let seen = index
@@ -303,6 +303,16 @@ impl Trajectory {
             needed: None,
             not_estimated: None,
         }
+    }
+
+    /// Where an error is wanted, steps begin too long for their order to be taken for granted: it has to be seen.
+    fn estimate(&mut self, differences: &[TrajectoryError], integrator: Integrator) {
+        let (assumed, highest) = orders(integrator);
+        let assumed = match self.wanted {
+            Some(_) => 1.0,
+            None => assumed,
+        };
+        estimate(&mut self.rows, differences, (assumed, highest));
     }
 
     /// Whether no further run is needed.
@@ -405,5 +415,37 @@ impl Observer for Quiet<'_> {
 
     fn moment(&mut self, _: &Moment<'_>) -> ControlFlow<()> {
         self.flow()
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_order_that_was_not_seen_is_not_credited_where_an_error_is_wanted() {
+        let row = StepRow {
+            time_step: 0.1,
+            error: None,
+            order: None,
+            energy_change: 0.0,
+            energy_error: None,
+            closure_error: 0.0,
+            step_time: 0.0,
+        };
+        let off = |wanted: Option<f64>| {
+            let mut trajectory = Trajectory::begun(wanted);
+            trajectory.rows = vec![row.clone(), row.clone()];
+            let apart = TrajectoryError {
+                worst: 1e-3,
+                end: 1e-3,
+                speed: 1e-3,
+            };
+            trajectory.estimate(&[apart], Integrator::RungeKutta);
+            trajectory.rows[0].error.unwrap().worst
+        };
+        assert!((off(Some(1e-3)) - 2e-3).abs() < 1e-15);
+        assert!((off(None) - 1e-3 * 32.0 / 31.0).abs() < 1e-15);
     }
 }

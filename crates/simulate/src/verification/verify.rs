@@ -234,8 +234,8 @@ fn notes(mechanism: &Mechanism, home: &World) -> Vec<String> {
     notes
 }
 
-/// Rungs of a solver that is only asked whether something moves after all.
-const FEW_RUNGS: usize = 3;
+/// Rungs of a solver that is only asked whether something moves after all: impulses close loops to 1e-5 at the last of them.
+const FEW_RUNGS: usize = 5;
 
 /// Pushes with one solver after the other; `None` where there is none to push with. Nothing moves where one of them shows so and none
 /// that something moves with its loops closed to rounding: redundant constraints can lock the solver that holds trees by reduced
