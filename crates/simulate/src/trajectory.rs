@@ -4,7 +4,7 @@
 //! Let x(h) be the motion with steps of h, and x(h) − x = C hᵖ + … (Richardson 1911). Then x(h) − x(h/2) = (2ᵖ − 1) C (h/2)ᵖ, so that
 //! the finer of two runs is off by their difference over 2ᵖ − 1, and the coarser by 2ᵖ times as much. Differences of three runs
 //! tell p. With two runs the coarser is told of by the integrator's own order, or as if p were 1 where an error is wanted, and the finer as if p
-//! were 1. Where p comes out below
+//! were 1. An error that is wanted takes three runs at least, and each run is off by no less than its distance from the finest. Where p comes out below
 //! [`CONVERGES`], as after an impact that one run has and the other has not, the runs do not approach one another, and nothing is claimed.
 //!
 //! What is compared is all links at all moments that both runs show: poses (characteristic lengths, rad), and twists as a share of
@@ -154,7 +154,7 @@ impl Halving<'_> {
             Err(serving) => return Ok(Err(serving)),
         };
         let mut trajectory = Trajectory::begun(refinement.wanted);
-        // The two finest: no other can come to be told of.
+        // The finest: no other is told of.
         let mut finest: Vec<(SceneRun, Trail)> = Vec::new();
         let mut differences: Vec<TrajectoryError> = Vec::new();
         let mut left = refinement.work;
@@ -193,7 +193,7 @@ impl Halving<'_> {
                 differences.push(trail.apart(before, &self.scene));
             }
             trajectory.rows.push(StepRow::of(&run));
-            if finest.len() == 2 {
+            if finest.len() == KEPT {
                 finest.remove(0);
             }
             finest.push((run, trail));
@@ -239,6 +239,9 @@ impl Halving<'_> {
         })
     }
 }
+
+/// Runs that are kept to be told of.
+const KEPT: usize = 3;
 
 /// Steps are halved so often at most.
 const MOST_HALVINGS: u32 = 20;
@@ -313,12 +316,25 @@ impl Trajectory {
             None => assumed,
         };
         estimate(&mut self.rows, differences, (assumed, highest));
+        // A run is off by no less than it is from the finest, which steps that are too long may agree with one another not to tell.
+        for (index, row) in self.rows.iter_mut().enumerate() {
+            let apart = differences.iter().skip(index);
+            if let Some(error) = &mut row.error {
+                let [worst, end, speed] = apart.fold([0.0; 3], |[worst, end, speed], apart| {
+                    [worst + apart.worst, end + apart.end, speed + apart.speed]
+                });
+                error.worst = error.worst.max(worst);
+                error.end = error.end.max(end);
+                error.speed = error.speed.max(speed);
+            }
+        }
     }
 
     /// Whether no further run is needed.
     fn is_enough(&self) -> bool {
         match (self.wanted, self.rows.last()) {
             (None, _) => self.rows.len() == 2,
+            (Some(_), _) if self.rows.len() < 3 => false,
             (Some(wanted), last) => last.is_some_and(|row| row.is_within(wanted)),
         }
     }
@@ -340,7 +356,8 @@ impl Trajectory {
         let (assumed, highest) = orders(integrator);
         let within = |row: &StepRow| row.is_within(wanted);
         let last = self.rows.len().saturating_sub(1);
-        self.used = self.rows.iter().position(within).unwrap_or(last);
+        let first = self.rows.iter().position(within).unwrap_or(last);
+        self.used = first.max(self.rows.len().saturating_sub(KEPT));
         let used = self.rows.get(self.used);
         self.reached = Some(used.is_some_and(within));
         if self.reached == Some(false)
