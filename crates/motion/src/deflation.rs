@@ -200,36 +200,33 @@ fn complement(columns: &DMatrix<f64>) -> DMatrix<f64> {
     let (size, count) = columns.shape();
     let mut basis: Vec<DVector<f64>> = (0..count).map(|c| columns.column(c).into_owned()).collect();
     let mut added = Vec::new();
-    let mut left: Vec<usize> = (0..size).collect();
-    while basis.len() < size && !left.is_empty() {
+    // What a unit vector has outside the span, squared: one less the squares of the basis along it.
+    let mut outside: Vec<f64> = (0..size)
+        .map(|axis| basis.iter().fold(1.0, |left, b| left - b[axis] * b[axis]))
+        .collect();
+    while basis.len() < size {
         // The unit vector that is farthest from what is spanned already.
-        let (place, vector) = left
-            .iter()
-            .enumerate()
-            .map(|(place, &axis)| {
-                let mut v = DVector::zeros(size);
-                v[axis] = 1.0;
-                for _ in 0..2 {
-                    for b in &basis {
-                        let along = b.dot(&v);
-                        v.axpy(-along, b, 1.0);
-                    }
-                }
-                (place, v)
-            })
-            .fold((0, DVector::zeros(size)), |best, next| {
-                if next.1.norm() > best.1.norm() {
-                    next
-                } else {
-                    best
-                }
-            });
-        left.remove(place);
+        let farthest = (0..size).fold(0, |best, axis| match outside[axis] > outside[best] {
+            true => axis,
+            false => best,
+        });
+        let mut vector = DVector::zeros(size);
+        vector[farthest] = 1.0;
+        for _ in 0..2 {
+            for b in &basis {
+                let along = b.dot(&vector);
+                vector.axpy(-along, b, 1.0);
+            }
+        }
         let length = vector.norm();
         if !(length > 1e-8) {
             break;
         }
         let unit = vector / length;
+        for (left, along) in outside.iter_mut().zip(unit.iter()) {
+            *left -= along * along;
+        }
+        outside[farthest] = f64::NEG_INFINITY;
         basis.push(unit.clone());
         added.push(unit);
     }
@@ -299,5 +296,19 @@ mod tests {
         assert_eq!(rest.shape(), (3, 2));
         let gram = rest.transpose() * &rest - DMatrix::identity(2, 2);
         assert!(gram.norm() < 1e-14 && (columns.transpose() * rest).norm() < 1e-14);
+        let mut random = kutzbach_math::matrix::SplitMix64::new(5);
+        for (size, count) in [(7, 3), (30, 27), (12, 0), (9, 9)] {
+            let full = DMatrix::from_fn(size, size, |_, _| random.symmetric());
+            let all = full.qr().q();
+            let columns = all.columns(0, count).into_owned();
+            let rest = complement(&columns);
+            assert_eq!(rest.shape(), (size, size - count));
+            let gram = rest.transpose() * &rest - DMatrix::identity(size - count, size - count);
+            assert!(gram.norm() < 1e-13, "{size} {count}");
+            assert!(
+                (columns.transpose() * rest).norm() < 1e-13,
+                "{size} {count}"
+            );
+        }
     }
 }

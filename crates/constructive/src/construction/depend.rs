@@ -26,7 +26,7 @@ pub(super) fn dependence(sketch: &Sketch, merges: &[Merge]) -> Option<Vec<BTreeS
             let mut on = BTreeSet::new();
             for (cluster, pair) in [(a, [x, z]), (b, [x, y]), (c, [y, z])] {
                 if !ends.contains_key(&pair) {
-                    tree.shape_of(cluster, pair.into(), &mut on, &mut looks)?;
+                    tree.shape_of(cluster, pair.to_vec(), &mut on, &mut looks)?;
                 }
             }
             Some(on)
@@ -91,7 +91,7 @@ impl<'a> Tree<'a> {
     fn shape_of(
         &self,
         cluster: usize,
-        elements: BTreeSet<usize>,
+        elements: Vec<usize>,
         on: &mut BTreeSet<usize>,
         looks: &mut usize,
     ) -> Option<()> {
@@ -115,12 +115,12 @@ impl<'a> Tree<'a> {
             }
             on.insert(step);
             for (k, &part) in merge.parts.iter().enumerate() {
-                let mut inside: BTreeSet<usize> = elements
-                    .iter()
-                    .copied()
-                    .filter(|&v| self.holds(part, v))
+                let shared = [merge.shared[k], merge.shared[(k + 2) % 3]];
+                let others = elements.iter().copied();
+                let mut inside: Vec<usize> = others
+                    .filter(|v| !shared.contains(v) && self.holds(part, *v))
                     .collect();
-                inside.extend([merge.shared[k], merge.shared[(k + 2) % 3]]);
+                inside.extend(shared);
                 open.push((part, inside));
             }
         }
