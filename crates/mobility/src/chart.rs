@@ -20,7 +20,6 @@
 mod far;
 mod guide;
 
-use super::hidden::null_vectors_in_doubles;
 use super::more_digits::MoreDigits;
 use super::pose_rank::{LADDER, PartRank, Pose};
 pub(super) use far::{far_chart, moving_far};
@@ -104,10 +103,7 @@ impl Kernel {
     /// # Errors
     /// [`MatrixError`] where the null vectors cannot be computed.
     pub fn of(pose: &Pose<'_>, rank: &PartRank, limit: usize) -> Result<Option<Self>, MatrixError> {
-        let Some(decision) = rank.settled() else {
-            return Ok(None);
-        };
-        let Some(basis) = null_vectors_in_doubles(&rank.matrix, &decision, limit, SEED)? else {
+        let Some(basis) = rank.null_vectors(limit, SEED)? else {
             return Ok(None);
         };
         Ok(Some(Self {

@@ -18,7 +18,7 @@ use super::roles::NULL_VECTORS;
 use super::tangent_space::TangentSpace;
 use kutzbach_closure::Structure;
 use kutzbach_closure::{Geometry, JointState, Part, entry_accuracy, follow, jacobian};
-use kutzbach_math::matrix::{MatrixError, Real, SplitMix64, decide, null_vectors};
+use kutzbach_math::matrix::{MatrixError, Real, SplitMix64, decide};
 use kutzbach_model::mechanism::Mechanism;
 
 /// A thousandfold magnification: a hundredth of a millimetre of play in a joint is a centimetre somewhere.
@@ -114,10 +114,10 @@ fn clearer(
     part: &Part,
     rank: &PartRank,
 ) -> Result<Option<ClearerPose>, MatrixError> {
-    let Some(decision) = rank.settled().filter(|_| rank.instantaneous > Some(0)) else {
+    if !(rank.instantaneous > Some(0)) {
         return Ok(None);
-    };
-    let Ok(null) = null_vectors(&rank.matrix, &decision, NULL_VECTORS, 1) else {
+    }
+    let Ok(Some(null)) = rank.null_vectors(NULL_VECTORS, 1) else {
         return Ok(None);
     };
     let mut random = SplitMix64::new(7);
@@ -191,7 +191,7 @@ pub fn pose_of_branch(
         if decision.nullity() == Some(0) {
             continue;
         }
-        let null = null_vectors(&rank.matrix, &decision, NULL_VECTORS, 1).ok()?;
+        let null = rank.null_vectors(NULL_VECTORS, 1).ok()??;
         if !null.complete {
             return None;
         }

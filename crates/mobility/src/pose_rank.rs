@@ -21,18 +21,20 @@
 //! A pose that is drawn closed within the stated precision, but not beyond, is moved by closing it exactly. What it was
 //! meant to be is then as open as the way it moved.
 
+use super::hidden::null_vectors_in_doubles;
 use super::more_digits::MoreDigits;
 mod note;
 mod readings;
 
 use kutzbach_closure::{CycleJacobian, Geometry, JointState, Part, entry_accuracy, jacobian};
-use kutzbach_math::matrix::{MatrixError, RankDecision, SparseMatrix};
+use kutzbach_math::matrix::{MatrixError, NullVectors, RankDecision, SparseMatrix};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Configuration, CouplingTerm, Mechanism};
 pub use note::RankNote;
 use readings::Readings;
 use std::cell::Cell;
 use std::collections::BTreeSet;
+use std::sync::OnceLock;
 
 /// The bits tried in turn after double precision.
 pub const LADDER: [u32; 4] = [106, 212, 424, 848];
@@ -157,7 +159,13 @@ pub struct PartRank {
     pub column_scales: Vec<f64>,
     /// The linearised equations the matrix was made from.
     pub jacobian: CycleJacobian<f64>,
+    /// The kernel, once somebody asked for it.
+    pub(crate) kernel: KnownKernel,
 }
+
+/// An orthonormal kernel basis with the nullity that it was computed at, found once.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct KnownKernel(OnceLock<(usize, NullVectors<f64>)>);
 
 impl PartRank {
     /// What the digits of its numbers leave open of the Jacobian (relative): see [`Reading::open`].
@@ -182,6 +190,36 @@ impl PartRank {
     #[must_use]
     pub fn equations(&self) -> usize {
         self.matrix.rows()
+    }
+
+    /// Null vectors in double precision at the rank settled: a basis where it has at most `limit` vectors, else `limit` random ones by a
+    /// seed. `None` where the rank is not settled, or doubles do not separate it. A basis, which no seed changes, is computed once.
+    ///
+    /// # Errors
+    /// [`MatrixError`] where numbers overflow.
+    pub(crate) fn null_vectors(
+        &self,
+        limit: usize,
+        seed: u64,
+    ) -> Result<Option<NullVectors<f64>>, MatrixError> {
+        let Some(decision) = self.settled() else {
+            return Ok(None);
+        };
+        let nullity = decision.nullity();
+        if let Some((of, known)) = self.kernel.0.get()
+            && nullity == Some(*of)
+            && known.nullity <= limit
+        {
+            return Ok(Some(known.clone()));
+        }
+        let found = null_vectors_in_doubles(&self.matrix, &decision, limit, seed)?;
+        if let (Some(found), Some(nullity)) = (&found, nullity)
+            && found.complete
+        {
+            // Another thread may have been faster; it found the same.
+            let _ = self.kernel.0.set((nullity, found.clone()));
+        }
+        Ok(found)
     }
 
     /// The decision with its rank set to the one the answer uses, for null vectors.

@@ -3,7 +3,6 @@
 //! A variable is locked when its component vanishes in every vector of ker J (a coloop of the column matroid), at the pose
 //! and at poses nearby.
 
-use super::hidden::null_vectors_in_doubles;
 use super::pose_rank::PartRank;
 use kutzbach_closure::{Geometry, JointState, Part, entry_accuracy, follow, jacobian};
 use kutzbach_math::matrix::{
@@ -69,7 +68,7 @@ pub(super) fn roles_seen_closer(
     let Some(decision) = rank.settled().filter(|_| rank.doubt.is_none()) else {
         return Ok(vec![JointRole::default(); part.joints.len()]);
     };
-    let Some(null) = null_vectors_in_doubles(&rank.matrix, &decision, NULL_VECTORS, 1)? else {
+    let Some(null) = rank.null_vectors(NULL_VECTORS, 1)? else {
         return Ok(vec![JointRole::default(); part.joints.len()]);
     };
     let Some(Resting {

@@ -1,7 +1,8 @@
 //! The readings of a part's numbers, one after another: within the stated precision, as written, in more digits, as rounded otherwise.
 
 use super::{
-    BEYOND_FIRST_ORDER, Doubt, LADDER, PartRank, Pose, RankNote, Reading, TALL, height_at, known_to,
+    BEYOND_FIRST_ORDER, Doubt, KnownKernel, LADDER, PartRank, Pose, RankNote, Reading, TALL,
+    height_at, known_to,
 };
 use crate::hidden::bits_for_ratios;
 use crate::more_digits::MoreDigits;
@@ -307,6 +308,7 @@ impl<'a> Readings<'a> {
             matrix: self.matrix,
             column_scales: self.column_scales,
             jacobian: self.double,
+            kernel: KnownKernel::default(),
             decision,
         }
     }

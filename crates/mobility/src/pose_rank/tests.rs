@@ -469,3 +469,20 @@ fn values_of_a_configuration_count() {
     assert_eq!(at(None), 0);
     assert_eq!(at(mechanism.configuration("turned")), 47);
 }
+
+#[test]
+fn a_kernel_is_the_one_of_the_rank_it_is_asked_at() {
+    let mut rank = crate::part_samples::Posed::new(flat_parallelogram()).rank();
+    let decision = rank.settled().unwrap();
+    let anew = |limit, seed| null_vectors_in_doubles(&rank.matrix, &decision, limit, seed).unwrap();
+    let basis = rank.null_vectors(9, 1).unwrap();
+    assert_eq!(basis, anew(9, 1));
+    assert_eq!(basis.as_ref().map(|found| found.nullity), Some(2));
+    assert_eq!(rank.null_vectors(2, 5).unwrap(), basis);
+    // Fewer vectors than a basis has are others, and no basis.
+    let one = rank.null_vectors(1, 5).unwrap();
+    assert_eq!(one, anew(1, 5));
+    assert!(one.is_some_and(|found| !found.complete));
+    rank.instantaneous = Some(1);
+    assert_ne!(rank.null_vectors(9, 1).unwrap(), basis);
+}
