@@ -114,7 +114,7 @@ fn clearer(
     part: &Part,
     rank: &PartRank,
 ) -> Result<Option<ClearerPose>, MatrixError> {
-    if !(rank.instantaneous > Some(0)) {
+    if rank.instantaneous <= Some(0) {
         return Ok(None);
     }
     let Ok(Some(null)) = rank.null_vectors(NULL_VECTORS, 1) else {
