@@ -3,7 +3,8 @@
 use super::keys::Coordinate;
 use super::mass::Load;
 use super::pose::{exactly, least_turn};
-use super::{BRINGS_BODIES, Known, Mjcf, Place, WORLD};
+use super::{Known, Mjcf, Place, SOFT, WORLD};
+use crate::WarningKind;
 use crate::element::Element;
 use crate::error::Outcome;
 use crate::frames::one_after_another;
@@ -91,12 +92,19 @@ impl<'a> Mjcf<'a> {
                         return Err(part.fault(message));
                     }
                 }
-                name if BRINGS_BODIES.contains(&name) => {
+                "attach" => {
                     let message =
-                        format!("<{name}> is not read, and the bodies that it makes would be lost");
+                        "<attach> is not read, and the bodies that it brings would be lost";
                     return Err(part
                         .fault(message)
                         .help("save the model as MuJoCo compiled it: mj_saveLastXML"));
+                }
+                name if SOFT.contains(&name) => {
+                    let message = format!(
+                        "<{name}> is not read: the bodies that it makes, and how they move, are not in the answer"
+                    );
+                    let warning = (part.start(), WarningKind::MayJoin, message);
+                    self.warnings.push(warning);
                 }
                 // Read with the body itself.
                 "geom" | "inertial" => {}
@@ -138,15 +146,15 @@ impl<'a> Mjcf<'a> {
             Some(name) => name.value.to_owned(),
             None => self.name_for(&self.links, "body"),
         };
-        if body
-            .attribute("mocap")
-            .is_some_and(|word| word.value == "true")
-        {
-            self.mocap
-                .extend(body.attribute("name").map(|name| name.value));
-        }
         self.links.insert(name.clone(), body.range());
+        self.homes.insert(name.clone(), place.clone());
         let joints = self.parts_of(body, class, &["joint", "freejoint"])?;
+        let says = body.attribute("mocap");
+        let is_mocap = says.is_some_and(|word| word.value == "true");
+        // What is fixed to a body that a user moves is moved with it.
+        if is_mocap || joints.is_empty() && self.mocap.contains(&place.link) {
+            self.mocap.insert(name.clone());
+        }
         let load = self.load_of(body, class)?;
         let free = joints
             .iter()
@@ -302,6 +310,11 @@ impl<'a> Mjcf<'a> {
         }
         let at = one_after_another(&jointed.frame, &at);
         let axis = self.axis_of(joint, of)?;
+        let digits = axis.0.iter().filter_map(Number::stated);
+        let decimals = digits
+            .filter(|digits| digits.significant > 0)
+            .map(|digits| digits.decimals);
+        self.decimals_of_axes = decimals.fold(self.decimals_of_axes, i32::max);
         for name in ["stiffness", "springref"] {
             if let Some(spring) = attribute(name) {
                 self.unread
@@ -318,6 +331,15 @@ impl<'a> Mjcf<'a> {
             }
             _ => self.limit(joint, of, kind)?,
         };
+        let says = attribute("limited").map_or("auto", |word| word.value);
+        if kind != JointKind::Spherical
+            && !self.compiler.autolimits
+            && says == "auto"
+            && let Some(range) = attribute("range")
+        {
+            let what = "`range` of a joint without `limited`, where `autolimits` is off".to_owned();
+            self.unread.text(range.range().start, what);
+        }
         let dynamics = self.dynamics_of(joint, of)?;
         let own = joint.attribute("name").map(|own| own.value);
         let name = self.name_of(own, &format!("{body}_joint"), joint)?;

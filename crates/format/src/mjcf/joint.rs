@@ -75,7 +75,8 @@ impl<'a> Mjcf<'a> {
         kind: JointKind,
     ) -> Outcome<Option<Limit>> {
         let attribute = |name: &str| self.classes.attribute(joint, class, name);
-        let Some(range) = attribute("range") else {
+        let range = attribute("range").filter(|_| !self.switched_off.limits());
+        let Some(range) = range else {
             return Ok(None);
         };
         let [lower, upper]: [Number; 2] = exactly(range)?;
