@@ -17,6 +17,9 @@ const CLEAR: f64 = 20.0;
 /// Directions of so many decimals more than anchors have may be printed by one program.
 const NEAR: i32 = 3;
 
+/// Anchors that are off by less than this (m) were not rounded: their digits are those that doubles have.
+const ROUNDED: f64 = 1e-13;
+
 /// Numbers that were computed in doubles are off by so much of 1 and of their size.
 const ROUNDING: f64 = 1e-14;
 
@@ -75,7 +78,7 @@ impl Way {
         let apart = self.numbers.iter().filter(|part| !part.is_zero()).count();
         let chosen = u32::try_from(Precision::EXACT_DECIMALS).unwrap_or(0);
         let is_chosen = |part: &Number| part.decimal_text(chosen).is_some();
-        let is_exact = self.off.iter().all(|off| *off == 0.0);
+        let is_exact = self.off.iter().all(|off| *off < ROUNDED);
         let half = Number::ratio(1, 2).filter(|_| apart > 1 && !is_exact);
         let (Some(half), false) = (half, self.numbers.iter().all(is_chosen)) else {
             return Direction(self.numbers.clone());
@@ -287,6 +290,9 @@ mod tests {
         let shorter = [(0.1335, Some((3, 3))), (0.0, None), (0.1785, Some((3, 3)))];
         assert_eq!(direction(&rounded, 3), shorter);
         assert_eq!(direction(&rounded, 15), expected);
+        let in_full = ["0 0 0", "0.12345678901234 0.3 0"];
+        let expected = [(0.12345678901234, None), (0.3, None), (0.0, None)];
+        assert_eq!(direction(&in_full, 3), expected);
         // Along an axis, and by numbers that somebody chose, it is what is written.
         let along = ["0.123456 0.2 0.3", "0.123456 0.2 0.4"];
         assert_eq!(
