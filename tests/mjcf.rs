@@ -336,7 +336,7 @@ fn what_cannot_be_read_is_told_with_its_place() {
         (
             "<worldbody>\n<attach model='arm' body='a' prefix='l'/></worldbody>",
             2,
-            "<attach> is not read",
+            "no model `arm`",
         ),
         (
             "<worldbody><body name='arm'/></worldbody>\n<equality><weld body1='amr'/></equality>",

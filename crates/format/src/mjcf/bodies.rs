@@ -2,7 +2,7 @@
 
 use super::keys::Coordinate;
 use super::mass::Load;
-use super::pose::{exactly, least_turn};
+use super::pose::{Compiler, exactly, least_turn};
 use super::{Known, Mjcf, Place, SOFT, WORLD};
 use crate::WarningKind;
 use crate::element::Element;
@@ -25,6 +25,8 @@ struct Open<'a> {
     place: Place,
     /// The class that the body around it gives.
     class: Option<&'a str>,
+    /// The settings of the file that it is from.
+    compiler: Compiler,
 }
 
 /// Something in a body, its class, and the frames inside the body that it stands in, as one.
@@ -43,13 +45,21 @@ impl<'a> Mjcf<'a> {
         };
         // Nesting is bounded by memory alone: no recursion.
         let mut open = Vec::new();
+        let compiler = self.compiler;
         self.inside(world, &place, None, &mut open)?;
         while let Some(Open {
             element,
             place,
             class,
+            compiler,
         }) = open.pop()
         {
+            self.compiler = compiler;
+            // The frame of what is attached has the settings of its file.
+            let settings = element.elements().filter(|part| part.name() == "compiler");
+            for own in settings.filter(|_| element.name() == "frame") {
+                self.compile(own)?;
+            }
             let of = self.classes.of(element, class)?;
             let own = element.attribute("childclass").map(|own| own.value);
             let class = own.or(class);
@@ -66,6 +76,7 @@ impl<'a> Mjcf<'a> {
             };
             self.inside(element, &inner, class, &mut open)?;
         }
+        self.compiler = compiler;
         Ok(())
     }
 
@@ -84,6 +95,7 @@ impl<'a> Mjcf<'a> {
                     element: part,
                     place: place.clone(),
                     class,
+                    compiler: self.compiler,
                 }),
                 "site" => self.site(part, place, class)?,
                 "joint" | "freejoint" => {
@@ -92,13 +104,8 @@ impl<'a> Mjcf<'a> {
                         return Err(part.fault(message));
                     }
                 }
-                "attach" => {
-                    let message =
-                        "<attach> is not read, and the bodies that it brings would be lost";
-                    return Err(part
-                        .fault(message)
-                        .help("save the model as MuJoCo compiled it: mj_saveLastXML"));
-                }
+                // Taken before.
+                "compiler" if element.name() == "frame" => {}
                 name if SOFT.contains(&name) => {
                     let message = format!(
                         "<{name}> is not read: the bodies that it makes, and how they move, are not in the answer"

@@ -13,7 +13,7 @@
 //! | `<joint>` in `<equality>` | `<mimic>`; without a second joint, a fixed joint |
 //! | `<tendon>` in `<equality>`, of fixed tendons of two joints | `<mimic>` |
 //! | actuators of joints | motors |
-//! | `<replicate>` | its copies, written out before anything is read |
+//! | `<replicate>`, `<attach>` | copies, and what is attached, written out before anything is read |
 //! | `<inertial>`, `<geom>` | masses and shapes |
 //! | `<key>` | configuration; where there are equalities, of starting values |
 //!
@@ -22,6 +22,7 @@
 //! Source: the XML reference of MuJoCo 3 and 4, and what its compiler makes of such files.
 
 mod anchors;
+mod attach;
 mod bodies;
 mod classes;
 mod closures;
@@ -45,7 +46,7 @@ use super::reader::{counted_skips, counted_warnings};
 use super::unread::Tally;
 use super::words::{did_you_mean, quoted};
 use super::{ReadOptions, Reading, WarningKind, xml};
-use classes::Classes;
+use classes::{ATTACHED, Classes};
 use flags::SwitchedOff;
 pub(super) use include::{Whole, whole};
 use keys::Coordinate;
@@ -174,7 +175,7 @@ impl<'a> Mjcf<'a> {
         for compiler in sections("compiler") {
             self.compile(compiler)?;
         }
-        for default in sections("default") {
+        for default in sections("default").chain(sections(ATTACHED)) {
             self.classes.read(default)?;
         }
         self.flags(root);
@@ -205,6 +206,7 @@ impl<'a> Mjcf<'a> {
         for part in root.elements() {
             match part.name() {
                 "compiler" | "default" | "equality" | "worldbody" | "keyframe" => {}
+                ATTACHED => {}
                 "actuator" if self.switched_off.motors() => {}
                 "actuator" => self.actuators(part),
                 "tendon" => self.limits_of_tendons(part)?,

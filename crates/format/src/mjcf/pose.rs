@@ -13,6 +13,7 @@ use kutzbach_math::space::cross;
 use kutzbach_model::mechanism::Frame;
 
 /// What `<compiler>` says.
+#[derive(Clone, Copy)]
 pub(super) struct Compiler {
     /// Whether angles are in degrees.
     pub(super) degrees: bool,
