@@ -1,7 +1,6 @@
 //! MJCF: what `<connect>`, `<weld>` and flags leave of the motion, against MuJoCo 4.0.0: degrees of freedom less the rank of the equalities' Jacobian, and the
 //! poses at which their residual is zero.
 
-use kutzbach::closure::{Arithmetic, Geometry};
 use kutzbach::format::{FormatError, Reading, WarningKind, read};
 use kutzbach::mechanism::{Joint, JointKind, Mechanism};
 use kutzbach::mobility::{AnalysisOptions, analyse};

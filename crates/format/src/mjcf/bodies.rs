@@ -322,31 +322,11 @@ impl<'a> Mjcf<'a> {
             .filter(|digits| digits.significant > 0)
             .map(|digits| digits.decimals);
         self.decimals_of_axes = decimals.fold(self.decimals_of_axes, i32::max);
-        for name in ["stiffness", "springref"] {
-            if let Some(spring) = attribute(name) {
-                self.unread
-                    .text(spring.range().start, format!("`{name}` of a joint"));
-            }
-        }
         let limit = match kind {
-            JointKind::Spherical => {
-                if let Some(range) = attribute("range") {
-                    self.unread
-                        .text(range.range().start, "`range` of a ball".to_owned());
-                }
-                None
-            }
+            JointKind::Spherical => None,
             _ => self.limit(joint, of, kind)?,
         };
-        let says = attribute("limited").map_or("auto", |word| word.value);
-        if kind != JointKind::Spherical
-            && !self.compiler.autolimits
-            && says == "auto"
-            && let Some(range) = attribute("range")
-        {
-            let what = "`range` of a joint without `limited`, where `autolimits` is off".to_owned();
-            self.unread.text(range.range().start, what);
-        }
+        self.tell_unread_of(joint, of, kind);
         let dynamics = self.dynamics_of(joint, of)?;
         let own = joint.attribute("name").map(|own| own.value);
         let name = self.name_of(own, &format!("{body}_joint"), joint)?;
