@@ -76,6 +76,8 @@ mod map_cli;
 mod margins;
 mod mechanism_table;
 mod mjcf;
+mod mjcf_attach;
+mod mjcf_closures;
 mod mjcf_copies;
 mod mjcf_masses;
 mod models;

@@ -8,6 +8,9 @@ use std::collections::BTreeMap;
 /// The name of the class that all others come from, where the file gives it none.
 pub(super) const MAIN: &str = "main";
 
+/// The root element that holds the classes of a file that something is attached from.
+pub(super) const ATTACHED: &str = "attached";
+
 /// A class: the one that it comes from, and its elements.
 #[derive(Default)]
 struct Class<'a> {
@@ -24,7 +27,8 @@ pub(super) struct Classes<'a> {
 }
 
 impl<'a> Classes<'a> {
-    /// Takes `<default>` of the root element; classes inside come from it.
+    /// Takes `<default>` of the root element, or the classes of a file that something is attached from, which come from no other one; classes
+    /// inside come from it.
     ///
     /// # Errors
     /// A class inside another one without a name, and two classes of one name.
@@ -32,6 +36,7 @@ impl<'a> Classes<'a> {
         let mut open = vec![(default, None)];
         while let Some((element, from)) = open.pop() {
             let name = match (element.attribute("class"), from) {
+                (Some(name), None) if element.name() == ATTACHED => name.value,
                 (name, None) => {
                     self.of_file.extend(name.map(|name| name.value));
                     MAIN

@@ -13,6 +13,7 @@ use kutzbach_math::space::cross;
 use kutzbach_model::mechanism::Frame;
 
 /// What `<compiler>` says.
+#[derive(Clone, Copy)]
 pub(super) struct Compiler {
     /// Whether angles are in degrees.
     pub(super) degrees: bool,
@@ -132,7 +133,8 @@ fn about(axis: [f64; 3], angle: f64) -> [f64; 4] {
     [x, y, z, cosine]
 }
 
-fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
+/// A vector in length 1; `None` where it has none.
+pub(super) fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
     let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
     (length > 1e-12).then(|| v.map(|x| x / length))
 }

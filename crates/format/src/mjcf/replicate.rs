@@ -29,7 +29,7 @@ const OF_BODIES: [&str; 3] = ["joint", "freejoint", "inertial"];
 
 /// What names stand for; each sort has names of its own.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Sort {
+pub(super) enum Sort {
     Body,
     Joint,
     Site,
@@ -37,7 +37,7 @@ enum Sort {
 }
 
 /// Attributes by which elements outside the bodies name something.
-const REFERENCES: [(&str, Sort); 11] = [
+pub(super) const REFERENCES: [(&str, Sort); 11] = [
     ("body1", Sort::Body),
     ("body2", Sort::Body),
     ("joint1", Sort::Joint),
@@ -134,7 +134,7 @@ fn written_out(whole: &Whole) -> Outcome<(String, Vec<Piece>)> {
 }
 
 /// The range of an element with everything in it.
-fn stretch(element: Element<'_>) -> Range<usize> {
+pub(super) fn stretch(element: Element<'_>) -> Range<usize> {
     element.start()..element.start() + element.written().len()
 }
 
