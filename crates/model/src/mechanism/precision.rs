@@ -5,7 +5,8 @@ use super::link::Placement;
 use super::model::Mechanism;
 use super::number_style::{EXACT_DECIMALS, Group, Literals, OF_A_DOUBLE, Written};
 use crate::graph::{Block, ConstraintGraph};
-use kutzbach_math::number::Number;
+use kutzbach_math::number::{Input, Number};
+use std::collections::BTreeSet;
 
 /// How precisely a file states the geometry of one independent sub-mechanism.
 ///
@@ -103,13 +104,26 @@ impl Precision {
     }
 
     /// How far a number of this sub-mechanism, at a place of [`Joint::numbers`](super::Joint::numbers), may be from the number
-    /// meant (m, rad); zero for exact ones.
+    /// meant (m, rad); zero for exact ones. A number that was [worked out](Number::derived_from) from literals may be off by what all of
+    /// these may be off by, to first order.
     #[must_use]
     pub fn uncertainty(&self, place: usize, number: &Number) -> f64 {
+        let inputs = number.inputs();
+        if inputs.is_empty() {
+            return self.of_literal(Joint::kind_of_number(place), number);
+        }
+        let share = |input: &Input| {
+            let kind = Joint::kind_of_quantity(input.quantity);
+            input.slope * self.of_literal(kind, &input.literal)
+        };
+        inputs.iter().map(share).sum()
+    }
+
+    fn of_literal(&self, kind: usize, number: &Number) -> f64 {
         match self.by_hand {
             _ if number.stated().is_none() || self.decimals.is_none() => 0.0,
             Some(uncertainty) => uncertainty,
-            None => self.groups[Joint::kind_of_number(place)].uncertainty(number),
+            None => self.groups[kind].uncertainty(number),
         }
     }
 
@@ -207,13 +221,23 @@ impl Precision {
     }
 }
 
-/// Lengths, angles and components of directions.
+/// Lengths, angles and components of directions. Of numbers that were worked out, the literals behind them count, each text once, since many
+/// numbers come from one literal.
 fn sorted_by_kind<'a>(
     numbers: impl IntoIterator<Item = (LiteralPlace, &'a Number)>,
 ) -> [Literals<'a>; 3] {
     let mut literals = [(); 3].map(|()| Literals::default());
+    let mut behind_others = BTreeSet::new();
     for (place, number) in numbers {
-        literals[Joint::kind_of_number(place.in_joint())].read(place, number);
+        if number.inputs().is_empty() {
+            literals[Joint::kind_of_number(place.in_joint())].read(place, number);
+        }
+        for input in number.inputs() {
+            let kind = Joint::kind_of_quantity(input.quantity);
+            if behind_others.insert((kind, input.literal.literal_text())) {
+                literals[kind].read(place, &input.literal);
+            }
+        }
     }
     literals
 }
@@ -221,7 +245,7 @@ fn sorted_by_kind<'a>(
 /// Where a literal of the geometry stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LiteralPlace {
-    /// In a joint: its index, and the place in [`Joint::numbers`].
+    /// In a joint: its index, and the place in [`Joint::numbers`] of the literal, or of a number that was worked out from it.
     Joint(usize, usize),
     /// In the frame in which a link is placed without a joint: the link's index, and the place as in a joint's first frame.
     Link(usize, usize),
