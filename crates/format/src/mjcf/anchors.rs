@@ -5,6 +5,7 @@
 //! last place of all. Anchors of few decimals were chosen and are exact. So a difference of two coordinates is off by up to `u + v`, and a
 //! minor `a·d − b·c` of two differences by up to the sum of each factor's size times the doubt of the other, and the product of the doubts.
 
+use crate::frames::difference;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Direction, Precision};
 
@@ -102,7 +103,7 @@ pub(super) fn meaning(anchors: &[[Number; 3]]) -> Meaning {
     let off = doubts(anchors);
     let ways: Vec<Way> = (1..anchors.len())
         .map(|i| Way {
-            numbers: [0, 1, 2].map(|k| &anchors[i][k] - &anchors[0][k]),
+            numbers: [0, 1, 2].map(|k| difference(&anchors[i][k], &anchors[0][k])),
             off: [0, 1, 2].map(|k| off[i][k] + off[0][k]),
         })
         .collect();

@@ -30,6 +30,9 @@ use std::collections::BTreeSet;
 /// literal ends in zeros, at least three more than it needs, in twelve digits or more, these are padding and state nothing. Printed
 /// doubles state 17 significant digits, however many are printed. Literals that are single-precision numbers, however they are
 /// printed, are uncertain by what single precision is.
+///
+/// Numbers that a reader worked out from literals ([`Number::derived_from`]) count by these, and are as uncertain as they make them:
+/// `Σ |∂number/∂x| u(x)`. Where all of these are exact, they count by their own texts, which have the rounding of doubles.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Precision {
     /// Most decimals of any literal in the geometry but zeros, for which 0 counts; `None` where there is no literal.
@@ -40,6 +43,8 @@ pub struct Precision {
     groups: [Group; 3],
     /// What is said to be known of every literal, whatever its digits say (m, rad).
     by_hand: Option<f64>,
+    /// Whether numbers that were worked out count by their own texts, since the literals behind them are all exact.
+    by_own_text: bool,
 }
 
 impl Precision {
@@ -109,7 +114,7 @@ impl Precision {
     #[must_use]
     pub fn uncertainty(&self, place: usize, number: &Number) -> f64 {
         let inputs = number.inputs();
-        if inputs.is_empty() {
+        if inputs.is_empty() || self.by_own_text && self.by_hand.is_none() {
             return self.of_literal(Joint::kind_of_number(place), number);
         }
         let share = |input: &Input| {
@@ -152,10 +157,27 @@ impl Precision {
         tree: impl IntoIterator<Item = (LiteralPlace, &'a Number)>,
         closing: impl IntoIterator<Item = (LiteralPlace, &'a Number)>,
     ) -> [Self; 2] {
-        let [tree, closing] = [sorted_by_kind(tree), sorted_by_kind(closing)];
+        let sides = [tree.into_iter().collect(), closing.into_iter().collect()];
+        let read = Self::of_sides(&sides, false);
+        let numbers = || sides.iter().flatten();
+        let derived = numbers().any(|(_, number)| !number.inputs().is_empty());
+        match derived && read.iter().all(Self::is_exact) {
+            // What is computed from exact numbers has the rounding of its own text.
+            true => Self::of_sides(&sides, true),
+            false => read,
+        }
+    }
+
+    fn of_sides(sides: &[Vec<(LiteralPlace, &Number)>; 2], by_own_text: bool) -> [Self; 2] {
+        let [tree, closing] = sides
+            .each_ref()
+            .map(|side| sorted_by_kind(side, by_own_text));
         let all = [0, 1, 2].map(|kind: usize| tree[kind].and(&closing[kind]));
         let padded = Self::is_padded(&all);
-        let whole = Self::of_kinds(&all, padded);
+        let whole = Self {
+            by_own_text,
+            ..Self::of_kinds(&all, padded)
+        };
         let mut sides = [whole; 2];
         for kind in 0..3 {
             let [of_tree, of_closing] = [&tree[kind], &closing[kind]];
@@ -207,6 +229,7 @@ impl Precision {
                 .unwrap_or(0),
             groups,
             by_hand: None,
+            by_own_text: false,
         }
     }
 
@@ -217,22 +240,26 @@ impl Precision {
             significant: self.significant.max(other.significant),
             groups: [0, 1, 2].map(|kind| self.groups[kind].with(&other.groups[kind])),
             by_hand: self.by_hand,
+            by_own_text: self.by_own_text && other.by_own_text,
         }
     }
 }
 
-/// Lengths, angles and components of directions. Of numbers that were worked out, the literals behind them count, each text once, since many
-/// numbers come from one literal.
+/// Lengths, angles and components of directions. Of numbers that were worked out, either their own texts count, or the literals behind
+/// them, each text once, since many numbers come from one literal.
 fn sorted_by_kind<'a>(
-    numbers: impl IntoIterator<Item = (LiteralPlace, &'a Number)>,
+    numbers: &[(LiteralPlace, &'a Number)],
+    by_own_text: bool,
 ) -> [Literals<'a>; 3] {
     let mut literals = [(); 3].map(|()| Literals::default());
     let mut behind_others = BTreeSet::new();
-    for (place, number) in numbers {
-        if number.inputs().is_empty() {
+    for &(place, number) in numbers {
+        let inputs = number.inputs();
+        if inputs.is_empty() || by_own_text {
             literals[Joint::kind_of_number(place.in_joint())].read(place, number);
+            continue;
         }
-        for input in number.inputs() {
+        for input in inputs {
             let kind = Joint::kind_of_quantity(input.quantity);
             if behind_others.insert((kind, input.literal.literal_text())) {
                 literals[kind].read(place, &input.literal);
