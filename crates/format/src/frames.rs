@@ -10,24 +10,31 @@ pub(super) fn in_full(value: f64) -> Number {
     Number::decimal(&format!("{value:.15}")).unwrap_or_else(|_| Number::zero())
 }
 
-/// A sum that keeps the digits of a number to which nothing is added.
+/// A sum that keeps the digits of a number to which nothing is added. Another one is known as well as the digits of both say, which are
+/// lengths wherever that counts.
 pub(super) fn sum(a: &Number, b: &Number) -> Number {
     match (a.is_zero(), b.is_zero()) {
         (true, _) => b.clone(),
         (_, true) => a.clone(),
-        _ => a + b,
+        _ => added(Quantity::Length, a, b),
     }
 }
 
 /// A coordinate less another one (m), known as well as the digits of both say; of whole numbers it is exact.
 pub(super) fn difference(a: &Number, b: &Number) -> Number {
     let is_whole = |x: &Number| x.stated().is_none_or(|own| own.decimals <= 0);
-    let mut inputs = Inputs::default();
-    if !(is_whole(a) && is_whole(b)) {
-        inputs.add(Quantity::Length, a, 1.0);
-        inputs.add(Quantity::Length, b, 1.0);
+    match is_whole(a) && is_whole(b) {
+        true => a - b,
+        false => added(Quantity::Length, a, &-b),
     }
-    (a - b).derived_from(inputs)
+}
+
+/// A sum that is known as well as the digits of both say.
+pub(super) fn added(quantity: Quantity, a: &Number, b: &Number) -> Number {
+    let mut inputs = Inputs::default();
+    inputs.add(quantity, a, 1.0);
+    inputs.add(quantity, b, 1.0);
+    (a + b).derived_from(inputs)
 }
 
 /// Whether a frame is turned.

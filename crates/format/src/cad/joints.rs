@@ -2,8 +2,8 @@
 
 use super::{Bounds, CadJoint, End, Kind, Maker, Mover, Side};
 use crate::error::Outcome;
-use crate::frames::{frame_of, one_after_another, sum};
-use kutzbach_math::number::{Inputs, Number, Quantity};
+use crate::frames::{added, frame_of, one_after_another, sum};
+use kutzbach_math::number::{Number, Quantity};
 use kutzbach_math::space::Rigid;
 use kutzbach_model::mechanism::{Direction, Frame, JointBuilder, JointKind, Limit};
 
@@ -14,14 +14,12 @@ fn axis(index: usize) -> Direction {
     }))
 }
 
-/// The sum of two angles, which is known as well as the digits of both say; a zero as it is written leaves it exact.
-fn turned_further(a: &Number, b: &Number) -> Number {
-    let says_more = |angle: &&Number| !(angle.is_zero() && angle.inputs().is_empty());
-    let mut inputs = Inputs::default();
-    for angle in [a, b].into_iter().filter(says_more) {
-        inputs.add(Quantity::Angle, angle, 1.0);
+/// An angle further than a first one, which is known as well as the digits of both say; a first one that is written as zero adds nothing.
+fn turned_further(first: &Number, angle: &Number) -> Number {
+    match first.is_zero() && first.inputs().is_empty() {
+        true => angle.clone(),
+        false => added(Quantity::Angle, first, angle),
     }
-    (a + b).derived_from(inputs)
 }
 
 /// A frame turned further about its own x axis, which roll, pitch and yaw about fixed axes say exactly.

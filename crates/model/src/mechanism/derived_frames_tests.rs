@@ -110,12 +110,14 @@ fn what_is_exact_stays_so() {
     let number = |text: &str| Number::decimal(text).unwrap();
     let right = &Number::pi() * &Number::ratio(1, 2).unwrap();
     let turned = Frame {
-        position: ["0.125", "0.5", "3"].map(number),
+        position: ["0.125", "0", "3"].map(number),
         roll_pitch_yaw: [right, Number::zero(), Number::zero()],
     };
-    let found = Frame::between(&[&turned], &[&turned, &turned]).unwrap();
-    assert_eq!(found, turned);
-    assert!(spreads(&found, 1.0) == [0.0; 6], "exact products");
+    let found = Frame::between(&[], &[&turned, &turned]).unwrap();
+    // Its value is exact, and it is as uncertain as the literals of both; its turn has none.
+    let twice = ["0.25", "-3", "3"].map(number);
+    assert_eq!(found.position, twice);
+    assert_eq!(spreads(&found, 1.0), [2.0, 2.0, 2.0, 0.0, 0.0, 0.0]);
     // Three radians are no literal, and what follows is computed from exact numbers alone.
     let three = Frame {
         roll_pitch_yaw: [Number::integer(3), Number::zero(), Number::zero()],

@@ -7,8 +7,8 @@
 //! short and the cost to the length of the loop.
 //!
 //! Where all rotations on the way have cosines and sines in closed form, as those of plain translations and quarter turns,
-//! the frames are exact. Where they have not, they are computed in doubles and closed to some 1e-16 of the loop's size, and know the
-//! literals that they were worked out from.
+//! the frames are exact. Where they have not, they are computed in doubles and closed to some 1e-16 of the loop's size. Either way they
+//! know the literals that they were worked out from: an exact sum of rounded numbers is as uncertain as these.
 
 use super::checks::check_frame;
 use super::names::Names;
@@ -44,17 +44,12 @@ pub(super) fn close_at_home(
         let frames = tree.frames::<Number>(anchor, &spec, sides);
         let [predecessor, successor] = match frames {
             Some(frames) => frames,
-            None => {
-                let frames = tree.frames::<f64>(anchor, &spec, sides).ok_or_else(|| {
-                    MechanismError::new(entity.clone(), "its place at home is not finite")
-                })?;
-                let [predecessor, successor] = frames;
-                [
-                    tree.derived(predecessor, sides[0], anchor, &spec),
-                    tree.derived(successor, sides[1], anchor, &spec),
-                ]
-            }
+            None => tree.frames::<f64>(anchor, &spec, sides).ok_or_else(|| {
+                MechanismError::new(entity.clone(), "its place at home is not finite")
+            })?,
         };
+        let predecessor = tree.derived(predecessor, sides[0], anchor, &spec);
+        let successor = tree.derived(successor, sides[1], anchor, &spec);
         check_frame(&entity, &predecessor)?;
         check_frame(&entity, &successor)?;
         joints[id.0].predecessor.frame = predecessor;
@@ -65,8 +60,8 @@ pub(super) fn close_at_home(
 
 impl Frame {
     /// The frame at the end of one chain, seen from the end of another one that starts at the same place; each frame of a chain is given in
-    /// the one before. Exact where the cosines and sines on the way have closed forms, otherwise in doubles that know the literals they
-    /// were [worked out](Number::derived_from) from; `None` where it is not finite.
+    /// the one before. Exact where the cosines and sines on the way have closed forms, otherwise in doubles; the numbers know the literals
+    /// that they were [worked out](Number::derived_from) from. `None` where it is not finite.
     ///
     /// ```
     /// # use kutzbach_model as kutzbach;
@@ -80,11 +75,8 @@ impl Frame {
     /// ```
     #[must_use]
     pub fn between(from: &[&Self], to: &[&Self]) -> Option<Self> {
-        let in_doubles = || {
-            let found = between::<f64>(from, to)?;
-            Some(found.derived_from(Self::inputs_between(from, to)))
-        };
-        between::<Number>(from, to).or_else(in_doubles)
+        let found = between::<Number>(from, to).or_else(|| between::<f64>(from, to))?;
+        Some(found.derived_from(Self::inputs_between(from, to)))
     }
 }
 
@@ -129,7 +121,7 @@ impl Tree<'_> {
         Some([side(first)?, side(second)?])
     }
 
-    /// The joint's frame on the side of a link, as it was worked out in doubles, with the literals behind it.
+    /// The joint's frame on the side of a link, as it was worked out, with the literals behind it.
     fn derived(&self, frame: Frame, link: LinkId, anchor: LinkId, spec: &HomeFrame) -> Frame {
         if link == anchor && !spec.parallel_to_root {
             return frame;
