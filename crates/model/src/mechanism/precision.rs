@@ -33,7 +33,7 @@ use std::collections::BTreeSet;
 ///
 /// Numbers that a reader worked out from literals ([`Number::derived_from`]) count by these, and are as uncertain as they make them:
 /// `Σ |∂number/∂x| u(x)`. Where all of these are exact, they count by their own texts, which have the rounding of doubles.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Precision {
     /// Most decimals of any literal in the geometry but zeros, for which 0 counts; `None` where there is no literal.
     pub decimals: Option<i32>,
@@ -45,6 +45,14 @@ pub struct Precision {
     by_hand: Option<f64>,
     /// Whether numbers that were worked out count by their own texts, since the literals behind them are all exact.
     by_own_text: bool,
+}
+
+/// By what is stated, and not by how it was read: numbers that were worked out from exact ones count as if they had been written so.
+impl PartialEq for Precision {
+    fn eq(&self, other: &Self) -> bool {
+        let stated = |own: &Self| (own.decimals, own.significant, own.groups, own.by_hand);
+        stated(self) == stated(other)
+    }
 }
 
 impl Precision {
@@ -169,9 +177,10 @@ impl Precision {
     }
 
     fn of_sides(sides: &[Vec<(LiteralPlace, &Number)>; 2], by_own_text: bool) -> [Self; 2] {
+        let mut known = BTreeSet::new();
         let [tree, closing] = sides
             .each_ref()
-            .map(|side| sorted_by_kind(side, by_own_text));
+            .map(|side| sorted_by_kind(side, by_own_text, &mut known));
         let all = [0, 1, 2].map(|kind: usize| tree[kind].and(&closing[kind]));
         let padded = Self::is_padded(&all);
         let whole = Self {
@@ -246,22 +255,25 @@ impl Precision {
 }
 
 /// Lengths, angles and components of directions. Of numbers that were worked out, either their own texts count, or the literals behind
-/// them, each text once, since many numbers come from one literal.
+/// them, those that are not `known` already: many numbers come from one literal, and those of joints that close loops from those of the
+/// tree.
 fn sorted_by_kind<'a>(
     numbers: &[(LiteralPlace, &'a Number)],
     by_own_text: bool,
+    known: &mut BTreeSet<(usize, Option<&'a str>)>,
 ) -> [Literals<'a>; 3] {
     let mut literals = [(); 3].map(|()| Literals::default());
-    let mut behind_others = BTreeSet::new();
     for &(place, number) in numbers {
         let inputs = number.inputs();
         if inputs.is_empty() || by_own_text {
-            literals[Joint::kind_of_number(place.in_joint())].read(place, number);
+            let kind = Joint::kind_of_number(place.in_joint());
+            known.insert((kind, number.literal_text()));
+            literals[kind].read(place, number);
             continue;
         }
         for input in inputs {
             let kind = Joint::kind_of_quantity(input.quantity);
-            if behind_others.insert((kind, input.literal.literal_text())) {
+            if known.insert((kind, input.literal.literal_text())) {
                 literals[kind].read(place, &input.literal);
             }
         }
