@@ -8,7 +8,6 @@ use super::include::{Piece, Whole};
 use super::pose::{Compiler, exactly};
 use crate::element::{Attribute, Element};
 use crate::error::{FormatError, Outcome};
-use crate::frames::pose_of;
 use crate::words::quoted;
 use crate::writer::escaped;
 use crate::{guard, xml};

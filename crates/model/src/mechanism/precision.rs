@@ -415,6 +415,7 @@ mod tests {
     use super::super::Direction;
     use super::super::{Frame, JointBuilder, JointId, JointKind, MechanismBuilder};
     use super::*;
+    use kutzbach_math::number::{Inputs, Quantity};
     use proptest::prelude::*;
 
     fn number(text: &str) -> Number {
@@ -497,6 +498,44 @@ mod tests {
             (found - expected).abs() <= 1e-12 * expected,
             "{text}: {found:e} instead of {expected:e}"
         );
+    }
+
+    /// A number that changes by `slope` times what an angle changes by.
+    fn worked_out(value: Number, angle: &str, slope: f64) -> Number {
+        let mut inputs = Inputs::default();
+        inputs.add(Quantity::Angle, &number(angle), slope);
+        value.derived_from(inputs)
+    }
+
+    #[test]
+    fn what_is_worked_out_is_as_uncertain_as_the_literals_behind_it() {
+        let of = |numbers: &[Number]| {
+            let placed = numbers.iter().map(|n| (LiteralPlace::Joint(0, 0), n));
+            let [precision, _] = Precision::of(placed, []);
+            precision
+        };
+        let quarter = || Number::from_f64(0.25).unwrap();
+        let rounded = [
+            worked_out(quarter(), "0.433013", 2.0),
+            worked_out(quarter(), "0.776457", 1.0),
+        ];
+        let precision = of(&rounded);
+        assert!(!precision.is_exact());
+        assert_eq!(precision.decimals, Some(6));
+        let off = |precision: &Precision| rounded.each_ref().map(|n| precision.uncertainty(0, n));
+        let [two, one] = off(&precision);
+        assert!((two - 1e-6).abs() < 1e-15 && (one - 0.5e-6).abs() < 1e-15);
+        assert_eq!(off(&precision.known_to(1e-3)), [2e-3, 1e-3]);
+        assert_eq!(off(&precision.known_to(0.0)), [0.0; 2]);
+        // What was chosen leaves an exact number exact, and a computed one the rounding of its text.
+        let exact = worked_out(quarter(), "0.3", 2.0);
+        assert!(of(std::slice::from_ref(&exact)).is_exact());
+        let computed = worked_out(number("0.295520206661340"), "0.3", 1.0);
+        let precision = of(std::slice::from_ref(&computed));
+        let own = of(&[number("0.295520206661340")]);
+        assert!(!precision.is_exact() && precision == own);
+        let left = precision.uncertainty(0, &computed);
+        assert!(left > 0.0 && left < 1e-14, "{left:e}");
     }
 
     #[test]
