@@ -5,7 +5,7 @@
 //! `0.5 0.5 0.5 0.5`, states them in full. So it is with other ways of saying how a frame is turned ([`worked_out`]).
 
 use kutzbach_math::number::{Inputs, Number, Quantity};
-use kutzbach_math::space::{cross, dot};
+use kutzbach_math::space::{cross, dot, length};
 use kutzbach_model::mechanism::{Frame, Precision, roll_pitch_yaw_rates};
 use std::array::from_fn;
 
@@ -18,6 +18,9 @@ const STEP: f64 = 1e-5;
 
 /// What is left of a derivative that is zero is below this.
 const NO_RATE: f64 = 1e-8;
+
+/// No turn follows what says it so fast (rad, per size of that): it jumps, as the least turn from z to −z does, and has no derivative.
+const JUMP: f64 = 100.0;
 
 /// Roll, pitch and yaw (rad, about fixed axes) of a quaternion x, y, z, w of any length; `None` for the zero quaternion.
 pub(super) fn roll_pitch_yaw(quaternion: &[Number; 4]) -> Option<[Number; 3]> {
@@ -57,8 +60,11 @@ pub(super) fn worked_out<const N: usize>(
         let (Some(before), Some(after)) = (moved(-step), moved(step)) else {
             continue;
         };
-        let velocity = turned_between(before, after).map(|x| x / (2.0 * step));
-        let rates = roll_pitch_yaw_rates(&pose, &velocity);
+        let turned = turned_between(before, after);
+        if length(&turned) > 2.0 * STEP * JUMP {
+            continue;
+        }
+        let rates = roll_pitch_yaw_rates(&pose, &turned.map(|x| x / (2.0 * step)));
         for (inputs, rate) in inputs.iter_mut().zip(rates) {
             let rate = if rate.abs() > NO_RATE { rate } else { 0.0 };
             inputs.add(quantity, number, rate);
@@ -313,6 +319,31 @@ mod tests {
         for (found, expected) in angles(&text).iter().zip([r, p, y]) {
             assert!((found - expected).abs() < 1e-14);
         }
+    }
+
+    #[test]
+    fn a_turn_that_jumps_has_no_derivative() {
+        let number = |text: &str| (Quantity::Direction, Number::decimal(text).unwrap());
+        let [x, z] = [number("0.000000"), number("-1.000000")];
+        let turned = |numbers: [(Quantity, &Number); 2]| {
+            worked_out(numbers, FULL, |[x, z]| {
+                let half = 0.5 * x.atan2(z);
+                Some([0.0, half.sin(), 0.0, half.cos()])
+            })
+        };
+        // The angle of a point on a circle is π or −π where x changes its sign, which is one turn; twice its half is not.
+        let [_, pitch, _] = turned([(x.0, &x.1), (z.0, &z.1)]).unwrap();
+        assert!(pitch.inputs().iter().all(|input| input.slope <= 1.0 + 1e-6));
+        let jumping = worked_out([(x.0, &x.1), (z.0, &z.1)], FULL, |[x, _]| {
+            let half = if x > 0.0 { 0.5 } else { -0.5 };
+            Some([half, 0.0, 0.0, 1.0])
+        });
+        assert!(
+            jumping
+                .unwrap()
+                .iter()
+                .all(|angle| angle.inputs().is_empty())
+        );
     }
 
     /// Half a unit of the fourth decimal of every part, as far as it turns the angles.
