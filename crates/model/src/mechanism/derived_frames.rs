@@ -29,6 +29,13 @@ impl<'a> Step<'a> {
     pub fn back_from(frame: &'a Frame) -> Self {
         Self { frame, back: true }
     }
+
+    pub fn reversed(self) -> Self {
+        Self {
+            back: !self.back,
+            ..self
+        }
+    }
 }
 
 /// The literals that x, y, z (m), roll, pitch and yaw (rad) of the frame at the end of a walk depend on.

@@ -142,30 +142,22 @@ impl Tree<'_> {
     /// The frames on the way from one link to another one.
     fn steps(&self, from: LinkId, to: LinkId) -> Vec<Step<'_>> {
         let [up, down] = self.apart(from, to);
-        let mut steps = Vec::with_capacity(2 * (up.len() + down.len()) + 1);
-        for link in up {
-            match &self.links[link.0].placement {
-                Placement::World => {}
-                Placement::Floating { origin, .. } => steps.push(Step::back_from(origin)),
-                Placement::Joint(joint) => {
-                    let joint = &self.joints[joint.0];
-                    steps.push(Step::to(&joint.successor.frame));
-                    steps.push(Step::back_from(&joint.predecessor.frame));
-                }
+        let in_parent = |link: LinkId| match &self.links[link.0].placement {
+            Placement::World => Vec::new(),
+            Placement::Floating { origin, .. } => vec![Step::to(origin)],
+            Placement::Joint(joint) => {
+                let joint = &self.joints[joint.0];
+                let (predecessor, successor) = (&joint.predecessor, &joint.successor);
+                vec![
+                    Step::to(&predecessor.frame),
+                    Step::back_from(&successor.frame),
+                ]
             }
-        }
-        for link in down.into_iter().rev() {
-            match &self.links[link.0].placement {
-                Placement::World => {}
-                Placement::Floating { origin, .. } => steps.push(Step::to(origin)),
-                Placement::Joint(joint) => {
-                    let joint = &self.joints[joint.0];
-                    steps.push(Step::to(&joint.predecessor.frame));
-                    steps.push(Step::back_from(&joint.successor.frame));
-                }
-            }
-        }
-        steps
+        };
+        let reversed = |link| in_parent(link).into_iter().rev().map(Step::reversed);
+        let up = up.into_iter().flat_map(reversed);
+        up.chain(down.into_iter().rev().flat_map(&in_parent))
+            .collect()
     }
 
     /// The links from one up to the root.
