@@ -45,7 +45,7 @@ pub(super) fn is_turned(frame: &Frame) -> bool {
 /// An angle in radians of one in degrees. What is no whole number of them was rounded, and is known as well as its digits say.
 pub(super) fn radians_of(degrees: &Number) -> Number {
     let mut inputs = Inputs::default();
-    if !degrees.rational().is_some_and(|x| x.is_int()) {
+    if degrees.rational().is_none_or(|x| !x.is_int()) {
         inputs.add(Quantity::Angle, degrees, 1f64.to_radians());
     }
     degrees.radians().derived_from(inputs)

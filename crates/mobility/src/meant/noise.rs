@@ -39,10 +39,10 @@ fn is_printed(mechanism: &Mechanism, part: &Part) -> bool {
     let (mut long, mut all) = (0, 0);
     for &joint in &part.joints {
         for number in mechanism.joints()[joint].numbers().into_iter().flatten() {
-            // What was read as a constant, or as a shorter decimal, says nothing; what was computed was typed, but where it knows the
-            // literals behind it: it is as long as the longest of these.
-            let digits = |literal: &Number| literal.written().map_or(0, |own| own.significant);
-            let significant = number.literals().map(digits).max().unwrap_or(0);
+            // What was read as a constant, or as a shorter decimal, says nothing; what was computed was typed, but where it has a text, or
+            // knows the literals behind it: it is as long as the longest of these.
+            let written = number.literals().chain([number]).filter_map(Number::written);
+            let significant = written.map(|own| own.significant).max().unwrap_or(0);
             all += usize::from(significant > 1);
             long += usize::from(PRINTED.contains(&significant));
         }
