@@ -12,7 +12,7 @@ use std::array::from_fn;
 /// Decimals of angles in full double precision.
 pub(super) const FULL: usize = 15;
 
-/// Numbers are changed by so much of their size to see how a turn depends on them: what is left of the third order, and of rounding, is
+/// Numbers are changed by so much to see how a turn depends on them, components of directions by so much of their size: what is left of the third order, and of rounding, is
 /// 1e-10 of that.
 const STEP: f64 = 1e-5;
 
@@ -28,7 +28,7 @@ pub(super) fn roll_pitch_yaw(quaternion: &[Number; 4]) -> Option<[Number; 3]> {
         None => angles_of(quaternion.each_ref().map(Number::value)),
         Some(decimals) => {
             let parts = quaternion.each_ref();
-            worked_out(parts.map(|x| (Quantity::Direction, x)), decimals, Some)
+            worked_out(parts.map(|x| (Quantity::Angle, x)), decimals, Some)
         }
     }
 }
@@ -135,7 +135,7 @@ pub(super) fn roll_pitch_yaw_of_rows(rows: &[[Number; 3]; 3]) -> Option<[Number;
     match most_decimals(&larger).filter(|_| off > ORTHONORMAL) {
         None => angles_of(of_columns(columns)),
         Some(decimals) => {
-            let entries = from_fn(|i| (Quantity::Direction, &rows[i / 3][i % 3]));
+            let entries = from_fn(|i| (Quantity::Angle, &rows[i / 3][i % 3]));
             worked_out::<9>(entries, decimals, |at| {
                 let column = |j: usize| [at[j], at[j + 3], at[j + 6]];
                 Some(of_columns([column(0), column(1), column(2)]))

@@ -18,9 +18,9 @@ use std::sync::Arc;
 pub enum Quantity {
     /// In metres.
     Length,
-    /// In radians or degrees.
+    /// In radians or degrees, or as parts of a quaternion or a matrix of rotation.
     Angle,
-    /// A component of a direction, a quaternion or a matrix of rotation.
+    /// A component of a direction.
     Direction,
 }
 
