@@ -142,22 +142,28 @@ impl Tree<'_> {
     /// The frames on the way from one link to another one.
     fn steps(&self, from: LinkId, to: LinkId) -> Vec<Step<'_>> {
         let [up, down] = self.apart(from, to);
-        let in_parent = |link: LinkId| match &self.links[link.0].placement {
+        let up = up
+            .into_iter()
+            .flat_map(|link| self.steps_to(link).into_iter().rev());
+        let down = down.into_iter().rev();
+        up.map(Step::reversed)
+            .chain(down.flat_map(|link| self.steps_to(link)))
+            .collect()
+    }
+
+    /// The frames on the way to a link from what it is placed by.
+    fn steps_to(&self, link: LinkId) -> Vec<Step<'_>> {
+        match &self.links[link.0].placement {
             Placement::World => Vec::new(),
             Placement::Floating { origin, .. } => vec![Step::to(origin)],
             Placement::Joint(joint) => {
                 let joint = &self.joints[joint.0];
-                let (predecessor, successor) = (&joint.predecessor, &joint.successor);
                 vec![
-                    Step::to(&predecessor.frame),
-                    Step::back_from(&successor.frame),
+                    Step::to(&joint.predecessor.frame),
+                    Step::back_from(&joint.successor.frame),
                 ]
             }
-        };
-        let reversed = |link| in_parent(link).into_iter().rev().map(Step::reversed);
-        let up = up.into_iter().flat_map(reversed);
-        up.chain(down.into_iter().rev().flat_map(&in_parent))
-            .collect()
+        }
     }
 
     /// The links from one up to the root.
