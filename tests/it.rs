@@ -112,6 +112,7 @@ mod sweep_cli;
 mod sweep_members;
 mod thesis_rows;
 mod thesis_systems;
+mod tilted_planes;
 mod trace;
 mod trace_cli;
 mod trace_large;

@@ -25,6 +25,7 @@ use super::axis_limits::{CROSSED, of_axis};
 use super::detachable::is_detachable;
 use super::element::{Attribute, Element};
 use super::error::Outcome;
+use super::frames::radians_of;
 use super::names::Named;
 use super::reader::{Dialect, Reader};
 use super::unread::{Parts, truth};
@@ -478,7 +479,7 @@ impl<'a> Reader<'a> {
             let value = needed(pose)?;
             let [x, y, z, mut roll, mut pitch, mut yaw] = self.numbers::<6>(value)?;
             if in_degrees == Some(true) {
-                (roll, pitch, yaw) = (roll.radians(), pitch.radians(), yaw.radians());
+                [roll, pitch, yaw] = [&roll, &pitch, &yaw].map(radians_of);
             }
             place.frame.position = [x, y, z];
             place.frame.roll_pitch_yaw = [roll, pitch, yaw];

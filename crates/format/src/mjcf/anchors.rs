@@ -8,6 +8,7 @@
 //! The line through two rounded anchors is known no better than they are. Its direction is half the difference of the two: what `u + v` is of
 //! the whole, half a unit of the last place is of the half. Where one coordinate alone differs, the line is along an axis, and exactly so.
 
+use crate::frames::difference;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Direction, Precision};
 
@@ -78,7 +79,9 @@ impl Way {
         let apart = self.numbers.iter().filter(|part| !part.is_zero()).count();
         let chosen = u32::try_from(Precision::EXACT_DECIMALS).unwrap_or(0);
         let is_chosen = |part: &Number| part.decimal_text(chosen).is_some();
-        let is_exact = self.off.iter().all(|off| *off < ROUNDED);
+        // What was worked out from literals knows these.
+        let is_worked_out = self.numbers.iter().any(|part| !part.inputs().is_empty());
+        let is_exact = self.off.iter().all(|off| *off < ROUNDED) || is_worked_out;
         let half = Number::ratio(1, 2).filter(|_| apart > 1 && !is_exact);
         let (Some(half), false) = (half, self.numbers.iter().all(is_chosen)) else {
             return Direction(self.numbers.clone());
@@ -122,6 +125,14 @@ impl Way {
     }
 }
 
+/// A coordinate of the way from one anchor to another. What a frame was composed of keeps the literals behind it.
+fn apart(from: &Number, to: &Number) -> Number {
+    match from.inputs().is_empty() && to.inputs().is_empty() {
+        true => to - from,
+        false => difference(to, from),
+    }
+}
+
 /// How far each coordinate may be off.
 pub(super) fn doubts(anchors: &[[Number; 3]]) -> Vec<[f64; 3]> {
     let all = || anchors.iter().flatten();
@@ -152,7 +163,7 @@ pub(super) fn meaning(anchors: &[[Number; 3]], of_directions: i32) -> Meaning {
     let off = doubts(anchors);
     let ways: Vec<Way> = (1..anchors.len())
         .map(|i| Way {
-            numbers: [0, 1, 2].map(|k| &anchors[i][k] - &anchors[0][k]),
+            numbers: [0, 1, 2].map(|k| apart(&anchors[0][k], &anchors[i][k])),
             off: [0, 1, 2].map(|k| match anchors[i][k] == anchors[0][k] {
                 // One number is rounded once.
                 true => 0.0,

@@ -8,7 +8,6 @@ use super::include::{Piece, Whole};
 use super::pose::{Compiler, exactly};
 use crate::element::{Attribute, Element};
 use crate::error::{FormatError, Outcome};
-use crate::frames::pose_of;
 use crate::words::quoted;
 use crate::writer::escaped;
 use crate::{guard, xml};
@@ -343,11 +342,13 @@ fn frames(element: Element<'_>, count: usize, compiler: &Compiler) -> Outcome<Ve
                 let angles = angles
                     .each_ref()
                     .map(|angle| Number::decimal(angle).unwrap_or_else(|_| Number::zero()));
-                let turned = pose_of(&Frame {
+                let turned = Frame {
                     position: offset.clone(),
                     roll_pitch_yaw: compiler.euler(angles).unwrap_or_else(zero),
-                });
-                let step = turned.rotate(&offset.each_ref().map(Number::value));
+                };
+                let step = turned
+                    .to_doubles()
+                    .rotate(&offset.each_ref().map(Number::value));
                 at = [0, 1, 2].map(|i| at[i] + step[i]);
                 here
             }

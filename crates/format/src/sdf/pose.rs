@@ -6,7 +6,7 @@ use super::names::Thing;
 use crate::ReadOptions;
 use crate::element::{Attribute, Element};
 use crate::error::{Fault, Outcome};
-use crate::frames::{is_turned, sum};
+use crate::frames::{is_turned, radians_of, sum};
 use crate::gazebo::needed;
 use crate::quaternion::roll_pitch_yaw;
 use crate::unread::truth;
@@ -210,7 +210,7 @@ pub(super) fn pose_of<'a>(element: Element<'a>) -> Outcome<Pose<'a>> {
             pose.frame.position = [x, y, z];
             let angles = [roll, pitch, yaw];
             pose.frame.roll_pitch_yaw = match in_degrees {
-                Some(true) => angles.map(|angle| angle.radians()),
+                Some(true) => angles.each_ref().map(radians_of),
                 _ => angles,
             };
         }

@@ -33,6 +33,7 @@ mod arithmetic;
 mod ball;
 mod circle;
 mod decimal;
+mod derived;
 mod error;
 mod evaluate;
 mod expression;
@@ -51,6 +52,7 @@ mod view;
 
 pub use angle::{Angle, Direction};
 pub use decimal::Stated;
+pub use derived::{Input, Inputs, Quantity};
 pub use error::{NumberError, Reason};
 pub use evaluate::ZeroTest;
 pub use surd::Surd;
@@ -103,6 +105,8 @@ struct Inner {
     form: Form,
     /// What a decimal was read from.
     literal: Option<Literal>,
+    /// The literals that it was worked out from, where a reader did that.
+    inputs: Option<Arc<[Input]>>,
     /// Fewest decimals among the literals this was computed from.
     coarsest: Option<i32>,
     value: OnceLock<f64>,
@@ -126,6 +130,7 @@ impl Number {
         Self(Arc::new(Inner {
             form,
             literal: None,
+            inputs: None,
             coarsest,
             value: OnceLock::new(),
             decision: OnceLock::new(),
@@ -278,6 +283,7 @@ impl Number {
                 written: decimal.stated,
                 stated: Some(decimal.stated),
             }),
+            inputs: None,
             coarsest,
             value: OnceLock::from(decimal.nearest),
             decision: OnceLock::new(),
@@ -341,7 +347,8 @@ impl Number {
     }
 
     /// A literal read as another number: with that value and that stated precision, and with this text when it is written
-    /// back. What is no literal becomes the other number.
+    /// back. What is no literal becomes the other number. A number that [was worked out](Self::derived_from) keeps its inputs where the
+    /// other one states a precision.
     ///
     /// ```
     /// # use kutzbach_math as kutzbach;
@@ -364,6 +371,7 @@ impl Number {
                 stated,
                 ..literal.clone()
             });
+            fresh.inputs = self.0.inputs.clone().filter(|_| stated.is_some());
         }
         Self(inner)
     }
