@@ -11,7 +11,7 @@ use crate::gazebo::needed;
 use crate::quaternion::roll_pitch_yaw;
 use crate::unread::truth;
 use crate::values::exactly;
-use crate::words::quoted;
+use crate::words::{listed, quoted};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Frame, MechanismBuilder, Placement};
 use std::ops::Range;
@@ -62,8 +62,8 @@ impl Graph {
         }
     }
 
-    /// Finds how deep the nodes are; where they run in a circle, the place of one of them.
-    fn settle(&mut self) -> Result<(), Range<usize>> {
+    /// Finds how deep the nodes are; where they run in a circle, the nodes of that, each given in the next.
+    fn settle(&mut self) -> Result<(), Vec<usize>> {
         let count = self.0.len();
         let mut depths: Vec<Option<usize>> = vec![None; count];
         let mut met_by: Vec<usize> = vec![WORLD; count];
@@ -75,7 +75,7 @@ impl Graph {
                     break depth;
                 }
                 if met_by[at] == start {
-                    return Err(self.0[at].range.clone());
+                    return Err(walk.into_iter().skip_while(|node| *node != at).collect());
                 }
                 met_by[at] = start;
                 walk.push(at);
@@ -229,7 +229,14 @@ impl<'a> Sdf<'a> {
         for pending in std::mem::take(&mut self.pending) {
             let pose = pose_of(pending.element)?;
             let named = match pose.relative_to {
-                Some(name) => self.reference(pending.scope, name)?,
+                Some(name) => self
+                    .reference(pending.scope, name)
+                    .map_err(|fault| match pending.element.name() {
+                        "model" => fault.help(
+                            "a model is placed in what stands beside it, not in what it holds",
+                        ),
+                        _ => fault,
+                    })?,
                 None => None,
             };
             let parent = match (named, pending.fallback) {
@@ -241,14 +248,26 @@ impl<'a> Sdf<'a> {
             let parent = self.node_of(parent);
             self.graph.place(pending.node, parent, pose.frame);
         }
-        if let Err(range) = self.graph.settle() {
-            let message = "poses run in a circle: this one is given, through others, in itself";
-            return Err(Fault::new(range, message).help("give one of them in the model's frame"));
+        if let Err(circle) = self.graph.settle() {
+            return Err(self.circle_of_poses(&circle));
         }
         if !options.literal {
             self.graph.read_constants(options.precision);
         }
         self.place_by_frames()
+    }
+
+    fn circle_of_poses(&self, circle: &[usize]) -> Fault {
+        let things = circle.iter().filter_map(|node| self.thing_at(*node));
+        let names: Vec<&str> = things.map(|thing| self.called(thing)).collect();
+        let what = match names.len() {
+            1 => format!("{} is given in itself", listed(&names)),
+            _ => format!("{} are each given in the next one", listed(&names)),
+        };
+        let first = circle.first().and_then(|node| self.graph.0.get(*node));
+        let range = first.map_or(0..0, |node| node.range.clone());
+        Fault::new(range, format!("poses run in a circle: {what}"))
+            .help("give one of them in the model's frame")
     }
 
     /// What a pose is given in. The attribute was called `frame` in versions 1.5 and 1.6, where programs did not heed it: there a name that
@@ -258,13 +277,13 @@ impl<'a> Sdf<'a> {
         scope: usize,
         name: Attribute<'a>,
     ) -> Outcome<Option<Thing>> {
-        let found = self.look_up(scope, name);
-        if found.is_err() && self.version < (1, 7) {
+        let found = self.find(scope, name.value.trim());
+        if found.is_none() && self.version < (1, 7) {
             let what = "`frame` of <pose> that names nothing".to_owned();
             self.unread.text(name.range().start, what);
             return Ok(None);
         }
-        found.map(Some)
+        self.look_up(scope, name).map(Some)
     }
 
     /// `placement_frame`: the model's pose is that of one of its frames. Inner models first, since a frame may be in one.
