@@ -219,16 +219,17 @@ impl<'a> Sdf<'a> {
         name.fault(format!("{asked} is attached to no link: {what}"))
     }
 
-    /// The thing that a node of the graph of poses is the frame of.
-    pub(super) fn thing_at(&self, node: usize) -> Option<Thing> {
-        let link = self.links.iter().position(|link| link.node == node);
-        let frame = || self.frames.iter().position(|frame| frame.node == node);
-        let joint = || self.joints.iter().position(|joint| joint.node == node);
-        let model = || self.scopes.iter().position(|scope| scope.node == node);
-        link.map(Thing::Link)
-            .or_else(|| frame().map(Thing::Frame))
-            .or_else(|| joint().map(Thing::Joint))
-            .or_else(|| model().map(Thing::Model))
+    /// The things by the nodes of the graph of poses that are their frames.
+    pub(super) fn things(&self) -> BTreeMap<usize, Thing> {
+        let links = self.links.iter().map(|link| link.node).enumerate();
+        let frames = self.frames.iter().map(|frame| frame.node).enumerate();
+        let joints = self.joints.iter().map(|joint| joint.node).enumerate();
+        let models = self.scopes.iter().map(|scope| scope.node).enumerate();
+        let links = links.map(|(index, node)| (node, Thing::Link(index)));
+        let frames = frames.map(|(index, node)| (node, Thing::Frame(index)));
+        let joints = joints.map(|(index, node)| (node, Thing::Joint(index)));
+        let models = models.map(|(index, node)| (node, Thing::Model(index)));
+        links.chain(frames).chain(joints).chain(models).collect()
     }
 
     /// The name of a thing in the file.

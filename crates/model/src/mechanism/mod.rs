@@ -22,6 +22,7 @@ mod coupling;
 mod error;
 mod exact_pose;
 mod frame;
+mod frame_tree;
 mod held;
 mod joint;
 mod joint_numbers;
@@ -43,6 +44,7 @@ pub use coupling::{Assumption, Coupling, CouplingOrigin, CouplingTerm, HIGHEST_P
 pub use error::{Entity, MechanismError};
 pub use exact_pose::ExactPose;
 pub use frame::{Direction, Frame};
+pub use frame_tree::FrameTree;
 pub use held::HoldError;
 pub use joint::{Dynamics, Joint, Limit, Side};
 pub use kind::{FreedomPart, JointKind};

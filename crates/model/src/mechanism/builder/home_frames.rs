@@ -10,6 +10,7 @@
 //! the frames are exact. Where they have not, they are computed in doubles and closed to some 1e-16 of the loop's size.
 
 use super::checks::check_frame;
+use super::far_frames::FarFrames;
 use super::names::Names;
 use super::placements::placed_by;
 use crate::mechanism::{Entity, Frame, Joint, JointId, Link, LinkId, MechanismError, Placement};
@@ -34,12 +35,19 @@ pub(super) fn close_at_home(
     links: &[Link],
     names: &Names,
 ) -> Result<(), MechanismError> {
+    let far = match specs.is_empty() {
+        true => None,
+        false => FarFrames::new(links, joints),
+    };
     for (id, spec) in specs {
         let entity = Entity::Joint(joints[id.0].name.clone());
         let anchor = names.link(&entity, &spec.link)?;
         let sides = [joints[id.0].predecessor.link, joints[id.0].successor.link];
         let tree = Tree { links, joints };
-        let frames = tree.frames::<Number>(anchor, &spec, sides);
+        let jumped = far
+            .as_ref()
+            .and_then(|far| far.frames(anchor, &spec, sides));
+        let frames = jumped.or_else(|| tree.frames::<Number>(anchor, &spec, sides));
         let [predecessor, successor] = match frames {
             Some(frames) => frames,
             None => tree.frames::<f64>(anchor, &spec, sides).ok_or_else(|| {
