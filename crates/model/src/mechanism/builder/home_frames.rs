@@ -200,6 +200,11 @@ impl Real for f64 {
     }
 
     fn cos_sin(angle: &Number) -> Option<(Self, Self)> {
+        // Of a fraction they have no closed form, and are not worth many digits.
+        if angle.rational().is_some() {
+            let (sin, cos) = angle.value().sin_cos();
+            return Some((cos, sin));
+        }
         let (cos, sin) = angle.cos_sin();
         Some((cos.value(), sin.value()))
     }
