@@ -108,13 +108,14 @@ impl FrameTree {
     /// Says where the frames are, each in its parent. `chain` is the frame at the end of several of which each is given in the one before,
     /// `None` where it is not finite; it is asked for less than one chain of three per frame, and not at all where every way is short.
     pub fn set_frames(&mut self, frames: Vec<Frame>, chain: impl Fn(&[&Frame]) -> Option<Frame>) {
+        let count = self.len();
         self.frames = frames;
-        self.frames.resize_with(self.len(), Frame::identity);
+        self.frames.resize_with(count, Frame::identity);
         self.along = Vec::new();
         if !self.has_long_ways() {
             return;
         }
-        self.along.resize_with(self.len(), || None);
+        self.along.resize_with(count, || None);
         for node in self.from_the_root_on() {
             let parent = self.parents[node];
             if self.jumps[node] == parent {
