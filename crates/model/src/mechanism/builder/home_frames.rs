@@ -43,11 +43,18 @@ pub(super) fn close_at_home(
         let entity = Entity::Joint(joints[id.0].name.clone());
         let anchor = names.link(&entity, &spec.link)?;
         let sides = [joints[id.0].predecessor.link, joints[id.0].successor.link];
-        let tree = Tree { links, joints };
         let jumped = far
             .as_ref()
             .and_then(|far| far.frames(anchor, &spec, sides));
-        let frames = jumped.or_else(|| tree.frames::<Number>(anchor, &spec, sides));
+        if let Some([predecessor, successor]) = jumped {
+            check_frame(&entity, &predecessor)?;
+            check_frame(&entity, &successor)?;
+            let joint = &mut joints[id.0];
+            (joint.predecessor.frame, joint.successor.frame) = (predecessor, successor);
+            continue;
+        }
+        let tree = Tree { links, joints };
+        let frames = tree.frames::<Number>(anchor, &spec, sides);
         let [predecessor, successor] = match frames {
             Some(frames) => frames,
             None => tree.frames::<f64>(anchor, &spec, sides).ok_or_else(|| {
