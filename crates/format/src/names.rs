@@ -196,3 +196,29 @@ fn check_name(name: Attribute<'_>) -> Outcome<()> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::unused;
+    use std::cell::Cell;
+
+    #[test]
+    fn the_first_number_that_is_free_is_found_in_few_questions() {
+        let asked = Cell::new(0);
+        let is_taken = |name: &str| {
+            asked.set(asked.get() + 1);
+            let number = name.strip_prefix("a_").map(str::parse::<usize>);
+            name == "a" || matches!(number, Some(Ok(number)) if number <= 5000)
+        };
+        assert_eq!(unused("a", is_taken), "a_5001");
+        assert!(asked.get() < 40, "{}", asked.get());
+        assert_eq!(unused("b", is_taken), "b");
+        for last in 1..20 {
+            let is_taken = |name: &str| {
+                let number = name.strip_prefix("a_").map(str::parse::<usize>);
+                name == "a" || matches!(number, Some(Ok(number)) if number <= last)
+            };
+            assert_eq!(unused("a", is_taken), format!("a_{}", last + 1));
+        }
+    }
+}
