@@ -98,6 +98,7 @@ mod rounding;
 mod same_bytes;
 mod scene_error;
 mod sdf;
+mod sdf_reading;
 mod simulate_cli;
 mod sketch_cli;
 mod sketch_relations;

@@ -11,6 +11,7 @@ use crate::frames::{difference, one_after_another};
 use crate::words::quoted;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Frame, JointBuilder, JointKind};
+use std::rc::Rc;
 
 pub(super) fn tree(name: &str, kind: JointKind, parent: &str, child: &str) -> JointBuilder {
     JointBuilder::tree(name, kind, parent, child)
@@ -22,7 +23,8 @@ const STANDARD: [&str; 4] = ["light", "camera", "plugin", "user"];
 /// An element of the tree that is still to be read.
 struct Open<'a> {
     element: Element<'a>,
-    place: Place,
+    /// Shared with what stands beside it: frames may be nested by thousands.
+    place: Rc<Place>,
     /// The class that the body around it gives.
     class: Option<&'a str>,
     /// The settings of the file that it is from.
@@ -39,10 +41,10 @@ pub(super) struct Found<'a> {
 impl<'a> Mjcf<'a> {
     /// All bodies of the world.
     pub(super) fn bodies(&mut self, world: Element<'a>) -> Outcome<()> {
-        let place = Place {
+        let place = Rc::new(Place {
             link: WORLD.to_owned(),
             chain: Vec::new(),
-        };
+        });
         // Nesting is bounded by memory alone: no recursion.
         let mut open = Vec::new();
         let compiler = self.compiler;
@@ -64,16 +66,17 @@ impl<'a> Mjcf<'a> {
             let own = element.attribute("childclass").map(|own| own.value);
             let class = own.or(class);
             let mut place = place;
-            place.chain.push(self.frame(element, of)?);
+            let frame = self.frame(element, of)?;
+            Rc::make_mut(&mut place).chain.push(frame);
             if element.name() == "frame" {
                 self.inside(element, &place, class, &mut open)?;
                 continue;
             }
             let link = self.make_body(element, &place, class)?;
-            let inner = Place {
+            let inner = Rc::new(Place {
                 link,
                 chain: Vec::new(),
-            };
+            });
             self.inside(element, &inner, class, &mut open)?;
         }
         self.compiler = compiler;
@@ -84,7 +87,7 @@ impl<'a> Mjcf<'a> {
     fn inside(
         &mut self,
         element: Element<'a>,
-        place: &Place,
+        place: &Rc<Place>,
         class: Option<&'a str>,
         open: &mut Vec<Open<'a>>,
     ) -> Outcome<()> {
@@ -93,7 +96,7 @@ impl<'a> Mjcf<'a> {
             match part.name() {
                 "body" | "frame" => found.push(Open {
                     element: part,
-                    place: place.clone(),
+                    place: Rc::clone(place),
                     class,
                     compiler: self.compiler,
                 }),

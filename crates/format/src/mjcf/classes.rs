@@ -2,6 +2,7 @@
 
 use crate::element::{Attribute, Element};
 use crate::error::Outcome;
+use crate::guard::MOST_LEVELS;
 use crate::words::{did_you_mean, quoted};
 use std::collections::BTreeMap;
 
@@ -31,10 +32,16 @@ impl<'a> Classes<'a> {
     /// inside come from it.
     ///
     /// # Errors
-    /// A class inside another one without a name, and two classes of one name.
+    /// A class inside another one without a name, two classes of one name, and more classes inside one another than are looked through for
+    /// every attribute.
     pub(super) fn read(&mut self, default: Element<'a>) -> Outcome<()> {
-        let mut open = vec![(default, None)];
-        while let Some((element, from)) = open.pop() {
+        let mut open = vec![(default, None, 1)];
+        while let Some((element, from, level)) = open.pop() {
+            if level > MOST_LEVELS {
+                return Err(element.fault(format!(
+                    "default classes are nested more than {MOST_LEVELS} levels deep"
+                )));
+            }
             let name = match (element.attribute("class"), from) {
                 (Some(name), None) if element.name() == ATTACHED => name.value,
                 (name, None) => {
@@ -57,7 +64,7 @@ impl<'a> Classes<'a> {
             class.from = from;
             for part in element.elements() {
                 match part.name() {
-                    "default" => open.push((part, Some(name))),
+                    "default" => open.push((part, Some(name), level + 1)),
                     _ => class.elements.push(part),
                 }
             }

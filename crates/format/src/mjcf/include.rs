@@ -19,6 +19,8 @@ struct Source {
     name: String,
     path: Option<PathBuf>,
     text: String,
+    /// The inclusions in their order, where each stands and the file that it names; `None` before they are looked for.
+    includes: Option<Vec<(Range<usize>, String)>>,
 }
 
 /// A stretch of the whole text.
@@ -72,6 +74,7 @@ pub(super) fn expanded(
             name: file.to_owned(),
             path: base.map(Path::to_path_buf),
             text: text.to_owned(),
+            includes: None,
         }],
         pieces: Vec::new(),
     };
@@ -109,10 +112,14 @@ impl Whole {
     /// Takes a part up to its first inclusion; what is included and the rest are left open.
     fn take(&mut self, part: &Part, open: &mut Vec<Part>) -> Result<(), (usize, Fault)> {
         let here = part.source;
-        let includes = self.includes(here).map_err(|fault| (here, fault))?;
-        let next = includes
-            .into_iter()
-            .find(|(range, _)| range.start >= part.range.start && range.end <= part.range.end);
+        if self.sources[here].includes.is_none() {
+            let found = self.includes(here).map_err(|fault| (here, fault))?;
+            self.sources[here].includes = Some(found);
+        }
+        let includes = self.sources[here].includes.as_deref().unwrap_or_default();
+        let first = includes.partition_point(|(range, _)| range.start < part.range.start);
+        let next = includes.get(first).cloned();
+        let next = next.filter(|(range, _)| range.end <= part.range.end);
         let end = next
             .as_ref()
             .map_or(part.range.end, |(range, _)| range.start);
@@ -236,6 +243,7 @@ impl Whole {
             name: path.display().to_string(),
             path: Some(path),
             text,
+            includes: None,
         });
         Ok(self.sources.len() - 1)
     }

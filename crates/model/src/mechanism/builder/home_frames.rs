@@ -11,6 +11,7 @@
 //! know the literals that they were worked out from: an exact sum of rounded numbers is as uncertain as these.
 
 use super::checks::check_frame;
+use super::far_frames::FarFrames;
 use super::names::Names;
 use super::placements::placed_by;
 use crate::mechanism::derived_frames::{Step, inputs_along};
@@ -36,10 +37,24 @@ pub(super) fn close_at_home(
     links: &[Link],
     names: &Names,
 ) -> Result<(), MechanismError> {
+    let far = match specs.is_empty() {
+        true => None,
+        false => FarFrames::new(links, joints),
+    };
     for (id, spec) in specs {
         let entity = Entity::Joint(joints[id.0].name.clone());
         let anchor = names.link(&entity, &spec.link)?;
         let sides = [joints[id.0].predecessor.link, joints[id.0].successor.link];
+        let jumped = far
+            .as_ref()
+            .and_then(|far| far.frames(anchor, &spec, sides));
+        if let Some([predecessor, successor]) = jumped {
+            check_frame(&entity, &predecessor)?;
+            check_frame(&entity, &successor)?;
+            let joint = &mut joints[id.0];
+            (joint.predecessor.frame, joint.successor.frame) = (predecessor, successor);
+            continue;
+        }
         let tree = Tree { links, joints };
         let frames = tree.frames::<Number>(anchor, &spec, sides);
         let [predecessor, successor] = match frames {
@@ -249,6 +264,11 @@ impl Real for f64 {
     }
 
     fn cos_sin(angle: &Number) -> Option<(Self, Self)> {
+        // Of a fraction they have no closed form, and are not worth many digits.
+        if angle.rational().is_some() {
+            let (sin, cos) = angle.value().sin_cos();
+            return Some((cos, sin));
+        }
         let (cos, sin) = angle.cos_sin();
         Some((cos.value(), sin.value()))
     }
