@@ -94,8 +94,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let mut failed = None;
     let left = count.saturating_sub(before);
     let members = family.members();
+    // A variant under way at Ctrl-C has no row.
     let one = |place: u64| {
-        let row = members.row(shard.index(before + place))?;
+        let row = interrupt::during(|| members.row(shard.index(before + place)))??;
         Some((table.line(&row), row.outcome.status))
     };
     in_order(left, WINDOW, one, |done, event| {
