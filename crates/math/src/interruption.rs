@@ -185,7 +185,7 @@ mod tests {
 
     #[test]
     fn matrices_are_neither_made_nor_decomposed() {
-        let one = || SparseMatrix::from_triplets(1, 1, 0.0, [(0, 0, 1.0)]);
+        let one = || SparseMatrix::from_triplets(1, 1, 0.0_f64, [(0, 0, 1.0)]);
         let made = one().unwrap();
         let own = Interruption::default();
         let mut seen = None;
