@@ -120,10 +120,7 @@ fn a_trace_is_whole_or_none() {
     for micros in [100, 1000, 5000, 20_000, 60_000] {
         // Work that panics because a part of it is missing would be a fault too.
         let work = || {
-            let followed = analyse_to_follow(&mechanism, &AnalysisOptions::default());
-            let Ok(followed) = followed else {
-                return None;
-            };
+            let followed = analyse_to_follow(&mechanism, &AnalysisOptions::default()).ok()?;
             let options = TraceOptions::default();
             let found = trace(&followed.mechanism, &followed.analysis, &options).ok()?;
             Some(data(&followed.mechanism, followed.changed, &found, &[]).to_string())
