@@ -67,6 +67,8 @@ mod html_page;
 mod independence;
 mod inputs;
 mod inputs_alike;
+mod interruption;
+mod interruption_cli;
 mod invariance;
 mod known_mechanisms;
 mod log_readers;
