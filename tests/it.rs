@@ -103,6 +103,7 @@ mod smooth_scenes;
 #[path = "stability/main.rs"]
 mod stability;
 mod step;
+mod step_machines;
 mod subgroups;
 mod superfluous;
 mod support;
