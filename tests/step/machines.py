@@ -411,6 +411,13 @@ ENTITY = re.compile(r"#(\d+) *= *(.*)", re.S)
 SHARED = ("CARTESIAN_POINT(", "DIRECTION(", "VECTOR(", "LINE(", "CIRCLE(", "PLANE(", "CYLINDRICAL_SURFACE(")
 
 
+def real(text):
+    """The shortest text of the same number; ISO 10303-21 asks for a point."""
+    mantissa, _, exponent = repr(float(text)).partition("e")
+    mantissa = mantissa.removesuffix(".0") + ("." if "." not in mantissa.removesuffix(".0") else "")
+    return mantissa + (f"E{exponent}" if exponent else "")
+
+
 def smaller(text, name):
     """The same assembly in a smaller text: points and directions once, no breaks in entities, a header without a date."""
     header, data = text.split("DATA;", 1)
@@ -422,7 +429,7 @@ def smaller(text, name):
         if found:
             words = re.split(r"('(?:[^']|'')*')", found.group(2))
             joined = "".join(w if w.startswith("'") else re.sub(r"\s+", "", w) for w in words)
-            joined = re.sub(r"(?<=[(,])(-?\d+\.\d*)E([+-]\d+)", lambda m: repr(float(m.group(0))).replace("e", "E"), joined)
+            joined = re.sub(r"(?<=[(,])(-?\d+\.\d*)E([+-]\d+)", lambda m: real(m.group(0)), joined)
             joined = re.sub(r"(?<=[(,])(-?\d+\.)0+(?=[,)])", r"\1", joined)
             entities[int(found.group(1))] = joined
     held = set()
