@@ -3,7 +3,7 @@
     python3 -m venv solids && solids/bin/pip install build123d==0.13.0
     solids/bin/python tests/step/machines.py [FOLDER] [NAME ...]
 
-Writes FOLDER/NAME_tight.step and FOLDER/NAME_room.step (FOLDER: tests/step/machines). Lengths are millimetres. `room` is what a hole is larger
+Writes FOLDER/NAME_tight.step, FOLDER/NAME_room.step (FOLDER: tests/step/machines) and four_bar_askew.step. Lengths are millimetres. `room` is what a hole is larger
 than its shaft all around, and a groove than its tongue on each side. With room there are bolts where a designer would have some, and
 holes whose cylinders come as two halves. What joints each file has to show is in tests/step_machines.rs.
 """
@@ -93,7 +93,7 @@ def bolt(radius, depth, head=None):
     return rod(radius, (-depth, 0)) + rod(head, (0, 1.2 * radius))
 
 
-def four_bar(room):
+def four_bar(room, bolted=True):
     """A bar on the ground, crank, coupler, rocker, and four headed pins; with room the lowest bar is bolted to a plate."""
     machine, drill = Machine(), Drill(room, room > 0)
     a, b, c, d = (0, 0), (0, 30), (64, 78), (80, 0)
@@ -104,7 +104,7 @@ def four_bar(room):
         ("coupler", b, c, (10, 15)),
     ):
         part, at = bar(drill, start, end, layer, 3)
-        if name == "ground bar" and room:
+        if name == "ground bar" and room and bolted:
             part = part + box((-46, -6), (-10, 10), layer)
             for y in (-5, 5):
                 part = Drill(room, False)(part, 2.5, (-1, 6), (-30, y))
@@ -115,7 +115,7 @@ def four_bar(room):
     machine.add("pin", low, Pos(*d))
     machine.add("cap pin", high, Pos(*b, 15))
     machine.add("cap pin", high, Pos(*c, 15))
-    if room:
+    if room and bolted:
         screw, plate = bolt(2.5, 12), box((-60, -14), (-20, 20), (-12, 0))
         for y in (-5, 5):
             plate = Drill(room, False)(plate, 2.5, (-9, 1), (-30, y))
@@ -406,6 +406,16 @@ MACHINES = [
     four_bar, slider_crank, oldham, sarrus, scissor, gripper, cartesian_table, universal_joint, screw_jack, planetary,
 ]
 
+def four_bar_askew():
+    """The four-bar with room, its pins off the middle of their holes, standing at an angle to all axes of the file."""
+    machine, off = four_bar(0.1, bolted=False), iter([(0.04, -0.03), (-0.05, 0.02), (0.01, 0.06), (-0.03, -0.04)])
+    for child in machine.children:
+        if "pin" in child.label:
+            child.location = Pos(*next(off)) * child.location
+        child.location = Location((12.3, -45.6, 7.89), (13.7, 41.3, 77.1)) * child.location
+    return machine
+
+
 ENTITY = re.compile(r"#(\d+) *= *(.*)", re.S)
 # What is the same wherever it is used. Placements are too, where only surfaces and curves use them: representations hold their own.
 SHARED = ("CARTESIAN_POINT(", "DIRECTION(", "VECTOR(", "LINE(", "CIRCLE(", "PLANE(", "CYLINDRICAL_SURFACE(")
@@ -459,19 +469,16 @@ def smaller(text, name):
 def main():
     folder = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parent / "machines"
     folder.mkdir(parents=True, exist_ok=True)
-    for make in MACHINES:
-        if len(sys.argv) > 2 and make.__name__ not in sys.argv[2:]:
+    made = [(f"{make.__name__}_{word}", make, room) for make in MACHINES for word, room in (("tight", 0.0), ("room", 0.1))]
+    for name, make, room in [*made, ("four_bar_askew", lambda _: four_bar_askew(), None)]:
+        if len(sys.argv) > 2 and not any(name.startswith(wanted) for wanted in sys.argv[2:]):
             continue
-        for word, room in (("tight", 0.0), ("room", 0.1)):
-            machine = make(room)
-            whole = Compound(label=make.__name__, children=machine.children)
-            path = folder / f"{make.__name__}_{word}.step"
-            export_step(whole, path, unit=Unit.MM, write_pcurves=False)
-            text = path.read_text(encoding="latin-1")
-            path.write_text(smaller(text, path.name), encoding="ascii")
-            solids = [len(child.solids()) for child in machine.children]
-            several = [c.label for c, n in zip(machine.children, solids) if n != 1]
-            print(f"{path.name:30} {len(machine.children):3} parts {path.stat().st_size:7} bytes", "several solids: " + ", ".join(several) if several else "")
+        machine = make(room)
+        path = folder / f"{name}.step"
+        export_step(Compound(label=name.rsplit("_", 1)[0], children=machine.children), path, unit=Unit.MM, write_pcurves=False)
+        path.write_text(smaller(path.read_text(encoding="latin-1"), path.name), encoding="ascii")
+        several = [child.label for child in machine.children if len(child.solids()) != 1]
+        print(f"{path.name:30} {len(machine.children):3} parts {path.stat().st_size:7} bytes", *several)
 
 
 if __name__ == "__main__":

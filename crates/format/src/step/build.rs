@@ -1,5 +1,6 @@
 //! From judged pairs to a mechanism: a spanning tree from the ground, breadth first; every other joint closes a loop.
 
+use super::frame::in_frame_of_most;
 use super::geometry::Geometry;
 use super::pairs::{Judged, Taken};
 use super::standing::{Grid, Position, Standing, standing};
@@ -37,7 +38,7 @@ pub(super) struct Built {
 
 /// Makes the mechanism of an assembly whose pairs are judged.
 ///
-/// Each link's frame is parallel to the assembly's, with its origin where the joint is that places the link. Parts that no joint leads
+/// Each link's frame is parallel to the assembly's or the ground part's, with its origin where the joint is that places the link. Parts that no joint leads
 /// to float.
 ///
 /// # Errors
@@ -58,6 +59,10 @@ pub(super) fn build(
         .iter()
         .map(|(pair, taken)| (taken.geometry, drawn_at(pair)))
         .collect();
+    let geometry = match assembly.parts.get(ground) {
+        Some(part) => in_frame_of_most(geometry, &part.pose),
+        None => geometry,
+    };
     let (grid, standings) = standing(&geometry, accuracy, may_be_exact);
     let edges: Vec<Edge> = taken
         .iter()

@@ -1,6 +1,6 @@
 //! What a joint needs of the geometry of its contacts.
 
-use kutzbach_math::group::DisplacementSubgroup;
+use kutzbach_math::group::{DisplacementSubgroup, Pose};
 use kutzbach_model::mechanism::JointKind;
 use kutzbach_step::{Contact, ContactKind};
 use nalgebra::Vector3;
@@ -22,6 +22,29 @@ pub(super) enum Geometry {
     },
     /// A centre.
     Point(Vector3<f64>),
+}
+
+impl Geometry {
+    /// Its direction, normal, or the direction of its axis.
+    pub(super) fn direction(&self) -> Option<Vector3<f64>> {
+        match self {
+            Self::Direction(direction) | Self::Line { direction, .. } => Some(*direction),
+            Self::Free | Self::Point(_) => None,
+        }
+    }
+
+    /// This geometry where `pose` moves it.
+    pub(super) fn moved(&self, pose: &Pose) -> Self {
+        match self {
+            Self::Free => Self::Free,
+            Self::Direction(direction) => Self::Direction(pose.transform_direction(direction)),
+            Self::Line { point, direction } => Self::Line {
+                point: pose.transform_point(point),
+                direction: pose.transform_direction(direction),
+            },
+            Self::Point(point) => Self::Point(pose.transform_point(point)),
+        }
+    }
 }
 
 /// The joint that lets exactly these displacements through: its kind, geometry and lead (m per turn). `None` where everything

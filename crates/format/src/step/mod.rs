@@ -8,6 +8,7 @@
 //! | [`corrections`] | what a person says of pairs, and whether the parts exist |
 //! | [`fasteners`] | which parts are tight by name and head |
 //! | [`ground`] | which part is held |
+//! | [`frame`] | the frame in which the assembly is written |
 //! | [`geometry`] | the axis, direction or centre that a joint takes from its contacts |
 //! | [`pairs`] | what each pair is taken as, and why |
 //! | [`standing`] | positions and directions that agree where the geometry does |
@@ -18,6 +19,7 @@
 mod build;
 mod corrections;
 mod fasteners;
+mod frame;
 mod geometry;
 mod ground;
 mod pairs;

@@ -112,8 +112,9 @@ impl Judged {
         }
         let taken = match &self.found {
             Ok(joint) if !joint.margin.is_clear() => Err(format!(
-                "they leave a `{}` joint, but not clearly (margin {:.0}, needed 1000)",
+                "they leave a `{}` joint, but not clearly ({:.1} tolerances above zero, needed 10; margin {:.0}, needed 1000)",
                 kind_word(joint),
+                joint.margin.kept,
                 joint.margin.gap()
             )),
             Ok(joint) => match of_subgroup(&joint.subgroup) {

@@ -6,7 +6,7 @@
 //! a mechanism that is rigid, or one whose motion has to be defended against noise in every loop. So what agrees is made one *before*
 //! numbers are written:
 //!
-//! - all frames of joints and links are parallel to the frame of the assembly, in which every axis is worked out once. A frame is a
+//! - all frames of joints and links are parallel to one frame ([`in_frame_of_most`](super::frame::in_frame_of_most)), in which every axis is worked out once. A frame is a
 //!   position and nothing else, and a direction is the same three numbers in whatever link it is written;
 //! - directions that agree within [`SAME_DIRECTION`] are one, those of the coordinate axes before all others;
 //! - axes of one direction whose distance is within the accuracy of the file (at least [`FINEST`]) are one line, with one point;
@@ -29,7 +29,7 @@ use nalgebra::Vector3;
 
 /// Directions that differ by less (rad) are the same: what the digits of six-digit directions leave, and a thousandth of what a
 /// designer would call a tilt.
-const SAME_DIRECTION: f64 = 1e-6;
+pub(super) const SAME_DIRECTION: f64 = 1e-6;
 
 /// Lengths (m) that differ by less are the same: no part is made as exactly.
 pub(super) const FINEST: f64 = 1e-7;
