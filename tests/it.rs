@@ -104,6 +104,7 @@ mod smooth_scenes;
 mod stability;
 mod step;
 mod step_machines;
+mod step_pairs;
 mod subgroups;
 mod superfluous;
 mod support;

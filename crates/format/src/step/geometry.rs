@@ -22,13 +22,26 @@ pub(super) enum Geometry {
     },
     /// A centre.
     Point(Vector3<f64>),
+    /// Two axes that meet: of the first and of the second part of a pair.
+    Cross {
+        /// Where they meet.
+        point: Vector3<f64>,
+        /// The direction of the first.
+        first: Vector3<f64>,
+        /// The direction of the second.
+        second: Vector3<f64>,
+    },
 }
 
 impl Geometry {
-    /// Its direction, normal, or the direction of its axis.
+    /// Its direction, normal, or the direction of its axis, of two the first.
     pub(super) fn direction(&self) -> Option<Vector3<f64>> {
         match self {
-            Self::Direction(direction) | Self::Line { direction, .. } => Some(*direction),
+            Self::Direction(direction)
+            | Self::Line { direction, .. }
+            | Self::Cross {
+                first: direction, ..
+            } => Some(*direction),
             Self::Free | Self::Point(_) => None,
         }
     }
@@ -43,6 +56,15 @@ impl Geometry {
                 direction: pose.transform_direction(direction),
             },
             Self::Point(point) => Self::Point(pose.transform_point(point)),
+            Self::Cross {
+                point,
+                first,
+                second,
+            } => Self::Cross {
+                point: pose.transform_point(point),
+                first: pose.transform_direction(first),
+                second: pose.transform_direction(second),
+            },
         }
     }
 }
@@ -116,7 +138,7 @@ pub(super) fn for_kind(
         Geometry::Line { direction, .. } | Geometry::Direction(direction) => {
             Some(Geometry::Direction(direction))
         }
-        Geometry::Free | Geometry::Point(_) => None,
+        Geometry::Free | Geometry::Point(_) | Geometry::Cross { .. } => None,
     };
     let normal = || {
         let plane = first(&[ContactKind::Planar]).map(|c| Geometry::Direction(c.axis));
