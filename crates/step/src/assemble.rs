@@ -2,7 +2,7 @@
 
 use crate::error::{Problem, StepError};
 use crate::faces::{Found, of_representation};
-use crate::kinematics::{Occurred, Shown, mechanisms};
+use crate::kinematics::{Occurred, Shown, has_pairs, mechanisms};
 use crate::merge::merged;
 use crate::part21::{Exchange, Instance, Record};
 use crate::products::{Products, loose_representations};
@@ -52,6 +52,7 @@ pub(crate) fn assembly<'e>(file: &'e Exchange<'e>) -> Result<Assembly, StepError
         shapes: BTreeMap::new(),
         names: BTreeSet::new(),
         counts: BTreeMap::new(),
+        has_pairs: has_pairs(file),
         occurred: Vec::new(),
         shown: Shown::new(),
     };
@@ -83,6 +84,8 @@ struct Builder<'p, 'e> {
     names: BTreeSet<String>,
     /// How many parts of each name there are.
     counts: BTreeMap<String, usize>,
+    /// Whether the file has kinematic pairs, so that occurrences are kept.
+    has_pairs: bool,
     /// Where products occur.
     occurred: Vec<Occurred>,
     /// Which representation shows which product.
@@ -131,17 +134,22 @@ impl<'e> Builder<'_, 'e> {
                 return Err(product.definition.error(Problem::TooMuch { what, limit }));
             }
             let part = self.add(&visit)?;
-            self.occurred.push(Occurred {
-                chain: visit.chain.clone(),
-                product: visit.product,
-                pose: visit.pose,
-                part,
-            });
+            if self.has_pairs {
+                self.occurred.push(Occurred {
+                    chain: visit.chain.clone(),
+                    product: visit.product,
+                    pose: visit.pose,
+                    part,
+                });
+            }
             for occurrence in product.occurrences.iter().rev() {
                 let mut path = visit.path.clone();
                 path.push(occurrence.name.clone());
-                let mut chain = visit.chain.clone();
-                chain.push(occurrence.usage.number());
+                let mut chain = Vec::new();
+                if self.has_pairs {
+                    chain.clone_from(&visit.chain);
+                    chain.push(occurrence.usage.number());
+                }
                 let nowhere = occurrence.pose.is_none().then_some(occurrence.usage);
                 open.push(Visit {
                     product: occurrence.child,

@@ -233,7 +233,7 @@ fn joint<'n>(
         joint = joint.axis2(axis2);
     }
     if kind.uses_lead() {
-        joint = joint.lead(lead(edge.taken.lead?));
+        joint = joint.lead(shortest(edge.taken.lead?));
     }
     let made = Joined {
         name,
@@ -245,7 +245,7 @@ fn joint<'n>(
     Some((joint, made))
 }
 
-/// A lead as the shortest decimal that is the double: what a person wrote.
-fn lead(metres: f64) -> Number {
-    Number::decimal(&format!("{metres}")).unwrap_or_else(|_| Number::zero())
+/// A number as the shortest decimal that is the double: what a person or a file wrote.
+pub(super) fn shortest(x: f64) -> Number {
+    Number::decimal(&format!("{x}")).unwrap_or_else(|_| Number::zero())
 }

@@ -1,6 +1,6 @@
 //! Gears: kinematic pairs that couple the hinges of two parts on a third.
 
-use super::build::Joined;
+use super::build::{Joined, shortest};
 use super::geometry::Geometry;
 use kutzbach_math::group::Pose;
 use kutzbach_math::number::Number;
@@ -29,18 +29,13 @@ pub(super) fn couple(
         };
         // The second turns by minus the ratio times the first, each about its own axis.
         let terms = vec![
-            (one.name.to_owned(), number(ratio * one.sense)),
-            (two.name.to_owned(), number(two.sense)),
+            (one.name.to_owned(), shortest(ratio * one.sense)),
+            (two.name.to_owned(), shortest(two.sense)),
         ];
         let name = format!("{} and {}", one.name, two.name);
         builder.linear_coupling(&name, terms, Number::zero());
     }
     uncoupled
-}
-
-/// A number as the shortest decimal that is the double.
-fn number(x: f64) -> Number {
-    Number::decimal(&format!("{x}")).unwrap_or_else(|_| Number::zero())
 }
 
 /// A hinge of a gear.

@@ -6,7 +6,7 @@
 //! | [`links`] | which occurrences are the links of a mechanism, and in which frames their pairs stand |
 //!
 //! What a pair lets through is about its frame: a hinge turns about z, a slide goes along x, a plane is normal to z; a screw moves by its pitch
-//! along z in one turn (attributes of the entities in AP242, `lower_order_kinematic_pair` and `screw_pair_value`). Two gears turn about the z
+//! along z in one turn (attributes of the entities in AP242, `low_order_kinematic_pair` and `screw_pair_value`). Two gears turn about the z
 //! axes of their frames, the second by minus the ratio times the first (`gear_pair_value`).
 
 mod links;
@@ -40,9 +40,15 @@ pub(crate) struct Mechanisms {
     pub notes: Vec<Note>,
 }
 
+/// Whether a file has pairs.
+pub(crate) fn has_pairs(file: &Exchange<'_>) -> bool {
+    let mut keywords = file.keywords().iter();
+    keywords.any(|keyword| names_pair(keyword))
+}
+
 /// Reads the mechanisms of a file.
 ///
-/// `occurred` is where products occur, `shown` which representation shows which product.
+/// `occurred` is where products occur (of a file without pairs it need not be known), `shown` which representation shows which product.
 ///
 /// # Errors
 /// References to nothing, entities of the wrong kind, placements that are none.
@@ -51,10 +57,10 @@ pub(crate) fn mechanisms<'e>(
     occurred: &[Occurred],
     shown: &Shown,
 ) -> Result<Mechanisms, StepError> {
-    let mut found = Found::default();
-    if !file.keywords().iter().any(|keyword| names_pair(keyword)) {
+    if !has_pairs(file) {
         return Ok(Mechanisms::default());
     }
+    let mut found = Found::default();
     let links = Links::new(file, occurred, shown)?;
     for instance in file.instances() {
         let Some(keyword) = word(instance) else {
