@@ -1,14 +1,14 @@
 //! From judged pairs to a mechanism: a spanning tree from the ground, breadth first; every other joint closes a loop.
 
 use super::frame::in_frame_of_most;
-use super::gears::couple;
+use super::gears::{Joined, couple, shortest};
 use super::geometry::Geometry;
 use super::pairs::{Judged, Taken};
 use super::standing::{Grid, Position, Standing, standing};
 use crate::names::unused;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{
-    Direction, Frame, JointBuilder, JointKind, Mechanism, MechanismBuilder, MechanismError,
+    Direction, Frame, JointBuilder, Mechanism, MechanismBuilder, MechanismError,
 };
 use kutzbach_step::Assembly;
 use nalgebra::Vector3;
@@ -39,18 +39,6 @@ pub(super) struct Built {
     pub islands: Vec<Vec<usize>>,
     /// Pairs of gears, by their places in [`Assembly::pairs`], that couple nothing.
     pub uncoupled: Vec<usize>,
-}
-
-/// A joint that was made.
-pub(super) struct Joined {
-    pub name: String,
-    pub kind: JointKind,
-    /// The parts that it leads from and to.
-    pub parts: (usize, usize),
-    /// Its geometry in the frame of the assembly.
-    pub geometry: Geometry,
-    /// 1 where the axis that is written points as that of the geometry, -1 where it points the other way.
-    pub sense: f64,
 }
 
 /// Makes the mechanism of an assembly whose pairs are judged.
@@ -243,9 +231,4 @@ fn joint<'n>(
         sense: edge.sense,
     };
     Some((joint, made))
-}
-
-/// A number as the shortest decimal that is the double: what a person or a file wrote.
-pub(super) fn shortest(x: f64) -> Number {
-    Number::decimal(&format!("{x}")).unwrap_or_else(|_| Number::zero())
 }

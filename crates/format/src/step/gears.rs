@@ -1,6 +1,5 @@
 //! Gears: kinematic pairs that couple the hinges of two parts on a third.
 
-use super::build::{Joined, shortest};
 use super::geometry::Geometry;
 use kutzbach_math::group::Pose;
 use kutzbach_math::number::Number;
@@ -10,6 +9,18 @@ use std::collections::BTreeSet;
 
 /// A hinge is about the axis of a gear where the two differ by less (m; sine).
 const SAME_AXIS: f64 = 1e-4;
+
+/// A joint that was made.
+pub(super) struct Joined {
+    pub name: String,
+    pub kind: JointKind,
+    /// The parts that it leads from and to.
+    pub parts: (usize, usize),
+    /// Its geometry in the frame of the assembly.
+    pub geometry: Geometry,
+    /// 1 where the axis that is written points as that of the geometry, -1 where it points the other way.
+    pub sense: f64,
+}
 
 /// Couples the hinges of gears; the pairs, by their places in [`Assembly::pairs`], whose parts have no hinges about the axes of the gears on
 /// one common part.
@@ -86,4 +97,9 @@ fn hinge<'j>(joint: &'j Joined, gear: usize, frame: &Pose) -> Option<Hinge<'j>> 
         carrier,
         sense: leads * direction.dot(&z).signum() * joint.sense,
     })
+}
+
+/// A number as the shortest decimal that is the double: what a person or a file wrote.
+pub(super) fn shortest(x: f64) -> Number {
+    Number::decimal(&format!("{x}")).unwrap_or_else(|_| Number::zero())
 }

@@ -85,7 +85,7 @@ impl From<GroupError> for JointError {
 /// [`JointError`]: no contacts, contacts that fit too badly, decisions that are not clear enough to name a class.
 pub fn joint_of(contacts: &[Contact], accuracy: f64) -> Result<Joint, JointError> {
     let (play, size) = play(contacts, accuracy)?;
-    let contacts = settled(contacts, play)?;
+    let contacts = settled(contacts, play).ok_or(JointError::Unclear)?;
     let points: Vec<Vector3<f64>> = contacts.iter().map(|contact| contact.point).collect();
     let gauge = Gauge::from_points(&points, size, SETTLED)?;
     let mut common: Option<Subalgebra> = None;

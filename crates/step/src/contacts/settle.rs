@@ -8,7 +8,6 @@
 //!
 //! Contacts are taken in the order of their misfits, so that what fits best says where the axis is.
 
-use super::joint::JointError;
 use super::{Contact, ContactKind};
 use nalgebra::Vector3;
 
@@ -31,37 +30,29 @@ pub(super) struct Play {
 }
 
 impl Play {
-    fn angle_is_zero(self, angle: f64) -> Result<bool, JointError> {
+    fn angle_is_zero(self, angle: f64) -> Option<bool> {
         decided(angle, self.angle, LEAST_ANGLE)
     }
 
-    fn length_is_zero(self, length: f64) -> Result<bool, JointError> {
+    fn length_is_zero(self, length: f64) -> Option<bool> {
         decided(length, self.length, LEAST_LENGTH)
     }
 }
 
-/// Whether a difference is within its play.
-///
-/// # Errors
-/// [`JointError::Unclear`] where it is neither that nor clearly larger.
-fn decided(difference: f64, play: f64, least: f64) -> Result<bool, JointError> {
+/// Whether a difference is within its play; `None` where it is neither that nor clearly larger.
+fn decided(difference: f64, play: f64, least: f64) -> Option<bool> {
     if difference <= play {
-        return Ok(true);
+        return Some(true);
     }
-    match difference >= (APART * play).max(least) {
-        true => Ok(false),
-        false => Err(JointError::Unclear),
-    }
+    (difference >= (APART * play).max(least)).then_some(false)
 }
 
-/// The contacts with directions, axes and centres that are equal where they agree within the play.
-///
-/// # Errors
-/// [`JointError::Unclear`] where some neither agree nor clearly differ.
-pub(super) fn settled(contacts: &[Contact], play: Play) -> Result<Vec<Contact>, JointError> {
+/// The contacts with directions, axes and centres that are equal where they agree within the play; `None` where some neither agree nor clearly
+/// differ.
+pub(super) fn settled(contacts: &[Contact], play: Play) -> Option<Vec<Contact>> {
     let mut order: Vec<&Contact> = contacts.iter().collect();
     order.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
-    let mut known: Vec<Vector3<f64>> = Vec::new();
+    let mut known = Known::default();
     let mut out: Vec<Contact> = Vec::with_capacity(contacts.len());
     // Axes before the centres that may lie on them.
     let (balls, others): (Vec<&Contact>, Vec<&Contact>) = order
@@ -69,7 +60,7 @@ pub(super) fn settled(contacts: &[Contact], play: Play) -> Result<Vec<Contact>, 
         .partition(|contact| contact.kind == ContactKind::Spherical);
     for contact in others {
         let mut contact = contact.clone();
-        contact.axis = direction(contact.axis, &mut known, play)?;
+        contact.axis = known.direction(contact.axis, play)?;
         if let Some(point) = on_known_axis(&contact, &out, play)? {
             contact.point = point;
         }
@@ -80,54 +71,52 @@ pub(super) fn settled(contacts: &[Contact], play: Play) -> Result<Vec<Contact>, 
         ball.point = centre(&ball, &out, play)?;
         out.push(ball);
     }
-    Ok(out)
+    Some(out)
 }
 
-/// A direction as those that are known have it, and known from now on.
-fn direction(
-    axis: Vector3<f64>,
-    known: &mut Vec<Vector3<f64>>,
-    play: Play,
-) -> Result<Vector3<f64>, JointError> {
-    for other in known.iter() {
-        if play.angle_is_zero(axis.cross(other).norm())? {
-            return Ok(other * axis.dot(other).signum());
-        }
-    }
-    let mut across = Vec::new();
-    for other in known.iter() {
-        if play.angle_is_zero(axis.dot(other).abs())? {
-            across.push(*other);
-        }
-    }
-    if let Some((normal, sine)) = widest(known) {
-        // Noise of two directions is that of their normal, by the sine between them.
-        let wide = Play {
-            angle: play.angle / sine,
-            ..play
-        };
-        if wide.angle_is_zero(axis.dot(&normal).abs())? {
-            across.push(normal);
-        }
-    }
-    let settled = at_right_angles(axis, &across).ok_or(JointError::Unclear)?;
-    known.push(settled);
-    Ok(settled)
+/// Directions that differ.
+#[derive(Default)]
+struct Known {
+    directions: Vec<Vector3<f64>>,
+    /// The normal of the two that are farthest from parallel, with the sine between them.
+    widest: Option<(Vector3<f64>, f64)>,
 }
 
-/// The normal of the two known directions that are farthest from parallel, with the sine between them.
-fn widest(known: &[Vector3<f64>]) -> Option<(Vector3<f64>, f64)> {
-    let mut best: Option<(Vector3<f64>, f64)> = None;
-    for (place, one) in known.iter().enumerate() {
-        for two in known.iter().skip(place + 1) {
-            let normal = one.cross(two);
-            let sine = normal.norm();
-            if sine > best.map_or(0.0, |(_, most)| most) {
-                best = Some((normal / sine, sine));
+impl Known {
+    /// A direction as those that are known have it, and known from now on; `None` where it neither agrees nor clearly differs.
+    fn direction(&mut self, axis: Vector3<f64>, play: Play) -> Option<Vector3<f64>> {
+        for other in &self.directions {
+            if play.angle_is_zero(axis.cross(other).norm())? {
+                return Some(other * axis.dot(other).signum());
             }
         }
+        let mut across = Vec::new();
+        for other in &self.directions {
+            if play.angle_is_zero(axis.dot(other).abs())? {
+                across.push(*other);
+            }
+        }
+        if let Some((normal, sine)) = self.widest {
+            // Noise of two directions is that of their normal, by the sine between them.
+            let wide = Play {
+                angle: play.angle / sine,
+                ..play
+            };
+            if wide.angle_is_zero(axis.dot(&normal).abs())? {
+                across.push(normal);
+            }
+        }
+        let settled = at_right_angles(axis, &across)?;
+        for other in &self.directions {
+            let normal = settled.cross(other);
+            let sine = normal.norm();
+            if sine > self.widest.map_or(0.0, |(_, most)| most) {
+                self.widest = Some((normal / sine, sine));
+            }
+        }
+        self.directions.push(settled);
+        Some(settled)
     }
-    best
 }
 
 /// The unit vector nearest to `axis` that is at right angles to all of `across`; `None` where there is none near it.
@@ -151,40 +140,36 @@ fn at_right_angles(axis: Vector3<f64>, across: &[Vector3<f64>]) -> Option<Vector
     }
 }
 
-/// A point of the axis among earlier contacts on which a contact turns as well.
-fn on_known_axis(
-    contact: &Contact,
-    known: &[Contact],
-    play: Play,
-) -> Result<Option<Vector3<f64>>, JointError> {
+/// A point of the axis among earlier contacts on which a contact turns as well, if there is one; `None` outside where that is not clear.
+fn on_known_axis(contact: &Contact, known: &[Contact], play: Play) -> Option<Option<Vector3<f64>>> {
     if !has_axis(contact) {
-        return Ok(None);
+        return Some(None);
     }
     for other in known.iter().filter(|other| has_axis(other)) {
         // Directions that agree were made equal.
         let parallel = contact.axis.cross(&other.axis).norm() <= f64::EPSILON;
         if parallel && play.length_is_zero(beside(contact.point, other))? {
-            return Ok(Some(other.point));
+            return Some(Some(other.point));
         }
     }
-    Ok(None)
+    Some(None)
 }
 
-/// The centre of a ball: that of an earlier ball, or on an axis, where it is within the play.
-fn centre(ball: &Contact, known: &[Contact], play: Play) -> Result<Vector3<f64>, JointError> {
+/// The centre of a ball: that of an earlier ball, or on an axis, where it is within the play; `None` where that is not clear.
+fn centre(ball: &Contact, known: &[Contact], play: Play) -> Option<Vector3<f64>> {
     let centres = known.iter().filter(|c| c.kind == ContactKind::Spherical);
     for other in centres {
         if play.length_is_zero((ball.point - other.point).norm())? {
-            return Ok(other.point);
+            return Some(other.point);
         }
     }
     for other in known.iter().filter(|other| has_axis(other)) {
         if play.length_is_zero(beside(ball.point, other))? {
             let along = (ball.point - other.point).dot(&other.axis);
-            return Ok(other.point + other.axis * along);
+            return Some(other.point + other.axis * along);
         }
     }
-    Ok(ball.point)
+    Some(ball.point)
 }
 
 fn has_axis(contact: &Contact) -> bool {
@@ -266,7 +251,7 @@ mod tests {
             contact(Planar, [1.0, 0.0, 0.05], [0.0; 3], 0.0),
         ] {
             let found = settled(&[shaft.clone(), other], PLAY);
-            assert_eq!(found, Err(JointError::Unclear));
+            assert_eq!(found, None);
         }
         // Without play two directions may not differ by less than is drawn.
         let exact = Play {
@@ -274,6 +259,6 @@ mod tests {
             length: 1e-9,
         };
         let off = contact(Planar, [0.0, 1e-5, 1.0], [0.0; 3], 0.0);
-        assert!(settled(&[shaft, off], exact).is_err());
+        assert_eq!(settled(&[shaft, off], exact), None);
     }
 }
