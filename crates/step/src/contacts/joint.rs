@@ -84,10 +84,14 @@ impl From<GroupError> for JointError {
 /// # Errors
 /// [`JointError`]: no contacts, contacts that fit too badly, decisions that are not clear enough to name a class.
 pub fn joint_of(contacts: &[Contact], accuracy: f64) -> Result<Joint, JointError> {
-    let (play, size) = play(contacts, accuracy)?;
+    let (play, length) = play(contacts, accuracy)?;
     let contacts = settled(contacts, play).ok_or(JointError::Unclear)?;
-    let points: Vec<Vector3<f64>> = contacts.iter().map(|contact| contact.point).collect();
-    let gauge = Gauge::from_points(&points, size, SETTLED)?;
+    let points = contacts.iter().map(|contact| contact.point);
+    let centre = points.sum::<Vector3<f64>>() / contacts.len() as f64;
+    // The line of two centres is settled with nothing.
+    let balls = contacts.iter().filter(|c| c.kind == ContactKind::Spherical);
+    let tolerance = if balls.count() > 1 { play.angle } else { SETTLED };
+    let gauge = Gauge::new(centre, length, tolerance)?;
     let mut common: Option<Subalgebra> = None;
     for contact in distinct(&contacts, &gauge) {
         let left = left_by(contact).ok_or(JointError::NotFinite)?;
@@ -122,7 +126,7 @@ fn left_by(contact: &Contact) -> Option<DisplacementSubgroup> {
     })
 }
 
-/// How well contacts are known, and how large they are (m).
+/// How well contacts are known, and the length by which they are compared (m): as far as they are apart, or as large as one is.
 fn play(contacts: &[Contact], accuracy: f64) -> Result<(Play, f64), JointError> {
     let size = contacts.iter().map(|c| c.size).fold(0.0, f64::max);
     let misfit = contacts.iter().map(|c| c.misfit).fold(0.0, f64::max);
@@ -149,7 +153,7 @@ fn play(contacts: &[Contact], accuracy: f64) -> Result<(Play, f64), JointError> 
     let high = points().reduce(|a, b| a.sup(&b));
     let reach = low.zip(high).map_or(0.0, |(low, high)| (high - low).norm());
     let length = 2.0 * (misfit + accuracy) + DIGITS * reach;
-    Ok((Play { angle, length }, size))
+    Ok((Play { angle, length }, size.max(reach)))
 }
 
 /// The contacts without those that leave the same displacements as an earlier one: many faces of one plane say nothing more, and
