@@ -90,7 +90,11 @@ pub fn joint_of(contacts: &[Contact], accuracy: f64) -> Result<Joint, JointError
     let centre = points.sum::<Vector3<f64>>() / contacts.len() as f64;
     // The line of two centres is settled with nothing.
     let balls = contacts.iter().filter(|c| c.kind == ContactKind::Spherical);
-    let tolerance = if balls.count() > 1 { play.angle } else { SETTLED };
+    let tolerance = if balls.count() > 1 {
+        play.angle
+    } else {
+        SETTLED
+    };
     let gauge = Gauge::new(centre, length, tolerance)?;
     let mut common: Option<Subalgebra> = None;
     for contact in distinct(&contacts, &gauge) {
