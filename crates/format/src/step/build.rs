@@ -2,8 +2,8 @@
 
 use super::frame::in_frame_of_most;
 use super::gears::{Joined, couple, shortest};
-use super::geometry::Geometry;
-use super::pairs::{Judged, Taken};
+use super::geometry::{Geometry, Taken};
+use super::pairs::Judged;
 use super::standing::{Grid, Position, Standing, standing};
 use crate::names::unused;
 use kutzbach_math::number::Number;

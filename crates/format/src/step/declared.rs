@@ -1,7 +1,6 @@
 //! What the kinematic pairs of a file say of its parts.
 
-use super::geometry::Geometry;
-use super::pairs::Taken;
+use super::geometry::{Geometry, Taken};
 use kutzbach_model::mechanism::JointKind;
 use kutzbach_step::{Assembly, KinematicPair, PairMotion};
 use nalgebra::Vector3;

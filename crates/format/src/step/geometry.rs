@@ -33,6 +33,15 @@ pub(super) enum Geometry {
     },
 }
 
+/// A joint that a pair is taken as.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Taken {
+    pub kind: JointKind,
+    pub geometry: Geometry,
+    /// Metres per turn of screws.
+    pub lead: Option<f64>,
+}
+
 impl Geometry {
     /// Its direction, normal, or the direction of its axis, of two the first.
     pub(super) fn direction(&self) -> Option<Vector3<f64>> {

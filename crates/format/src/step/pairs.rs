@@ -3,7 +3,7 @@
 use super::corrections::{PairRule, Resolved, Wrong};
 use super::declared::{Declared, Said};
 use super::fasteners::{has_shaft_and_head, is_fastener};
-use super::geometry::{Geometry, for_kind, needed_by, of_subgroup};
+use super::geometry::{Geometry, Taken, for_kind, needed_by, of_subgroup};
 use crate::words::quoted;
 use kutzbach_model::mechanism::JointKind;
 use kutzbach_step::{Assembly, Contact, Joint, JointError, PairOfParts, joint_of};
@@ -22,15 +22,6 @@ pub enum Reason {
     Declared,
     /// Its contacts are no joint, and why: nothing is taken of it.
     Unclear(String),
-}
-
-/// A joint that a pair is taken as.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Taken {
-    pub kind: JointKind,
-    pub geometry: Geometry,
-    /// Metres per turn of screws.
-    pub lead: Option<f64>,
 }
 
 /// A pair of parts and what it is taken as.
