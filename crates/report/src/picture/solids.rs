@@ -289,7 +289,7 @@ struct Placed<'a> {
 fn in_order<'a>(faces: &[&'a FlatFace], view: &View) -> Vec<&'a FlatFace> {
     let mut placed: Vec<Placed<'a>> = faces
         .iter()
-        .map(|face| {
+        .map(|&face| {
             let corners: Vec<Vector> = face.loops.iter().flatten().copied().collect();
             let flat = corners.iter().map(|corner| view.at(*corner));
             let (low, high) = flat.fold(
