@@ -207,6 +207,10 @@ impl Found {
             let why = "the limits of its motion are not read";
             self.note(instance, keyword.to_owned(), why, NoteKind::Taken);
         }
+        if instance.is("ACTUATED_KINEMATIC_PAIR") {
+            let why = "which of its freedoms are driven is not read";
+            self.note(instance, keyword.to_owned(), why, NoteKind::Taken);
+        }
         // The schema has the flags of both axes, and no word of which part holds which.
         if let PairMotion::Free { rotations, .. } = motion
             && rotations.iter().filter(|turns| **turns).count() == 2
