@@ -59,6 +59,6 @@ fn columns(surface: &Surface) -> (&str, Vector3<f64>, Vector3<f64>, f64) {
             half_angle,
         } => ("cone", *apex, *direction, *half_angle),
         Surface::Sphere { centre, radius } => ("sphere", *centre, Vector3::zeros(), *radius),
-        Surface::Other(keyword) => (keyword, Vector3::zeros(), Vector3::zeros(), 0.0),
+        Surface::Other(keyword) => (keyword.as_str(), Vector3::zeros(), Vector3::zeros(), 0.0),
     }
 }
