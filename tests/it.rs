@@ -108,6 +108,8 @@ mod smooth_scenes;
 #[path = "stability/main.rs"]
 mod stability;
 mod step;
+mod step_machines;
+mod step_pairs;
 mod subgroups;
 mod superfluous;
 mod support;
