@@ -121,7 +121,7 @@ fn asked(whole: &Whole) -> Outcome<Asked> {
 }
 
 /// The elements in all sections of a name.
-fn inside(root: Element<'_>, name: &'static str) -> impl Iterator<Item = Element<'_>> {
+fn inside<'a>(root: Element<'a>, name: &'static str) -> impl Iterator<Item = Element<'a>> {
     let sections = root.elements().filter(move |part| part.name() == name);
     sections.flat_map(|section| section.elements())
 }
