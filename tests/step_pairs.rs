@@ -80,13 +80,13 @@ fn pairs_stand_where_their_frames_do() {
     assert_eq!(second, [0.0, 0.0, 1.0]);
     assert_eq!(joint("screw").lead.as_ref().unwrap().value(), 0.0025);
     // A frame that is elsewhere in the second part is that of no joint.
-    let moved = text("revolute").replace("(-10.,10.,5.)", "(-10.,11.,5.)");
+    let moved = text("revolute").replace("(-16.,4.,-1.)", "(-16.,5.,-1.)");
     let reading = read_text(&moved, Corrections::default());
     assert!(joints(&reading).is_empty());
     assert_eq!(told(&reading, WarningKind::MayJoin, "do not meet"), 1);
     // Along its axis a hinge does not slide, and a cylindrical joint does.
     for (name, count) in [("revolute", 0), ("cylindrical", 1)] {
-        let moved = text(name).replace("(-10.,10.,5.)", "(-10.,10.,7.)");
+        let moved = text(name).replace("(-16.,4.,-1.)", "(-16.,4.,1.)");
         let reading = read_text(&moved, Corrections::default());
         assert_eq!(joints(&reading).len(), count, "{name}");
     }
@@ -102,8 +102,8 @@ fn gears_couple_their_hinges() {
     assert_eq!(reading.mechanism.couplings().len(), 1);
     assert_eq!(finite(&reading), Some(1));
     // Where a gear and its hinge are moved together they are coupled all the same.
-    let moved = text("gear").replacen("(35.,5.,5.)", "(36.,5.,5.)", 1);
-    let moved = moved.replacen("(5.,5.,5.)", "(6.,5.,5.)", 1);
+    let moved = text("gear").replacen("(30.,0.,0.)", "(31.,0.,0.)", 1);
+    let moved = moved.replacen("(-1.,-1.,-1.)", "(0.,-1.,-1.)", 1);
     let reading = read_text(&moved, Corrections::default());
     assert_eq!(reading.mechanism.couplings().len(), 1);
     // Without a hinge a gear couples nothing, and that is told.

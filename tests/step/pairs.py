@@ -3,7 +3,7 @@
     solids/bin/python tests/step/pairs.py [FOLDER]
 
 (`solids` as in machines.py.) The entities are those of the AP242 schema (ISO 10303-442, managed model based 3D engineering). A pair's frame
-stands at (20, 10, 5) mm in the first block and where that is in the second, z upwards. What is read of each is in tests/step_pairs.rs.
+stands at (20, 10, 5) mm of the whole, z upwards; each block's own frame is in its middle. What is read of each is in tests/step_pairs.rs.
 """
 
 import re
@@ -116,18 +116,18 @@ def main():
         text = Text(raw)
         found, whole = occurrences(raw)
         if name == "gear":
-            # The first block bears both gears; each has its hinge and its frame of the pair at its middle.
-            base = link(text, "frame", found[0], ["(35.,5.,5.)", "(5.,35.,5.)"])
-            one = link(text, "gear", found[1], ["(5.,5.,5.)"])
-            two = link(text, "gear", found[2], ["(5.,5.,5.)"])
+            # The first block bears both gears; each has its hinge and its frame of the pair at (5, 5, 5) mm from its corner.
+            base = link(text, "frame", found[0], ["(30.,0.,0.)", "(0.,30.,0.)"])
+            one = link(text, "gear", found[1], ["(-1.,-1.,-1.)"])
+            two = link(text, "gear", found[2], ["(-2.,-2.,-2.)"])
             made = [
                 pair(text, "REVOLUTE_PAIR", LOW, base, one, (base[2][0], one[2][0])),
                 pair(text, "REVOLUTE_PAIR", LOW, base, two, (base[2][1], two[2][0])),
                 pair(text, keyword, rest, one, two, (one[2][0], two[2][0])),
             ]
         else:
-            base = link(text, "first", found[0], ["(20.,10.,5.)"])
-            other = link(text, "second", found[1], ["(-10.,10.,5.)"])
+            base = link(text, "first", found[0], ["(15.,5.,0.)"])
+            other = link(text, "second", found[1], ["(-16.,4.,-1.)"])
             made = [pair(text, keyword, rest, base, other, (base[2][0], other[2][0]))]
         mechanism(text, whole, base, found[0][2], made)
         path.write_text(text.whole(), encoding="ascii")
