@@ -60,6 +60,13 @@ impl Graph {
 
     /// The tree that the nodes make; where they run in a circle, the nodes of that, each given in the next.
     fn settle(&mut self) -> Result<(), Vec<usize>> {
+        // Only the world is its own parent.
+        let mut nodes = self.0.iter().enumerate();
+        if let Some((index, _)) =
+            nodes.find(|(index, node)| *index != WORLD && *index == node.parent)
+        {
+            return Err(vec![index]);
+        }
         self.1 = FrameTree::new(self.0.iter().map(|node| node.parent).collect())?;
         Ok(())
     }
