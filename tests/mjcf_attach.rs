@@ -25,7 +25,7 @@ fn base(folder: &Path, inside: &str, more: &str) -> Result<Reading, FormatError>
         <worldbody><body name="base" pos="0 0 1"><joint name="b" range="-90 90"/>{inside}</body></worldbody>{more}</mujoco>"#
     );
     write(folder, "main.xml", &text);
-    read_file(&folder.join("main.xml"), &[])
+    read_file(folder.join("main.xml"), &[])
 }
 
 fn finite(mechanism: &Mechanism) -> Option<usize> {

@@ -128,7 +128,7 @@ mod tests {
 
     #[test]
     fn points_of_two_bodies_are_the_same_after_a_turn() {
-        let quarter = 1.5708;
+        let quarter = (std::f64::consts::FRAC_PI_2 * 1e4).round() / 1e4;
         for (one, other, expected) in [
             (
                 &["0 0 0", "0 0 0.1"][..],

@@ -57,7 +57,7 @@ impl FrameTree {
             depths,
             parents,
         };
-        for node in tree.from_the_root_on() {
+        for node in tree.root_first() {
             let parent = tree.parents[node];
             let middle = tree.jumps[parent];
             let first = tree.depths[parent] - tree.depths[middle];
@@ -116,7 +116,7 @@ impl FrameTree {
             return;
         }
         self.along.resize_with(count, || None);
-        for node in self.from_the_root_on() {
+        for node in self.root_first() {
             let parent = self.parents[node];
             if self.jumps[node] == parent {
                 continue;
@@ -205,7 +205,7 @@ impl FrameTree {
     }
 
     /// All frames but the roots, each behind its parent.
-    fn from_the_root_on(&self) -> Vec<usize> {
+    fn root_first(&self) -> Vec<usize> {
         let below = |node: &usize| self.depths[*node] > 0;
         let mut order: Vec<usize> = (0..self.len()).filter(below).collect();
         order.sort_by_key(|node| self.depths[*node]);

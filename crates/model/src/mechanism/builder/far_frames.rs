@@ -30,7 +30,7 @@ impl FarFrames {
     ) -> Option<[Frame; 2]> {
         let root = LinkId(self.0.root(anchor.0)?);
         let is_long = |to: LinkId| sides.iter().any(|side| self.0.is_long(side.0, to.0));
-        if !is_long(anchor) && !(spec.parallel_to_root && is_long(root)) {
+        if !(is_long(anchor) || spec.parallel_to_root && is_long(root)) {
             return None;
         }
         let seen = |from: LinkId, to: LinkId, last: &[&Frame]| {
