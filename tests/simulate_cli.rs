@@ -419,7 +419,7 @@ fn what_cannot_be_simulated_is_refused_with_a_hint() {
             &["--with", "gravity", "--time-step", "1", "--duration", "0.5"],
             "longer than the scene",
         ),
-        (&["--output", log], "`--output` writes to"),
+        (&["--output", log], "the file that `--output` writes"),
     ] {
         let output = simulate(&[&[bennett, "--mcap", log], words].concat());
         let message = text(&output.stderr);

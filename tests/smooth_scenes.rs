@@ -579,14 +579,15 @@ fn what_is_let_go_where_its_motion_is_not_settled_is_no_matter_of_its_equations(
         let (run, trajectory, _) = estimated(&file(name), 0.25, None, None);
         assert_eq!(run.integrator, Integrator::Engine, "{name}");
         assert!(run.engine_because[0].contains("independent constraints"));
-        // Runs that agree may all have gone another way than those in shorter steps: nothing is claimed, whoever chose the engine.
+        // Runs that agree may all have gone another way than those in shorter steps: nothing is claimed.
         assert_eq!(trajectory.error(), None, "{name}");
-        let engine = Some(Integrator::Engine);
-        let (_, trajectory, _) = estimated(&file(name), 0.25, engine, Some(1e-3));
-        assert_eq!(trajectory.reached, Some(false), "{name}");
-        let why = trajectory.not_estimated.unwrap();
-        assert!(why.contains("not settled"), "{name}: {why}");
     }
+    // Whoever chose the engine.
+    let (engine, wanted) = (Some(Integrator::Engine), Some(1e-3));
+    let (_, trajectory, _) = estimated(&file("four_bar_two_circles"), 0.25, engine, wanted);
+    assert_eq!(trajectory.reached, Some(false));
+    let why = trajectory.not_estimated.unwrap();
+    assert!(why.contains("not settled"), "{why}");
 }
 
 #[test]
