@@ -226,7 +226,7 @@ pub fn run_scene(
 pub(super) fn served<T>(
     mechanism: &Mechanism,
     options: &SceneOptions,
-    run: &mut dyn FnMut(Integrator, &[Serving]) -> Result<Served<T>, WorldError>,
+    run: &mut Running<'_, T>,
 ) -> Result<(T, Vec<&'static str>), WorldError> {
     let mut refused = Vec::new();
     if options.integrator != Some(Integrator::Engine) {
@@ -250,6 +250,10 @@ pub(super) fn served<T>(
         Err(serving) => Err(WorldError::Options(serving.because.to_owned())),
     }
 }
+
+/// Runs with an integrator, told what was refused another one.
+pub(super) type Running<'a, T> =
+    dyn FnMut(Integrator, &[Serving]) -> Result<Served<T>, WorldError> + 'a;
 
 /// A result, or why there is none and the engine has to do it.
 pub(super) type Served<T> = Result<T, Serving>;
