@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes everything that is measured on docs/src/accuracy.md anew, with its records and figures.
+"""Makes everything that is measured on docs/src/accuracy.md, accuracy_by_mechanism.md and stability.md anew, with its records and figures.
 
     python3 benches/accuracy.py --date DATE --machine MACHINE [--quick]
 

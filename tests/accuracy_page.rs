@@ -1,4 +1,4 @@
-//! The page of eight mechanisms: its record, its figures and its text are one, and the errors are those of the program as it is
+//! The pages of eight mechanisms: their record, their figures and their text are one, and the errors are those of the program as it is
 //! now. No seconds are asserted.
 #[path = "../examples/accuracy_page/page.rs"]
 mod page;
@@ -13,6 +13,7 @@ use kutzbach::accuracy::{Accuracy, AccuracyOptions, Claim, Grid, State};
 use kutzbach::closure::{Arithmetic, Geometry};
 use kutzbach::mobility::{AnalysisOptions, analyse};
 use kutzbach::simulate::{Effects, Solver, World, WorldOptions, scene_drives};
+use page::{PAGES, Page};
 use record::{Record, Row};
 use std::fs;
 use subjects::SUBJECTS;
@@ -21,10 +22,6 @@ use support::folder;
 fn kept() -> Record {
     let path = folder("benches/record/accuracy.json");
     serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
-}
-
-fn the_page() -> String {
-    fs::read_to_string(folder("docs/src/accuracy.md")).unwrap()
 }
 
 #[test]
@@ -77,9 +74,13 @@ fn the_record_has_every_mechanism_and_every_way() {
 #[test]
 fn the_page_and_the_figures_show_the_record() {
     let record = kept();
-    let page = the_page();
     let anew = "to write them anew: cargo run --example accuracy_page -- --redraw";
-    assert!(page::replaced(&page, &record).unwrap() == page, "{anew}");
+    let read = |page: Page| fs::read_to_string(folder(page.file())).unwrap();
+    for page in PAGES {
+        let text = read(page);
+        assert!(page.replaced(&text, &record).unwrap() == text, "{anew}");
+    }
+    let page = read(Page::ByMechanism);
     for row in &record.mechanisms {
         let svg = fs::read_to_string(folder(&page::figure_file(&row.name))).unwrap();
         assert!(page::figure_of(row) == svg, "{}: {anew}", row.name);
@@ -90,7 +91,7 @@ fn the_page_and_the_figures_show_the_record() {
 
 #[test]
 fn a_page_without_its_markers_is_refused() {
-    assert!(page::replaced("", &kept()).is_err());
+    assert!(PAGES.iter().all(|page| page.replaced("", &kept()).is_err()));
 }
 
 /// One coarse setting for each solver.

@@ -90,6 +90,7 @@ mod polynomial_couplings;
 mod polynomial_systems;
 mod pose_warnings;
 mod poses;
+mod promises;
 mod read_again;
 mod readme;
 mod record;

@@ -66,6 +66,7 @@ fn attachments_metadata_and_topics() {
         ("/joint_states", "foxglove.JointStates"),
         ("/log", "foxglove.Log"),
         ("/mobility/closure", "closure.Closure"),
+        ("/mobility/error", "estimate.Estimate"),
         ("/mobility/prediction", "prediction.Prediction"),
         ("/robot_description", "std_msgs/msg/String"),
         ("/scene", "foxglove.SceneUpdate"),

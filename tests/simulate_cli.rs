@@ -110,7 +110,10 @@ fn what_has_nothing_to_act_on_is_named() {
     let still = json(&[file, "--duration", "1", "--integrator", "engine"]);
     assert!(still["scene"].is_null());
     let named = &still["idle_options"];
-    assert_eq!(named, &serde_json::json!(["--integrator", "--duration"]));
+    let because = "nothing calls for a scene";
+    let wanted = ["--integrator", "--duration"]
+        .map(|option| serde_json::json!({ "option": option, "because": because }));
+    assert_eq!(named, &Value::from(wanted.to_vec()));
     let output = simulate(&[file, "--duration", "1"]);
     let words = text(&output.stdout)
         .split_whitespace()
@@ -129,6 +132,106 @@ fn what_has_nothing_to_act_on_is_named() {
         .collect();
     assert_eq!(idle, ["limits", "friction"]);
     assert_eq!(run["scene"]["integrator"], "runge_kutta");
+}
+
+/// Options that were given and change nothing, each with a word of the reason.
+#[test]
+fn every_idle_option_is_named_with_its_reason() {
+    let mobile = "mechanisms/bennett.urdf";
+    let rigid = "mechanisms/bennett_spoiled.urdf";
+    let driven = "mechanisms/four_bar_lifting_box.urdf";
+    for (file, words, named) in [
+        (mobile, &[][..], &[][..]),
+        (
+            mobile,
+            &["--restitution", "0.5"],
+            &[("--restitution", "no contact")],
+        ),
+        (
+            mobile,
+            &[
+                "--with",
+                "gravity",
+                "--integrator",
+                "engine",
+                "--duration",
+                "0.1",
+            ],
+            &[],
+        ),
+        (
+            mobile,
+            &["--without", "contact"],
+            &[("--without contact", "does not have")],
+        ),
+        (
+            mobile,
+            &[
+                "--with",
+                "gravity",
+                "--with",
+                "gravity",
+                "--duration",
+                "0.1",
+            ],
+            &[("--with gravity", "twice")],
+        ),
+        (
+            driven,
+            &[
+                "--with",
+                "gravity",
+                "--without",
+                "damping",
+                "--duration",
+                "0.1",
+            ],
+            &[
+                ("--with gravity", "has it already"),
+                ("--without damping", "does not have"),
+            ],
+        ),
+        (
+            driven,
+            &[
+                "--without",
+                "contact",
+                "--with",
+                "limits",
+                "--duration",
+                "0.1",
+            ],
+            &[],
+        ),
+        (
+            mobile,
+            &["--duration", "0.1"],
+            &[("--duration", "nothing calls")],
+        ),
+        (
+            rigid,
+            &["--seed", "7", "--whole-ladder"],
+            &[("--seed", "no motion"), ("--whole-ladder", "no motion")],
+        ),
+        (rigid, &["--solver", "impulse", "--substeps", "4,8"], &[]),
+        (
+            mobile,
+            &["--seed", "7", "--whole-ladder", "--substeps", "4,8"],
+            &[],
+        ),
+    ] {
+        let simulated = json(&[&[file, "--budget", "1"][..], words].concat());
+        let idle = simulated["idle_options"]
+            .as_array()
+            .cloned()
+            .unwrap_or_default();
+        assert_eq!(idle.len(), named.len(), "{words:?}: {idle:?}");
+        for (found, (option, reason)) in idle.iter().zip(named) {
+            assert_eq!(found["option"], *option, "{words:?}");
+            let because = found["because"].as_str().unwrap();
+            assert!(because.contains(reason), "{words:?}: {because}");
+        }
+    }
 }
 
 #[test]
@@ -306,6 +409,17 @@ fn what_cannot_be_simulated_is_refused_with_a_hint() {
             &["--with", "limits", "--without", "limits"],
             "contradict one another",
         ),
+        (&["--accuracy", "1e-3", "--substeps", "4"], "--substeps"),
+        (&["--accuracy", "1e-3", "--time-step", "0.1"], "--time-step"),
+        (
+            &["--whole-ladder", "--substeps", "4"],
+            "`--whole-ladder` changes nothing",
+        ),
+        (
+            &["--with", "gravity", "--time-step", "1", "--duration", "0.5"],
+            "longer than the scene",
+        ),
+        (&["--output", log], "the file that `--output` writes"),
     ] {
         let output = simulate(&[&[bennett, "--mcap", log], words].concat());
         let message = text(&output.stderr);
@@ -392,6 +506,57 @@ fn told(log: &Path) -> Vec<String> {
         .filter(|message| message.channel.topic == "/log")
         .map(|message| String::from_utf8_lossy(&message.data).into_owned())
         .collect()
+}
+
+/// Times (ns) and, of protobuf messages that begin with a double, that number; of one topic.
+fn numbers_in(log: &Path, topic: &str) -> Vec<(u64, f64)> {
+    let bytes = fs::read(log).unwrap();
+    let messages = mcap::MessageStream::new(&bytes)
+        .unwrap()
+        .map(Result::unwrap);
+    messages
+        .filter(|message| message.channel.topic == topic)
+        .map(|message| {
+            let number = message
+                .data
+                .get(1..9)
+                .map(|bytes| bytes.try_into().unwrap());
+            (message.log_time, number.map_or(0.0, f64::from_le_bytes))
+        })
+        .collect()
+}
+
+#[test]
+fn a_log_says_how_far_a_scene_is_off_at_each_of_its_moments() {
+    let log = folder("error_over_time").join("scene.mcap");
+    for integrator in ["auto", "engine"] {
+        let simulated = json(&[
+            "mechanisms/bennett.urdf",
+            "--with",
+            "gravity",
+            "--duration",
+            "0.5",
+            "--integrator",
+            integrator,
+            "--mcap",
+            log.to_str().unwrap(),
+        ]);
+        let errors = numbers_in(&log, "/mobility/error");
+        let shown = numbers_in(&log, "/mobility/closure");
+        // The scene is the last passage.
+        let scene = &shown[shown.len() - errors.len()..];
+        assert_eq!(errors.len(), 30, "{integrator}");
+        for ((at, _), (seen, _)) in errors.iter().zip(scene) {
+            assert_eq!(at, seen, "{integrator}");
+        }
+        let trajectory = &simulated["scene"]["trajectory"];
+        let used = trajectory["used"].as_u64().unwrap() as usize;
+        let told = trajectory["rows"][used]["error"]["worst"].as_f64().unwrap();
+        let worst = errors.iter().map(|(_, error)| *error).fold(0.0, f64::max);
+        assert!((worst / told - 1.0).abs() < 1e-12, "{worst} {told}");
+        // It begins where it is known to be.
+        assert!(errors[0].1 < 0.5 * worst, "{integrator}: {errors:?}");
+    }
 }
 
 /// Starts a simulation, waits until it has got somewhere, presses Ctrl-C, and waits for the end.

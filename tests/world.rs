@@ -1,5 +1,7 @@
 //! The simulated world against what is known of joints, energy, limits, contact and coupling.
 
+#[path = "world/closed_forms.rs"]
+mod closed_forms;
 #[path = "world/effects.rs"]
 mod effects;
 #[path = "world/guards.rs"]

@@ -24,11 +24,15 @@ CONSTRAINED = {
 }
 
 
-def build(mechanism, rates=None, relaxed=None):
-    """The system, assembled; `rates` are twists of the links at the start, `relaxed` maps joints to other flags."""
+def build(mechanism, rates=None, relaxed=None, centre=np.zeros(3), gravity=np.zeros(3)):
+    """The system, assembled; `rates` are twists of the links at the start, `relaxed` maps joints to other flags. Links have 1 kg at a
+    place of their frame and 1 kg m² about it."""
     container = exu.SystemContainer()
     mbs = container.AddSystem()
-    inertia = eu.RigidBodyInertia(mass=1, inertiaTensor=np.eye(3))
+    centre = np.asarray(centre, float)
+    # About the frame's origin, as Exudyn wants it.
+    about = (1 + centre @ centre) * np.eye(3) - np.outer(centre, centre)
+    inertia = eu.RigidBodyInertia(mass=1, inertiaTensor=about, com=centre)
     bodies = {}
     for name, at in mechanism.links.items():
         if name == mechanism.ground:
@@ -37,7 +41,7 @@ def build(mechanism, rates=None, relaxed=None):
         w, v = rates[name] if rates else (np.zeros(3), np.zeros(3))
         bodies[name] = mbs.CreateRigidBody(
             inertia=inertia, referencePosition=at[:3, 3], referenceRotationMatrix=at[:3, :3],
-            initialVelocity=v, initialAngularVelocity=w,
+            initialVelocity=v, initialAngularVelocity=w, gravity=list(gravity),
         )
     for j in mechanism.joints:
         if j.kind == "floating":

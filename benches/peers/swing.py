@@ -1,11 +1,13 @@
-"""Mechanisms that swing from rest under gravity, in kutzbach and MuJoCo: CPU time for a simulated second at equal error.
+"""Mechanisms that swing from rest under gravity, in kutzbach, MuJoCo and Exudyn: CPU time for a simulated second at equal error.
 
     python benches/peers/swing.py --kutzbach target/release/kutzbach [--only four-bar] [--stages 100]
 
 Every link has 1 kg at one place of its frame and 1 kg m² about it, in both. The error is that of where links are after the swing, in
 lengths of the mechanism: kutzbach's as it tells it itself (runs in halved steps), MuJoCo's against its own run in the
 shortest step with RK4, which the kinetic energies of both tools at the end confirm to be the same motion. Loops are as stiff in
-MuJoCo as its integrator bears (a time constant of two steps). CPU time of the process, steps alone.
+MuJoCo as its integrator bears (a time constant of two steps). Exudyn holds all joints by constraints (index 3, generalized alpha
+without damping, dense matrices as planar loops repeat constraints), so that it is asked for small mechanisms only; its error is that
+against its own run in a quarter of its shortest step. CPU time of the process, steps alone.
 """
 
 import argparse
@@ -84,6 +86,46 @@ def theirs(mechanism, duration, integrator, per_second):
     return seconds / duration, data.xpos.copy(), float(data.energy[1])
 
 
+def in_exudyn(mechanism, duration, per_second):
+    """CPU seconds for a simulated second, where the moving links are, and their kinetic energy (J)."""
+    import exudyn as exu
+    from peer_exudyn import build, quiet
+
+    _, mbs, bodies = build(mechanism, centre=CENTRE, gravity=GRAVITY)
+    settings = quiet()
+    integration = settings.timeIntegration
+    integration.endTime, integration.numberOfSteps = duration, round(duration * per_second)
+    integration.generalizedAlpha.spectralRadius = 1.0
+    integration.newton.useModifiedNewton = True
+    integration.newton.relativeTolerance, integration.newton.absoluteTolerance = 1e-10, 1e-12
+    settings.linearSolver.solverType = exu.LinearSolverType.EigenDense
+    settings.linearSolver.ignoreSingularJacobian = True
+    begun = time.process_time()
+    mbs.SolveDynamic(settings)
+    seconds = time.process_time() - begun
+    moving = [body for name, body in bodies.items() if name != mechanism.ground]
+    of = lambda body, what: np.array(mbs.GetObjectOutputBody(body, getattr(exu.OutputVariableType, what), [0, 0, 0]))
+    speeds = [np.array(mbs.GetObjectOutputBody(body, exu.OutputVariableType.Velocity, CENTRE)) for body in moving]
+    spins = [of(body, "AngularVelocity") for body in moving]
+    kinetic = 0.5 * sum(v @ v for v in speeds) + 0.5 * sum(w @ w for w in spins)
+    return seconds / duration, np.array([of(body, "Position") for body in moving]), float(kinetic)
+
+
+def exudyn_rows(mechanism, duration, length):
+    """The table of Exudyn, or why there is none."""
+    rates = (125, 250, 500, 1000, 2000)
+    try:
+        _, reference, kinetic = in_exudyn(mechanism, duration, 4 * rates[-1])
+    except Exception as failure:  # whatever the peer stumbles over is told, and the others go on
+        print(f"  Exudyn: {failure}", flush=True)
+        return
+    print(f"  Exudyn, reference: kinetic energy {kinetic:.5f} J", flush=True)
+    for per_second in rates:
+        cpu, places, kinetic = in_exudyn(mechanism, duration, per_second)
+        error = np.abs(places - reference).max() / length
+        print(f"  Exudyn, {per_second} steps/s: error {error:.1e}, {cpu:.4f} CPU s per second, kinetic energy {kinetic:.5f} J", flush=True)
+
+
 def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("--kutzbach", required=True)
@@ -118,6 +160,9 @@ def main():
                     error = np.abs(places - reference).max() / length
                     print(f"  MuJoCo {integrator}, {per_second} steps/s: error {error:.1e}, {cpu:.4f} CPU s per second, "
                           f"kinetic energy {kinetic:.5f} J", flush=True)
+            # Dense matrices: 1,800 unknowns of a lift of 100 stages take hours.
+            if len(mechanism.links) <= 40:
+                exudyn_rows(mechanism, given.duration, length)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-//! What accuracy costs for eight mechanisms that differ: the measured parts of `docs/src/accuracy.md`, and its figures.
+//! What accuracy costs for eight mechanisms that differ: the measured parts of two pages of the book, and their figures.
 //!
 //! ```text
 //! cargo run --release --example accuracy_page                            # prints the measured parts
@@ -8,7 +8,7 @@
 //! ```
 //!
 //! `--update` measures, some minutes, and writes the record `benches/record/accuracy.json`, the figures
-//! `docs/src/images/accuracy_….svg` and the parts of the page between its markers; `--redraw` writes figures and page again
+//! `docs/src/images/accuracy_….svg` and the parts of the pages between their markers; `--redraw` writes figures and pages again
 //! from the record. `tests/accuracy_page.rs` holds all of it against each other and against a fresh measurement.
 
 mod page;
@@ -20,7 +20,6 @@ use std::fs;
 use subjects::{Result, SUBJECTS, Subject};
 
 const RECORD: &str = "benches/record/accuracy.json";
-const PAGE: &str = "docs/src/accuracy.md";
 
 fn main() -> Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -53,7 +52,7 @@ fn measured(date: &str, machine: &str, subjects: &[Subject]) -> Result<Record> {
 }
 
 fn print(record: &Record) {
-    for (_, text) in page::parts(record) {
+    for (_, text) in page::PAGES.iter().flat_map(|page| page.parts(record)) {
         println!("{text}");
     }
 }
@@ -63,7 +62,9 @@ fn write(record: &Record) -> Result<()> {
     for row in &record.mechanisms {
         fs::write(page::figure_file(&row.name), page::figure_of(row))?;
     }
-    let replaced = page::replaced(&fs::read_to_string(PAGE)?, record)?;
-    fs::write(PAGE, replaced)?;
+    for page in page::PAGES {
+        let replaced = page.replaced(&fs::read_to_string(page.file())?, record)?;
+        fs::write(page.file(), replaced)?;
+    }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! The parts of the page that are written by the program: a table of all mechanisms, and for each its figure and two short
+//! The parts of the pages that are written by the program: a table of all mechanisms, and for each its figure and two short
 //! tables.
 
 use super::record::{Record, Row};
@@ -55,33 +55,53 @@ pub fn figure_of(row: &Row) -> String {
         .document()
 }
 
-/// The page with its measured parts replaced.
-///
-/// # Errors
-/// Where the page lacks a marker.
-pub fn replaced(page: &str, record: &Record) -> Result<String> {
-    let mut page = page.to_owned();
-    for (name, text) in parts(record) {
-        let lacks = |marker: &str| format!("the page has no line `{marker}`");
-        let (begin, end) = (begin(&name), end(&name));
-        let (before, rest) = page.split_once(&begin).ok_or_else(|| lacks(&begin))?;
-        let (_, after) = rest.split_once(&end).ok_or_else(|| lacks(&end))?;
-        page = format!("{before}{begin}\n\n{text}\n{end}{after}");
-    }
-    Ok(page)
+/// A page of the book with measured parts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Page {
+    /// All mechanisms in one table, and what a digit costs.
+    Short,
+    /// Each with its figure and tables.
+    ByMechanism,
 }
 
-/// What is measured, as Markdown: by the name of its markers.
-#[must_use]
-pub fn parts(record: &Record) -> Vec<(String, String)> {
-    let mut parts = vec![(SUMMARY.to_owned(), summary(record))];
-    parts.extend(
-        record
-            .mechanisms
-            .iter()
-            .map(|row| (row.name.clone(), one(row))),
-    );
-    parts
+/// All of them.
+pub const PAGES: [Page; 2] = [Page::Short, Page::ByMechanism];
+
+impl Page {
+    /// Its file, seen from the package.
+    #[must_use]
+    pub fn file(self) -> &'static str {
+        match self {
+            Self::Short => "docs/src/accuracy.md",
+            Self::ByMechanism => "docs/src/accuracy_by_mechanism.md",
+        }
+    }
+
+    /// The page with its measured parts replaced.
+    ///
+    /// # Errors
+    /// Where the page lacks a marker.
+    pub fn replaced(self, page: &str, record: &Record) -> Result<String> {
+        let mut page = page.to_owned();
+        for (name, text) in self.parts(record) {
+            let lacks = |marker: &str| format!("the page has no line `{marker}`");
+            let (begin, end) = (begin(&name), end(&name));
+            let (before, rest) = page.split_once(&begin).ok_or_else(|| lacks(&begin))?;
+            let (_, after) = rest.split_once(&end).ok_or_else(|| lacks(&end))?;
+            page = format!("{before}{begin}\n\n{text}\n{end}{after}");
+        }
+        Ok(page)
+    }
+
+    /// What is measured, as Markdown: by the name of its markers.
+    #[must_use]
+    pub fn parts(self, record: &Record) -> Vec<(String, String)> {
+        let rows = record.mechanisms.iter();
+        match self {
+            Self::Short => vec![(SUMMARY.to_owned(), summary(record))],
+            Self::ByMechanism => rows.map(|row| (row.name.clone(), one(row))).collect(),
+        }
+    }
 }
 
 fn say(text: &mut String, line: &str) {
@@ -177,7 +197,37 @@ fn summary(record: &Record) -> String {
             ),
         );
     }
-    text
+    text + &price(record)
+}
+
+/// What an error of 1e-4 costs, and each further digit: over all mechanisms that have both.
+fn price(record: &Record) -> String {
+    let paid = |row: &Row, wanted: f64| {
+        let found = choose(settings(&row.accuracy), wanted).timing?;
+        Some((found.error, found.seconds_per_second))
+    };
+    let mut seconds = Vec::new();
+    let mut factors = Vec::new();
+    for row in &record.mechanisms {
+        let (Some(coarse), Some(fine)) = (paid(row, 1e-4), paid(row, 1e-6)) else {
+            continue;
+        };
+        seconds.push(coarse.1);
+        factors.push((fine.1 / coarse.1).powf(1.0 / (coarse.0 / fine.0).log10()));
+    }
+    let ends = |numbers: &mut Vec<f64>| {
+        numbers.sort_by(f64::total_cmp);
+        Some((*numbers.first()?, *numbers.last()?))
+    };
+    match (ends(&mut seconds), ends(&mut factors)) {
+        (Some((least, most)), Some((cheapest, dearest))) => format!(
+            "\n**A ten-thousandth of a machine's length costs from {} to {} for a second of motion in the physics engine, each further digit \
+             {cheapest:.1} to {dearest:.1} times as much.**\n",
+            duration(least),
+            duration(most)
+        ),
+        _ => String::new(),
+    }
 }
 
 fn one(row: &Row) -> String {

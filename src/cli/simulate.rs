@@ -2,11 +2,12 @@
 
 pub mod aside;
 mod choices;
+mod idle;
 mod log;
 mod setting;
 mod table;
 
-use super::failure::{Failure, refuse_idle};
+use super::failure::Failure;
 use super::pose::Pose;
 use super::{DISAGREEMENT, DONE, UNDECIDED, interrupt, load, output, terminal};
 use choices::{Effect, Format, IntegratorChoice, SolverChoice, substeps};
@@ -14,7 +15,7 @@ use clap::Args;
 use kutzbach::mobility::{AnalysisOptions, Followed, Verdict, analyse_to_follow};
 use kutzbach::simulate::verification::{Outcome, VerificationOptions, verify};
 use kutzbach::simulate::{
-    LONGEST_STEP, RUNGE_KUTTA_STEP, Refinement, SceneOptions, WorldOptions, cost_table,
+    Effects, LONGEST_STEP, RUNGE_KUTTA_STEP, Refinement, SceneOptions, WorldOptions, cost_table,
     run_scene_estimated, scene_drives,
 };
 use log::Log;
@@ -83,7 +84,9 @@ pub struct Arguments {
     /// What makes the scene move
     #[arg(long, value_enum, default_value_t = IntegratorChoice::Auto, help_heading = "The scene")]
     integrator: IntegratorChoice,
-
+    /// How fast shapes that touch part again, as a share of the speed of approach, from 0 to 1 [default: 0]
+    #[arg(long, value_name = "SHARE", value_parser = share, help_heading = "The scene")]
+    restitution: Option<f64>,
     /// Simulated seconds of the scene [default: 2]
     #[arg(long, value_name = "SECONDS", help_heading = "The scene")]
     duration: Option<f64>,
@@ -118,19 +121,11 @@ fn budget(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Options given that concern a scene.
-fn idle_options(arguments: &Arguments) -> Vec<&'static str> {
-    [
-        (
-            "--integrator",
-            arguments.integrator != IntegratorChoice::Auto,
-        ),
-        ("--duration", arguments.duration.is_some()),
-        ("--without", !arguments.without.is_empty()),
-    ]
-    .into_iter()
-    .filter_map(|(name, given)| given.then_some(name))
-    .collect()
+fn share(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(share) if (0.0..=1.0).contains(&share) => Ok(share),
+        _ => Err(format!("`{text}` is no number from 0 to 1")),
+    }
 }
 
 /// Simulated seconds of a scene where none are asked for.
@@ -148,24 +143,7 @@ const COST_STEPS: usize = 500;
 /// Where the file cannot be read, has no such configuration, branch or joint, no world can be made, or output cannot be
 /// written.
 pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let (text, log) = (arguments.format == Format::Text, arguments.mcap.is_some());
-    refuse_idle(&[
-        (
-            arguments.samples.is_some() && !log,
-            "--samples",
-            "`--mcap LOG`",
-        ),
-        (
-            arguments.timing && text,
-            "--timing",
-            "`--format json`: the text has times",
-        ),
-        (
-            arguments.verbose && !text,
-            "--verbose",
-            "`--format text`: JSON has every detail",
-        ),
-    ])?;
+    idle::refuse(arguments)?;
     let mut reading = arguments.source.read()?;
     let configuration = arguments.pose.configure(&mut reading)?;
     let mechanism = &reading.mechanism;
@@ -218,9 +196,6 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     }
     .check()
     .map_err(|error| refused(error.to_string()))?;
-    if let Some(contradiction) = choices::contradiction(&arguments.with, &arguments.without) {
-        return Err(refused(contradiction));
-    }
     let duration = arguments.duration.unwrap_or(DURATION);
     if !(duration >= 0.0 && duration.is_finite()) {
         return Err(refused(format!(
@@ -246,15 +221,34 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         setting::begin_with(setting, &mut options);
     }
 
-    let effects = choices::effects(mechanism, &arguments.with, &arguments.without);
+    let effects = Effects {
+        restitution: arguments.restitution.unwrap_or_default(),
+        ..choices::effects(mechanism, &arguments.with, &arguments.without)
+    };
     let drives = scene_drives(mechanism);
+    // A step that is asked for is taken as it is, and refused where it is longer than the scene.
+    let no_longer = |usual: f64| match (arguments.time_step, duration > 0.0) {
+        (Some(step), _) => step,
+        (None, true) => usual.min(duration),
+        (None, false) => usual,
+    };
     let world = WorldOptions {
         solver: options.solvers.first().copied().unwrap_or_default(),
         effects,
-        time_step: setting.map_or(arguments.time_step.unwrap_or(1.0 / 240.0), |s| s.time_step),
+        time_step: no_longer(setting.map_or(1.0 / 240.0, |s| s.time_step)),
         substeps: setting.map_or(WorldOptions::default().substeps, |s| s.substeps),
     };
     let called_for = !kutzbach::simulate::effect_names(&effects).is_empty() || !drives.is_empty();
+
+    if called_for
+        && let Some(step) = arguments.time_step
+        && duration > 0.0
+        && step > duration
+    {
+        return Err(refused(format!(
+            "a step of {step} s is longer than the scene, which lasts {duration} s"
+        )));
+    }
 
     let mut log = Log::begin(arguments, &reading, &geometry, &analysis, &options)?;
     let verification = log
@@ -267,10 +261,12 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         verification,
         scene: None,
         cost: None,
-        idle: match called_for {
-            true => Vec::new(),
-            false => idle_options(arguments),
-        },
+        idle: idle::idle(
+            arguments,
+            mechanism,
+            analysis.mobility.verdict,
+            (&effects, called_for),
+        ),
         log: None,
         stopped: false,
     };
@@ -281,11 +277,10 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             drives: drives.clone(),
             duration,
             integrator: arguments.integrator.integrator(),
-            runge_kutta_step: match (arguments.time_step, arguments.accuracy) {
-                (Some(step), _) => step,
-                (None, Some(_)) => LONGEST_STEP,
-                (None, None) => RUNGE_KUTTA_STEP,
-            },
+            runge_kutta_step: no_longer(match arguments.accuracy {
+                Some(_) => LONGEST_STEP,
+                None => RUNGE_KUTTA_STEP,
+            }),
         };
         let states = &analysis.assembly.states;
         let refinement = Refinement {

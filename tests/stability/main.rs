@@ -4,7 +4,7 @@
 //! Every member is built with exact numbers (but for those of `digits`, which are about rounded ones), and what is true of it
 //! is derived where it is built. An answer is *right* if a verdict was given and all that was decided is true, *undecided* if
 //! no verdict was given and nothing decided is false, and *wrong* otherwise. How far a family is decided is a fact of the
-//! program: the table of it is written by this suite into `docs/src/accuracy.md` and compared with what is found:
+//! program: the table of it is written by this suite into `docs/src/stability.md` and compared with what is found:
 //!
 //! ```text
 //! KUTZBACH_UPDATE=1 cargo test --test it stability::
@@ -263,7 +263,7 @@ fn more_digits_are_used_where_they_are_needed() {
 
 #[test]
 fn the_table_in_the_documentation_shows_what_is_found_now() {
-    let path = folder("docs/src/accuracy.md");
+    let path = folder("docs/src/stability.md");
     let page = std::fs::read_to_string(&path).unwrap();
     let [begin, end] = table::MARKS;
     let (head, rest) = page.split_once(begin).expect("the page has a place for it");

@@ -6,7 +6,7 @@
 The committed tree is copied to a folder of the target folder. Each mutation is an exact replacement of a text that has to occur exactly once
 in its file. All of them are built together, each behind a switch that an environment variable names, so that one build serves
 all; the suite has to succeed with no switch thrown, and to fail with any of them. Printed, and with --update written to
-benches/record/stability_mutations.json and docs/src/accuracy.md: mutation, what it was, the families that caught it.
+benches/record/stability_mutations.json and docs/src/stability.md: mutation, what it was, the families that caught it.
 
 The exit code is 0 if every mutation was caught but those that are listed as unobservable, with a reason.
 """
@@ -192,7 +192,7 @@ def kept(results, date):
     results = [known[name] for name, *_ in MUTATIONS if name in known]
     record = {"measured": date, "without": "succeeds", "mutations": results}
     RECORD.write_text(json.dumps(record, indent=1, ensure_ascii=False) + "\n")
-    page = ROOT / "docs/src/accuracy.md"
+    page = ROOT / "docs/src/stability.md"
     head, rest = page.read_text().split(MARKS[0])
     tail = rest.split(MARKS[1])[1]
     page.write_text(f"{head}{MARKS[0]}\n\n{table(results)}\n\n{MARKS[1]}{tail}")

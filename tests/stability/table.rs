@@ -3,7 +3,7 @@
 use super::ladder::{Climbed, Seen};
 use kutzbach::families::Outcome;
 
-/// The marks between which the table stands in `docs/src/accuracy.md`.
+/// The marks between which the table stands in `docs/src/stability.md`.
 pub const MARKS: [&str; 2] = ["<!-- stability: begin -->", "<!-- stability: end -->"];
 
 /// The table, a row for every family.

@@ -127,10 +127,17 @@ def layout(log):
             ]
         },
     )
+    error = rrb.TimeSeriesView(
+        name="/mobility/error: about how far the scene is off",
+        origin="/mobility/error",
+        overrides={
+            "/mobility/error": [series("error", "estimate.Estimate:message", ".error", amber)]
+        },
+    )
     return rrb.Blueprint(
         rrb.Vertical(
             mechanism,
-            rrb.Horizontal(closure, drive, rrb.TextLogView(name="/log", origin="/log")),
+            rrb.Horizontal(closure, drive, error, rrb.TextLogView(name="/log", origin="/log")),
             row_shares=[3, 1],
         ),
         rrb.BlueprintPanel(state="hidden"),

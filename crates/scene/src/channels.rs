@@ -1,7 +1,7 @@
 //! The topics of a log and their schemas.
 
 use super::error::RecordError;
-use super::messages::{Closure, Prediction};
+use super::messages::{Closure, Estimate, Prediction};
 use super::names::Stream;
 use foxglove::Encode;
 use foxglove::messages::{FrameTransforms, JointStates, Log, SceneUpdate};
@@ -26,6 +26,7 @@ pub struct Channels {
     pub gaps: Channel,
     pub closure: Channel,
     pub prediction: Channel,
+    pub error: Channel,
     pub log: Channel,
     /// By stream.
     pub joint_states: [Channel; 2],
@@ -45,6 +46,7 @@ impl Channels {
             gaps: typed::<SceneUpdate, W>(writer, "/scene/gaps")?,
             closure: typed::<Closure, W>(writer, "/mobility/closure")?,
             prediction: typed::<Prediction, W>(writer, "/mobility/prediction")?,
+            error: typed::<Estimate, W>(writer, "/mobility/error")?,
             log: typed::<Log, W>(writer, "/log")?,
             joint_states: both("joint_states", &mut |topic| {
                 typed::<JointStates, W>(writer, topic)

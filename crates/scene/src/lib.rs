@@ -51,7 +51,7 @@ pub use error::RecordError;
 #[cfg(feature = "logs")]
 pub use log_file::LogFile;
 #[cfg(feature = "logs")]
-pub use messages::{Closure, ClosureError, Gap, JointClosure, Level, Motion, Prediction};
+pub use messages::{Closure, ClosureError, Estimate, Gap, JointClosure, Level, Motion, Prediction};
 #[cfg(feature = "logs")]
 pub use names::{Stream, frame_id, readable};
 #[cfg(feature = "logs")]

@@ -153,6 +153,13 @@ pub struct Prediction {
     pub event: String,
 }
 
+/// About how far a simulated scene is off, by runs in steps of another length, on `/mobility/error`.
+#[derive(Clone, Debug, Default, PartialEq, foxglove::Encode)]
+pub struct Estimate {
+    /// Poses of links (characteristic lengths and radians).
+    pub error: f64,
+}
+
 /// How urgent an entry of `/log` is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {

@@ -5,7 +5,9 @@ use super::attachments::{attachment, media_type};
 use super::channels::{Channel, Channels};
 use super::error::RecordError;
 use super::log_file::LogFile;
-use super::messages::{Closure, Level, Motion, Prediction, nanoseconds, rotation, stamp, vector};
+use super::messages::{
+    Closure, Estimate, Level, Motion, Prediction, nanoseconds, rotation, stamp, vector,
+};
 use super::names::{Stream, frame_id, variable_names};
 use super::robot_description::{cdr_string, robot_description};
 use super::scene;
@@ -294,6 +296,15 @@ impl<'a, W: Write> Recorder<'a, W> {
     pub fn prediction(&mut self, time: f64, prediction: &Prediction) -> Result<(), RecordError> {
         let at = nanoseconds(time)?;
         self.send(|channels| &mut channels.prediction, at, prediction)
+    }
+
+    /// Records how far the simulated motion is off at a moment, which may lie before the latest one: it is known when more runs have ended.
+    ///
+    /// # Errors
+    /// [`RecordError::Time`], [`RecordError::Io`]. Numbers that are not finite are allowed here: they are findings.
+    pub fn estimate(&mut self, time: f64, estimate: &Estimate) -> Result<(), RecordError> {
+        let at = nanoseconds(time)?;
+        self.send(|channels| &mut channels.error, at, estimate)
     }
 
     /// Records a sentence.

@@ -52,7 +52,7 @@ pub(super) fn add(
         );
     }
     if effects.contact {
-        contact(mechanism, units, built, physics);
+        contact(mechanism, effects.restitution, units, built, physics);
     }
 }
 
@@ -168,7 +168,13 @@ fn resistances(
 /// Coefficient of friction between shapes: the format states none.
 const CONTACT_FRICTION: f64 = 0.5;
 
-fn contact(mechanism: &Mechanism, units: &Units, built: &mut Built, physics: &mut PhysicsWorld) {
+fn contact(
+    mechanism: &Mechanism,
+    restitution: f64,
+    units: &Units,
+    built: &mut Built,
+    physics: &mut PhysicsWorld,
+) {
     for joint in mechanism.joints() {
         let (a, b) = (
             joint.predecessor.link.0 as u32,
@@ -193,7 +199,7 @@ fn contact(mechanism: &Mechanism, units: &Units, built: &mut Built, physics: &mu
                 .position(body_from_link * placed)
                 .density(0.0)
                 .friction(CONTACT_FRICTION)
-                .restitution(0.0)
+                .restitution(restitution)
                 .active_hooks(ActiveHooks::FILTER_CONTACT_PAIRS)
                 .user_data(index as u128);
             let body = built.bodies[index];

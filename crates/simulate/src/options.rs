@@ -33,6 +33,9 @@ pub struct Effects {
     pub gravity: Option<[f64; 3]>,
     /// Contact between the collision shapes of links that no joint connects.
     pub contact: bool,
+    /// How fast what touches parts again, as a share of the speed of approach (Newton's coefficient of restitution, from 0 to 1); the format
+    /// states none.
+    pub restitution: f64,
     /// Joint limits, from `<limit>`.
     pub limits: bool,
     /// Dry friction in joints, from `<dynamics friction>`.
@@ -54,6 +57,7 @@ impl Effects {
                 .as_ref()
                 .map(|g| [0, 1, 2].map(|i| g[i].value())),
             contact: scene.contact,
+            restitution: 0.0,
             limits: scene.limits,
             friction: scene.friction,
             damping: scene.damping,
@@ -97,7 +101,7 @@ impl WorldOptions {
     ///
     /// # Errors
     /// [`WorldError::Options`] where the time step is not between 1e-12 s and 1e6 s, the substeps are none or more than
-    /// 2^20, or gravity is not finite.
+    /// 2^20, gravity is not finite, or the coefficient of restitution is not between 0 and 1.
     pub fn check(&self) -> Result<(), WorldError> {
         let refuse = |what: String| Err(WorldError::Options(what));
         if !STEPS.contains(&self.time_step) {
@@ -118,6 +122,12 @@ impl WorldOptions {
             && !gravity.iter().all(|g| g.is_finite())
         {
             return refuse(format!("gravity must be finite, but is {gravity:?}"));
+        }
+        let restitution = self.effects.restitution;
+        if !(0.0..=1.0).contains(&restitution) {
+            return refuse(format!(
+                "the coefficient of restitution must be between 0 and 1, but is {restitution}"
+            ));
         }
         Ok(())
     }

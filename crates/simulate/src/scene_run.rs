@@ -182,6 +182,7 @@ fn is_conservative(options: &SceneOptions) -> bool {
     let Effects {
         gravity: _,
         contact,
+        restitution: _,
         limits,
         friction,
         damping,
@@ -210,7 +211,7 @@ pub fn run_scene(
         start,
         options,
     };
-    let (mut run, because) = served(mechanism, options, &mut |integrator| {
+    let (mut run, because) = served(mechanism, options, &mut |integrator, _| {
         let paces = Paces::of(options, integrator);
         run_in(&scene, integrator, paces, observer, &mut |_, _| ())
     })?;
@@ -218,20 +219,20 @@ pub fn run_scene(
     Ok(run)
 }
 
-/// Runs with Runge-Kutta steps where they serve, and else, or where they turn out not to, with the engine; and says why.
+/// Runs with Runge-Kutta steps where they serve, and else, or where they turn out not to, with the engine, which is told why; and says it.
 ///
 /// # Errors
 /// Those of the runs, and [`WorldError::Options`] where the integrator asked for cannot serve the scene.
 pub(super) fn served<T>(
     mechanism: &Mechanism,
     options: &SceneOptions,
-    run: &mut dyn FnMut(Integrator) -> Result<Served<T>, WorldError>,
+    run: &mut Running<'_, T>,
 ) -> Result<(T, Vec<&'static str>), WorldError> {
     let mut refused = Vec::new();
     if options.integrator != Some(Integrator::Engine) {
         refused = refusals(mechanism, options);
         if refused.is_empty() {
-            match run(Integrator::RungeKutta)? {
+            match run(Integrator::RungeKutta, &[])? {
                 Ok(done) => return Ok((done, Vec::new())),
                 Err(serving) => refused.push(serving),
             }
@@ -244,11 +245,15 @@ pub(super) fn served<T>(
             because.join(", ")
         )));
     }
-    match run(Integrator::Engine)? {
+    match run(Integrator::Engine, &refused)? {
         Ok(done) => Ok((done, because)),
         Err(serving) => Err(WorldError::Options(serving.because.to_owned())),
     }
 }
+
+/// Runs with an integrator, told what was refused another one.
+pub(super) type Running<'a, T> =
+    dyn FnMut(Integrator, &[Serving]) -> Result<Served<T>, WorldError> + 'a;
 
 /// A result, or why there is none and the engine has to do it.
 pub(super) type Served<T> = Result<T, Serving>;
@@ -498,6 +503,13 @@ pub(super) fn run_in(
     if !(options.duration >= 0.0 && options.duration.is_finite()) {
         return Err(WorldError::Options(format!(
             "a run lasts a finite number of seconds, but {} were asked for",
+            options.duration
+        )));
+    }
+    let step = step_of(options, integrator);
+    if options.duration > 0.0 && step > options.duration * (1.0 + ALMOST) {
+        return Err(WorldError::Options(format!(
+            "a step of {step} s is longer than the scene, which lasts {} s",
             options.duration
         )));
     }

@@ -7,8 +7,8 @@ use crate::verification::{Moment, Observer, Passage};
 use kutzbach_closure::{Geometry, Rigid};
 use kutzbach_model::mechanism::Mechanism;
 use kutzbach_scene::{
-    Closure, ClosureError, Gap, JointClosure, Level, Motion, Prediction, RecordError, Recorder,
-    Roles, values_of,
+    Closure, ClosureError, Estimate, Gap, JointClosure, Level, Motion, Prediction, RecordError,
+    Recorder, Roles, values_of,
 };
 use std::io::Write;
 use std::ops::ControlFlow;
@@ -182,6 +182,14 @@ impl<W: Write> Observer for SimulationLog<'_, '_, W> {
 
     fn moment(&mut self, moment: &Moment<'_>) -> ControlFlow<()> {
         let written = self.write(moment);
+        self.keep(written)
+    }
+
+    fn estimated(&mut self, over_time: &[(f64, f64)]) -> ControlFlow<()> {
+        let written = over_time.iter().try_for_each(|(time, error)| {
+            let estimate = Estimate { error: *error };
+            self.recorder.estimate(self.begins + time, &estimate)
+        });
         self.keep(written)
     }
 }

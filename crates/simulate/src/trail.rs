@@ -63,6 +63,30 @@ impl Trail {
         }
     }
 
+    /// How far poses of links are from those of another run, moment by moment (characteristic lengths, rad).
+    fn distances(&self, other: &Self, scene: &Scene<'_>) -> Vec<f64> {
+        let pairs = self.moments.iter().zip(&other.moments);
+        let (mechanism, geometry) = (scene.mechanism, scene.geometry);
+        pairs
+            .map(|(own, other)| {
+                distance_between(mechanism, geometry, &own.poses, &other.poses, self.length)
+            })
+            .collect()
+    }
+
+    /// About how far this run is off at each moment (s; characteristic lengths, rad): its distance from a run in steps of another length,
+    /// as a part of which the error at the worst moment is known.
+    pub fn error_over_time(&self, other: &Self, worst: f64, scene: &Scene<'_>) -> Vec<(f64, f64)> {
+        let distances = self.distances(other, scene);
+        let most = distances.iter().copied().fold(0.0, larger);
+        let part = if most > 0.0 { worst / most } else { 0.0 };
+        let times = self.moments.iter().map(|shown| shown.time);
+        times
+            .zip(distances)
+            .map(|(time, distance)| (time, part * distance))
+            .collect()
+    }
+
     /// The largest differences from a coarser run; infinite where one ended before the other.
     pub fn apart(&self, coarse: &Self, scene: &Scene<'_>) -> TrajectoryError {
         if self.moments.len() != coarse.moments.len() {
@@ -72,21 +96,15 @@ impl Trail {
                 speed: f64::INFINITY,
             };
         }
+        let over_time = self.distances(coarse, scene);
+        let worst = over_time.iter().copied().fold(0.0, larger);
+        let end = over_time.last().copied().unwrap_or_default();
         let pairs = self.moments.iter().zip(&coarse.moments);
-        let (mut worst, mut end) = (0.0, 0.0);
         // A speed whose energy is hardly any, and one that moves nothing in the time there is.
         let natural = (STILL * gravity_of(scene.options) / self.length).sqrt();
         let mut fastest = natural.max(NO_TRAVEL / scene.options.duration);
         let mut changed = 0.0;
         for (fine, coarse) in pairs {
-            end = distance_between(
-                scene.mechanism,
-                scene.geometry,
-                &fine.poses,
-                &coarse.poses,
-                self.length,
-            );
-            worst = larger(worst, end);
             for link in 0..fine.poses.len() {
                 let [own, less] = [fine, coarse].map(|shown| shown.speeds(link, self.length));
                 let apart = std::array::from_fn(|i| own[i] - less[i]);

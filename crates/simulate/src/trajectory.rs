@@ -3,7 +3,7 @@
 //! # The estimate
 //! Let x(h) be the motion with steps of h, and x(h) − x = C hᵖ + … (Richardson 1911). Then x(h) − x(h/2) = (2ᵖ − 1) C (h/2)ᵖ, so that
 //! the finer of two runs is off by their difference over 2ᵖ − 1, and the coarser by 2ᵖ times as much. Differences of three runs
-//! tell p. With two runs the coarser is told of by the integrator's own order, or as if p were 1 where an error is wanted, and the finer as if p
+//! tell p: the lesser of the last two that were seen. With two runs the coarser is told of by the integrator's own order, or as if p were 1 where an error is wanted, and the finer as if p
 //! were 1. An error that is wanted takes three runs at least, and each run is off by no less than its distance from the finest. Where p comes out below
 //! [`CONVERGES`], as after an impact that one run has and the other has not, the runs do not approach one another, and nothing is claimed.
 //!
@@ -12,7 +12,7 @@
 
 use super::accuracy::work_of_setting;
 use super::scene_run::{Moves, Paces, Scene, Served, looks_in, passage_of, run_in, served};
-use super::smooth::{Integrator, SmoothWorld};
+use super::smooth::{Integrator, SINGULAR, SmoothWorld, goes_one_way};
 use super::trail::Trail;
 use super::verification::{Moment, Observer, Passage};
 use super::{SceneOptions, SceneRun, WorldError, WorldOptions};
@@ -24,12 +24,12 @@ use std::ops::ControlFlow;
 /// The least order that counts as one.
 const CONVERGES: f64 = 0.5;
 
-/// What is known of the order of an integrator: that which the coarser of two runs is taken to have until a third shows it, and the
-/// highest that is believed.
-const fn orders(integrator: Integrator) -> (f64, f64) {
+/// What is known of the order of an integrator: that which the coarser of two runs is taken to have until a third shows it, the highest
+/// that is believed where it is seen once (impacts of the engine may show any), and the highest that is believed.
+const fn orders(integrator: Integrator) -> [f64; 3] {
     match integrator {
-        Integrator::RungeKutta => (5.0, 5.0),
-        Integrator::Engine => (1.0, 2.0),
+        Integrator::RungeKutta => [5.0, 5.0, 5.0],
+        Integrator::Engine => [1.0, 1.0, 2.0],
     }
 }
 
@@ -134,10 +134,17 @@ pub fn run_scene_estimated(
         start,
         options,
     };
-    let ((mut run, trajectory), because) = served(mechanism, options, &mut |integrator| {
-        let halving = Halving { scene, integrator };
-        halving.estimated(refinement, interrupted, observer)
-    })?;
+    let ((mut run, trajectory), because) =
+        served(mechanism, options, &mut |integrator, because| {
+            let settled = integrator == Integrator::RungeKutta
+                || !because.contains(&SINGULAR) && goes_one_way(&scene)?;
+            let halving = Halving {
+                scene,
+                integrator,
+                settled,
+            };
+            halving.estimated(refinement, interrupted, observer)
+        })?;
     run.engine_because = because;
     Ok((run, trajectory))
 }
@@ -198,7 +205,7 @@ impl Halving<'_> {
             }
             finest.push((run, trail));
             trajectory.estimate(&differences, self.integrator);
-            if trajectory.is_enough() || interrupted() {
+            if !self.settled || trajectory.is_enough() || interrupted() {
                 break;
             }
         }
@@ -206,8 +213,14 @@ impl Halving<'_> {
             return Ok(Err(serving));
         }
         trajectory.conclude(each * f64::from(1 << skipped), self.integrator);
+        if !self.settled {
+            trajectory.not_estimated =
+                Some(format!("at {}, {}", SINGULAR.effect, SINGULAR.because));
+        }
         let from_last = trajectory.rows.len().saturating_sub(1 + trajectory.used);
-        let told = finest.into_iter().rev().nth(from_last);
+        let told = finest.len().checked_sub(1 + from_last);
+        let over_time = told.map(|told| self.error_over_time(&finest, told, &trajectory));
+        let told = told.map(|told| finest.swap_remove(told));
         let (run, trail) = told.ok_or_else(|| WorldError::Options("no run was made".to_owned()))?;
         if !at_once {
             trail.show(
@@ -215,7 +228,28 @@ impl Halving<'_> {
                 observer,
             );
         }
+        if let Some(over_time) = over_time.filter(|over_time| !over_time.is_empty()) {
+            // All has been shown: nothing is left to be broken off.
+            let _ = observer.estimated(&over_time);
+        }
         Ok(Ok((run, trajectory)))
+    }
+
+    /// The error of one of the finest runs at each moment, by the next run, or by the one before where it is the last; nothing where it
+    /// is not known.
+    fn error_over_time(
+        &self,
+        finest: &[(SceneRun, Trail)],
+        told: usize,
+        trajectory: &Trajectory,
+    ) -> Vec<(f64, f64)> {
+        let other = finest
+            .get(told + 1)
+            .or_else(|| finest.get(told.checked_sub(1)?));
+        let pair = finest.get(told).zip(other).zip(trajectory.error());
+        pair.map_or(Vec::new(), |(((_, own), (_, other)), error)| {
+            own.error_over_time(other, error.worst, &self.scene)
+        })
     }
 
     /// Whether steps halved so often are still longer than the time between two moments.
@@ -248,7 +282,11 @@ const MOST_HALVINGS: u32 = 20;
 
 /// Fills in what differences tell: of each run but the first from the difference before it, of the first from that after it. Until a third
 /// run shows the order, the finer of two runs is given no more credit than a method of first order has, and the coarser as much as is assumed.
-fn estimate(rows: &mut [StepRow], differences: &[TrajectoryError], (assumed, highest): (f64, f64)) {
+fn estimate(
+    rows: &mut [StepRow],
+    differences: &[TrajectoryError],
+    [assumed, once, highest]: [f64; 3],
+) {
     let mut orders = (1.0, assumed);
     for (index, apart) in differences.iter().enumerate() {
         let seen = index
@@ -264,7 +302,13 @@ fn estimate(rows: &mut [StepRow], differences: &[TrajectoryError], (assumed, hig
             } else {
                 seen
             };
-            let order = believed.clamp(if rounding { 1.0 } else { 0.0 }, highest);
+            // An order that was not seen before may be chance.
+            let most = rows[index]
+                .order
+                .map_or(once, |before| before.clamp(0.0, highest));
+            let order = believed
+                .clamp(0.0, most)
+                .max(if rounding { 1.0 } else { 0.0 });
             orders = (order, order);
         }
         let [finer, coarser] = [orders.0, orders.1].map(|order| f64::powf(2.0, order));
@@ -310,12 +354,11 @@ impl Trajectory {
 
     /// Where an error is wanted, steps begin too long for their order to be taken for granted: it has to be seen.
     fn estimate(&mut self, differences: &[TrajectoryError], integrator: Integrator) {
-        let (assumed, highest) = orders(integrator);
-        let assumed = match self.wanted {
-            Some(_) => 1.0,
-            None => assumed,
-        };
-        estimate(&mut self.rows, differences, (assumed, highest));
+        let mut orders = orders(integrator);
+        if self.wanted.is_some() {
+            orders[0] = 1.0;
+        }
+        estimate(&mut self.rows, differences, orders);
         // A run is off by no less than it is from the finest, which steps that are too long may agree with one another not to tell.
         for (index, row) in self.rows.iter_mut().enumerate() {
             let apart = differences.iter().skip(index);
@@ -353,7 +396,7 @@ impl Trajectory {
     }
 
     fn choose(&mut self, wanted: f64, each: f64, integrator: Integrator) {
-        let (assumed, highest) = orders(integrator);
+        let [assumed, _, highest] = orders(integrator);
         let within = |row: &StepRow| row.is_within(wanted);
         let last = self.rows.len().saturating_sub(1);
         let first = self.rows.iter().position(within).unwrap_or(last);
@@ -381,6 +424,8 @@ impl Trajectory {
 struct Halving<'a> {
     scene: Scene<'a>,
     integrator: Integrator,
+    /// Whether the equations say which way the motion goes: where they do not, runs agree or differ by chance.
+    settled: bool,
 }
 
 impl Halving<'_> {
@@ -437,32 +482,5 @@ impl Observer for Quiet<'_> {
 
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_order_that_was_not_seen_is_not_credited_where_an_error_is_wanted() {
-        let row = StepRow {
-            time_step: 0.1,
-            error: None,
-            order: None,
-            energy_change: 0.0,
-            energy_error: None,
-            closure_error: 0.0,
-            step_time: 0.0,
-        };
-        let off = |wanted: Option<f64>| {
-            let mut trajectory = Trajectory::begun(wanted);
-            trajectory.rows = vec![row.clone(), row.clone()];
-            let apart = TrajectoryError {
-                worst: 1e-3,
-                end: 1e-3,
-                speed: 1e-3,
-            };
-            trajectory.estimate(&[apart], Integrator::RungeKutta);
-            trajectory.rows[0].error.unwrap().worst
-        };
-        assert!((off(Some(1e-3)) - 2e-3).abs() < 1e-15);
-        assert!((off(None) - 1e-3 * 32.0 / 31.0).abs() < 1e-15);
-    }
-}
+#[path = "trajectory_tests.rs"]
+mod tests;

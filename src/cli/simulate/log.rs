@@ -355,6 +355,7 @@ impl Listener<()> for Waiting<'_, '_> {
 enum Told {
     Begin(Passage),
     Moment(Box<Copied>),
+    Estimated(Vec<(f64, f64)>),
 }
 
 /// Poses of links and states of joints.
@@ -408,6 +409,10 @@ impl Observer for Relay<'_, '_> {
             distance: moment.distance,
         })))
     }
+
+    fn estimated(&mut self, over_time: &[(f64, f64)]) -> ControlFlow<()> {
+        self.tell(Told::Estimated(over_time.to_vec()))
+    }
 }
 
 /// Hands everything on to the log and the progress bar.
@@ -441,6 +446,7 @@ impl Listener<Told> for Watcher<'_, '_, '_> {
         }
         let written = match &told {
             Told::Begin(passage) => log.begin(passage),
+            Told::Estimated(over_time) => log.estimated(over_time),
             Told::Moment(moment) => log.moment(&Moment {
                 time: moment.time,
                 done: moment.done,

@@ -1,5 +1,6 @@
 //! What a simulation said, as tables and as JSON.
 
+use super::idle::Idle;
 use kutzbach::accuracy::Choice;
 use kutzbach::mechanism::Mechanism;
 use kutzbach::record::Summary;
@@ -31,7 +32,7 @@ pub struct Simulated<'a> {
     pub scene: Option<(SceneRun, Trajectory)>,
     pub cost: Option<Vec<CostRow>>,
     /// Options given that have nothing to act on.
-    pub idle: Vec<&'static str>,
+    pub idle: Vec<Idle>,
     pub log: Option<(String, Summary)>,
     /// Whether Ctrl-C ended it.
     pub stopped: bool,
@@ -137,11 +138,9 @@ pub fn text(simulated: &Simulated<'_>, layout: Layout) -> String {
             );
         }
     }
-    for option in &simulated.idle {
-        page.item(
-            &format!("`{option}` changes nothing: nothing calls for a scene"),
-            Tint::Doubtful,
-        );
+    for Idle { option, because } in &simulated.idle {
+        let text = format!("`{option}` changes nothing: {because}");
+        page.item(&text, Tint::Doubtful);
     }
     if let Some((path, summary)) = &simulated.log {
         page.gap();

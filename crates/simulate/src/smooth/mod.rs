@@ -3,6 +3,7 @@
 //! | file | does |
 //! |---|---|
 //! | `constraint`, `relation` | joints, couplings and drives as scalar constraints |
+//! | `shares` | bodies of many joints, as several in one place |
 //! | `factor` | the matrix of all constraints, sparsely |
 //! | `system` | the equations of motion, and projection on the constraints |
 //! | `runge_kutta` | steps of order five |
@@ -14,12 +15,13 @@ mod constraint;
 mod factor;
 mod relation;
 mod runge_kutta;
+mod shares;
 mod system;
 
 use super::WorldError;
 use super::inertia::{self, Mass};
 use super::options::{Energy, Pieces};
-use super::scene_run::{Moves, SceneOptions, Stopped, looks_in};
+use super::scene_run::{Moves, RUNGE_KUTTA_STEP, Scene, SceneOptions, Stopped, looks_in};
 use constraint::{Held, Side, Turning, rows_of};
 use kutzbach_closure::{Geometry, JointState, Rigid};
 use kutzbach_model::mechanism::{JointKind, Mechanism};
@@ -87,7 +89,7 @@ const SEVERAL: Serving = engine(
     "a drive or damping of a joint of several freedoms",
     "only one variable of its own has a plain measure",
 );
-const SINGULAR: Serving = engine(
+pub(super) const SINGULAR: Serving = engine(
     "a pose where the number of independent constraints changes",
     "which way the mechanism goes on is not settled by the equations of motion",
 );
@@ -96,6 +98,31 @@ const SINGULAR: Serving = engine(
 pub const SERVING: [Serving; 10] = [
     GRAVITY, DAMPING, DRIVE, UNREACHED, REACHED, CONTACT, FRICTION, CAPPED, SEVERAL, SINGULAR,
 ];
+
+/// Whether the equations of motion say which way a scene begins to move: not where two branches meet, or where a mechanism is shaky.
+///
+/// # Errors
+/// As [`SmoothWorld::new`].
+pub(super) fn goes_one_way(scene: &Scene<'_>) -> Result<bool, WorldError> {
+    let Scene {
+        mechanism,
+        geometry,
+        start,
+        options,
+    } = *scene;
+    let mut shortly = options.clone();
+    let one_freedom = |joint: usize| {
+        mechanism
+            .joints()
+            .get(joint)
+            .is_some_and(|j| j.freedom() == 1)
+    };
+    shortly.drives.retain(|drive| one_freedom(drive.joint));
+    shortly.runge_kutta_step = RUNGE_KUTTA_STEP;
+    shortly.duration = RUNGE_KUTTA_STEP;
+    let world = SmoothWorld::new(mechanism, geometry, start, &shortly)?;
+    Ok(world.is_ok_and(|mut world| world.step().is_ok()))
+}
 
 /// A mechanism in motion, in steps of one length.
 #[derive(Debug)]
@@ -188,7 +215,7 @@ impl SmoothWorld {
             state: Vec::new(),
         };
         builder.bodies(&masses, &poses);
-        let joints = builder.joints();
+        let mut joints = builder.joints();
         if !joints.iter().all(|joint| constraint::sound(&joint.rows)) {
             return Err(WorldError::NotFinite {
                 what: "an axis or distance",
@@ -205,6 +232,14 @@ impl SmoothWorld {
             dampings: dampings.len(),
             ..Pieces::default()
         };
+        let moving = builder.bodies.len();
+        shares::divide(&mut builder.bodies, &mut builder.state, &mut joints);
+        let ground = builder.bodies.len();
+        for (body, _) in &mut builder.places {
+            if *body == moving {
+                *body = ground;
+            }
+        }
         let mut system = System::new(
             builder.bodies,
             joints,

@@ -50,6 +50,12 @@ pub trait Observer {
     fn begin(&mut self, passage: &Passage) -> ControlFlow<()>;
     /// The simulation has come to a moment.
     fn moment(&mut self, moment: &Moment<'_>) -> ControlFlow<()>;
+    /// About how far the passage that was shown is off, moment by moment: seconds since its beginning, and characteristic lengths or rad.
+    /// Told after its moments, where other runs showed it.
+    fn estimated(&mut self, over_time: &[(f64, f64)]) -> ControlFlow<()> {
+        let _ = over_time;
+        ControlFlow::Continue(())
+    }
 }
 
 /// Nobody watches.
