@@ -38,7 +38,7 @@ const SHAPES: [Shape; 11] = [
 const KNOWN: [(&str, f64); 2] = [("grid of limbs", 2.2), ("tower of layers", 2.2)];
 
 #[test]
-#[ignore = "needs valgrind: counts instructions"]
+#[ignore = "needs valgrind, which counts instructions: run in CI by a step of its own"]
 fn reports_cost_as_much_as_mechanisms_are_large() {
     let lines = in_parallel(&SHAPES, |(name, of_size, smallest)| {
         let sizes = [1, 2, 4].map(|times| times * smallest);

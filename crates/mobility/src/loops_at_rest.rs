@@ -41,10 +41,8 @@ pub(super) fn with_loops_at_rest(
     (options, again): (&AnalysisOptions, &Again),
     found: &mut PartFinding,
 ) -> Result<(), AnalysisError> {
-    let exact =
-        rank.open_by_digits() <= rank.accuracy && pose.as_drawn && pose.configuration.is_none();
     let open = found.open().is_some() && found.pose() == Some(PoseKind::Singular);
-    if !exact || !open || part.cycles.len() < 2 {
+    if !is_exact_as_drawn(pose, rank) || !open || part.cycles.len() < 2 {
         return Ok(());
     }
     let still = joints_at_rest(pose, more, structure, (part, &part.cycles), again)?;
@@ -52,6 +50,11 @@ pub(super) fn with_loops_at_rest(
         found.take(claim);
     }
     Ok(())
+}
+
+/// Whether a part is asked at the pose drawn, with numbers that mean no others: what a loop keeps there is then kept for good.
+fn is_exact_as_drawn(pose: &Pose<'_>, rank: &PartRank) -> bool {
+    rank.open_by_digits() <= rank.accuracy && pose.as_drawn && pose.configuration.is_none()
 }
 
 /// Loops that are asked: those of the least freedom.
@@ -79,9 +82,8 @@ pub(super) fn with_a_loop_that_does_not_start(
     (options, again): (&AnalysisOptions, &Again),
     found: &mut PartFinding,
 ) -> Result<(), AnalysisError> {
-    let exact =
-        rank.open_by_digits() <= rank.accuracy && pose.as_drawn && pose.configuration.is_none();
-    if !exact || part.cycles.len() < 2 || part.cycles.len() > MOST_LOOPS {
+    let loops = part.cycles.len();
+    if !is_exact_as_drawn(pose, rank) || !(2..=MOST_LOOPS).contains(&loops) {
         return Ok(());
     }
     let Some(kernel) = Kernel::of(pose, rank, KERNEL_LIMIT)? else {
