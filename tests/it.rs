@@ -125,6 +125,7 @@ mod trace_large;
 mod trace_singular;
 mod true_motions;
 mod unassembled;
+mod unpinned_frameworks;
 mod variations;
 mod verification;
 mod work_precision;

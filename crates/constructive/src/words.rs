@@ -14,6 +14,7 @@ use kutzbach_algebra::Limits;
 use kutzbach_model::graph::{ConstraintGraph, EdgeSpec, NodeSpec};
 use serde_json::{Value, json};
 use std::fmt::Write;
+use std::sync::OnceLock;
 
 /// Steps, circuits and parts beyond so many are counted, not listed.
 const MOST_LISTED: usize = 40;
@@ -26,7 +27,8 @@ const NOWHERE: &str = "well-constrained says that the constraints are as many as
 pub struct SketchWords<'a> {
     named: &'a NamedSketch,
     game: Counted,
-    tree: STree,
+    /// Made when it is asked for: what circles and lines construct is told without it.
+    tree: OnceLock<STree>,
     construction: Result<Construction<'a>, NotConstructive>,
     /// Sides that were chosen, by step, in place of those drawn.
     chosen: Option<Vec<bool>>,
@@ -35,7 +37,7 @@ pub struct SketchWords<'a> {
 }
 
 impl<'a> SketchWords<'a> {
-    /// Counts, builds the s-tree and the order of construction; what is not constructed is solved at once.
+    /// Counts, and builds the order of construction; what is not constructed is solved at once.
     #[must_use]
     pub fn of(named: &'a NamedSketch) -> Self {
         Self::within(named, &Limits::default())
@@ -44,16 +46,21 @@ impl<'a> SketchWords<'a> {
     /// The same within limits of what is solved at once.
     #[must_use]
     pub fn within(named: &'a NamedSketch, limits: &Limits) -> Self {
-        let tree = s_tree(named.sketch.graph());
         let construction = Construction::new(&named.sketch);
         let game = match construction {
             Ok(_) => Counted::of_constructed(&named.sketch),
             Err(_) => Counted::of(&named.sketch),
         };
         let hard = matches!(construction, Err(NotConstructive::Clusters(_)));
+        let tree = OnceLock::new();
+        let mut together = None;
+        if hard {
+            let tree = tree.get_or_init(|| s_tree(named.sketch.graph()));
+            together = Some(together_within(&named.sketch, tree, limits));
+        }
         Self {
             game,
-            together: hard.then(|| together_within(&named.sketch, &tree, limits)),
+            together,
             tree,
             construction,
             named,
@@ -232,7 +239,7 @@ impl<'a> SketchWords<'a> {
         let construction = match &self.construction {
             Ok(construction) => construction,
             Err(NotConstructive::Clusters(_)) => {
-                let hard = self.tree.nodes.iter().filter_map(|node| match node {
+                let hard = self.tree().nodes.iter().filter_map(|node| match node {
                     Node::Leaf {
                         kind: LeafKind::Triconnected,
                         vertices,
@@ -245,7 +252,7 @@ impl<'a> SketchWords<'a> {
                     lines.extend(self.solved_together());
                     return lines;
                 }
-                let all = self.tree.leaves(LeafKind::Triconnected);
+                let all = self.triconnected();
                 lines.extend(hard.take(MOST_LISTED));
                 more(&mut lines, all);
                 lines.extend(self.solved_together());
@@ -432,6 +439,19 @@ impl<'a> SketchWords<'a> {
         open.any(|o| matches!(o, CoreOutcome::Found { .. } | CoreOutcome::Open(_)))
     }
 
+    fn tree(&self) -> &STree {
+        let graph = self.named.sketch.graph();
+        self.tree.get_or_init(|| s_tree(graph))
+    }
+
+    /// How many parts no circles and lines construct: none of what is constructed.
+    fn triconnected(&self) -> usize {
+        match self.construction {
+            Ok(_) => 0,
+            Err(_) => self.tree().leaves(LeafKind::Triconnected),
+        }
+    }
+
     /// Whether the s-tree says something: constraints of more than two elements are not in it.
     #[must_use]
     pub fn has_tree(&self) -> bool {
@@ -441,7 +461,7 @@ impl<'a> SketchWords<'a> {
     /// The s-tree as SVG.
     #[must_use]
     pub fn tree_svg(&self) -> String {
-        tree_svg(&self.tree, |node| match node {
+        tree_svg(self.tree(), |node| match node {
             Node::Split { pair, .. } => format!("split at {}", self.list(pair)),
             Node::Leaf { vertices, .. } => self.list(vertices),
         })
@@ -521,8 +541,8 @@ impl<'a> SketchWords<'a> {
             "freedoms": self.game.freedoms(),
             "too_many": circuits.collect::<Vec<Value>>(),
             "rigid_parts": parts,
-            "constructive": self.tree.solved && self.has_tree(),
-            "triconnected": self.tree.leaves(LeafKind::Triconnected),
+            "constructive": self.construction.is_ok(),
+            "triconnected": self.triconnected(),
             "solved_at_once": self.together.iter().flat_map(|t| &t.cores).map(|c| self.core_data(c)).collect::<Vec<Value>>(),
             "solutions": count.as_ref().map(ToString::to_string).or_else(|| total.map(|t| t.to_string())),
             "solutions_complete": count.as_ref().map(|c| c.complete).or_else(|| total.map(|t| t.all)),
@@ -570,7 +590,7 @@ impl<'a> SketchWords<'a> {
     pub fn graph(&self) -> Option<ConstraintGraph> {
         let mut edges = Vec::new();
         let mut nodes = Vec::new();
-        for (i, node) in self.tree.nodes.iter().enumerate() {
+        for (i, node) in self.tree().nodes.iter().enumerate() {
             let name = match node {
                 Node::Split { pair, .. } => format!("{i}: split at {}", self.list(pair)),
                 Node::Leaf { vertices, .. } => format!("{i}: {}", self.list(vertices)),

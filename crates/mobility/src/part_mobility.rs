@@ -360,6 +360,10 @@ fn one_branch(
 /// A rounded part is followed so many steps of a quarter radian.
 const FOLLOWED: usize = 10;
 
+/// One with more unknowns than are walked along otherwise, so many: half a radian is as far as it takes for a leftover to stand
+/// clear of the rounding of exact numbers, each step takes several factors of the whole part, and what is rounded stays open.
+const FOLLOWED_IF_LARGE: usize = 2;
+
 /// The least coefficient of the leftover's fourth order that would show on the way. Those of known singular poses are
 /// 1e-5 and more.
 const LEAST_COEFFICIENT: f64 = 1e-5;
@@ -373,12 +377,13 @@ fn confirm_on_the_way(
     kernel: &Kernel,
     chart: &mut ChartTest,
 ) -> Result<(), MatrixError> {
-    if rank.unknowns() > WALKED_UNKNOWNS
-        || matches!(chart.outcome, ChartOutcome::Singular { .. })
-        || chart.leftover > chart.noise
-    {
+    if matches!(chart.outcome, ChartOutcome::Singular { .. }) || chart.leftover > chart.noise {
         return Ok(());
     }
+    let steps = match rank.unknowns() > WALKED_UNKNOWNS {
+        true => FOLLOWED_IF_LARGE,
+        false => FOLLOWED,
+    };
     let section = Section {
         mechanism: pose.mechanism,
         geometry: pose.geometry,
@@ -395,7 +400,7 @@ fn confirm_on_the_way(
             tangents,
             None,
             stated,
-            FOLLOWED,
+            steps,
             f64::INFINITY,
         )
     })?;
@@ -409,8 +414,7 @@ fn confirm_on_the_way(
         });
         farthest = farthest.max(0.0.norm(&way));
     }
-    let followed =
-        poses.len() == FOLLOWED && poses.iter().all(|p| p.instantaneous == Some(freedom));
+    let followed = poses.len() == steps && poses.iter().all(|p| p.instantaneous == Some(freedom));
     let visible = LEAST_COEFFICIENT * farthest.min(2.0).powi(4) > chart.noise;
     chart.followed = farthest;
     chart.outcome = if followed && visible {

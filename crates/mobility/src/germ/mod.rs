@@ -48,4 +48,4 @@ pub use critical::is_irreducible_hypersurface;
 pub use definite::{inertia, isolated_by_leading_terms, quadratic_form, signature};
 pub use dual_space::{ComplexDimension, complex_dimension};
 pub use reduction::Germ;
-pub use second_order::{PrestressCertificate, prestress_certificate};
+pub use second_order::{PrestressCertificate, prestress_across, prestress_certificate};

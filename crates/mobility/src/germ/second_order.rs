@@ -40,6 +40,28 @@ pub struct PrestressCertificate {
 /// Cost: one eigenvalue decomposition of a δ × δ matrix per step; few steps.
 #[must_use]
 pub fn prestress_certificate(germ: &Germ) -> Option<PrestressCertificate> {
+    certificate(germ, definite_combination)
+}
+
+/// [`prestress_certificate`] across so many directions along which all quadratic forms vanish: of a combination that is definite
+/// on their complement, with its smallest eigenvalue there. `None` also where the forms vanish along more or fewer directions.
+///
+/// What it proves: let the equations κ vanish along a branch of dimension `along` at whose poses no more of them are independent
+/// than here, so that their derivatives vanish along it too. By the splitting lemma the combination is f(x, t) = |x|² + g(t) near
+/// the pose, with as many t. The branch lies where all derivatives of f vanish: where x = 0 and dg = 0, which is an open set of
+/// the t. So the analytic g is zero, and where κ = 0 there is x = 0: the branch is all there is over the reals.
+#[must_use]
+pub fn prestress_across(germ: &Germ, along: usize) -> Option<PrestressCertificate> {
+    certificate(germ, |forms, least| {
+        definite_across(forms, along, least / CLEARANCE)
+    })
+}
+
+/// The combination that is found among the forms, whose smallest eigenvalue has to exceed a least one.
+fn certificate(
+    germ: &Germ,
+    found: impl Fn(&[DMatrix<f64>], f64) -> Option<(Vec<f64>, f64)>,
+) -> Option<PrestressCertificate> {
     let forms: Vec<DMatrix<f64>> = germ
         .equations()
         .iter()
@@ -48,7 +70,7 @@ pub fn prestress_certificate(germ: &Germ) -> Option<PrestressCertificate> {
         .collect();
     // The Frobenius norm of a form is at most that of its coefficients, and the combination is one of unit length.
     let noise = germ.noise(2);
-    let (factors, smallest_eigenvalue) = definite_combination(&forms, CLEARANCE * noise)?;
+    let (factors, smallest_eigenvalue) = found(&forms, CLEARANCE * noise)?;
     // Equations of second order come first.
     let mut combination = factors;
     combination.resize(germ.equations().len(), 0.0);
@@ -57,6 +79,34 @@ pub fn prestress_certificate(germ: &Germ) -> Option<PrestressCertificate> {
         smallest_eigenvalue,
         noise,
     })
+}
+
+/// A combination that is definite across the directions on which all forms vanish, which are so many.
+fn definite_across(forms: &[DMatrix<f64>], along: usize, noise: f64) -> Option<(Vec<f64>, f64)> {
+    let size = forms.first()?.nrows();
+    let stacked = DMatrix::from_fn(forms.len() * size, size, |row, column| {
+        forms[row / size][(row % size, column)]
+    });
+    let decomposed = stacked.try_svd(false, true, f64::EPSILON, 1000)?;
+    let directions = decomposed.v_t?;
+    let open = noise * (forms.len() as f64).sqrt();
+    let mut across = Vec::new();
+    for (value, direction) in decomposed.singular_values.iter().zip(directions.row_iter()) {
+        if *value > CLEARANCE * open {
+            across.push(direction.transpose());
+        } else if *value > open {
+            return None;
+        }
+    }
+    if across.is_empty() || across.len() + along != size {
+        return None;
+    }
+    let basis = DMatrix::from_columns(&across);
+    let restricted: Vec<DMatrix<f64>> = forms
+        .iter()
+        .map(|form| basis.transpose() * form * &basis)
+        .collect();
+    definite_combination(&restricted, CLEARANCE * noise)
 }
 
 /// A combination of unit length whose smallest eigenvalue exceeds `least`, with that eigenvalue.
@@ -117,6 +167,30 @@ mod tests {
             assert_eq!(definite_combination(&[indefinite], 1e-9), None);
         }
         assert_eq!(definite_combination(&[], 1e-9), None);
+    }
+
+    #[test]
+    fn forms_are_definite_across_what_they_vanish_on() {
+        // (0.6 x + 0.8 y)² + 2 z² vanishes along one line; beside it a form that is not definite there either.
+        let square = |v: [f64; 3]| DMatrix::from_fn(3, 3, |i, j| v[i] * v[j]);
+        let semidefinite = square([0.6, 0.8, 0.0]) + square([0.0, 0.0, 2.0f64.sqrt()]);
+        let (_, value) = definite_across(std::slice::from_ref(&semidefinite), 1, 1e-12).unwrap();
+        assert!((value - 1.0).abs() < 1e-12);
+        for along in [0, 2, 3] {
+            let found = definite_across(std::slice::from_ref(&semidefinite), along, 1e-12);
+            assert_eq!(found, None);
+        }
+        let indefinite = square([0.6, 0.8, 0.0]) - square([0.0, 0.0, 1.0]);
+        assert_eq!(
+            definite_across(std::slice::from_ref(&indefinite), 1, 1e-12),
+            None
+        );
+        // Together with another one it is.
+        let two = [indefinite, square([0.0, 0.0, 3.0])];
+        assert!(definite_across(&two, 1, 1e-12).is_some());
+        // A direction of four times the noise is neither zero nor clear of it.
+        let thin = square([0.6, 0.8, 0.0]) + square([0.0, 0.0, 2e-6]);
+        assert_eq!(definite_across(&[thin], 2, 1e-12), None);
     }
 
     #[test]

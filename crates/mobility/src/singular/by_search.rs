@@ -7,7 +7,8 @@ use super::resolution::Resolution;
 use super::search::{agrees_with, germ_text, zeros_within};
 use crate::claim::{Answer, Bounds, Claim, Says};
 use crate::germ::{
-    ComplexDimension, Germ, complex_dimension, isolated_by_leading_terms, prestress_certificate,
+    ComplexDimension, Germ, PrestressCertificate, complex_dimension, isolated_by_leading_terms,
+    prestress_across, prestress_certificate,
 };
 use crate::germ_zeros::GermZeros;
 use crate::judge::PartFinding;
@@ -248,8 +249,12 @@ impl Searches<'_> {
             );
         }
         self.found.amend(|claim| claim.finite.lower = top);
+        let stress = match complex == Some(top) {
+            true => None,
+            false => self.blocked_across(germ, &lifted),
+        };
         // Where the complex dimension is larger real branches may have been overlooked, or there are none: y² + z² = 0.
-        if let Some(complex) = complex.filter(|complex| *complex > top) {
+        if let Some(complex) = complex.filter(|complex| *complex > top && stress.is_none()) {
             self.unproved += 1;
             return self.refused(format!(
                 "real branches of dimension {top} were found where the complex ones have {complex}"
@@ -259,7 +264,12 @@ impl Searches<'_> {
         let again = self.before.as_ref() == Some(&shapes);
         let multiple = lifted.iter().any(|l| l.shaky);
         self.before = Some(shapes);
-        if !again && let Some(reason) = not_yet(complex.is_some(), multiple, self.rounded) {
+        // A stress leaves nothing for terms of higher degree to split.
+        let reason = match &stress {
+            Some(_) => not_yet(true, false, self.rounded),
+            None => not_yet(complex.is_some(), multiple, self.rounded),
+        };
+        if !again && let Some(reason) = reason {
             return self.refused(reason.to_owned());
         }
         let Start { pose, part, .. } = *self.start;
@@ -269,11 +279,15 @@ impl Searches<'_> {
             is_computed(pose.mechanism, part),
         );
         let mut answer = Answer::numeric(format!(
-            "the real zeros of the equations' power series give {} the loops close at finite distances from this pose",
+            "the real zeros of the equations' power series give {} the loops close at finite distances from this pose{}",
             if lifted.len() == 1 {
                 "one branch, and on it".to_owned()
             } else {
                 format!("{} branches, and on each of them", lifted.len())
+            },
+            match &stress {
+                None => "",
+                Some(_) => "; across it a self-stress blocks every motion at second order",
             }
         ));
         answer.kind = kind_of(&lifted, &zeros.branches, &resolution);
@@ -281,8 +295,28 @@ impl Searches<'_> {
         self.found.amend(|claim| {
             claim.finite = Bounds::exactly(top);
             claim.says = Says::Decides(Box::new(answer));
+            if let Some(stress) = stress {
+                claim.text.push_str(&format!(
+                    "; across the branch a self-stress makes the second-order form definite: smallest eigenvalue {:.2e}, noise {:.2e}",
+                    stress.smallest_eigenvalue, stress.noise
+                ));
+            }
         });
         Outcome::Settled
+    }
+
+    /// A self-stress that blocks every motion across the only branch found, at whose poses as much moves to first order as here.
+    fn blocked_across(&self, germ: &Germ, lifted: &[Lifted]) -> Option<PrestressCertificate> {
+        let [Lifted { branch, .. }] = lifted else {
+            return None;
+        };
+        let here = self.start.rank.instantaneous?;
+        let as_here = branch.poses.iter().all(|p| p.instantaneous == Some(here));
+        let along = branch.dimension.checked_sub(self.start.idle.len())?;
+        match as_here && !branch.poses.is_empty() {
+            true => prestress_across(germ, along),
+            false => None,
+        }
     }
 
     /// Marks the last search as one that nothing rests on, but that branches which the loops close along are some.

@@ -21,10 +21,19 @@ const MOST_SCREWS: usize = 6;
 /// What projecting a vector on a space of six coordinates loses, as in the rank decisions of `kutzbach_math::group`.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
+/// Up to so many groups of three dimensions all are looked at for one that holds two others; beyond, those that joins with one of the
+/// two have come to.
+const MOST_SEARCHED: usize = 256;
+
+/// A direction that is special to no group: unit vectors of se(3) differ from it in all coordinates.
+const PROBE: [f64; 6] = [0.31, -0.47, 0.59, 0.23, 0.41, -0.36];
+
 /// A group with its algebra.
 struct Known {
     algebra: Subalgebra,
     basis: Vec<Twist>,
+    /// Groups of three dimensions that it was joined to.
+    within: Vec<Group>,
     /// Some screws of it of unit direction: a look at them tells most joins that are SE(3).
     screws: Vec<Twist>,
 }
@@ -36,6 +45,14 @@ struct Known {
 pub struct Groups {
     gauge: Gauge,
     known: Vec<Known>,
+    /// Those of three dimensions.
+    threes: Vec<Group>,
+    probe: Twist,
+    /// By dimension and distance of the probe (a double that is not negative, whose bits rise with it). Spaces of one dimension, of
+    /// which one lies in the other to within an angle, are no farther apart than its sine in this distance.
+    index: BTreeMap<(usize, u64), Vec<Group>>,
+    /// The largest uncertainty of any.
+    widest: f64,
     joins: BTreeMap<(Group, Group), Group>,
     meets: BTreeMap<(Group, Group), Group>,
     independent: BTreeMap<Vec<Group>, bool>,
@@ -50,6 +67,10 @@ impl Groups {
         let mut groups = Self {
             gauge,
             known: Vec::new(),
+            threes: Vec::new(),
+            probe: gauge.twist(&PROBE.into()),
+            index: BTreeMap::new(),
+            widest: 0.0,
             joins: BTreeMap::new(),
             meets: BTreeMap::new(),
             independent: BTreeMap::new(),
@@ -98,6 +119,14 @@ impl Groups {
         }
         let joined = self.joined(a, b)?;
         self.joins.insert(pair, joined);
+        if self.dimension(joined) == 3 {
+            for part in [a, b] {
+                let within = &mut self.known[part.0].within;
+                if !within.contains(&joined) {
+                    within.push(joined);
+                }
+            }
+        }
         Ok(joined)
     }
 
@@ -121,11 +150,14 @@ impl Groups {
     /// A group of three dimensions already met that two groups generate, neither of which lies in the other: both lie in it, and they generate
     /// more than two, since one of them has two or they do not commute. Spares decompositions.
     fn join_met(&self, small: Group, large: Group) -> Option<Group> {
-        let met = (0..self.known.len()).map(Group).find(|&group| {
-            self.dimension(group) == 3
-                && self.is_within(small, group)
-                && self.is_within(large, group)
-        })?;
+        let holds = |group: &Group| self.is_within(small, *group) && self.is_within(large, *group);
+        let met = match self.threes.len() <= MOST_SEARCHED {
+            true => self.threes.iter().copied().find(holds),
+            false => {
+                let near = [small, large].map(|group| self.known[group.0].within.iter());
+                near.into_iter().flatten().copied().filter(holds).min()
+            }
+        }?;
         let [one, other] = [small, large].map(|group| self.known[group.0].basis.first());
         let bracket = one?.bracket(other?);
         let visible = SAFE * self.gauge.tolerance().max(ROUNDING);
@@ -219,14 +251,24 @@ impl Groups {
             6 => return Some(EVERYTHING),
             _ => {}
         }
+        let dimension = algebra.dimension();
+        let system = algebra.system();
+        let (place, own) = (system.distance(&self.probe), system.uncertainty());
+        let reach = self.widest + own + 2.0 * ROUNDING;
+        let near = [(place - reach).max(0.0), place + reach].map(|x| (dimension, x.to_bits()));
         let screws = screws.iter().take(MOST_SCREWS).copied().collect();
         let group = self.push(algebra, screws);
-        let equal = (0..group.0).map(Group).find(|&other| {
-            self.dimension(other) == self.dimension(group) && self.is_within(group, other)
-        });
-        if let Some(equal) = equal {
+        let others = self.index.range(near[0]..=near[1]).flat_map(|(_, g)| g);
+        let equal = others.filter(|&&other| self.is_within(group, other)).min();
+        if let Some(&equal) = equal {
             self.known.pop();
             return Some(equal);
+        }
+        self.widest = self.widest.max(own);
+        let at = self.index.entry((dimension, place.to_bits())).or_default();
+        at.push(group);
+        if dimension == 3 {
+            self.threes.push(group);
         }
         Some(group)
     }
@@ -236,8 +278,47 @@ impl Groups {
         self.known.push(Known {
             algebra,
             basis,
+            within: Vec::new(),
             screws,
         });
         Group(self.known.len() - 1)
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use kutzbach_math::matrix::SplitMix64;
+    use nalgebra::Vector3;
+
+    #[test]
+    fn groups_are_known_again_however_many_there_are() {
+        let gauge = Gauge::new(Vector3::zeros(), 1.0, 1e-12).unwrap();
+        let mut groups = Groups::new(gauge).unwrap();
+        let mut random = SplitMix64::named("hinges through points");
+        let mut vector = || Vector3::from_fn(|_, _| random.symmetric());
+        // More balls than are searched through, each as three hinges through a point.
+        let stars: Vec<[Twist; 3]> = (0..MOST_SEARCHED + 40)
+            .map(|_| {
+                let centre = vector();
+                [(); 3].map(|()| Twist::revolute(vector(), centre))
+            })
+            .collect();
+        let mut balls = Vec::new();
+        for star in &stars {
+            let hinges = star.map(|hinge| groups.generated_by(&[hinge]).unwrap());
+            let [ball, same, again] = [[0, 1], [1, 2], [2, 0]]
+                .map(|pair| pair.map(|i| hinges[i]))
+                .map(|[a, b]| groups.join(a, b).unwrap());
+            assert_eq!((groups.dimension(ball), same, again), (3, ball, ball));
+            balls.push(ball);
+        }
+        let mut known = balls.clone();
+        known.dedup();
+        assert_eq!(known.len(), stars.len());
+        for (star, ball) in stars.iter().zip(balls) {
+            assert_eq!(groups.generated_by(star).unwrap(), ball);
+        }
     }
 }

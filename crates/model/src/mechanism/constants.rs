@@ -45,6 +45,9 @@ const COMPUTED: f64 = 1.0 / (1u64 << 44) as f64;
 /// What vanishes beside other numbers: 8 units of roundoff.
 const VANISHING: f64 = 1.0 / (1u64 << 50) as f64;
 
+/// What doubles of a few operations are off by, relative to themselves: 32 units of roundoff.
+const ROUNDINGS: f64 = 1.0 / (1u64 << 48) as f64;
+
 /// Lengths count as no longer than this (m) where others are held against them: far off the origin, a metre is still meant.
 const LONGEST: f64 = 1e3;
 
@@ -149,6 +152,12 @@ impl<'a> Reach<'a> {
         2.0 * tolerance <= CHANCE * apart
     }
 
+    /// Whether doubles rule out that the number is within `reach` of what is `near` up to some roundings: exact arithmetic has to
+    /// be asked only where they do not.
+    fn misses(&self, near: f64, reach: f64) -> bool {
+        (self.value.abs() - near.abs()).abs() > reach + ROUNDINGS * self.value.abs()
+    }
+
     fn is_zero(&self) -> bool {
         // A number of few decimals was chosen, whatever is beside it; one of more digits than a double has is not a double's
         // rounding.
@@ -164,6 +173,10 @@ impl<'a> Reach<'a> {
         }
         let places = 0..self.decimals.min(DIGITS_OF_DOUBLES as i32);
         places.into_iter().find_map(|places| {
+            let scale = 10f64.powi(places);
+            if self.misses((self.value * scale).round() / scale, self.noise) {
+                return None;
+            }
             let decimal = Number::decimal(&format!("{:.*}", places as usize, self.value)).ok()?;
             let off = distance(self.number, &decimal);
             let hit = off <= self.noise && Self::tells(off, 10f64.powi(-places));
@@ -176,7 +189,11 @@ impl<'a> Reach<'a> {
         [4i64, 12, 360].into_iter().find_map(|parts| {
             let apart = PI / parts as f64;
             let count = (self.value / apart).round();
-            if count == 0.0 || count.abs() > 1e6 || !Self::tells(self.tolerance, apart) {
+            if count == 0.0
+                || count.abs() > 1e6
+                || !Self::tells(self.tolerance, apart)
+                || self.misses(count * apart, self.tolerance)
+            {
                 return None;
             }
             let angle = &Number::pi() * &Number::ratio(count as i64, parts)?;
@@ -191,7 +208,8 @@ impl<'a> Reach<'a> {
         }
         (1..=LARGEST_DENOMINATOR).find_map(|q| {
             let p = (self.value * self.value * q as f64).round();
-            if p < 1.0 || p > q as f64 {
+            let outside = p < 1.0 || p > q as f64;
+            if outside || self.misses((p / q as f64).sqrt(), self.tolerance) {
                 return None;
             }
             let root = Number::ratio(p as i64, q)?.sqrt().ok()?;
@@ -262,26 +280,27 @@ fn plain(reach: &Reach) -> Option<Number> {
 /// some component is no such root, or their squares do not add up to 1.
 fn roots(components: &[Number; 3], size: f64) -> Option<[Option<Number>; 3]> {
     let mut found = [None, None, None];
-    let mut sum = Number::zero();
     for (number, found) in components.iter().zip(&mut found) {
-        if number.is_zero() {
+        let reach = match number.is_zero() {
+            true => continue,
+            false => Reach::of(number, size),
+        };
+        if reach.as_ref().is_some_and(Reach::is_zero) {
+            *found = Some(Number::zero());
             continue;
         }
-        let root = match Reach::of(number, size) {
-            None => number.clone(),
-            Some(reach) if reach.is_zero() => {
-                *found = Some(Number::zero());
-                continue;
-            }
-            Some(reach) => {
-                // What is too short to be taken for a root may be its own: `0.5`.
-                *found = reach.root();
-                found.clone().unwrap_or_else(|| number.clone())
-            }
-        };
-        sum = &sum + &(&root * &root);
+        // What is too short to be taken for a root may be its own: `0.5`.
+        *found = reach.and_then(|reach| reach.root());
     }
-    let unit = sum == Number::one() && found.iter().flatten().any(|root| root.rational().is_none());
+    if found.iter().flatten().all(|root| root.rational().is_some()) {
+        return None;
+    }
+    let roots = components.iter().zip(&found);
+    let sum = roots.fold(Number::zero(), |sum, (number, found)| {
+        let root = found.as_ref().unwrap_or(number);
+        &sum + &(root * root)
+    });
+    let unit = sum == Number::one();
     unit.then_some(found)
 }
 
