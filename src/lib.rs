@@ -20,6 +20,8 @@
 //! 16. [`families`]: mechanisms of any size for examples, benches and tests.
 //! 17. [`report`]: what a person or a program reads.
 //! 18. [`sweep`]: the same question of many members of a family.
+//!
+//! Any of it can be asked to end before it is done: [`interruption`].
 
 #[doc(inline)]
 pub use kutzbach_algebra as algebra;
@@ -32,7 +34,7 @@ pub use kutzbach_constructive as constructive;
 #[doc(inline)]
 pub use kutzbach_format as format;
 #[doc(inline)]
-pub use kutzbach_math::{group, matrix, number};
+pub use kutzbach_math::{group, interruption, matrix, number};
 #[doc(inline)]
 pub use kutzbach_mobility::{self as mobility, families};
 #[doc(inline)]

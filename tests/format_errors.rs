@@ -132,7 +132,7 @@ fn no_loop_is_lost() {
         (in_gazebo(&format!("<joint name='l' type='ball'>{tall}<pose>1 2 3</pose></joint>")), 8, 77, "expected 6 numbers", ""),
         (in_gazebo(&format!("<joint name='l' type='ball'>{tall}<pose>1 2 3<!-- x --> 0 0 0</pose></joint>")), 8, 71, "needs a value and nothing else", ""),
         (in_gazebo(&format!("<joint name='l' type='ball'>{tall}<pose>9e99 0 0 0 0 0</pose></joint>")).replace("<child link=\"b\"/>", "<child link=\"b\"/><origin xyz='9e99 0 0'/>"), 8, 9, "beyond the largest number", ""),
-        (in_gazebo(&format!("<joint name='l' type='screw'>{tall}<axis><xyz>0 0 1</xyz></axis></joint>")), 8, 9, "needs <screw_thread_pitch>", ""),
+        (in_gazebo(&format!("<joint name='l' type='revolute2'>{tall}<axis><xyz>0 0 1</xyz></axis><axis2><xyz>0 0 -2</xyz></axis2></joint>")), 8, 105, "its two axes are parallel", ""),
         (in_gazebo("<joint:hinge2 name='l'/>").replace("<robot ", "<robot xmlns:joint='u' "), 8, 9, "<joint:hinge2> is not read", ""),
         (robot("<d:x xmlns:d='u'/><drake:coupler_constraint xmlns:drake='u'/>"), 3, 19, "constrains, and it is not read", ""),
         (robot("<loop_joint name='l' type='spherical'><link1 link='a'/></loop_joint>"), 3, 1, "needs two sides", ""),

@@ -180,3 +180,25 @@ fn every_shipped_declaration_is_one() {
     }
     assert!(files >= 4);
 }
+
+#[test]
+fn features_are_drawn_with_their_faces_marked() {
+    let svg = done(&["features", WORLD, "--declared", STEP, "--svg"]);
+    assert_eq!(svg, done(&["features", WORLD, "--declared", STEP, "--svg"]));
+    let document = roxmltree::Document::parse(&svg).unwrap();
+    let texts: Vec<&str> = document
+        .descendants()
+        .filter(|node| node.has_tag_name(("http://www.w3.org/2000/svg", "text")))
+        .filter_map(|node| node.text())
+        .collect();
+    for word in ["STEP in bracket: 1", "F1", "F2", "E1"] {
+        assert!(texts.contains(&word), "{word}: {texts:?}");
+    }
+    // Two faces and an edge of one step.
+    let marked = document
+        .descendants()
+        .filter(|node| node.attribute("class").is_some_and(|c| c.contains("m0")));
+    assert_eq!(marked.count(), 3);
+    let both = refused(&["features", WORLD, "--declared", STEP, "--svg", "--json"]);
+    assert!(both.contains("--json"), "{both}");
+}

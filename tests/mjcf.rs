@@ -334,9 +334,9 @@ fn what_cannot_be_read_is_told_with_its_place() {
             "two bodies are called `b`",
         ),
         (
-            "<worldbody>\n<composite count='3'/></worldbody>",
+            "<worldbody>\n<attach model='arm' body='a' prefix='l'/></worldbody>",
             2,
-            "<composite> is not read",
+            "no model `arm`",
         ),
         (
             "<worldbody><body name='arm'/></worldbody>\n<equality><weld body1='amr'/></equality>",

@@ -248,7 +248,8 @@ fn a_screw_has_its_lead_in_one_of_two_units() {
         (new.to_owned(), 0.01, false),
         (old.to_owned(), -TAU / 100.0, false),
         (format!("{old}{new}"), 0.01, false),
-        (String::new(), -TAU, true),
+        // libsdformat's default.
+        (String::new(), 1.0, true),
     ] {
         let inside = format!("<axis><xyz>0 0 1</xyz></axis>{pitch}");
         let text = [

@@ -1,9 +1,11 @@
 //! Members of a family, whose file is parsed once, are in every field what separate readings of the file are.
 
 use crate::support::folder;
-use kutzbach::format::{ReadOptions, Template, file_bytes, read_file_with};
+use kutzbach::format::{ReadOptions, Template, file_bytes, read_bytes_of, read_file_with};
 use kutzbach::mobility::{Analysis, AnalysisOptions, Depth, analyse};
-use kutzbach::sweep::{Facts, Family, MeasuredFile, Over, Plan, Shard, Status};
+use kutzbach::sweep::{
+    Facts, Family, MeasuredFile, Outcome, Over, Plan, Sample, Shard, Status, outcome,
+};
 
 /// Files with one of their measures and values of it; `acos(2)` and 1/0 make no mechanism.
 const FAMILIES: [(&str, &str, &[&str]); 12] = [
@@ -119,4 +121,108 @@ fn members_have_the_verdicts_of_separate_files() {
             assert_eq!(row.outcome.facts, expected, "{place}");
         }
     }
+}
+
+/// A planar four-bar, not closed as it is drawn; of some lengths its bars do not reach.
+const FOUR_BAR: &str = r#"<robot name="four_bar" xmlns:xacro="http://ros.org/wiki/xacro">
+  <xacro:property name="a" value="1"/>
+  <xacro:property name="b" value="7/2"/>
+  <xacro:property name="c" value="2"/>
+  <link name="base"/> <link name="crank"/> <link name="coupler"/> <link name="rocker"/>
+  <joint name="main" type="revolute">
+    <parent link="base"/> <child link="crank"/> <axis xyz="0 0 1"/>
+  </joint>
+  <joint name="pivot" type="revolute">
+    <parent link="base"/> <child link="rocker"/> <origin xyz="4 0 0"/> <axis xyz="0 0 1"/>
+  </joint>
+  <joint name="pin" type="revolute">
+    <parent link="crank"/> <child link="coupler"/> <origin xyz="0 ${a} 0"/> <axis xyz="0 0 1"/>
+  </joint>
+  <loop name="end" type="revolute">
+    <predecessor link="coupler"><origin xyz="${b} 0 0"/></predecessor>
+    <successor link="rocker"><origin xyz="0 ${c} 0"/></successor>
+    <axis xyz="0 0 1"/>
+  </loop>
+</robot>
+"#;
+
+/// A crank, a rod and a slider beside the crank's axis.
+const SLIDER_CRANK: &str = r#"<robot name="slider_crank" xmlns:xacro="http://ros.org/wiki/xacro">
+  <xacro:property name="a" value="1"/>
+  <xacro:property name="b" value="2"/>
+  <xacro:property name="e" value="1/2"/>
+  <link name="base"/> <link name="crank"/> <link name="rod"/> <link name="slider"/>
+  <joint name="main" type="revolute">
+    <parent link="base"/> <child link="crank"/> <axis xyz="0 0 1"/>
+  </joint>
+  <joint name="pin" type="revolute">
+    <parent link="crank"/> <child link="rod"/> <origin xyz="0 ${a} 0"/> <axis xyz="0 0 1"/>
+  </joint>
+  <joint name="slide" type="prismatic">
+    <parent link="base"/> <child link="slider"/> <origin xyz="${b} ${e} 0"/> <axis xyz="1 0 0"/>
+  </joint>
+  <loop name="end" type="revolute">
+    <predecessor link="rod"><origin xyz="${b} 0 0"/></predecessor>
+    <successor link="slider"><origin xyz="0 0 0"/></successor>
+    <axis xyz="0 0 1"/>
+  </loop>
+</robot>
+"#;
+
+/// The file with another value written in it where a measure or an argument is named.
+fn rewritten(text: &str, name: &str, value: &str) -> String {
+    let heads = ["default", "value"].map(|own| format!("name=\"{name}\" {own}=\""));
+    let from = heads
+        .iter()
+        .find_map(|head| Some(text.find(head)? + head.len()))
+        .unwrap();
+    let to = from + text[from..].find('"').unwrap();
+    format!("{}{value}{}", &text[..from], &text[to..])
+}
+
+/// What a row would say of a text by itself.
+fn of_text(text: &str, file: &str, asked: &AnalysisOptions) -> Outcome {
+    let none = ReadOptions::default();
+    let reading = read_bytes_of(text.as_bytes(), file, None, &none).unwrap();
+    let analysis = analyse(&reading.mechanism, asked).unwrap();
+    outcome(&reading.mechanism, &analysis, asked.depth)
+}
+
+#[test]
+fn members_at_random_are_in_every_field_what_files_of_their_own_are() {
+    let bennett = folder("mechanisms").join("bennett_isogram.urdf");
+    let bennett = std::fs::read_to_string(bennett).unwrap();
+    let families = [
+        (FOUR_BAR, ["a=0.5..3", "b=0.5..5", "c=0.5..5"]),
+        (SLIDER_CRANK, ["a=0.5..3", "b=0.5..5", "e=0..2"]),
+        (bennett.as_str(), ["p=0.5..3", "q=0.5..3", "h=0.1..1"]),
+    ];
+    let asked = AnalysisOptions {
+        depth: Depth::Motions,
+        ..AnalysisOptions::default()
+    };
+    let mut seen = Vec::new();
+    for (text, over) in families {
+        let over = over.map(|own| Over::read(own).unwrap());
+        let sample = Sample::read("random:50").unwrap();
+        let plan = Plan::new(over.to_vec(), Some(sample)).unwrap();
+        let source = MeasuredFile::of_text(text, "own.urdf");
+        let family = Family::new(source, plan, asked.clone()).unwrap();
+        let names: Vec<&str> = family.plan().names().collect();
+        let rows: Vec<_> = family.variants(Shard::default()).collect();
+        assert_eq!(rows.len(), 50);
+        for row in rows {
+            let pairs = names.iter().zip(&row.values);
+            let own = pairs.fold(text.to_owned(), |own, (name, value)| {
+                rewritten(&own, name, &value.setting)
+            });
+            let expected = of_text(&own, "own.urdf", &asked);
+            assert_eq!(row.outcome, expected, "{own}");
+            seen.push(expected.status);
+        }
+    }
+    // Of all kinds but those that are no mechanism.
+    assert!(seen.contains(&Status::Unassembled), "all assemble");
+    let analysed = seen.iter().filter(|own| **own == Status::Analysed).count();
+    assert!(analysed > 100, "{analysed} were analysed");
 }

@@ -9,29 +9,16 @@ use kutzbach::assembly::words;
 use kutzbach::mechanism::{JointId, JointKind, Mechanism};
 use kutzbach::number::Number;
 use kutzbach::report::exact::{Request, proved};
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 /// Work where none is stated, as the command line has it (s).
 const SECONDS_TO_ASSEMBLE: f64 = 10.0;
 const SECONDS_TO_PROVE: f64 = 30.0;
 
-fn limits(seconds: f64, cancelled: &Arc<AtomicBool>) -> Limits {
-    Limits {
-        cancelled: Some(Arc::clone(cancelled)),
-        ..Limits::seconds(seconds)
-    }
-}
-
 /// What `kutzbach assemble --format json` writes.
 ///
 /// # Errors
 /// Joints that there are not or that cannot be held, and values that are none.
-pub fn assembled(
-    subject: &Subject,
-    asked: &str,
-    cancelled: &Arc<AtomicBool>,
-) -> Result<String, Failure> {
+pub fn assembled(subject: &Subject, asked: &str) -> Result<String, Failure> {
     let asked: Assemble = asked::parsed(asked)?;
     let mechanism = subject.mechanism();
     let held = match &asked.hold {
@@ -44,7 +31,7 @@ pub fn assembled(
     };
     let question = Question {
         held,
-        limits: limits(asked.budget.unwrap_or(SECONDS_TO_ASSEMBLE), cancelled),
+        limits: Limits::seconds(asked.budget.unwrap_or(SECONDS_TO_ASSEMBLE)),
     };
     let modes = assembly_modes(mechanism, &question).map_err(|error| {
         Failure::plain(
@@ -85,11 +72,7 @@ fn held(mechanism: &Mechanism, name: &str, value: &str) -> Result<(JointId, Numb
 ///
 /// # Errors
 /// Numbers that are not algebraic, where no part of the mechanism has others.
-pub fn exact(
-    subject: &Subject,
-    asked: &str,
-    cancelled: &Arc<AtomicBool>,
-) -> Result<String, Failure> {
+pub fn exact(subject: &Subject, asked: &str) -> Result<String, Failure> {
     let asked: Prove = asked::parsed(asked)?;
     let configuration = asked::named(asked.configuration);
     let plain = configuration.is_none();
@@ -105,7 +88,7 @@ pub fn exact(
         },
         ..Request::default()
     };
-    let budget = Budget::new(limits(asked.budget.unwrap_or(SECONDS_TO_PROVE), cancelled));
+    let budget = Budget::new(Limits::seconds(asked.budget.unwrap_or(SECONDS_TO_PROVE)));
     let (report, _) = proved(subject.mechanism(), &request, plain, &budget).map_err(|error| {
         let help = matches!(
             error,

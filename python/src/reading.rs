@@ -156,27 +156,21 @@ impl Reading {
     #[pyo3(signature = (asked))]
     fn assemble(&self, py: Python<'_>, asked: &str) -> PyResult<String> {
         let (subject, asked) = (self.0.clone(), asked.to_owned());
-        watched(py, move |cancelled| {
-            proofs::assembled(&subject, &asked, cancelled)
-        })
+        watched(py, move |_| proofs::assembled(&subject, &asked))
     }
 
     /// What polynomials prove.
     #[pyo3(signature = (asked))]
     fn exact(&self, py: Python<'_>, asked: &str) -> PyResult<String> {
         let (subject, asked) = (self.0.clone(), asked.to_owned());
-        watched(py, move |cancelled| {
-            proofs::exact(&subject, &asked, cancelled)
-        })
+        watched(py, move |_| proofs::exact(&subject, &asked))
     }
 
     /// What the physics engine says.
     #[pyo3(signature = (asked))]
     fn simulate(&self, py: Python<'_>, asked: &str) -> PyResult<String> {
         let (subject, asked) = (self.0.clone(), asked.to_owned());
-        watched(py, move |cancelled| {
-            simulation::simulated(&subject, &asked, cancelled)
-        })
+        watched(py, move |_| simulation::simulated(&subject, &asked))
     }
 
     /// Many variants.

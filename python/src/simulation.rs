@@ -3,6 +3,7 @@
 use crate::asked::{self, Simulate};
 use crate::failure::Failure;
 use crate::reading::Subject;
+use kutzbach::interruption;
 use kutzbach::mechanism::Mechanism;
 use kutzbach::mobility::{Analysis, AnalysisOptions, Followed, Verdict, analyse_to_follow};
 use kutzbach::report::simulated::data;
@@ -12,8 +13,6 @@ use kutzbach::simulate::{
     WorldOptions, effect_names, run_scene_estimated, scene_drives,
 };
 use std::ops::ControlFlow;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Work on the verification and simulated seconds of the scene where none are stated, and work on the scene: as the command line
 /// has them.
@@ -21,25 +20,24 @@ const BUDGET: f64 = 30.0;
 const DURATION: f64 = 2.0;
 const SCENE_WORK: f64 = 20.0;
 
-/// Breaks a simulation off where the flag is set.
-struct Watch<'a>(&'a AtomicBool);
+/// Breaks a simulation off where it is interrupted.
+struct Watch;
 
-impl Watch<'_> {
-    fn goes_on(&self) -> ControlFlow<()> {
-        match self.0.load(Ordering::Relaxed) {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        }
+/// Whether it goes on.
+fn goes_on() -> ControlFlow<()> {
+    match interruption::asked() {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
     }
 }
 
-impl Observer for Watch<'_> {
+impl Observer for Watch {
     fn begin(&mut self, _: &Passage) -> ControlFlow<()> {
-        self.goes_on()
+        goes_on()
     }
 
     fn moment(&mut self, _: &Moment<'_>) -> ControlFlow<()> {
-        self.goes_on()
+        goes_on()
     }
 }
 
@@ -47,11 +45,7 @@ impl Observer for Watch<'_> {
 ///
 /// # Errors
 /// A configuration, branch or joint that there is not; a world that cannot be made.
-pub fn simulated(
-    subject: &Subject,
-    asked: &str,
-    cancelled: &Arc<AtomicBool>,
-) -> Result<String, Failure> {
+pub fn simulated(subject: &Subject, asked: &str) -> Result<String, Failure> {
     let asked: Simulate = asked::parsed(asked)?;
     let duration = asked.duration.unwrap_or(DURATION);
     if !(duration >= 0.0 && duration.is_finite()) {
@@ -87,7 +81,7 @@ pub fn simulated(
         kutzbach::motion::variable_named(&mechanism, name)
             .map_err(|error| subject.failed(&error.to_string(), Some(error.help())))?;
     }
-    let mut watch = Watch(cancelled);
+    let mut watch = Watch;
     let verification = verify(
         &mechanism,
         &analysis.geometry,
@@ -110,7 +104,7 @@ fn scene_run(
     mechanism: &Mechanism,
     analysis: &Analysis,
     (solver, duration): (Solver, f64),
-    watch: &mut Watch<'_>,
+    watch: &mut Watch,
 ) -> Result<Option<(SceneRun, Trajectory)>, WorldError> {
     let effects = Effects::of_scene(mechanism);
     let drives = scene_drives(mechanism);
@@ -133,9 +127,7 @@ fn scene_run(
         wanted: None,
         work: SCENE_WORK,
     };
-    let flag = watch.0;
-    let interrupted = || flag.load(Ordering::Relaxed);
-    let how = (refinement, &interrupted as &dyn Fn() -> bool);
+    let how = (refinement, &interruption::asked as &dyn Fn() -> bool);
     let states = &analysis.assembly.states;
     run_scene_estimated(mechanism, &analysis.geometry, states, &scene, how, watch).map(Some)
 }

@@ -4,12 +4,13 @@ use crate::asked::{self, Analyse, Vary};
 use crate::failure::Failure;
 use crate::reading::Subject;
 use crate::watched::{STACK, watched};
+use kutzbach::interruption::Interruption;
 use kutzbach::mobility::AnalysisOptions;
 use kutzbach::sweep::{Family, Form, MeasuredFile, Over, Plan, Sample, Shard, SweepError, Table};
 use pyo3::prelude::*;
 use std::panic::resume_unwind;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 
 /// A sweep, or a share of one.
@@ -71,19 +72,22 @@ pub fn planned(subject: &Subject, asked: &str) -> Result<Sweep, Failure> {
 }
 
 impl Planned {
-    /// Rows from one place of the share on; fewer where the flag is set.
-    fn rows(&self, start: u64, count: u64, cancelled: &AtomicBool) -> Vec<Line> {
+    /// Rows from one place of the share on; fewer where it is interrupted.
+    fn rows(&self, start: u64, count: u64, interruption: &Interruption) -> Vec<Line> {
         let all = self.shard.count(self.family.plan().count());
         let end = start.saturating_add(count).min(all);
         let next = AtomicU64::new(start);
+        let members = self.family.members();
         let work = || {
             let mut own = Vec::new();
-            while !cancelled.load(Ordering::Relaxed) {
+            loop {
                 let place = next.fetch_add(1, Ordering::Relaxed);
                 if place >= end {
                     break;
                 }
-                let Some(row) = self.family.row(self.shard.index(place)) else {
+                // A variant under way has no row where it is interrupted.
+                let row = interruption.during(|| members.row(self.shard.index(place)));
+                let Ok(Some(row)) = row else {
                     break;
                 };
                 own.push((place, self.lines.line(&row), self.csv.line(&row)));
@@ -142,9 +146,9 @@ impl Sweep {
     #[pyo3(signature = (start, count))]
     fn rows(&self, py: Python<'_>, start: u64, count: u64) -> PyResult<(String, String)> {
         let planned = Arc::clone(&self.0);
-        watched(py, move |cancelled| {
+        watched(py, move |interruption| {
             let mut text = (String::new(), String::new());
-            for (_, line, csv) in planned.rows(start, count, cancelled) {
+            for (_, line, csv) in planned.rows(start, count, interruption) {
                 text.0.push_str(&line);
                 text.1.push_str(&csv);
             }

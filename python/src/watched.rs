@@ -1,10 +1,9 @@
 //! Work that Ctrl-C ends.
 
 use crate::failure::Failure;
+use kutzbach::interruption::Interruption;
 use pyo3::prelude::*;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 use std::time::Duration;
@@ -17,29 +16,34 @@ pub const STACK: usize = 8 << 20;
 
 /// Does the work in a thread of its own, while other threads of Python go on and signals are looked at.
 ///
-/// Where Python answers a signal with an exception, as it does with Ctrl-C, that exception is raised at once and the flag given to
-/// the work is set. Work that does not look at it goes on in the background until it is done, and its result is dropped.
+/// Where Python answers a signal with an exception, as it does with Ctrl-C, that exception is raised at once and the work is
+/// interrupted: it looks at the flag on its way, ends soon after, and whatever it gives back is dropped. What it hands to other threads
+/// takes the flag along.
 ///
 /// # Errors
 /// The exception of a signal; what the work says.
 pub fn watched<T, W>(py: Python<'_>, work: W) -> PyResult<T>
 where
     T: Send + 'static,
-    W: FnOnce(&Arc<AtomicBool>) -> Result<T, Failure> + Send + 'static,
+    W: FnOnce(&Interruption) -> Result<T, Failure> + Send + 'static,
 {
-    let cancelled = Arc::new(AtomicBool::new(false));
+    let interruption = Interruption::default();
     let (send, mut receive) = mpsc::channel();
-    let flag = Arc::clone(&cancelled);
+    let own = interruption.clone();
     let worker = thread::Builder::new().name("kutzbach".to_owned());
     worker.stack_size(STACK).spawn(move || {
-        let result = catch_unwind(AssertUnwindSafe(|| work(&flag)));
+        let result = catch_unwind(AssertUnwindSafe(|| own.during(|| work(&own))));
         // Nobody may be waiting any more.
         let _ = send.send(result);
     })?;
     loop {
         let waiting = &mut receive;
         match py.detach(move || waiting.recv_timeout(LOOK)) {
-            Ok(Ok(result)) => return result.map_err(|failure| failure.raised(py)),
+            Ok(Ok(Ok(result))) => return result.map_err(|failure| failure.raised(py)),
+            // Nobody but this loop interrupts it, and that no longer waits.
+            Ok(Ok(Err(interrupted))) => {
+                return Err(Failure::Fault(interrupted.to_string()).raised(py));
+            }
             Ok(Err(fault)) => return Err(Failure::of_panic(&*fault).raised(py)),
             Err(RecvTimeoutError::Disconnected) => {
                 let failure = Failure::Fault("a worker ended without an answer".to_owned());
@@ -48,7 +52,7 @@ where
             Err(RecvTimeoutError::Timeout) => {}
         }
         if let Err(exception) = py.check_signals() {
-            cancelled.store(true, Ordering::Relaxed);
+            interruption.interrupt();
             return Err(exception);
         }
     }

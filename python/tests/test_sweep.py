@@ -1,9 +1,14 @@
 """Many variants: rows, shares, files."""
 
 import os
+import signal
 import subprocess
+import threading
+import time
+from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import kutzbach
 import numpy
@@ -80,19 +85,75 @@ def test_tables_of_arrow(linkage: kutzbach.Mechanism, tmp_path: Path) -> None:
     assert [path.name for path in tmp_path.iterdir()] == ["rows.parquet"]
 
 
-def test_workers_of_dask_write_shares(linkage: kutzbach.Mechanism, tmp_path: Path) -> None:
+@pytest.fixture
+def cluster() -> Iterator[Any]:
+    """Two workers in threads of this process."""
     pytest.importorskip("pyarrow")
     distributed = pytest.importorskip("distributed")
-    import kutzbach.dask
-    from pyarrow import parquet
-
     with distributed.Client(processes=False, n_workers=2, threads_per_worker=1, dashboard_address=None) as client:
-        asked = (client, linkage, {"crank": "1..8:10"}, tmp_path)
-        files = kutzbach.dask.sweep(*asked, shards=3)
-        assert len(files) == 3
-        times = [Path(file).stat().st_mtime_ns for file in files]
-        # What has a file is not done again.
-        assert kutzbach.dask.sweep(*asked, shards=3) == files
-        assert [Path(file).stat().st_mtime_ns for file in files] == times
-    rows = sorted(row["variant"] for file in files for row in parquet.read_table(file).to_pylist())
-    assert rows == list(range(10))
+        yield client
+
+
+def test_workers_of_dask_write_shares(cluster: Any, linkage: kutzbach.Mechanism, tmp_path: Path) -> None:
+    import kutzbach.dask
+
+    over = {"crank": "1..8:10", "coupler": ["7/2", Fraction(10, 3), 3]}
+    seen: list[tuple[int, int]] = []
+    asked = (cluster, linkage, over, tmp_path)
+    files = kutzbach.dask.sweep(*asked, shards=4, depth="motions", progress=lambda done, all: seen.append((done, all)))
+    assert len(files) == 4
+    assert [all for _, all in seen] == [30] * 4
+    assert sorted(done for done, _ in seen) == [done for done, _ in seen] and seen[-1] == (30, 30)
+    # Some shares have expressions among the numbers and some have none: together they are what the whole is.
+    whole = kutzbach.sweep(linkage, over, depth="motions").to_arrow()
+    assert kutzbach.dask.table(files).equals(whole, check_metadata=True)
+    times = [Path(file).stat().st_mtime_ns for file in files]
+    # What has a file is not done again; another question has files of its own.
+    assert kutzbach.dask.sweep(*asked, shards=4, depth="motions") == files
+    assert [Path(file).stat().st_mtime_ns for file in files] == times
+    assert not set(kutzbach.dask.sweep(*asked, shards=4, depth="rank")) & set(files)
+
+
+def test_shares_without_rows(cluster: Any, linkage: kutzbach.Mechanism, tmp_path: Path) -> None:
+    import kutzbach.dask
+
+    files = kutzbach.dask.sweep(cluster, linkage, {"crank": "1..2:2"}, tmp_path, shards=5)
+    assert len(files) == 5 and kutzbach.dask.table(files).num_rows == 2
+    with pytest.raises(ValueError, match="one share or more"):
+        kutzbach.dask.sweep(cluster, linkage, {"crank": "1..2:2"}, tmp_path, shards=0)
+
+
+def test_a_question_that_is_wrong_is_told_before_any_work(
+    cluster: Any, linkage: kutzbach.Mechanism, tmp_path: Path
+) -> None:
+    import kutzbach.dask
+
+    with pytest.raises(kutzbach.MechanismError, match="crnk"):
+        kutzbach.dask.sweep(cluster, linkage, {"crnk": [1]}, tmp_path, shards=2)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_workers_end_at_ctrl_c(cluster: Any, linkage: kutzbach.Mechanism, tmp_path: Path) -> None:
+    import kutzbach.dask
+
+    def press() -> None:
+        time.sleep(2)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    thread = threading.Thread(target=press)
+    thread.start()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            kutzbach.dask.sweep(cluster, linkage, {"crank": "1..2:10000000"}, tmp_path, shards=4, depth="everything")
+    finally:
+        thread.join()
+    patience = time.monotonic() + 20
+    while any(cluster.processing().values()) and time.monotonic() < patience:
+        time.sleep(0.1)
+    assert not any(cluster.processing().values())
+    # Nothing is left half done, and nothing is computed that nobody waits for.
+    assert list(tmp_path.iterdir()) == []
+    time.sleep(2)
+    before = time.process_time()
+    time.sleep(0.5)
+    assert time.process_time() - before < 0.3

@@ -17,8 +17,7 @@ use kutzbach::assembly::words;
 use kutzbach::mechanism::{JointId, JointKind, Mechanism};
 use kutzbach::number::Number;
 use kutzbach::report::text::visible;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, mpsc};
+use std::sync::mpsc;
 use std::time::Duration;
 
 /// Find every configuration in which the mechanism closes, with proof that there is no other
@@ -93,19 +92,16 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         arguments.destination.put(&equations.written_for(reader))?;
         return Ok(DONE);
     }
-    let cancelled = Arc::new(AtomicBool::new(false));
     let question = Question {
         held,
         limits: Limits {
-            cancelled: Some(Arc::clone(&cancelled)),
+            cancelled: Some(interrupt::flag()),
             ..Limits::seconds(arguments.budget)
         },
     };
-    let modes = watched(mechanism, question, &cancelled, arguments.budget).map_err(|error| {
-        Failure::Plain {
-            message: error.to_string(),
-            help: Some("`--hold joint=value` takes joints that turn or slide".to_owned()),
-        }
+    let modes = watched(mechanism, question, arguments.budget).map_err(|error| Failure::Plain {
+        message: error.to_string(),
+        help: Some("`--hold joint=value` takes joints that turn or slide".to_owned()),
     })?;
     let text = match arguments.format {
         Format::Text => words::text(mechanism, &modes, arguments.units.into())
@@ -126,16 +122,11 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
 }
 
 /// Steps that do not ask whether to go on may take so many seconds after Ctrl-C.
-const GRACE: f64 = 10.0;
+const GRACE: f64 = 2.0;
 
 /// Works while Ctrl-C and a sign of life are seen to. Work that does not end soon after Ctrl-C is left alone, and ends with the program.
 /// Nothing else depends on the clock.
-fn watched(
-    mechanism: &Mechanism,
-    question: Question,
-    cancelled: &AtomicBool,
-    budget: f64,
-) -> Result<Modes, ModesError> {
+fn watched(mechanism: &Mechanism, question: Question, budget: f64) -> Result<Modes, ModesError> {
     interrupt::listen();
     let (send, receive) = mpsc::channel();
     let (own, asked) = (mechanism.clone(), question.clone());
@@ -151,11 +142,8 @@ fn watched(
             Err(mpsc::RecvTimeoutError::Disconnected) => return Ok(Modes::interrupted(&question)),
             Err(mpsc::RecvTimeoutError::Timeout) => {}
         }
-        if interrupt::asked() {
-            cancelled.store(true, Ordering::Relaxed);
-            if sign.seconds() > *pressed.get_or_insert(sign.seconds()) + GRACE {
-                return Ok(Modes::interrupted(&question));
-            }
+        if interrupt::asked() && sign.seconds() > *pressed.get_or_insert(sign.seconds()) + GRACE {
+            return Ok(Modes::interrupted(&question));
         }
         sign.tick(|| "looking for configurations".to_owned());
     }

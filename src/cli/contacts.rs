@@ -160,8 +160,12 @@ impl ListedPair {
     fn of(row: &ContactRow) -> Self {
         Self {
             parts: row.parts.clone(),
-            is: row.rule.map(|rule| rule.word().to_owned()),
-            lead: row.lead,
+            // What the file says is read from it again: its joints may have no contact to take an axis from.
+            is: (row.reason != Reason::Declared)
+                .then_some(row.rule)
+                .flatten()
+                .map(|rule| rule.word().to_owned()),
+            lead: row.lead.filter(|_| row.reason != Reason::Declared),
             because: Some(match &row.reason {
                 Reason::Unclear(why) => format!("unclear: {why}"),
                 reason => reason_word(reason).to_owned(),
@@ -202,6 +206,7 @@ fn reason_word(reason: &Reason) -> &'static str {
         Reason::Contacts => "contacts",
         Reason::Fastener => "fastener",
         Reason::Correction => "correction",
+        Reason::Declared => "file",
         Reason::Unclear(_) => "unclear",
     }
 }

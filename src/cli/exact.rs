@@ -429,7 +429,7 @@ impl Arguments {
 }
 
 /// Steps that do not ask whether to go on may take so long after Ctrl-C.
-const GRACE: Duration = Duration::from_secs(5);
+const GRACE: Duration = Duration::from_secs(2);
 
 /// Where no bar is drawn, work that takes longer says so once (s).
 const SILENCE: Duration = Duration::from_secs(3);
@@ -440,10 +440,9 @@ fn watched<T>(arguments: &Arguments, work: impl FnOnce(&Budget) -> T) -> T {
     interrupt::listen();
     let seconds = arguments.time;
     let progress = Arc::new(Progress::default());
-    let cancelled = Arc::new(AtomicBool::new(false));
     let over = AtomicBool::new(false);
     let limits = Limits {
-        cancelled: Some(Arc::clone(&cancelled)),
+        cancelled: Some(interrupt::flag()),
         progress: Some(Arc::clone(&progress)),
         entries: Some(entries_in(arguments.memory)),
         ..Limits::seconds(seconds)
@@ -456,12 +455,10 @@ fn watched<T>(arguments: &Arguments, work: impl FnOnce(&Budget) -> T) -> T {
             let mut pressed: Option<Instant> = None;
             let mut silent = !std::io::stderr().is_terminal();
             while !over.load(Ordering::Relaxed) {
-                std::thread::park_timeout(Duration::from_millis(100));
-                if interrupt::asked() {
-                    cancelled.store(true, Ordering::Relaxed);
-                    if pressed.get_or_insert_with(Instant::now).elapsed() > GRACE {
-                        give_up(arguments, &progress.phase());
-                    }
+                std::thread::park_timeout(Duration::from_millis(50));
+                if interrupt::asked() && pressed.get_or_insert_with(Instant::now).elapsed() > GRACE
+                {
+                    give_up(arguments, &progress.phase());
                 }
                 sign.tick(|| format!("{}, {} entries", progress.phase(), progress.work()));
                 if silent && began.elapsed() > SILENCE && !over.load(Ordering::Relaxed) {

@@ -5,6 +5,7 @@ use super::geometry::{in_file, read, word, world};
 use super::{DONE, output};
 use clap::Args;
 use kutzbach::number::Number;
+use kutzbach::report::picture::solids::{FlatFace, Mark, MarkedEdge, Part, document};
 use kutzbach::report::text::visible;
 use kutzbach_geometry::features::{Declaration, Extraction, Feature, Sort, read_declarations};
 use kutzbach_geometry::{Boundary, Entity, Legible, Measured, Reading};
@@ -31,6 +32,9 @@ pub struct Arguments {
     /// Write data for a program
     #[arg(long)]
     json: bool,
+    /// Draw the parts with the faces and edges that were found marked, as an SVG
+    #[arg(long, conflicts_with = "json")]
+    svg: bool,
     #[command(flatten)]
     destination: output::Destination,
 }
@@ -65,7 +69,7 @@ fn found<S: Legible>(arguments: &Arguments) -> Result<String, Failure> {
     }
     let reading: Reading<S> = world(&arguments.file)?;
     let parts = parts(&reading, &arguments.part)?;
-    let mut all = Vec::new();
+    let (mut all, mut pictures) = (Vec::new(), Vec::new());
     for (part, boundary) in &parts {
         for declaration in &declarations {
             let extraction = declaration
@@ -74,6 +78,9 @@ fn found<S: Legible>(arguments: &Arguments) -> Result<String, Failure> {
                     message: format!("{} in {part}: {error}", declaration.name),
                     help: None,
                 })?;
+            if arguments.svg {
+                pictures.push(picture(declaration, &extraction, part, boundary));
+            }
             let names = |feature: &Feature| named(declaration, feature, part, &reading);
             all.push(InPart {
                 part: (*part).to_owned(),
@@ -82,6 +89,9 @@ fn found<S: Legible>(arguments: &Arguments) -> Result<String, Failure> {
                 extraction,
             });
         }
+    }
+    if arguments.svg {
+        return Ok(document(&pictures));
     }
     match arguments.json {
         false => Ok(all.iter().map(text).collect()),
@@ -144,6 +154,67 @@ fn named<S>(
     roles.map(name).collect()
 }
 
+/// What was looked for in which part, and how often it was found.
+fn heading(declaration: &Declaration, extraction: &Extraction, part: &str) -> String {
+    let count = match extraction.features.len() {
+        0 => "none".to_owned(),
+        many => many.to_string(),
+    };
+    format!("{} in {part}: {count}", declaration.name)
+}
+
+/// A part with its features: each in a colour of its own, and numbered where there are several.
+fn picture<S: Legible>(
+    declaration: &Declaration,
+    extraction: &Extraction,
+    part: &str,
+    boundary: &Boundary<S>,
+) -> Part {
+    let doubles = |numbers: &[S; 3]| numbers.each_ref().map(|number| number.double());
+    let flat = |face: &kutzbach_geometry::Face<S>| FlatFace {
+        loops: face
+            .loops()
+            .iter()
+            .map(|corners| corners.iter().map(|corner| doubles(&corner.0)).collect())
+            .collect(),
+        normal: doubles(face.plane().normal().components()),
+        marks: Vec::new(),
+    };
+    let mut faces: Vec<FlatFace> = boundary.faces().iter().map(flat).collect();
+    let mut edges = Vec::new();
+    for (colour, feature) in extraction.features.iter().enumerate() {
+        for (role, number) in declaration.roles.iter().zip(&feature.roles) {
+            let label = match extraction.features.len() {
+                1 => role.name.clone(),
+                _ => format!("{} {}", role.name, colour + 1),
+            };
+            let mark = Mark { colour, label };
+            match role.sort {
+                Sort::Face => {
+                    if let Some(face) = faces.get_mut(*number) {
+                        face.marks.push(mark);
+                    }
+                }
+                Sort::Edge => {
+                    let ends = boundary.edges().get(*number).map(|edge| edge.ends);
+                    let corner = |vertex: usize| {
+                        let point = boundary.vertices().get(vertex);
+                        point.map(|point| doubles(&point.0))
+                    };
+                    let ends = ends.and_then(|[from, to]| Some([corner(from)?, corner(to)?]));
+                    edges.extend(ends.map(|ends| MarkedEdge { ends, mark }));
+                }
+            }
+        }
+    }
+    Part {
+        title: heading(declaration, extraction, part),
+        solid: boundary.is_solid(),
+        faces,
+        edges,
+    }
+}
+
 /// A heading, the features as a table, and the plan.
 fn text(found: &InPart) -> String {
     let InPart {
@@ -152,11 +223,7 @@ fn text(found: &InPart) -> String {
         extraction,
         named,
     } = found;
-    let count = match extraction.features.len() {
-        0 => "none".to_owned(),
-        many => many.to_string(),
-    };
-    let mut text = format!("{} in {part}: {count}\n", declaration.name);
+    let mut text = format!("{}\n", heading(declaration, extraction, part));
     let roles: Vec<String> = declaration
         .roles
         .iter()

@@ -263,13 +263,10 @@ fn constructive(arguments: &Arguments) -> Result<u8, Failure> {
 /// Works while Ctrl-C and a sign of life are seen to.
 fn watched(named: &NamedSketch, budget: f64) -> SketchWords<'_> {
     interrupt::listen();
-    let (progress, cancelled) = (
-        Arc::new(Progress::default()),
-        Arc::new(AtomicBool::new(false)),
-    );
+    let progress = Arc::new(Progress::default());
     let limits = Limits {
         progress: Some(Arc::clone(&progress)),
-        cancelled: Some(Arc::clone(&cancelled)),
+        cancelled: Some(interrupt::flag()),
         ..together::seconds(budget)
     };
     let over = AtomicBool::new(false);
@@ -278,9 +275,6 @@ fn watched(named: &NamedSketch, budget: f64) -> SketchWords<'_> {
             let mut sign = Sign::new(budget);
             while !over.load(Ordering::Relaxed) {
                 std::thread::park_timeout(Duration::from_millis(100));
-                if interrupt::asked() {
-                    cancelled.store(true, Ordering::Relaxed);
-                }
                 sign.tick(|| format!("solving at once: {}", progress.phase()));
             }
         });

@@ -1,29 +1,67 @@
-//! Ctrl-C: the first one asks the work to come to an end, the second one ends the process.
+//! Ctrl-C: it ends the process at once, unless work listens that ends by itself and tells what it has.
 
-use std::sync::OnceLock;
+use super::failure::Failure;
+use kutzbach::interruption::Interruption;
+use std::io::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, LazyLock, OnceLock};
 
 /// Exit code of a process ended by Ctrl-C, as shells have it: 128 + SIGINT.
 pub const INTERRUPTED: u8 = 130;
 
-static ASKED: AtomicBool = AtomicBool::new(false);
+/// What work looks at on its way.
+static OWN: LazyLock<Interruption> = LazyLock::new(Interruption::default);
 
-/// Starts to listen for Ctrl-C (and for the request to terminate). Listening twice is listening once; where the system does
-/// not let it, Ctrl-C ends the process as ever.
-pub fn listen() {
-    static LISTENING: OnceLock<bool> = OnceLock::new();
-    LISTENING.get_or_init(|| {
+/// Whether there is work that ends by itself.
+static LISTENED: AtomicBool = AtomicBool::new(false);
+
+/// From here on Ctrl-C, and the request to terminate, end the process with a line and an exit code; where the system does not let
+/// it, as ever. Files are written beside and renamed, so that none is left half done.
+pub fn end_at_once() {
+    static HANDLED: OnceLock<bool> = OnceLock::new();
+    HANDLED.get_or_init(|| {
         ctrlc::set_handler(|| {
-            if ASKED.swap(true, Ordering::SeqCst) {
-                std::process::exit(i32::from(INTERRUPTED));
+            let again = OWN.is_asked();
+            OWN.interrupt();
+            if LISTENED.load(Ordering::SeqCst) && !again {
+                // That standard error is closed is nobody's concern.
+                let _ = writeln!(
+                    std::io::stderr(),
+                    "note: interrupted; what is known is told, Ctrl-C again ends at once"
+                );
+                return;
             }
+            Failure::Plain {
+                message: "interrupted: there is no answer".to_owned(),
+                help: None,
+            }
+            .tell();
+            std::process::exit(i32::from(INTERRUPTED));
         })
         .is_ok()
     });
 }
 
+/// Starts to listen for Ctrl-C: the first one asks the work to come to an end, the second one ends the process. Listening twice is
+/// listening once.
+pub fn listen() {
+    LISTENED.store(true, Ordering::SeqCst);
+    end_at_once();
+}
+
 /// Whether the work has been asked to end.
 #[must_use]
 pub fn asked() -> bool {
-    ASKED.load(Ordering::SeqCst)
+    OWN.is_asked()
+}
+
+/// The flag itself, for limits that hold one.
+#[must_use]
+pub fn flag() -> Arc<AtomicBool> {
+    OWN.flag()
+}
+
+/// Does work that is to end without an answer where Ctrl-C is pressed; then there is none.
+pub fn during<T>(work: impl FnOnce() -> T) -> Option<T> {
+    OWN.during(work).ok()
 }

@@ -80,7 +80,9 @@ enum Command {
 
 /// Reads the arguments, runs the command and tells what went wrong.
 pub fn run() -> ExitCode {
-    let outcome = match Arguments::parse().command {
+    let command = Arguments::parse().command;
+    interrupt::end_at_once();
+    let outcome = match command {
         Command::Report(arguments) => report::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Convert(arguments) => convert::run(&arguments),

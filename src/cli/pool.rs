@@ -10,7 +10,7 @@ use std::time::Duration;
 const STACK: usize = 8 << 20;
 
 /// How long nothing may come before whoever waits is asked whether to go on.
-const PATIENCE: Duration = Duration::from_millis(100);
+const PATIENCE: Duration = Duration::from_millis(50);
 
 /// What is handed over while work goes on.
 pub enum Event<T> {

@@ -6,7 +6,7 @@ use super::pose::{self, Pose};
 use super::progress::Progress;
 use super::trace::drawn;
 use super::units::ValueUnits;
-use super::{DONE, UNDECIDED, load, output, terminal};
+use super::{DONE, UNDECIDED, interrupt, load, output, terminal};
 use clap::{Args, ValueEnum};
 use kutzbach::accuracy::AccuracyOptions;
 use kutzbach::format::{Numbers, Reading, WriteOptions, write_with};
@@ -315,10 +315,11 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
         })?;
         output::put(&write_with(&own(&nearest.mechanism), &written), Some(out))?;
     }
-    Ok(if arguments.strict && !report.is_decided() {
-        UNDECIDED
-    } else {
-        DONE
+    Ok(match arguments.strict && !report.is_decided() {
+        // The page says that its verification, or its measurement, was broken off.
+        _ if interrupt::asked() => interrupt::INTERRUPTED,
+        true => UNDECIDED,
+        false => DONE,
     })
 }
 

@@ -86,16 +86,17 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let family = family(arguments, plan)?;
     let table = Table::new(&family, shard, form(arguments));
     let count = shard.count(family.plan().count());
+    interrupt::listen();
     let mut sink = Sink::open(arguments.output.as_deref(), &table, shard, count)?;
     let before = sink.rows();
     let mut progress = progress_wanted(arguments).then(|| Progress::new("sweeping"));
-    interrupt::listen();
     let mut tally = Tally::default();
     let mut failed = None;
     let left = count.saturating_sub(before);
     let members = family.members();
+    // A variant under way at Ctrl-C has no row.
     let one = |place: u64| {
-        let row = members.row(shard.index(before + place))?;
+        let row = interrupt::during(|| members.row(shard.index(before + place)))??;
         Some((table.line(&row), row.outcome.status))
     };
     in_order(left, WINDOW, one, |done, event| {

@@ -137,6 +137,18 @@ fn threads_are_right_handed_in_metres_per_turn() {
         lead("<thread_pitch>5</thread_pitch><screw_thread_pitch>0.01</screw_thread_pitch>"),
         0.01
     );
+    // libsdformat's default.
+    assert_eq!(lead(""), 1.0);
+}
+
+#[test]
+fn a_continuous_joint_inside_gazebo_has_no_limits() {
+    let more = "<gazebo><joint name='dc' type='continuous'><parent>d</parent><child>c</child>\
+                <axis><xyz>0 0 1</xyz><limit><lower>-1</lower><upper>1</upper></limit></axis></joint></gazebo>";
+    let reading = reading(&bars("0 0 0", more));
+    assert_eq!(last(&reading).bounds(), None);
+    let mut told = reading.warnings.iter();
+    assert!(told.any(|warning| warning.kind == kutzbach::format::WarningKind::NoLimit));
 }
 
 #[test]

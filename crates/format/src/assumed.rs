@@ -30,6 +30,9 @@ pub(super) struct Assumed<'a> {
     degrees: Vec<(usize, String)>,
 }
 
+/// What is wrong with a universal joint whose axes are parallel: the body between them turns idly, and the joint is a hinge.
+pub(super) const ONE_AXIS: &str = "its two axes are parallel, so that it turns about one only";
+
 /// Multiples of a quarter of π by number.
 const QUARTERS: [&str; 9] = [
     "0", "pi/4", "pi/2", "3*pi/4", "pi", "5*pi/4", "3*pi/2", "7*pi/4", "2*pi",
@@ -55,7 +58,7 @@ impl<'a> Reader<'a> {
             kind == JointKind::Universal && are_parallel(axis.unwrap_or(&x), axis2.unwrap_or(&x));
         match (parallel, axis2) {
             (false, _) => Ok(()),
-            (true, Some(_)) => Err("its two axes are parallel, so that it turns about one only"),
+            (true, Some(_)) => Err(ONE_AXIS),
             (true, None) => Err("without <axis2> its two axes are parallel, both x"),
         }
     }
@@ -203,7 +206,7 @@ fn in_two_files(name: &str) -> bool {
 }
 
 /// Whether two directions are parallel or opposed, exactly.
-fn are_parallel(Direction(a): &Direction, Direction(b): &Direction) -> bool {
+pub(super) fn are_parallel(Direction(a): &Direction, Direction(b): &Direction) -> bool {
     let minor = |i: usize, j: usize| -> Number { &(&a[i] * &b[j]) - &(&a[j] * &b[i]) };
     [(0, 1), (1, 2), (2, 0)]
         .into_iter()

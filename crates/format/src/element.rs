@@ -1,7 +1,7 @@
 //! Elements and attributes with strictness built in: what is not asked for by name is an error, not a loss.
 
 use super::error::{Fault, Outcome};
-use super::words::{alternatives, did_you_mean, quoted};
+use super::words::{alternatives, cut, did_you_mean, quoted};
 use roxmltree::Node;
 use std::ops::Range;
 
@@ -339,6 +339,21 @@ impl<'a> Attribute<'a> {
             }
         }
         self.written.len() - written.as_str().len()
+    }
+}
+
+/// The only element of that name inside another one; a second one is a fault.
+pub(super) fn only<'a>(element: Element<'a>, name: &str) -> Outcome<Option<Element<'a>>> {
+    let mut found = element.elements().filter(|part| part.name() == name);
+    let first = found.next();
+    match found.next() {
+        Some(second) => Err(second
+            .fault(format!(
+                "<{}> has a second <{name}>",
+                cut(element.written_name())
+            ))
+            .help("remove one of the two")),
+        None => Ok(first),
     }
 }
 

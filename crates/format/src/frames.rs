@@ -1,7 +1,7 @@
-//! Frames one after another, in doubles where digits cannot be kept.
+//! Frames one after another, in doubles where digits cannot be kept; these know the literals behind them.
 
 use super::quaternion::{angles_of, of_columns};
-use kutzbach_math::number::Number;
+use kutzbach_math::number::{Inputs, Number, Quantity};
 use kutzbach_math::space::Rigid;
 use kutzbach_model::mechanism::Frame;
 
@@ -10,13 +10,31 @@ pub(super) fn in_full(value: f64) -> Number {
     Number::decimal(&format!("{value:.15}")).unwrap_or_else(|_| Number::zero())
 }
 
-/// A sum that keeps the digits of a number to which nothing is added.
+/// A sum that keeps the digits of a number to which nothing is added. Another one is known as well as the digits of both say, which are
+/// lengths wherever that counts.
 pub(super) fn sum(a: &Number, b: &Number) -> Number {
     match (a.is_zero(), b.is_zero()) {
         (true, _) => b.clone(),
         (_, true) => a.clone(),
-        _ => a + b,
+        _ => added(Quantity::Length, a, b),
     }
+}
+
+/// A coordinate less another one (m), known as well as the digits of both say; of whole numbers it is exact.
+pub(super) fn difference(a: &Number, b: &Number) -> Number {
+    let is_whole = |x: &Number| x.stated().is_none_or(|own| own.decimals <= 0);
+    match is_whole(a) && is_whole(b) {
+        true => a - b,
+        false => added(Quantity::Length, a, &-b),
+    }
+}
+
+/// A sum that is known as well as the digits of both say.
+pub(super) fn added(quantity: Quantity, a: &Number, b: &Number) -> Number {
+    let mut inputs = Inputs::default();
+    inputs.add(quantity, a, 1.0);
+    inputs.add(quantity, b, 1.0);
+    (a + b).derived_from(inputs)
 }
 
 /// Whether a frame is turned.
@@ -24,18 +42,13 @@ pub(super) fn is_turned(frame: &Frame) -> bool {
     frame.roll_pitch_yaw.iter().any(|angle| !angle.is_zero())
 }
 
-/// A frame in doubles: roll, pitch and yaw about fixed axes, then the position.
-pub(super) fn pose_of(frame: &Frame) -> Rigid<f64> {
-    let position = frame.position.each_ref().map(Number::value);
-    let turned = |axis: [f64; 3], angle: &Number| {
-        let (sine, cosine) = angle.value().sin_cos();
-        Rigid::rotation(&axis, &cosine, &sine)
-    };
-    let [roll, pitch, yaw] = &frame.roll_pitch_yaw;
-    Rigid::translation(position)
-        .compose(&turned([0.0, 0.0, 1.0], yaw))
-        .compose(&turned([0.0, 1.0, 0.0], pitch))
-        .compose(&turned([1.0, 0.0, 0.0], roll))
+/// An angle in radians of one in degrees. What is no whole number of them was rounded, and is known as well as its digits say.
+pub(super) fn radians_of(degrees: &Number) -> Number {
+    let mut inputs = Inputs::default();
+    if degrees.rational().is_none_or(|x| !x.is_int()) {
+        inputs.add(Quantity::Angle, degrees, 1f64.to_radians());
+    }
+    degrees.radians().derived_from(inputs)
 }
 
 /// A frame in doubles as one that is stated in full.
@@ -48,13 +61,15 @@ pub(super) fn frame_of(pose: &Rigid<f64>) -> Frame {
     }
 }
 
-/// A frame in another one. Straight ones add up and keep their digits; after a turn the position is worked out in doubles.
+/// A frame in another one. Straight ones add up and keep their digits; after a turn the frame is worked out in doubles that know the
+/// literals of both.
 pub(super) fn one_after_another(first: &Frame, second: &Frame) -> Frame {
     if second.is_identity() {
         return first.clone();
     }
     if is_turned(first) {
-        return frame_of(&pose_of(first).compose(&pose_of(second)));
+        let found = frame_of(&first.to_doubles().compose(&second.to_doubles()));
+        return found.derived_from(Frame::inputs_between(&[], &[first, second]));
     }
     Frame {
         position: [0, 1, 2].map(|i| sum(&first.position[i], &second.position[i])),

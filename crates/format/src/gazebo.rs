@@ -9,7 +9,7 @@
 //! - `<axis><xyz>` is given in the joint's frame, unless `expressed_in` names another one, or `use_parent_model_frame`
 //!   (how versions up to 1.4 always meant it) says that it is the model's. The model's frame is the root link's at home.
 //! - `<screw_thread_pitch>` is in metres per revolution, right-handed; the older `<thread_pitch>` in radians per metre,
-//!   left-handed. Where both stand the first counts.
+//!   left-handed. Where both stand the first counts, where none does it is one metre, right-handed, as libsdformat has it.
 //! - `revolute2` turns about `<axis>` in the parent and then about `<axis2>` in the child, through one point: a universal
 //!   joint whose axes need not be at right angles.
 //! - A `<link>` stands where its `<pose>` in the model's frame says.
@@ -21,10 +21,12 @@
 //! The plugin `DetachableJoint` holds two links as they are drawn (`detachable`).
 
 use super::WarningKind;
-use super::axis_limits::{CROSSED, of_axis};
+use super::assumed::{ONE_AXIS, are_parallel};
+use super::axis_limits::of_axis;
 use super::detachable::is_detachable;
 use super::element::{Attribute, Element};
 use super::error::Outcome;
+use super::frames::radians_of;
 use super::names::Named;
 use super::reader::{Dialect, Reader};
 use super::unread::{Parts, truth};
@@ -209,11 +211,13 @@ impl<'a> Reader<'a> {
         let name = late.name.clone();
         let mut place = self.sdf_place(place, child)?;
         let mut builder = JointBuilder::closing(&name, kind, parent, child);
+        let mut first = None;
         if kind.uses_axis() {
             let (direction, in_model) = self.sdf_axis(axis.ok_or_else(|| needs("axis"))?)?;
-            builder = builder.axis(direction);
+            builder = builder.axis(direction.clone());
+            first = Some(direction);
             place.parallel_to_root = in_model;
-            let (limit, dynamics) = self.sdf_limits(axis)?;
+            let (limit, dynamics) = self.sdf_limits(axis, word.value)?;
             if kind.freedom() == 1 && limit != Limit::default() {
                 builder = builder.limit(limit);
             }
@@ -228,11 +232,17 @@ impl<'a> Reader<'a> {
             if in_model != place.parallel_to_root {
                 return Err(part.fault("both axes of a joint must be given in the same frame"));
             }
+            if first.is_some_and(|first| are_parallel(&first, &direction)) {
+                return Err(part.fault(format!("joint {}: {ONE_AXIS}", quoted(&name))));
+            }
             builder = builder.axis2(direction);
         }
         if kind.uses_lead() {
-            let lead = lead.or(old_lead);
-            builder = builder.lead(lead.ok_or_else(|| needs("screw_thread_pitch"))?);
+            let lead = lead.or(old_lead).unwrap_or_else(|| {
+                self.warn_of(joint.start(), WarningKind::Guessed, NO_PITCH);
+                Number::one()
+            });
+            builder = builder.lead(lead);
         }
         self.add_late(late, joint, kind, builder, &place);
         Ok(())
@@ -478,7 +488,7 @@ impl<'a> Reader<'a> {
             let value = needed(pose)?;
             let [x, y, z, mut roll, mut pitch, mut yaw] = self.numbers::<6>(value)?;
             if in_degrees == Some(true) {
-                (roll, pitch, yaw) = (roll.radians(), pitch.radians(), yaw.radians());
+                [roll, pitch, yaw] = [&roll, &pitch, &yaw].map(radians_of);
             }
             place.frame.position = [x, y, z];
             place.frame.roll_pitch_yaw = [roll, pitch, yaw];
@@ -568,13 +578,13 @@ impl<'a> Reader<'a> {
     }
 
     /// The range and the friction of an `<axis>`. What is no number bounds nothing.
-    fn sdf_limits(&mut self, axis: Option<Element<'a>>) -> Outcome<(Limit, Dynamics)> {
-        let read = of_axis(axis, |part| {
+    fn sdf_limits(&mut self, axis: Option<Element<'a>>, word: &str) -> Outcome<(Limit, Dynamics)> {
+        let read = of_axis(axis, word, |part| {
             Ok(part.value().and_then(|value| self.number(value).ok()))
         })?;
-        if read.is_crossed {
+        if let Some(why) = read.no_limit {
             let at = axis.map_or(0, |axis| axis.start());
-            self.warn_of(at, WarningKind::NoLimit, CROSSED);
+            self.warn_of(at, WarningKind::NoLimit, why);
         }
         Ok((read.limit, read.dynamics))
     }
@@ -613,6 +623,11 @@ pub(super) fn kind_of(word: &str) -> Option<JointKind> {
         _ => return None,
     })
 }
+
+/// What is told of a screw without a pitch, whose lead is one metre per turn. `sdf::Joint` of libsdformat has that default in metres per
+/// revolution, right-handed, whatever the version of the file (its 13th version on); before, and in Gazebo Classic, it was the default of
+/// `<thread_pitch>`, one radian per metre, left-handed.
+pub(super) const NO_PITCH: &str = "a screw joint without a pitch advances 1 m per turn, right-handed, as in libsdformat; Gazebo Classic took 1 rad/m, left-handed";
 
 /// Metres per turn, right-handed, from radians per metre, left-handed; `None` of zero.
 pub(super) fn lead_of(pitch: &Number) -> Option<Number> {

@@ -11,7 +11,7 @@ use std::ops::Range;
 /// Larger files are refused before they are read: 64 MiB, about 100,000 links with shapes.
 pub(super) const MOST_BYTES: usize = 64 << 20;
 
-/// A mechanism file nests five levels deep; foreign elements inside it rarely twenty.
+/// A mechanism file nests five levels deep, SDFormat ten; models inside models and foreign elements rarely twenty.
 pub(super) const MOST_LEVELS: usize = 64;
 
 /// In MJCF bodies stand inside bodies: a chain of so many, which nothing here follows by recursion.
@@ -103,7 +103,7 @@ pub(super) fn check_structure(text: &str) -> Outcome<Option<Range<usize>>> {
                         start..tag.name_end,
                         format!("elements are nested more than {most} levels deep"),
                     )
-                    .help("a mechanism file needs five levels; is a closing tag missing?"));
+                    .help("is a closing tag missing? mechanism files nest some ten levels deep, bodies of MJCF aside"));
                 }
             }
             Some(tag.end)

@@ -1,6 +1,7 @@
 //! `<joint>` and `<loop>`: the same kinds of joint, placed by their child or closing a loop.
 
 use super::WarningKind;
+use super::axis_limits::ENDLESS;
 use super::element::Element;
 use super::error::{Fault, Outcome};
 use super::gazebo::ordered;
@@ -423,11 +424,7 @@ impl<'a> Reader<'a> {
             velocity: self.rate(limit, "velocity"),
         };
         if word == "continuous" && (read.lower.is_some() || read.upper.is_some()) {
-            self.warn_of(
-                limit.start(),
-                WarningKind::NoLimit,
-                "a continuous joint turns without end: `lower` and `upper` are ignored",
-            );
+            self.warn_of(limit.start(), WarningKind::NoLimit, ENDLESS);
             (read.lower, read.upper) = (None, None);
         }
         if let (Some(lower), Some(upper)) = (&read.lower, &read.upper)

@@ -161,15 +161,25 @@ impl<'a> Directory<'a> {
     }
 }
 
-/// The name wanted; where something has it, with the first number from 2 on after it that nothing has.
+/// The name wanted; where something has it, with a number after it that nothing has: the first one from 2 on, unless numbers are taken
+/// with gaps between. Thousands of things may want one name, so the number is looked for by halving and not one by one.
 pub(super) fn unused(wanted: &str, is_taken: impl Fn(&str) -> bool) -> String {
-    let mut name = wanted.to_owned();
-    let mut number = 2;
-    while is_taken(&name) {
-        name = format!("{wanted}_{number}");
-        number += 1;
+    if !is_taken(wanted) {
+        return wanted.to_owned();
     }
-    name
+    let numbered = |number: usize| format!("{wanted}_{number}");
+    let (mut taken, mut free) = (1, 2);
+    while is_taken(&numbered(free)) {
+        (taken, free) = (free, 2 * free);
+    }
+    while free - taken > 1 {
+        let middle = taken + (free - taken) / 2;
+        match is_taken(&numbered(middle)) {
+            true => taken = middle,
+            false => free = middle,
+        }
+    }
+    numbered(free)
 }
 
 fn check_name(name: Attribute<'_>) -> Outcome<()> {
@@ -185,4 +195,30 @@ fn check_name(name: Attribute<'_>) -> Outcome<()> {
             .help("expand the file with xacro first"));
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::unused;
+    use std::cell::Cell;
+
+    #[test]
+    fn the_first_number_that_is_free_is_found_in_few_questions() {
+        let asked = Cell::new(0);
+        let is_taken = |name: &str| {
+            asked.set(asked.get() + 1);
+            let number = name.strip_prefix("a_").map(str::parse::<usize>);
+            name == "a" || matches!(number, Some(Ok(number)) if number <= 5000)
+        };
+        assert_eq!(unused("a", is_taken), "a_5001");
+        assert!(asked.get() < 40, "{}", asked.get());
+        assert_eq!(unused("b", is_taken), "b");
+        for last in 1..20 {
+            let is_taken = |name: &str| {
+                let number = name.strip_prefix("a_").map(str::parse::<usize>);
+                name == "a" || matches!(number, Some(Ok(number)) if number <= last)
+            };
+            assert_eq!(unused("a", is_taken), format!("a_{}", last + 1));
+        }
+    }
 }

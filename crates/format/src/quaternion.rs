@@ -1,20 +1,110 @@
 //! `quat_xyzw`, the other way in which URDF writes how a frame is turned (urdfdom 2 and later).
 //!
 //! A frame keeps roll, pitch and yaw. The angles are worked out in doubles and stated with as many decimals as the quaternion has besides zeros,
-//! so that its precision stays part of the file; one whose squares add up to exactly 1, such as `0 0 0 1` or
-//! `0.5 0.5 0.5 0.5`, states them in full.
+//! and they know its parts, so that its precision stays part of the file; one whose squares add up to exactly 1, such as `0 0 0 1` or
+//! `0.5 0.5 0.5 0.5`, states them in full. So it is with other ways of saying how a frame is turned ([`worked_out`]).
 
-use kutzbach_math::number::Number;
-use kutzbach_math::space::{cross, dot};
-use kutzbach_model::mechanism::Precision;
+use kutzbach_math::number::{Inputs, Number, Quantity};
+use kutzbach_math::space::{cross, dot, length};
+use kutzbach_model::mechanism::{Frame, Precision, roll_pitch_yaw_rates};
+use std::array::from_fn;
 
 /// Decimals of angles in full double precision.
-const FULL: usize = 15;
+pub(super) const FULL: usize = 15;
+
+/// Numbers are changed by so much to see how a turn depends on them, components of directions by so much of their size: what is left of the third order, and of rounding, is
+/// 1e-10 of that.
+const STEP: f64 = 1e-5;
+
+/// What is left of a derivative that is zero is below this.
+const NO_RATE: f64 = 1e-8;
+
+/// No turn follows what says it so fast (rad, per size of that): it jumps, as the least turn from z to −z does, and has no derivative.
+const JUMP: f64 = 100.0;
 
 /// Roll, pitch and yaw (rad, about fixed axes) of a quaternion x, y, z, w of any length; `None` for the zero quaternion.
 pub(super) fn roll_pitch_yaw(quaternion: &[Number; 4]) -> Option<[Number; 3]> {
-    let values = quaternion.each_ref().map(Number::value);
-    stated(angles(values)?, decimals_of(quaternion))
+    match decimals_of(quaternion) {
+        None => angles_of(quaternion.each_ref().map(Number::value)),
+        Some(decimals) => {
+            let parts = quaternion.each_ref();
+            worked_out(parts.map(|x| (Quantity::Angle, x)), decimals, Some)
+        }
+    }
+}
+
+/// Roll, pitch and yaw (rad, with so many decimals) of the quaternion x, y, z, w, of any length, that `turn` makes of some numbers; they
+/// know these numbers. `None` where it makes none of them.
+pub(super) fn worked_out<const N: usize>(
+    numbers: [(Quantity, &Number); N],
+    decimals: usize,
+    turn: impl Fn([f64; N]) -> Option<[f64; 4]>,
+) -> Option<[Number; 3]> {
+    let values = numbers.map(|(_, number)| number.value());
+    let found = stated(angles(turn(values)?)?, decimals)?;
+    let pose = Frame {
+        roll_pitch_yaw: found.clone(),
+        ..Frame::identity()
+    };
+    let pose = pose.to_doubles();
+    let directions = numbers.iter().zip(values);
+    let directions = directions.filter(|((quantity, _), _)| *quantity == Quantity::Direction);
+    let size = directions.fold(0.0, |size: f64, (_, value)| size.max(value.abs()));
+    let mut inputs: [Inputs; 3] = Default::default();
+    for (index, (quantity, number)) in numbers.into_iter().enumerate() {
+        let step = match quantity {
+            Quantity::Direction => STEP * size,
+            _ => STEP,
+        };
+        let moved = |by: f64| turn(from_fn(|i| values[i] + if i == index { by } else { 0.0 }));
+        let (Some(before), Some(after)) = (moved(-step), moved(step)) else {
+            continue;
+        };
+        let turned = turned_between(before, after);
+        if length(&turned) > 2.0 * STEP * JUMP {
+            continue;
+        }
+        let rates = roll_pitch_yaw_rates(&pose, &turned.map(|x| x / (2.0 * step)));
+        for (inputs, rate) in inputs.iter_mut().zip(rates) {
+            let rate = if rate.abs() > NO_RATE { rate } else { 0.0 };
+            inputs.add(quantity, number, rate);
+        }
+    }
+    if decimals < FULL {
+        // The angles are rounded to the decimals of the longest of the numbers, or to more.
+        let decimals = |(_, number): &(Quantity, &Number)| number.stated().map(|own| own.decimals);
+        if let Some((quantity, longest)) = numbers.into_iter().max_by_key(decimals) {
+            inputs
+                .iter_mut()
+                .for_each(|inputs| inputs.add(quantity, longest, 1.0));
+        }
+    }
+    let [roll, pitch, yaw] = found;
+    let [of_roll, of_pitch, of_yaw] = inputs;
+    Some([
+        roll.derived_from(of_roll),
+        pitch.derived_from(of_pitch),
+        yaw.derived_from(of_yaw),
+    ])
+}
+
+/// The rotation vector (rad) of the small turn from one orientation to another one: quaternions of any length.
+fn turned_between(from: [f64; 4], to: [f64; 4]) -> [f64; 3] {
+    let [x, y, z, w] = from;
+    let [x, y, z, w] = product(to, [-x, -y, -z, w]);
+    [x, y, z].map(|part| 2.0 * part / w)
+}
+
+/// The turn `a` after the turn `b`, as quaternions x, y, z, w.
+pub(super) fn product(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
+    let [ax, ay, az, aw] = a;
+    let [bx, by, bz, bw] = b;
+    [
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+        aw * bw - ax * bx - ay * by - az * bz,
+    ]
 }
 
 /// Roll, pitch and yaw of a quaternion that was computed, stated in full.
@@ -42,11 +132,16 @@ pub(super) fn roll_pitch_yaw_of_rows(rows: &[[Number; 3]; 3]) -> Option<[Number;
         .filter(|entry| entry.value().abs() > 1e-3)
         .cloned()
         .collect();
-    let decimals = match off <= ORTHONORMAL {
-        true => FULL,
-        false => most_decimals(&larger).unwrap_or(FULL),
-    };
-    stated(angles(of_columns(columns))?, decimals)
+    match most_decimals(&larger).filter(|_| off > ORTHONORMAL) {
+        None => angles_of(of_columns(columns)),
+        Some(decimals) => {
+            let entries = from_fn(|i| (Quantity::Angle, &rows[i / 3][i % 3]));
+            worked_out::<9>(entries, decimals, |at| {
+                let column = |j: usize| [at[j], at[j + 3], at[j + 6]];
+                Some(of_columns([column(0), column(1), column(2)]))
+            })
+        }
+    }
 }
 
 /// Products of columns of a matrix in doubles are off by so much, with some steps of computing behind it.
@@ -125,12 +220,17 @@ fn most_decimals(numbers: &[Number]) -> Option<usize> {
         .map(|most| usize::try_from(most).unwrap_or(0).min(FULL))
 }
 
+/// Programs print single precision with so many significant digits at least.
+const OF_SINGLE_PRECISION: u32 = 8;
+
+/// The square of the length of a unit quaternion in single precision is off by less than this: four units of roundoff for its parts, and as
+/// many for the arithmetic behind them.
+const SINGLE: f64 = 8.0 / (1u64 << 24) as f64;
+
 /// The decimals that the angles are stated with: those of a unit quaternion that was rounded to them. One of another length, such as
-/// `1 0 0 1`, was chosen and says its angle in full.
-fn decimals_of(quaternion: &[Number; 4]) -> usize {
-    let Some(decimals) = most_decimals(quaternion) else {
-        return FULL;
-    };
+/// `1 0 0 1`, was chosen and says its angle in full, as does one whose length is exactly 1: `None`.
+fn decimals_of(quaternion: &[Number; 4]) -> Option<usize> {
+    let decimals = most_decimals(quaternion)?;
     let squares = quaternion
         .iter()
         .fold(Number::zero(), |sum, part| &sum + &(part * part));
@@ -138,10 +238,15 @@ fn decimals_of(quaternion: &[Number; 4]) -> usize {
     let parts: f64 = quaternion.iter().map(|part| part.value().abs()).sum();
     let open = parts * 0.1f64.powi(i32::try_from(decimals).unwrap_or(0));
     let off = (squares.value() - 1.0).abs();
-    match squares == Number::one() || off > 2.0 * open {
-        true => FULL,
-        false => decimals,
-    }
+    let long = |part: &Number| {
+        let stated = part.stated();
+        stated.is_some_and(|stated| stated.significant >= OF_SINGLE_PRECISION)
+    };
+    let room = match quaternion.iter().any(long) {
+        true => (2.0 * open).max(SINGLE),
+        false => 2.0 * open,
+    };
+    (squares != Number::one() && off <= room).then_some(decimals)
 }
 
 #[cfg(test)]
@@ -214,6 +319,72 @@ mod tests {
         for (found, expected) in angles(&text).iter().zip([r, p, y]) {
             assert!((found - expected).abs() < 1e-14);
         }
+    }
+
+    #[test]
+    fn a_turn_that_jumps_has_no_derivative() {
+        let number = |text: &str| (Quantity::Direction, Number::decimal(text).unwrap());
+        let [x, z] = [number("0.000000"), number("-1.000000")];
+        let turned = |numbers: [(Quantity, &Number); 2]| {
+            worked_out(numbers, FULL, |[x, z]| {
+                let half = 0.5 * x.atan2(z);
+                Some([0.0, half.sin(), 0.0, half.cos()])
+            })
+        };
+        // The angle of a point on a circle is π or −π where x changes its sign, which is one turn; twice its half is not.
+        let [_, pitch, _] = turned([(x.0, &x.1), (z.0, &z.1)]).unwrap();
+        assert!(pitch.inputs().iter().all(|input| input.slope <= 1.0 + 1e-6));
+        let jumping = worked_out([(x.0, &x.1), (z.0, &z.1)], FULL, |[x, _]| {
+            let half = if x > 0.0 { 0.5 } else { -0.5 };
+            Some([half, 0.0, 0.0, 1.0])
+        });
+        assert!(
+            jumping
+                .unwrap()
+                .iter()
+                .all(|angle| angle.inputs().is_empty())
+        );
+    }
+
+    /// Half a unit of the fourth decimal of every part, as far as it turns the angles.
+    #[test]
+    fn the_angles_are_as_uncertain_as_the_parts_of_the_quaternion() {
+        let parts = ["0.1830", "-0.3652", "0.5489", "0.7291"];
+        let parts = parts.map(|word| Number::decimal(word).unwrap());
+        let found = roll_pitch_yaw(&parts).unwrap();
+        let half = 0.5e-4;
+        let spreads = found.each_ref().map(|angle| {
+            let slopes = angle.inputs().iter().map(|input| input.slope);
+            slopes.sum::<f64>() * half
+        });
+        let values = parts.each_ref().map(Number::value);
+        let mut nearest = [0.0f64; 3];
+        for corner in 0..16 {
+            let meant = [0, 1, 2, 3].map(|i| match (corner >> i) & 1 {
+                1 => values[i] + half,
+                _ => values[i] - half,
+            });
+            let meant = super::angles(meant).unwrap();
+            for i in 0..3 {
+                let off = (found[i].value() - meant[i]).abs();
+                assert!(off <= spreads[i], "{off:e} is more than {:e}", spreads[i]);
+                nearest[i] = nearest[i].max(off / spreads[i]);
+            }
+        }
+        assert!(nearest.iter().all(|share| *share > 0.5), "{nearest:?}");
+    }
+
+    #[test]
+    fn what_is_chosen_has_no_inputs_and_single_precision_has() {
+        let inputs = |parts: [&str; 4]| {
+            let parts = parts.map(|word| Number::decimal(word).unwrap());
+            let [.., yaw] = roll_pitch_yaw(&parts).unwrap();
+            yaw.inputs().len()
+        };
+        assert_eq!(inputs(["0", "0", "1", "1"]), 0);
+        assert_eq!(inputs(["0", "0", "0.6", "0.8"]), 0);
+        assert_eq!(inputs(["0", "0", "0.38268", "0.23"]), 0);
+        assert!(inputs(["0", "0", "3.826834261e-01", "9.238795042e-01"]) > 0);
     }
 
     #[test]

@@ -5,6 +5,7 @@
 //! small problems all sets of the least size are listed. Cost: a fixed amount of work, [`WORK`], whatever the problem.
 
 use super::row_space::RowSpace;
+use kutzbach_math::interruption;
 
 /// A way to change a joint.
 #[derive(Clone, Debug)]
@@ -141,6 +142,9 @@ impl Search<'_> {
             let mut set: Vec<usize> = Vec::new();
             for rows in (1..=self.most_rows).rev() {
                 for index in (0..many).map(|i| (i + order * many / ORDERS) % many) {
+                    if interruption::asked() {
+                        return None;
+                    }
                     let candidate = &self.candidates[index];
                     let changed = |i: &usize| self.candidates[*i].joint == candidate.joint;
                     if self.space.dimension() < self.dimension
@@ -188,10 +192,10 @@ impl Search<'_> {
             }
             let before = self.space.dimension();
             let cost = 4 * rows * (before + 1) * self.dimension;
-            let Some(work) = self.work.checked_sub(cost) else {
-                return false;
-            };
-            self.work = work;
+            match self.work.checked_sub(cost) {
+                Some(work) if !interruption::asked() => self.work = work,
+                _ => return false,
+            }
             if !self.space.add_all(&candidate.rows) {
                 continue;
             }

@@ -50,9 +50,12 @@ pub(super) const BEYOND_FIRST_ORDER: f64 = 1.5;
 /// Numbers of more bits than this (8 decimals) can hold offsets that double precision takes for rounding.
 pub(super) const TALL: usize = 27;
 
-/// Whether a number of a part was computed from decimals: then any offset may be meant by it, or none by its last digits.
+/// Whether a number of a part was computed from decimals: then any offset may be meant by it, or none by its last digits. Where these are
+/// rounded, what knows the literals behind it says by these how far it may be off.
 pub(super) fn is_computed(mechanism: &Mechanism, part: &Part) -> bool {
-    numbers(mechanism, part).any(|x| x.stated().is_none() && x.coarsest_input().is_some())
+    let computed = |x: &Number| x.stated().is_none() && x.coarsest_input().is_some();
+    let exact = mechanism.is_exact(&part.joints);
+    numbers(mechanism, part).any(|x| computed(x) && (exact || x.inputs().is_empty()))
 }
 
 /// All numbers of a part's geometry.

@@ -12,6 +12,7 @@
 //! Cost: 2 n² m for n unknowns and m equations.
 
 use super::vectors::dot;
+use kutzbach_math::interruption;
 
 /// A workspace for equations of up to a fixed number of unknowns, stored row by row.
 #[derive(Clone, Debug)]
@@ -58,11 +59,11 @@ impl DenseRows {
         self.fixed = chosen;
     }
 
-    /// Factors what stands in `rows`. False where fewer equations are independent than should be.
+    /// Factors what stands in `rows`. False where fewer equations are independent than should be, or the work is asked to end.
     pub fn factor(&mut self) -> bool {
         let n = self.unknowns;
         let m = self.order.len();
-        if m < self.rank {
+        if m < self.rank || interruption::asked() {
             return false;
         }
         for (index, slot) in self.order.iter_mut().enumerate() {

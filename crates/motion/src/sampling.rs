@@ -2,6 +2,7 @@
 
 use super::curve::{Curve, CurvePose};
 use super::result::{End, EndReason, Sample, Spacing, TraceOptions, Unreached};
+use kutzbach_math::interruption;
 
 pub(super) struct Sampled {
     pub spacing: Spacing,
@@ -19,13 +20,18 @@ fn tell(curve: &Curve, found: CurvePose) -> Sample {
     }
 }
 
+/// The numbers of the samples, as long as the work is not asked to end.
+fn places(options: &TraceOptions) -> impl Iterator<Item = usize> {
+    (0..options.samples).take_while(|_| !interruption::asked())
+}
+
 pub(super) fn sample(curve: &mut Curve, options: &TraceOptions, ends: &[End]) -> Sampled {
     let (low, high) = curve.drive_range();
     let last = (options.samples - 1) as f64;
     let mut unreached = Vec::new();
     let mut samples = Vec::new();
     if let Some((from, to)) = options.range {
-        for index in 0..options.samples {
+        for index in places(options) {
             let value = from + (to - from) * (index as f64 / last);
             if let Some(found) = curve.pose_at_drive(value) {
                 samples.push(tell(curve, found));
@@ -56,7 +62,7 @@ pub(super) fn sample(curve: &mut Curve, options: &TraceOptions, ends: &[End]) ->
     let (from, to) = curve.stretch();
     let monotone = from == 0 && to + 1 == curve.milestones.len() && to > 0;
     if let (Some(a), Some(b), true) = (a.copied(), b.copied(), monotone) {
-        for index in 0..options.samples {
+        for index in places(options) {
             let value = a.1 + (b.1 - a.1) * (index as f64 / last);
             let found = if index + 1 == options.samples {
                 curve.pose_at_arclength(end)
@@ -71,7 +77,7 @@ pub(super) fn sample(curve: &mut Curve, options: &TraceOptions, ends: &[End]) ->
             unreached,
         };
     }
-    for index in 0..options.samples {
+    for index in places(options) {
         let arc = first + (end - first) * (index as f64 / last);
         let found = curve.pose_at_arclength(arc);
         samples.extend(found.map(|f| tell(curve, f)));

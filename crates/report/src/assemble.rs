@@ -195,8 +195,14 @@ fn rounded_by(mechanism: &Mechanism) -> Option<LiteralAt> {
             (numbers.nth(place)?, &link.name)
         }
     };
+    // Of a number that was worked out, the longest of the literals behind it.
+    let decimals = |literal: &&Number| literal.stated().map(|stated| stated.decimals);
     Some(LiteralAt {
-        literal: number.literal_text()?.to_owned(),
+        literal: number
+            .literals()
+            .max_by_key(decimals)?
+            .literal_text()?
+            .to_owned(),
         owner: owner.clone(),
     })
 }

@@ -2,6 +2,7 @@
 
 use crate::error::{Problem, StepError};
 use crate::faces::{Found, of_representation};
+use crate::kinematics::{Occurred, Shown, has_pairs, mechanisms};
 use crate::merge::merged;
 use crate::part21::{Exchange, Instance, Record};
 use crate::products::{Products, loose_representations};
@@ -42,6 +43,8 @@ pub(crate) fn assembly<'e>(file: &'e Exchange<'e>) -> Result<Assembly, StepError
             accuracy: 0.0,
             schemas: file.schemas().to_vec(),
             parts: Vec::new(),
+            pairs: Vec::new(),
+            base: None,
             notes: Vec::new(),
         },
         owners: products.owners(),
@@ -49,6 +52,9 @@ pub(crate) fn assembly<'e>(file: &'e Exchange<'e>) -> Result<Assembly, StepError
         shapes: BTreeMap::new(),
         names: BTreeSet::new(),
         counts: BTreeMap::new(),
+        has_pairs: has_pairs(file),
+        occurred: Vec::new(),
+        shown: Shown::new(),
     };
     for root in products.roots() {
         builder.walk(root)?;
@@ -63,27 +69,11 @@ pub(crate) fn assembly<'e>(file: &'e Exchange<'e>) -> Result<Assembly, StepError
         };
         return Err(StepError::at(1, None, problem));
     }
-    builder.assembly.notes.extend(pairs(file));
+    let said = mechanisms(file, &builder.occurred, &builder.shown)?;
+    builder.assembly.pairs = said.pairs;
+    builder.assembly.base = said.base;
+    builder.assembly.notes.extend(said.notes);
     Ok(builder.assembly)
-}
-
-/// A note for every kind of kinematic pair that a file has: they say joints, and are not read.
-fn pairs(file: &Exchange<'_>) -> Vec<Note> {
-    let kinds = file
-        .keywords()
-        .iter()
-        .filter(|word| word.ends_with("_PAIR"));
-    let note = |kind: &String| {
-        let all = file.of_type(kind);
-        let instance = all.first()?.instance();
-        Some(Note {
-            line: instance.line(),
-            entity: instance.number(),
-            kind: NoteKind::MayJoin,
-            text: format!("{} × {kind}: kinematic pairs are not read", all.len()),
-        })
-    };
-    kinds.filter_map(note).collect()
 }
 
 struct Builder<'p, 'e> {
@@ -94,6 +84,12 @@ struct Builder<'p, 'e> {
     names: BTreeSet<String>,
     /// How many parts of each name there are.
     counts: BTreeMap<String, usize>,
+    /// Whether the file has kinematic pairs, so that occurrences are kept.
+    has_pairs: bool,
+    /// Where products occur.
+    occurred: Vec<Occurred>,
+    /// Which representation shows which product.
+    shown: Shown,
 }
 
 /// An occurrence on the way.
@@ -101,6 +97,8 @@ struct Visit<'e> {
     product: u64,
     pose: Pose,
     path: Vec<String>,
+    /// The numbers of the occurrences that lead to it.
+    chain: Vec<u64>,
     /// The occurrence above whose place is not known.
     unplaced: Option<Instance<'e>>,
 }
@@ -113,6 +111,7 @@ impl<'e> Builder<'_, 'e> {
             product: root,
             pose: Pose::identity(),
             path: Vec::new(),
+            chain: Vec::new(),
             unplaced: None,
         }];
         let mut visited = 0;
@@ -134,15 +133,29 @@ impl<'e> Builder<'_, 'e> {
                 let limit = limit as u64;
                 return Err(product.definition.error(Problem::TooMuch { what, limit }));
             }
-            self.add(&visit)?;
+            let part = self.add(&visit)?;
+            if self.has_pairs {
+                self.occurred.push(Occurred {
+                    chain: visit.chain.clone(),
+                    product: visit.product,
+                    pose: visit.pose,
+                    part,
+                });
+            }
             for occurrence in product.occurrences.iter().rev() {
                 let mut path = visit.path.clone();
                 path.push(occurrence.name.clone());
+                let mut chain = Vec::new();
+                if self.has_pairs {
+                    chain.clone_from(&visit.chain);
+                    chain.push(occurrence.usage.number());
+                }
                 let nowhere = occurrence.pose.is_none().then_some(occurrence.usage);
                 open.push(Visit {
                     product: occurrence.child,
                     pose: visit.pose * occurrence.pose.unwrap_or_default(),
                     path,
+                    chain,
                     unplaced: visit.unplaced.or(nowhere),
                 });
             }
@@ -150,11 +163,11 @@ impl<'e> Builder<'_, 'e> {
         Ok(())
     }
 
-    /// Adds a product at one place, where it has faces of its own.
-    fn add(&mut self, visit: &Visit<'e>) -> Result<(), StepError> {
+    /// Adds a product at one place, where it has faces of its own; the place among the parts.
+    fn add(&mut self, visit: &Visit<'e>) -> Result<Option<usize>, StepError> {
         let products = self.products;
         let Some(product) = products.all.get(&visit.product) else {
-            return Ok(());
+            return Ok(None);
         };
         let shape = match self.shapes.get(&visit.product) {
             Some(shape) => shape.clone(),
@@ -164,6 +177,10 @@ impl<'e> Builder<'_, 'e> {
                     Some(visit.product),
                     &self.owners,
                 )?;
+                for (record, pose) in &spread {
+                    let own = (visit.product, *pose);
+                    self.shown.entry(record.number()).or_insert(own);
+                }
                 let shape =
                     self.shape(product.definition, &spread, product.occurrences.is_empty())?;
                 self.assembly.notes.extend(shape.notes.iter().cloned());
@@ -172,7 +189,7 @@ impl<'e> Builder<'_, 'e> {
             }
         };
         if shape.faces.is_empty() {
-            return Ok(());
+            return Ok(None);
         }
         if let Some(usage) = visit.unplaced {
             return Err(usage.geometry(
@@ -180,8 +197,9 @@ impl<'e> Builder<'_, 'e> {
                 "none: export the assembly with its placements",
             ));
         }
+        let place = self.assembly.parts.len();
         self.push(product.name.clone(), visit.path.clone(), visit.pose, &shape);
-        Ok(())
+        Ok(Some(place))
     }
 
     fn push(&mut self, product: String, path: Vec<String>, pose: Pose, shape: &Shape) {

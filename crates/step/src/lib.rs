@@ -8,14 +8,16 @@
 //!   a shoulder is a revolute joint, not a cylindrical one and a planar one.
 //!
 //! # What is taken as what
-//! A product is one rigid part, however many solids it has. Kinematic pairs of AP242, tolerances, colours and tessellated shapes
-//! are not read; what is left out and could touch another part is said in [`Assembly::notes`].
+//! A product is one rigid part, however many solids it has. Kinematic pairs of AP242 and AP214 are read where both links are parts
+//! ([`Assembly::pairs`]). Tolerances, colours and tessellated shapes are not; what is left out and could touch or join another part is said in
+//! [`Assembly::notes`].
 
 mod assemble;
 pub mod contacts;
 mod curves;
 mod error;
 mod faces;
+mod kinematics;
 mod measure;
 mod merge;
 mod part21;
@@ -34,7 +36,7 @@ pub use contacts::{
     Contact, ContactKind, ContactOptions, Joint, JointError, PairOfParts, contacts, joint_of,
 };
 pub use error::{Problem, StepError};
-pub use shape::{Assembly, Face, Note, NoteKind, Part, Side, Surface};
+pub use shape::{Assembly, Face, KinematicPair, Note, NoteKind, PairMotion, Part, Side, Surface};
 
 /// Reads a STEP file.
 ///

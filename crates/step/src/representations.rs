@@ -52,6 +52,14 @@ fn related(instance: Instance<'_>) -> Option<Record<'_>> {
     })
 }
 
+/// Relationships between the links of a mechanism are pairs, not places of what shows a product.
+fn is_kinematic(instance: Instance<'_>) -> bool {
+    instance.leaves().any(|leaf| {
+        let keyword = leaf.keyword();
+        keyword == "PAIR_REPRESENTATION_RELATIONSHIP" || keyword.contains("KINEMATIC")
+    })
+}
+
 /// A relationship with a transformation: where the first representation stands in the second.
 #[derive(Clone, Copy)]
 pub(crate) struct Placed<'e> {
@@ -158,7 +166,7 @@ impl Relations {
             // A relationship with a transformation may be written without naming shapes.
             let counts =
                 is_shape || (related(instance).is_some() && transformation(instance).is_some());
-            if !counts || except.contains(&instance.number()) {
+            if !counts || is_kinematic(instance) || except.contains(&instance.number()) {
                 continue;
             }
             let placed = relationship(instance)?;

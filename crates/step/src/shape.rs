@@ -16,6 +16,10 @@ pub struct Assembly {
     pub schemas: Vec<String>,
     /// The parts, in the order in which the assembly names them.
     pub parts: Vec<Part>,
+    /// The kinematic pairs between parts that the file says.
+    pub pairs: Vec<KinematicPair>,
+    /// The base of the file's mechanism, by its place in `parts`.
+    pub base: Option<usize>,
     /// What was not read, and what was taken in one of several ways.
     pub notes: Vec<Note>,
 }
@@ -101,6 +105,45 @@ pub enum Surface {
     },
     /// Another surface, by its keyword.
     Other(String),
+}
+
+/// A pair that a file says: two parts, and what they may do to each other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KinematicPair {
+    /// Line of the file.
+    pub line: usize,
+    /// Number of its entity.
+    pub entity: u64,
+    /// Its two parts, by their places in [`Assembly::parts`], in the order of the pair.
+    pub parts: (usize, usize),
+    /// Its frame in the first and in the second part, as they stand: `assembly_from_pair` (m).
+    pub frames: (Pose, Pose),
+    /// What it lets through.
+    pub motion: PairMotion,
+}
+
+/// What a kinematic pair lets through, about its frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum PairMotion {
+    /// Translations along and rotations about x, y and z, each of them or not. Of two rotations the first is about an axis of the first
+    /// frame, the second about one of the second frame.
+    Free {
+        /// Along x, y, z.
+        translations: [bool; 3],
+        /// About x, y, z.
+        rotations: [bool; 3],
+    },
+    /// A turn about z with a translation along z.
+    Screw {
+        /// Metres per turn, right-handed positive.
+        lead: f64,
+    },
+    /// Two gears: seen from what bears both, the second turns about its z by minus this many times the angle of the first about its own.
+    Gears {
+        /// Turns of the second for one of the first.
+        ratio: f64,
+    },
 }
 
 /// Something that the reader of a file should know.

@@ -87,7 +87,7 @@ class Sweep:
         """The rows as a table of Arrow, with what they depend on as its metadata; measures that are no plain numbers stay texts."""
         import pyarrow
 
-        columns = {name: _uniform(self.column(name)) for name in self.columns}
+        columns = {name: _array(name, self.column(name)) for name in self.columns}
         return pyarrow.table(columns).replace_schema_metadata({"kutzbach": self._head.strip()})
 
     def to_parquet(self, path: str | os.PathLike[str]) -> None:
@@ -132,25 +132,82 @@ def _double(value: Any) -> float:
         return float("nan")
 
 
+_TYPES = {
+    "variant": "int64",
+    "status": "string",
+    "kutzbach": "int64",
+    "instantaneous": "int64",
+    "redundant": "int64",
+    "margin": "float64",
+    "finite": "int64",
+    "generic": "int64",
+    "verdict": "string",
+    "pose": "string",
+    "kind": "string",
+    "class": "string",
+    "branches": "int64",
+    "reason": "string",
+}
+"""Types of columns that may be empty; those of measures are those of their values."""
+
+
+def _array(name: str, values: list[Any]) -> pyarrow.Array:
+    """A column of one type, the same for every share of a sweep, except of measures."""
+    import pyarrow
+
+    if name == "locked":
+        return pyarrow.array(values, pyarrow.list_(pyarrow.string()))
+    if name in _TYPES:
+        return pyarrow.array(values, pyarrow.type_for_alias(_TYPES[name]))
+    return pyarrow.array(_uniform(values))
+
+
 def _uniform(values: list[Any]) -> list[Any]:
     """A column of one type: whole numbers beside decimals are doubles, numbers beside expressions are texts."""
     kinds = {type(value) for value in values if value is not None}
     if kinds == {int, float}:
         return [None if value is None else float(value) for value in values]
     if str in kinds and len(kinds) > 1:
-        return [None if value is None else str(value) for value in values]
+        return [None if value is None else _written(value) for value in values]
     return values
 
 
-def _planned(
+def _written(value: Any) -> str:
+    """A number as a row has it: whole ones that became doubles beside decimals without a point."""
+    whole = isinstance(value, float) and value.is_integer() and abs(value) < 1e15
+    return str(int(value)) if whole else str(value)
+
+
+def joined(tables: list[pyarrow.Table]) -> pyarrow.Table:
+    """Tables of the shares of one sweep as that of the whole, rows in the order of their numbers."""
+    import pyarrow
+
+    # A share of few variants may have none.
+    tables = [own for own in tables if own.num_rows]
+    if not tables:
+        return pyarrow.table({})
+    columns: dict[str, list[Any]] = {name: [] for name in tables[0].column_names}
+    for own in tables:
+        for name, values in columns.items():
+            values.extend(own.column(name).to_pylist())
+    whole = pyarrow.table({name: _array(name, values) for name, values in columns.items()})
+    head = json.loads(tables[0].schema.metadata[b"kutzbach"])
+    # What rows depend on but for the share.
+    told = json.dumps({**head, "shard": "1/1"}, separators=(",", ":"), ensure_ascii=False)
+    return whole.sort_by("variant").replace_schema_metadata({"kutzbach": told})
+
+
+def planned(
     mechanism: Mechanism,
     over: Mapping[str, Values],
-    sample: str | None,
-    shard: tuple[int, int] | None,
-    depth: Depth,
-    configuration: str | None,
-    closure_tolerance: float | None,
+    *,
+    sample: str | None = None,
+    shard: tuple[int, int] | None = None,
+    depth: Depth = "verdict",
+    configuration: str | None = None,
+    closure_tolerance: float | None = None,
 ) -> _kutzbach.Sweep:
+    """What :func:`sweep` will do: how many rows there are, and what stands before them."""
     question = asked(
         over=[over_text(name, values) for name, values in over.items()],
         sample=sample,
@@ -188,16 +245,24 @@ def sweep(
     >>> kutzbach.sweep(door.build(), {"w": "0..1:3"}).column("finite")
     [1, 1, 1]
     """
-    planned = _planned(mechanism, over, sample, shard, depth, configuration, closure_tolerance)
-    count, head = planned.count(), planned.head(False)
+    plan = planned(
+        mechanism,
+        over,
+        sample=sample,
+        shard=shard,
+        depth=depth,
+        configuration=configuration,
+        closure_tolerance=closure_tolerance,
+    )
+    count, head = plan.count(), plan.head(False)
     csv = output is not None and not os.fspath(output).endswith(".jsonl")
     lines: list[str] = []
     file: IO[str] | None = None
     try:
         if output is not None:
             file = open(output, "w", encoding="utf-8", newline="")
-            file.write(planned.head(csv))
-        for jsonl, rows in _chunks(planned, count):
+            file.write(plan.head(csv))
+        for jsonl, rows in _chunks(plan, count):
             # Names may hold line breaks of Unicode, which end no row.
             lines.extend(jsonl.split("\n")[:-1])
             if file is not None:
@@ -212,12 +277,12 @@ def sweep(
     return Sweep(head, lines)
 
 
-def _chunks(planned: _kutzbach.Sweep, count: int) -> Iterator[tuple[str, str]]:
+def _chunks(plan: _kutzbach.Sweep, count: int) -> Iterator[tuple[str, str]]:
     """All rows, in pieces that take about half a second each, so that little is lost at Ctrl-C."""
     start, size = 0, _FIRST
     while start < count:
         began = time.monotonic()
-        yield planned.rows(start, size)
+        yield plan.rows(start, size)
         start += size
         seconds = max(time.monotonic() - began, 1e-6)
         size = int(min(max(size * _SECONDS / seconds, 1), 4 * size, _MOST))

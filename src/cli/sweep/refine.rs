@@ -5,7 +5,7 @@ use super::sink::Sink;
 use crate::cli::DONE;
 use crate::cli::failure::Failure;
 use crate::cli::files::cannot_read;
-use crate::cli::interrupt::INTERRUPTED;
+use crate::cli::interrupt::{self, INTERRUPTED};
 use crate::cli::pool::{Event, in_order};
 use crate::cli::progress::Progress;
 use kutzbach::sweep::{Border, Members, Side, Table};
@@ -28,20 +28,21 @@ pub fn refine(
     let plan = members.family().plan();
     let border = Border::new(plan, &sides(path, table, plan.count())?, steps);
     let count = border.count();
-    let one = |pair: u64| -> Vec<String> {
-        let rows = border.rows(pair, members);
-        rows.iter().map(|row| table.line(row)).collect()
+    // A pair under way at Ctrl-C has no rows.
+    let one = |pair: u64| -> Option<Vec<String>> {
+        let rows = interrupt::during(|| border.rows(pair, members))?;
+        Some(rows.iter().map(|row| table.line(row)).collect())
     };
     let mut progress = Progress::new("refining");
     let mut failed = None;
     let mut finished = 0;
     in_order(count, WINDOW, one, |done, event| {
         let put = match event {
-            Event::Next(lines) => {
+            Event::Next(Some(lines)) => {
                 finished += 1;
                 lines.iter().try_for_each(|line| sink.put(line))
             }
-            Event::Waiting => sink.keep(),
+            Event::Next(None) | Event::Waiting => sink.keep(),
         };
         if let Err(failure) = put {
             failed = Some(failure);

@@ -1,5 +1,6 @@
 //! How long a computation may go on.
 
+use kutzbach_math::interruption;
 use std::cell::Cell;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -16,7 +17,8 @@ pub struct Limits {
     pub work: Option<u64>,
     /// Entries of the largest matrix: what bounds the memory.
     pub entries: Option<u64>,
-    /// Set from outside (another thread, a signal) to stop.
+    /// Set from outside (another thread, a signal) to stop, and to be told what is known by then. Work that is to end without any answer
+    /// is done [during an interruption](kutzbach_math::interruption::Interruption::during).
     pub cancelled: Option<Arc<AtomicBool>>,
     /// Where the computation says how far it is.
     pub progress: Option<Arc<Progress>>,
@@ -189,11 +191,8 @@ impl Budget {
         if let Some(progress) = &limits.progress {
             progress.work.store(self.work.get(), Ordering::Relaxed);
         }
-        if limits
-            .cancelled
-            .as_ref()
-            .is_some_and(|flag| flag.load(Ordering::Relaxed))
-        {
+        let cancelled = limits.cancelled.as_ref();
+        if interruption::asked() || cancelled.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
             return Err(Stop::Cancelled);
         }
         if limits.work.is_some_and(|most| self.work.get() > most) {
@@ -308,6 +307,15 @@ mod tests {
         assert_eq!(stopped.check(), Ok(()));
         flag.store(true, Ordering::Relaxed);
         assert_eq!(stopped.check(), Err(Stop::Cancelled));
+        let own = interruption::Interruption::default();
+        let mut seen = Vec::new();
+        let done = own.during(|| {
+            seen.push(Budget::unlimited().check());
+            own.interrupt();
+            seen.push(Budget::unlimited().check());
+        });
+        assert_eq!(done, Err(interruption::Interrupted));
+        assert_eq!(seen, [Ok(()), Err(Stop::Cancelled)]);
     }
 
     #[test]

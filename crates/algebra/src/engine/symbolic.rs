@@ -6,6 +6,7 @@
 use super::budget::{Budget, Stop};
 use super::monomials::{Monomials, divides, divisibility_mask, quotient};
 use super::order::MonomialOrder;
+use std::cmp::Reverse;
 
 /// A multiple of a polynomial as a row of a matrix.
 #[derive(Clone, Debug)]
@@ -126,7 +127,7 @@ impl<'a> Planner<'a> {
         }
         self.budget
             .toil(EFFORT_OF_COLUMN * self.columns.len() as u64)?;
-        Ok(self.sorted(order))
+        self.sorted(order)
     }
 
     fn cover(&mut self, column: u32) {
@@ -179,16 +180,20 @@ impl<'a> Planner<'a> {
         })
     }
 
-    /// Numbers the columns from the largest monomial down.
-    fn sorted(mut self, order: &MonomialOrder) -> (Plan, Vec<u32>) {
+    /// Numbers the columns from the largest monomial down: by their keys, then those of one key among themselves, between which
+    /// it can be stopped.
+    fn sorted(mut self, order: &MonomialOrder) -> Result<(Plan, Vec<u32>), Stop> {
         let columns = &*self.columns;
         let mut keyed: Vec<(u64, u32)> = (0..columns.len() as u32)
             .map(|number| (order.first_key(columns.exponents(number)), number))
             .collect();
-        keyed.sort_unstable_by(|&(a_key, a), &(b_key, b)| {
-            let keys = b_key.cmp(&a_key);
-            keys.then_with(|| order.compare_after_key(columns.exponents(b), columns.exponents(a)))
-        });
+        keyed.sort_unstable_by_key(|&(key, _)| Reverse(key));
+        for alike in keyed.chunk_by_mut(|a, b| a.0 == b.0) {
+            self.budget.check()?;
+            alike.sort_unstable_by(|&(_, a), &(_, b)| {
+                order.compare_after_key(columns.exponents(b), columns.exponents(a))
+            });
+        }
         let by_size: Vec<u32> = keyed.into_iter().map(|(_, number)| number).collect();
         let mut place = vec![0; by_size.len()];
         for (at, &number) in by_size.iter().enumerate() {
@@ -199,6 +204,6 @@ impl<'a> Planner<'a> {
             *column = place[*column as usize];
         }
         self.plan.columns = by_size.len();
-        (self.plan, by_size)
+        Ok((self.plan, by_size))
     }
 }

@@ -136,7 +136,8 @@ pub fn real_solutions_within(system: &ReducedSystem, share: f64, budget: &Budget
             });
         }
     }
-    let sought = found.open.iter().filter(|_| share > 0.0);
+    let wanted = share > 0.0 && found.stopped != Some(Stop::Cancelled);
+    let sought = found.open.iter().filter(|_| wanted);
     for (chart, sides) in sought {
         let Some((place, worst)) = closest(*chart, sides) else {
             continue;

@@ -76,6 +76,13 @@ pub(super) fn search(
     let count = system.freedom();
     let mut found = Found::default();
     for (index, chart) in charts.iter().enumerate() {
+        let sides = vec![Interval::new(-REACH, REACH); count];
+        // What is not looked at any more stays open as it is.
+        if found.stopped.is_some() {
+            found.boxes += 1;
+            found.open.push((index, sides));
+            continue;
+        }
         let mut tensors = chart::tensors(system, &scales, chart);
         let sizes = chart::sizes(system, &tensors);
         for (tensor, size) in tensors.iter_mut().zip(sizes) {
@@ -83,7 +90,7 @@ pub(super) fn search(
         }
         let mut waiting = vec![Cell {
             chart: index,
-            sides: vec![Interval::new(-REACH, REACH); count],
+            sides,
             tensors,
         }];
         while let Some(cell) = waiting.pop() {

@@ -9,7 +9,7 @@
 use super::{Assembly, CadJoint, End, Kind, Part, Side};
 use crate::element::{Attribute, Element};
 use crate::error::{Fault, Outcome};
-use crate::frames::one_after_another;
+use crate::frames::{one_after_another, radians_of};
 use crate::quaternion::roll_pitch_yaw;
 use crate::values::exactly;
 use crate::words::quoted;
@@ -176,7 +176,7 @@ impl<'a> Object<'a> {
             return Ok(Number::zero());
         };
         let [degrees] = exactly(value)?;
-        Ok(degrees.radians())
+        Ok(radians_of(&degrees))
     }
 
     /// The kind of a joint; none of what is no joint.

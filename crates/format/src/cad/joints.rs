@@ -2,8 +2,8 @@
 
 use super::{Bounds, CadJoint, End, Kind, Maker, Mover, Side};
 use crate::error::Outcome;
-use crate::frames::{frame_of, in_full, pose_of};
-use kutzbach_math::number::Number;
+use crate::frames::{added, frame_of, one_after_another, sum};
+use kutzbach_math::number::{Number, Quantity};
 use kutzbach_math::space::Rigid;
 use kutzbach_model::mechanism::{Direction, Frame, JointBuilder, JointKind, Limit};
 
@@ -14,12 +14,20 @@ fn axis(index: usize) -> Direction {
     }))
 }
 
+/// An angle further than a first one, which is known as well as the digits of both say; a first one that is written as zero adds nothing.
+fn turned_further(first: &Number, angle: &Number) -> Number {
+    match first.is_zero() && first.inputs().is_empty() {
+        true => angle.clone(),
+        false => added(Quantity::Angle, first, angle),
+    }
+}
+
 /// A frame turned further about its own x axis, which roll, pitch and yaw about fixed axes say exactly.
 fn turned_about_x(frame: &Frame, angle: &Number) -> Frame {
     let [roll, pitch, yaw] = frame.roll_pitch_yaw.clone();
     Frame {
         position: frame.position.clone(),
-        roll_pitch_yaw: [&roll + angle, pitch, yaw],
+        roll_pitch_yaw: [turned_further(&roll, angle), pitch, yaw],
     }
 }
 
@@ -28,7 +36,7 @@ fn half_turned_about_z(frame: &Frame) -> Frame {
     let [roll, pitch, yaw] = frame.roll_pitch_yaw.clone();
     Frame {
         position: frame.position.clone(),
-        roll_pitch_yaw: [-roll, -pitch, &yaw + &Number::pi()],
+        roll_pitch_yaw: [-roll, -pitch, turned_further(&yaw, &Number::pi())],
     }
 }
 
@@ -42,7 +50,7 @@ impl Maker<'_> {
     pub(super) fn drawn(&self, sides: &[Side; 2]) -> Drawn {
         let frames = sides
             .each_ref()
-            .map(|side| self.poses[side.part].compose(&pose_of(&side.frame)));
+            .map(|side| self.poses[side.part].compose(&side.frame.to_doubles()));
         let seen = frames[0].inverse().compose(&frames[1]);
         Drawn { frames, seen }
     }
@@ -319,18 +327,18 @@ fn raised(side: &Side, height: &Number) -> Side {
     if height.is_zero() {
         return raised;
     }
-    let z = pose_of(&side.frame).rotate(&[0.0, 0.0, 1.0]);
-    let main = (0..3).find(|&i| (z[i].abs() - 1.0).abs() < 1e-12);
-    for (i, at) in raised.frame.position.iter_mut().enumerate() {
-        let add = match main {
-            // Along an axis of the part the sum keeps its digits.
-            Some(main) if main != i => continue,
-            Some(main) if z[main] > 0.0 => height.clone(),
-            Some(_) => -height.clone(),
-            None => in_full(z[i] * height.value()),
-        };
-        *at = if at.is_zero() { add } else { &*at + &add };
-    }
+    let z = side.frame.to_doubles().rotate(&[0.0, 0.0, 1.0]);
+    let Some(main) = (0..3).find(|&i| (z[i].abs() - 1.0).abs() < 1e-12) else {
+        let above = Frame::at([Number::zero(), Number::zero(), height.clone()]);
+        raised.frame.position = one_after_another(&side.frame, &above).position;
+        return raised;
+    };
+    // Along an axis of the part the sum keeps its digits.
+    let up = match z[main] > 0.0 {
+        true => height.clone(),
+        false => -height.clone(),
+    };
+    raised.frame.position[main] = sum(&raised.frame.position[main], &up);
     raised
 }
 

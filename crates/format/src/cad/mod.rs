@@ -25,7 +25,6 @@ pub(super) use asmt::{is_asmt, read as read_asmt};
 pub(super) use freecad::{document, is_document, read as read_freecad};
 
 use super::error::{Fault, Outcome};
-use super::frames::pose_of;
 use super::kept::Kept;
 use super::names::unused;
 use super::reader::{counted_skips, counted_warnings};
@@ -194,7 +193,7 @@ impl Maker<'_> {
         let name = self.take_name(wanted);
         let index = self.links.len();
         self.builder.link(&name);
-        self.poses.push(pose_of(&frame));
+        self.poses.push(frame.to_doubles());
         if let Some(ground) = self.links.first() {
             let placed = format!("{name} as drawn");
             self.taken.insert(placed.clone());

@@ -2,14 +2,16 @@
 
 use super::keys::Coordinate;
 use super::mass::Load;
-use super::pose::{exactly, least_turn};
-use super::{BRINGS_BODIES, Known, Mjcf, Place, WORLD};
+use super::pose::{Compiler, exactly, least_turn};
+use super::{Known, Mjcf, Place, SOFT, WORLD};
+use crate::WarningKind;
 use crate::element::Element;
 use crate::error::Outcome;
-use crate::frames::one_after_another;
+use crate::frames::{difference, one_after_another};
 use crate::words::quoted;
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Frame, JointBuilder, JointKind};
+use std::rc::Rc;
 
 pub(super) fn tree(name: &str, kind: JointKind, parent: &str, child: &str) -> JointBuilder {
     JointBuilder::tree(name, kind, parent, child)
@@ -21,9 +23,12 @@ const STANDARD: [&str; 4] = ["light", "camera", "plugin", "user"];
 /// An element of the tree that is still to be read.
 struct Open<'a> {
     element: Element<'a>,
-    place: Place,
+    /// Shared with what stands beside it: frames may be nested by thousands.
+    place: Rc<Place>,
     /// The class that the body around it gives.
     class: Option<&'a str>,
+    /// The settings of the file that it is from.
+    compiler: Compiler,
 }
 
 /// Something in a body, its class, and the frames inside the body that it stands in, as one.
@@ -36,35 +41,45 @@ pub(super) struct Found<'a> {
 impl<'a> Mjcf<'a> {
     /// All bodies of the world.
     pub(super) fn bodies(&mut self, world: Element<'a>) -> Outcome<()> {
-        let place = Place {
+        let place = Rc::new(Place {
             link: WORLD.to_owned(),
             chain: Vec::new(),
-        };
+        });
         // Nesting is bounded by memory alone: no recursion.
         let mut open = Vec::new();
+        let compiler = self.compiler;
         self.inside(world, &place, None, &mut open)?;
         while let Some(Open {
             element,
             place,
             class,
+            compiler,
         }) = open.pop()
         {
+            self.compiler = compiler;
+            // The frame of what is attached has the settings of its file.
+            let settings = element.elements().filter(|part| part.name() == "compiler");
+            for own in settings.filter(|_| element.name() == "frame") {
+                self.compile(own)?;
+            }
             let of = self.classes.of(element, class)?;
             let own = element.attribute("childclass").map(|own| own.value);
             let class = own.or(class);
             let mut place = place;
-            place.chain.push(self.frame(element, of)?);
+            let frame = self.frame(element, of)?;
+            Rc::make_mut(&mut place).chain.push(frame);
             if element.name() == "frame" {
                 self.inside(element, &place, class, &mut open)?;
                 continue;
             }
             let link = self.make_body(element, &place, class)?;
-            let inner = Place {
+            let inner = Rc::new(Place {
                 link,
                 chain: Vec::new(),
-            };
+            });
             self.inside(element, &inner, class, &mut open)?;
         }
+        self.compiler = compiler;
         Ok(())
     }
 
@@ -72,7 +87,7 @@ impl<'a> Mjcf<'a> {
     fn inside(
         &mut self,
         element: Element<'a>,
-        place: &Place,
+        place: &Rc<Place>,
         class: Option<&'a str>,
         open: &mut Vec<Open<'a>>,
     ) -> Outcome<()> {
@@ -81,8 +96,9 @@ impl<'a> Mjcf<'a> {
             match part.name() {
                 "body" | "frame" => found.push(Open {
                     element: part,
-                    place: place.clone(),
+                    place: Rc::clone(place),
                     class,
+                    compiler: self.compiler,
                 }),
                 "site" => self.site(part, place, class)?,
                 "joint" | "freejoint" => {
@@ -91,12 +107,14 @@ impl<'a> Mjcf<'a> {
                         return Err(part.fault(message));
                     }
                 }
-                name if BRINGS_BODIES.contains(&name) => {
-                    let message =
-                        format!("<{name}> is not read, and the bodies that it makes would be lost");
-                    return Err(part
-                        .fault(message)
-                        .help("save the model as MuJoCo compiled it: mj_saveLastXML"));
+                // Taken before.
+                "compiler" if element.name() == "frame" => {}
+                name if SOFT.contains(&name) => {
+                    let message = format!(
+                        "<{name}> is not read: the bodies that it makes, and how they move, are not in the answer"
+                    );
+                    let warning = (part.start(), WarningKind::MayJoin, message);
+                    self.warnings.push(warning);
                 }
                 // Read with the body itself.
                 "geom" | "inertial" => {}
@@ -138,15 +156,15 @@ impl<'a> Mjcf<'a> {
             Some(name) => name.value.to_owned(),
             None => self.name_for(&self.links, "body"),
         };
-        if body
-            .attribute("mocap")
-            .is_some_and(|word| word.value == "true")
-        {
-            self.mocap
-                .extend(body.attribute("name").map(|name| name.value));
-        }
         self.links.insert(name.clone(), body.range());
+        self.homes.insert(name.clone(), place.clone());
         let joints = self.parts_of(body, class, &["joint", "freejoint"])?;
+        let says = body.attribute("mocap");
+        let is_mocap = says.is_some_and(|word| word.value == "true");
+        // What is fixed to a body that a user moves is moved with it.
+        if is_mocap || joints.is_empty() && self.mocap.contains(&place.link) {
+            self.mocap.insert(name.clone());
+        }
         let load = self.load_of(body, class)?;
         let free = joints
             .iter()
@@ -302,22 +320,16 @@ impl<'a> Mjcf<'a> {
         }
         let at = one_after_another(&jointed.frame, &at);
         let axis = self.axis_of(joint, of)?;
-        for name in ["stiffness", "springref"] {
-            if let Some(spring) = attribute(name) {
-                self.unread
-                    .text(spring.range().start, format!("`{name}` of a joint"));
-            }
-        }
+        let digits = axis.0.iter().filter_map(Number::stated);
+        let decimals = digits
+            .filter(|digits| digits.significant > 0)
+            .map(|digits| digits.decimals);
+        self.decimals_of_axes = decimals.fold(self.decimals_of_axes, i32::max);
         let limit = match kind {
-            JointKind::Spherical => {
-                if let Some(range) = attribute("range") {
-                    self.unread
-                        .text(range.range().start, "`range` of a ball".to_owned());
-                }
-                None
-            }
+            JointKind::Spherical => None,
             _ => self.limit(joint, of, kind)?,
         };
+        self.tell_unread_of(joint, of, kind);
         let dynamics = self.dynamics_of(joint, of)?;
         let own = joint.attribute("name").map(|own| own.value);
         let name = self.name_of(own, &format!("{body}_joint"), joint)?;
@@ -362,9 +374,9 @@ impl<'a> Mjcf<'a> {
 pub(super) fn between([a, b, c, d, e, f]: [Number; 6]) -> Option<Frame> {
     let (from, to) = ([a, b, c], [d, e, f]);
     let half = Number::ratio(1, 2)?;
-    let along = [0, 1, 2].map(|i| from[i].value() - to[i].value());
+    let along = [0, 1, 2].map(|i| difference(&from[i], &to[i]));
     Some(Frame {
         position: [0, 1, 2].map(|i| &(&from[i] + &to[i]) * &half),
-        roll_pitch_yaw: least_turn(along)?,
+        roll_pitch_yaw: least_turn(along.each_ref())?,
     })
 }

@@ -2,11 +2,15 @@
 
 use crate::element::{Attribute, Element};
 use crate::error::Outcome;
+use crate::guard::MOST_LEVELS;
 use crate::words::{did_you_mean, quoted};
 use std::collections::BTreeMap;
 
 /// The name of the class that all others come from, where the file gives it none.
 pub(super) const MAIN: &str = "main";
+
+/// The root element that holds the classes of a file that something is attached from.
+pub(super) const ATTACHED: &str = "attached";
 
 /// A class: the one that it comes from, and its elements.
 #[derive(Default)]
@@ -24,14 +28,22 @@ pub(super) struct Classes<'a> {
 }
 
 impl<'a> Classes<'a> {
-    /// Takes `<default>` of the root element; classes inside come from it.
+    /// Takes `<default>` of the root element, or the classes of a file that something is attached from, which come from no other one; classes
+    /// inside come from it.
     ///
     /// # Errors
-    /// A class inside another one without a name, and two classes of one name.
+    /// A class inside another one without a name, two classes of one name, and more classes inside one another than are looked through for
+    /// every attribute.
     pub(super) fn read(&mut self, default: Element<'a>) -> Outcome<()> {
-        let mut open = vec![(default, None)];
-        while let Some((element, from)) = open.pop() {
+        let mut open = vec![(default, None, 1)];
+        while let Some((element, from, level)) = open.pop() {
+            if level > MOST_LEVELS {
+                return Err(element.fault(format!(
+                    "default classes are nested more than {MOST_LEVELS} levels deep"
+                )));
+            }
             let name = match (element.attribute("class"), from) {
+                (Some(name), None) if element.name() == ATTACHED => name.value,
                 (name, None) => {
                     self.of_file.extend(name.map(|name| name.value));
                     MAIN
@@ -52,7 +64,7 @@ impl<'a> Classes<'a> {
             class.from = from;
             for part in element.elements() {
                 match part.name() {
-                    "default" => open.push((part, Some(name))),
+                    "default" => open.push((part, Some(name), level + 1)),
                     _ => class.elements.push(part),
                 }
             }

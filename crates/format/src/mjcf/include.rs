@@ -3,6 +3,7 @@
 //! MuJoCo looks for files beside the main one; one that is not there is looked for beside the file that names it. A file can be included
 //! once.
 
+use super::attach::attached;
 use super::replicate::replicated;
 use crate::error::{Fault, FormatError, Outcome, lines_and_columns, located};
 use crate::words::quoted;
@@ -18,6 +19,8 @@ struct Source {
     name: String,
     path: Option<PathBuf>,
     text: String,
+    /// The inclusions in their order, where each stands and the file that it names; `None` before they are looked for.
+    includes: Option<Vec<(Range<usize>, String)>>,
 }
 
 /// A stretch of the whole text.
@@ -46,17 +49,32 @@ struct Part {
     depth: usize,
 }
 
-/// The text with what it includes, and with the copies that replicates make.
+/// The text with what it includes and attaches, and with the copies that replicates make.
 ///
 /// # Errors
-/// A file that cannot be read, is no XML, or is included twice, and copies that cannot be made.
+/// A file that cannot be read, is no XML, or is included twice, models that cannot be attached, and copies that cannot be made.
 pub(crate) fn whole(text: &str, file: &str, base: Option<&Path>) -> Result<Whole, FormatError> {
+    expanded(text, file, base, 0)
+}
+
+/// The same of a text that is attached to others, one to the other.
+pub(super) fn expanded(
+    text: &str,
+    file: &str,
+    base: Option<&Path>,
+    depth: usize,
+) -> Result<Whole, FormatError> {
+    if depth >= DEEPEST {
+        let message = format!("more than {DEEPEST} models are attached one to another");
+        return Err(located(file, text, vec![Fault::new(0..0, message)]));
+    }
     let mut whole = Whole {
         text: String::new(),
         sources: vec![Source {
             name: file.to_owned(),
             path: base.map(Path::to_path_buf),
             text: text.to_owned(),
+            includes: None,
         }],
         pieces: Vec::new(),
     };
@@ -72,17 +90,36 @@ pub(crate) fn whole(text: &str, file: &str, base: Option<&Path>) -> Result<Whole
             return Err(located(name, text, vec![fault]));
         }
     }
-    replicated(whole)
+    replicated(attached(whole, depth)?)
+}
+
+impl Piece {
+    /// The same, asked for at a place of the main file.
+    pub(super) fn asked_for_at(self, at: usize) -> Self {
+        Self { at, ..self }
+    }
+
+    /// The same, so much later in the whole text.
+    pub(super) fn moved(self, by: usize) -> Self {
+        Self {
+            start: self.start + by,
+            ..self
+        }
+    }
 }
 
 impl Whole {
     /// Takes a part up to its first inclusion; what is included and the rest are left open.
     fn take(&mut self, part: &Part, open: &mut Vec<Part>) -> Result<(), (usize, Fault)> {
         let here = part.source;
-        let includes = self.includes(here).map_err(|fault| (here, fault))?;
-        let next = includes
-            .into_iter()
-            .find(|(range, _)| range.start >= part.range.start && range.end <= part.range.end);
+        if self.sources[here].includes.is_none() {
+            let found = self.includes(here).map_err(|fault| (here, fault))?;
+            self.sources[here].includes = Some(found);
+        }
+        let includes = self.sources[here].includes.as_deref().unwrap_or_default();
+        let first = includes.partition_point(|(range, _)| range.start < part.range.start);
+        let next = includes.get(first).cloned();
+        let next = next.filter(|(range, _)| range.end <= part.range.end);
         let end = next
             .as_ref()
             .map_or(part.range.end, |(range, _)| range.start);
@@ -146,43 +183,67 @@ impl Whole {
         self.text.push_str(text);
     }
 
-    /// Reads a file that another one names.
-    fn open(&mut self, by: usize, named: &str) -> Result<usize, String> {
+    /// The path of a file that another one names.
+    fn path(&self, by: usize, named: &str) -> Result<PathBuf, String> {
         let folders = [&self.sources[0], &self.sources[by]];
         let folders = folders
             .iter()
             .filter_map(|source| source.path.as_deref()?.parent());
         let mut tried: Vec<PathBuf> = folders.map(|folder| folder.join(named)).collect();
         tried.dedup();
-        let Some(path) = tried.iter().find(|path| path.is_file()).or(tried.first()) else {
-            return Err(format!(
-                "{} is included by a text that has no folder",
-                quoted(named)
-            ));
-        };
+        let path = tried.iter().find(|path| path.is_file()).or(tried.first());
+        path.cloned()
+            .ok_or_else(|| format!("{} is included by a text that has no folder", quoted(named)))
+    }
+
+    /// The text of a file that another one names.
+    fn text_at(&self, path: &Path, named: &str) -> Result<String, String> {
+        let told = |message: String| format!("{}: {message}", quoted(named));
+        let bytes = crate::bytes_of(path).map_err(|fault| told(fault.message))?;
+        let text = guard::text_of(&bytes).map_err(|(_, fault)| told(fault.message))?;
+        let size: usize = self.sources.iter().map(|known| known.text.len()).sum();
+        match guard::size_fault((size + text.len()) as u64) {
+            Some(fault) => Err(fault.message),
+            None => Ok(text.to_owned()),
+        }
+    }
+
+    /// The path and the text of a model that is named at a place.
+    pub(super) fn model(&self, at: usize, named: &str) -> Result<(PathBuf, String), String> {
+        let by = self.piece(at).map_or(0, |piece| piece.source);
+        let path = self.path(by, named)?;
+        let text = self.text_at(&path, named)?;
+        Ok((path, text))
+    }
+
+    /// Takes the files of another text in; its pieces are of these files then.
+    pub(super) fn adopt(&mut self, other: &mut Self) {
+        let known = self.sources.len();
+        for piece in &mut other.pieces {
+            piece.source += known;
+        }
+        self.sources.append(&mut other.sources);
+    }
+
+    /// Reads a file that another one includes.
+    fn open(&mut self, by: usize, named: &str) -> Result<usize, String> {
+        let path = self.path(by, named)?;
         if self
             .sources
             .iter()
-            .any(|known| known.path.as_ref() == Some(path))
+            .any(|known| known.path.as_ref() == Some(&path))
         {
             return Err(format!(
                 "{} is included twice, which MuJoCo refuses",
                 quoted(named)
             ));
         }
-        let bytes = crate::bytes_of(path)
-            .map_err(|fault| format!("{}: {}", quoted(named), fault.message))?;
-        let text = guard::text_of(&bytes)
-            .map_err(|(_, fault)| format!("{}: {}", quoted(named), fault.message))?;
-        let size: usize = self.sources.iter().map(|known| known.text.len()).sum();
-        if let Some(fault) = guard::size_fault((size + text.len()) as u64) {
-            return Err(fault.message);
-        }
-        let text = text.to_owned();
+        let text = self.text_at(&path, named)?;
         self.sources.push(Source {
             name: path.display().to_string(),
-            path: Some(path.clone()),
+            path: Some(path),
             text,
+            includes: None,
         });
         Ok(self.sources.len() - 1)
     }

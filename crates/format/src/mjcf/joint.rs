@@ -67,6 +67,28 @@ impl<'a> Mjcf<'a> {
         })
     }
 
+    /// Tells what a joint says that is not read.
+    pub(super) fn tell_unread_of(&mut self, joint: Element<'a>, class: &str, kind: JointKind) {
+        let attribute = |name: &str| self.classes.attribute(joint, class, name);
+        for name in ["stiffness", "springref"] {
+            if let Some(spring) = attribute(name) {
+                let what = format!("`{name}` of a joint");
+                self.unread.text(spring.range().start, what);
+            }
+        }
+        let Some(range) = attribute("range") else {
+            return;
+        };
+        let limited = attribute("limited").map_or("auto", |word| word.value);
+        let what = match (kind, limited) {
+            (JointKind::Spherical, _) => "`range` of a ball",
+            (_, "true" | "false") => return,
+            _ if self.compiler.autolimits => return,
+            _ => "`range` of a joint without `limited`, where `autolimits` is off",
+        };
+        self.unread.text(range.range().start, what.to_owned());
+    }
+
     /// The limits of a joint, from the pose drawn.
     pub(super) fn limit(
         &self,
@@ -75,7 +97,8 @@ impl<'a> Mjcf<'a> {
         kind: JointKind,
     ) -> Outcome<Option<Limit>> {
         let attribute = |name: &str| self.classes.attribute(joint, class, name);
-        let Some(range) = attribute("range") else {
+        let range = attribute("range").filter(|_| !self.switched_off.limits());
+        let Some(range) = range else {
             return Ok(None);
         };
         let [lower, upper]: [Number; 2] = exactly(range)?;

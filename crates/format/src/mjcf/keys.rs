@@ -8,7 +8,7 @@ use super::Mjcf;
 use super::pose::numbers;
 use crate::element::Element;
 use crate::error::Outcome;
-use crate::frames::{in_full, pose_of};
+use crate::frames::in_full;
 use crate::names::unused;
 use crate::words::counted;
 use kutzbach_math::number::Number;
@@ -48,7 +48,10 @@ impl Coordinate {
         let sine = x.hypot(y).hypot(z);
         let angle = 2.0 * sine.atan2(w.abs());
         let scale = if sine > 0.0 { sign * angle / sine } else { 0.0 };
-        let vector = pose_of(&self.frame).rotate_back(&[x * scale, y * scale, z * scale]);
+        let vector = self
+            .frame
+            .to_doubles()
+            .rotate_back(&[x * scale, y * scale, z * scale]);
         vector.map(in_full).to_vec()
     }
 }

@@ -10,7 +10,7 @@ use super::pose::exactly;
 use super::shapes::{Form, Geom, Weight};
 use crate::element::Element;
 use crate::error::{Fault, Outcome};
-use crate::frames::{is_turned, one_after_another, pose_of, sum};
+use crate::frames::{is_turned, one_after_another, sum};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Frame, Inertial, Shape};
 use std::f64::consts::PI;
@@ -204,7 +204,7 @@ fn lump(geom: &Geom<'_>) -> Lump {
         Weight::Mass(mass) => mass.clone(),
         Weight::Density(density) => full(density * volume),
     };
-    let pose = pose_of(&geom.frame);
+    let pose = geom.frame.to_doubles();
     let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|e| pose.rotate(&e));
     let weight = mass.value();
     let entry = |i: usize, j: usize| -> f64 {

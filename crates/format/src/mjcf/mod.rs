@@ -8,12 +8,12 @@
 //! | body | link; with several joints, a link more for each but the last |
 //! | hinge, slide, ball, free | revolute, prismatic, spherical, a floating link |
 //! | `<connect>` | spherical joint, closed at the pose drawn, or between two sites |
-//! | two of them between the same two bodies; three | the hinge on the line of both; a fixed joint |
+//! | two of them between the same two bodies, by anchors or by sites; three | the hinge on the line of both; a fixed joint |
 //! | `<weld>` | fixed joint, or spherical where `torquescale` is 0 |
 //! | `<joint>` in `<equality>` | `<mimic>`; without a second joint, a fixed joint |
 //! | `<tendon>` in `<equality>`, of fixed tendons of two joints | `<mimic>` |
 //! | actuators of joints | motors |
-//! | `<replicate>` | its copies, written out before anything is read |
+//! | `<replicate>`, `<attach>` | copies, and what is attached, written out before anything is read |
 //! | `<inertial>`, `<geom>` | masses and shapes |
 //! | `<key>` | configuration; where there are equalities, of starting values |
 //!
@@ -22,9 +22,13 @@
 //! Source: the XML reference of MuJoCo 3 and 4, and what its compiler makes of such files.
 
 mod anchors;
+mod attach;
 mod bodies;
 mod classes;
+mod closures;
+mod congruence;
 mod equality;
+mod flags;
 mod include;
 mod joint;
 mod keys;
@@ -42,7 +46,8 @@ use super::reader::{counted_skips, counted_warnings};
 use super::unread::Tally;
 use super::words::{did_you_mean, quoted};
 use super::{ReadOptions, Reading, WarningKind, xml};
-use classes::Classes;
+use classes::{ATTACHED, Classes};
+use flags::SwitchedOff;
 pub(super) use include::{Whole, whole};
 use keys::Coordinate;
 use kutzbach_model::mechanism::{Entity, Frame, JointKind, MechanismBuilder};
@@ -76,8 +81,8 @@ const CHANGES_MASSES: [&str; 5] = [
     "settotalmass",
 ];
 
-/// Elements that would bring bodies with them which are not read.
-const BRINGS_BODIES: [&str; 3] = ["attach", "composite", "flexcomp"];
+/// Elements that make soft bodies, which are not read; they hang on what is around them and hold nothing but by equalities that name them.
+const SOFT: [&str; 2] = ["composite", "flexcomp"];
 
 /// A joint of the file.
 struct Known<'a> {
@@ -101,7 +106,14 @@ struct Mjcf<'a> {
     names: BTreeMap<String, Range<usize>>,
     joints: BTreeMap<&'a str, Known<'a>>,
     sites: BTreeMap<&'a str, Place>,
-    mocap: BTreeSet<&'a str>,
+    /// Where each body is in the one around it.
+    homes: BTreeMap<String, Place>,
+    /// Bodies that a user moves.
+    mocap: BTreeSet<String>,
+    /// Most decimals of any axis.
+    decimals_of_axes: i32,
+    /// What `<flag>` says.
+    switched_off: SwitchedOff,
     /// All names that the file gives bodies and joints, which nothing else is called by.
     given: BTreeSet<&'a str>,
     /// Which joint every follower follows.
@@ -135,7 +147,10 @@ pub(super) fn read(whole: &Whole, options: &ReadOptions) -> Result<Reading, Vec<
         names: BTreeMap::new(),
         joints: BTreeMap::new(),
         sites: BTreeMap::new(),
+        homes: BTreeMap::new(),
         mocap: BTreeSet::new(),
+        decimals_of_axes: 0,
+        switched_off: SwitchedOff::default(),
         given: BTreeSet::new(),
         followers: BTreeMap::new(),
         held: BTreeSet::new(),
@@ -160,9 +175,10 @@ impl<'a> Mjcf<'a> {
         for compiler in sections("compiler") {
             self.compile(compiler)?;
         }
-        for default in sections("default") {
+        for default in sections("default").chain(sections(ATTACHED)) {
             self.classes.read(default)?;
         }
+        self.flags(root);
         for equality in sections("equality") {
             self.note_held(equality)?;
         }
@@ -189,8 +205,11 @@ impl<'a> Mjcf<'a> {
         }
         for part in root.elements() {
             match part.name() {
-                "compiler" | "default" | "equality" | "worldbody" | "tendon" | "keyframe" => {}
+                "compiler" | "default" | "equality" | "worldbody" | "keyframe" => {}
+                ATTACHED => {}
+                "actuator" if self.switched_off.motors() => {}
                 "actuator" => self.actuators(part),
+                "tendon" => self.limits_of_tendons(part)?,
                 name if STANDARD.contains(&name) => self.unread.standard(part),
                 _ => self.unread.element(part),
             }
@@ -282,6 +301,23 @@ impl<'a> Mjcf<'a> {
             link = between;
         }
         (link, own)
+    }
+
+    /// Limits of tendons, which are not read.
+    fn limits_of_tendons(&mut self, all: Element<'a>) -> Outcome<()> {
+        for tendon in all.elements() {
+            let class = self.classes.of(tendon, None)?;
+            let says = |name: &str| {
+                let own = tendon.attribute(name);
+                own.or_else(|| self.classes.says(class, "tendon", name))
+            };
+            let is_off = says("limited").is_some_and(|word| word.value == "false");
+            if says("range").is_some() && !is_off {
+                let what = "`range` of a tendon".to_owned();
+                self.unread.text(tendon.start(), what);
+            }
+        }
+        Ok(())
     }
 
     fn actuators(&mut self, all: Element<'a>) {

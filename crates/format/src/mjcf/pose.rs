@@ -1,18 +1,20 @@
 //! Numbers, positions and the five ways in which MJCF turns a frame.
 //!
 //! What can be said exactly is: turns about one axis of the frame, and `euler` in the order that roll, pitch and yaw have themselves.
-//! Others are worked out in doubles; of quaternions the decimals stay known ([`quaternion`](crate::quaternion)).
+//! Others are worked out in doubles that know the literals behind them ([`quaternion`](crate::quaternion)).
 
 use super::Mjcf;
 use crate::element::{Attribute, Element};
 use crate::error::Outcome;
-use crate::quaternion::{angles_of, of_columns, roll_pitch_yaw};
+use crate::frames::radians_of;
+use crate::quaternion::{FULL, of_columns, product, roll_pitch_yaw, worked_out};
 pub(super) use crate::values::{exactly, numbers};
-use kutzbach_math::number::Number;
+use kutzbach_math::number::{Number, Quantity};
 use kutzbach_math::space::cross;
 use kutzbach_model::mechanism::Frame;
 
 /// What `<compiler>` says.
+#[derive(Clone, Copy)]
 pub(super) struct Compiler {
     /// Whether angles are in degrees.
     pub(super) degrees: bool,
@@ -60,7 +62,7 @@ impl Compiler {
     /// An angle in the unit of the file.
     fn angle(&self, number: &Number) -> Number {
         match self.degrees {
-            true => number.radians(),
+            true => radians_of(number),
             false => number.clone(),
         }
     }
@@ -88,17 +90,19 @@ impl Compiler {
             }
             return Some(found);
         }
-        let mut whole = [0.0, 0.0, 0.0, 1.0];
-        for i in turning {
-            let mut axis = [0.0; 3];
-            axis[index_of(sequence[i])] = 1.0;
-            let turn = about(axis, angles[i].value());
-            whole = match sequence[i].is_ascii_lowercase() {
-                true => product(whole, turn),
-                false => product(turn, whole),
-            };
-        }
-        angles_of(whole)
+        let numbers = angles.each_ref().map(|angle| (Quantity::Angle, angle));
+        worked_out(numbers, FULL, |angles| {
+            let turns = sequence.into_iter().zip(angles);
+            Some(turns.fold([0.0, 0.0, 0.0, 1.0], |whole, (letter, angle)| {
+                let mut axis = [0.0; 3];
+                axis[index_of(letter)] = 1.0;
+                let turn = about(axis, angle);
+                match letter.is_ascii_lowercase() {
+                    true => product(whole, turn),
+                    false => product(turn, whole),
+                }
+            }))
+        })
     }
 }
 
@@ -113,18 +117,7 @@ fn index_of(axis: char) -> usize {
 /// The five attributes of which a frame may have one.
 const TURNS: [&str; 5] = ["quat", "euler", "axisangle", "xyaxes", "zaxis"];
 
-/// Quaternions as x, y, z, w.
-fn product(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
-    let [ax, ay, az, aw] = a;
-    let [bx, by, bz, bw] = b;
-    [
-        aw * bx + ax * bw + ay * bz - az * by,
-        aw * by - ax * bz + ay * bw + az * bx,
-        aw * bz + ax * by - ay * bx + az * bw,
-        aw * bw - ax * bx - ay * by - az * bz,
-    ]
-}
-
+/// A turn about an axis by an angle (rad), as a quaternion x, y, z, w.
 fn about(axis: [f64; 3], angle: f64) -> [f64; 4] {
     let (sine, cosine) = (angle / 2.0).sin_cos();
     let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -132,7 +125,8 @@ fn about(axis: [f64; 3], angle: f64) -> [f64; 4] {
     [x, y, z, cosine]
 }
 
-fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
+/// A vector in length 1; `None` where it has none.
+pub(super) fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
     let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
     (length > 1e-12).then(|| v.map(|x| x / length))
 }
@@ -188,40 +182,45 @@ impl<'a> Mjcf<'a> {
                 let angle = self.angle(&angle);
                 one_axis(&[&x, &y, &z], &angle)
                     .or_else(|| {
-                        let axis = unit([&x, &y, &z].map(Number::value))?;
-                        angles_of(about(axis, angle.value()))
+                        let [x, y, z] = [&x, &y, &z].map(|part| (Quantity::Direction, part));
+                        let numbers = [x, y, z, (Quantity::Angle, &angle)];
+                        worked_out(numbers, FULL, |[x, y, z, angle]| {
+                            Some(about(unit([x, y, z])?, angle))
+                        })
                     })
                     .ok_or_else(none)
             }
             "xyaxes" => {
                 let all: [Number; 6] = exactly(turn)?;
-                let [a, b, c, d, e, f] = all.each_ref().map(Number::value);
-                let columns = unit([a, b, c]).and_then(|x| {
-                    let y = [d, e, f];
+                let numbers = all.each_ref().map(|part| (Quantity::Direction, part));
+                let found = worked_out(numbers, FULL, |[a, b, c, d, e, f]| {
+                    let (x, y) = (unit([a, b, c])?, [d, e, f]);
                     let along: f64 = (0..3).map(|i| x[i] * y[i]).sum();
                     let y = unit([0, 1, 2].map(|i| y[i] - along * x[i]))?;
-                    Some([x, y, cross(&x, &y)])
+                    Some(of_columns([x, y, cross(&x, &y)]))
                 });
-                let found = columns.and_then(|columns| angles_of(of_columns(columns)));
                 found.ok_or_else(none)
             }
             _ => {
                 let all: [Number; 3] = exactly(turn)?;
-                least_turn(all.each_ref().map(Number::value)).ok_or_else(none)
+                least_turn(all.each_ref()).ok_or_else(none)
             }
         }
     }
 }
 
 /// The least turn that takes z to a direction of any length.
-pub(super) fn least_turn(direction: [f64; 3]) -> Option<[Number; 3]> {
-    let z = unit(direction)?;
-    let axis = cross(&[0.0, 0.0, 1.0], &z);
-    let sine = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
-    angles_of(match sine > 1e-12 {
-        true => about(axis, sine.atan2(z[2])),
-        false if z[2] > 0.0 => [0.0, 0.0, 0.0, 1.0],
-        false => [1.0, 0.0, 0.0, 0.0],
+pub(super) fn least_turn(direction: [&Number; 3]) -> Option<[Number; 3]> {
+    let numbers = direction.map(|part| (Quantity::Direction, part));
+    worked_out(numbers, FULL, |direction| {
+        let z = unit(direction)?;
+        let axis = cross(&[0.0, 0.0, 1.0], &z);
+        let sine = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
+        Some(match sine > 1e-12 {
+            true => about(axis, sine.atan2(z[2])),
+            false if z[2] > 0.0 => [0.0, 0.0, 0.0, 1.0],
+            false => [1.0, 0.0, 0.0, 0.0],
+        })
     })
 }
 

@@ -8,7 +8,6 @@ use super::include::{Piece, Whole};
 use super::pose::{Compiler, exactly};
 use crate::element::{Attribute, Element};
 use crate::error::{FormatError, Outcome};
-use crate::frames::pose_of;
 use crate::words::quoted;
 use crate::writer::escaped;
 use crate::{guard, xml};
@@ -29,7 +28,7 @@ const OF_BODIES: [&str; 3] = ["joint", "freejoint", "inertial"];
 
 /// What names stand for; each sort has names of its own.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Sort {
+pub(super) enum Sort {
     Body,
     Joint,
     Site,
@@ -37,7 +36,7 @@ enum Sort {
 }
 
 /// Attributes by which elements outside the bodies name something.
-const REFERENCES: [(&str, Sort); 11] = [
+pub(super) const REFERENCES: [(&str, Sort); 11] = [
     ("body1", Sort::Body),
     ("body2", Sort::Body),
     ("joint1", Sort::Joint),
@@ -134,7 +133,7 @@ fn written_out(whole: &Whole) -> Outcome<(String, Vec<Piece>)> {
 }
 
 /// The range of an element with everything in it.
-fn stretch(element: Element<'_>) -> Range<usize> {
+pub(super) fn stretch(element: Element<'_>) -> Range<usize> {
     element.start()..element.start() + element.written().len()
 }
 
@@ -343,11 +342,13 @@ fn frames(element: Element<'_>, count: usize, compiler: &Compiler) -> Outcome<Ve
                 let angles = angles
                     .each_ref()
                     .map(|angle| Number::decimal(angle).unwrap_or_else(|_| Number::zero()));
-                let turned = pose_of(&Frame {
+                let turned = Frame {
                     position: offset.clone(),
                     roll_pitch_yaw: compiler.euler(angles).unwrap_or_else(zero),
-                });
-                let step = turned.rotate(&offset.each_ref().map(Number::value));
+                };
+                let step = turned
+                    .to_doubles()
+                    .rotate(&offset.each_ref().map(Number::value));
                 at = [0, 1, 2].map(|i| at[i] + step[i]);
                 here
             }

@@ -3,10 +3,11 @@
 use super::names::Thing;
 use super::{AXES_IN_MODEL, Body, Sdf, only};
 use crate::WarningKind;
-use crate::axis_limits::{CROSSED, of_axis};
+use crate::assumed::{ONE_AXIS, are_parallel};
+use crate::axis_limits::of_axis;
 use crate::element::{Attribute, Element};
 use crate::error::Outcome;
-use crate::gazebo::{kind_of, lead_of, needed};
+use crate::gazebo::{NO_PITCH, kind_of, lead_of, needed};
 use crate::unread::truth;
 use crate::values::exactly;
 use crate::words::{cut, quoted};
@@ -93,9 +94,26 @@ const STANDARD: [&str; 5] = [
     "damping",
 ];
 
-/// What bears on an axis, and what else stands in it.
-const OF_AXIS: [&str; 4] = ["xyz", "use_parent_model_frame", "mimic", "limit"];
-const BESIDE_AXIS: [&str; 2] = ["dynamics", "initial_position"];
+/// What bears on an axis, on its limits and its friction.
+const OF_AXIS: [&str; 5] = [
+    "xyz",
+    "use_parent_model_frame",
+    "mimic",
+    "limit",
+    "dynamics",
+];
+const OF_LIMIT: [&str; 4] = ["lower", "upper", "effort", "velocity"];
+const OF_DYNAMICS: [&str; 2] = ["damping", "friction"];
+
+/// What else stands in them: how stiff the ends of a range are, and springs.
+const BESIDE_AXIS: [&str; 6] = [
+    "initial_position",
+    "stiffness",
+    "dissipation",
+    "acceleration",
+    "spring_reference",
+    "spring_stiffness",
+];
 
 /// A parent's frame that is farther from the joint than this (m) is another place.
 const ELSEWHERE: f64 = 1e-6;
@@ -116,11 +134,13 @@ impl<'a> Sdf<'a> {
             self.unread.text(joint.start(), what);
             return Ok(());
         }
-        if word.value == "gearbox" {
+        // In any capitals, as libsdformat reads it.
+        let typed = word.value.trim().to_lowercase();
+        if typed == "gearbox" {
             return self.read_gearbox(index, sides);
         }
         let of_drake = joint.written_name() == "drake:joint";
-        let kind = match word.value {
+        let kind = match &typed[..] {
             "planar" if of_drake => Some(JointKind::Planar),
             "piston" => Some(JointKind::Cylindrical),
             word => kind_of(word),
@@ -142,10 +162,9 @@ impl<'a> Sdf<'a> {
             made.lead = Some(self.lead(joint)?);
         }
         if kind.freedom() == 1 {
-            let (limit, dynamics) = self.limits(axis)?;
-            (made.limit, made.dynamics) = (limit, dynamics);
+            (made.limit, made.dynamics) = self.limits(axis, &typed)?;
         } else {
-            self.skip_limits(&[axis, axis2]);
+            self.skip_limits(kind, [axis, axis2])?;
         }
         if let Some(listed) = self.joints.get_mut(index) {
             listed.kind = Some(kind);
@@ -171,12 +190,31 @@ impl<'a> Sdf<'a> {
                 let help = format!("<axis><xyz>{}</xyz></axis>", cut(xyz.value));
                 return Err(xyz.fault("the axis stands in an element").help(help));
             }
+            self.check_axis(part, "axis", &OF_AXIS)?;
             for inner in part.elements() {
                 match inner.name() {
-                    name if OF_AXIS.contains(&name) => {}
-                    name if BESIDE_AXIS.contains(&name) => self.unread.standard(inner),
-                    _ => self.unknown(inner, "axis", &OF_AXIS)?,
+                    "limit" => self.check_axis(inner, "limit", &OF_LIMIT)?,
+                    "dynamics" => self.check_axis(inner, "dynamics", &OF_DYNAMICS)?,
+                    _ => {}
                 }
+            }
+        }
+        Ok(())
+    }
+
+    /// The same in an axis, or in a part of it. A spring without stiffness is none, and bears on nothing.
+    fn check_axis(&mut self, element: Element<'a>, word: &str, known: &[&str]) -> Outcome<()> {
+        let number = |name: &str| {
+            let part = element.elements().find(|part| part.name() == name)?;
+            part.value()?.value.trim().parse::<f64>().ok()
+        };
+        let no_spring = number("spring_stiffness") == Some(0.0);
+        for part in element.elements() {
+            match part.name() {
+                name if known.contains(&name) => {}
+                name if name.starts_with("spring_") && no_spring => {}
+                name if BESIDE_AXIS.contains(&name) => self.unread.standard(part),
+                _ => self.unknown(part, word, known)?,
             }
         }
         Ok(())
@@ -271,6 +309,13 @@ impl<'a> Sdf<'a> {
                 let at = axis2.unwrap_or(joint);
                 return Err(at.fault("both axes of a joint must be given in the same frame"));
             }
+            if are_parallel(&direction, &second) {
+                let at = axis2.unwrap_or(joint);
+                let message = format!("joint {}: {ONE_AXIS}", quoted(&made.name));
+                return Err(at.fault(message).help(
+                    "a joint of the type `revolute` about one of them moves the child alike",
+                ));
+            }
             made.axis2 = Some(second);
         }
         made.axis = Some(direction);
@@ -320,39 +365,50 @@ impl<'a> Sdf<'a> {
             })?;
             return Ok(lead);
         }
-        let zero = "a thread needs a pitch that is not zero";
         match only(joint, "thread_pitch")? {
             Some(pitch) => {
                 let value = needed(pitch)?;
                 let [pitch] = exactly(value)?;
-                lead_of(&pitch).ok_or_else(|| value.fault(zero))
+                lead_of(&pitch)
+                    .ok_or_else(|| value.fault("a thread needs a pitch that is not zero"))
             }
             None => {
-                let message = "a screw joint without a pitch has a <thread_pitch> of 1 rad/m, left-handed, as in SDFormat";
-                self.warn(joint.start(), WarningKind::Guessed, message.to_owned());
-                lead_of(&Number::one()).ok_or_else(|| joint.fault(zero))
+                self.warn(joint.start(), WarningKind::Guessed, NO_PITCH.to_owned());
+                Ok(Number::one())
             }
         }
     }
 
     /// The range and the friction of an axis.
-    fn limits(&mut self, axis: Option<Element<'a>>) -> Outcome<(Limit, Dynamics)> {
-        let read = of_axis(axis, bound)?;
-        if read.is_crossed {
+    fn limits(&mut self, axis: Option<Element<'a>>, word: &str) -> Outcome<(Limit, Dynamics)> {
+        let read = of_axis(axis, word, bound)?;
+        if let Some(why) = read.no_limit {
             let at = axis.map_or(0, |axis| axis.start());
-            self.warn(at, WarningKind::NoLimit, CROSSED.to_owned());
+            self.warn(at, WarningKind::NoLimit, why.to_owned());
         }
         Ok((read.limit, read.dynamics))
     }
 
-    /// Notes limits of joints that turn about two axes, which are not read.
-    fn skip_limits(&mut self, axes: &[Option<Element<'a>>]) {
-        for axis in axes.iter().flatten() {
-            if let Some(limit) = axis.elements().find(|part| part.name() == "limit") {
-                let what = "<limit> of a joint that has not one axis".to_owned();
-                self.unread.text(limit.start(), what);
+    /// Tells of what axes of joints with several freedoms, or none, say of ranges and friction: it is not read. Bounds that are none say
+    /// nothing.
+    fn skip_limits(&mut self, kind: JointKind, axes: [Option<Element<'a>>; 2]) -> Outcome<()> {
+        for axis in axes.into_iter().flatten() {
+            let read = of_axis(Some(axis), "", bound)?;
+            if read.is_bounded() && kind.freedom() > 0 {
+                let message = format!(
+                    "the range of one axis of a {kind} joint is not read: the joint moves without limits here"
+                );
+                self.warn(axis.start(), WarningKind::NoLimit, message);
+            } else if read.is_bounded() {
+                let what = format!("<limit> of a {kind} joint");
+                self.unread.text(axis.start(), what);
+            }
+            if read.dynamics != Dynamics::default() {
+                let part = axis.elements().find(|part| part.name() == "dynamics");
+                part.into_iter().for_each(|part| self.unread.standard(part));
             }
         }
+        Ok(())
     }
 
     /// What a joint follows: `<mimic>` of its axis, or Drake's beside it.

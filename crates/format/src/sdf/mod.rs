@@ -38,7 +38,7 @@ mod pose;
 mod solids;
 mod tree;
 
-use super::element::Element;
+use super::element::{Element, only};
 use super::error::{Fault, MOST_FAULTS, Outcome};
 use super::kept::Kept;
 use super::names::unused;
@@ -50,9 +50,9 @@ use constraints::Gear;
 use joints::{Listed, Made, Mimic};
 use kutzbach_model::mechanism::{Entity, MechanismBuilder};
 use models::{Extra, Link, Pending};
-use names::Scope;
+use names::{Scope, Thing};
 use pose::Graph;
-use std::cell::OnceCell;
+use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -76,6 +76,8 @@ struct Sdf<'a> {
     joints: Vec<Listed<'a>>,
     /// Plugins and constraints of other tools.
     extras: Vec<Extra<'a>>,
+    /// The links that things are rigid with, as far as they are known.
+    bodies: RefCell<BTreeMap<Thing, Body>>,
     /// Poses whose references are still to be found.
     pending: Vec<Pending<'a>>,
     made: Vec<Made>,
@@ -133,6 +135,7 @@ impl<'a> Sdf<'a> {
             frames: Vec::new(),
             joints: Vec::new(),
             extras: Vec::new(),
+            bodies: RefCell::default(),
             pending: Vec::new(),
             made: Vec::new(),
             gears: Vec::new(),
@@ -147,6 +150,7 @@ impl<'a> Sdf<'a> {
     fn all(&mut self, root: Element<'a>, options: &ReadOptions) -> Result<(), Vec<Fault>> {
         let one = |fault| vec![fault];
         self.collect(root).map_err(one)?;
+        self.check_attachments().map_err(one)?;
         self.place(options).map_err(one)?;
         let mut faults = Vec::new();
         for joint in 0..self.joints.len() {
@@ -235,19 +239,4 @@ fn version_of(root: Element<'_>) -> Outcome<(u32, u32)> {
         Some((major.parse().ok()?, minor.parse().ok()?))
     });
     number.ok_or_else(|| version.fault("expected a version such as 1.7"))
-}
-
-/// The only element of that name inside another one; a second one is a fault.
-fn only<'a>(element: Element<'a>, name: &str) -> Outcome<Option<Element<'a>>> {
-    let mut found = element.elements().filter(|part| part.name() == name);
-    let first = found.next();
-    match found.next() {
-        Some(second) => Err(second
-            .fault(format!(
-                "<{}> has a second <{name}>",
-                cut(element.written_name())
-            ))
-            .help("remove one of the two")),
-        None => Ok(first),
-    }
 }

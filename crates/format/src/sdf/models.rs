@@ -4,7 +4,7 @@ use super::Sdf;
 use super::joints::Listed;
 use super::names::{Scope, Thing};
 use crate::element::{Attribute, Element};
-use crate::error::Outcome;
+use crate::error::{Fault, Outcome};
 use crate::unread::truth;
 use crate::words::{cut, quoted};
 use std::collections::BTreeMap;
@@ -44,6 +44,17 @@ pub(super) struct Pending<'a> {
     /// The model in which names are looked up.
     pub(super) scope: usize,
     pub(super) fallback: Fallback,
+}
+
+/// From this version on a joint must not have the name of a link, frame or model beside it, which poses could mean as well.
+const NAMES_UNIQUE: (u32, u32) = (1, 7);
+
+/// A name that two things of a model, or of the world, have.
+fn twice(scope: usize, name: Attribute<'_>) -> Fault {
+    let whose = if scope == 0 { "the world" } else { "one model" };
+    let named = quoted(name.value.trim());
+    name.fault(format!("two things of {whose} are called {named}"))
+        .help("links, frames, joints and models each have a name of their own")
 }
 
 /// Parts of `<sdf>`, of a world and of a model that bear on motion.
@@ -210,16 +221,15 @@ impl<'a> Sdf<'a> {
         if name.value.trim().is_empty() {
             return Err(name.fault("needed a name, found nothing"));
         }
-        let places = self.scopes.get_mut(scope).map(|scope| &mut scope.places);
-        let before = places.and_then(|places| places.insert(name.value.trim(), thing));
-        match before {
-            Some(_) => Err(name
-                .fault(format!(
-                    "two things of one model are called {}",
-                    quoted(name.value)
-                ))
-                .help("links, frames and models each have a name of their own")),
-            None => Ok(name.value.trim()),
+        let unique = self.version >= NAMES_UNIQUE;
+        let own = self.scopes.get_mut(scope);
+        let is_taken = own.is_some_and(|own| {
+            let before = own.places.insert(name.value.trim(), thing);
+            before.is_some() || (unique && own.joints.contains_key(name.value.trim()))
+        });
+        match is_taken {
+            true => Err(twice(scope, name)),
+            false => Ok(name.value.trim()),
         }
     }
 
@@ -235,6 +245,7 @@ impl<'a> Sdf<'a> {
         self.link_names.insert(name.clone(), link.range());
         let parent = self.node_of(self.model(scope));
         let node = self.graph.add(parent, link.range());
+        super::only(link, "inertial")?;
         self.pending.push(Pending {
             element: link,
             node,
@@ -283,11 +294,16 @@ impl<'a> Sdf<'a> {
         let index = self.joints.len();
         let own = joint.required("name")?;
         let name = self.full_name(scope, own.value.trim());
-        let names = self.scopes.get_mut(scope).map(|scope| &mut scope.joints);
-        let before = names.and_then(|names| names.insert(own.value.trim(), index));
-        if own.value.trim().is_empty() || before.is_some() {
-            let message = format!("two joints are called {}, or none is", quoted(own.value));
-            return Err(own.fault(message).help("every joint has a name of its own"));
+        if own.value.trim().is_empty() {
+            return Err(own.fault("needed a name, found nothing"));
+        }
+        let unique = self.version >= NAMES_UNIQUE;
+        let is_taken = self.scopes.get_mut(scope).is_some_and(|scope| {
+            let before = scope.joints.insert(own.value.trim(), index);
+            before.is_some() || (unique && scope.places.contains_key(own.value.trim()))
+        });
+        if is_taken {
+            return Err(twice(scope, own));
         }
         self.names.insert(name.clone(), joint.range());
         let parent = self.node_of(self.model(scope));

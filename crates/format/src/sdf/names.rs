@@ -2,19 +2,16 @@
 
 use super::{Body, Sdf, pose};
 use crate::element::{Attribute, Element};
-use crate::error::Outcome;
-use crate::words::{cut, did_you_mean, quoted};
-use std::collections::BTreeMap;
+use crate::error::{Fault, Outcome};
+use crate::words::{cut, did_you_mean, listed, quoted};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// SDFormat's word for the frame of the model that it stands in.
 const MODEL: &str = "__model__";
 const WORLD: &str = "world";
 
-/// So many frames, each attached to the next one, are followed.
-const LONGEST: usize = 1000;
-
 /// What has a name and a place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Thing {
     World,
     Link(usize),
@@ -42,6 +39,12 @@ pub(super) struct Scope<'a> {
 }
 
 impl Scope<'_> {
+    /// What has this very name.
+    fn named(&self, name: &str) -> Option<Thing> {
+        let joint = || self.joints.get(name).map(|joint| Thing::Joint(*joint));
+        self.places.get(name).copied().or_else(joint)
+    }
+
     /// The world.
     pub(super) fn world() -> Self {
         Self {
@@ -79,8 +82,9 @@ impl<'a> Sdf<'a> {
 
     /// The same, where there need not be anything of that name.
     pub(super) fn find(&self, scope: usize, text: &str) -> Option<Thing> {
+        // Outside of all models there is none that it could stand for.
         if text == MODEL {
-            return Some(self.model(scope));
+            return (scope > 0).then(|| self.model(scope));
         }
         if let Some(found) = self.path(scope, text) {
             return Some(found);
@@ -94,18 +98,21 @@ impl<'a> Sdf<'a> {
         (text == WORLD).then_some(Thing::World)
     }
 
+    /// Programs before libsdformat 10 write models inside models as one, with names such as `arm::hand`: a whole name counts first.
     fn path(&self, scope: usize, text: &str) -> Option<Thing> {
+        let whole = self.scopes.get(scope)?;
+        if let Some(found) = whole.named(text) {
+            return Some(found);
+        }
         let mut at = scope;
         let mut parts = text.split("::").peekable();
         while let Some(part) = parts.next() {
             let here = self.scopes.get(at)?;
-            let place = here.places.get(part).copied();
             if parts.peek().is_none() {
-                let joint = || here.joints.get(part).map(|joint| Thing::Joint(*joint));
                 let own = || (part == MODEL).then(|| self.model(at));
-                return place.or_else(joint).or_else(own);
+                return here.named(part).or_else(own);
             }
-            match place? {
+            match *here.places.get(part)? {
                 Thing::Model(inner) => at = inner,
                 _ => return None,
             }
@@ -124,9 +131,12 @@ impl<'a> Sdf<'a> {
     /// A joint of a model, or of one inside it.
     pub(super) fn joint_named(&self, scope: usize, name: Attribute<'a>) -> Outcome<usize> {
         let text = name.value.trim();
+        let here = self.scopes.get(scope);
         let (model, last) = match text.rsplit_once("::") {
-            Some((model, last)) => (self.find(scope, model), last),
-            None => (Some(self.model(scope)), text),
+            Some((model, last)) if here.is_none_or(|here| !here.joints.contains_key(text)) => {
+                (self.find(scope, model), last)
+            }
+            _ => (Some(self.model(scope)), text),
         };
         let scope = match model {
             Some(Thing::Model(inner)) => inner,
@@ -166,13 +176,22 @@ impl<'a> Sdf<'a> {
         }
     }
 
-    /// The link that a thing is rigid with; `name` is where it is named.
+    /// The link that a thing is rigid with; `name` is where it is named. What is found on the way is kept, so that a chain of frames, each
+    /// attached to the one before, is walked once, however many ask.
     pub(super) fn body_of(&self, thing: Thing, name: Attribute<'a>) -> Outcome<Body> {
-        let mut thing = thing;
-        for _ in 0..LONGEST {
-            thing = match thing {
-                Thing::World => return Ok(None),
-                Thing::Link(link) => return Ok(Some(link)),
+        let (mut at, mut way, mut met) = (thing, Vec::new(), BTreeSet::new());
+        let body = loop {
+            let known = self.bodies.borrow().get(&at).copied();
+            if let Some(body) = known {
+                break body;
+            }
+            if !met.insert(at) {
+                return Err(self.circle(&way, at, name));
+            }
+            way.push(at);
+            at = match at {
+                Thing::World => break None,
+                Thing::Link(link) => break Some(link),
                 Thing::Frame(frame) => self.attached_to(frame)?,
                 Thing::Joint(joint) => self.side(joint, "child")?.0,
                 Thing::Model(scope) => self.canonical(scope).ok_or_else(|| {
@@ -182,11 +201,64 @@ impl<'a> Sdf<'a> {
                     ))
                 })??,
             };
+        };
+        let found = way.into_iter().map(|thing| (thing, body));
+        self.bodies.borrow_mut().extend(found);
+        Ok(body)
+    }
+
+    /// The fault of a thing that is attached to no link, since the way from it comes back to where it was.
+    fn circle(&self, way: &[Thing], back_at: Thing, name: Attribute<'a>) -> Fault {
+        let circle = way.iter().skip_while(|thing| **thing != back_at);
+        let names: Vec<&str> = circle.map(|thing| self.called(*thing)).collect();
+        let what = match names.len() {
+            1 => format!("{} is attached to itself", listed(&names)),
+            _ => format!("{} are attached to one another in a circle", listed(&names)),
+        };
+        let asked = quoted(name.value.trim());
+        name.fault(format!("{asked} is attached to no link: {what}"))
+    }
+
+    /// The things by the nodes of the graph of poses that are their frames.
+    pub(super) fn things(&self) -> BTreeMap<usize, Thing> {
+        let links = self.links.iter().map(|link| link.node).enumerate();
+        let frames = self.frames.iter().map(|frame| frame.node).enumerate();
+        let joints = self.joints.iter().map(|joint| joint.node).enumerate();
+        let models = self.scopes.iter().map(|scope| scope.node).enumerate();
+        let links = links.map(|(index, node)| (node, Thing::Link(index)));
+        let frames = frames.map(|(index, node)| (node, Thing::Frame(index)));
+        let joints = joints.map(|(index, node)| (node, Thing::Joint(index)));
+        let models = models.map(|(index, node)| (node, Thing::Model(index)));
+        links.chain(frames).chain(joints).chain(models).collect()
+    }
+
+    /// The name of a thing in the file.
+    pub(super) fn called(&self, thing: Thing) -> &str {
+        let name = match thing {
+            Thing::World => None,
+            Thing::Link(link) => self.links.get(link).map(|link| link.element),
+            Thing::Frame(frame) => self.frames.get(frame).map(|frame| frame.element),
+            Thing::Joint(joint) => self.joints.get(joint).map(|joint| joint.element),
+            Thing::Model(scope) => return self.scopes.get(scope).map_or(WORLD, |own| own.name),
+        };
+        let name = name.and_then(|element| element.attribute("name"));
+        name.map_or(WORLD, |name| name.value.trim())
+    }
+
+    /// Whatever a frame or a model names to be rigid with has to be there, also where nobody asks for it.
+    pub(super) fn check_attachments(&self) -> Outcome<()> {
+        for (index, frame) in self.frames.iter().enumerate() {
+            let stated = frame.element.attribute("attached_to");
+            if let Some(name) = stated.filter(|name| !name.value.trim().is_empty()) {
+                self.body_of(Thing::Frame(index), name)?;
+            }
         }
-        Err(name.fault(format!(
-            "{} is attached to no link: its frames run in a circle, or are more than {LONGEST}",
-            quoted(name.value.trim())
-        )))
+        for (scope, model) in self.scopes.iter().enumerate() {
+            if let Some(name) = model.canonical {
+                self.body_of(Thing::Model(scope), name)?;
+            }
+        }
+        Ok(())
     }
 
     /// The link that stands for a model: the one that it names, or its first one, be it in a model inside.
@@ -202,10 +274,10 @@ impl<'a> Sdf<'a> {
     /// The thing that `<parent>` or `<child>` of a joint names, and where.
     pub(super) fn side(
         &self,
-        joint: usize,
+        index: usize,
         which: &str,
     ) -> Outcome<(Thing, Option<Attribute<'a>>)> {
-        let Some(joint) = self.joints.get(joint) else {
+        let Some(joint) = self.joints.get(index) else {
             return Ok((Thing::World, None));
         };
         let Some(part) = super::only(joint.element, which)? else {
@@ -213,7 +285,12 @@ impl<'a> Sdf<'a> {
             return Err(joint.element.fault(message));
         };
         let name = name_in(part)?;
-        Ok((self.look_up(joint.scope, name)?, Some(name)))
+        let thing = self.look_up(joint.scope, name)?;
+        if thing == Thing::Joint(index) {
+            let message = format!("joint {} names itself as its {which}", quoted(&joint.name));
+            return Err(name.fault(message));
+        }
+        Ok((thing, Some(name)))
     }
 }
 

@@ -6,14 +6,14 @@ use super::names::Thing;
 use crate::ReadOptions;
 use crate::element::{Attribute, Element};
 use crate::error::{Fault, Outcome};
-use crate::frames::{is_turned, sum};
+use crate::frames::{is_turned, radians_of, sum};
 use crate::gazebo::needed;
 use crate::quaternion::roll_pitch_yaw;
 use crate::unread::truth;
 use crate::values::exactly;
-use crate::words::quoted;
+use crate::words::{listed, quoted};
 use kutzbach_math::number::Number;
-use kutzbach_model::mechanism::{Frame, MechanismBuilder, Placement};
+use kutzbach_model::mechanism::{Frame, FrameTree, MechanismBuilder, Placement};
 use std::ops::Range;
 
 /// The node of the world.
@@ -23,32 +23,28 @@ struct Node {
     /// The node that the frame is given in; the world's own.
     parent: usize,
     frame: Frame,
-    /// How many nodes are above it.
-    depth: usize,
     range: Range<usize>,
 }
 
-/// Frames by their index, each given in another one.
-pub(super) struct Graph(Vec<Node>);
+/// Frames by their index, each given in another one, and the tree that they make once all are known.
+pub(super) struct Graph(Vec<Node>, FrameTree);
 
 impl Graph {
     /// The world alone.
     pub(super) fn new(range: Range<usize>) -> Self {
-        Self(vec![Node {
+        let world = Node {
             parent: WORLD,
             frame: Frame::identity(),
-            depth: 0,
             range,
-        }])
+        };
+        Self(vec![world], FrameTree::default())
     }
 
     /// A new node, which coincides with its parent for now.
     pub(super) fn add(&mut self, parent: usize, range: Range<usize>) -> usize {
-        let depth = self.0.get(parent).map_or(0, |node| node.depth) + 1;
         self.0.push(Node {
             parent,
             frame: Frame::identity(),
-            depth,
             range,
         });
         self.0.len() - 1
@@ -62,32 +58,24 @@ impl Graph {
         }
     }
 
-    /// Finds how deep the nodes are; where they run in a circle, the place of one of them.
-    fn settle(&mut self) -> Result<(), Range<usize>> {
-        let count = self.0.len();
-        let mut depths: Vec<Option<usize>> = vec![None; count];
-        let mut met_by: Vec<usize> = vec![WORLD; count];
-        depths[WORLD] = Some(0);
-        for start in 1..count {
-            let (mut walk, mut at) = (Vec::new(), start);
-            let mut depth = loop {
-                if let Some(depth) = depths[at] {
-                    break depth;
-                }
-                if met_by[at] == start {
-                    return Err(self.0[at].range.clone());
-                }
-                met_by[at] = start;
-                walk.push(at);
-                at = self.0[at].parent;
-            };
-            for node in walk.into_iter().rev() {
-                depth += 1;
-                depths[node] = Some(depth);
-                self.0[node].depth = depth;
-            }
+    /// The tree that the nodes make; where they run in a circle, the nodes of that, each given in the next.
+    fn settle(&mut self) -> Result<(), Vec<usize>> {
+        // Only the world is its own parent.
+        let mut nodes = self.0.iter().enumerate();
+        if let Some((index, _)) =
+            nodes.find(|(index, node)| *index != WORLD && *index == node.parent)
+        {
+            return Err(vec![index]);
         }
+        self.1 = FrameTree::new(self.0.iter().map(|node| node.parent).collect())?;
         Ok(())
+    }
+
+    /// Takes the frames for final: from now on nodes can be [seen](Self::seen_from) from one another.
+    fn finish(&mut self) {
+        let frames = self.0.iter().map(|node| node.frame.clone()).collect();
+        let chain = |frames: &[&Frame]| between(Vec::new(), frames.to_vec());
+        self.1.set_frames(frames, chain);
     }
 
     /// Reads decimals as the constants that they are: a frame that is turned by `1.5708` is turned by a right angle before poses are
@@ -128,23 +116,21 @@ impl Graph {
         Some(frames)
     }
 
-    /// A node seen from another one; `None` where that is not finite.
+    /// A node seen from another one; `None` where that is not finite. What was added since the end is walked to what was there.
     pub(super) fn seen_from(&self, from: usize, to: usize) -> Option<Frame> {
-        let (mut up, mut down) = (Vec::new(), Vec::new());
-        let (mut a, mut b) = (from, to);
-        while a != b {
-            let (one, other) = (self.0.get(a)?, self.0.get(b)?);
-            if one.depth >= other.depth {
-                up.push(&one.frame);
-                a = one.parent;
-            }
-            if other.depth >= one.depth {
-                down.push(&other.frame);
-                b = other.parent;
+        let mut added = [Vec::new(), Vec::new()];
+        let mut ends = [from, to];
+        for (frames, end) in added.iter_mut().zip(&mut ends) {
+            while *end >= self.1.len() && *end != WORLD {
+                let node = self.0.get(*end)?;
+                frames.push(&node.frame);
+                *end = node.parent;
             }
         }
-        up.reverse();
-        down.reverse();
+        let [mut up, mut down] = self.1.way(ends[0], ends[1])?;
+        let [of_from, of_to] = added;
+        up.extend(of_from.into_iter().rev());
+        down.extend(of_to.into_iter().rev());
         between(up, down)
     }
 }
@@ -210,7 +196,7 @@ pub(super) fn pose_of<'a>(element: Element<'a>) -> Outcome<Pose<'a>> {
             pose.frame.position = [x, y, z];
             let angles = [roll, pitch, yaw];
             pose.frame.roll_pitch_yaw = match in_degrees {
-                Some(true) => angles.map(|angle| angle.radians()),
+                Some(true) => angles.each_ref().map(radians_of),
                 _ => angles,
             };
         }
@@ -229,7 +215,14 @@ impl<'a> Sdf<'a> {
         for pending in std::mem::take(&mut self.pending) {
             let pose = pose_of(pending.element)?;
             let named = match pose.relative_to {
-                Some(name) => self.reference(pending.scope, name)?,
+                Some(name) => self
+                    .reference(pending.scope, name)
+                    .map_err(|fault| match pending.element.name() {
+                        "model" => fault.help(
+                            "a model is placed in what stands beside it, not in what it holds",
+                        ),
+                        _ => fault,
+                    })?,
                 None => None,
             };
             let parent = match (named, pending.fallback) {
@@ -241,14 +234,31 @@ impl<'a> Sdf<'a> {
             let parent = self.node_of(parent);
             self.graph.place(pending.node, parent, pose.frame);
         }
-        if let Err(range) = self.graph.settle() {
-            let message = "poses run in a circle: this one is given, through others, in itself";
-            return Err(Fault::new(range, message).help("give one of them in the model's frame"));
+        if let Err(circle) = self.graph.settle() {
+            return Err(self.circle_of_poses(&circle));
         }
         if !options.literal {
             self.graph.read_constants(options.precision);
         }
-        self.place_by_frames()
+        self.place_by_frames()?;
+        self.graph.finish();
+        Ok(())
+    }
+
+    fn circle_of_poses(&self, circle: &[usize]) -> Fault {
+        let things = self.things();
+        let named = circle.iter().filter_map(|node| things.get(node));
+        let names: Vec<&str> = named.map(|thing| self.called(*thing)).collect();
+        let what = match names.len() {
+            // A model that is placed by one of its frames stands at two nodes.
+            0 => "this one is given in itself".to_owned(),
+            1 => format!("{} is given in itself", listed(&names)),
+            _ => format!("{} are each given in the next one", listed(&names)),
+        };
+        let first = circle.first().and_then(|node| self.graph.0.get(*node));
+        let range = first.map_or(0..0, |node| node.range.clone());
+        Fault::new(range, format!("poses run in a circle: {what}"))
+            .help("give one of them in the model's frame")
     }
 
     /// What a pose is given in. The attribute was called `frame` in versions 1.5 and 1.6, where programs did not heed it: there a name that
@@ -258,13 +268,13 @@ impl<'a> Sdf<'a> {
         scope: usize,
         name: Attribute<'a>,
     ) -> Outcome<Option<Thing>> {
-        let found = self.look_up(scope, name);
-        if found.is_err() && self.version < (1, 7) {
+        let found = self.find(scope, name.value.trim());
+        if found.is_none() && self.version < (1, 7) {
             let what = "`frame` of <pose> that names nothing".to_owned();
             self.unread.text(name.range().start, what);
             return Ok(None);
         }
-        found.map(Some)
+        self.look_up(scope, name).map(Some)
     }
 
     /// `placement_frame`: the model's pose is that of one of its frames. Inner models first, since a frame may be in one.

@@ -111,9 +111,14 @@ impl<'a> Sdf<'a> {
             Some(geometry) => geometry,
             None => return Err(part.fault("it needs <geometry>")),
         };
-        let Some(solid) = geometry.elements().next() else {
+        let mut solids = geometry.elements();
+        let Some(solid) = solids.next() else {
             return Err(geometry.fault("<geometry> needs a solid, found nothing"));
         };
+        if let Some(second) = solids.next() {
+            let what = format!("<{}>, a second solid of one <geometry>", cut(second.name()));
+            self.unread.text(second.start(), what);
+        }
         let geometry = match solid.name() {
             "box" => Geometry::Box(lengths(solid, "size")?),
             "sphere" => {
@@ -139,6 +144,8 @@ impl<'a> Sdf<'a> {
                     scale,
                 }
             }
+            // No shape at all is meant.
+            "empty" => return Ok(None),
             other => {
                 let what = format!("<geometry>: {}", cut(other));
                 self.unread.text(solid.start(), what);

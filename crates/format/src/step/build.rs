@@ -1,7 +1,9 @@
 //! From judged pairs to a mechanism: a spanning tree from the ground, breadth first; every other joint closes a loop.
 
-use super::geometry::Geometry;
-use super::pairs::{Judged, Taken};
+use super::frame::in_frame_of_most;
+use super::gears::{Joined, couple, shortest};
+use super::geometry::{Geometry, Taken};
+use super::pairs::Judged;
 use super::standing::{Grid, Position, Standing, standing};
 use crate::names::unused;
 use kutzbach_math::number::Number;
@@ -17,6 +19,8 @@ struct Edge {
     parts: (usize, usize),
     taken: Taken,
     standing: Standing,
+    /// As [`Joined::sense`].
+    sense: f64,
 }
 
 /// A part on the way from the ground.
@@ -33,11 +37,13 @@ pub(super) struct Built {
     pub mechanism: Mechanism,
     /// Parts that no joint connects with the ground, in groups that joints connect.
     pub islands: Vec<Vec<usize>>,
+    /// Pairs of gears, by their places in [`Assembly::pairs`], that couple nothing.
+    pub uncoupled: Vec<usize>,
 }
 
 /// Makes the mechanism of an assembly whose pairs are judged.
 ///
-/// Each link's frame is parallel to the assembly's, with its origin where the joint is that places the link. Parts that no joint leads
+/// Each link's frame is parallel to the assembly's or the ground part's, with its origin where the joint is that places the link. Parts that no joint leads
 /// to float.
 ///
 /// # Errors
@@ -58,13 +64,19 @@ pub(super) fn build(
         .iter()
         .map(|(pair, taken)| (taken.geometry, drawn_at(pair)))
         .collect();
+    let geometry = match assembly.parts.get(ground) {
+        Some(part) => in_frame_of_most(geometry, &part.pose),
+        None => geometry,
+    };
     let (grid, standings) = standing(&geometry, accuracy, may_be_exact);
     let edges: Vec<Edge> = taken
         .iter()
+        .zip(&geometry)
         .zip(standings)
-        .map(|((pair, taken), standing)| Edge {
+        .map(|(((pair, taken), (there, _)), standing)| Edge {
             parts: pair.parts,
             taken: *taken,
+            sense: sense(there, standing.axis.as_ref()),
             standing,
         })
         .collect();
@@ -76,11 +88,14 @@ pub(super) fn build(
     let part_name = |place: usize| assembly.parts.get(place).map_or("", |p| p.name.as_str());
     builder.ground(part_name(ground));
     let mut names = BTreeSet::new();
+    let mut joined = Vec::new();
     for (index, edge) in edges.iter().enumerate() {
-        if let Some(joint) = joint(index, edge, &grid, &reached, &part_name, &mut names) {
+        if let Some((joint, made)) = joint(index, edge, &grid, &reached, &part_name, &mut names) {
             builder.joint(joint);
+            joined.push(made);
         }
     }
+    let uncoupled = couple(assembly, &joined, &mut builder);
     for island in &islands {
         if let Some(root) = island.first() {
             let name = own_name(&format!("{} floats", part_name(*root)), &mut names);
@@ -91,7 +106,15 @@ pub(super) fn build(
     Ok(Built {
         mechanism: builder.build()?,
         islands,
+        uncoupled,
     })
+}
+
+/// Whether a written axis points as the direction that it stands for: 1, or -1 where it points the other way.
+fn sense(geometry: &Geometry, axis: Option<&Direction>) -> f64 {
+    let numbers = axis.map(|axis| Vector3::from(axis.0.each_ref().map(Number::value)));
+    let along = geometry.direction().zip(numbers);
+    along.map_or(1.0, |(direction, axis)| direction.dot(&axis).signum())
 }
 
 /// A point of the pair's contacts, for joints whose place is no part of what they are.
@@ -163,7 +186,7 @@ fn joint<'n>(
     reached: &[Option<Reached>],
     part_name: &impl Fn(usize) -> &'n str,
     names: &mut BTreeSet<String>,
-) -> Option<JointBuilder> {
+) -> Option<(JointBuilder, Joined)> {
     let (a, b) = edge.parts;
     let of = |place: usize| reached.get(place).and_then(Option::as_ref);
     let (one, two) = (of(a)?, of(b)?);
@@ -183,16 +206,29 @@ fn joint<'n>(
             .origin(origin)
             .successor_origin(grid.frame(position, &far.origin)),
     };
+    let axes = [&edge.standing.axis, &edge.standing.axis2]
+        .map(|axis| axis.clone().unwrap_or_else(Direction::x));
+    let [axis, axis2] = axes;
+    // The first axis is that of the first part; the joint may lead from the second.
+    let (axis, axis2) = match kind.uses_second_axis() && from == b {
+        true => (axis2, axis),
+        false => (axis, axis2),
+    };
     if kind.uses_axis() {
-        joint = joint.axis(edge.standing.axis.clone().unwrap_or_else(Direction::x));
+        joint = joint.axis(axis);
+    }
+    if kind.uses_second_axis() {
+        joint = joint.axis2(axis2);
     }
     if kind.uses_lead() {
-        joint = joint.lead(lead(edge.taken.lead?));
+        joint = joint.lead(shortest(edge.taken.lead?));
     }
-    Some(joint)
-}
-
-/// A lead as the shortest decimal that is the double: what a person wrote.
-fn lead(metres: f64) -> Number {
-    Number::decimal(&format!("{metres}")).unwrap_or_else(|_| Number::zero())
+    let made = Joined {
+        name,
+        kind,
+        parts: (from, to),
+        geometry: edge.taken.geometry,
+        sense: edge.sense,
+    };
+    Some((joint, made))
 }

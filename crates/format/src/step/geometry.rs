@@ -1,6 +1,6 @@
 //! What a joint needs of the geometry of its contacts.
 
-use kutzbach_math::group::DisplacementSubgroup;
+use kutzbach_math::group::{DisplacementSubgroup, Pose};
 use kutzbach_model::mechanism::JointKind;
 use kutzbach_step::{Contact, ContactKind};
 use nalgebra::Vector3;
@@ -22,6 +22,60 @@ pub(super) enum Geometry {
     },
     /// A centre.
     Point(Vector3<f64>),
+    /// Two axes that meet: of the first and of the second part of a pair.
+    Cross {
+        /// Where they meet.
+        point: Vector3<f64>,
+        /// The direction of the first.
+        first: Vector3<f64>,
+        /// The direction of the second.
+        second: Vector3<f64>,
+    },
+}
+
+/// A joint that a pair is taken as.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Taken {
+    pub kind: JointKind,
+    pub geometry: Geometry,
+    /// Metres per turn of screws.
+    pub lead: Option<f64>,
+}
+
+impl Geometry {
+    /// Its direction, normal, or the direction of its axis, of two the first.
+    pub(super) fn direction(&self) -> Option<Vector3<f64>> {
+        match self {
+            Self::Direction(direction)
+            | Self::Line { direction, .. }
+            | Self::Cross {
+                first: direction, ..
+            } => Some(*direction),
+            Self::Free | Self::Point(_) => None,
+        }
+    }
+
+    /// This geometry where `pose` moves it.
+    pub(super) fn moved(&self, pose: &Pose) -> Self {
+        match self {
+            Self::Free => Self::Free,
+            Self::Direction(direction) => Self::Direction(pose.transform_direction(direction)),
+            Self::Line { point, direction } => Self::Line {
+                point: pose.transform_point(point),
+                direction: pose.transform_direction(direction),
+            },
+            Self::Point(point) => Self::Point(pose.transform_point(point)),
+            Self::Cross {
+                point,
+                first,
+                second,
+            } => Self::Cross {
+                point: pose.transform_point(point),
+                first: pose.transform_direction(first),
+                second: pose.transform_direction(second),
+            },
+        }
+    }
 }
 
 /// The joint that lets exactly these displacements through: its kind, geometry and lead (m per turn). `None` where everything
@@ -93,7 +147,7 @@ pub(super) fn for_kind(
         Geometry::Line { direction, .. } | Geometry::Direction(direction) => {
             Some(Geometry::Direction(direction))
         }
-        Geometry::Free | Geometry::Point(_) => None,
+        Geometry::Free | Geometry::Point(_) | Geometry::Cross { .. } => None,
     };
     let normal = || {
         let plane = first(&[ContactKind::Planar]).map(|c| Geometry::Direction(c.axis));

@@ -13,17 +13,22 @@ const WORDS: [&str; 6] = ["ground", "base", "frame", "bed", "housing", "case"];
 pub(super) enum Why {
     /// A person said so.
     Said,
+    /// The mechanism of the file has it as its base.
+    Base,
     /// Its name does.
     Name,
     /// It has the largest box around it.
     Size,
 }
 
-/// The part that is held, by its place: the one that was said, else one whose name says so, else the one with the largest box along the
+/// The part that is held, by its place: the one that was said, else the base of the file's mechanism, else one whose name says so, else the one with the largest box along the
 /// axes of the assembly, which is mostly the heaviest; of equal ones the first. `None` where there are no parts.
 pub(super) fn choose(assembly: &Assembly, said: Option<usize>) -> Option<(usize, Why)> {
     if let Some(place) = said {
         return Some((place, Why::Said));
+    }
+    if let Some(place) = assembly.base {
+        return Some((place, Why::Base));
     }
     let words: Vec<Vec<String>> = assembly
         .parts

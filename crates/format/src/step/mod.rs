@@ -6,8 +6,11 @@
 //! | file | what it knows |
 //! |---|---|
 //! | [`corrections`] | what a person says of pairs, and whether the parts exist |
+//! | [`declared`] | what kinematic pairs of the file say |
 //! | [`fasteners`] | which parts are tight by name and head |
 //! | [`ground`] | which part is held |
+//! | [`frame`] | the frame in which the assembly is written |
+//! | [`gears`] | hinges that gears couple |
 //! | [`geometry`] | the axis, direction or centre that a joint takes from its contacts |
 //! | [`pairs`] | what each pair is taken as, and why |
 //! | [`standing`] | positions and directions that agree where the geometry does |
@@ -17,7 +20,10 @@
 
 mod build;
 mod corrections;
+mod declared;
 mod fasteners;
+mod frame;
+mod gears;
 mod geometry;
 mod ground;
 mod pairs;
@@ -83,6 +89,7 @@ pub(super) fn read(
     })?;
     let mut told = found.told();
     told.islands(&found.assembly, found.ground, &built.islands);
+    told.uncoupled(&found.assembly, &built.uncoupled);
     Ok(Reading {
         mechanism: built.mechanism,
         warnings: told.finished(),

@@ -1,8 +1,9 @@
 //! What every pair of parts is taken as: by its contacts, by a name, or by what a person says.
 
 use super::corrections::{PairRule, Resolved, Wrong};
+use super::declared::{Declared, Said};
 use super::fasteners::{has_shaft_and_head, is_fastener};
-use super::geometry::{Geometry, for_kind, needed_by, of_subgroup};
+use super::geometry::{Geometry, Taken, for_kind, needed_by, of_subgroup};
 use crate::words::quoted;
 use kutzbach_model::mechanism::JointKind;
 use kutzbach_step::{Assembly, Contact, Joint, JointError, PairOfParts, joint_of};
@@ -17,17 +18,10 @@ pub enum Reason {
     Fastener,
     /// A person says so.
     Correction,
+    /// A kinematic pair of the file says so; or others say the joints of both parts, and none is between them.
+    Declared,
     /// Its contacts are no joint, and why: nothing is taken of it.
     Unclear(String),
-}
-
-/// A joint that a pair is taken as.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Taken {
-    pub kind: JointKind,
-    pub geometry: Geometry,
-    /// Metres per turn of screws.
-    pub lead: Option<f64>,
 }
 
 /// A pair of parts and what it is taken as.
@@ -45,7 +39,7 @@ pub(super) struct Judged {
     pub fastener: Option<usize>,
 }
 
-/// Judges the pairs that touch and those that a person names, in ascending order of their parts.
+/// Judges the pairs that touch and those that a person or the file names, in ascending order of their parts.
 ///
 /// # Errors
 /// A joint that a person names and for which the contacts have no axis or centre.
@@ -59,7 +53,8 @@ pub(super) fn judged(
         .into_iter()
         .map(|pair| ((pair.first, pair.second), pair.contacts))
         .collect();
-    for pair in corrections.pairs.keys() {
+    let declared = Declared::of(assembly);
+    for pair in corrections.pairs.keys().chain(declared.pairs.keys()) {
         contacts.entry(*pair).or_default();
     }
     let threaded = threaded(corrections);
@@ -81,6 +76,7 @@ pub(super) fn judged(
         };
         match corrections.pairs.get(&parts) {
             Some((rule, lead)) => pair.taken = corrected(assembly, &pair, *rule, *lead)?,
+            None if pair.said(&declared) => {}
             None => pair.by_itself(fastener),
         }
         pairs.push(pair);
@@ -98,6 +94,23 @@ fn threaded(corrections: &Resolved) -> Vec<usize> {
 }
 
 impl Judged {
+    /// Takes the pair as what the file says of it; whether it says something.
+    fn said(&mut self, declared: &Declared) -> bool {
+        let said = declared.pairs.get(&self.parts).copied();
+        self.reason = match said {
+            Some(Said::Unknown) => {
+                let why = "the kinematic pair of the file lets through what is no joint here";
+                Reason::Unclear(why.to_owned())
+            }
+            _ => Reason::Declared,
+        };
+        self.taken = match said {
+            Some(Said::Joint(taken)) => Some(taken),
+            _ => None,
+        };
+        said.is_some() || declared.joins_otherwise(self.parts)
+    }
+
     /// What the pair is where no one says anything of it.
     fn by_itself(&mut self, fastener: Option<usize>) {
         if fastener.is_some() {
@@ -112,8 +125,9 @@ impl Judged {
         }
         let taken = match &self.found {
             Ok(joint) if !joint.margin.is_clear() => Err(format!(
-                "they leave a `{}` joint, but not clearly (margin {:.0}, needed 1000)",
+                "they leave a `{}` joint, but not clearly ({:.1} tolerances above zero, needed 10; margin {:.0}, needed 1000)",
                 kind_word(joint),
+                joint.margin.kept,
                 joint.margin.gap()
             )),
             Ok(joint) => match of_subgroup(&joint.subgroup) {

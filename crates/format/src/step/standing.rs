@@ -6,7 +6,7 @@
 //! a mechanism that is rigid, or one whose motion has to be defended against noise in every loop. So what agrees is made one *before*
 //! numbers are written:
 //!
-//! - all frames of joints and links are parallel to the frame of the assembly, in which every axis is worked out once. A frame is a
+//! - all frames of joints and links are parallel to one frame ([`in_frame_of_most`](super::frame::in_frame_of_most)), in which every axis is worked out once. A frame is a
 //!   position and nothing else, and a direction is the same three numbers in whatever link it is written;
 //! - directions that agree within [`SAME_DIRECTION`] are one, those of the coordinate axes before all others;
 //! - axes of one direction whose distance is within the accuracy of the file (at least [`FINEST`]) are one line, with one point;
@@ -29,7 +29,7 @@ use nalgebra::Vector3;
 
 /// Directions that differ by less (rad) are the same: what the digits of six-digit directions leave, and a thousandth of what a
 /// designer would call a tilt.
-const SAME_DIRECTION: f64 = 1e-6;
+pub(super) const SAME_DIRECTION: f64 = 1e-6;
 
 /// Lengths (m) that differ by less are the same: no part is made as exactly.
 pub(super) const FINEST: f64 = 1e-7;
@@ -59,6 +59,8 @@ pub(super) struct Standing {
     pub position: Position,
     /// Its axis, direction or normal; `None` where it has none.
     pub axis: Option<Direction>,
+    /// The second of two axes.
+    pub axis2: Option<Direction>,
 }
 
 /// What a position is counted in.
@@ -142,7 +144,7 @@ pub(super) fn standing(
     may_be_exact: bool,
 ) -> (Grid, Vec<Standing>) {
     let mut agreed = Agreed::new(accuracy);
-    let places: Vec<(Option<usize>, Place)> = joints
+    let places: Vec<([Option<usize>; 2], Place)> = joints
         .iter()
         .map(|(geometry, drawn)| agreed.place(geometry, drawn))
         .collect();
@@ -152,16 +154,20 @@ pub(super) fn standing(
     points.extend(&agreed.centres);
     agree_by_coordinates(&mut points, accuracy);
     let grid = Grid::new(&points, accuracy, may_be_exact);
-    let stand = |(direction, place): &(Option<usize>, Place)| {
+    let stand = |(directions, place): &([Option<usize>; 2], Place)| {
         let point = match place {
             Place::Line(line) => points.get(*line).copied(),
             Place::Centre(centre) => points.get(of_lines + centre).copied(),
             Place::Drawn(point) => Some(*point),
         };
-        let direction = direction.and_then(|index| agreed.directions.get(index));
+        let [axis, axis2] = directions.map(|index| {
+            let direction = agreed.directions.get(index?)?;
+            Some(written_direction(direction))
+        });
         Standing {
             position: grid.position(&point.unwrap_or_else(Vector3::zeros)),
-            axis: direction.map(written_direction),
+            axis,
+            axis2,
         }
     };
     let standing = places.iter().map(stand).collect();
@@ -205,16 +211,26 @@ impl Agreed {
         }
     }
 
-    /// The direction, by its index, and what fixes the position.
-    fn place(&mut self, geometry: &Geometry, drawn: &Vector3<f64>) -> (Option<usize>, Place) {
+    /// The directions, by their indices, and what fixes the position.
+    fn place(&mut self, geometry: &Geometry, drawn: &Vector3<f64>) -> ([Option<usize>; 2], Place) {
         match geometry {
-            Geometry::Free => (None, Place::Drawn(*drawn)),
-            Geometry::Direction(direction) => (self.direction(direction), Place::Drawn(*drawn)),
-            Geometry::Point(point) => (None, Place::Centre(self.centre(point))),
+            Geometry::Free => ([None; 2], Place::Drawn(*drawn)),
+            Geometry::Direction(direction) => {
+                ([self.direction(direction), None], Place::Drawn(*drawn))
+            }
+            Geometry::Point(point) => ([None; 2], Place::Centre(self.centre(point))),
             Geometry::Line { point, direction } => match self.direction(direction) {
-                Some(index) => (Some(index), Place::Line(self.line(point, index))),
-                None => (None, Place::Drawn(*point)),
+                Some(index) => ([Some(index), None], Place::Line(self.line(point, index))),
+                None => ([None; 2], Place::Drawn(*point)),
             },
+            Geometry::Cross {
+                point,
+                first,
+                second,
+            } => {
+                let directions = [self.direction(first), self.direction(second)];
+                (directions, Place::Centre(self.centre(point)))
+            }
         }
     }
 

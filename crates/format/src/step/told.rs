@@ -55,6 +55,7 @@ impl Told {
     pub(super) fn ground(&mut self, assembly: &Assembly, ground: usize, why: Why) {
         let why = match why {
             Why::Said => return,
+            Why::Base => "the base of the file's mechanism",
             Why::Name => "as its name says",
             Why::Size => "the largest part, since no name says which one is",
         };
@@ -69,6 +70,7 @@ impl Told {
     pub(super) fn pairs(&mut self, assembly: &Assembly, pairs: &[Judged]) {
         // Fasteners by what they are and what they are fixed to.
         let mut tight: BTreeMap<(&str, usize), Vec<&str>> = BTreeMap::new();
+        let mut otherwise: Vec<String> = Vec::new();
         for pair in pairs {
             let (a, b) = pair.parts;
             let both = || {
@@ -98,8 +100,23 @@ impl Told {
                     );
                     self.add(1, WarningKind::Guessed, message);
                 }
-                Reason::Contacts | Reason::Correction => {}
+                Reason::Declared if pair.taken.is_none() && !pair.contacts.is_empty() => {
+                    otherwise.push(both());
+                }
+                Reason::Contacts | Reason::Correction | Reason::Declared => {}
             }
+        }
+        if !otherwise.is_empty() {
+            let more = match otherwise.len() {
+                0..=3 => String::new(),
+                many => format!(", and {} pairs more", many - 3),
+            };
+            otherwise.truncate(3);
+            let message = format!(
+                "touch and are not joined, since kinematic pairs of the file say the joints of both: {}{more}. {CORRECT}",
+                otherwise.join("; ")
+            );
+            self.add(1, WarningKind::Guessed, message);
         }
         for ((_, other), names) in tight {
             let message = format!(
@@ -108,6 +125,18 @@ impl Told {
                 quoted(name(assembly, other))
             );
             self.add(1, WarningKind::Guessed, message);
+        }
+    }
+
+    /// Gears whose hinges were not found.
+    pub(super) fn uncoupled(&mut self, assembly: &Assembly, gears: &[usize]) {
+        for pair in gears.iter().filter_map(|place| assembly.pairs.get(*place)) {
+            let message = format!(
+                "GEAR_PAIR: {} and {} do not turn about its axes on one part that bears both: not coupled",
+                quoted(name(assembly, pair.parts.0)),
+                quoted(name(assembly, pair.parts.1))
+            );
+            self.add(pair.line.max(1), WarningKind::MayJoin, message);
         }
     }
 

@@ -1,5 +1,6 @@
 //! What can be wrong with a matrix before any arithmetic starts.
 
+use crate::interruption::Interrupted;
 use thiserror::Error;
 
 /// Why a matrix was refused, or why a decomposition gave no answer.
@@ -60,6 +61,9 @@ pub enum MatrixError {
         /// What was found wrong.
         reason: &'static str,
     },
+    /// The work was asked to end: see [`crate::interruption`].
+    #[error(transparent)]
+    Interrupted(#[from] Interrupted),
 }
 
 /// Refuses tolerances that are not finite and non-negative.

@@ -17,6 +17,7 @@ use super::jacobi;
 use super::random::SplitMix64;
 use super::real::Real;
 use super::sparse::SparseMatrix;
+use crate::interruption;
 
 /// Steps of power iteration: a random start has a component of about 1/√n along the wanted vector,
 /// so after 20 steps the estimate is typically below σ₁ by no more than a factor n^(1/40), which is
@@ -151,11 +152,14 @@ pub fn smallest_singular_values<R: Real>(
     Ok(values.into_iter().map(unscaled).collect())
 }
 
-/// Orthonormalises vectors by Gram–Schmidt, twice; false if one vanishes or is not finite.
+/// Orthonormalises vectors by Gram–Schmidt, twice; false if one vanishes or is not finite, or the work is asked to end.
 ///
 /// Twice is enough for orthogonality to working precision (Giraud, Langou and Rozložník 2005).
 pub(crate) fn orthonormalise<R: Real>(zero: &R, vectors: &mut [Vec<R>]) -> bool {
     for current in 0..vectors.len() {
+        if interruption::asked() {
+            return false;
+        }
         let (before, rest) = vectors.split_at_mut(current);
         let vector = &mut rest[0];
         let mut length = zero.norm(vector);

@@ -11,6 +11,7 @@ use super::ordering::{EliminationPlan, Front, plan};
 use super::random::SplitMix64;
 use super::real::Ring;
 use super::sparse::SparseMatrix;
+use crate::interruption;
 
 /// A dense matrix, column-major, with at least one row wherever a kernel sees it.
 #[derive(Clone, Debug)]
@@ -308,6 +309,7 @@ impl<T: Ring + Div<Output = T>> Triangle<T> {
     pub fn null_vectors(&self, free: &[Vec<T>]) -> Result<Vec<Vec<T>>, MatrixError> {
         free.iter()
             .map(|values| {
+                interruption::look()?;
                 if values.len() != self.dropped.len() {
                     return Err(MatrixError::Length {
                         what: "values of the dropped columns",

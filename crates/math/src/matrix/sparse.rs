@@ -2,6 +2,7 @@
 
 use super::error::MatrixError;
 use super::real::{Real, Ring};
+use crate::interruption;
 
 /// A sparse matrix stored by rows, its rows grouped in consecutive blocks.
 ///
@@ -28,13 +29,14 @@ impl<T: Ring> SparseMatrix<T> {
     /// row starts as a block of its own.
     ///
     /// # Errors
-    /// [`MatrixError::OutOfShape`] for an entry outside the shape.
+    /// [`MatrixError::OutOfShape`] for an entry outside the shape; [`MatrixError::Interrupted`].
     pub fn from_triplets(
         rows: usize,
         columns: usize,
         zero: T,
         triplets: impl IntoIterator<Item = (usize, usize, T)>,
     ) -> Result<Self, MatrixError> {
+        interruption::look()?;
         let mut all: Vec<(usize, usize, T)> = triplets.into_iter().collect();
         if let Some(&(row, column, _)) = all.iter().find(|t| t.0 >= rows || t.1 >= columns) {
             return Err(MatrixError::OutOfShape {
@@ -285,8 +287,9 @@ impl<R: Real> SparseMatrix<R> {
     ///
     /// # Errors
     /// [`MatrixError::NotFinite`] for the first entry that is NaN, infinite, or beyond the range
-    /// of doubles.
+    /// of doubles; [`MatrixError::Interrupted`], since every decomposition begins here.
     pub fn largest_entry(&self) -> Result<f64, MatrixError> {
+        interruption::look()?;
         let mut largest = 0.0f64;
         for (row, column, value) in self.triplets() {
             let size = Real::to_f64(&value.abs());

@@ -105,7 +105,7 @@ impl Number {
         product.with_coarsest(coarsest)
     }
 
-    /// Minus this; a literal stays a literal with its stated precision.
+    /// Minus this; a literal stays a literal with its stated precision, and what was worked out keeps its inputs.
     fn opposite(&self) -> Self {
         // Of a literal that was read as something irrational, a name negated in a file is the negative of that.
         if let (Some(x), Some(literal)) = (self.rational(), &self.0.literal) {
@@ -122,7 +122,8 @@ impl Number {
                 }
             }
         };
-        opposite.with_coarsest(self.0.coarsest)
+        let opposite = opposite.with_coarsest(self.0.coarsest);
+        opposite.with_inputs(self.0.inputs.clone())
     }
 
     fn opposite_literal(&self, x: &RBig, literal: &Literal) -> Self {
@@ -136,6 +137,7 @@ impl Number {
                 text: flipped.into(),
                 ..literal.clone()
             }),
+            inputs: self.0.inputs.clone(),
             coarsest: self.0.coarsest,
             value: OnceLock::new(),
             decision: OnceLock::new(),

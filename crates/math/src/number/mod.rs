@@ -33,6 +33,7 @@ mod arithmetic;
 mod ball;
 mod circle;
 mod decimal;
+mod derived;
 mod error;
 mod evaluate;
 mod expression;
@@ -51,6 +52,7 @@ mod view;
 
 pub use angle::{Angle, Direction};
 pub use decimal::Stated;
+pub use derived::{Input, Inputs, Quantity};
 pub use error::{NumberError, Reason};
 pub use evaluate::ZeroTest;
 pub use surd::Surd;
@@ -103,6 +105,8 @@ struct Inner {
     form: Form,
     /// What a decimal was read from.
     literal: Option<Literal>,
+    /// The literals that it was worked out from, where a reader did that.
+    inputs: Option<Arc<[Input]>>,
     /// Fewest decimals among the literals this was computed from.
     coarsest: Option<i32>,
     value: OnceLock<f64>,
@@ -126,6 +130,7 @@ impl Number {
         Self(Arc::new(Inner {
             form,
             literal: None,
+            inputs: None,
             coarsest,
             value: OnceLock::new(),
             decision: OnceLock::new(),
@@ -278,6 +283,7 @@ impl Number {
                 written: decimal.stated,
                 stated: Some(decimal.stated),
             }),
+            inputs: None,
             coarsest,
             value: OnceLock::from(decimal.nearest),
             decision: OnceLock::new(),
@@ -341,7 +347,8 @@ impl Number {
     }
 
     /// A literal read as another number: with that value and that stated precision, and with this text when it is written
-    /// back. What is no literal becomes the other number.
+    /// back. What is no literal becomes the other number. A number that [was worked out](Self::derived_from) keeps its inputs where the
+    /// other one states a precision.
     ///
     /// ```
     /// # use kutzbach_math as kutzbach;
@@ -364,8 +371,47 @@ impl Number {
                 stated,
                 ..literal.clone()
             });
+            fresh.inputs = self.0.inputs.clone().filter(|_| stated.is_some());
         }
         Self(inner)
+    }
+
+    /// The value as a literal that states so many decimals, whatever digits its text has: what was computed from rounded literals is known no better
+    /// than they are. The nearest double of a value that no decimal of 60 places is.
+    ///
+    /// ```
+    /// # use kutzbach_math as kutzbach;
+    /// use kutzbach::number::Number;
+    /// let half = (&Number::decimal("0.2673")? * &Number::decimal("0.5")?).stating(4);
+    /// assert_eq!(half.source(), "0.13365");
+    /// assert_eq!(half.stated().map(|digits| (digits.decimals, digits.significant)), Some((4, 4)));
+    /// # Ok::<(), kutzbach::number::NumberError>(())
+    /// ```
+    #[must_use]
+    pub fn stating(&self, decimals: i32) -> Self {
+        const PLACES: u32 = 60;
+        let text = self.decimal_text(PLACES);
+        let text = text.unwrap_or_else(|| format!("{:.17e}", self.value()));
+        let Ok(mut read) = Self::decimal(&text) else {
+            return self.clone();
+        };
+        // Nobody else has it yet.
+        if let Some(fresh) = Arc::get_mut(&mut read.0) {
+            fresh.coarsest = (decimals > 0).then_some(decimals);
+            if let Some(literal) = &mut fresh.literal {
+                let written = literal.written;
+                let beyond = i64::from(written.decimals) - i64::from(decimals);
+                let significant = match written.significant {
+                    0 => 0,
+                    digits => i64::from(digits).saturating_sub(beyond).max(0),
+                };
+                literal.stated = Some(Stated {
+                    decimals,
+                    significant: u32::try_from(significant).unwrap_or(u32::MAX),
+                });
+            }
+        }
+        read
     }
 
     /// Fewest decimals among the literals read by [`Number::decimal`] that this number was computed from, by whatever

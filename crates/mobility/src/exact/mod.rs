@@ -138,7 +138,7 @@ fn numbers_are_exact(
             .chain(&joint.axis2.0)
             .chain(&joint.lead)
             .chain(&joint.distance)
-            .all(|number: &Number| number.stated().is_none())
+            .all(|number: &Number| number.stated().is_none() && number.inputs().is_empty())
     };
     let geometry = mechanism.is_exact(&part.joints) || part.joints.iter().all(joint_numbers);
     let chosen = |number: &Number| {

@@ -12,6 +12,7 @@ use super::noise::noise_of;
 use super::splitting::{LARGEST_SIDE, Splitting};
 use crate::PartRank;
 use kutzbach_math::group::{Monomials, Series};
+use kutzbach_math::interruption;
 use kutzbach_math::matrix::MatrixError;
 use kutzbach_model::mechanism::Mechanism;
 use std::sync::Arc;
@@ -254,6 +255,7 @@ pub(super) fn reduce(
     }
     let mut residual = Vec::new();
     for k in 2..=degree {
+        interruption::look().ok()?;
         // Numbering is by degree, so that a shorter table numbers the same monomials.
         let table = if k == degree {
             Arc::clone(&monomials)

@@ -2,6 +2,7 @@
 
 use super::small::{dot, least_squares, length, plus, project, singular, unit};
 use super::system::{Level, Work};
+use kutzbach_math::interruption;
 
 /// Where the point may go.
 pub(super) enum Within<'a> {
@@ -78,7 +79,8 @@ pub(super) fn land(
     let mut trial_work = Work::default();
     for _ in 0..steps {
         // Values of a few roundings, relative to the parts they are the sum of, cannot be improved.
-        if size <= 4.0 * f64::EPSILON || idle >= 6 || damping > 1e12 {
+        let ended = size <= 4.0 * f64::EPSILON || idle >= 6 || damping > 1e12;
+        if ended || interruption::asked() {
             break;
         }
         let mut move_by = step(work, &z, within, damping);

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::small::{dot, rotate_to_orthogonal};
 use kutzbach_math::group::{Monomials, Series};
+use kutzbach_math::interruption;
 
 /// Operations of a decomposition of the derivatives, over their number times the variables.
 const LINEAR_ALGEBRA: usize = 60;
@@ -129,9 +130,12 @@ impl System {
         self.spent.get()
     }
 
-    /// Work that is left.
+    /// Work that is left; none where the search is asked to end.
     pub(super) fn left(&self) -> u64 {
-        self.allowed.get().saturating_sub(self.spent.get())
+        match interruption::asked() {
+            true => 0,
+            false => self.allowed.get().saturating_sub(self.spent.get()),
+        }
     }
 
     /// Counts work done elsewhere.

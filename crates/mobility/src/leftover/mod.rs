@@ -18,6 +18,7 @@ use crate::more_digits::MoreDigits;
 use equations::Equations;
 pub(crate) use known::{Grid, Line};
 use kutzbach_closure::Section;
+use kutzbach_math::interruption;
 use kutzbach_math::matrix::{Extended, Real, Ring};
 use turning::{TurnedTo, Turning};
 
@@ -138,6 +139,9 @@ impl<'a> Leftover<'a> {
         for vector in &mut kernel {
             // Each round gains the digits of a double.
             for _ in 0..bits / 30 {
+                if interruption::asked() {
+                    break;
+                }
                 let side = |sign: f64| -> Vec<Extended> {
                     let share = step.clone() * self.one.constant(sign);
                     let z: Vec<Extended> =
@@ -275,6 +279,7 @@ impl<'a> Leftover<'a> {
         let turned = self.turning.to(y);
         let mut before: Option<Extended> = None;
         loop {
+            interruption::look().map_err(|_| Doubt::Arithmetic)?;
             let step = self.step(&residual, &turned);
             let moved = largest(&step);
             if !moved.is_finite() {

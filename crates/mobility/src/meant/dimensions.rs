@@ -40,11 +40,14 @@ impl<'a> Dimensions<'a> {
         })
     }
 
-    /// Those of a part, each literal known to so much (m, rad).
+    /// Those of a part, each literal and what was worked out from some known to so much (m, rad).
     pub fn known_to(mechanism: &'a Mechanism, part: &Part, unit: f64) -> Self {
-        Self::by(mechanism, part, |_, _, number| match number.stated() {
-            Some(_) => unit,
-            None => 0.0,
+        let is_literal = |number: &Number| number.stated().is_some();
+        Self::by(mechanism, part, |_, _, number| {
+            match is_literal(number) || !number.inputs().is_empty() {
+                true => unit,
+                false => 0.0,
+            }
         })
     }
 

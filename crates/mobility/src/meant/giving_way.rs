@@ -138,7 +138,7 @@ fn changes(
     }
     let along: Vec<Mat<f64>> = (0..columns)
         .map(|column| {
-            let at = |sign: f64| {
+            let at = |sign: f64| -> Result<Mat<f64>, MatrixError> {
                 let mut moved = states.to_vec();
                 let mut step = vec![0.0; columns];
                 step[column] = sign * QUOTIENT;

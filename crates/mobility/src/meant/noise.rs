@@ -39,12 +39,15 @@ fn is_printed(mechanism: &Mechanism, part: &Part) -> bool {
     let (mut long, mut all) = (0, 0);
     for &joint in &part.joints {
         for number in mechanism.joints()[joint].numbers().into_iter().flatten() {
-            // What was read as a constant, or as a shorter decimal, says nothing; what was computed was typed.
-            let Some(written) = number.written().filter(|w| w.significant > 0) else {
-                continue;
-            };
-            all += usize::from(written.significant > 1);
-            long += usize::from(PRINTED.contains(&written.significant));
+            // What was read as a constant, or as a shorter decimal, says nothing; what was computed was typed, but where it has a text, or
+            // knows the literals behind it: it is as long as the longest of these.
+            let written = number
+                .literals()
+                .chain([number])
+                .filter_map(Number::written);
+            let significant = written.map(|own| own.significant).max().unwrap_or(0);
+            all += usize::from(significant > 1);
+            long += usize::from(PRINTED.contains(&significant));
         }
     }
     long >= LEAST_PRINTED && 2 * long > all

@@ -2,7 +2,7 @@
 
 use super::joint::Joint;
 use super::model::Mechanism;
-use kutzbach_math::number::Number;
+use kutzbach_math::number::{Number, Quantity};
 
 impl Joint {
     /// How many numbers [`Joint::numbers`] lists.
@@ -35,6 +35,15 @@ impl Joint {
             3..6 | 9..12 => 1,
             12..18 => 2,
             _ => 0,
+        }
+    }
+
+    /// The same kinds by what a literal measures.
+    pub(super) fn kind_of_quantity(quantity: Quantity) -> usize {
+        match quantity {
+            Quantity::Length => 0,
+            Quantity::Angle => 1,
+            Quantity::Direction => 2,
         }
     }
 

@@ -5,7 +5,8 @@ use super::link::Placement;
 use super::model::Mechanism;
 use super::number_style::{EXACT_DECIMALS, Group, Literals, OF_A_DOUBLE, Written};
 use crate::graph::{Block, ConstraintGraph};
-use kutzbach_math::number::Number;
+use kutzbach_math::number::{Input, Number};
+use std::collections::BTreeSet;
 
 /// How precisely a file states the geometry of one independent sub-mechanism.
 ///
@@ -29,7 +30,10 @@ use kutzbach_math::number::Number;
 /// literal ends in zeros, at least three more than it needs, in twelve digits or more, these are padding and state nothing. Printed
 /// doubles state 17 significant digits, however many are printed. Literals that are single-precision numbers, however they are
 /// printed, are uncertain by what single precision is.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
+///
+/// Numbers that a reader worked out from literals ([`Number::derived_from`]) count by these, and are as uncertain as they make them:
+/// `Σ |∂number/∂x| u(x)`. Where all of these are exact, they count by their own texts, which have the rounding of doubles.
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Precision {
     /// Most decimals of any literal in the geometry but zeros, for which 0 counts; `None` where there is no literal.
     pub decimals: Option<i32>,
@@ -39,6 +43,16 @@ pub struct Precision {
     groups: [Group; 3],
     /// What is said to be known of every literal, whatever its digits say (m, rad).
     by_hand: Option<f64>,
+    /// Whether numbers that were worked out count by their own texts, since the literals behind them are all exact.
+    by_own_text: bool,
+}
+
+/// By what is stated, and not by how it was read: numbers that were worked out from exact ones count as if they had been written so.
+impl PartialEq for Precision {
+    fn eq(&self, other: &Self) -> bool {
+        let stated = |own: &Self| (own.decimals, own.significant, own.groups, own.by_hand);
+        stated(self) == stated(other)
+    }
 }
 
 impl Precision {
@@ -103,13 +117,26 @@ impl Precision {
     }
 
     /// How far a number of this sub-mechanism, at a place of [`Joint::numbers`](super::Joint::numbers), may be from the number
-    /// meant (m, rad); zero for exact ones.
+    /// meant (m, rad); zero for exact ones. A number that was [worked out](Number::derived_from) from literals may be off by what all of
+    /// these may be off by, to first order.
     #[must_use]
     pub fn uncertainty(&self, place: usize, number: &Number) -> f64 {
+        let inputs = number.inputs();
+        if inputs.is_empty() || self.by_own_text && self.by_hand.is_none() {
+            return self.of_literal(Joint::kind_of_number(place), number);
+        }
+        let share = |input: &Input| {
+            let kind = Joint::kind_of_quantity(input.quantity);
+            input.slope * self.of_literal(kind, &input.literal)
+        };
+        inputs.iter().map(share).sum()
+    }
+
+    fn of_literal(&self, kind: usize, number: &Number) -> f64 {
         match self.by_hand {
             _ if number.stated().is_none() || self.decimals.is_none() => 0.0,
             Some(uncertainty) => uncertainty,
-            None => self.groups[Joint::kind_of_number(place)].uncertainty(number),
+            None => self.groups[kind].uncertainty(number),
         }
     }
 
@@ -138,10 +165,28 @@ impl Precision {
         tree: impl IntoIterator<Item = (LiteralPlace, &'a Number)>,
         closing: impl IntoIterator<Item = (LiteralPlace, &'a Number)>,
     ) -> [Self; 2] {
-        let [tree, closing] = [sorted_by_kind(tree), sorted_by_kind(closing)];
+        let sides = [tree.into_iter().collect(), closing.into_iter().collect()];
+        let read = Self::of_sides(&sides, false);
+        let numbers = || sides.iter().flatten();
+        let derived = numbers().any(|(_, number)| !number.inputs().is_empty());
+        match derived && read.iter().all(Self::is_exact) {
+            // What is computed from exact numbers has the rounding of its own text.
+            true => Self::of_sides(&sides, true),
+            false => read,
+        }
+    }
+
+    fn of_sides(sides: &[Vec<(LiteralPlace, &Number)>; 2], by_own_text: bool) -> [Self; 2] {
+        let mut known = BTreeSet::new();
+        let [tree, closing] = sides
+            .each_ref()
+            .map(|side| sorted_by_kind(side, by_own_text, &mut known));
         let all = [0, 1, 2].map(|kind: usize| tree[kind].and(&closing[kind]));
         let padded = Self::is_padded(&all);
-        let whole = Self::of_kinds(&all, padded);
+        let whole = Self {
+            by_own_text,
+            ..Self::of_kinds(&all, padded)
+        };
         let mut sides = [whole; 2];
         for kind in 0..3 {
             let [of_tree, of_closing] = [&tree[kind], &closing[kind]];
@@ -193,6 +238,7 @@ impl Precision {
                 .unwrap_or(0),
             groups,
             by_hand: None,
+            by_own_text: false,
         }
     }
 
@@ -203,17 +249,34 @@ impl Precision {
             significant: self.significant.max(other.significant),
             groups: [0, 1, 2].map(|kind| self.groups[kind].with(&other.groups[kind])),
             by_hand: self.by_hand,
+            by_own_text: self.by_own_text && other.by_own_text,
         }
     }
 }
 
-/// Lengths, angles and components of directions.
+/// Lengths, angles and components of directions. Of numbers that were worked out, either their own texts count, or the literals behind
+/// them, those that are not `known` already: many numbers come from one literal, and those of joints that close loops from those of the
+/// tree.
 fn sorted_by_kind<'a>(
-    numbers: impl IntoIterator<Item = (LiteralPlace, &'a Number)>,
+    numbers: &[(LiteralPlace, &'a Number)],
+    by_own_text: bool,
+    known: &mut BTreeSet<(usize, Option<&'a str>)>,
 ) -> [Literals<'a>; 3] {
     let mut literals = [(); 3].map(|()| Literals::default());
-    for (place, number) in numbers {
-        literals[Joint::kind_of_number(place.in_joint())].read(place, number);
+    for &(place, number) in numbers {
+        let inputs = number.inputs();
+        if inputs.is_empty() || by_own_text {
+            let kind = Joint::kind_of_number(place.in_joint());
+            known.insert((kind, number.literal_text()));
+            literals[kind].read(place, number);
+            continue;
+        }
+        for input in inputs {
+            let kind = Joint::kind_of_quantity(input.quantity);
+            if known.insert((kind, input.literal.literal_text())) {
+                literals[kind].read(place, &input.literal);
+            }
+        }
     }
     literals
 }
@@ -221,7 +284,7 @@ fn sorted_by_kind<'a>(
 /// Where a literal of the geometry stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LiteralPlace {
-    /// In a joint: its index, and the place in [`Joint::numbers`].
+    /// In a joint: its index, and the place in [`Joint::numbers`] of the literal, or of a number that was worked out from it.
     Joint(usize, usize),
     /// In the frame in which a link is placed without a joint: the link's index, and the place as in a joint's first frame.
     Link(usize, usize),
@@ -352,6 +415,7 @@ mod tests {
     use super::super::Direction;
     use super::super::{Frame, JointBuilder, JointId, JointKind, MechanismBuilder};
     use super::*;
+    use kutzbach_math::number::{Inputs, Quantity};
     use proptest::prelude::*;
 
     fn number(text: &str) -> Number {
@@ -434,6 +498,44 @@ mod tests {
             (found - expected).abs() <= 1e-12 * expected,
             "{text}: {found:e} instead of {expected:e}"
         );
+    }
+
+    /// A number that changes by `slope` times what an angle changes by.
+    fn worked_out(value: Number, angle: &str, slope: f64) -> Number {
+        let mut inputs = Inputs::default();
+        inputs.add(Quantity::Angle, &number(angle), slope);
+        value.derived_from(inputs)
+    }
+
+    #[test]
+    fn what_is_worked_out_is_as_uncertain_as_the_literals_behind_it() {
+        let of = |numbers: &[Number]| {
+            let placed = numbers.iter().map(|n| (LiteralPlace::Joint(0, 0), n));
+            let [precision, _] = Precision::of(placed, []);
+            precision
+        };
+        let quarter = || Number::from_f64(0.25).unwrap();
+        let rounded = [
+            worked_out(quarter(), "0.433013", 2.0),
+            worked_out(quarter(), "0.776457", 1.0),
+        ];
+        let precision = of(&rounded);
+        assert!(!precision.is_exact());
+        assert_eq!(precision.decimals, Some(6));
+        let off = |precision: &Precision| rounded.each_ref().map(|n| precision.uncertainty(0, n));
+        let [two, one] = off(&precision);
+        assert!((two - 1e-6).abs() < 1e-15 && (one - 0.5e-6).abs() < 1e-15);
+        assert_eq!(off(&precision.known_to(1e-3)), [2e-3, 1e-3]);
+        assert_eq!(off(&precision.known_to(0.0)), [0.0; 2]);
+        // What was chosen leaves an exact number exact, and a computed one the rounding of its text.
+        let exact = worked_out(quarter(), "0.3", 2.0);
+        assert!(of(std::slice::from_ref(&exact)).is_exact());
+        let computed = worked_out(number("0.295520206661340"), "0.3", 1.0);
+        let precision = of(std::slice::from_ref(&computed));
+        let own = of(&[number("0.295520206661340")]);
+        assert!(!precision.is_exact() && precision == own);
+        let left = precision.uncertainty(0, &computed);
+        assert!(left > 0.0 && left < 1e-14, "{left:e}");
     }
 
     #[test]

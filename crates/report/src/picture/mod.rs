@@ -27,6 +27,7 @@
 //! | `plot`, `plot/…` | curves, points and bars over axes |
 //! | `view` | from which side a mechanism is looked at |
 //! | `sketch`, `sketch/…` | what a mechanism looks like |
+//! | `solids` | which faces of a part are a feature |
 //! | `traced`, `traced/…` | one joint over another along a motion, and the paths of points |
 //! | `pictogram` | which sign stands for which answer |
 //! | `markup` | how text and numbers are written |
@@ -37,6 +38,8 @@ pub mod pictogram;
 pub mod plot;
 #[cfg(feature = "html")]
 pub mod sketch;
+#[cfg(feature = "html")]
+pub mod solids;
 #[cfg(feature = "html")]
 pub mod traced;
 #[cfg(feature = "html")]

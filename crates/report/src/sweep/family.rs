@@ -150,6 +150,25 @@ pub struct Row {
 }
 
 /// A file with named measures, the values they take, and what is asked of each variant.
+///
+/// ```
+/// # mod kutzbach { pub use kutzbach_report::sweep; pub use kutzbach_mobility as mobility; }
+/// # let text = r#"<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">
+/// #   <xacro:property name="length" value="1"/> <link name="base"/> <link name="arm"/>
+/// #   <joint name="hinge" type="revolute"> <parent link="base"/> <child link="arm"/>
+/// #     <origin xyz="${1/length} 0 0"/> <axis xyz="0 0 1"/> </joint> </robot>"#;
+/// use kutzbach::mobility::AnalysisOptions;
+/// use kutzbach::sweep::{Family, MeasuredFile, Over, Plan, Shard, Status};
+///
+/// let plan = Plan::new(vec![Over::read("length=0..2:3")?], None)?;
+/// let family = Family::new(MeasuredFile::of_text(text, "arm.urdf"), plan, AnalysisOptions::default()).unwrap();
+/// let found: Vec<_> = family.variants(Shard::default()).map(|row| row.outcome).collect();
+/// // The text has 1/length in it: a variant that is no mechanism is a row with its reason.
+/// assert_eq!(found[0].status, Status::Invalid);
+/// assert!(found[0].reason.is_some());
+/// assert_eq!(found[1].facts.finite, Some(1));
+/// # Ok::<(), kutzbach::sweep::SweepError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Family {
     source: MeasuredFile,
@@ -252,6 +271,30 @@ impl Family {
 }
 
 /// The members of a family, for whom the file is parsed once; several threads may ask for rows at the same time.
+///
+/// ```
+/// # mod kutzbach { pub use kutzbach_report::sweep; pub use kutzbach_mobility as mobility; }
+/// # let text = r#"<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">
+/// #   <xacro:property name="length" value="1"/> <link name="base"/> <link name="arm"/>
+/// #   <joint name="hinge" type="revolute"> <parent link="base"/> <child link="arm"/>
+/// #     <origin xyz="${1/length} 0 0"/> <axis xyz="0 0 1"/> </joint> </robot>"#;
+/// use kutzbach::mobility::AnalysisOptions;
+/// use kutzbach::sweep::{Family, MeasuredFile, Over, Plan};
+///
+/// let plan = Plan::new(vec![Over::read("length=1..2:11")?], None)?;
+/// let family = Family::new(MeasuredFile::of_text(text, "arm.urdf"), plan, AnalysisOptions::default()).unwrap();
+/// let members = family.members();
+/// let rows = std::thread::scope(|scope| {
+///     let halves = [0, 1].map(|half| {
+///         let members = &members;
+///         let numbers = (half..11).step_by(2);
+///         scope.spawn(move || numbers.filter_map(|number| members.row(number)).count())
+///     });
+///     halves.map(|half| half.join().unwrap())
+/// });
+/// assert_eq!(rows, [6, 5]);
+/// # Ok::<(), kutzbach::sweep::SweepError>(())
+/// ```
 #[derive(Debug)]
 pub struct Members<'f> {
     family: &'f Family,

@@ -7,6 +7,16 @@ use serde::Serialize;
 use std::fmt;
 
 /// Points instead of all combinations.
+///
+/// ```
+/// # mod kutzbach { pub use kutzbach_report::sweep; }
+/// use kutzbach::sweep::Sample;
+///
+/// assert_eq!(Sample::read("sobol:1000")?, Sample::Sobol(1000));
+/// assert_eq!(Sample::Random(50).to_string(), "random:50");
+/// assert!(Sample::read("halton:10").is_err());
+/// # Ok::<(), kutzbach::sweep::SweepError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sample {
     /// The first points of a Sobol sequence, which fill the ranges evenly; up to eight measures.
@@ -57,6 +67,16 @@ impl fmt::Display for Sample {
 }
 
 /// A share of the variants, for one of several machines: every so-manieth of them, so that all shares take about as long.
+///
+/// ```
+/// # mod kutzbach { pub use kutzbach_report::sweep; }
+/// use kutzbach::sweep::Shard;
+///
+/// let second = Shard::read("2/5")?;
+/// let variants: Vec<u64> = (0..second.count(12)).map(|place| second.index(place)).collect();
+/// assert_eq!(variants, [1, 6, 11]);
+/// # Ok::<(), kutzbach::sweep::SweepError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     /// Which share, counted from 1.
@@ -119,6 +139,18 @@ impl fmt::Display for Shard {
 }
 
 /// All variants of a sweep, in an order that depends on nothing else: of combinations the last measure changes first.
+///
+/// ```
+/// # mod kutzbach { pub use kutzbach_report::sweep; }
+/// use kutzbach::sweep::{Over, Plan};
+///
+/// let plan = Plan::new(vec![Over::read("a=0..1:3")?, Over::read("b=2,pi/4")?], None)?;
+/// assert_eq!(plan.count(), 6);
+/// let values = plan.values(3).unwrap();
+/// assert_eq!((values[0].shown.as_str(), values[1].shown.as_str()), ("0.5", "pi/4"));
+/// assert!(plan.values(6).is_none());
+/// # Ok::<(), kutzbach::sweep::SweepError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Plan {
     over: Vec<Over>,

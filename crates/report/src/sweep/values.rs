@@ -130,6 +130,18 @@ impl Range {
 }
 
 /// A measure and the values that it takes.
+///
+/// ```
+/// # mod kutzbach { pub use kutzbach_report::sweep; }
+/// use kutzbach::sweep::Over;
+///
+/// let over = Over::read("a = 0..2:401")?;
+/// assert_eq!((over.name.as_str(), over.values.count()), ("a", Some(401)));
+/// // A range without a count is one for samples.
+/// assert_eq!(Over::read("a=0..2")?.values.count(), None);
+/// assert!(Over::read("a").is_err());
+/// # Ok::<(), kutzbach::sweep::SweepError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Over {
     /// The name of the measure.

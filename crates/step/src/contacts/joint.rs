@@ -1,5 +1,6 @@
 //! The contacts of a pair of parts as one joint.
 
+use super::settle::{Play, settled};
 use super::{Contact, ContactKind};
 use kutzbach_math::group::{
     Axis, DisplacementSubgroup, Gauge, GroupError, Margin, Subalgebra, normalised_direction,
@@ -11,8 +12,11 @@ use std::fmt;
 /// Directions are written with six digits or more; a joint is not told more finely than that.
 const DIGITS: f64 = 1e-6;
 
-/// A gauge has to be finer than a tenth; contacts that fit worse are not one joint.
+/// Contacts that fit worse than this share of their size are not one joint.
 const COARSEST: f64 = 0.05;
+
+/// What was settled is equal to the digits of doubles, after a few products.
+const SETTLED: f64 = 1e-9;
 
 /// The displacements that contacts leave.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,14 +79,25 @@ impl From<GroupError> for JointError {
 /// leaves, on the supposition that all faces stay on each other.
 ///
 /// `accuracy` is how far points may be from where they should be (m); what the contacts themselves do not fit
-/// ([`Contact::misfit`]) counts besides.
+/// ([`Contact::misfit`]) counts besides. Within both, axes, normals and centres count as parallel, at right angles or equal.
 ///
 /// # Errors
 /// [`JointError`]: no contacts, contacts that fit too badly, decisions that are not clear enough to name a class.
 pub fn joint_of(contacts: &[Contact], accuracy: f64) -> Result<Joint, JointError> {
-    let gauge = gauge(contacts, accuracy)?;
+    let (play, length) = play(contacts, accuracy)?;
+    let contacts = settled(contacts, play).ok_or(JointError::Unclear)?;
+    let points = contacts.iter().map(|contact| contact.point);
+    let centre = points.sum::<Vector3<f64>>() / contacts.len() as f64;
+    // The line of two centres is settled with nothing.
+    let balls = contacts.iter().filter(|c| c.kind == ContactKind::Spherical);
+    let tolerance = if balls.count() > 1 {
+        play.angle
+    } else {
+        SETTLED
+    };
+    let gauge = Gauge::new(centre, length, tolerance)?;
     let mut common: Option<Subalgebra> = None;
-    for contact in distinct(contacts, &gauge) {
+    for contact in distinct(&contacts, &gauge) {
         let left = left_by(contact).ok_or(JointError::NotFinite)?;
         let algebra = Subalgebra::generated_by(&left.algebra(), &gauge)?;
         common = Some(match common {
@@ -115,27 +130,34 @@ fn left_by(contact: &Contact) -> Option<DisplacementSubgroup> {
     })
 }
 
-/// The gauge in which contacts are compared: about their points, as long as they are spread or large.
-fn gauge(contacts: &[Contact], accuracy: f64) -> Result<Gauge, JointError> {
-    let points: Vec<Vector3<f64>> = contacts.iter().map(|contact| contact.point).collect();
+/// How well contacts are known, and the length by which they are compared (m): as far as they are apart, or as large as one is.
+fn play(contacts: &[Contact], accuracy: f64) -> Result<(Play, f64), JointError> {
     let size = contacts.iter().map(|c| c.size).fold(0.0, f64::max);
     let misfit = contacts.iter().map(|c| c.misfit).fold(0.0, f64::max);
-    if points.is_empty() {
+    if contacts.is_empty() {
         return Err(JointError::NoContacts);
     }
-    if !(size > 0.0 && size.is_finite()) {
+    let usable = |c: &Contact| c.axis.norm() > 0.5 && c.point.norm().is_finite();
+    if !(size > 0.0 && size.is_finite() && contacts.iter().all(usable)) {
         return Err(JointError::NotFinite);
     }
     // A misfit turns an axis by its share of the smallest contact, on which the axis rests.
     let smallest = contacts.iter().map(|c| c.size).fold(size, f64::min);
-    let tolerance = DIGITS.max((misfit + accuracy.max(0.0)) / smallest);
-    if !(tolerance < COARSEST) {
+    let accuracy = accuracy.max(0.0);
+    let angle = DIGITS.max((misfit + accuracy) / smallest);
+    if !(angle < COARSEST) {
         return Err(JointError::Misfit {
             misfit,
             size: smallest,
         });
     }
-    Ok(Gauge::from_points(&points, size, tolerance)?)
+    // Each of two axes may be off by as much; far apart on one axis, by its turn as well.
+    let points = || contacts.iter().map(|contact| contact.point);
+    let low = points().reduce(|a, b| a.inf(&b));
+    let high = points().reduce(|a, b| a.sup(&b));
+    let reach = low.zip(high).map_or(0.0, |(low, high)| (high - low).norm());
+    let length = 2.0 * (misfit + accuracy) + DIGITS * reach;
+    Ok((Play { angle, length }, size.max(reach)))
 }
 
 /// The contacts without those that leave the same displacements as an earlier one: many faces of one plane say nothing more, and
@@ -253,6 +275,42 @@ mod tests {
             assert_eq!(joint.subgroup.short_name(), class, "{name}");
             assert!(joint.margin.is_clear(), "{name}: {:?}", joint.margin);
         }
+    }
+
+    /// A pin that a designer has put against the side of its hole turns in it all the same.
+    #[test]
+    fn a_pin_off_the_middle_of_its_hole_is_a_hinge() {
+        use ContactKind::{Cylindrical, Planar};
+        let mut pin = contact(Cylindrical, [0.0, 0.0, 1.0], [7e-5, 0.0, 0.0025]);
+        (pin.misfit, pin.size) = (7e-5, 0.005);
+        let head = contact(Planar, [0.0, 0.0, -1.0], [7e-5, 3e-6, 0.0]);
+        let joint = joint_of(&[head, pin], 1e-9).unwrap();
+        assert_eq!(joint.subgroup.short_name(), "R");
+        assert!(joint.margin.is_clear(), "{:?}", joint.margin);
+    }
+
+    /// The dovetail of a table that stands askew: digits of five normals, three of them different.
+    #[test]
+    fn planes_of_a_dovetail_leave_one_direction_however_it_is_turned() {
+        let turn = kutzbach_math::group::Pose::from_roll_pitch_yaw(0.24, 0.72, 1.35);
+        let (flat, flank) = ([0.0, 0.0, 1.0], [0.857_492_925_7, 0.0, 0.514_495_755_4]);
+        let other = [-0.857_492_925_7, 0.0, 0.514_495_755_4];
+        let faces = [flat, flank, other, flat, flat];
+        let contacts: Vec<Contact> = (0_i32..)
+            .zip(faces)
+            .map(|(place, normal)| {
+                let shift = 0.02 * f64::from(place - 2);
+                let mut face = contact(ContactKind::Planar, normal, [shift, 0.0, 0.01]);
+                let digits = Vector3::new(1.0, -1.0, 1.0) * (1e-8 * f64::from(place));
+                face.axis = turn.transform_direction(&(face.axis + digits).normalize());
+                face.point = turn.transform_point(&face.point);
+                face.size = 0.04;
+                face
+            })
+            .collect();
+        let joint = joint_of(&contacts, 1e-9).unwrap();
+        assert_eq!(joint.subgroup.short_name(), "T");
+        assert!(joint.margin.is_clear(), "{:?}", joint.margin);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 mod boxes;
 mod joint;
 mod overlap;
+mod settle;
 mod touch;
 
 use crate::shape::{Assembly, Face};

@@ -2,6 +2,7 @@
 
 mod builder;
 mod hostile;
+mod pairs;
 mod read;
 mod solids;
 mod touching;

@@ -143,7 +143,10 @@ fn local_leads(
     }
     let equations: Vec<Terms<Zp>> = equations
         .iter()
-        .map(|terms| collected(terms, prime))
+        .map(|terms| {
+            budget.check()?;
+            collected(terms, prime)
+        })
         .collect::<Result<_, Stop>>()?;
     let equations: Vec<Terms<Zp>> = equations.into_iter().filter(|p| !p.is_zero()).collect();
     // The forms of a basis that compares degrees generate all forms of the ideal, without solutions at infinity that the

@@ -7,11 +7,14 @@
 //! short and the cost to the length of the loop.
 //!
 //! Where all rotations on the way have cosines and sines in closed form, as those of plain translations and quarter turns,
-//! the frames are exact. Where they have not, they are computed in doubles and closed to some 1e-16 of the loop's size.
+//! the frames are exact. Where they have not, they are computed in doubles and closed to some 1e-16 of the loop's size. Either way they
+//! know the literals that they were worked out from: an exact sum of rounded numbers is as uncertain as these.
 
 use super::checks::check_frame;
+use super::far_frames::FarFrames;
 use super::names::Names;
 use super::placements::placed_by;
+use crate::mechanism::derived_frames::{Step, inputs_along};
 use crate::mechanism::{Entity, Frame, Joint, JointId, Link, LinkId, MechanismError, Placement};
 use kutzbach_math::number::Number;
 use std::ops::{Add, Mul, Neg};
@@ -34,10 +37,24 @@ pub(super) fn close_at_home(
     links: &[Link],
     names: &Names,
 ) -> Result<(), MechanismError> {
+    let far = match specs.is_empty() {
+        true => None,
+        false => FarFrames::new(links, joints),
+    };
     for (id, spec) in specs {
         let entity = Entity::Joint(joints[id.0].name.clone());
         let anchor = names.link(&entity, &spec.link)?;
         let sides = [joints[id.0].predecessor.link, joints[id.0].successor.link];
+        let jumped = far
+            .as_ref()
+            .and_then(|far| far.frames(anchor, &spec, sides));
+        if let Some([predecessor, successor]) = jumped {
+            check_frame(&entity, &predecessor)?;
+            check_frame(&entity, &successor)?;
+            let joint = &mut joints[id.0];
+            (joint.predecessor.frame, joint.successor.frame) = (predecessor, successor);
+            continue;
+        }
         let tree = Tree { links, joints };
         let frames = tree.frames::<Number>(anchor, &spec, sides);
         let [predecessor, successor] = match frames {
@@ -46,6 +63,8 @@ pub(super) fn close_at_home(
                 MechanismError::new(entity.clone(), "its place at home is not finite")
             })?,
         };
+        let predecessor = tree.derived(predecessor, sides[0], anchor, &spec);
+        let successor = tree.derived(successor, sides[1], anchor, &spec);
         check_frame(&entity, &predecessor)?;
         check_frame(&entity, &successor)?;
         joints[id.0].predecessor.frame = predecessor;
@@ -56,7 +75,8 @@ pub(super) fn close_at_home(
 
 impl Frame {
     /// The frame at the end of one chain, seen from the end of another one that starts at the same place; each frame of a chain is given in
-    /// the one before. Exact where the cosines and sines on the way have closed forms, otherwise in doubles; `None` where it is not finite.
+    /// the one before. Exact where the cosines and sines on the way have closed forms, otherwise in doubles; the numbers know the literals
+    /// that they were [worked out](Number::derived_from) from. `None` where it is not finite.
     ///
     /// ```
     /// # use kutzbach_model as kutzbach;
@@ -70,7 +90,8 @@ impl Frame {
     /// ```
     #[must_use]
     pub fn between(from: &[&Self], to: &[&Self]) -> Option<Self> {
-        between::<Number>(from, to).or_else(|| between::<f64>(from, to))
+        let found = between::<Number>(from, to).or_else(|| between::<f64>(from, to))?;
+        Some(found.derived_from(Self::inputs_between(from, to)))
     }
 }
 
@@ -115,6 +136,51 @@ impl Tree<'_> {
         Some([side(first)?, side(second)?])
     }
 
+    /// The joint's frame on the side of a link, as it was worked out, with the literals behind it.
+    fn derived(&self, frame: Frame, link: LinkId, anchor: LinkId, spec: &HomeFrame) -> Frame {
+        if link == anchor && !spec.parallel_to_root {
+            return frame;
+        }
+        let mut steps = self.steps(link, anchor);
+        steps.push(Step::to(&spec.frame));
+        let mut inputs = inputs_along(&steps);
+        if spec.parallel_to_root
+            && let Some(root) = self.ancestors(link).last()
+        {
+            let [.., roll, pitch, yaw] = inputs_along(&self.steps(link, *root));
+            let [x, y, z, ..] = inputs;
+            inputs = [x, y, z, roll, pitch, yaw];
+        }
+        frame.derived_from(inputs)
+    }
+
+    /// The frames on the way from one link to another one.
+    fn steps(&self, from: LinkId, to: LinkId) -> Vec<Step<'_>> {
+        let [up, down] = self.apart(from, to);
+        let up = up
+            .into_iter()
+            .flat_map(|link| self.steps_to(link).into_iter().rev());
+        let down = down.into_iter().rev();
+        up.map(Step::reversed)
+            .chain(down.flat_map(|link| self.steps_to(link)))
+            .collect()
+    }
+
+    /// The frames on the way to a link from what it is placed by.
+    fn steps_to(&self, link: LinkId) -> Vec<Step<'_>> {
+        match &self.links[link.0].placement {
+            Placement::World => Vec::new(),
+            Placement::Floating { origin, .. } => vec![Step::to(origin)],
+            Placement::Joint(joint) => {
+                let joint = &self.joints[joint.0];
+                vec![
+                    Step::to(&joint.predecessor.frame),
+                    Step::back_from(&joint.successor.frame),
+                ]
+            }
+        }
+    }
+
     /// The links from one up to the root.
     fn ancestors(&self, link: LinkId) -> Vec<LinkId> {
         let mut chain = vec![link];
@@ -126,8 +192,8 @@ impl Tree<'_> {
         chain
     }
 
-    /// The pose of `to` at home, seen from `from`.
-    fn between<R: Real>(&self, from: LinkId, to: LinkId) -> Option<Pose<R>> {
+    /// The links from each of two up to their nearest common ancestor, which is left out.
+    fn apart(&self, from: LinkId, to: LinkId) -> [Vec<LinkId>; 2] {
         let (mut up, mut down) = (self.ancestors(from), self.ancestors(to));
         while let (Some(a), Some(b)) = (up.last(), down.last()) {
             if a != b {
@@ -136,6 +202,12 @@ impl Tree<'_> {
             up.pop();
             down.pop();
         }
+        [up, down]
+    }
+
+    /// The pose of `to` at home, seen from `from`.
+    fn between<R: Real>(&self, from: LinkId, to: LinkId) -> Option<Pose<R>> {
+        let [up, down] = self.apart(from, to);
         let along = |chain: &[LinkId]| {
             chain
                 .iter()
@@ -192,6 +264,11 @@ impl Real for f64 {
     }
 
     fn cos_sin(angle: &Number) -> Option<(Self, Self)> {
+        // Of a fraction they have no closed form, and are not worth many digits.
+        if angle.rational().is_some() {
+            let (sin, cos) = angle.value().sin_cos();
+            return Some((cos, sin));
+        }
         let (cos, sin) = angle.cos_sin();
         Some((cos.value(), sin.value()))
     }

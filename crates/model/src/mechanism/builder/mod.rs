@@ -25,6 +25,7 @@ mod configurations;
 mod couplings;
 mod did_you_mean;
 mod expectation;
+mod far_frames;
 mod home_frames;
 mod joint_builder;
 mod joints;
