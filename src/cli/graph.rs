@@ -227,7 +227,12 @@ fn constructive(arguments: &Arguments) -> Result<u8, Failure> {
             help: Some("text and json say what is known of it".to_owned()),
         });
     }
-    let text = match (arguments.format, found.graph()) {
+    // The s-tree takes its time: only pictures of it ask for it.
+    let graph = || match arguments.format {
+        Format::Dot => found.graph(),
+        _ => None,
+    };
+    let text = match (arguments.format, graph()) {
         (Format::Json, _) => {
             let mut data = found.data();
             if let Some(clusters) = &clusters {
