@@ -17,8 +17,10 @@ SOON = 0.2 + 0.3
 def seconds_after_ctrl_c(work: Callable[[], object], after: float) -> tuple[float, BaseException]:
     """Presses Ctrl-C some time after the work began, and says how long it took to end."""
     pressed: list[float] = []
+    begun = threading.Event()
 
     def press() -> None:
+        begun.wait()
         time.sleep(after)
         pressed.append(time.monotonic())
         os.kill(os.getpid(), signal.SIGINT)
@@ -27,6 +29,7 @@ def seconds_after_ctrl_c(work: Callable[[], object], after: float) -> tuple[floa
     thread.start()
     try:
         with pytest.raises(KeyboardInterrupt) as caught:
+            begun.set()
             work()
             # What ends before it is pressed would show nothing.
             time.sleep(10)
