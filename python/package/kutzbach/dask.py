@@ -106,7 +106,8 @@ def sweep(
     # What is wrong with the question is told here, and not by each worker.
     count = planned(mechanism, written, **question).count()
     cancelled = distributed.Event(f"kutzbach-{uuid.uuid4().hex}", client=client)
-    everywhere = client.scatter(mechanism, broadcast=True)
+    # Of its own for each call: what an earlier call lets go of may reach the scheduler later than this.
+    everywhere = client.scatter(mechanism, broadcast=True, hash=False)
     numbers = {
         client.submit(
             share, everywhere, written, folder, (number, shards), question, cancelled.name, retries=retries, pure=False
