@@ -1,13 +1,40 @@
 //! A traced motion as data: `kutzbach trace --format json`.
 
-use crate::picture::traced::LinkPoint;
 use kutzbach_closure::Rigid;
 use kutzbach_model::mechanism::Mechanism;
-use kutzbach_motion::{EndReason, EventKind, Spacing, Trace, Variable};
+use kutzbach_motion::{EndReason, EventKind, Motion, Spacing, Trace, Variable};
 use serde_json::{Value, json};
 
 /// The version of the JSON.
 pub const TRACE_SCHEMA: &str = "kutzbach-trace-1";
+
+/// A point fixed to a link.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinkPoint {
+    /// What it is called: the link and the coordinates, as in `coupler(1 0.5 0)`.
+    pub name: String,
+    /// Index of the link.
+    pub link: usize,
+    /// Its coordinates in the link's frame (m).
+    pub at: [f64; 3],
+}
+
+impl LinkPoint {
+    /// Where it is in the world (m), at the poses `world_from_link` of all links; `None` where the link is not among them.
+    #[must_use]
+    pub fn place(&self, links: &[Rigid<f64>]) -> Option<[f64; 3]> {
+        links.get(self.link).map(|pose| pose.apply(&self.at))
+    }
+
+    /// Its places (m) at the samples of a motion, one after another.
+    #[must_use]
+    pub fn path(&self, motion: &Motion) -> Vec<[f64; 3]> {
+        let samples = motion.samples.iter();
+        samples
+            .filter_map(|sample| self.place(&sample.links))
+            .collect()
+    }
+}
 
 /// The rotation of a pose as a unit quaternion (w, x, y, z).
 #[must_use]

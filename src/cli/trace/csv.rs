@@ -2,7 +2,7 @@
 
 use kutzbach::mechanism::Mechanism;
 use kutzbach::motion::{Trace, Variable};
-use kutzbach::report::picture::traced::LinkPoint;
+use kutzbach::report::traced::LinkPoint;
 use kutzbach::report::traced::quaternion;
 
 /// A field of a row: quoted where a name has a comma, a quotation mark or a line break in it (RFC 4180).

@@ -7,7 +7,8 @@ use kutzbach::mechanism::{FreedomPart, Mechanism};
 use kutzbach::motion::{Motion, Trace, TraceError, Variable, variable_named};
 use kutzbach::report::definitions::closest;
 use kutzbach::report::picture::plot::sheet;
-use kutzbach::report::picture::traced::{LinkPoint, relation};
+use kutzbach::report::picture::traced::relation;
+use kutzbach::report::traced::LinkPoint;
 
 /// What is drawn.
 #[derive(Debug, Args)]

@@ -3,9 +3,9 @@
 use crate::cli::units::ValueUnits;
 use kutzbach::mechanism::{FreedomPart, Mechanism};
 use kutzbach::motion::{Motion, Spacing, Trace, Variable, value_text};
-use kutzbach::report::picture::traced::LinkPoint;
 use kutzbach::report::text::visible;
 use kutzbach::report::text::words::{degrees, metres};
+use kutzbach::report::traced::LinkPoint;
 use std::fmt::Write;
 
 /// A mechanism and the units in which its values are told.

@@ -46,7 +46,7 @@ mod plots;
 mod ranges;
 mod stage;
 
-use crate::picture::traced::LinkPoint;
+use crate::traced::LinkPoint;
 pub use accuracy::accuracy_page;
 pub use configurations::{Shown, configurations_page};
 pub use document::{SCRIPT, STYLE, script, style};

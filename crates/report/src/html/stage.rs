@@ -1,9 +1,9 @@
 //! What a page shows: the facts that it is made of, and the mechanism with its motions traced.
 
 use super::motions::{Repertoire, repertoire};
-use crate::picture::traced::LinkPoint;
 use crate::picture::view::View;
 use crate::schema::Report;
+use crate::traced::LinkPoint;
 use kutzbach_closure::{Geometry, Rigid, spanning_poses};
 use kutzbach_mobility::{Analysis, AnalysisOptions, Depth, Verdict, analyse};
 use kutzbach_model::mechanism::Mechanism;

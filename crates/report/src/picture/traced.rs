@@ -6,8 +6,6 @@
 mod path;
 mod plane;
 
-pub use path::LinkPoint;
-
 use super::plot::{Axis, Form, Plot, Scale, Series, Value};
 use kutzbach_closure::Rigid;
 use kutzbach_model::mechanism::Mechanism;

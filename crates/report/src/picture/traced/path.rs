@@ -4,36 +4,10 @@ use super::plane::Plane;
 use super::{around, landmarks};
 use crate::picture::plot::{Axis, Plot, Scale, Series};
 use crate::text::words::figure;
-use kutzbach_closure::Rigid;
+use crate::traced::LinkPoint;
 use kutzbach_motion::Motion;
 
-/// A point fixed to a link.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LinkPoint {
-    /// What it is called: the link and the coordinates, as in `coupler(1 0.5 0)`.
-    pub name: String,
-    /// Index of the link.
-    pub link: usize,
-    /// Its coordinates in the link's frame (m).
-    pub at: [f64; 3],
-}
-
 impl LinkPoint {
-    /// Where it is in the world (m), at the poses `world_from_link` of all links; `None` where the link is not among them.
-    #[must_use]
-    pub fn place(&self, links: &[Rigid<f64>]) -> Option<[f64; 3]> {
-        links.get(self.link).map(|pose| pose.apply(&self.at))
-    }
-
-    /// Its places (m) at the samples of a motion, one after another.
-    #[must_use]
-    pub fn path(&self, motion: &Motion) -> Vec<[f64; 3]> {
-        let samples = motion.samples.iter();
-        samples
-            .filter_map(|sample| self.place(&sample.links))
-            .collect()
-    }
-
     /// Its path drawn with equal scales (mm): in the plane that it lies in, or seen along the normal of the plane that is
     /// nearest to it. The line is closed where the samples go once around a closed motion.
     #[must_use]
