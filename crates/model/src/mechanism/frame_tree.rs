@@ -10,7 +10,8 @@
 
 use super::Frame;
 
-/// Longer ways than this, in frames, are taken in jumps.
+/// Longer ways than this, in frames, are taken in jumps. Time alone hangs on it: walked or jumped, a way leads to one place but for rounding
+/// (`a_long_way_leads_to_where_a_short_one_does` on both sides of it).
 const LONGEST_WALK: usize = 64;
 
 /// Frames by their index, each given in its parent. The root is its own parent.
