@@ -10,8 +10,8 @@ pub(super) struct FarFrames(FrameTree);
 impl FarFrames {
     /// The links of a mechanism; `None` where no two of them are far from one another, or a pose is not finite.
     pub(super) fn new(links: &[Link], joints: &[Joint]) -> Option<Self> {
-        let parent = |(own, link)| placed_by(link, joints).map_or(own, |parent| parent.0);
-        let parents = links.iter().enumerate().map(parent).collect();
+        let parent = |link| placed_by(link, joints).map(|parent| parent.0);
+        let parents = links.iter().map(parent).collect();
         let mut tree = FrameTree::new(parents).ok()?;
         if !tree.has_long_ways() {
             return None;
