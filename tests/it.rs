@@ -8,6 +8,7 @@ mod accuracy_cli;
 mod accuracy_page;
 mod advice;
 mod assemble_cli;
+mod assemble_held;
 mod assembly_closed;
 mod assembly_rounded;
 mod assembly_starts;
