@@ -2,6 +2,9 @@
 
 use std::fmt;
 
+/// What helps where the precision of the numbers leaves something open, whether their digits state it or whoever asks.
+pub(crate) const FINER: &str = "numbers known more precisely would decide";
+
 /// Why the answer about a rank is not plain: the figures, and by `Display` the sentence.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RankNote {
@@ -109,8 +112,7 @@ impl fmt::Display for RankNote {
             } => write!(
                 out,
                 "the numbers taken literally leave {literal}; within their stated precision anything from {} to {} is \
-                 possible (smallest singular value {kept:.1e} of the largest, uncertainty {tolerance:.1e}): more digits would \
-                 decide",
+                 possible (smallest singular value {kept:.1e} of the largest, uncertainty {tolerance:.1e}): {FINER}",
                 possible.0, possible.1
             ),
             Self::StaysOpen { residual } => write!(
