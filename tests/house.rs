@@ -138,3 +138,44 @@ fn sources(under: &str) -> Vec<std::path::PathBuf> {
     }
     found
 }
+
+/// The strings between double quotes, in the order of the text.
+fn literals(text: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    let mut open: Option<String> = None;
+    let mut characters = text.chars();
+    while let Some(c) = characters.next() {
+        match (open.take(), c) {
+            (None, '"') => open = Some(String::new()),
+            (None, _) => {}
+            (Some(literal), '"') => found.push(literal),
+            (Some(mut literal), '\\') => {
+                let escaped = characters.next();
+                literal.extend(escaped.map(|e| if e == 'n' { '\n' } else { e }));
+                open = Some(literal);
+            }
+            (Some(mut literal), c) => {
+                literal.push(c);
+                open = Some(literal);
+            }
+        }
+    }
+    found
+}
+
+/// What is moved elsewhere would otherwise be missed where the mutations are run next: a name, a file, the text that has to occur once in it,
+/// and another one.
+#[test]
+fn every_mutation_finds_its_text() {
+    let script = std::fs::read_to_string(folder("tests/stability/mutations.py")).unwrap();
+    let (_, list) = script.split_once("MUTATIONS = [").unwrap();
+    let (list, _) = list.split_once("\n]").unwrap();
+    let found = literals(list);
+    let mutations = found.chunks_exact(4);
+    assert!(mutations.len() > 15 && mutations.remainder().is_empty());
+    for mutation in mutations {
+        let text = std::fs::read_to_string(folder(&mutation[1])).unwrap();
+        let count = text.matches(&mutation[2]).count();
+        assert_eq!(count, 1, "{}: {}", mutation[0], mutation[1]);
+    }
+}

@@ -13,7 +13,7 @@ use super::closed_form::closed_form;
 use super::depth::Depth;
 use super::judge::PartFinding;
 use super::options::AnalysisError;
-use super::pose_rank::{PartRank, Pose, Reading};
+use super::pose_rank::{FINER, PartRank, Pose, Reading};
 use super::question::{Means, Question};
 use super::subgroup::{hidden_offset, subgroup_finding};
 use super::superfluous::without_spares;
@@ -122,14 +122,13 @@ pub(super) fn by_rank(
         None => {
             let clear = (rank.open_by_digits() == 0.0 || rank.doubt.is_some()) && !held_by_rounding;
             claim.says = Says::Open(note(clear).unwrap_or_else(|| {
-                "the numbers as they are stated leave the rank at this pose open; more digits would decide it".to_owned()
+                format!("the numbers as they are stated leave the rank at this pose open; {FINER}")
             }));
         }
         Some(freedom) if other => {
             claim.finite = Bounds::at_most(freedom.max(rank.candidates.1));
             claim.says = Says::Open(note(rank.doubt.is_some()).unwrap_or_else(|| {
-                "within the precision of its numbers the mechanism could have another rank at this pose; more digits would decide"
-                    .to_owned()
+                format!("within the precision of its numbers the mechanism could have another rank at this pose; {FINER}")
             }));
         }
         Some(0) => {
@@ -311,7 +310,7 @@ pub(super) fn by_chart(
                 chart.leftover,
                 chart.noise,
                 if rank.open_by_digits() > 0.0 {
-                    "more digits in the file would decide"
+                    FINER
                 } else {
                     "a pose farther from other branches would decide"
                 }

@@ -30,6 +30,7 @@ use kutzbach_closure::{CycleJacobian, Geometry, JointState, Part, entry_accuracy
 use kutzbach_math::matrix::{MatrixError, NullVectors, RankDecision, SparseMatrix};
 use kutzbach_math::number::Number;
 use kutzbach_model::mechanism::{Configuration, CouplingTerm, JointId, Mechanism};
+pub(crate) use note::FINER;
 pub use note::RankNote;
 use readings::Readings;
 use std::cell::Cell;

@@ -6,8 +6,9 @@
 use super::super::displacement::JointDisplacement;
 use super::super::geometry::{Geometry, relative};
 use super::super::jacobian::Part;
+use super::LoopGap;
+use super::closing::{Trying, close};
 use super::descent::Task;
-use super::{LoopGap, Trying, close};
 use kutzbach_math::matrix::MatrixError;
 use kutzbach_math::space::{Rigid, Vector, dot, perpendicular};
 use kutzbach_model::mechanism::Mechanism;

@@ -1,11 +1,13 @@
 use super::super::geometry::Arithmetic;
+use super::super::jacobian::jacobian;
 use super::super::samples::{
     CRANK_ROCKER, Place, Written, add_ring, four_bar, planar, ring, sarrus, sarrus_places,
 };
-use super::descent::step;
+use super::descent::{advance, largest, movable_columns, step};
 use super::*;
 use crate::Structure;
 use kutzbach_math::number::Number;
+use kutzbach_math::space::{length, subtract};
 use kutzbach_model::mechanism::{JointKind, MechanismBuilder};
 
 fn number(x: f64) -> Number {

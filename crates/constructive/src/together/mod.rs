@@ -19,6 +19,7 @@
 //! Source: A. Soto i Riera (2002) names what is left over; counts by J. Capco, M. Gallet, G. Grasegger, C. Koutschan, N. Lubbes, J.
 //! Schicho, "The number of realizations of a Laman graph" (2018).
 
+mod building;
 mod part;
 mod related;
 mod search;

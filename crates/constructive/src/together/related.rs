@@ -1,6 +1,6 @@
 //! Relations of more than two elements in the equations of a core.
 
-use super::system::{Building, Place, on_the_axes};
+use super::building::{Building, Place, on_the_axes};
 use crate::construction::{Construction, Shape};
 use crate::relation::Relation;
 use kutzbach_algebra::{FieldElement, FieldPolynomial};

@@ -1,7 +1,7 @@
 //! Unknown values among the unknowns of a core.
 
+use super::building::Building;
 use super::search::Start;
-use super::system::Building;
 use crate::construction::Shape;
 use crate::relation::{Relation, measured};
 use kutzbach_algebra::{FieldElement, FieldPolynomial};

@@ -1,6 +1,23 @@
 //! Why a rank is not plain.
 
+use kutzbach_math::matrix::CLEARANCE;
 use std::fmt;
+
+/// What helps where the precision of the numbers leaves something open, whether their digits state it or whoever asks.
+pub(crate) const FINER: &str = "numbers known more precisely would decide";
+
+/// The same with how much it takes for the smallest singular value kept to stand clear of the uncertainty, which goes down with that of the
+/// numbers.
+fn finer(kept: f64, tolerance: f64) -> String {
+    let times = (CLEARANCE * tolerance / kept).ceil();
+    match times {
+        2.0..100.0 => format!("numbers known {times:.0} times as precisely would decide"),
+        100.0..f64::INFINITY => {
+            format!("numbers known {times:.0e} times as precisely would decide")
+        }
+        _ => FINER.to_owned(),
+    }
+}
 
 /// Why the answer about a rank is not plain: the figures, and by `Display` the sentence.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,9 +126,10 @@ impl fmt::Display for RankNote {
             } => write!(
                 out,
                 "the numbers taken literally leave {literal}; within their stated precision anything from {} to {} is \
-                 possible (smallest singular value {kept:.1e} of the largest, uncertainty {tolerance:.1e}): more digits would \
-                 decide",
-                possible.0, possible.1
+                 possible (smallest singular value {kept:.1e} of the largest, uncertainty {tolerance:.1e}): {}",
+                possible.0,
+                possible.1,
+                finer(*kept, *tolerance)
             ),
             Self::StaysOpen { residual } => write!(
                 out,
@@ -135,6 +153,29 @@ impl fmt::Display for RankNote {
                  uncertainty {uncertainty:.1e}, with {bits} bits",
                 possible.0, possible.1, values.0, values.1
             ),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_is_told_how_much_more_precisely_numbers_have_to_be_known() {
+        for (kept, tolerance, told) in [
+            (0.12, 0.022, "known 2 times"),
+            (1e-9, 5e-4, "known 5e6 times"),
+            (0.5, 1e-3, FINER),
+            (0.0, 1e-3, FINER),
+        ] {
+            let note = RankNote::LiteralOnly {
+                literal: 1,
+                possible: (1, 3),
+                kept,
+                tolerance,
+            };
+            assert!(note.to_string().contains(told), "{note}");
         }
     }
 }
