@@ -48,11 +48,10 @@ pub fn in_full(mechanism: &Mechanism) -> Result<InFull, AnalysisError> {
         });
     }
     let mobility = &found.analysis.mobility;
-    let within = mobility
-        .nominal
-        .as_ref()
-        .is_some_and(|nominal| nominal.within_digits);
-    let is_open = mobility.verdict == Verdict::Undecided || within;
+    // Without a distance no such dimensions were found.
+    let nominal = mobility.nominal.as_ref();
+    let may_bind = nominal.is_some_and(|own| own.within_digits || own.distance.is_none());
+    let is_open = mobility.verdict == Verdict::Undecided || may_bind;
     Ok(as_it_is(is_open.then_some(
         "poses that were worked out from rounded numbers are written in full, as if they were exact: what moves within the digits of these may bind",
     )))
