@@ -214,6 +214,47 @@ fn copies_are_moved_and_turned_again_and_again() {
     is_near(axis(&tumbled.mechanism, "b3"), axis(&turned.mechanism, "b"));
 }
 
+/// A seventh of a turn in four decimals is three times as uncertain after three of them.
+#[test]
+fn copies_know_the_literals_that_they_are_multiples_of() {
+    let inputs = |replicate: &str| {
+        let reading = model(&format!(
+            r#"<worldbody><replicate count="4" {replicate}><body name="b"><joint/></body></replicate></worldbody>"#
+        ));
+        let mechanism = &reading.mechanism;
+        let joint = mechanism.joint(mechanism.joint_named("b3_joint").unwrap());
+        let frame = &joint.predecessor.frame;
+        let numbers = frame.position.iter().chain(&frame.roll_pitch_yaw);
+        let of = |number: &kutzbach::number::Number| -> Vec<(String, f64)> {
+            let all = number.inputs().iter();
+            all.map(|own| (own.literal.literal_text().unwrap().to_owned(), own.slope))
+                .collect()
+        };
+        numbers.map(of).collect::<Vec<_>>()
+    };
+    let is = |found: &[(String, f64)], expected: &[(&str, f64)]| {
+        assert_eq!(found.len(), expected.len(), "{found:?}");
+        for ((text, slope), (of, size)) in found.iter().zip(expected) {
+            assert_eq!(text, of);
+            assert!((slope - size).abs() < 1e-9, "{found:?}");
+        }
+    };
+    let degrees = std::f64::consts::PI / 180.0;
+    let along = inputs(r#"offset="0 0 0.1234" euler="0 0 51.4286""#);
+    is(&along[0], &[]);
+    is(&along[2], &[("0.1234", 3.0)]);
+    is(&along[5], &[("51.4286", 3.0 * degrees)]);
+    // The third offset is turned twice, the second once.
+    let across = inputs(r#"offset="0.1234 0 0" euler="0 0 51.4286""#);
+    let place = [("0.1234", 3.0), ("51.4286", 3.0 * 0.1234 * degrees)];
+    is(&across[0], &place);
+    is(&across[5], &[("51.4286", 3.0 * degrees)]);
+    // Whole numbers were chosen.
+    for numbers in inputs(r#"offset="0 0 2" euler="0 0 90""#) {
+        is(&numbers, &[]);
+    }
+}
+
 #[test]
 fn replicates_inside_replicates_multiply() {
     let reading = model(

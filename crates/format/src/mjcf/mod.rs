@@ -28,6 +28,7 @@ mod bodies;
 mod classes;
 mod closures;
 mod congruence;
+mod copies;
 mod equality;
 mod flags;
 mod include;
