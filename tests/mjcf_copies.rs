@@ -171,6 +171,19 @@ fn copies_are_what_they_are_written_out() {
 }
 
 #[test]
+fn copies_have_the_class_that_the_replicate_gives() {
+    let reading = model(
+        r#"<default><default class="q"><joint axis="0 1 0"/></default></default>
+        <worldbody><replicate count="2" childclass="q" offset="1 0 0"><body name="b"><joint/></body></replicate></worldbody>"#,
+    );
+    for joint in reading.mechanism.joints() {
+        // As MuJoCo 4.0.0 has them.
+        let axis = joint.axis.0.each_ref().map(|part| part.value());
+        assert_eq!(axis, [0.0, 1.0, 0.0], "{}", joint.name);
+    }
+}
+
+#[test]
 fn copies_are_moved_and_turned_again_and_again() {
     let around = model(
         r#"<worldbody><replicate count="4" euler="0 0 90"><body name="b" pos="1 0 0.5"><joint/></body></replicate></worldbody>"#,

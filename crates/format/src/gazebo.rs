@@ -450,6 +450,8 @@ impl<'a> Reader<'a> {
         let Some(pose) = pose else {
             return Ok(place);
         };
+        let known = ["relative_to", "frame", "degrees", "rotation_format"];
+        self.attributes_of(pose, &known, true)?;
         if let Some(format) = pose.attribute("rotation_format")
             && format.value != "euler_rpy"
         {
@@ -535,6 +537,7 @@ impl<'a> Reader<'a> {
             let z = [Number::zero(), Number::zero(), Number::one()];
             return Ok((Direction(z), in_model));
         };
+        self.attributes_of(xyz, &["expressed_in"], true)?;
         match xyz.attribute("expressed_in") {
             Some(frame) if frame.value == MODEL => in_model = true,
             Some(frame) if !frame.value.is_empty() => {

@@ -325,7 +325,7 @@ fn frames(element: Element<'_>, count: usize, compiler: &Compiler) -> Outcome<Ve
             format!(" {name}=\"{}\"", escaped(says.value))
         })
     };
-    let said = said("offset") + &said("euler");
+    let said = said("offset") + &said("euler") + &said("childclass");
     let mut at = [0.0; 3];
     let mut found = Vec::with_capacity(count);
     for index in 0..count {
