@@ -154,9 +154,17 @@ fn attributes_that_are_not_read_are_told_and_slips_are_errors() {
         let error = sdf("1.9", &format!("<model name='m'>{inside}</model>")).unwrap_err();
         assert_eq!(error.message, told);
     }
-    let inside = "<gazebo><joint name='k' type='revolute'><parent>a</parent><child>b</child><pose relativeto='a'>0 0 1 0 0 0</pose>\
-        <axis><xyz>0 0 1</xyz></axis></joint></gazebo>";
-    let text = format!("<robot name='r'><link name='a'/><link name='b'/>{inside}</robot>");
+    let hinge = |name: &str, child: &str| {
+        format!(
+            "<joint name='{name}' type='continuous'><parent link='a'/><child link='{child}'/><axis xyz='0 0 1'/></joint>"
+        )
+    };
+    let text = format!(
+        "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>{}{}<gazebo><joint name='k' type='revolute'><parent>b</parent>\
+         <child>c</child><pose relativeto='a'>0 0 1 0 0 0</pose><axis><xyz>0 0 1</xyz></axis></joint></gazebo></robot>",
+        hinge("ab", "b"),
+        hinge("ac", "c")
+    );
     let error = read(&text, "r.urdf", &[]).unwrap_err();
     assert!(error.message.contains("`relativeto`"), "{error}");
 }
