@@ -85,6 +85,7 @@ mod mjcf_attach;
 mod mjcf_closures;
 mod mjcf_copies;
 mod mjcf_masses;
+mod mjcf_words;
 mod models;
 mod near_singular;
 mod other_programs;

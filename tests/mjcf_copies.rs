@@ -171,6 +171,19 @@ fn copies_are_what_they_are_written_out() {
 }
 
 #[test]
+fn copies_have_the_class_that_the_replicate_gives() {
+    let reading = model(
+        r#"<default><default class="q"><joint axis="0 1 0"/></default></default>
+        <worldbody><replicate count="2" childclass="q" offset="1 0 0"><body name="b"><joint/></body></replicate></worldbody>"#,
+    );
+    for joint in reading.mechanism.joints() {
+        // As MuJoCo 4.0.0 has them.
+        let axis = joint.axis.0.each_ref().map(|part| part.value());
+        assert_eq!(axis, [0.0, 1.0, 0.0], "{}", joint.name);
+    }
+}
+
+#[test]
 fn copies_are_moved_and_turned_again_and_again() {
     let around = model(
         r#"<worldbody><replicate count="4" euler="0 0 90"><body name="b" pos="1 0 0.5"><joint/></body></replicate></worldbody>"#,
@@ -212,6 +225,47 @@ fn copies_are_moved_and_turned_again_and_again() {
         geometry.home[mechanism.link_named(name).unwrap().0].rotate(&[1.0, 2.0, 3.0])
     };
     is_near(axis(&tumbled.mechanism, "b3"), axis(&turned.mechanism, "b"));
+}
+
+/// A seventh of a turn in four decimals is three times as uncertain after three of them.
+#[test]
+fn copies_know_the_literals_that_they_are_multiples_of() {
+    let inputs = |replicate: &str| {
+        let reading = model(&format!(
+            r#"<worldbody><replicate count="4" {replicate}><body name="b"><joint/></body></replicate></worldbody>"#
+        ));
+        let mechanism = &reading.mechanism;
+        let joint = mechanism.joint(mechanism.joint_named("b3_joint").unwrap());
+        let frame = &joint.predecessor.frame;
+        let numbers = frame.position.iter().chain(&frame.roll_pitch_yaw);
+        let of = |number: &kutzbach::number::Number| -> Vec<(String, f64)> {
+            let all = number.inputs().iter();
+            all.map(|own| (own.literal.literal_text().unwrap().to_owned(), own.slope))
+                .collect()
+        };
+        numbers.map(of).collect::<Vec<_>>()
+    };
+    let is = |found: &[(String, f64)], expected: &[(&str, f64)]| {
+        assert_eq!(found.len(), expected.len(), "{found:?}");
+        for ((text, slope), (of, size)) in found.iter().zip(expected) {
+            assert_eq!(text, of);
+            assert!((slope - size).abs() < 1e-9, "{found:?}");
+        }
+    };
+    let degrees = std::f64::consts::PI / 180.0;
+    let along = inputs(r#"offset="0 0 0.1234" euler="0 0 51.4286""#);
+    is(&along[0], &[]);
+    is(&along[2], &[("0.1234", 3.0)]);
+    is(&along[5], &[("51.4286", 3.0 * degrees)]);
+    // The third offset is turned twice, the second once.
+    let across = inputs(r#"offset="0.1234 0 0" euler="0 0 51.4286""#);
+    let place = [("0.1234", 3.0), ("51.4286", 3.0 * 0.1234 * degrees)];
+    is(&across[0], &place);
+    is(&across[5], &[("51.4286", 3.0 * degrees)]);
+    // Whole numbers were chosen.
+    for numbers in inputs(r#"offset="0 0 2" euler="0 0 90""#) {
+        is(&numbers, &[]);
+    }
 }
 
 #[test]

@@ -2,6 +2,7 @@
 //!
 //! Two slides that are coupled move as a point on a plane curve, whatever its singularity: the verdict is known from the curve.
 
+use kutzbach::closure::{Arithmetic, Geometry};
 use kutzbach::format::{read, write};
 use kutzbach::mechanism::Mechanism;
 use kutzbach::mobility::{Analysis, AnalysisOptions, analyse};
@@ -109,4 +110,32 @@ fn what_is_written_is_read_again() {
         let error = read(&text, "again.urdf", &[]).unwrap_err().to_string();
         assert!(error.contains("needed a power of 1 to 4"), "{error}");
     }
+}
+
+/// A ratio that was read in four decimals is no exact one, whatever it is multiplied by or divided by.
+#[test]
+fn factors_of_equalities_keep_their_digits() {
+    let coupled = |coefficient: &str, second: &str| {
+        let text = format!(
+            r#"<mujoco><worldbody><body><joint name="a"/><body><joint name="b"/></body></body><body><joint name="c"/></body></worldbody>
+            <tendon><fixed name="t"><joint joint="a" coef="{coefficient}"/></fixed><fixed name="u"><joint joint="b" coef="{second}"/></fixed></tendon>
+            <equality><joint joint1="a" joint2="c" polycoef="0 0.3333 0 0 0"/><tendon tendon1="t" tendon2="u" polycoef="0 0.7 0 0 0"/></equality></mujoco>"#
+        );
+        let mechanism = read(&text, "model.xml", &[]).unwrap().mechanism;
+        let geometry = Geometry::new(&mechanism, None, &Arithmetic::double());
+        (write(&mechanism), geometry.coupling_digits)
+    };
+    let (text, digits) = coupled("1", "0.33333");
+    assert!(text.contains(r#"multiplier="0.3333""#), "{text}");
+    assert!(text.contains(r#"coefficient="-0.233331""#), "{text}");
+    // Half a unit of each, of the product by the factor 0.7, relative to the lengths of the equations.
+    let expected = [
+        0.5e-4 / 1f64.hypot(0.3333),
+        0.7 * 0.5e-5 / 1f64.hypot(0.233331),
+    ];
+    for (found, expected) in digits.iter().zip(expected) {
+        assert!((found / expected - 1.0).abs() < 1e-9, "{digits:?}");
+    }
+    let (_, digits) = coupled("1", "0.25");
+    assert!(digits[0] > 0.0 && digits[1] == 0.0, "{digits:?}");
 }

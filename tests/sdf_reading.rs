@@ -126,6 +126,49 @@ fn names_that_hold_colons_are_found_as_they_are_written() {
     assert_eq!(height(&reading, "arm::hand"), 1.0);
 }
 
+#[test]
+fn attributes_that_are_not_read_are_told_and_slips_are_errors() {
+    let reading = model(
+        "<link name='a' colour='red'/><link name='b'><pose relative_to='a' unit='m'>0 0 1 0 0 0</pose></link>\
+         <joint name='j' type='revolute' layer='2'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz></axis></joint>",
+    );
+    let mut told = skipped(&reading);
+    told.sort_unstable();
+    let expected = [
+        "attribute `colour` of <link>",
+        "attribute `layer` of <joint>",
+        "attribute `unit` of <pose>",
+    ];
+    assert_eq!(told, expected);
+    for (inside, told) in [
+        (
+            "<link name='a'/><link name='b'><pose relativeto='a'>0 0 1 0 0 0</pose></link>",
+            "<pose> has no attribute `relativeto`",
+        ),
+        (
+            "<link name='a'/><link name='b'/><joint name='j' type='revolute'><parent>a</parent><child>b</child>\
+             <axis><xyz expresed_in='a'>0 0 1</xyz></axis></joint>",
+            "<xyz> has no attribute `expresed_in`",
+        ),
+    ] {
+        let error = sdf("1.9", &format!("<model name='m'>{inside}</model>")).unwrap_err();
+        assert_eq!(error.message, told);
+    }
+    let hinge = |name: &str, child: &str| {
+        format!(
+            "<joint name='{name}' type='continuous'><parent link='a'/><child link='{child}'/><axis xyz='0 0 1'/></joint>"
+        )
+    };
+    let text = format!(
+        "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>{}{}<gazebo><joint name='k' type='revolute'><parent>b</parent>\
+         <child>c</child><pose relativeto='a'>0 0 1 0 0 0</pose><axis><xyz>0 0 1</xyz></axis></joint></gazebo></robot>",
+        hinge("ab", "b"),
+        hinge("ac", "c")
+    );
+    let error = read(&text, "r.urdf", &[]).unwrap_err();
+    assert!(error.message.contains("`relativeto`"), "{error}");
+}
+
 /// libsdformat refuses it (`JOINT_CHILD_LINK_INVALID`); the joint is the same.
 #[test]
 fn a_joint_with_the_world_below_it_is_told() {

@@ -1,9 +1,10 @@
 //! Planar linkages whose plane is tilted at random, as other programs write them: poses as angles and quaternions, in the model, in one
 //! another, in degrees, as points of a hinge. A reader multiplies these poses, and what their digits leave open has to come with them.
 
-use kutzbach::format::read;
+use kutzbach::format::{read, write};
 use kutzbach::matrix::SplitMix64;
 use kutzbach::mobility::{AnalysisOptions, analyse};
+use kutzbach::report::convert::{Hinges, in_full, to_mjcf, to_sdf};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 /// How a program prints its numbers.
@@ -346,6 +347,52 @@ fn of_mjcf_in_radians() {
     assert_planar("tilted.xml", |drawn, print| {
         mjcf(drawn, print, Turn::Radians)
     });
+}
+
+/// What was read from poses that are multiplied moves after it was written by `convert` and read again, and what is a degree off does not.
+#[test]
+fn converted_they_are_what_they_were() {
+    type Writes = fn(&Drawn, Print) -> String;
+    let sources: [(&str, Writes); 3] = [
+        ("tilted.xml", |drawn, print| {
+            mjcf(drawn, print, Turn::Quaternion)
+        }),
+        ("tilted.sdf", |drawn, print| sdf(drawn, print, true, false)),
+        ("tilted.urdf", gazebo),
+    ];
+    let mut asked = 0;
+    for (file, written) in sources {
+        for (seed, print, spoiled) in [
+            (1, Print::Decimals(5), false),
+            (3, Print::Decimals(6), false),
+            (1, Print::Decimals(6), true),
+            (3, Print::Single, false),
+        ] {
+            let kind = Kind {
+                slides: false,
+                spoiled,
+            };
+            let text = written(&drawn(seed, kind), print);
+            let reading = read(&text, file, &[]).unwrap();
+            let meant = in_full(&reading.mechanism).unwrap();
+            let is_told = meant.note.is_some();
+            assert!(
+                is_told || spoiled || matches!(print, Print::Single),
+                "{file} {seed}"
+            );
+            let expected = Some(usize::from(!spoiled));
+            let mechanism = &meant.mechanism;
+            for (text, file) in [
+                (to_mjcf(mechanism, Hinges::TwoPoints).text, "again.xml"),
+                (to_sdf(mechanism).unwrap().text, "again.sdf"),
+                (write(mechanism), "again.urdf"),
+            ] {
+                assert_eq!(finite(&text, file), expected, "{seed} {print:?}\n{text}");
+                asked += 1;
+            }
+        }
+    }
+    assert_eq!(asked, 36);
 }
 
 /// Three equal cranks between two bars: no axis is rounded, and every place is an exact sum of numbers that are.

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use kutzbach::format::{Numbers, Reading, WriteOptions, write_with};
 use kutzbach::mechanism::Mechanism;
 use kutzbach::report::convert::{
-    Converted, Hinges, relaxed, to_mjcf, to_pinocchio, to_sdf, to_urdf,
+    Converted, Hinges, in_full, relaxed, to_mjcf, to_pinocchio, to_sdf, to_urdf,
 };
 use kutzbach::report::text::visible;
 
@@ -60,6 +60,12 @@ pub fn run(arguments: &Arguments) -> Result<u8, Failure> {
             hinges = Hinges::Body;
         }
     }
+    let found = in_full(&reading.mechanism).map_err(|error| Failure::Plain {
+        message: format!("{}: {error}", arguments.source.file.display()),
+        help: Some("`kutzbach report FILE` tells more".to_owned()),
+    })?;
+    notes.extend(found.note);
+    reading.mechanism = found.mechanism;
     let converted = written(&reading, arguments.to, hinges)?;
     let not_said = converted.not_said.iter();
     notes.extend(not_said.map(|what| format!("not said: {what}")));

@@ -117,13 +117,20 @@ pub fn least_length(size: f64) -> f64 {
 }
 
 /// What the digits of a coupling's factors leave open, relative to all of them together: half a unit of the last decimal of each, where it
-/// has more than somebody chooses.
+/// has more than somebody chooses; of what was worked out from literals, what theirs leave open.
 fn digits_of(coupling: &Coupling) -> f64 {
-    let half = |number: &Number| match number.stated() {
+    let of_literal = |number: &Number| match number.stated() {
         Some(stated) if stated.decimals > Precision::EXACT_DECIMALS => {
             0.5 * 0.1f64.powi(stated.decimals)
         }
         _ => 0.0,
+    };
+    let half = |number: &Number| match number.inputs() {
+        [] => of_literal(number),
+        inputs => {
+            let shares = inputs.iter();
+            shares.map(|own| own.slope * of_literal(&own.literal)).sum()
+        }
     };
     let open: Vec<f64> = coupling
         .terms

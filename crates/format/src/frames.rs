@@ -37,6 +37,21 @@ pub(super) fn added(quantity: Quantity, a: &Number, b: &Number) -> Number {
     (a + b).derived_from(inputs)
 }
 
+/// So many times a number, known so many times as badly; of a whole number it is exact.
+pub(super) fn multiple(quantity: Quantity, number: &Number, times: usize) -> Number {
+    let count = Number::integer(i64::try_from(times).unwrap_or(i64::MAX));
+    let product = &count * number;
+    if times == 1 || number.is_zero() {
+        return number.clone();
+    }
+    if number.stated().is_none_or(|own| own.decimals <= 0) && number.inputs().is_empty() {
+        return product;
+    }
+    let mut inputs = Inputs::default();
+    inputs.add(quantity, number, times as f64);
+    product.derived_from(inputs)
+}
+
 /// Whether a frame is turned.
 pub(super) fn is_turned(frame: &Frame) -> bool {
     frame.roll_pitch_yaw.iter().any(|angle| !angle.is_zero())

@@ -32,7 +32,7 @@ use super::reader::{Dialect, Reader};
 use super::unread::{Parts, truth};
 use super::words::{cut, quoted};
 use super::world::WORLD;
-use kutzbach_math::number::Number;
+use kutzbach_math::number::{Inputs, Number, Quantity};
 use kutzbach_model::mechanism::{Direction, Dynamics, Frame, JointBuilder, JointKind, Limit};
 
 /// SDFormat's word for the frame of the model, which is that of the root link.
@@ -450,6 +450,8 @@ impl<'a> Reader<'a> {
         let Some(pose) = pose else {
             return Ok(place);
         };
+        let known = ["relative_to", "frame", "degrees", "rotation_format"];
+        self.attributes_of(pose, &known, true)?;
         if let Some(format) = pose.attribute("rotation_format")
             && format.value != "euler_rpy"
         {
@@ -535,6 +537,7 @@ impl<'a> Reader<'a> {
             let z = [Number::zero(), Number::zero(), Number::one()];
             return Ok((Direction(z), in_model));
         };
+        self.attributes_of(xyz, &["expressed_in"], true)?;
         match xyz.attribute("expressed_in") {
             Some(frame) if frame.value == MODEL => in_model = true,
             Some(frame) if !frame.value.is_empty() => {
@@ -627,7 +630,13 @@ pub(super) const NO_PITCH: &str = "a screw joint without a pitch advances 1 m pe
 /// Metres per turn, right-handed, from radians per metre, left-handed; `None` of zero.
 pub(super) fn lead_of(pitch: &Number) -> Option<Number> {
     let turn = &Number::integer(-2) * &Number::pi();
-    turn.checked_div(pitch).ok()
+    let lead = turn.checked_div(pitch).ok()?;
+    let mut inputs = Inputs::default();
+    // A whole number of radians was chosen.
+    if pitch.stated().is_some_and(|own| own.decimals > 0) {
+        inputs.add(Quantity::Length, pitch, lead.value() / pitch.value());
+    }
+    Some(lead.derived_from(inputs))
 }
 
 /// The two links of a joint, whichever is which.

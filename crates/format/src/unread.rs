@@ -14,6 +14,7 @@ use super::hints;
 use super::reader::Reader;
 use super::words::{alternatives, cut, quoted};
 use std::collections::HashMap;
+use std::ops::Range;
 use strsim::osa_distance;
 
 /// Elements that bear on how a joint moves.
@@ -207,6 +208,26 @@ pub(super) fn slip_of<'w>(word: &str, known: impl IntoIterator<Item = &'w str>) 
     })
 }
 
+/// What is told of an attribute that is not known.
+///
+/// # Errors
+/// One that is probably a slip of a word that bears on motion.
+pub(super) fn unknown_attribute(
+    element: Element<'_>,
+    name: &str,
+    range: Range<usize>,
+    bearing: &[&str],
+) -> Outcome<String> {
+    let of = cut(element.written_name());
+    match slip_of(name, bearing.iter().copied()) {
+        Some(meant) => Err(
+            Fault::new(range, format!("<{of}> has no attribute {}", quoted(name)))
+                .help(format!("did you mean `{meant}`?")),
+        ),
+        None => Ok(format!("attribute {} of <{of}>", quoted(name))),
+    }
+}
+
 /// The parts of an element of URDF.
 pub(super) struct Parts<'k> {
     /// Read, once each unless they stand in `often`.
@@ -311,12 +332,9 @@ impl<'a> Reader<'a> {
                 );
                 return Err(Fault::new(range, message).help(format!("did you mean `{meant}`?")));
             }
-            let what = format!(
-                "attribute `{}` of <{}>",
-                cut(name),
-                cut(element.written_name())
-            );
-            self.unread.text(range.start, what);
+            let start = range.start;
+            let what = unknown_attribute(element, name, range, &[])?;
+            self.unread.text(start, what);
         }
         Ok(())
     }

@@ -271,8 +271,8 @@ impl Writer<'_> {
         }) = mimic.map(|coupling| &coupling.origin)
         {
             let leader = pair("joint", &mechanism.joint(*leader).name);
-            let multiplier = pair("multiplier", &style.number(multiplier));
-            let offset = pair("offset", &style.number(offset));
+            let multiplier = pair("multiplier", &style.factor(multiplier));
+            let offset = pair("offset", &style.factor(offset));
             self.line(2, &format!("<mimic{leader}{multiplier}{offset}/>"));
         }
         self.line(1, &format!("</{element}>"));
@@ -352,7 +352,7 @@ impl Writer<'_> {
             } else if coupling.origin == CouplingOrigin::Sum {
                 let offset = match coupling.offset.is_zero() {
                     true => String::new(),
-                    false => pair("offset", &style.number(&coupling.offset)),
+                    false => pair("offset", &style.factor(&coupling.offset)),
                 };
                 let name = pair("name", &coupling.name);
                 self.line(1, &format!("<coupling{name}{offset}>"));
@@ -362,7 +362,7 @@ impl Writer<'_> {
                         if factor.is_zero() {
                             continue;
                         }
-                        let coefficient = pair("coefficient", &style.number(factor));
+                        let coefficient = pair("coefficient", &style.factor(factor));
                         let power = match power {
                             1 => String::new(),
                             power => pair("power", &power.to_string()),
@@ -520,6 +520,19 @@ impl Style {
                 short.unwrap_or_else(|| format!("{:?}", number.value()))
             }
         }
+    }
+
+    /// A number of a coupling: one that was worked out from rounded ones is no exact one, and an expression would be.
+    fn factor(self, number: &Number) -> String {
+        let mut literals = number
+            .inputs()
+            .iter()
+            .filter_map(|own| own.literal.stated());
+        let is_rounded = literals.any(|own| own.decimals > Precision::EXACT_DECIMALS);
+        let decimal = is_rounded
+            .then(|| number.decimal_text(DOUBLE_PLACES))
+            .flatten();
+        decimal.unwrap_or_else(|| self.number(number))
     }
 
     fn numbers(self, values: &[Number]) -> String {

@@ -6,8 +6,9 @@ use super::pose::{exactly, numbers};
 use crate::WarningKind;
 use crate::element::{Attribute, Element};
 use crate::error::Outcome;
+use crate::frames::added;
 use crate::words::{did_you_mean, quoted};
-use kutzbach_math::number::Number;
+use kutzbach_math::number::{Inputs, Number, NumberError, Quantity};
 
 impl<'a> Mjcf<'a> {
     /// Whether an equality counts from the start.
@@ -119,7 +120,7 @@ impl<'a> Mjcf<'a> {
         if let [(follower, 1, a), (leader, 1, b)] = &sum[..]
             && self.may_follow(follower, leader)
         {
-            let over = |x: &Number| x.checked_div(a).map_err(|why| part.fault(why.to_string()));
+            let over = |x: &Number| quotient(x, a).map_err(|why| part.fault(why.to_string()));
             let (multiplier, offset) = (over(&-b)?, over(&offset)?);
             self.followers.insert(follower, leader);
             self.builder.mimic(follower, leader, multiplier, offset);
@@ -167,12 +168,12 @@ impl<'a> Mjcf<'a> {
             for (joint, share) in &second {
                 let mut power_of_share = Number::one();
                 for (power, factor) in (1..).zip(&terms) {
-                    power_of_share = &power_of_share * share;
-                    let own = -&(factor * &power_of_share);
+                    power_of_share = product(&power_of_share, share);
+                    let own = -&product(factor, &power_of_share);
                     let same =
                         |(name, of, _): &&mut (&'a str, u32, Number)| name == joint && *of == power;
                     match sum.iter_mut().find(same) {
-                        Some((_, _, all)) => *all = &*all + &own,
+                        Some((_, _, all)) => *all = added(FACTOR, all, &own),
                         None => sum.push((*joint, power, own)),
                     }
                 }
@@ -202,7 +203,7 @@ impl<'a> Mjcf<'a> {
             let name = self.coupled(joint.required("joint")?)?;
             let [coefficient] = exactly(joint.required("coef")?)?;
             match shares.iter_mut().find(|(own, _)| *own == name) {
-                Some((_, all)) => *all = &*all + &coefficient,
+                Some((_, all)) => *all = added(FACTOR, all, &coefficient),
                 None => shares.push((name, coefficient)),
             }
         }
@@ -213,6 +214,36 @@ impl<'a> Mjcf<'a> {
         let warning = (part.start(), WarningKind::MayJoin, message.to_owned());
         self.warnings.push(warning);
     }
+}
+
+/// What factors of couplings count as: they are in no group of the geometry.
+const FACTOR: Quantity = Quantity::Length;
+
+/// A product that knows the literals of both factors; one with 1 keeps the digits of the other.
+fn product(a: &Number, b: &Number) -> Number {
+    let one = Number::one();
+    if *a == one {
+        return b.clone();
+    }
+    if *b == one {
+        return a.clone();
+    }
+    let mut inputs = Inputs::default();
+    inputs.add(FACTOR, a, b.value());
+    inputs.add(FACTOR, b, a.value());
+    (a * b).derived_from(inputs)
+}
+
+/// A quotient that knows the literals of both; one by 1 keeps its digits.
+fn quotient(a: &Number, b: &Number) -> Result<Number, NumberError> {
+    if *b == Number::one() {
+        return Ok(a.clone());
+    }
+    let found = a.checked_div(b)?;
+    let mut inputs = Inputs::default();
+    inputs.add(FACTOR, a, 1.0 / b.value());
+    inputs.add(FACTOR, b, found.value() / b.value());
+    Ok(found.derived_from(inputs))
 }
 
 /// The five coefficients of `polycoef`; those left out are 0 1 0 0 0, each in its place.

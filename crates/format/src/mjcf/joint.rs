@@ -70,7 +70,7 @@ impl<'a> Mjcf<'a> {
     /// Tells what a joint says that is not read.
     pub(super) fn tell_unread_of(&mut self, joint: Element<'a>, class: &str, kind: JointKind) {
         let attribute = |name: &str| self.classes.attribute(joint, class, name);
-        for name in ["stiffness", "springref"] {
+        for name in ["stiffness", "springref", "springdamper"] {
             if let Some(spring) = attribute(name) {
                 let what = format!("`{name}` of a joint");
                 self.unread.text(spring.range().start, what);

@@ -28,6 +28,7 @@ mod bodies;
 mod classes;
 mod closures;
 mod congruence;
+mod copies;
 mod equality;
 mod flags;
 mod include;
@@ -37,6 +38,7 @@ mod mass;
 mod pose;
 mod replicate;
 mod shapes;
+mod words;
 
 use super::element::Element;
 use super::error::{Fault, Outcome};
@@ -180,6 +182,7 @@ impl<'a> Mjcf<'a> {
         for default in sections("default").chain(sections(ATTACHED)) {
             self.classes.read(default)?;
         }
+        self.tell_unread_words(root)?;
         self.flags(root);
         for equality in sections("equality") {
             self.note_held(equality)?;

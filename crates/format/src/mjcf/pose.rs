@@ -186,6 +186,9 @@ impl<'a> Mjcf<'a> {
 
     /// The frame of an element of a class: `pos` and how it is turned.
     pub(super) fn frame(&self, element: Element<'a>, class: &str) -> Outcome<Frame> {
+        if let Some(frame) = self.frame_of_copy(element)? {
+            return Ok(frame);
+        }
         let mut frame = Frame::identity();
         let attribute = |name: &str| self.classes.attribute(element, class, name);
         if let Some(position) = attribute("pos") {

@@ -4,6 +4,7 @@
 //! replicates are nested, the inner one's comes first. What in `<equality>`, `<tendon>` and `<actuator>` names something by the name that it
 //! has inside is written once for each copy, with the names of that copy. So much is what MuJoCo's compiler makes of such files.
 
+use super::copies::{COPY, Step, zeros};
 use super::include::{Piece, Whole};
 use super::pose::{Compiler, exactly};
 use crate::element::{Attribute, Element};
@@ -312,58 +313,37 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// The frames of copies, as elements that are open. MuJoCo turns copy i by i times each angle of `euler`, which of several angles is not the turn
-/// done i times, and moves it from the one before by the offset as that one is turned. Where copies are moved along the axis that they are turned
-/// about, or not turned, that is a multiple too.
+/// The frames of copies, as elements that are open, which the reader [works out](super::copies). MuJoCo turns copy i by i times each angle of `euler`,
+/// which of several angles is not the turn done i times, and moves it from the one before by the offset as that one is turned. Where copies are moved
+/// along the axis that they are turned about, or not turned, that is a multiple too; elsewhere it is summed up here.
 fn frames(element: Element<'_>, count: usize, compiler: &Compiler) -> Outcome<Vec<String>> {
-    let zero = || [Number::zero(), Number::zero(), Number::zero()];
-    let offset: [Number; 3] = match element.attribute("offset") {
-        Some(offset) => exactly(offset)?,
-        None => zero(),
+    let step = Step::of(element)?;
+    let is_along = step.is_along(compiler);
+    let said = |name: &str| {
+        let says = element.attribute(name);
+        says.map_or_else(String::new, |says| {
+            format!(" {name}=\"{}\"", escaped(says.value))
+        })
     };
-    let euler: [Number; 3] = match element.attribute("euler") {
-        Some(euler) => exactly(euler)?,
-        None => zero(),
-    };
-    let turning: Vec<usize> = (0..3).filter(|&i| !euler[i].is_zero()).collect();
-    let is_along = match turning[..] {
-        [] => true,
-        [one] => (0..3).all(|i| offset[i].is_zero() || i == compiler.axis(one)),
-        _ => false,
-    };
+    let said = said("offset") + &said("euler") + &said("childclass");
     let mut at = [0.0; 3];
     let mut found = Vec::with_capacity(count);
     for index in 0..count {
-        let angles = euler.each_ref().map(|angle| times(angle, index));
-        let [x, y, z] = match is_along {
-            true => offset.each_ref().map(|part| times(part, index)),
-            false => {
-                let here = at.map(|part| format!("{part:.15}"));
-                let angles = angles
-                    .each_ref()
-                    .map(|angle| Number::decimal(angle).unwrap_or_else(|_| Number::zero()));
-                let turned = Frame {
-                    position: offset.clone(),
-                    roll_pitch_yaw: compiler.euler(angles).unwrap_or_else(zero),
-                };
-                let step = turned
-                    .to_doubles()
-                    .rotate(&offset.each_ref().map(Number::value));
-                at = [0, 1, 2].map(|i| at[i] + step[i]);
-                here
-            }
-        };
-        let [a, b, c] = angles;
-        found.push(format!("<frame pos=\"{x} {y} {z}\" euler=\"{a} {b} {c}\">"));
+        let mut open = format!("<frame {COPY}=\"{index}\"{said}");
+        if !is_along {
+            let [x, y, z] = at.map(|part| format!("{part:.15}"));
+            open += &format!(" pos=\"{x} {y} {z}\"");
+            let turned = Frame {
+                position: step.offset.clone(),
+                roll_pitch_yaw: step.turn(index, compiler).unwrap_or_else(zeros),
+            };
+            let offset = step.offset.each_ref().map(Number::value);
+            let moved = turned.to_doubles().rotate(&offset);
+            at = [0, 1, 2].map(|i| at[i] + moved[i]);
+        }
+        found.push(open + ">");
     }
     Ok(found)
-}
-
-/// So many times a number, with the decimals that it has.
-fn times(number: &Number, count: usize) -> String {
-    let decimals = number.written().map_or(0, |own| own.decimals.clamp(0, 17));
-    let decimals = usize::try_from(decimals).unwrap_or(0);
-    format!("{:.decimals$}", number.value() * count as f64)
 }
 
 /// The text that is made, and where its parts are from.

@@ -27,6 +27,7 @@
 //! | `constraints` | gearboxes, plugins and Drake's constraints |
 //! | `solids` | masses and shapes |
 //! | `tree` | what places the links, and what is held |
+//! | `words` | attributes that are not read |
 //!
 //! Source: the specification at sdformat.org and its tutorials on frames and composition.
 
@@ -37,6 +38,7 @@ mod names;
 mod pose;
 mod solids;
 mod tree;
+mod words;
 
 use super::element::{Element, only};
 use super::error::{Fault, MOST_FAULTS, Outcome};
@@ -149,6 +151,7 @@ impl<'a> Sdf<'a> {
 
     fn all(&mut self, root: Element<'a>, options: &ReadOptions) -> Result<(), Vec<Fault>> {
         let one = |fault| vec![fault];
+        self.tell_unread_words(root).map_err(one)?;
         self.collect(root).map_err(one)?;
         self.check_attachments().map_err(one)?;
         self.place(options).map_err(one)?;

@@ -143,8 +143,8 @@ fn numbers_are_exact(
     };
     let geometry = mechanism.is_exact(&part.joints) || part.joints.iter().all(joint_numbers);
     let chosen = |number: &Number| {
-        let stated = number.stated();
-        stated.is_none_or(|s| s.decimals <= Precision::EXACT_DECIMALS)
+        let mut stated = number.literals().filter_map(Number::stated);
+        stated.all(|s| s.decimals <= Precision::EXACT_DECIMALS)
     };
     let couplings = part.couplings.iter().all(|&coupling| {
         let coupling = &mechanism.couplings()[coupling];

@@ -12,6 +12,7 @@
 //! | `urdf` | URDF without any word of ours |
 //! | `pinocchio` | a Python program that makes Pinocchio's models of the tree and of the loops |
 //! | `relax` | the mechanism without redundant constraints |
+//! | `meant` | numbers that were worked out from rounded ones |
 //!
 //! What a format cannot say is told, never left out in silence.
 
@@ -20,6 +21,7 @@ mod closures;
 mod couplings;
 mod follow;
 mod gaps;
+mod meant;
 mod mjcf;
 mod parts;
 mod pinocchio;
@@ -29,6 +31,7 @@ mod sdf;
 mod tree;
 mod urdf;
 
+pub use meant::{InFull, in_full};
 pub use mjcf::to_mjcf;
 pub use pinocchio::to_pinocchio;
 pub use relax::{Relaxed, relaxed};
