@@ -15,6 +15,7 @@
 mod assemble;
 pub mod contacts;
 mod curves;
+mod digits;
 mod error;
 mod faces;
 mod kinematics;

@@ -9,9 +9,11 @@ use std::sync::Arc;
 pub struct Assembly {
     /// Metres in one unit of length of the file: 0.001 for millimetres. Of the first part, where parts differ.
     pub length_unit: f64,
-    /// How far points of the file may be from where they should be (m), as its contexts state; the largest of all. Zero where
-    /// none is stated.
+    /// How far points of parts may be from where they should be in the assembly (m): as its contexts state, the largest of all,
+    /// or more where the digits of its coordinates and directions leave more open. Zero where none is stated and the digits are those of doubles.
     pub accuracy: f64,
+    /// How far directions may be from where they should be (rad), by the digits with which they are printed. Zero where these are those of doubles.
+    pub tilt: f64,
     /// The schemas that the header names.
     pub schemas: Vec<String>,
     /// The parts, in the order in which the assembly names them.
