@@ -65,7 +65,7 @@ pub(super) fn build(
         .map(|(pair, taken)| (taken.geometry, drawn_at(pair)))
         .collect();
     let geometry = match assembly.parts.get(ground) {
-        Some(part) => in_frame_of_most(geometry, &part.pose, within.angle),
+        Some(part) => in_frame_of_most(geometry, &part.pose, within),
         None => geometry,
     };
     let (grid, standings) = standing(&geometry, within, may_be_exact);

@@ -6,6 +6,7 @@
 //! themselves are written turned, the frame is that of the direction which most joints have, and of the one that most have at right angles to it.
 
 use super::geometry::Geometry;
+use super::standing::{Agreement, are_round};
 use kutzbach_math::group::Pose;
 use nalgebra::{Matrix3, Vector3};
 
@@ -13,24 +14,32 @@ use nalgebra::{Matrix3, Vector3};
 const NEAREST: f64 = 1e-4;
 
 /// The geometry of joints, each with a point where it is drawn, in the frame of the assembly; in that of the ground, which stands at `ground` in
-/// the assembly, or in that of most joints, where more of the directions are along an axis of coordinates within `same` (rad) there.
+/// the assembly, where more of the directions are along an axis of coordinates there; or in that of most joints, where more still are and the numbers were not
+/// a designer's round ones.
 pub(super) fn in_frame_of_most(
     joints: Vec<(Geometry, Vector3<f64>)>,
     ground: &Pose,
-    same: f64,
+    within: Agreement,
 ) -> Vec<(Geometry, Vector3<f64>)> {
-    let frames = [Some(ground.inverse()), own_frame(&joints, same)];
-    let mut best = joints.clone();
-    for there in frames.into_iter().flatten() {
-        let moved: Vec<(Geometry, Vector3<f64>)> = joints
+    let same = within.angle;
+    let moved = |there: &Pose| -> Vec<(Geometry, Vector3<f64>)> {
+        let moved = joints
             .iter()
-            .map(|(geometry, drawn)| (geometry.moved(&there), there.transform_point(drawn)))
-            .collect();
-        if along_axes(&moved, same) > along_axes(&best, same) {
-            best = moved;
-        }
+            .map(|(geometry, drawn)| (geometry.moved(there), there.transform_point(drawn)));
+        moved.collect()
+    };
+    let of_ground = moved(&ground.inverse());
+    let of_most = own_frame(&joints, same).map(|frame| moved(&frame));
+    let best = match along_axes(&of_ground, same) > along_axes(&joints, same) {
+        true => of_ground,
+        false => joints,
+    };
+    let points: Vec<Vector3<f64>> = best.iter().map(place).collect();
+    let better = |own: &Vec<_>| along_axes(own, same) > along_axes(&best, same);
+    match of_most.filter(better) {
+        Some(own) if !are_round(&points, within.length) => own,
+        _ => best,
     }
-    best
 }
 
 /// The frame whose z is the direction that most joints have, and whose x is the one that most have at right angles to it; where none is, from the first
@@ -38,7 +47,6 @@ pub(super) fn in_frame_of_most(
 fn own_frame(joints: &[(Geometry, Vector3<f64>)], same: f64) -> Option<Pose> {
     let directions = frequent(joints, same);
     let z = *directions.first()?;
-    let place = |(geometry, drawn): &(Geometry, Vector3<f64>)| geometry.point().unwrap_or(*drawn);
     let origin = place(joints.first()?);
     let across = |v: Vector3<f64>, least: f64| (v - z * z.dot(&v)).try_normalize(least);
     let square = directions.iter().find(|d| d.dot(&z).abs() <= same);
@@ -52,6 +60,11 @@ fn own_frame(joints: &[(Geometry, Vector3<f64>)], same: f64) -> Option<Pose> {
         .or_else(|| across(Vector3::y(), 0.5))?;
     let rotation = Matrix3::from_columns(&[x, z.cross(&x), z]);
     Some(Pose::new(rotation, origin).inverse())
+}
+
+/// Where a joint is.
+fn place((geometry, drawn): &(Geometry, Vector3<f64>)) -> Vector3<f64> {
+    geometry.point().unwrap_or(*drawn)
 }
 
 /// The directions of joints, each of those that agree once, as their mean; those of most joints first.
@@ -97,7 +110,9 @@ fn along_axes(joints: &[(Geometry, Vector3<f64>)], same: f64) -> usize {
 mod tests {
     use super::*;
 
-    const SAME: f64 = 1e-6;
+    fn within() -> Agreement {
+        Agreement::of(0.0, 0.0)
+    }
 
     #[test]
     fn what_stands_askew_is_written_as_its_ground_was_drawn() {
@@ -116,13 +131,13 @@ mod tests {
             .iter()
             .map(|(geometry, point)| (geometry.moved(&ground), ground.transform_point(point)))
             .collect();
-        let found = in_frame_of_most(askew, &ground, SAME);
+        let found = in_frame_of_most(askew, &ground, within());
         for ((geometry, _), (expected, _)) in found.iter().zip(&drawn) {
             let (one, two) = (geometry.direction(), expected.direction());
             assert!(one.zip(two).is_none_or(|(a, b)| (a - b).norm() < 1e-12));
         }
         // What is straight already stays as it is.
-        assert_eq!(in_frame_of_most(drawn.clone(), &ground, SAME), drawn);
+        assert_eq!(in_frame_of_most(drawn.clone(), &ground, within()), drawn);
     }
 
     #[test]
@@ -155,8 +170,8 @@ mod tests {
             };
             (geometry, turn.transform_point(&drawn))
         });
-        let found = in_frame_of_most(printed.to_vec(), &Pose::identity(), SAME);
-        assert_eq!(along_axes(&found, SAME), 4);
+        let found = in_frame_of_most(printed.to_vec(), &Pose::identity(), within());
+        assert_eq!(along_axes(&found, within().angle), 4);
         let points: Vec<Vector3<f64>> = found.iter().filter_map(|(g, _)| g.point()).collect();
         for (point, expected) in points
             .iter()

@@ -136,7 +136,7 @@ impl Grid {
 }
 
 /// Whether all coordinates are round numbers of a design.
-fn are_round(points: &[Vector3<f64>], accuracy: f64) -> bool {
+pub(super) fn are_round(points: &[Vector3<f64>], accuracy: f64) -> bool {
     let coordinates = || points.iter().flat_map(|point| point.iter());
     let off = |x: &f64| {
         let units = x * DESIGN as f64;
