@@ -52,6 +52,8 @@ pub struct Face {
     pub surface: Surface,
     /// Where the material is.
     pub material: Side,
+    /// The edges that bound it, as it passes them; none where its bounds are polygons or vertices. Those between its pieces are among them twice.
+    pub edges: Vec<FaceEdge>,
     /// Its bounds as closed polygons (without a repeated corner), curved edges in steps of 15 degrees at most. Which of them is
     /// the outer one is not said: what is inside an odd number of them belongs to the face.
     pub outline: Vec<Vec<Vector3<f64>>>,
@@ -59,6 +61,38 @@ pub struct Face {
     pub extent: (f64, f64),
     /// For cylinders and cones, the angle about the axis that it covers (rad), 2π where it goes around. Zero otherwise.
     pub turned: f64,
+}
+
+/// An edge as a face passes it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FaceEdge {
+    /// The number of its entity, by which faces share it.
+    pub entity: u64,
+    /// Its curve.
+    pub curve: EdgeCurve,
+    /// A point of it (m), away from its ends.
+    pub at: Vector3<f64>,
+    /// The unit direction in which the face passes it there: seen from outside of the material, the face is to the left. Zero where the edge has no
+    /// length.
+    pub along: Vector3<f64>,
+}
+
+/// The curve of an edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum EdgeCurve {
+    /// A straight line.
+    Line,
+    /// A circle, or an arc of one.
+    Circle {
+        /// Its centre (m).
+        centre: Vector3<f64>,
+        /// The unit direction of its axis.
+        axis: Vector3<f64>,
+        /// Its radius (m).
+        radius: f64,
+    },
+    /// Another curve.
+    Other,
 }
 
 /// The side of a face on which the material is.
